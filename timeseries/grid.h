@@ -1,0 +1,54 @@
+// Where point i of a field lies and the shape of its cell. Pure geometry in double: no values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace timeseries {
+
+// One axis of a rectilinear grid.
+struct Axis {
+    std::string name;                 // as in the file: "lon", "depth"
+    std::string units;                // as in the file; "" for none, "index" when counted, not measured
+    std::vector<double> coordinates;  // [n], strictly ascending or strictly descending, n >= 1
+    bool down = false;                // greater coordinates lie lower (depth, pressure)
+
+    // Spaced evenly to within 1e-4 of the mean step, the rounding of coordinates stored as floats.
+    bool uniform() const;
+    // The part of the axis that point i stands for: half the way to each neighbour, signed along
+    // increasing index; at an end the whole step to its only neighbour. An axis of one point has
+    // width 0: Grid::cell gives it a thickness.
+    double width(std::size_t i) const;
+    friend bool operator==(const Axis&, const Axis&) = default;
+};
+
+// Uniform and rectilinear grids. Points are numbered x fastest: index = x + nx (y + ny z).
+// Curvilinear and scattered grids come behind the same position() and cell().
+class Grid {
+ public:
+    // REQUIRES: each axis strictly monotonic and finite. Throws std::invalid_argument when an axis
+    // is empty, not finite, not strictly monotonic, or the point count passes 2^63.
+    explicit Grid(std::array<Axis, 3> axes);
+
+    const std::array<Axis, 3>& axes() const { return axes_; }
+    std::array<std::size_t, 3> size() const;
+    std::uint64_t count() const;
+    bool uniform() const;
+
+    // In the units of the axes.
+    glm::dvec3 position(std::uint64_t index) const;
+    // Columns: the steps along x, y and z that the point stands for (index step -> grid units).
+    // Never singular: an axis of one point takes the smallest mean step of the others, else 1.
+    glm::dmat3 cell(std::uint64_t index) const;
+
+    friend bool operator==(const Grid&, const Grid&) = default;
+
+ private:
+    std::array<Axis, 3> axes_;
+};
+
+}  // namespace timeseries

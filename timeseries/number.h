@@ -1,0 +1,23 @@
+// A number exactly as a user, a file or a field states it: no integer passes through a double.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+namespace timeseries {
+
+using Number = std::variant<double, std::int64_t, std::uint64_t>;
+
+// The mathematical order of the two numbers, exact across types (2^60 + 1 as int64 is greater than
+// 2^60 as double). Unordered when either is NaN. -0 equals +0.
+std::partial_ordering compare(const Number& a, const Number& b);
+
+// The nearest double.
+double toDouble(const Number& number);
+
+// Shortest text that reads back as the same number of the same kind of type; "inf", "-inf", "nan".
+std::string toText(const Number& number);
+
+}  // namespace timeseries

@@ -1,0 +1,74 @@
+// One time step with its points sorted by value (Crawfis 1996, "Fast volume rendering of data
+// slices"): any value range is then one run of consecutive points, found by two binary searches.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <variant>
+#include <vector>
+
+#include "timeseries/field.h"
+#include "timeseries/range_set.h"
+
+namespace timeseries {
+
+// Consecutive points of a SortedStep: [first, first + count).
+struct Run {
+    std::uint64_t first = 0, count = 0;
+    friend bool operator==(const Run&, const Run&) = default;
+};
+
+// A query that reaches outside the ranges that were kept. what() is one sentence.
+struct OutsideKeptError : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
+
+// The whole step before anything was dropped.
+struct StepStatistics {
+    std::uint64_t points = 0;   // valid: neither missing nor NaN
+    std::uint64_t missing = 0;  // marked missing, or NaN
+    Number min, max;            // of the valid points, infinities included; NaN when there is none
+};
+
+// Immutable; every member is safe to call from any thread. Memory: sizeof(value) + 4 bytes a kept
+// point.
+class SortedStep {
+ public:
+    // Points ascend by value; equal values (also -0 and +0) ascend by grid index. Values outside
+    // `kept` are dropped. Throws std::length_error for a field of more than 2^32 points.
+    static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything());
+
+    // Disjoint, ascending, none empty. At most 2 (log2 n + 1) comparisons a range.
+    // Throws OutsideKeptError when `ranges`, in the field's type, is not inside what was kept.
+    std::vector<Run> select(const RangeSet& ranges) const;
+    // The sum of select()'s counts; touches no point.
+    std::uint64_t count(const RangeSet& ranges) const;
+
+    std::uint64_t size() const { return index_.size(); }
+    // Grid index of each point, in order of value.
+    std::span<const std::uint32_t> gridIndex() const { return index_; }
+    Number value(std::uint64_t point) const;
+    ValueType type() const { return static_cast<ValueType>(values_.index()); }
+    const Values& values() const { return values_; }  // ascending
+    const Grid& grid() const { return *grid_; }
+    const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
+    const RangeSet& kept() const { return kept_; }
+    const StepStatistics& statistics() const { return statistics_; }
+    std::uint64_t bytes() const;  // of memory held, the grid aside
+
+    // Value at the fractions 0, 1/(n-1), ..., 1 of the kept points (nearest rank); empty when there
+    // is no point.
+    std::vector<double> quantiles(std::size_t n) const;
+
+ private:
+    SortedStep() = default;
+    std::shared_ptr<const Grid> grid_;
+    Values values_;
+    std::vector<std::uint32_t> index_;
+    RangeSet kept_;
+    StepStatistics statistics_;
+};
+
+}  // namespace timeseries
