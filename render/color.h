@@ -1,0 +1,13 @@
+// Linear light and its sRGB encoding (IEC 61966-2-1). Colour is linear and premultiplied everywhere
+// inside render/; only the last write to an 8-bit picture encodes.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace render {
+
+double srgbFromLinear(double linear);  // [0, 1] each; not clamped outside
+double linearFromSrgb(double encoded);
+glm::dvec3 linearFromSrgb(glm::dvec3 encoded);
+
+}  // namespace render
