@@ -1,0 +1,103 @@
+#include "timeseries/grid.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace timeseries {
+namespace {
+
+void check(const Axis& axis) {
+    const auto& c = axis.coordinates;
+    if (c.empty()) throw std::invalid_argument(fmt::format("axis {} has no points", axis.name));
+    for (std::size_t i = 0; i < c.size(); ++i) {
+        if (!std::isfinite(c[i]))
+            throw std::invalid_argument(
+                fmt::format("axis {} has a coordinate that is not finite at {}", axis.name, i));
+        if (i >= 1 && !(c.back() > c.front() ? c[i] > c[i - 1] : c[i] < c[i - 1]))
+            throw std::invalid_argument(
+                fmt::format("axis {} is not strictly monotonic at {}", axis.name, i));
+    }
+}
+
+double meanStep(const Axis& axis) {
+    const auto& c = axis.coordinates;
+    return (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+}
+
+}  // namespace
+
+bool Axis::uniform() const {
+    if (coordinates.size() < 3) return true;
+    const double step = meanStep(*this);
+    for (std::size_t i = 1; i < coordinates.size(); ++i)
+        if (std::abs(coordinates[i] - coordinates[i - 1] - step) > 1e-4 * std::abs(step))
+            return false;
+    return true;
+}
+
+double Axis::width(std::size_t i) const {
+    const std::size_t last = coordinates.size() - 1;
+    if (last == 0) return 0;
+    if (i == 0) return coordinates[1] - coordinates[0];
+    if (i == last) return coordinates[last] - coordinates[last - 1];
+    // Halved before the difference: the sum of two huge coordinates may overflow.
+    return 0.5 * coordinates[i + 1] - 0.5 * coordinates[i - 1];
+}
+
+Grid::Grid(std::array<Axis, 3> axes) : axes_(std::move(axes)) {
+    std::uint64_t count = 1;
+    for (const Axis& axis : axes_) {
+        check(axis);
+        const std::uint64_t n = axis.coordinates.size();
+        if (count > (std::uint64_t{1} << 63) / n)
+            throw std::invalid_argument("the grid has more than 2^63 points");
+        count *= n;
+    }
+}
+
+std::array<std::size_t, 3> Grid::size() const {
+    return {axes_[0].coordinates.size(), axes_[1].coordinates.size(),
+            axes_[2].coordinates.size()};
+}
+
+std::uint64_t Grid::count() const {
+    const auto n = size();
+    return std::uint64_t{n[0]} * n[1] * n[2];
+}
+
+bool Grid::uniform() const {
+    return axes_[0].uniform() && axes_[1].uniform() && axes_[2].uniform();
+}
+
+namespace {
+
+std::array<std::size_t, 3> unravel(std::uint64_t index, const std::array<std::size_t, 3>& n) {
+    return {index % n[0], index / n[0] % n[1], index / n[0] / n[1]};
+}
+
+}  // namespace
+
+glm::dvec3 Grid::position(std::uint64_t index) const {
+    const auto at = unravel(index, size());
+    return {axes_[0].coordinates[at[0]], axes_[1].coordinates[at[1]], axes_[2].coordinates[at[2]]};
+}
+
+glm::dmat3 Grid::cell(std::uint64_t index) const {
+    const auto at = unravel(index, size());
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Axis& axis : axes_)
+        if (axis.coordinates.size() > 1)
+            smallest = std::min(smallest, std::abs(meanStep(axis)));
+    if (!std::isfinite(smallest)) smallest = 1;
+    glm::dmat3 steps(0.0);
+    for (int a = 0; a < 3; ++a) {
+        const double width = axes_[a].width(at[a]);
+        steps[a][a] = axes_[a].coordinates.size() > 1 ? width : smallest;
+    }
+    return steps;
+}
+
+}  // namespace timeseries
