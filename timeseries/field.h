@@ -25,8 +25,9 @@ std::string_view typeName(ValueType type);
 
 struct Field {
     std::shared_ptr<const Grid> grid;
-    Values values;              // [z][y][x], x fastest, grid->count() of them
-    std::vector<bool> missing;  // per point; empty when none is. NaN is missing without being marked
+    Values values;  // [z][y][x], x fastest, grid->count() of them
+    std::vector<bool>
+        missing;  // per point; empty when none is. NaN is missing without being marked
 
     ValueType type() const { return static_cast<ValueType>(values.index()); }
 };

@@ -59,8 +59,7 @@ Grid::Grid(std::array<Axis, 3> axes) : axes_(std::move(axes)) {
 }
 
 std::array<std::size_t, 3> Grid::size() const {
-    return {axes_[0].coordinates.size(), axes_[1].coordinates.size(),
-            axes_[2].coordinates.size()};
+    return {axes_[0].coordinates.size(), axes_[1].coordinates.size(), axes_[2].coordinates.size()};
 }
 
 std::uint64_t Grid::count() const {
@@ -89,8 +88,7 @@ glm::dmat3 Grid::cell(std::uint64_t index) const {
     const auto at = unravel(index, size());
     double smallest = std::numeric_limits<double>::infinity();
     for (const Axis& axis : axes_)
-        if (axis.coordinates.size() > 1)
-            smallest = std::min(smallest, std::abs(meanStep(axis)));
+        if (axis.coordinates.size() > 1) smallest = std::min(smallest, std::abs(meanStep(axis)));
     if (!std::isfinite(smallest)) smallest = 1;
     glm::dmat3 steps(0.0);
     for (int a = 0; a < 3; ++a) {

@@ -12,8 +12,8 @@ namespace timeseries {
 
 // One axis of a rectilinear grid.
 struct Axis {
-    std::string name;                 // as in the file: "lon", "depth"
-    std::string units;                // as in the file; "" for none, "index" when counted, not measured
+    std::string name;   // as in the file: "lon", "depth"
+    std::string units;  // as in the file; "" for none, "index" when counted, not measured
     std::vector<double> coordinates;  // [n], strictly ascending or strictly descending, n >= 1
     bool down = false;                // greater coordinates lie lower (depth, pressure)
 

@@ -51,11 +51,7 @@ double toDouble(const Number& number) {
 
 std::string toText(const Number& number) {
     // fmt prints the shortest digits that read back as the same double.
-    std::string text = std::visit([](auto x) { return fmt::format("{}", x); }, number);
-    const bool real = std::holds_alternative<double>(number);
-    // A double keeps a mark of its kind, so that 3.0 does not come back as an integer.
-    if (real && text.find_first_of(".einf") == std::string::npos) text += ".0";
-    return text;
+    return std::visit([](auto x) { return fmt::format("{}", x); }, number);
 }
 
 }  // namespace timeseries

@@ -17,7 +17,7 @@ std::partial_ordering compare(const Number& a, const Number& b);
 // The nearest double.
 double toDouble(const Number& number);
 
-// Shortest text that reads back as the same number of the same kind of type; "inf", "-inf", "nan".
+// Shortest text that reads back as the same number (600.0 is "600"); "inf", "-inf", "nan".
 std::string toText(const Number& number);
 
 }  // namespace timeseries

@@ -32,10 +32,10 @@ struct Interval {
 };
 
 // The range in the type T; false when it holds no value of T.
-// Float types: each bound goes to the nearest T, then an open end steps one T inward; a finite bound
-// beyond T's largest finite value stays outside it (lo becomes +inf, hi the largest finite value).
-// Integer types: each bound goes inward to an integer, an open integral bound one further; what lies
-// beyond T's limits saturates. A NaN bound holds nothing.
+// Float types: each bound goes to the nearest T, then an open end steps one T inward; a finite
+// bound beyond T's largest finite value stays outside it (lo becomes +inf, hi the largest finite
+// value). Integer types: each bound goes inward to an integer, an open integral bound one further;
+// what lies beyond T's limits saturates. A NaN bound holds nothing.
 template <typename T>
 bool toInterval(const Range& range, Interval<T>& out);
 
@@ -54,9 +54,9 @@ class RangeSet {
 
     static RangeSet everything();
 
-    // "lo:hi" closed; "[lo,hi)" and "lo:hi" with brackets for open ends, the separator being ':' or,
-    // inside brackets, ','; "c~d" for [c-d, c+d]; "min" and "max" for unbounded ends; a lone number
-    // for [v, v]; commas between ranges. Integers without '.', 'e' or 'inf' stay integers.
+    // "lo:hi" closed; "[lo,hi)" and "lo:hi" with brackets for open ends, the separator being ':'
+    // or, inside brackets, ','; "c~d" for [c-d, c+d]; "min" and "max" for unbounded ends; a lone
+    // number for [v, v]; commas between ranges. Integers without '.', 'e' or 'inf' stay integers.
     // Throws RangeSyntaxError, also for lo > hi, NaN, a negative d, and text without a range.
     static RangeSet parse(std::string_view text);
 

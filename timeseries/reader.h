@@ -1,4 +1,5 @@
-// A file (or several that make one series) opened for reading: what it holds, and one step at a time.
+// A file (or several that make one series) opened for reading: what it holds, and one step at a
+// time.
 #pragma once
 
 #include <cstddef>
@@ -27,17 +28,19 @@ struct TimeAxis {
     std::string name;      // "time"; "step" when the file has no time and steps are counted
     std::string units;     // "s", "hours since 0000-01-01"; "" for none
     std::string calendar;  // CF calendar of dates; "" for plain numbers
-    std::vector<TimePoint> points;  // [steps] in the order of the steps, which the reader keeps as stored
+    std::vector<TimePoint>
+        points;  // [steps] in the order of the steps, which the reader keeps as stored
 };
 
 struct Variable {
     std::string name, longName, units;
-    ValueType type{};       // what selection compares: the unpacked type
-    std::string storedAs;   // how the file holds it: "int16 packed, scale 0.001, offset 15"
-    std::string missing;    // how missing values are told: "_FillValue -1e+34"; "" for none
+    ValueType type{};      // what selection compares: the unpacked type
+    std::string storedAs;  // how the file holds it: "int16 packed, scale 0.001, offset 15"
+    std::string missing;   // how missing values are told: "_FillValue -1e+34"; "" for none
     std::shared_ptr<const Grid> grid;
     std::shared_ptr<const TimeAxis> time;
-    std::vector<std::string> notes;  // what a user must know: "drawn in index space: lon(y,x) is 2-D"
+    std::vector<std::string>
+        notes;  // what a user must know: "drawn in index space: lon(y,x) is 2-D"
 };
 
 // Not thread-safe: one thread at a time. Different Readers may be used on different threads.
