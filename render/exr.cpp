@@ -18,7 +18,6 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 #include <system_error>
 
 #include "render/picture_file.h"
@@ -88,7 +87,7 @@ std::vector<std::string> namesOf(std::span<const ExrView> views) {
     return names;
 }
 
-bool isWritable(std::span<const ExrView> views) {
+[[maybe_unused]] bool isWritable(std::span<const ExrView> views) {
     if (views.empty()) return false;
     const glm::ivec2 size = views.front().image.size;
     const std::size_t count = views.front().image.pixels.size();
