@@ -2,6 +2,7 @@
 // inside render/; only the last write to an 8-bit picture encodes.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 
 namespace render {
@@ -9,5 +10,8 @@ namespace render {
 double srgbFromLinear(double linear);  // [0, 1] each; not clamped outside
 double linearFromSrgb(double encoded);
 glm::dvec3 linearFromSrgb(glm::dvec3 encoded);
+
+// The nearest of the 256 encoded steps; clamped, NaN is 0.
+std::uint8_t srgb8FromLinear(double linear);
 
 }  // namespace render
