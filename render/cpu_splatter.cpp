@@ -1,0 +1,162 @@
+#include "render/cpu_splatter.h"
+
+#include "render/footprint.h"
+
+namespace render {
+namespace {
+
+// Calls visit(x, y, W) for every pixel of the view that the splat touches.
+template <typename Real, typename Visit>
+void forEachPixel(const Splat<Real>& s, const View& view, const PixelRays& rays, Kernel kernel,
+                  const Visit& visit) {
+    using Vec2 = glm::vec<2, Real>;
+    const Vec2 axis(rays.centre), focal(rays.focal);
+    const Real rayUnit = static_cast<Real>(glm::length(rays.axis));
+    // Pixel i has its centre at i + 0.5; the square holds those in [window - extent, window +
+    // extent).
+    const Vec2 window = axis + s.centre;
+    const auto first = [](Real edge) {
+        return static_cast<int>(std::max<Real>(0, std::ceil(edge - Real(0.5))));
+    };
+    const auto past = [](Real edge, int size) {
+        return static_cast<int>(
+            std::min<Real>(static_cast<Real>(size), std::ceil(edge - Real(0.5))));
+    };
+    const int x1 = past(window.x + s.extent, view.size.x),
+              y1 = past(window.y + s.extent, view.size.y);
+    for (int y = first(window.y - s.extent); y < y1; ++y) {
+        for (int x = first(window.x - s.extent); x < x1; ++x) {
+            const Vec2 at =
+                Vec2(static_cast<Real>(x) + Real(0.5), static_cast<Real>(y) + Real(0.5)) - axis;
+            const Vec2 slope = at / focal;
+            const Real ray2 = 1 + glm::dot(slope, slope);
+            if (kernel == Kernel::Point) {
+                visit(x, y, s.weight * rayUnit * std::sqrt(ray2));
+                continue;
+            }
+            const Vec2 offset = at - s.centre;
+            const Real d = s.denominator(offset);
+            const Real q = s.numerator(offset) / d;
+            if (q >= 1) continue;
+            const Real u = (1 - q) * (1 - q);
+            visit(x, y, s.weight * rayUnit * std::sqrt(ray2 / d) * u * u);
+        }
+    }
+}
+
+struct Painter {
+    glm::dvec3 rgb;
+    double depthPerWeight;
+};
+
+Painter painter(const Scene& scene, const Layer& layer, std::uint64_t point) {
+    const double tau = opticalDepthPerWeight(layer.style.opacity);
+    if (const auto* constant = std::get_if<Constant>(&layer.style.color))
+        return {constant->linearRgb, tau};
+    const auto& byValue = std::get<ByValue>(layer.style.color);
+    const double v = timeseries::toDouble(scene.step.value(point));
+    return {glm::dvec3(byValue.map.at(mapPosition(byValue, v))), tau};
+}
+
+template <typename Real>
+void deposit(Channels channels, const Painter& paint, Real weight, Real* pixel) {
+    const glm::vec<3, Real> rgb(paint.rgb);
+    switch (channels) {
+        case Channels::Weight:
+            pixel[0] += weight;
+            return;
+        case Channels::Count:
+            pixel[0] += 1;
+            return;
+        case Channels::WeightedColor:
+            for (int c = 0; c < 3; ++c) pixel[c] += weight * rgb[c];
+            pixel[3] += weight;
+            return;
+        case Channels::Over: {
+            const Real alpha = -std::expm1(-static_cast<Real>(paint.depthPerWeight) * weight);
+            for (int c = 0; c < 3; ++c) pixel[c] = rgb[c] * alpha + pixel[c] * (1 - alpha);
+            pixel[3] = alpha + pixel[3] * (1 - alpha);
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+template <typename Real>
+void splat(const Scene& scene, const DrawList& list, const View& view,
+           std::span<const float> opaqueDepth, Accumulator<Real>& into) {
+    const PixelRays rays = pixelRays(view);
+    const glm::dmat4& clip = view.clipFromView;
+    const glm::uvec3 n = scene.lattice.size();
+    const auto draw = [&](std::size_t layer, std::uint64_t point) {
+        const std::uint32_t i = scene.step.gridIndex()[point];
+        if (!scene.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y})) return;
+        const auto s =
+            splatAt<Real>(rays, view.viewFromWorld, scene.lattice.position(i),
+                          scene.lattice.cell(i), scene.lattice.unitLength(), scene.footprint);
+        if (!s.visible) return;
+        const double windowDepth =
+            (clip[3][2] - clip[2][2] * static_cast<double>(s.depth)) / static_cast<double>(s.depth);
+        const bool alone =
+            into.channels[0] == Channels::Over || into.channels[0] == Channels::Count;
+        const std::size_t plane = alone ? 0 : layer;
+        const Channels channels = into.channels[plane];
+        const std::size_t floats = Accumulator<Real>::floatsPerPixel(channels);
+        const Painter paint = painter(scene, scene.layers[layer], point);
+        forEachPixel<Real>(s, view, rays, scene.footprint.kernel, [&](int x, int y, Real weight) {
+            const std::size_t pixel = std::size_t(y) * view.size.x + x;
+            if (!opaqueDepth.empty() && windowDepth > static_cast<double>(opaqueDepth[pixel]))
+                return;
+            deposit(channels, paint, weight, &into.planes[plane][pixel * floats]);
+        });
+    };
+    if (const auto* sorted = std::get_if<Sorted>(&list)) {
+        for (std::size_t i = 0; i < sorted->point.size(); ++i)
+            draw(sorted->layer[i], sorted->point[i]);
+        return;
+    }
+    for (std::size_t layer = 0; layer < scene.layers.size(); ++layer)
+        for (const timeseries::Run& run : scene.layers[layer].runs)
+            for (std::uint64_t p = run.first; p < run.first + run.count; ++p) draw(layer, p);
+}
+
+template void splat(const Scene&, const DrawList&, const View&, std::span<const float>,
+                    Accumulator<float>&);
+template void splat(const Scene&, const DrawList&, const View&, std::span<const float>,
+                    Accumulator<double>&);
+
+template <typename Real>
+Resolved resolvePixel(const Accumulator<Real>& from, const std::vector<Layer>& layers, int x,
+                      int y) {
+    const std::size_t pixel = std::size_t(y) * from.size.x + x;
+    Resolved out;
+    if (from.channels.size() == 1 && from.channels[0] == Channels::Over) {
+        const Real* p = &from.planes[0][pixel * 4];
+        out.rgb = {p[0], p[1], p[2]};
+        out.alpha = static_cast<double>(p[3]);
+        out.opticalDepth = -std::log1p(-out.alpha);
+        return out;
+    }
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const double perWeight = opticalDepthPerWeight(layers[k].style.opacity);
+        if (const auto* constant = std::get_if<Constant>(&layers[k].style.color)) {
+            const double tau = perWeight * static_cast<double>(from.planes[k][pixel]);
+            out.opticalDepth += tau;
+            out.rgb += tau * constant->linearRgb;
+        } else {
+            const Real* p = &from.planes[k][pixel * 4];
+            out.opticalDepth += perWeight * static_cast<double>(p[3]);
+            out.rgb += perWeight * glm::dvec3(p[0], p[1], p[2]);
+        }
+    }
+    out.alpha = -std::expm1(-out.opticalDepth);
+    // The limit of (1 - e^-t) / t at 0 is 1 - t / 2.
+    out.rgb *= out.opticalDepth < 1e-8 ? 1 - out.opticalDepth / 2 : out.alpha / out.opticalDepth;
+    return out;
+}
+
+template Resolved resolvePixel(const Accumulator<float>&, const std::vector<Layer>&, int, int);
+template Resolved resolvePixel(const Accumulator<double>&, const std::vector<Layer>&, int, int);
+
+}  // namespace render

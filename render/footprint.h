@@ -1,0 +1,116 @@
+// The footprint of one splat in one view, exact for any frustum. The GL shaders splat.vert and
+// splat.frag compute the same in float; here the arithmetic type is a parameter.
+//
+// A point stands for a cell of volume V. Its mass is spread over the ellipsoid with semi-axes a
+// along the world axes by the density C (1 - r^2)^3.5 of the kernel-space radius r, whose line
+// integrals are C' (1 - b^2)^4, b being the line's distance from the centre in kernel space
+// (Crawfis and Max 1993 draw such line integrals as textures). Total mass V gives, for a ray along
+// d,
+//   W = V / (l a1 a2 a3) * 5 / pi * (1 - b^2)^4 * |d| / |d / a|.
+// With c and d the rays of the centre and of the pixel at unit depth and z the centre's depth,
+//   b^2 = z^2 |c/a x (d - c)/a|^2 / |d/a|^2,
+// which cancels nowhere: d - c is linear in the offset of the pixel from the centre.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+#include "render/scene.h"
+#include "render/view.h"
+
+namespace render {
+
+// The first zero of J5 over 2 pi: the Fourier transform of (1 - q)^4 then vanishes at the lattice's
+// first harmonic, so a uniform slab is drawn flat to 0.5 %.
+inline constexpr double kQuarticRadius = 8.771483815959954 / (2 * std::numbers::pi);
+// Semi-axes are no smaller than this many pixels, for the same reason: the pixels are a lattice
+// too.
+inline constexpr double kSmallestRadiusPixels = kQuarticRadius;
+
+template <typename Real>
+struct Splat {
+    using Vec2 = glm::vec<2, Real>;
+    bool visible = false;  // false when its centre is nearer than the near plane
+    Real depth{};          // view depth of the centre
+    Vec2 centre{};         // offset from the view axis, in pixels
+    Real extent{};         // half the side of a square about the centre that holds the footprint
+    // At offset o from the centre: q = n(o) / d(o), W = weight |ray| (1 - q)^4 / sqrt(d(o)), with
+    // n = n.x ox^2 + n.y ox oy + n.z oy^2 and d = 1 + l.ox + l.oy + the same form of d.
+    glm::vec<3, Real> n{}, d{};
+    Vec2 l{};
+    Real weight{};
+
+    Real denominator(const Vec2& o) const {
+        return 1 + l.x * o.x + l.y * o.y + d.x * o.x * o.x + d.y * o.x * o.y + d.z * o.y * o.y;
+    }
+    Real numerator(const Vec2& o) const {
+        return n.x * o.x * o.x + n.y * o.x * o.y + n.z * o.y * o.y;
+    }
+};
+
+// Half the side of the square about a sphere's projected centre that holds its outline, on the
+// plane at unit depth: the outline reaches farthest outward, from angle theta to theta + phi.
+// Returns a negative number when the outline reaches behind the eye.
+template <typename Real>
+Real sphereExtent(Real depth, Real radius, Real tanTheta) {
+    const Real cosTheta = 1 / std::sqrt(1 + tanTheta * tanTheta);
+    const Real sinPhi = radius / depth * cosTheta;
+    if (sinPhi >= 1) return -1;
+    const Real cosSum = cosTheta * std::sqrt(1 - sinPhi * sinPhi) - tanTheta * cosTheta * sinPhi;
+    return cosSum > 0 ? sinPhi / (cosTheta * cosSum) : -1;
+}
+
+// Weight rises from 0 at the near plane to 1 at twice its distance, so that nothing pops.
+template <typename Real>
+Real nearFade(Real depth, Real near) {
+    const Real t = std::clamp<Real>(depth / near - 1, 0, 1);
+    return t * t * (3 - 2 * t);
+}
+
+template <typename Real>
+Splat<Real> splatAt(const PixelRays& rays, const glm::dmat4& viewFromWorld, const glm::dvec3& world,
+                    const glm::dvec3& cell, double unitLength, const Footprint& footprint) {
+    using Vec3 = glm::vec<3, Real>;
+    Splat<Real> s;
+    const Vec3 inView = glm::vec<3, Real>(viewFromWorld * glm::dvec4(world, 1.0));
+    s.depth = -inView.z;
+    const Real near = static_cast<Real>(rays.near);
+    if (!(s.depth > near)) return s;
+    s.visible = true;
+    const glm::vec<2, Real> focal(rays.focal);
+    s.centre = focal * glm::vec<2, Real>(inView) / s.depth;
+    const Vec3 X(rays.perPixelX), Y(rays.perPixelY);
+    const Vec3 C = Vec3(rays.axis) + s.centre.x * X + s.centre.y * Y;
+    const Real volume = static_cast<Real>(cell.x * cell.y * cell.z / unitLength);
+    const Real size = static_cast<Real>(footprint.size);
+    if (footprint.kernel == Kernel::Point) {
+        // The whole mass on `size`^2 pixels: each is z^2 |X x Y| wide, seen at the ray's slant.
+        s.extent = size / 2;
+        s.weight = volume * nearFade(s.depth, near) /
+                   (s.depth * s.depth * glm::length(X) * glm::length(Y) * size * size *
+                    glm::length(Vec3(rays.axis)));
+        return s;
+    }
+    const Real pixel = s.depth * std::max(glm::length(X), glm::length(Y));
+    const Vec3 a = glm::max(Vec3(cell) * static_cast<Real>(footprint.size * kQuarticRadius),
+                            Vec3(pixel * static_cast<Real>(kSmallestRadiusPixels)));
+    const Vec3 c = C / a, x = X / a, y = Y / a;
+    const Vec3 e = glm::cross(c, x), f = glm::cross(c, y);
+    const Real perC2 = 1 / glm::dot(c, c);
+    s.n = s.depth * s.depth * perC2 * Vec3(glm::dot(e, e), 2 * glm::dot(e, f), glm::dot(f, f));
+    s.d = perC2 * Vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y));
+    s.l = 2 * perC2 * glm::vec<2, Real>(glm::dot(c, x), glm::dot(c, y));
+    s.weight = static_cast<Real>(5 / std::numbers::pi) * volume / (a.x * a.y * a.z) *
+               std::sqrt(perC2) * nearFade(s.depth, near);
+    const Real largest = std::max({a.x, a.y, a.z}) / glm::length(Vec3(rays.axis));
+    const Real extent = sphereExtent(s.depth, largest, glm::length(s.centre / focal));
+    s.extent =
+        extent < 0 ? std::numeric_limits<Real>::infinity() : extent * std::max(focal.x, focal.y);
+    return s;
+}
+
+}  // namespace render

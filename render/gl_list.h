@@ -1,0 +1,35 @@
+// One frame's draw list on the GPU: what GlSplatter::upload makes and GlSplatter::draw draws.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "render/gl_splatter.h"
+
+namespace render {
+
+class GpuList {
+ public:
+    GpuList(const Scene& scene, const DrawList& list, const GpuStep& step, const ValueScale& scale);
+
+    const Scene& scene() const { return scene_; }
+    const GpuStep& step() const { return step_; }
+
+    // Issues the draw calls of one layer, or of all; program and state are set. A Sorted list is
+    // always drawn whole.
+    void draw(bool quads, std::optional<std::size_t> layer) const;
+
+ private:
+    struct LayerRuns {
+        std::vector<GLint> first;
+        std::vector<GLsizei> count;
+    };
+    const Scene& scene_;
+    const GpuStep& step_;
+    std::vector<LayerRuns> runs_;       // per layer; empty for a sorted list
+    std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first
+    GLsizei sortedCount_ = 0;
+    gl::VertexArray points_, quads_;  // per vertex and per instance
+};
+
+}  // namespace render

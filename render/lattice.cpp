@@ -1,0 +1,139 @@
+#include "render/lattice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+namespace render {
+namespace {
+
+using timeseries::Axis;
+using timeseries::Grid;
+
+double extent(const Axis& axis) {
+    return std::abs(axis.coordinates.back() - axis.coordinates.front());
+}
+
+// Degrees of longitude and of latitude are drawn alike.
+std::string comparableUnit(const Axis& axis) {
+    return axis.units.starts_with("degree") ? "degree" : axis.units;
+}
+
+// An axis of other units, or far shorter than the longest, would be drawn as a sheet or a needle.
+glm::dvec3 fittedStretch(const Grid& grid) {
+    constexpr double kFlattest = 20, kFittedShare = 0.5;
+    const auto& axes = grid.axes();
+    // The axes that share the first axis's unit keep their proportions and lead.
+    const std::string leading = comparableUnit(axes[0]);
+    double longest = 0;
+    for (const Axis& axis : axes)
+        if (comparableUnit(axis) == leading) longest = std::max(longest, extent(axis));
+    if (longest == 0)
+        for (const Axis& axis : axes) longest = std::max(longest, extent(axis));
+    glm::dvec3 stretch(1);
+    for (int a = 0; a < 3; ++a) {
+        const double length = extent(axes[a]);
+        if (length == 0) continue;
+        if (comparableUnit(axes[a]) != leading || length * kFlattest < longest)
+            stretch[a] = kFittedShare * longest / length;
+    }
+    return stretch;
+}
+
+double mean(const std::vector<double>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
+
+}  // namespace
+
+Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch) {
+    const glm::dvec3 stretched = stretch.value_or(fittedStretch(grid));
+    for (int a = 0; a < 3; ++a) {
+        const Axis& axis = grid.axes()[a];
+        // Halved first: the sum of two huge coordinates may overflow.
+        centre_[a] = 0.5 * axis.coordinates.front() + 0.5 * axis.coordinates.back();
+        scale_[a] = axis.down ? -stretched[a] : stretched[a];
+        boxHalf_[a] = 0.5 * extent(axis) * stretched[a];
+    }
+    const double radius = glm::length(boxHalf_);
+    if (radius > 0) {
+        scale_ /= radius;
+        boxHalf_ /= radius;
+    }
+    double thinnest = 0;  // an axis of one point takes the smallest mean width of the others
+    for (int a = 0; a < 3; ++a) {
+        const Axis& axis = grid.axes()[a];
+        for (std::size_t i = 0; i < axis.coordinates.size(); ++i) {
+            positions_[a].push_back((axis.coordinates[i] - centre_[a]) * scale_[a]);
+            widths_[a].push_back(std::abs(axis.width(i) * scale_[a]));
+        }
+        if (axis.coordinates.size() > 1 && (thinnest == 0 || mean(widths_[a]) < thinnest))
+            thinnest = mean(widths_[a]);
+    }
+    if (thinnest == 0) thinnest = 1;
+    for (int a = 0; a < 3; ++a)
+        if (widths_[a].size() == 1) widths_[a][0] = thinnest;
+    unitLength_ = std::cbrt(mean(widths_[0]) * mean(widths_[1]) * mean(widths_[2]));
+}
+
+glm::uvec3 Lattice::size() const {
+    return {positions_[0].size(), positions_[1].size(), positions_[2].size()};
+}
+
+namespace {
+
+glm::uvec3 unravel(std::uint64_t index, const glm::uvec3& n) {
+    return {index % n.x, index / n.x % n.y, index / n.x / n.y};
+}
+
+}  // namespace
+
+glm::dvec3 Lattice::position(std::uint64_t index) const {
+    const glm::uvec3 at = unravel(index, size());
+    return {positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]};
+}
+
+glm::dvec3 Lattice::cell(std::uint64_t index) const {
+    const glm::uvec3 at = unravel(index, size());
+    return {widths_[0][at.x], widths_[1][at.y], widths_[2][at.z]};
+}
+
+std::string stretchText(const Grid& grid, const Lattice& lattice) {
+    const glm::dvec3 s = glm::abs(lattice.scale());
+    std::string text;
+    for (int a = 1; a < 3; ++a) {
+        const double ratio = s[a] / s[0];
+        const Axis &axis = grid.axes()[a], &first = grid.axes()[0];
+        if (axis.coordinates.size() == 1) continue;
+        if (comparableUnit(axis) == comparableUnit(first)) {
+            if (std::abs(ratio - 1) < 1e-9) continue;
+            text += fmt::format("{}{} \u00d7 {:.3g}", text.empty() ? "" : ", ", axis.name, ratio);
+        } else {
+            // So many of its own units are drawn as long as one unit of the first axis.
+            text += fmt::format("{}{:.3g} {} {} drawn as 1 {}", text.empty() ? "" : ", ", 1 / ratio,
+                                axis.units.empty() ? "units" : axis.units, axis.name,
+                                first.units.empty() ? "unit" : comparableUnit(first));
+        }
+    }
+    return text;
+}
+
+IndexBox indexBox(const Grid& grid, const glm::dvec3& lo, const glm::dvec3& hi) {
+    IndexBox box{glm::uvec3(1), glm::uvec3(0)};
+    for (int a = 0; a < 3; ++a) {
+        const auto& c = grid.axes()[a].coordinates;
+        const auto inside = [&](double x) { return lo[a] <= x && x <= hi[a]; };
+        const auto first = std::find_if(c.begin(), c.end(), inside);
+        if (first == c.end()) return {glm::uvec3(1), glm::uvec3(0)};
+        const auto past = std::find_if_not(first, c.end(), inside);  // monotonic: one stretch
+        box.lo[a] = static_cast<std::uint32_t>(first - c.begin());
+        box.hi[a] = static_cast<std::uint32_t>(past - c.begin() - 1);
+    }
+    return box;
+}
+
+}  // namespace render

@@ -1,0 +1,92 @@
+// What is drawn: layers of runs of one step's sorted points, each with its style, and how splats
+// are shaped and ordered. Plain values; no GL.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <variant>
+#include <vector>
+
+#include "render/color_map.h"
+#include "render/lattice.h"
+#include "timeseries/sorted_step.h"
+
+namespace render {
+
+struct Constant {
+    glm::dvec3 linearRgb;
+};
+struct ByValue {
+    ColorMap map;
+    double lo, hi;  // values of the map's two ends; lo == hi gives its middle everywhere
+};
+
+// Position of a value in its map, [0, 1]; the limit case lo == hi is the middle.
+inline double mapPosition(const ByValue& style, double value) {
+    if (!(style.hi > style.lo)) return 0.5;
+    return std::clamp((value - style.lo) / (style.hi - style.lo), 0.0, 1.0);
+}
+
+struct RangeStyle {
+    std::variant<Constant, ByValue> color;
+    double opacity = 0.5;  // of one unit length l of fully selected points, [0, 1]
+};
+
+// Optical depth per unit of accumulated weight W. Opacity 1 stands for the 16 at which nothing
+// visible (1e-7) comes through: infinity would make 0 * inf of empty pixels.
+inline double opticalDepthPerWeight(double opacity) {
+    constexpr double kOpaque = 16;
+    return opacity >= 1 ? kOpaque : std::min(kOpaque, -std::log1p(-opacity));
+}
+
+struct Layer {
+    std::vector<timeseries::Run> runs;  // as SortedStep::select gives them
+    RangeStyle style;
+};
+constexpr std::size_t kMaxLayers = 8;
+
+enum class Kernel {
+    Point,   // a square of `size` pixels
+    Quartic  // (1 - q)^4, `size` times the radius that suits the spacing
+};
+struct Footprint {
+    Kernel kernel = Kernel::Quartic;
+    double size = 1;
+};
+enum class Order { None, BackToFront };
+
+// Refers to the step and the lattice, which must outlive it.
+struct Scene {
+    const timeseries::SortedStep& step;
+    const Lattice& lattice;
+    std::vector<Layer> layers;  // at most kMaxLayers
+    Footprint footprint;
+    Order order = Order::None;
+    IndexBox clip;
+};
+
+// The draw list: the runs as they lie, or one list of all layers' points, farthest first.
+struct Runs {};
+struct Sorted {
+    std::vector<std::uint32_t> point;  // position in the sorted step
+    std::vector<std::uint8_t> layer;
+};
+using DrawList = std::variant<Runs, Sorted>;
+
+// The list for one frame, made once for both eyes: distance from the point midway between them, so
+// that turning the head changes nothing. Keys are the distance in 2^16 steps over the points'
+// own range of distances; ties keep the order of value.
+DrawList order(const Scene& scene, const glm::dvec3& midEye);
+// The same by the distance in double, compared: the truth's order.
+DrawList orderExactly(const Scene& scene, const glm::dvec3& midEye);
+
+// What a plane of pixels accumulates. Weight (W) and WeightedColor (W times colour, W) belong to
+// one layer each; Over (premultiplied colour, opacity) and Count (splats that touch the pixel) take
+// every layer and stand alone.
+enum class Channels { Weight, WeightedColor, Over, Count };
+// What the scene's picture needs: one entry a layer, or a single Over when it is ordered.
+std::vector<Channels> channelsFor(const Scene& scene);
+
+}  // namespace render

@@ -1,0 +1,53 @@
+// One pixel of one splat's footprint: W from the pixel ray's distance to the centre in kernel space.
+// Window space in, accumulated sums out; formulas: render/footprint.h.
+// Variants: WEIGHT, WEIGHTED_COLOR, OVER or COUNT (what is accumulated), KERNEL_POINT.
+
+layout(std140, binding = 0) uniform SplatView {
+    mat4 viewFromWorld;
+    vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel;
+    uvec4 lattice, clipLo, clipHi;
+} view;
+
+layout(location = 0) flat in vec4 centreAndWeight;
+layout(location = 1) flat in vec4 quadN;
+layout(location = 2) flat in vec4 quadD;
+layout(location = 3) flat in vec3 color;
+
+#if defined(WEIGHT) || defined(COUNT)
+layout(location = 0) out float sum;
+#else
+layout(location = 0) out vec4 sum;
+#endif
+
+// 1 - e^-x; the series where the difference would cancel (its error there is below 1e-9).
+float opacity(float x) {
+    if (x > 0.1) return 1.0 - exp(-x);
+    return x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0 - x / 720.0)))));
+}
+
+void main() {
+    const vec2 at = gl_FragCoord.xy - view.window.xy;
+    const vec2 slope = at / vec2(view.perPixelX.w, view.perPixelY.w);
+    const float ray2 = 1.0 + dot(slope, slope);
+#ifdef KERNEL_POINT
+    const float w = centreAndWeight.z * sqrt(ray2);
+#else
+    const vec2 o = at - centreAndWeight.xy;
+    const vec3 squares = vec3(o.x * o.x, o.x * o.y, o.y * o.y);
+    const float d = 1.0 + dot(vec2(quadN.w, quadD.w), o) + dot(quadD.xyz, squares);
+    const float q = dot(quadN.xyz, squares) / d;
+    if (q >= 1.0) discard;
+    const float u = (1.0 - q) * (1.0 - q);
+    const float w = centreAndWeight.z * sqrt(ray2 / d) * u * u;
+#endif
+#if defined(WEIGHT)
+    sum = w;
+#elif defined(COUNT)
+    sum = 1.0;
+#elif defined(WEIGHTED_COLOR)
+    sum = vec4(color * w, w);
+#else
+    const float alpha = opacity(centreAndWeight.w * w);
+    sum = vec4(color * alpha, alpha);
+#endif
+}

@@ -1,0 +1,134 @@
+// One lattice point -> the screen square that holds its footprint, and the footprint's coefficients.
+// World space to window offsets from the view axis, in pixels; formulas: render/footprint.h.
+// Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT.
+
+// C++ mirror: SplatViewBlock in render/gl_splatter.cpp.
+layout(std140, binding = 0) uniform SplatView {
+    mat4 viewFromWorld;
+    vec4 rayAxis;   // world ray of the view axis; w: its length
+    vec4 perPixelX; // world, per pixel; w: pixels per unit of x / -z
+    vec4 perPixelY; // w: pixels per unit of y / -z
+    vec4 window;    // window position of the view axis, size in pixels
+    vec4 depths;    // near; window depth = (y d + z) / d of view depth d: y, z; guard in pixels
+    vec4 kernel;    // radius in cells, smallest radius in pixels, 1 / unit length, point's side in pixels
+    uvec4 lattice;  // points along x, y, z
+    uvec4 clipLo, clipHi;  // inclusive index box
+} view;
+
+// C++ mirror: LayerBlock.
+layout(std140, binding = 1) uniform Layers {
+    vec4 style[8];  // constant linear colour; w: optical depth per weight
+    vec4 map[8];    // position in the map = x v + y of the normalised value v; z: by value: the map's entries, else 0
+} layers;
+
+layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: world position, cell width
+layout(binding = 1) uniform sampler2D colorMaps;       // a row a layer, linear colour
+
+layout(location = 0) in uint gridIndex;
+layout(location = 1) in float value;  // [0, 1] over the step's values
+layout(location = 2) in uint layer;
+
+layout(location = 0) flat out vec4 centreAndWeight;  // window offset of the centre, W's factor, tau per W
+layout(location = 1) flat out vec4 quadN;            // n.xyz of the numerator; l.x of the denominator
+layout(location = 2) flat out vec4 quadD;            // d.xyz of the denominator; l.y
+layout(location = 3) flat out vec3 color;
+
+vec3 mapColor(uint row, float position) {
+    const int last = int(layers.map[row].z) - 1;
+    const float at = clamp(position, 0.0, 1.0) * float(last);
+    const int below = int(at);
+    const int above = min(below + 1, last);
+    return mix(texelFetch(colorMaps, ivec2(below, row), 0).rgb,
+               texelFetch(colorMaps, ivec2(above, row), 0).rgb, at - float(below));
+}
+
+// See sphereExtent in render/footprint.h; negative when the outline reaches behind the eye.
+float sphereExtent(float depth, float radius, float tanTheta) {
+    const float cosTheta = inversesqrt(1.0 + tanTheta * tanTheta);
+    const float sinPhi = radius / depth * cosTheta;
+    if (sinPhi >= 1.0) return -1.0;
+    const float cosSum =
+        cosTheta * sqrt(1.0 - sinPhi * sinPhi) - tanTheta * cosTheta * sinPhi;
+    return cosSum > 0.0 ? sinPhi / (cosTheta * cosSum) : -1.0;
+}
+
+void place(vec2 offset, float extent, float depth) {
+    // Window depth as the opaque scene has it; window x and y over the guarded viewport.
+    const float guard = view.depths.w;
+    const vec2 span = view.window.zw + 2.0 * guard;
+    const float windowDepth = (depth * view.depths.y + view.depths.z) / depth;
+#ifdef QUADS
+    const vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    // Half a pixel more than the footprint; never farther than the picture is wide.
+    const vec2 at = offset + corner * min(extent + 0.5, 4.0 * (span.x + span.y));
+#else
+    const vec2 at = offset;
+    gl_PointSize = extent;
+#endif
+    gl_Position = vec4((at + view.window.xy + guard) / span * 2.0 - 1.0, windowDepth, 1.0);
+}
+
+void main() {
+    const uvec3 n = view.lattice.xyz;
+    const uvec3 ijk = uvec3(gridIndex % n.x, gridIndex / n.x % n.y, gridIndex / n.x / n.y);
+    const vec2 px = texelFetch(axisPoints, int(ijk.x)).xy;
+    const vec2 py = texelFetch(axisPoints, int(n.x + ijk.y)).xy;
+    const vec2 pz = texelFetch(axisPoints, int(n.x + n.y + ijk.z)).xy;
+    const vec3 cell = vec3(px.y, py.y, pz.y);
+    const vec3 inView = (view.viewFromWorld * vec4(px.x, py.x, pz.x, 1.0)).xyz;
+    const float depth = -inView.z;
+    const float near = view.depths.x;
+    const bool clipped = any(lessThan(ijk, view.clipLo.xyz)) || any(greaterThan(ijk, view.clipHi.xyz));
+    if (clipped || !(depth > near)) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the clip volume
+#ifndef QUADS
+        gl_PointSize = 1.0;
+#endif
+        return;
+    }
+    const vec2 focal = vec2(view.perPixelX.w, view.perPixelY.w);
+    const vec2 centre = focal * inView.xy / depth;
+    const vec3 X = view.perPixelX.xyz, Y = view.perPixelY.xyz;
+    const vec3 C = view.rayAxis.xyz + centre.x * X + centre.y * Y;
+    const float t = clamp(depth / near - 1.0, 0.0, 1.0);
+    const float fade = t * t * (3.0 - 2.0 * t);
+    const float volume = cell.x * cell.y * cell.z * view.kernel.z * fade;
+
+    const uint l = min(layer, 7u);
+    color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value + layers.map[l].y)
+                                  : layers.style[l].rgb;
+    const float depthPerWeight = layers.style[l].w;
+#ifdef KERNEL_POINT
+    const float side = view.kernel.w;
+    centreAndWeight = vec4(centre, volume / (depth * depth * length(X) * length(Y) * side * side),
+                           depthPerWeight);
+    quadN = vec4(0.0);
+    quadD = vec4(0.0);
+#ifdef QUADS
+    place(centre, 0.5 * side - 0.5, depth);
+#else
+    place(centre, side, depth);
+#endif
+#else
+    const float pixel = depth * max(length(X), length(Y));
+    const vec3 a = max(cell * view.kernel.x, vec3(pixel * view.kernel.y));
+    const vec3 c = C / a, x = X / a, y = Y / a;
+    const vec3 e = cross(c, x), f = cross(c, y);
+    const float perC2 = 1.0 / dot(c, c);
+    const vec2 linear = 2.0 * perC2 * vec2(dot(c, x), dot(c, y));
+    quadN = vec4(depth * depth * perC2 * vec3(dot(e, e), 2.0 * dot(e, f), dot(f, f)), linear.x);
+    quadD = vec4(perC2 * vec3(dot(x, x), 2.0 * dot(x, y), dot(y, y)), linear.y);
+    // 5 / pi, and |ray| = |axis| sqrt(1 + slope^2) left to the fragment but for |axis|.
+    const float weight = 1.5915494309189535 * volume / (a.x * a.y * a.z) * sqrt(perC2) * view.rayAxis.w;
+    centreAndWeight = vec4(centre, weight, depthPerWeight);
+    const float onUnitPlane =
+        sphereExtent(depth, max(a.x, max(a.y, a.z)) / view.rayAxis.w, length(centre / focal));
+    const float extent = onUnitPlane < 0.0 ? 1e9 : onUnitPlane * max(focal.x, focal.y);
+#ifdef QUADS
+    place(centre, extent, depth);
+#else
+    // One pixel more than the diameter: the rasteriser snaps centres to a fraction of a pixel.
+    place(centre, 2.0 * extent + 1.0, depth);
+#endif
+#endif
+}

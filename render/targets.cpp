@@ -1,0 +1,85 @@
+#include "render/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "render/gl/pass.h"
+
+namespace render {
+namespace {
+
+// Rows of 4096 bytes fall on the same cache sets, which more than doubles the time of llvmpipe's
+// blending: rows are made a little longer than the picture.
+glm::ivec2 padded(glm::ivec2 size) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (size.x < 1 || size.y < 1 || size.x > largest || size.y > largest)
+        throw std::runtime_error(fmt::format(
+            "a picture of {} x {} pixels is not between 1 and this GL driver's {} a side", size.x,
+            size.y, largest));
+    const int wider = size.x % 256 == 0 ? size.x + 16 : size.x;
+    return {std::min(wider, largest), size.y};
+}
+
+std::vector<GLuint> ids(const gl::Texture& texture) { return {texture.id()}; }
+
+template <typename T>
+std::vector<T> flipped(std::vector<T> rows, glm::ivec2 size) {
+    for (int y = 0; y < size.y / 2; ++y)
+        std::swap_ranges(rows.begin() + std::ptrdiff_t(y) * size.x,
+                         rows.begin() + std::ptrdiff_t(y + 1) * size.x,
+                         rows.begin() + std::ptrdiff_t(size.y - 1 - y) * size.x);
+    return rows;
+}
+
+template <typename T>
+std::vector<T> readPixels(GLuint framebuffer, glm::ivec2 size, GLenum format) {
+    std::vector<T> pixels(std::size_t(size.x) * std::size_t(size.y));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.x, size.y, format, GL_FLOAT, pixels.data());
+    return pixels;
+}
+
+}  // namespace
+
+Targets::Targets(glm::ivec2 size)
+    : size_(size),
+      padded_(padded(size)),
+      opaqueColor_(GL_RGBA32F, padded_),
+      depth_(GL_DEPTH_COMPONENT32F, padded_),
+      lightColor_(GL_RGBA32F, padded_),
+      opaque_(ids(opaqueColor_), depth_.id()),
+      light_(ids(lightColor_)) {}
+
+GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
+    const bool scalar = channels == Channels::Weight || channels == Channels::Count;
+    const GLenum format = scalar ? GL_R32F : GL_RGBA32F;
+    if (planes_.size() <= i) planes_.resize(i + 1);
+    if (!planes_[i] || planes_[i]->format != format) {
+        gl::Texture texture(format, padded_);
+        gl::Framebuffer framebuffer(ids(texture), depth_.id());
+        planes_[i].emplace(Plane{format, std::move(texture), std::move(framebuffer)});
+    }
+    const GLuint framebuffer = planes_[i]->framebuffer.id();
+    gl::begin({.framebuffer = framebuffer, .size = size_, .clearColor = glm::vec4(0)});
+    return framebuffer;
+}
+
+Image Targets::readLight() const {
+    Image image(size_);
+    image.pixels = flipped(readPixels<glm::vec4>(light_.id(), size_, GL_RGBA), size_);
+    return image;
+}
+
+std::vector<float> Targets::readScalarPlane(std::size_t i) const {
+    return flipped(readPixels<float>(planes_[i]->framebuffer.id(), size_, GL_RED), size_);
+}
+
+std::vector<float> Targets::readOpaqueDepth() const {
+    return readPixels<float>(opaque_.id(), size_, GL_DEPTH_COMPONENT);
+}
+
+}  // namespace render

@@ -1,0 +1,48 @@
+// The pixels of one eye: the opaque scene, the planes that splats add up in, and the finished
+// light.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+#include "render/gl/object.h"
+#include "render/image.h"
+#include "render/scene.h"
+
+namespace render {
+
+class Targets {
+ public:
+    // Throws std::runtime_error when the driver cannot hold pictures of this size.
+    explicit Targets(glm::ivec2 size);
+
+    glm::ivec2 size() const { return size_; }
+    GLuint opaqueFramebuffer() const { return opaque_.id(); }
+    const gl::Texture& opaqueColor() const { return opaqueColor_; }
+    GLuint lightFramebuffer() const { return light_.id(); }
+
+    // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
+    // opaque scene's.
+    GLuint clearedPlane(std::size_t i, Channels channels);
+    const gl::Texture& plane(std::size_t i) const { return planes_[i]->texture; }
+
+    Image readLight() const;
+    // Row 0 at the top, as in Image. REQUIRES: plane i is Weight or Count.
+    std::vector<float> readScalarPlane(std::size_t i) const;
+    // Row 0 at the bottom, as a View counts.
+    std::vector<float> readOpaqueDepth() const;
+
+ private:
+    struct Plane {
+        GLenum format;
+        gl::Texture texture;
+        gl::Framebuffer framebuffer;
+    };
+    glm::ivec2 size_, padded_;
+    gl::Texture opaqueColor_, depth_, lightColor_;
+    gl::Framebuffer opaque_, light_;
+    std::vector<std::optional<Plane>> planes_;
+};
+
+}  // namespace render
