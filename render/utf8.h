@@ -1,0 +1,12 @@
+// UTF-8 to code points (RFC 3629).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace render {
+
+// Each byte that belongs to no well-formed sequence becomes U+FFFD.
+std::u32string codePoints(std::string_view utf8);
+
+}  // namespace render
