@@ -1,0 +1,28 @@
+// What a picture says of itself in words: variable, time, layers, and what was bent to draw it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/flat_mesh.h"
+#include "render/scene.h"
+
+namespace render {
+
+struct LegendLayer {
+    RangeStyle style;
+    std::string range;   // "600:1600 K"
+    std::string amount;  // "13,402 points, 6.2 %"
+};
+
+struct Legend {
+    std::string title;                // "T, temperature (K)"
+    std::string time;                 // "1.10 s, step 13 of 31"
+    std::vector<LegendLayer> layers;  // in the order of the scene's
+    std::vector<std::string> notes;   // "depth drawn stretched", "drawn in index space"
+};
+
+FlatMesh legendMesh(const Legend& legend, const Font& font, glm::ivec2 pictureSize);
+
+}  // namespace render
