@@ -32,7 +32,8 @@ void FlatMesh::rect(glm::vec2 topLeft, glm::vec2 bottomRight, glm::vec4 color) {
          corner(bottomRight.x, bottomRight.y), corner(topLeft.x, bottomRight.y));
 }
 
-void FlatMesh::gradient(glm::vec2 topLeft, glm::vec2 bottomRight, std::span<const glm::vec3> stops) {
+void FlatMesh::gradient(glm::vec2 topLeft, glm::vec2 bottomRight,
+                        std::span<const glm::vec3> stops) {
     const float step = (bottomRight.x - topLeft.x) / static_cast<float>(stops.size() - 1);
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
         const float x0 = topLeft.x + step * static_cast<float>(i), x1 = x0 + step;

@@ -1,5 +1,5 @@
-// Flat shapes in picture pixels: lines of the opaque scene, labels, legends. Pure geometry; FlatPass
-// draws it.
+// Flat shapes in picture pixels: lines of the opaque scene, labels, legends. Pure geometry;
+// FlatPass draws it.
 #pragma once
 
 #include <glm/vec2.hpp>

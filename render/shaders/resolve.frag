@@ -5,7 +5,7 @@ layout(std140, binding = 1) uniform Layers {
     vec4 style[8];  // constant linear colour; w: optical depth per weight
     vec4 map[8];    // z: > 0 when by value
 } layers;
-layout(location = 0) uniform int layerCount;  // 0: the single plane is Over
+layout(location = 0) uniform int layerCount;  // -1: the single plane is Over
 layout(binding = 0) uniform sampler2D planes[8];
 layout(binding = 8) uniform sampler2D opaque;
 
@@ -20,7 +20,7 @@ float meanTransmission(float t) {
 void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy);
     const vec4 behind = texelFetch(opaque, at, 0);
-    if (layerCount == 0) {
+    if (layerCount < 0) {
         const vec4 over = texelFetch(planes[0], at, 0);
         light = over + (1.0 - over.a) * behind;
         return;

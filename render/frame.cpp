@@ -1,0 +1,110 @@
+#include "render/frame.h"
+
+#include "render/gl/debug_output.h"
+#include "render/gl/pass.h"
+#include "render/gl_list.h"
+#include "render/shader_sources.h"
+
+namespace render {
+namespace {
+
+Font fontFor(glm::ivec2 size) { return Font(std::array{labelStyle(size), titleStyle(size)}); }
+
+glm::dvec3 midway(std::span<const View> eyes) {
+    glm::dvec3 sum(0);
+    for (const View& eye : eyes) sum += pixelRays(eye).eye;
+    return sum / static_cast<double>(eyes.size());
+}
+
+}  // namespace
+
+FrameRenderer::FrameRenderer()
+    : font_(fontFor({64, 64})), resolve_("resolve", shaders::resolve_vert, shaders::resolve_frag) {}
+
+std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
+                                              std::span<const View> eyes, const Extras& extras) {
+    const glm::ivec2 size = eyes.front().size;
+    if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
+    if (fontFor_ != size) {
+        font_ = fontFor(size);
+        flat_ = std::make_unique<FlatPass>(font_);
+        fontFor_ = size;
+    }
+    const glm::dvec3 midEye = midway(eyes);
+    ++orders_;
+    const DrawList list = order(content.scene, midEye);
+    const auto uploaded = splatter_.upload(content.scene, list, step);
+    std::vector<EyePicture> pictures;
+    for (const View& eye : eyes) {
+        ++eyes_;
+        drawOpaque(content, eye, midEye);
+        drawSplats(*uploaded, eye);
+        resolve(content.scene, size);
+        flat_->draw(legendMesh(content.legend, font_, size), targets_->lightFramebuffer(), size,
+                    gl::DepthTest::None);
+        EyePicture& picture = pictures.emplace_back();
+        picture.image = targets_->readLight();
+        if (extras.splatCount) {
+            splatter_.draw(*uploaded, eye, Channels::Count, 0,
+                           targets_->clearedPlane(0, Channels::Count));
+            picture.splatCount = targets_->readScalarPlane(0);
+        }
+    }
+    if (extras.opticalDepth) {
+        // An ordered list interleaves the layers; their weights are added from the runs.
+        const auto runs = splatter_.upload(content.scene, Runs{}, step);
+        for (std::size_t i = 0; i < eyes.size(); ++i) {
+            drawOpaque(content, eyes[i], midEye);
+            pictures[i].opticalDepth = opticalDepth(*runs, eyes[i]);
+        }
+    }
+    gl::throwOnError();
+    return pictures;
+}
+
+void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
+                               const glm::dvec3& midEye) {
+    gl::begin({.framebuffer = targets_->opaqueFramebuffer(),
+               .size = view.size,
+               .clearColor = glm::vec4(glm::vec3(content.background), 1),
+               .clearDepth = 1.0f});
+    const AxesMeshes axes = axesMeshes(content.grid, content.scene.lattice, view, midEye, font_);
+    const GLuint into = targets_->opaqueFramebuffer();
+    flat_->draw(axes.lines, into, view.size, gl::DepthTest::TestAndWrite);
+    flat_->draw(axes.labels, into, view.size, gl::DepthTest::None);
+}
+
+void FrameRenderer::drawSplats(const GpuList& list, const View& view) {
+    const std::vector<Channels> channels = channelsFor(list.scene());
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        splatter_.draw(list, view, channels[i], i, targets_->clearedPlane(i, channels[i]));
+}
+
+void FrameRenderer::resolve(const Scene& scene, glm::ivec2 size) {
+    gl::begin({.framebuffer = targets_->lightFramebuffer(), .size = size});
+    glUseProgram(resolve_.id());
+    glBindBufferBase(GL_UNIFORM_BUFFER, 1, splatter_.layerBlock().id());
+    const bool over = scene.order == Order::BackToFront;
+    glUniform1i(0, over ? -1 : static_cast<GLint>(scene.layers.size()));
+    const std::size_t planes = over ? 1 : scene.layers.size();
+    for (std::size_t i = 0; i < kMaxLayers; ++i)
+        glBindTextureUnit(static_cast<GLuint>(i), i < planes ? targets_->plane(i).id() : 0);
+    glBindTextureUnit(kMaxLayers, targets_->opaqueColor().id());
+    glBindVertexArray(noVertices_.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view) {
+    std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
+    const auto& layers = list.scene().layers;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        splatter_.draw(list, view, Channels::Weight, k,
+                       targets_->clearedPlane(0, Channels::Weight));
+        const std::vector<float> weight = targets_->readScalarPlane(0);
+        const auto perWeight = static_cast<float>(opticalDepthPerWeight(layers[k].style.opacity));
+        for (std::size_t i = 0; i < total.size(); ++i) total[i] += perWeight * weight[i];
+    }
+    return total;
+}
+
+}  // namespace render

@@ -1,0 +1,66 @@
+// One frame for any number of eyes: opaque scene, splats, resolve, legend. The draw list is ordered
+// and uploaded once and drawn once an eye, whichever front end asks.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/axes.h"
+#include "render/flat_pass.h"
+#include "render/gl_splatter.h"
+#include "render/image.h"
+#include "render/legend.h"
+#include "render/targets.h"
+
+namespace render {
+
+struct FrameContent {
+    const Scene& scene;
+    const timeseries::Grid& grid;  // the scene's, for axes
+    Legend legend;
+    glm::dvec3 background{0};  // linear
+};
+
+// What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for.
+struct EyePicture {
+    Image image;
+    std::vector<float> opticalDepth;  // of all layers together
+    std::vector<float> splatCount;    // splats that touch the pixel
+};
+struct Extras {
+    bool opticalDepth = false, splatCount = false;
+};
+
+// Needs a current GL context, from construction to destruction.
+class FrameRenderer {
+ public:
+    FrameRenderer();
+
+    // `step` holds the scene's step. Order is taken from the point midway between the eyes.
+    // REQUIRES: at least one eye, all of one size. Throws std::runtime_error on a GL error.
+    std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
+                                   std::span<const View> eyes, const Extras& extras = {});
+
+    struct Counts {
+        std::uint64_t orders = 0, uploads = 0, eyes = 0;
+    };
+    Counts counts() const { return {orders_, splatter_.counts().uploads, eyes_}; }
+
+ private:
+    void drawOpaque(const FrameContent& content, const View& view, const glm::dvec3& midEye);
+    void drawSplats(const GpuList& list, const View& view);
+    void resolve(const Scene& scene, glm::ivec2 size);
+    std::vector<float> opticalDepth(const GpuList& list, const View& view);
+
+    Font font_;
+    glm::ivec2 fontFor_{0};  // the picture size whose label styles font_ holds
+    std::unique_ptr<FlatPass> flat_;
+    GlSplatter splatter_;
+    gl::Program resolve_;
+    gl::VertexArray noVertices_;
+    std::unique_ptr<Targets> targets_;
+    std::uint64_t orders_ = 0, eyes_ = 0;
+};
+
+}  // namespace render
