@@ -1,0 +1,160 @@
+#include "timeseries/grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <stdexcept>
+
+namespace timeseries {
+namespace {
+
+Axis axis(std::vector<double> coordinates) { return {"a", "m", std::move(coordinates)}; }
+
+Axis counted(std::size_t n, double first = 0, double step = 1) {
+    Axis axis{"x", "index", {}};
+    for (std::size_t i = 0; i < n; ++i)
+        axis.coordinates.push_back(first + step * static_cast<double>(i));
+    return axis;
+}
+
+TEST(Axis, WidthIsHalfTheWayToEachNeighbour) {
+    const Axis a = axis({0, 1, 3, 7});
+    EXPECT_EQ(a.width(0), 1);  // the whole step to its only neighbour
+    EXPECT_EQ(a.width(1), 0.5 + 1);
+    EXPECT_EQ(a.width(2), 1 + 2.0);
+    EXPECT_EQ(a.width(3), 4);
+}
+
+TEST(Axis, WidthOfADescendingAxisIsNegative) {
+    const Axis a = axis({5, 3, 2});
+    EXPECT_EQ(a.width(0), -2);
+    EXPECT_EQ(a.width(1), -1.5);
+    EXPECT_EQ(a.width(2), -1);
+}
+
+TEST(Axis, WidthOfASinglePointIsZero) { EXPECT_EQ(axis({4}).width(0), 0); }
+
+TEST(Axis, EvenStepsAreUniform) {
+    EXPECT_TRUE(counted(5).uniform());
+    EXPECT_TRUE(counted(5, 10, -0.25).uniform());
+    EXPECT_TRUE(axis({3}).uniform());
+    EXPECT_TRUE(axis({3, 3.5}).uniform());
+}
+
+TEST(Axis, FloatRoundingOfCoordinatesIsStillUniform) {
+    Axis a = axis({});
+    for (int i = 0; i < 360; ++i)
+        a.coordinates.push_back(static_cast<float>(-180 + (static_cast<double>(i) + 0.5) / 3));
+    EXPECT_TRUE(a.uniform());
+}
+
+TEST(Axis, UnevenStepsAreNotUniform) {
+    EXPECT_FALSE(axis({0, 1, 3}).uniform());
+    EXPECT_FALSE(axis({0, 1, 2.01, 3}).uniform());
+}
+
+TEST(Grid, NumbersPointsXFastest) {
+    const Grid grid({axis({10, 20, 30}), axis({1, 2}), axis({-1, -2, -4, -8})});
+    EXPECT_EQ(grid.size(), (std::array<std::size_t, 3>{3, 2, 4}));
+    EXPECT_EQ(grid.count(), 24U);
+    std::uint64_t index = 0;
+    for (double z : {-1, -2, -4, -8})
+        for (double y : {1, 2})
+            for (double x : {10, 20, 30}) EXPECT_EQ(grid.position(index++), glm::dvec3(x, y, z));
+}
+
+TEST(Grid, CellIsMadeOfTheWidths) {
+    const std::array<Axis, 3> axes{axis({0, 1, 3}), axis({5, 3}), axis({0, 10, 40, 50})};
+    const Grid grid(axes);
+    for (std::uint64_t index = 0; index < grid.count(); ++index) {
+        const glm::dmat3 cell = grid.cell(index);
+        const std::uint64_t at[] = {index % 3, index / 3 % 2, index / 6};
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+                EXPECT_EQ(cell[column][row],
+                          row == column ? axes[static_cast<std::size_t>(row)].width(at[row]) : 0.0)
+                    << "point " << index << " column " << column << " row " << row;
+    }
+}
+
+TEST(Grid, AnAxisOfOnePointTakesTheSmallestMeanStep) {
+    // Mean steps: (6 - 0) / 2 = 3 along x, |1 - 5| / 2 = 2 along y.
+    const Grid grid({axis({0, 1, 6}), axis({5, 4, 1}), axis({100})});
+    for (std::uint64_t index = 0; index < grid.count(); ++index) {
+        EXPECT_EQ(grid.cell(index)[2], glm::dvec3(0, 0, 2));
+        EXPECT_EQ(grid.position(index).z, 100);
+    }
+}
+
+TEST(Grid, CellsOfEverySmallShapeAreNotSingular) {
+    for (std::size_t nx : {1, 2, 3})
+        for (std::size_t ny : {1, 2, 3})
+            for (std::size_t nz : {1, 2, 3}) {
+                const Grid grid({counted(nx, 7, 0.5), counted(ny, 7, -2), counted(nz, 7, 3)});
+                for (std::uint64_t index = 0; index < grid.count(); ++index)
+                    EXPECT_GT(std::abs(glm::determinant(grid.cell(index))), 0.0)
+                        << nx << " x " << ny << " x " << nz;
+            }
+}
+
+TEST(Grid, ASinglePointHasAUnitCell) {
+    const Grid grid({axis({3}), axis({-2}), axis({1e7})});
+    EXPECT_EQ(grid.count(), 1U);
+    EXPECT_EQ(grid.position(0), glm::dvec3(3, -2, 1e7));
+    EXPECT_EQ(grid.cell(0), glm::dmat3(1.0));
+}
+
+TEST(Grid, FarOffCoordinatesKeepTheirSpacing) {
+    const Grid grid({counted(5, 1e7, 1e-3), counted(2), counted(2)});
+    for (std::uint64_t x = 1; x < 5; ++x)
+        EXPECT_NEAR(grid.position(x).x - grid.position(x - 1).x, 1e-3, 1e-8);
+}
+
+TEST(Grid, IsUniformWhenAllAxesAre) {
+    EXPECT_TRUE(Grid({counted(3), counted(4, 0, 2), counted(1)}).uniform());
+    EXPECT_FALSE(Grid({counted(3), axis({0, 1, 4}), counted(3)}).uniform());
+}
+
+TEST(Grid, RefusesUnusableAxes) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& bad : std::initializer_list<std::vector<double>>{{},
+                                                                                     {nan},
+                                                                                     {infinity},
+                                                                                     {0, nan},
+                                                                                     {0, 1, nan, 3},
+                                                                                     {0, infinity},
+                                                                                     {-infinity, 0},
+                                                                                     {0, 0},
+                                                                                     {0, 1, 1},
+                                                                                     {0, 1, 0.5},
+                                                                                     {2, 1, 1},
+                                                                                     {2, 1, 3}})
+        for (std::size_t which = 0; which < 3; ++which) {
+            std::array<Axis, 3> axes{counted(2), counted(2), counted(2)};
+            axes[which] = axis(bad);
+            EXPECT_THROW(Grid{axes}, std::invalid_argument)
+                << bad.size() << " coordinates on axis " << which;
+        }
+}
+
+TEST(Grid, RefusesMorePointsThanFitSixtyThreeBits) {
+    const std::size_t n = (std::size_t{1} << 21) + 1;  // n^3 > 2^63
+    EXPECT_THROW(Grid({counted(n), counted(n), counted(n)}), std::invalid_argument);
+}
+
+TEST(Grid, CountsBeyondThirtyTwoBits) {
+    EXPECT_EQ(Grid({counted(65536), counted(65536), counted(3)}).count(), std::uint64_t{3} << 32);
+}
+
+TEST(Grid, ComparesByAxes) {
+    EXPECT_EQ(Grid({counted(3), counted(2), counted(1)}),
+              Grid({counted(3), counted(2), counted(1)}));
+    EXPECT_FALSE(Grid({counted(3), counted(2), counted(1)}) ==
+                 Grid({counted(2), counted(3), counted(1)}));
+}
+
+}  // namespace
+}  // namespace timeseries

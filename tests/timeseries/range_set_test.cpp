@@ -1,0 +1,487 @@
+#include "timeseries/range_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "tests/support/selection_oracle.h"
+
+namespace timeseries {
+namespace {
+
+using oracle::describe;
+using oracle::Real;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kTwo53 = std::int64_t{1} << 53;
+constexpr std::int64_t kTwo60 = std::int64_t{1} << 60;
+
+Range closed(Number lo, Number hi) { return {{lo, false}, {hi, false}}; }
+Range open(Number lo, Number hi) { return {{lo, true}, {hi, true}}; }
+Range halfOpen(Number lo, Number hi) { return {{lo, false}, {hi, true}}; }
+Range openLow(Number lo, Number hi) { return {{lo, true}, {hi, false}}; }
+
+std::int64_t operator""_i(unsigned long long i) { return static_cast<std::int64_t>(i); }
+
+// Reals at which two sets made of these numbers can differ: the numbers and a real between any two.
+std::vector<Real> probes(const std::vector<Number>& numbers) {
+    std::vector<Real> reals;
+    for (const Number& number : numbers) reals.push_back(oracle::real(number));
+    std::sort(reals.begin(), reals.end());
+    const std::size_t count = reals.size();
+    for (std::size_t i = 1; i < count; ++i)
+        if (std::isfinite(reals[i - 1]) && std::isfinite(reals[i]))
+            reals.push_back(reals[i - 1] + (reals[i] - reals[i - 1]) / 2);
+    const Real largest = std::numeric_limits<Real>::max();
+    reals.insert(reals.end(), {-largest, largest});
+    return reals;
+}
+
+bool anyHolds(std::span<const Range> ranges, Real x) {
+    for (const Range& range : ranges)
+        if (oracle::holdsReal(range, x)) return true;
+    return false;
+}
+
+// Ascending, disjoint, not touching, none empty.
+bool canonical(std::span<const Range> ranges) {
+    for (const Range& range : ranges) {
+        const auto order = compare(range.lo.value, range.hi.value);
+        if (order == std::partial_ordering::unordered || order > 0) return false;
+        if (order == 0 && (range.lo.open || range.hi.open)) return false;
+    }
+    for (std::size_t i = 1; i < ranges.size(); ++i) {
+        const Bound &end = ranges[i - 1].hi, &begin = ranges[i].lo;
+        const auto order = compare(end.value, begin.value);
+        if (order > 0 || (order == 0 && !(end.open && begin.open))) return false;
+    }
+    return true;
+}
+
+TEST(RangeSet, EmptyRangesAreDropped) {
+    for (const Range& empty :
+         {closed(2.0, 1.0), closed(1_i, -1.0), open(1.0, 1.0), halfOpen(1.0, 1_i),
+          openLow(1_i, 1.0), closed(kNan, 1.0), closed(1.0, kNan), closed(kNan, kNan),
+          open(-0.0, 0.0), openLow(kInfinity, kInfinity), closed(kInfinity, -kInfinity)})
+        EXPECT_TRUE(RangeSet({empty}).empty()) << describe(empty);
+    EXPECT_TRUE(RangeSet().empty());
+    EXPECT_TRUE(RangeSet(std::vector<Range>{}).empty());
+}
+
+TEST(RangeSet, PointsAndInfinitiesAreNotEmpty) {
+    for (const Range& range :
+         {closed(1.0, 1.0), closed(-0.0, 0.0), closed(0.0, -0.0), closed(kInfinity, kInfinity),
+          closed(-kInfinity, -kInfinity), closed(1_i, 1.0)})
+        EXPECT_EQ(RangeSet({range}).ranges().size(), 1U) << describe(range);
+}
+
+TEST(RangeSet, TouchingRangesMerge) {
+    EXPECT_EQ(RangeSet({halfOpen(1.0, 2.0), closed(2.0, 3.0)}), RangeSet({closed(1.0, 3.0)}));
+    EXPECT_EQ(RangeSet({closed(1.0, 2.0), openLow(2.0, 3.0)}), RangeSet({closed(1.0, 3.0)}));
+    EXPECT_EQ(RangeSet({openLow(2.0, 3.0), closed(1.0, 2.0)}), RangeSet({closed(1.0, 3.0)}));
+}
+
+TEST(RangeSet, AnExcludedPointKeepsRangesApart) {
+    EXPECT_EQ(RangeSet({halfOpen(1.0, 2.0), openLow(2.0, 3.0)}).ranges().size(), 2U);
+    EXPECT_EQ(RangeSet({halfOpen(1.0, 2.0), openLow(2.0, 3.0), closed(2_i, 2_i)}),
+              RangeSet({closed(1.0, 3.0)}));
+}
+
+TEST(RangeSet, AContainedRangeDisappears) {
+    EXPECT_EQ(RangeSet({closed(0.0, 9.0), open(2.0, 3.0), closed(9.0, 9.0), open(0.0, 9.0)}),
+              RangeSet({closed(0.0, 9.0)}));
+}
+
+TEST(RangeSet, MergesExactlyAcrossNumberTypes) {
+    const std::uint64_t same = static_cast<std::uint64_t>(kTwo53) + 1;
+    // 2^53 + 1 is no double: through doubles these would be [.., 2^53) and (2^53, ..].
+    EXPECT_EQ(RangeSet({closed(0_i, kTwo53 + 1), openLow(same, 1e300)}).ranges().size(), 1U);
+    EXPECT_EQ(RangeSet({halfOpen(0_i, kTwo53 + 1), openLow(same, 1e300)}).ranges().size(), 2U);
+    EXPECT_EQ(RangeSet({halfOpen(0.0, 0x1p53), closed(kTwo53 + 1, 1e300)}).ranges().size(), 2U);
+    EXPECT_EQ(RangeSet({closed(0.0, 0x1p60), closed(kTwo60 + 1, kTwo60 + 2)}).ranges().size(), 2U);
+    EXPECT_EQ(RangeSet({halfOpen(0.0, 0x1p60), closed(kTwo60, kTwo60 + 2)}).ranges().size(), 1U);
+    const std::uint64_t top = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(RangeSet({closed(0_i, top), closed(0x1p64, 1e300)}).ranges().size(), 2U);
+}
+
+TEST(RangeSet, EverythingHoldsTheInfinities) {
+    const RangeSet all = RangeSet::everything();
+    ASSERT_EQ(all.ranges().size(), 1U);
+    for (Real x : {-static_cast<Real>(kInfinity), Real{0}, static_cast<Real>(kInfinity)})
+        EXPECT_TRUE(anyHolds(all.ranges(), x));
+    EXPECT_EQ(RangeSet({closed(-kInfinity, kInfinity)}), all);
+}
+
+TEST(RangeSet, EqualityIsOfTheSetNotOfItsSpelling) {
+    EXPECT_EQ(RangeSet({closed(1_i, 2_i)}), RangeSet({closed(1.0, std::uint64_t{2})}));
+    EXPECT_EQ(RangeSet({closed(0.0, 1.0)}), RangeSet({closed(-0.0, 1.0)}));
+    EXPECT_FALSE(RangeSet({closed(1.0, 2.0)}) == RangeSet({halfOpen(1.0, 2.0)}));
+    EXPECT_FALSE(RangeSet({closed(kTwo60, kTwo60)}) == RangeSet({closed(kTwo60 + 1, kTwo60 + 1)}));
+    EXPECT_FALSE(RangeSet({closed(1.0, 2.0)}) == RangeSet());
+}
+
+TEST(RangeSet, RandomSetsAreCanonicalAndHoldExactlyTheirRanges) {
+    const std::vector<Number> numbers = oracle::awkwardNumbers();
+    std::vector<Number> withNan = numbers;
+    withNan.push_back(kNan);
+    const std::vector<Real> reals = probes(numbers);
+    std::mt19937_64 random(21);
+    for (int i = 0; i < 4000; ++i) {
+        const std::vector<Range> given = oracle::randomRanges(random, 7, withNan);
+        const RangeSet set(given);
+        SCOPED_TRACE("case " + std::to_string(i) + " " + describe(given) + " became " +
+                     describe(set.ranges()));
+        ASSERT_TRUE(canonical(set.ranges()));
+        for (Real x : reals) ASSERT_EQ(anyHolds(set.ranges(), x), anyHolds(given, x)) << x;
+        ASSERT_EQ(RangeSet({set.ranges().begin(), set.ranges().end()}), set);
+    }
+}
+
+TEST(RangeSet, RandomUnionsHoldWhatAnyMemberHolds) {
+    const std::vector<Number> numbers = oracle::awkwardNumbers();
+    const std::vector<Real> reals = probes(numbers);
+    std::mt19937_64 random(22);
+    for (int i = 0; i < 1000; ++i) {
+        std::vector<RangeSet> sets(random() % 4);
+        std::vector<Range> all;
+        for (RangeSet& set : sets) {
+            set = RangeSet(oracle::randomRanges(random, 3, numbers));
+            all.insert(all.end(), set.ranges().begin(), set.ranges().end());
+        }
+        const RangeSet joined = unionOf(sets);
+        SCOPED_TRACE("case " + std::to_string(i) + " " + describe(all) + " became " +
+                     describe(joined.ranges()));
+        ASSERT_TRUE(canonical(joined.ranges()));
+        for (Real x : reals) ASSERT_EQ(anyHolds(joined.ranges(), x), anyHolds(all, x)) << x;
+    }
+    EXPECT_TRUE(unionOf({}).empty());
+}
+
+// --- Conversion to a field's type.
+
+template <typename T>
+class RangeSetIn : public testing::Test {};
+using ValueTypes =
+    testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                   std::int32_t, std::uint64_t, std::int64_t, float, double>;
+TYPED_TEST_SUITE(RangeSetIn, ValueTypes);
+
+template <typename T>
+bool intervalHolds(std::span<const Interval<T>> intervals, T v) {
+    for (const Interval<T>& interval : intervals)
+        if (interval.lo <= v && v <= interval.hi) return true;
+    return false;
+}
+
+// Values of T around every awkward number.
+template <typename T>
+std::vector<T> values() {
+    std::vector<T> all = oracle::awkwardValues<T>();
+    for (const Number& number : oracle::awkwardNumbers()) oracle::addNear<T>(number, all);
+    return all;
+}
+
+TYPED_TEST(RangeSetIn, EveryRangeOfAwkwardBoundsConvertsExactly) {
+    using T = TypeParam;
+    std::vector<Number> numbers = oracle::awkwardNumbers();
+    numbers.push_back(kNan);
+    const std::vector<T> all = values<T>();
+    for (const Number& lo : numbers)
+        for (const Number& hi : numbers)
+            for (int ends = 0; ends < 4; ++ends) {
+                const Range range{{lo, (ends & 1) != 0}, {hi, (ends & 2) != 0}};
+                Interval<T> interval{};
+                const bool found = toInterval(range, interval);
+                ASSERT_TRUE(!found || interval.lo <= interval.hi) << describe(range);
+                bool any = false;
+                for (T v : all) {
+                    const bool expected = oracle::holds(range, v);
+                    any = any || expected;
+                    ASSERT_EQ(found && interval.lo <= v && v <= interval.hi, expected)
+                        << describe(range) << " at " << static_cast<Real>(v);
+                }
+                ASSERT_EQ(found, any) << describe(range);
+            }
+}
+
+TYPED_TEST(RangeSetIn, RandomSetsBecomeAscendingIntervalsWithGaps) {
+    using T = TypeParam;
+    const std::vector<Number> numbers = oracle::awkwardNumbers();
+    const std::vector<T> all = values<T>();
+    std::mt19937_64 random(23);
+    for (int i = 0; i < 2000; ++i) {
+        const RangeSet set(oracle::randomRanges(random, 7, numbers));
+        const std::vector<Interval<T>> intervals = set.toIntervals<T>();
+        SCOPED_TRACE("case " + std::to_string(i) + " " + describe(set.ranges()));
+        for (std::size_t k = 0; k < intervals.size(); ++k) {
+            ASSERT_LE(intervals[k].lo, intervals[k].hi);
+            if (k == 0) continue;
+            ASSERT_LT(intervals[k - 1].hi, intervals[k].lo);
+            ASSERT_LT(oracle::neighbour(intervals[k - 1].hi, 1), intervals[k].lo);
+        }
+        for (T v : all)
+            ASSERT_EQ(intervalHolds<T>(intervals, v), oracle::holds<T>(set.ranges(), v))
+                << static_cast<Real>(v);
+    }
+}
+
+TYPED_TEST(RangeSetIn, EverythingIsOneIntervalFromEndToEnd) {
+    using T = TypeParam;
+    using L = std::numeric_limits<T>;
+    const std::vector<Interval<T>> all = RangeSet::everything().toIntervals<T>();
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].lo, L::has_infinity ? -L::infinity() : L::lowest());
+    EXPECT_EQ(all[0].hi, L::has_infinity ? L::infinity() : L::max());
+}
+
+TEST(RangeSetConversion, RangesThatMeetOnlyInFloatBecomeOne) {
+    const RangeSet set({closed(0.0, 1.0), openLow(1 + 1e-12, 2.0)});
+    ASSERT_EQ(set.ranges().size(), 2U);
+    EXPECT_EQ(set.toIntervals<float>(), (std::vector<Interval<float>>{{0, 2}}));
+    EXPECT_EQ(set.toIntervals<double>().size(), 2U);
+}
+
+TEST(RangeSetConversion, RangesThatOverlapOnlyInFloatBecomeOne) {
+    const RangeSet set({closed(0.0, 1 + 1e-9), closed(1 + 2e-9, 2.0)});
+    EXPECT_EQ(set.toIntervals<float>(), (std::vector<Interval<float>>{{0, 2}}));
+}
+
+TEST(RangeSetConversion, IntegerNeighboursAreAdjacent) {
+    EXPECT_EQ(RangeSet({closed(1_i, 2_i), closed(3_i, 4_i)}).toIntervals<std::int32_t>(),
+              (std::vector<Interval<std::int32_t>>{{1, 4}}));
+    EXPECT_EQ(RangeSet({closed(1_i, 2_i), closed(4_i, 5_i)}).toIntervals<std::int32_t>(),
+              (std::vector<Interval<std::int32_t>>{{1, 2}, {4, 5}}));
+    EXPECT_EQ(RangeSet({halfOpen(1.0, 2.5), openLow(2.5, 4.0)}).toIntervals<std::int32_t>(),
+              (std::vector<Interval<std::int32_t>>{{1, 4}}));
+}
+
+TEST(RangeSetConversion, OpenAndClosedEndsOfFractionsAreTheSameInIntegers) {
+    for (const Range& range : {closed(0.5, 3.5), open(0.5, 3.5), open(0.0, 4.0), closed(1.0, 3.0)})
+        EXPECT_EQ(RangeSet({range}).toIntervals<std::uint8_t>(),
+                  (std::vector<Interval<std::uint8_t>>{{1, 3}}))
+            << describe(range);
+}
+
+TEST(RangeSetConversion, NeighboursOfTwoToTheSixtyAreSeparate) {
+    EXPECT_EQ(RangeSet({closed(kTwo60 + 1, kTwo60 + 1)}).toIntervals<std::int64_t>(),
+              (std::vector<Interval<std::int64_t>>{{kTwo60 + 1, kTwo60 + 1}}));
+    EXPECT_EQ(RangeSet({openLow(0x1p60, kTwo60 + 1)}).toIntervals<std::int64_t>(),
+              (std::vector<Interval<std::int64_t>>{{kTwo60 + 1, kTwo60 + 1}}));
+    EXPECT_TRUE(RangeSet({open(kTwo60, kTwo60 + 1)}).toIntervals<std::int64_t>().empty());
+}
+
+TEST(RangeSetConversion, ClosedZeroHoldsBothZerosAndOpenNeither) {
+    for (double zero : {0.0, -0.0}) {
+        const auto at = RangeSet({closed(zero, zero)}).toIntervals<float>();
+        ASSERT_EQ(at.size(), 1U);
+        EXPECT_TRUE(intervalHolds<float>(at, -0.0F) && intervalHolds<float>(at, 0.0F));
+        const auto above = RangeSet({openLow(zero, 1.0)}).toIntervals<float>();
+        ASSERT_EQ(above.size(), 1U);
+        EXPECT_EQ(above[0].lo, std::numeric_limits<float>::denorm_min());
+        const auto below = RangeSet({halfOpen(-1.0, zero)}).toIntervals<float>();
+        ASSERT_EQ(below.size(), 1U);
+        EXPECT_EQ(below[0].hi, -std::numeric_limits<float>::denorm_min());
+    }
+}
+
+TEST(RangeSetConversion, FiniteBoundsBeyondFloatStayOutside) {
+    using F = std::numeric_limits<float>;
+    EXPECT_EQ(RangeSet({closed(-1e300, 1e300)}).toIntervals<float>(),
+              (std::vector<Interval<float>>{{F::lowest(), F::max()}}));
+    EXPECT_EQ(RangeSet({open(-1e300, 1e300)}).toIntervals<float>(),
+              (std::vector<Interval<float>>{{F::lowest(), F::max()}}));
+    EXPECT_EQ(RangeSet({closed(1e300, kInfinity)}).toIntervals<float>(),
+              (std::vector<Interval<float>>{{F::infinity(), F::infinity()}}));
+    EXPECT_TRUE(RangeSet({closed(1e299, 1e300)}).toIntervals<float>().empty());
+}
+
+// --- Text.
+
+TEST(RangeText, DocumentedFormsAreRead) {
+    const std::pair<const char*, RangeSet> cases[] = {
+        {"1:2", RangeSet({closed(1_i, 2_i)})},
+        {"-1.5:2e3", RangeSet({closed(-1.5, 2000.0)})},
+        {"[1,2)", RangeSet({halfOpen(1_i, 2_i)})},
+        {"(1,2]", RangeSet({openLow(1_i, 2_i)})},
+        {"(1,2)", RangeSet({open(1_i, 2_i)})},
+        {"[1,2]", RangeSet({closed(1_i, 2_i)})},
+        {"[1:2)", RangeSet({halfOpen(1_i, 2_i)})},
+        {"(1:2]", RangeSet({openLow(1_i, 2_i)})},
+        {"5~2", RangeSet({closed(3_i, 7_i)})},
+        {"3~5", RangeSet({closed(-2.0, 8.0)})},
+        {"1.5~0.25", RangeSet({closed(1.25, 1.75)})},
+        {"-1.5~0", RangeSet({closed(-1.5, -1.5)})},
+        {"min:2", RangeSet({closed(-kInfinity, 2.0)})},
+        {"2:max", RangeSet({closed(2.0, kInfinity)})},
+        {"min:max", RangeSet::everything()},
+        {"-inf:inf", RangeSet::everything()},
+        {"inf", RangeSet({closed(kInfinity, kInfinity)})},
+        {"(0,max]", RangeSet({openLow(0.0, kInfinity)})},
+        {"[min,0)", RangeSet({halfOpen(-kInfinity, 0.0)})},
+        {"7", RangeSet({closed(7_i, 7_i)})},
+        {"-7.5", RangeSet({closed(-7.5, -7.5)})},
+        {"1e-3", RangeSet({closed(1e-3, 1e-3)})},
+        {"1:2,5:6", RangeSet({closed(1_i, 2_i), closed(5_i, 6_i)})},
+        {"5:6,1:2", RangeSet({closed(1_i, 2_i), closed(5_i, 6_i)})},
+        {"1:3,2:4", RangeSet({closed(1_i, 4_i)})},
+        {"[1,2),(3:4],9,20~1,100:max",
+         RangeSet({halfOpen(1_i, 2_i), openLow(3_i, 4_i), closed(9_i, 9_i), closed(19_i, 21_i),
+                   closed(100.0, kInfinity)})},
+    };
+    for (const auto& [text, expected] : cases) {
+        const RangeSet read = RangeSet::parse(text);
+        EXPECT_EQ(read, expected) << text << " was read as " << describe(read.ranges());
+    }
+}
+
+TEST(RangeText, IntegersStayIntegers) {
+    const RangeSet set = RangeSet::parse("1152921504606846977:1152921504606846978");
+    ASSERT_EQ(set.ranges().size(), 1U);
+    EXPECT_TRUE(compare(set.ranges()[0].lo.value, kTwo60 + 1) == 0);
+    EXPECT_TRUE(compare(set.ranges()[0].hi.value, kTwo60 + 2) == 0);
+    EXPECT_FALSE(std::holds_alternative<double>(set.ranges()[0].lo.value));
+
+    EXPECT_EQ(RangeSet::parse("1152921504606846977~1"), RangeSet({closed(kTwo60, kTwo60 + 2)}));
+    EXPECT_EQ(RangeSet::parse("-9223372036854775808:18446744073709551615"),
+              RangeSet({closed(std::numeric_limits<std::int64_t>::min(),
+                               std::numeric_limits<std::uint64_t>::max())}));
+    EXPECT_TRUE(std::holds_alternative<double>(RangeSet::parse("1.0").ranges()[0].lo.value));
+    EXPECT_TRUE(std::holds_alternative<double>(RangeSet::parse("1e0").ranges()[0].lo.value));
+}
+
+TEST(RangeText, CentreAndWidthAreExactForIntegers) {
+    // Through doubles, c - d and c + d would both round to 2^63.
+    EXPECT_EQ(RangeSet::parse("9223372036854775809~3"),
+              RangeSet({closed((std::uint64_t{1} << 63) - 2, (std::uint64_t{1} << 63) + 4)}));
+    EXPECT_EQ(RangeSet::parse("-9223372036854775807~1"),
+              RangeSet({closed(std::numeric_limits<std::int64_t>::min(),
+                               std::numeric_limits<std::int64_t>::min() + 2)}));
+    EXPECT_EQ(RangeSet::parse("9223372036854775808~9223372036854775807"),
+              RangeSet({closed(1_i, std::numeric_limits<std::uint64_t>::max())}));
+}
+
+TEST(RangeText, AnIntegerBeyondAllTypesIsNotReadAsAnother) {
+    try {
+        const RangeSet set = RangeSet::parse("99999999999999999999");
+        EXPECT_EQ(set, RangeSet({closed(99999999999999999999.0, 99999999999999999999.0)}));
+    } catch (const RangeSyntaxError&) {
+        SUCCEED();
+    }
+}
+
+TEST(RangeText, MalformedTextsGiveOneSentenceThatQuotesThem) {
+    for (const std::string text : {"",
+                                   " ",
+                                   ",",
+                                   "1:",
+                                   ":2",
+                                   ":",
+                                   "1:2:3",
+                                   "abc",
+                                   "1:2,",
+                                   ",1",
+                                   "1,,2",
+                                   "2:1",
+                                   "nan",
+                                   "nan:1",
+                                   "1:nan",
+                                   "NaN~1",
+                                   "1~nan",
+                                   "1~-1",
+                                   "1~",
+                                   "~1",
+                                   "1~2~3",
+                                   "1~-0.5",
+                                   "[1,2",
+                                   "1,2]",
+                                   "(1:2",
+                                   "1:2)",
+                                   "[1 2]",
+                                   "1..2",
+                                   "1.2.3",
+                                   "1:2 x",
+                                   "x1:2",
+                                   "--1",
+                                   "1e",
+                                   "1e+",
+                                   "e5",
+                                   ".",
+                                   "-",
+                                   "+",
+                                   "[]",
+                                   "[,]",
+                                   "[1,]",
+                                   "[,1]",
+                                   "[[1,2]",
+                                   "[1,2]]",
+                                   "[1,2]3",
+                                   "3[1,2]",
+                                   "[1,2,3]",
+                                   "max:min",
+                                   "inf:-inf",
+                                   "[2,1)",
+                                   "{1,2}",
+                                   "1:2;3:4",
+                                   "1-2",
+                                   "1/2",
+                                   "0x",
+                                   "minmax",
+                                   "min:mix",
+                                   "1:2,3:2",
+                                   "[1:2],",
+                                   "1'000",
+                                   "1:2\n:3",
+                                   "[1~2]:",
+                                   "2:1.9999",
+                                   "9223372036854775809:9223372036854775808",
+                                   "18446744073709551615:-1"}) {
+        try {
+            const RangeSet set = RangeSet::parse(text);
+            ADD_FAILURE() << "'" << text << "' was read as " << describe(set.ranges());
+        } catch (const RangeSyntaxError& error) {
+            const std::string what = error.what();
+            // It quotes the text, or the one range of it that is wrong.
+            const std::size_t begin = what.find('\''), end = what.find("':", begin + 1);
+            ASSERT_TRUE(begin != std::string::npos && end != std::string::npos) << what;
+            EXPECT_THAT(text, testing::HasSubstr(what.substr(begin + 1, end - begin - 1)));
+            // One sentence: nothing follows a full stop.
+            EXPECT_THAT(what, testing::Not(testing::HasSubstr(". "))) << text;
+        }
+    }
+}
+
+TEST(RangeText, AnEmbeddedNulIsMalformed) {
+    EXPECT_THROW(RangeSet::parse(std::string_view("1:2\0,3", 6)), RangeSyntaxError);
+}
+
+TEST(RangeText, TheEmptySetHasNoText) { EXPECT_EQ(RangeSet().text(), ""); }
+
+TEST(RangeText, RandomSetsReadBackTheSame) {
+    const std::vector<Number> awkward = oracle::awkwardNumbers();
+    std::mt19937_64 random(24);
+    for (int i = 0; i < 4000; ++i) {
+        std::vector<Number> numbers = awkward;
+        for (int k = 0; k < 20; ++k) {
+            const std::uint64_t bits = random();
+            const double value = std::bit_cast<double>(bits);
+            if (!std::isnan(value)) numbers.push_back(value);
+            numbers.push_back(bits);
+            numbers.push_back(static_cast<std::int64_t>(bits));
+        }
+        const RangeSet set(oracle::randomRanges(random, 6, numbers));
+        if (set.empty()) continue;
+        SCOPED_TRACE("case " + std::to_string(i) + " " + describe(set.ranges()) + " text " +
+                     set.text());
+        const RangeSet read = RangeSet::parse(set.text());
+        ASSERT_EQ(read, set) << "read as " << describe(read.ranges());
+        ASSERT_EQ(RangeSet::parse(read.text()), set) << read.text();
+    }
+}
+
+}  // namespace
+}  // namespace timeseries
