@@ -1,0 +1,137 @@
+#include "timeseries/time_units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace timeseries {
+namespace {
+
+std::string date(const char* units, const Number& value, Calendar calendar = Calendar::Standard) {
+    const auto parsed = TimeUnits::parse(units, calendar);
+    return parsed ? parsed->date(value) : "not understood";
+}
+
+TEST(TimeUnits, HoursOfAClimatologyStayInYearZero) {
+    // 366 h are 15 days and 6 hours; year 0 is a Julian leap year, so day 59 is February 29th.
+    EXPECT_EQ(date("hours since 0000-01-01 00:00:00", 366.0), "0000-01-16 06:00:00");
+    EXPECT_EQ(date("days since 0000-01-01", 59.0), "0000-02-29 00:00:00");
+    EXPECT_EQ(date("days since 0000-01-01", 366.0), "0001-01-01 00:00:00");
+    EXPECT_EQ(date("days since 0000-01-01", -1.0), "-0001-12-31 00:00:00");
+    EXPECT_EQ(date("days since -4712-01-01 12:00", 2451545.0), "2000-01-01 12:00:00");
+}
+
+TEST(TimeUnits, EachCalendarCountsItsOwnDays) {
+    EXPECT_EQ(date("days since 2000-02-28", 1.0), "2000-02-29 00:00:00");
+    EXPECT_EQ(date("days since 2000-02-28", 1.0, Calendar::NoLeap), "2000-03-01 00:00:00");
+    EXPECT_EQ(date("days since 2001-02-28", 1.0, Calendar::AllLeap), "2001-02-29 00:00:00");
+    EXPECT_EQ(date("days since 2001-02-28", 3.0, Calendar::Day360), "2001-03-01 00:00:00");
+    EXPECT_EQ(date("days since 1900-02-28", 1.0, Calendar::Julian), "1900-02-29 00:00:00");
+    EXPECT_EQ(date("days since 1582-10-04", 1.0), "1582-10-15 00:00:00");
+    EXPECT_EQ(date("days since 1582-10-04", 1.0, Calendar::ProlepticGregorian),
+              "1582-10-05 00:00:00");
+    EXPECT_EQ(date("days since 0001-01-01", 360.0 * 1999, Calendar::Day360),
+              "2000-01-01 00:00:00");
+    EXPECT_EQ(date("days since 0001-01-01", 365.0 * 1999, Calendar::NoLeap),
+              "2000-01-01 00:00:00");
+}
+
+TEST(TimeUnits, FractionsShowTheTimeThatWasMeant) {
+    for (int tenth = 0; tenth < 240; ++tenth) {
+        char expected[64];
+        std::snprintf(expected, sizeof expected, "2020-01-01 %02d:%02d:00", tenth / 10,
+                      tenth % 10 * 6);
+        EXPECT_EQ(date("hours since 2020-01-01", 0.1 * tenth), expected) << tenth;
+        EXPECT_EQ(date("days since 2020-01-01", tenth / 240.0), expected) << tenth;
+        // 43829 days from 1900-01-01 to 2020-01-01: 120 years with 29 leap days.
+        EXPECT_EQ(date("days since 1900-01-01", 43829 + tenth / 240.0), expected) << tenth;
+    }
+    EXPECT_EQ(date("s since 2020-01-01", 0.25), "2020-01-01 00:00:00.250");
+    EXPECT_EQ(date("s since 2020-01-01", -0.25), "2019-12-31 23:59:59.750");
+    EXPECT_EQ(date("s since 2020-01-01", 59.99999), "2020-01-01 00:01:00");
+    EXPECT_EQ(date("ms since 2020-01-01", 1.0), "2020-01-01 00:00:00.001");
+}
+
+TEST(TimeUnits, IntegersBeyondTwoToThe53AreExact) {
+    // Half a millisecond short of a whole one, less a nanosecond: it rounds down. The next double,
+    // 128 ns on, rounds up.
+    const std::int64_t ns = (std::int64_t{1'152'921'504'606'499'999});
+    const double rounded = std::nextafter(static_cast<double>(ns), 2e18);
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", ns), "2006-07-14 23:58:24.606");
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", rounded), "2006-07-14 23:58:24.607");
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", static_cast<std::uint64_t>(ns)),
+              "2006-07-14 23:58:24.606");
+}
+
+TEST(TimeUnits, ZonesShiftTheReference) {
+    EXPECT_EQ(date("hours since 1992-10-08 15:15:42.5 -6:00", 0.0), "1992-10-08 21:15:42.500");
+    EXPECT_EQ(date("hours since 1992-10-08 00:15 +5:30", 0.0), "1992-10-07 18:45:00");
+    EXPECT_EQ(date("hours since 1992-10-08T12:00:00Z", 1.0), "1992-10-08 13:00:00");
+    EXPECT_EQ(date("hours since 1992-10-08 12:00:00 UTC", 1.0), "1992-10-08 13:00:00");
+    EXPECT_EQ(date("hours since 1992-10-08 12:00:00 +0130", 0.0), "1992-10-08 10:30:00");
+    EXPECT_EQ(date("hours since 1992-10-08 12:00:00 +1", 0.0), "1992-10-08 11:00:00");
+}
+
+TEST(TimeUnits, FormsOfTheReference) {
+    EXPECT_EQ(date("days since 1-1-1", 0.0), "0001-01-01 00:00:00");
+    EXPECT_EQ(date("Days Since 2000-1-2 3:4:5", 0.0), "2000-01-02 03:04:05");
+    EXPECT_EQ(date("days since 2000-1-2 3", 0.0), "2000-01-02 03:00:00");
+    EXPECT_EQ(date("days since 2000", 0.0), "2000-01-01 00:00:00");
+    EXPECT_EQ(date("  hour  since  2000-01-01 24:00:00 ", 0.0), "2000-01-02 00:00:00");
+    EXPECT_EQ(date("weeks since 2000-01-01", 1.0), "2000-01-08 00:00:00");
+}
+
+TEST(TimeUnits, YearsAndMonthsAreThoseOfUdunits) {
+    // 365.242198781 d = 365 d 5 h 48 min 45.975 s; a twelfth is 30 d 10 h 29 min 3.831 s.
+    EXPECT_EQ(date("years since 2001-01-01", 1.0), "2002-01-01 05:48:45.975");
+    EXPECT_EQ(date("months since 2001-01-01", 1.0), "2001-01-31 10:29:03.831");
+    EXPECT_EQ(date("months since 2001-01-01", 12.0), date("years since 2001-01-01", 1.0));
+    EXPECT_EQ(date("common_years since 2001-01-01", 1.0), "2002-01-01 00:00:00");
+}
+
+TEST(TimeUnits, WhatIsNoTimeIsNotUnderstood) {
+    for (const char* text :
+         {"", "s", "hours", "hours since", "hours since yesterday", "K since 2000-01-01",
+          "hours since 2000-13-01", "hours since 2000-02-30", "hours since 1582-10-10",
+          "hours since 2000-01-01 25:00", "hours since 2000-01-01 10:61",
+          "hours since 2000-01-01 10:00 MARS", "hours since 2000-01-01 10:00:00 junk",
+          "since 2000-01-01", "hours since 99999999999999999-01-01", "hours since --1-01-01"})
+        EXPECT_EQ(date(text, 0.0), "not understood") << text;
+    EXPECT_EQ(date("days since 2001-02-29", 0.0, Calendar::NoLeap), "not understood");
+}
+
+TEST(TimeUnits, ValuesWithoutADateGiveNone) {
+    EXPECT_EQ(date("days since 2000-01-01", std::nan("")), "");
+    EXPECT_EQ(date("days since 2000-01-01", HUGE_VAL), "");
+    EXPECT_EQ(date("days since 2000-01-01", 1e300), "");
+    EXPECT_EQ(date("days since 2000-01-01", -1e18), "");
+    EXPECT_EQ(date("days since 2000-01-01", 1e-300), "2000-01-01 00:00:00");
+    // 9.97e36, netCDF's default fill, is no date either.
+    EXPECT_EQ(date("seconds since 2000-01-01", 9.969209968386869e36), "");
+}
+
+TEST(TimeUnits, ConvertingKeepsTheInstant) {
+    const auto hours = TimeUnits::parse("hours since 2000-01-01", Calendar::Standard);
+    const auto days = TimeUnits::parse("days since 1999-12-30 12:00", Calendar::Standard);
+    const auto old = TimeUnits::parse("seconds since 0000-01-01", Calendar::Standard);
+    EXPECT_EQ(hours->convert(2.0, *days), 12.0);  // 36 h before the year, 48 h on
+    EXPECT_EQ(hours->convert(0.1, *hours), 0.1);
+    EXPECT_EQ(days->convert(-36.0, *hours), 0.0);
+    for (const double h : {0.0, 0.1, 1.0 / 3, 17.25, 1e6, -123456.789}) {
+        const double seconds = old->convert(h, *hours);
+        EXPECT_NEAR(hours->convert(seconds, *old), h, 1e-5 / 3600 * 2) << h;  // ulp of 6e10 s
+        EXPECT_EQ(hours->date(h), old->date(seconds)) << h;
+    }
+}
+
+TEST(TimeUnits, TheFormAloneIsRecognised) {
+    EXPECT_TRUE(looksLikeTimeUnits("days since the flood"));
+    EXPECT_TRUE(looksLikeTimeUnits("Months since 1900-1-1"));
+    EXPECT_FALSE(looksLikeTimeUnits("days"));
+    EXPECT_FALSE(looksLikeTimeUnits("metres since 2000-01-01"));
+    EXPECT_FALSE(looksLikeTimeUnits("since"));
+}
+
+}  // namespace
+}  // namespace timeseries
