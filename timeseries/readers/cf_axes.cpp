@@ -1,0 +1,203 @@
+#include "timeseries/readers/cf_axes.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "timeseries/time_units.h"
+#include "timeseries/units.h"
+
+namespace timeseries {
+namespace {
+
+using enum AxisKind;
+
+bool isOneOf(std::string_view text, std::initializer_list<std::string_view> list) {
+    return std::ranges::find(list, text) != list.end();
+}
+
+std::optional<AxisKind> byAxis(const NcVariable& v) {
+    const std::string axis = lower(v.text("axis"));
+    if (axis == "x") return X;
+    if (axis == "y") return Y;
+    if (axis == "z") return Z;
+    if (axis == "t") return T;
+    if (axis == "e") return Other;  // ensemble, as GrADS writes it
+    return std::nullopt;
+}
+
+std::optional<AxisKind> byStandardName(const NcVariable& v) {
+    const std::string all = v.text("standard_name");
+    const std::string name = all.substr(0, all.find(' '));  // modifiers follow a blank
+    if (isOneOf(name, {"longitude", "grid_longitude", "projection_x_coordinate",
+                       "projection_x_angular_coordinate"}))
+        return X;
+    if (isOneOf(name, {"latitude", "grid_latitude", "projection_y_coordinate",
+                       "projection_y_angular_coordinate"}))
+        return Y;
+    if (name == "time") return T;
+    if (isOneOf(name, {"realization", "radiation_wavelength", "radiation_frequency",
+                       "forecast_period", "forecast_reference_time"}))
+        return Other;
+    if (isOneOf(name, {"depth", "altitude", "height", "air_pressure", "air_potential_temperature",
+                       "model_level_number", "sea_water_pressure", "geopotential_height"}) ||
+        name.starts_with("atmosphere_") || name.starts_with("ocean_s_coordinate") ||
+        name.starts_with("ocean_sigma") || name.starts_with("ocean_double_sigma") ||
+        name.starts_with("height_above_") || name.starts_with("depth_below_"))
+        return v.dimensions.size() == 1 ? std::optional(Z) : std::nullopt;
+    return std::nullopt;
+}
+
+std::optional<AxisKind> byUnits(const NcVariable& v) {
+    const std::string units = lower(v.text("units"));
+    // CF 1.10, sections 4.1 and 4.2.
+    if (isOneOf(units, {"degrees_east", "degree_east", "degree_e", "degrees_e", "degreee",
+                        "degreese"}))
+        return X;
+    if (isOneOf(units, {"degrees_north", "degree_north", "degree_n", "degrees_n", "degreen",
+                        "degreesn"}))
+        return Y;
+    if (looksLikeTimeUnits(units)) return T;
+    // CF 1.10, section 4.3: pressure is vertical; level, layer and sigma_level are the units of
+    // dimensionless levels.
+    if (isOneOf(units, {"level", "layer", "sigma_level", "hybrid_sigma_pressure"})) return Z;
+    if (sameDimension(v.text("units"), "Pa")) return Z;
+    return std::nullopt;
+}
+
+// A name alone, "depth" also as "depthu" or "depth_2".
+struct NameRule {
+    std::string_view name;
+    AxisKind kind;
+    bool prefix;
+};
+constexpr std::array kNames{
+    NameRule{"time", T, true},          NameRule{"t", T, false},
+    NameRule{"ocean_time", T, false},   NameRule{"record", T, false},
+    NameRule{"bnds", Other, false},     NameRule{"bounds", Other, false},
+    NameRule{"nv", Other, false},       NameRule{"nbnd", Other, false},
+    NameRule{"nvertex", Other, false},  NameRule{"vertices", Other, false},
+    NameRule{"member", Other, true},    NameRule{"ens", Other, true},
+    NameRule{"realization", Other, false}, NameRule{"number", Other, false},
+    NameRule{"lon", X, true},           NameRule{"rlon", X, false},
+    NameRule{"x", X, false},            NameRule{"west_east", X, true},
+    NameRule{"xi_", X, true},           NameRule{"ni", X, false},
+    NameRule{"nx", X, false},           NameRule{"nlon", X, false},
+    NameRule{"i", X, false},            NameRule{"xc", X, false},
+    NameRule{"xh", X, false},           NameRule{"xq", X, false},
+    NameRule{"grid_longitude", X, false}, NameRule{"lat", Y, true},
+    NameRule{"rlat", Y, false},         NameRule{"y", Y, false},
+    NameRule{"south_north", Y, true},   NameRule{"eta_rho", Y, false},
+    NameRule{"eta_u", Y, false},        NameRule{"eta_v", Y, false},
+    NameRule{"eta_psi", Y, false},      NameRule{"nj", Y, false},
+    NameRule{"ny", Y, false},           NameRule{"nlat", Y, false},
+    NameRule{"j", Y, false},            NameRule{"yc", Y, false},
+    NameRule{"yh", Y, false},           NameRule{"yq", Y, false},
+    NameRule{"grid_latitude", Y, false}, NameRule{"lev", Z, true},
+    NameRule{"ilev", Z, false},         NameRule{"plev", Z, true},
+    NameRule{"mlev", Z, false},         NameRule{"z", Z, false},
+    NameRule{"z_", Z, true},            NameRule{"zt", Z, false},
+    NameRule{"zl", Z, false},           NameRule{"zi", Z, false},
+    NameRule{"depth", Z, true},         NameRule{"deptht", Z, false},
+    NameRule{"height", Z, true},        NameRule{"alt", Z, false},
+    NameRule{"altitude", Z, false},     NameRule{"pressure", Z, true},
+    NameRule{"isobaric", Z, true},      NameRule{"sigma", Z, true},
+    NameRule{"s_rho", Z, false},        NameRule{"s_w", Z, false},
+    NameRule{"bottom_top", Z, true},    NameRule{"model_level", Z, true},
+    NameRule{"layer", Z, true},         NameRule{"nz", Z, false},
+    NameRule{"k", Z, false},
+};
+
+// Two dimensions of one kind: the one told by better evidence keeps it, then the one further right.
+struct Claim {
+    std::optional<AxisKind> kind;
+    int evidence = 0;  // 2 by attributes, 1 by name
+};
+
+}  // namespace
+
+std::optional<AxisKind> kindByAttributes(const NcVariable& coordinate) {
+    if (const auto kind = byAxis(coordinate)) return kind;
+    if (const auto kind = byStandardName(coordinate)) return kind;
+    if (const auto kind = byUnits(coordinate)) return kind;
+    const std::string positive = lower(coordinate.text("positive"));
+    if (positive == "up" || positive == "down") return Z;
+    return std::nullopt;
+}
+
+std::optional<AxisKind> kindByName(std::string_view name) {
+    const std::string low = lower(name);
+    for (const NameRule& rule : kNames)
+        if (rule.prefix ? low.starts_with(rule.name) : low == rule.name) return rule.kind;
+    return std::nullopt;
+}
+
+const NcVariable* coordinateOf(const NcHeader& header, const NcVariable& variable,
+                               std::size_t position) {
+    const NcVariable* found =
+        header.find(header.dimension(variable, position).name, variable.group);
+    const bool own = found && found->type && found->dimensions.size() == 1 &&
+                     found->dimensions[0] == variable.dimensions[position];
+    if (own) return found;
+    // An auxiliary coordinate (CF 1.10, section 5) stands in, if it tells which axis it is.
+    for (const std::string& name : words(variable.text("coordinates"))) {
+        const NcVariable* auxiliary = header.find(name, variable.group);
+        if (auxiliary && auxiliary->type && auxiliary->dimensions.size() == 1 &&
+            auxiliary->dimensions[0] == variable.dimensions[position] &&
+            kindByAttributes(*auxiliary).value_or(Other) != Other)
+            return auxiliary;
+    }
+    return nullptr;
+}
+
+Roles rolesOf(const NcHeader& header, const NcVariable& variable) {
+    const std::size_t rank = variable.dimensions.size();
+    std::vector<Claim> claims(rank);
+    for (std::size_t i = 0; i < rank; ++i) {
+        if (const NcVariable* coordinate = coordinateOf(header, variable, i))
+            claims[i] = {kindByAttributes(*coordinate), 2};
+        if (!claims[i].kind) claims[i] = {kindByName(header.dimension(variable, i).name), 1};
+    }
+
+    Roles roles;
+    const auto slot = [&](AxisKind kind) -> std::optional<std::size_t>& {
+        return kind == X ? roles.x : kind == Y ? roles.y : kind == Z ? roles.z : roles.t;
+    };
+    for (const int evidence : {2, 1})
+        for (std::size_t i = rank; i-- > 0;) {
+            const Claim& claim = claims[i];
+            if (!claim.kind || *claim.kind == Other || claim.evidence != evidence) continue;
+            // Of two claims by the same evidence, one that is longer than 1 wins.
+            auto& place = slot(*claim.kind);
+            const bool better = place && claims[*place].evidence == evidence &&
+                                header.dimension(variable, *place).length == 1 &&
+                                header.dimension(variable, i).length > 1;
+            if (!place || better) place = i;
+        }
+
+    const auto taken = [&](std::size_t i) {
+        return roles.x == i || roles.y == i || roles.z == i || roles.t == i;
+    };
+    // What is left goes by position: the unlimited dimension is time, the last ones are x, y, z.
+    for (std::size_t i = 0; i < rank; ++i)
+        if (!taken(i) && !claims[i].kind && !roles.t && header.dimension(variable, i).unlimited)
+            roles.t = i;
+    for (std::size_t i = rank; i-- > 0;) {
+        if (taken(i) || header.dimension(variable, i).length == 1) continue;
+        if (claims[i].kind == Other)
+            roles.extra.push_back(i);
+        else if (!roles.x)
+            roles.x = i;
+        else if (!roles.y)
+            roles.y = i;
+        else if (!roles.z)
+            roles.z = i;
+        else if (!roles.t && i == 0)
+            roles.t = i;
+        else
+            roles.extra.push_back(i);
+    }
+    return roles;
+}
+
+}  // namespace timeseries

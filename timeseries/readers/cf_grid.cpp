@@ -1,0 +1,161 @@
+#include "timeseries/readers/cf_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "timeseries/readers/cf_packing.h"
+#include "timeseries/units.h"
+
+namespace timeseries {
+namespace {
+
+// A step of 2^32 points needs no longer axis, and an axis costs 8 bytes a point.
+constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
+
+std::vector<double> counted(std::uint64_t length) {
+    std::vector<double> index(length);
+    std::iota(index.begin(), index.end(), 0.0);
+    return index;
+}
+
+// What keeps coordinates from placing points; "" when nothing does.
+std::string flaw(const std::vector<double>& c) {
+    if (!std::ranges::all_of(c, [](double v) { return std::isfinite(v); }))
+        return "its coordinates are not all finite";
+    const bool ascending = c.back() > c.front();
+    for (std::size_t i = 1; i < c.size(); ++i)
+        if (ascending ? !(c[i] > c[i - 1]) : !(c[i] < c[i - 1]))
+            return "its coordinates are not strictly monotonic";
+    return "";
+}
+
+std::vector<double> coordinatesOf(const NetcdfFile& file, const NcVariable& coordinate) {
+    const Packing packing = packingOf(coordinate, [&](const std::string& what) {
+        file.fail("variable '" + coordinate.name + "'", what);
+    });
+    std::vector<double> values;
+    for (const Number& stored : file.numbers(coordinate)) {
+        const bool missing = std::ranges::any_of(
+            packing.missing, [&](const Number& fill) { return compare(stored, fill) == 0; });
+        values.push_back(missing ? std::nan("") : packing.unpack(toDouble(stored)));
+    }
+    return values;
+}
+
+// Greater values lie lower: CF 1.10, section 4.3, asks for `positive` unless the units are those of
+// pressure.
+bool pointsDown(const NcVariable& coordinate) {
+    const std::string positive = lower(coordinate.text("positive"));
+    if (!positive.empty()) return positive == "down";
+    return sameDimension(coordinate.text("units"), "Pa") ||
+           coordinate.text("standard_name") == "depth";
+}
+
+// Longitude and latitude that depend on both horizontal dimensions (CF 1.10, section 5.2):
+// "nav_lon(y, x) and nav_lat(y, x)"; "" when there are none.
+std::string twoDimensionalCoordinates(const NcHeader& header, const NcVariable& variable,
+                                      const Roles& roles) {
+    if (!roles.x || !roles.y) return "";
+    const std::size_t x = variable.dimensions[*roles.x], y = variable.dimensions[*roles.y];
+    std::string found;
+    for (const NcVariable& other : header.variables) {
+        const auto& d = other.dimensions;
+        const bool spans = std::ranges::find(d, x) != d.end() && std::ranges::find(d, y) != d.end();
+        if (&other == &variable || !spans || d.size() > 3) continue;
+        const auto kind = kindByAttributes(other);
+        if (kind == AxisKind::X || kind == AxisKind::Y)
+            found += (found.empty() ? "" : " and ") + header.declaration(other);
+    }
+    return found;
+}
+
+// Measured in degrees or metres, not counted: it places points though 2-D coordinates exist too
+// (rotated poles and map projections, CF 1.10, section 5.6).
+bool measured(const NcVariable* coordinate) {
+    if (!coordinate) return false;
+    const std::string units = coordinate->text("units");
+    return sameDimension(units, "degree") || sameDimension(units, "m");
+}
+
+Axis axisOf(const NetcdfFile& file, const NcVariable& variable, std::size_t position,
+            std::vector<std::string>& notes) {
+    const NcDimension& dimension = file.header().dimension(variable, position);
+    const NcVariable* coordinate = coordinateOf(file.header(), variable, position);
+    if (!coordinate) {
+        notes.push_back(dimension.name + " is placed by index: the file has no coordinates for it");
+        return {dimension.name, "index", counted(dimension.length), false};
+    }
+    Axis axis{std::string(coordinate->baseName()), coordinate->text("units"),
+              coordinatesOf(file, *coordinate), pointsDown(*coordinate)};
+    if (const std::string why = flaw(axis.coordinates); !why.empty()) {
+        notes.push_back(axis.name + " is placed by index: " + why);
+        axis.units = "index";
+        axis.coordinates = counted(dimension.length);
+    }
+    return axis;
+}
+
+// Levels that stand for heights which depend on another field (CF 1.10, section 4.3.3).
+void noteLevels(const NcHeader& header, const NcVariable& variable, std::size_t position,
+                std::vector<std::string>& notes) {
+    const NcVariable* level = coordinateOf(header, variable, position);
+    if (!level) return;
+    std::vector<const NcVariable*> candidates{level};
+    for (const std::string& name : words(variable.text("coordinates")))
+        if (const NcVariable* other = header.find(name, variable.group))
+            if (other != level && other->dimensions == level->dimensions)
+                candidates.push_back(other);
+    for (const NcVariable* candidate : candidates) {
+        const std::string terms = candidate->text("formula_terms");
+        const std::string units = candidate->text("units"), kind = candidate->text("standard_name");
+        const bool hybrid = !terms.empty() || lower(units).starts_with("hybrid") ||
+                            lower(units) == "sigma_level" || kind.starts_with("ocean_s") ||
+                            (kind.starts_with("atmosphere_") && kind.ends_with("_coordinate"));
+        if (!hybrid) continue;
+        notes.push_back(fmt::format(
+            "{} is a level, not a height: used as it is{}", level->baseName(),
+            terms.empty() ? "" : fmt::format("; {} has formula terms {}", candidate->name, terms)));
+        return;
+    }
+}
+
+}  // namespace
+
+std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
+                           std::vector<std::string>& notes) {
+    const NcHeader& header = file.header();
+    const std::array positions{roles.x, roles.y, roles.z};
+    const std::array<const char*, 3> names{"x", "y", "z"};
+    const auto coordinate = [&](std::optional<std::size_t> position) {
+        return position ? coordinateOf(header, variable, *position) : nullptr;
+    };
+    const std::string twoD =
+        measured(coordinate(roles.x)) && measured(coordinate(roles.y))
+            ? ""
+            : twoDimensionalCoordinates(header, variable, roles);
+    if (!twoD.empty()) notes.push_back("drawn in index space: 2-D coordinates " + twoD);
+
+    std::array<Axis, 3> axes;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!positions[i]) {
+            axes[i] = {names[i], "index", {0.0}, false};
+            continue;
+        }
+        const NcDimension& dimension = header.dimension(variable, *positions[i]);
+        if (dimension.length > kMaxAxis)
+            file.fail("dimension '" + dimension.name + "'",
+                      fmt::format("expected at most 2^24 points along an axis, found {}",
+                                  dimension.length));
+        if (i < 2 && !twoD.empty())
+            axes[i] = {dimension.name, "index", counted(dimension.length), false};
+        else
+            axes[i] = axisOf(file, variable, *positions[i], notes);
+    }
+    if (roles.z) noteLevels(header, variable, *roles.z, notes);
+    return axes;
+}
+
+}  // namespace timeseries

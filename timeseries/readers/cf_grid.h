@@ -1,0 +1,20 @@
+// The grid of a variable from its coordinate variables; where these cannot place the points, they
+// are counted instead, and a note says so.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "timeseries/grid.h"
+#include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/netcdf_file.h"
+
+namespace timeseries {
+
+// x, y, z; an axis the variable does not have is one point at index 0. Throws FileError when
+// coordinates cannot be read.
+std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
+                           std::vector<std::string>& notes);
+
+}  // namespace timeseries

@@ -1,0 +1,89 @@
+#include "timeseries/readers/netcdf_contents.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace timeseries {
+namespace {
+
+// The variables that others name as their coordinates or bounds.
+std::set<std::string> auxiliaries(const NcHeader& header) {
+    std::set<std::string> names;
+    for (const NcVariable& variable : header.variables)
+        for (const char* attribute : {"coordinates", "bounds", "climatology"})
+            for (const std::string& name : words(variable.text(attribute)))
+                if (const NcVariable* found = header.find(name, variable.group))
+                    names.insert(found->name);
+    return names;
+}
+
+bool geographic(const NcVariable& variable) {
+    const auto kind = kindByAttributes(variable);
+    return kind == AxisKind::X || kind == AxisKind::Y;
+}
+
+std::uint64_t stepPoints(const NcHeader& header, const NcVariable& variable, const Roles& roles) {
+    double points = 1;
+    for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
+        if (roles.t != i) points *= static_cast<double>(header.dimension(variable, i).length);
+    return static_cast<std::uint64_t>(std::min(points, 1e18));
+}
+
+// Why a variable with enough spatial dimensions cannot be drawn; "" when it can.
+std::string obstacle(const NetcdfFile& file, const NcVariable& variable, const Roles& roles) {
+    const NcHeader& header = file.header();
+    for (const std::size_t i : roles.extra) {
+        const NcDimension& extra = header.dimension(variable, i);
+        return fmt::format("the dimension {} of {} is none of x, y, z and time", extra.name,
+                           extra.length);
+    }
+    for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
+        if (header.dimension(variable, i).length == 0)
+            return fmt::format("the dimension {} is empty", header.dimension(variable, i).name);
+    return file.tooLarge(variable, stepPoints(header, variable, roles));
+}
+
+FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const Roles& roles) {
+    const NcHeader& header = file.header();
+    FileVariable result;
+    result.name = variable.name;
+    result.longName = variable.text("long_name");
+    if (result.longName.empty()) result.longName = variable.text("standard_name");
+    result.units = variable.text("units");
+    for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
+        result.lengths.push_back(header.dimension(variable, i).length);
+    result.type = *variable.type;
+    result.roles = roles;
+    result.packing = packingOf(variable, [&](const std::string& what) {
+        file.fail("variable '" + variable.name + "'", what);
+    });
+    result.times = timesOf(file, variable, roles);
+    result.axes = axesOf(file, variable, roles, result.notes);
+    return result;
+}
+
+}  // namespace
+
+std::vector<FileVariable> contentsOf(const NetcdfFile& file) {
+    const NcHeader& header = file.header();
+    const std::set<std::string> named = auxiliaries(header);
+    std::vector<FileVariable> contents;
+    std::string passedOver;
+    for (const NcVariable& variable : header.variables) {
+        if (!variable.type || named.contains(variable.name) || geographic(variable)) continue;
+        const Roles roles = rolesOf(header, variable);
+        if (roles.spatial() < 2) continue;
+        const std::string why = obstacle(file, variable, roles);
+        if (why.empty())
+            contents.push_back(describe(file, variable, roles));
+        else
+            passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
+    }
+    if (contents.empty())
+        file.fail("", "expected a numeric variable with at least two spatial dimensions, found "
+                      "none" + passedOver);
+    return contents;
+}
+
+}  // namespace timeseries

@@ -1,0 +1,31 @@
+// What one netCDF file offers to be drawn, by the CF conventions.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/cf_grid.h"
+#include "timeseries/readers/cf_packing.h"
+#include "timeseries/readers/cf_time.h"
+#include "timeseries/readers/netcdf_file.h"
+
+namespace timeseries {
+
+struct FileVariable {
+    std::string name, longName, units;
+    std::vector<std::uint64_t> lengths;  // of its dimensions, slowest first
+    ValueType type{};                    // in the file
+    Roles roles;
+    Packing packing;
+    std::array<Axis, 3> axes;
+    StoredTimes times;
+    std::vector<std::string> notes;
+};
+
+// In the file's order. Throws FileError when a listed variable has malformed attributes, and when
+// there is none: then it says which were passed over and why.
+std::vector<FileVariable> contentsOf(const NetcdfFile& file);
+
+}  // namespace timeseries

@@ -1,0 +1,56 @@
+// One open netCDF file. All calls of the netCDF library are made here, under one lock: neither it
+// nor HDF5 below it may be used by two threads at once, even on different files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "timeseries/readers/netcdf_header.h"
+
+namespace timeseries {
+
+class NetcdfFile {
+ public:
+    // Reads the header. Throws FileError, also when a classic file lacks values it declares.
+    explicit NetcdfFile(const std::filesystem::path& path);
+    ~NetcdfFile();
+    NetcdfFile(const NetcdfFile&) = delete;
+    NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    const NcHeader& header() const { return header_; }
+
+    // Why so many points of a variable are not read, as a sentence's end; "" when they are. A
+    // damaged or hostile header may declare any size, so what is asked for is held against the
+    // file's own: a compressed file unpacks to at most about 1032 times its bytes (the limit of
+    // deflate; its format, RFC 1951, spends at least two bits on 258 bytes).
+    std::string tooLarge(const NcVariable& variable, std::uint64_t points) const;
+
+    // Every value, exact, in the file's order. REQUIRES: a numeric type. Throws FileError.
+    std::vector<Number> numbers(const NcVariable& variable) const;
+    // A block of values as stored. REQUIRES: `values` holds the product of `count` values of the
+    // variable's type. Throws FileError.
+    void read(const NcVariable& variable, std::span<const std::size_t> start,
+              std::span<const std::size_t> count, void* values) const;
+
+    // "path: place: what"
+    [[noreturn]] void fail(std::string_view place, std::string_view what) const;
+
+ private:
+    void readHeader();
+    void readGroup(int group, const std::string& name, int depth);
+    void readVariable(int group, const std::string& groupName, int id);
+    void readAttribute(NcVariable& variable, int number) const;
+    void check(int status, std::string_view place, std::string_view expected) const;
+
+    std::filesystem::path path_;
+    std::uint64_t fileBytes_ = 0;
+    int id_ = -1;
+    NcHeader header_;
+    std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
+};
+
+}  // namespace timeseries

@@ -1,0 +1,62 @@
+#include "timeseries/readers/netcdf_header.h"
+
+#include <algorithm>
+
+namespace timeseries {
+
+std::string_view NcVariable::baseName() const {
+    const std::string_view all = name;
+    return group.empty() ? all : all.substr(group.size() + 1);
+}
+
+const NcAttribute* NcVariable::find(std::string_view attribute) const {
+    const auto at = std::ranges::find(attributes, attribute, &NcAttribute::name);
+    return at == attributes.end() ? nullptr : &*at;
+}
+
+std::string NcVariable::text(std::string_view attribute) const {
+    const NcAttribute* found = find(attribute);
+    const auto* text = found ? std::get_if<std::string>(&found->value) : nullptr;
+    return text ? *text : "";
+}
+
+const NcVariable* NcHeader::find(std::string_view name, std::string_view group) const {
+    while (true) {
+        const std::string path = group.empty() ? std::string(name)
+                                               : std::string(group) + '/' + std::string(name);
+        const auto at = std::ranges::find(variables, path, &NcVariable::name);
+        if (at != variables.end()) return &*at;
+        if (group.empty()) return nullptr;
+        const auto slash = group.rfind('/');
+        group = slash == std::string_view::npos ? "" : group.substr(0, slash);
+    }
+}
+
+std::string NcHeader::declaration(const NcVariable& variable) const {
+    std::string text = variable.name + '(';
+    for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
+        text += (i ? ", " : "") + dimension(variable, i).name;
+    return text + ')';
+}
+
+std::vector<std::string> words(std::string_view text) {
+    constexpr std::string_view kBlank(" \t\r\n\0", 5);
+    std::vector<std::string> found;
+    while (true) {
+        const auto first = text.find_first_not_of(kBlank);
+        if (first == std::string_view::npos) return found;
+        text.remove_prefix(first);
+        const auto end = std::min(text.find_first_of(kBlank), text.size());
+        found.emplace_back(text.substr(0, end));
+        text.remove_prefix(end);
+    }
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return result;
+}
+
+}  // namespace timeseries

@@ -1,0 +1,63 @@
+// What a netCDF file declares, as plain values: dimensions, variables, attributes. Everything that
+// interprets the CF conventions works on these and is tested without a file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "timeseries/field.h"
+#include "timeseries/number.h"
+
+namespace timeseries {
+
+struct NcAttribute {
+    std::string name;
+    std::variant<std::string, std::vector<Number>> value;
+    std::optional<ValueType> type;  // of numbers; nothing for text
+};
+
+struct NcDimension {
+    std::string name;
+    std::uint64_t length = 0;
+    bool unlimited = false;
+};
+
+struct NcVariable {
+    std::string name;                     // "T"; in a group "a/b/T"
+    std::string group;                    // "" for the root, else "a/b"
+    std::optional<ValueType> type;        // as stored; nothing for text, strings, compound types
+    std::vector<std::size_t> dimensions;  // positions in NcHeader::dimensions, slowest first
+    std::vector<NcAttribute> attributes;
+    bool filled = true;            // the library fills what was never written
+    std::uint64_t chunkBytes = 0;  // of one chunk, 0 when not chunked
+    int groupId = 0, id = 0;       // the library's, while the file is open
+
+    std::string_view baseName() const;
+    const NcAttribute* find(std::string_view attribute) const;
+    std::string text(std::string_view attribute) const;  // "" when absent or not text
+};
+
+struct NcHeader {
+    std::string format;
+    std::vector<NcDimension> dimensions;
+    std::vector<NcVariable> variables;
+
+    // By the name as written in a file's attributes, seen from `group`: there, then in the groups
+    // around it (CF 1.10, section 2.7). Null when there is none.
+    const NcVariable* find(std::string_view name, std::string_view group) const;
+    // "T(time, z, y, x)"
+    std::string declaration(const NcVariable& variable) const;
+    const NcDimension& dimension(const NcVariable& variable, std::size_t position) const {
+        return dimensions[variable.dimensions[position]];
+    }
+};
+
+// The words of a blank-separated list such as the attribute `coordinates`.
+std::vector<std::string> words(std::string_view text);
+std::string lower(std::string_view text);
+
+}  // namespace timeseries

@@ -1,0 +1,182 @@
+#include "timeseries/readers/netcdf_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "timeseries/readers/netcdf_contents.h"
+
+namespace timeseries {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+class NetcdfReader final : public Reader {
+ public:
+    explicit NetcdfReader(std::span<const std::filesystem::path> paths)
+        : paths_(paths.begin(), paths.end()) {
+        // Backwards, so that the first file is the one left open.
+        contents_.resize(paths_.size());
+        for (std::size_t i = paths_.size(); i-- > 0;) contents_[i] = contentsOf(open(i));
+        format_ = file_->header().format;
+        expectSameVariables();
+        for (std::size_t v = 0; v < contents_[0].size(); ++v) addVariable(v);
+    }
+
+    std::string format() const override { return format_; }
+    std::span<const std::filesystem::path> files() const override { return paths_; }
+    std::span<const Variable> variables() const override { return variables_; }
+    Field read(std::size_t variable, std::size_t step) override;
+
+ private:
+    NetcdfFile& open(std::size_t index);
+    void expectSameVariables() const;
+    void addVariable(std::size_t v);
+    [[noreturn]] void differ(std::size_t file, const std::string& what) const;
+
+    Paths paths_;
+    std::string format_;
+    std::vector<std::vector<FileVariable>> contents_;  // [file][variable], the same order in each
+    std::vector<Variable> variables_;
+    std::vector<std::vector<Segment>> segments_;  // [variable]
+    std::unique_ptr<NetcdfFile> file_;  // one at a time: a series may have more files than handles
+    std::size_t openIndex_ = 0;
+};
+
+NetcdfFile& NetcdfReader::open(std::size_t index) {
+    if (!file_ || openIndex_ != index) {
+        file_.reset();
+        file_ = std::make_unique<NetcdfFile>(paths_[index]);
+        openIndex_ = index;
+    }
+    return *file_;
+}
+
+void NetcdfReader::differ(std::size_t file, const std::string& what) const {
+    throw FileError(
+        fmt::format("{} and {}: {}", paths_[0].string(), paths_[file].string(), what));
+}
+
+void NetcdfReader::expectSameVariables() const {
+    const auto& first = contents_[0];
+    for (std::size_t f = 1; f < contents_.size(); ++f) {
+        const auto& other = contents_[f];
+        for (std::size_t v = 0; v < std::max(first.size(), other.size()); ++v) {
+            if (v >= first.size() || v >= other.size() || first[v].name != other[v].name)
+                differ(f, fmt::format("expected the same variables, found '{}' and '{}'",
+                                      v < first.size() ? first[v].name : "none",
+                                      v < other.size() ? other[v].name : "none"));
+            const FileVariable &a = first[v], &b = other[v];
+            const std::string place = fmt::format("variable '{}': expected the same ", a.name);
+            if (a.packing.unpacked != b.packing.unpacked)
+                differ(f, fmt::format("{}type, found {} and {}", place,
+                                      typeName(a.packing.unpacked), typeName(b.packing.unpacked)));
+            if (a.units != b.units)
+                differ(f, fmt::format("{}units, found \"{}\" and \"{}\"", place, a.units, b.units));
+            for (std::size_t i = 0; i < 3; ++i)
+                if (a.axes[i] != b.axes[i])
+                    differ(f, fmt::format("{}grid, but their axes {} ({} points) and {} ({} "
+                                          "points) differ",
+                                          place, a.axes[i].name, a.axes[i].coordinates.size(),
+                                          b.axes[i].name, b.axes[i].coordinates.size()));
+        }
+    }
+}
+
+void NetcdfReader::addVariable(std::size_t v) {
+    const FileVariable& first = contents_[0][v];
+    Variable variable;
+    variable.name = first.name;
+    variable.longName = first.longName;
+    variable.units = first.units;
+    variable.type = first.packing.unpacked;
+    variable.storedAs = first.packing.storedAs;
+    variable.missing = first.packing.missingText;
+    variable.notes = first.notes;
+
+    // A variable without time is the same in all files, unless nothing in them has time: then each
+    // file is a step.
+    const bool anyTime = std::ranges::any_of(
+        contents_[0], [](const FileVariable& f) { return !f.times.single || !f.times.counted; });
+    const bool fixed = anyTime && first.times.single && first.times.counted;
+    std::vector<StoredTimes> parts;
+    for (std::size_t f = 0; f < (fixed ? 1 : contents_.size()); ++f)
+        parts.push_back(contents_[f][v].times);
+    JoinedTimes joined = join(parts, paths_, first.name);
+    segments_.push_back(std::move(joined.segments));
+
+    auto time = std::make_shared<TimeAxis>(timeAxisOf(joined.times, variable.notes));
+    auto grid = std::make_shared<Grid>(first.axes);
+    variable.time = time;
+    variable.grid = grid;
+    for (const Variable& other : variables_) {
+        if (*other.grid == *grid) variable.grid = other.grid;
+        const auto same = [](const TimePoint& a, const TimePoint& b) {
+            return a.value == b.value && a.date == b.date;
+        };
+        if (other.time->name == time->name && other.time->units == time->units &&
+            other.time->calendar == time->calendar &&
+            std::ranges::equal(other.time->points, time->points, same))
+            variable.time = other.time;
+    }
+    variables_.push_back(std::move(variable));
+}
+
+// Which block of the file is a step, and where each axis runs in it.
+struct Block {
+    std::vector<std::size_t> start, count;
+    Layout layout{{1, 1, 1}, {0, 0, 0}};
+};
+
+Block blockOf(const FileVariable& variable, std::size_t step) {
+    Block block;
+    const std::size_t rank = variable.lengths.size();
+    block.start.assign(rank, 0);
+    block.count.assign(variable.lengths.begin(), variable.lengths.end());
+    if (variable.roles.t) {
+        block.start[*variable.roles.t] = step;
+        block.count[*variable.roles.t] = 1;
+    }
+    const std::array positions{variable.roles.x, variable.roles.y, variable.roles.z};
+    std::size_t stride = 1;
+    for (std::size_t i = rank; i-- > 0;) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (positions[axis] == i) {
+                block.layout.size[axis] = block.count[i];
+                block.layout.stride[axis] = stride;
+            }
+        stride *= block.count[i];
+    }
+    return block;
+}
+
+Field NetcdfReader::read(std::size_t variable, std::size_t step) {
+    auto segment = segments_[variable].begin();
+    while (step >= segment->count) step -= (segment++)->count;
+    const FileVariable& source = contents_[segment->file][variable];
+
+    NetcdfFile& file = open(segment->file);
+    const NcVariable* found = file.header().find(source.name, "");
+    std::vector<std::uint64_t> lengths;
+    if (found)
+        for (std::size_t i = 0; i < found->dimensions.size(); ++i)
+            lengths.push_back(file.header().dimension(*found, i).length);
+    if (!found || found->type != source.type || lengths != source.lengths)
+        file.fail("variable '" + source.name + "'",
+                  "expected it as it was when the series was opened, but the file has changed");
+
+    Field field;
+    field.grid = variables_[variable].grid;
+    const Block block = blockOf(source, step);
+    unpack(source.packing, block.layout,
+           [&](void* values) { file.read(*found, block.start, block.count, values); }, field);
+    return field;
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths) {
+    return std::make_unique<NetcdfReader>(paths);
+}
+
+}  // namespace timeseries
