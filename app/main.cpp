@@ -1,1 +1,30 @@
-int main() { return 2; }
+// isochron: parses the command line, runs one command, and turns failures into one sentence.
+#include <fmt/core.h>
+
+#include <exception>
+
+#include "app/commands.h"
+
+namespace {
+
+struct Run {
+    int operator()(const app::InfoOptions& options) const { return app::info(options); }
+    int operator()(const app::CountOptions& options) const { return app::count(options); }
+    int operator()(const app::RenderOptions& options) const { return app::renderHeadless(options); }
+    int operator()(const app::Exit& exit) const {
+        fmt::print(exit.code == 0 ? stdout : stderr, "{}{}\n",
+                   exit.code == 0 ? "" : "isochron: ", exit.text);
+        return exit.code;
+    }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return std::visit(Run{}, app::parse(std::span<const char* const>(argv + 1, argv + argc)));
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "isochron: {}\n", error.what());
+        return 1;
+    }
+}

@@ -54,6 +54,7 @@ enum class Kernel {
 struct Footprint {
     Kernel kernel = Kernel::Quartic;
     double size = 1;
+    friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 enum class Order { None, BackToFront };
 

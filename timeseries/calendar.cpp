@@ -14,10 +14,13 @@ std::int64_t floorMod(std::int64_t a, std::int64_t b) { return a - b * floorDiv(
 
 bool leap(Calendar calendar, std::int64_t year) {
     switch (calendar) {
-        case Calendar::AllLeap: return true;
+        case Calendar::AllLeap:
+            return true;
         case Calendar::NoLeap:
-        case Calendar::Day360: return false;
-        case Calendar::Julian: return floorMod(year, 4) == 0;
+        case Calendar::Day360:
+            return false;
+        case Calendar::Julian:
+            return floorMod(year, 4) == 0;
         case Calendar::Standard:
             if (year < 1582) return floorMod(year, 4) == 0;
             [[fallthrough]];
@@ -44,9 +47,12 @@ int dayOfYear(Calendar calendar, const CivilDate& date) {
 std::int64_t newYear(Calendar calendar, std::int64_t year) {
     const std::int64_t before = year - 1;  // leap days fall at the end of the years up to this one
     switch (calendar) {
-        case Calendar::NoLeap: return 365 * year;
-        case Calendar::AllLeap: return 366 * year;
-        case Calendar::Day360: return 360 * year;
+        case Calendar::NoLeap:
+            return 365 * year;
+        case Calendar::AllLeap:
+            return 366 * year;
+        case Calendar::Day360:
+            return 360 * year;
         case Calendar::Julian:
             // 0001-01-01 Julian is two days before 0001-01-01 Gregorian.
             return 365 * before + floorDiv(before, 4) - 719164;
@@ -101,12 +107,18 @@ std::optional<Calendar> calendarFromName(std::string_view name) {
 
 std::string_view calendarName(Calendar calendar) {
     switch (calendar) {
-        case Calendar::Standard: return "standard";
-        case Calendar::ProlepticGregorian: return "proleptic_gregorian";
-        case Calendar::Julian: return "julian";
-        case Calendar::NoLeap: return "noleap";
-        case Calendar::AllLeap: return "all_leap";
-        case Calendar::Day360: return "360_day";
+        case Calendar::Standard:
+            return "standard";
+        case Calendar::ProlepticGregorian:
+            return "proleptic_gregorian";
+        case Calendar::Julian:
+            return "julian";
+        case Calendar::NoLeap:
+            return "noleap";
+        case Calendar::AllLeap:
+            return "all_leap";
+        case Calendar::Day360:
+            return "360_day";
     }
     return "";
 }

@@ -21,8 +21,8 @@ enum class Calendar {
     Day360,
 };
 
-// CF names and their synonyms, in any case; "" is standard, CF's default. Nothing for "none" and for
-// calendars that have no dates here ("utc", those described by month_lengths).
+// CF names and their synonyms, in any case; "" is standard, CF's default. Nothing for "none" and
+// for calendars that have no dates here ("utc", those described by month_lengths).
 std::optional<Calendar> calendarFromName(std::string_view name);
 std::string_view calendarName(Calendar calendar);
 

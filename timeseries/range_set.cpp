@@ -164,6 +164,18 @@ RangeSet unionOf(std::span<const RangeSet> sets) {
     return RangeSet(std::move(all));
 }
 
+RangeSet intersectionOf(const RangeSet& a, const RangeSet& b) {
+    std::vector<Range> common;
+    for (const Range& x : a.ranges()) {
+        for (const Range& y : b.ranges()) {
+            const Bound& lo = startsBefore(x, y) ? y.lo : x.lo;
+            const Bound& hi = endsBefore(x.hi, y.hi) ? x.hi : y.hi;
+            common.push_back({lo, hi});  // empty ones are dropped
+        }
+    }
+    return RangeSet(std::move(common));
+}
+
 #define ISOCHRON_INSTANTIATE(T)                              \
     template bool toInterval<T>(const Range&, Interval<T>&); \
     template std::vector<Interval<T>> RangeSet::toIntervals<T>() const;

@@ -77,5 +77,6 @@ class RangeSet {
 };
 
 RangeSet unionOf(std::span<const RangeSet> sets);
+RangeSet intersectionOf(const RangeSet& a, const RangeSet& b);
 
 }  // namespace timeseries

@@ -123,7 +123,8 @@ std::optional<std::pair<std::string_view, std::string_view>> splitSince(std::str
     for (const std::string_view word : {"SINCE", "AFTER", "FROM", "REF", "@"})
         for (std::size_t i = 1; i + word.size() < text.size(); ++i) {
             Cursor in{text.substr(i)};
-            const bool starts = word == "@" || std::isspace(static_cast<unsigned char>(text[i - 1]));
+            const bool starts =
+                word == "@" || std::isspace(static_cast<unsigned char>(text[i - 1]));
             if (starts && in.takeWord(word) && (in.blank() || word == "@"))
                 return std::pair{text.substr(0, i), in.rest};
         }
@@ -134,8 +135,8 @@ std::optional<std::pair<std::string_view, std::string_view>> splitSince(std::str
 std::optional<Wide> timesUnit(const Number& value, std::int64_t unitNs) {
     Wide product = 0;
     if (const double* d = std::get_if<double>(&value)) {
-        if (!std::isfinite(*d) || std::abs(*d) * static_cast<double>(unitNs) >
-                                      static_cast<double>(kMaxNs))
+        if (!std::isfinite(*d) ||
+            std::abs(*d) * static_cast<double>(unitNs) > static_cast<double>(kMaxNs))
             return std::nullopt;
         int exponent = 0;  // d = mantissa * 2^(exponent - 53), mantissa an integer
         const double fraction = std::frexp(*d, &exponent);
@@ -182,8 +183,8 @@ std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calend
     if (!date || !exists(calendar, *date)) return std::nullopt;
     std::int64_t ns = 0;
     const bool blank = in.blank();
-    if (in.take('T') || (blank && !in.rest.empty() &&
-                         std::isdigit(static_cast<unsigned char>(in.rest[0])))) {
+    if (in.take('T') ||
+        (blank && !in.rest.empty() && std::isdigit(static_cast<unsigned char>(in.rest[0])))) {
         const auto clock = takeClockNs(in);
         if (!clock) return std::nullopt;
         ns = *clock;
@@ -214,18 +215,17 @@ std::string TimeUnits::date(const Number& value) const {
     days += referenceDay_;
     const CivilDate d = civilDate(calendar_, static_cast<std::int64_t>(days));
     const std::int64_t second = clock / 1'000'000'000, ms = clock / 1'000'000 % 1000;
-    std::string text = fmt::format("{}{:04}-{:02}-{:02} {:02}:{:02}:{:02}", d.year < 0 ? "-" : "",
-                                   std::abs(d.year), d.month, d.day, second / 3600,
-                                   second / 60 % 60, second % 60);
+    std::string text =
+        fmt::format("{}{:04}-{:02}-{:02} {:02}:{:02}:{:02}", d.year < 0 ? "-" : "",
+                    std::abs(d.year), d.month, d.day, second / 3600, second / 60 % 60, second % 60);
     if (ms != 0) text += fmt::format(".{:03}", ms);
     return text;
 }
 
 double TimeUnits::convert(const Number& value, const TimeUnits& other) const {
     assert(calendar_ == other.calendar_);
-    const Wide apart =
-        static_cast<Wide>(other.referenceDay_ - referenceDay_) * kDayNs + other.referenceNs_ -
-        referenceNs_;
+    const Wide apart = static_cast<Wide>(other.referenceDay_ - referenceDay_) * kDayNs +
+                       other.referenceNs_ - referenceNs_;
     if (other.unitNs_ == unitNs_ && apart == 0) return toDouble(value);
     const auto since = timesUnit(value, other.unitNs_);
     if (!since) return std::numeric_limits<double>::quiet_NaN();

@@ -15,10 +15,10 @@ namespace timeseries {
 // "UNIT since REFERENCE" in a calendar.
 class TimeUnits {
  public:
-    // Nothing when the text is not of that form, the unit is no time, or the reference is no date of
-    // the calendar. REFERENCE is "Y-M-D", optionally a time "h[:m[:s[.f]]]" after a blank or T, and
-    // a zone "Z", "UTC", "+hh", "+hh:mm" or "+hhmm". Years and months are udunits' (CF 1.10, 4.4: a
-    // year is 365.242198781 days in every calendar, a month a twelfth of it).
+    // Nothing when the text is not of that form, the unit is no time, or the reference is no date
+    // of the calendar. REFERENCE is "Y-M-D", optionally a time "h[:m[:s[.f]]]" after a blank or T,
+    // and a zone "Z", "UTC", "+hh", "+hh:mm" or "+hhmm". Years and months are udunits'
+    // (CF 1.10, 4.4: a year is 365.242198781 days in every calendar, a month a twelfth of it).
     static std::optional<TimeUnits> parse(std::string_view text, Calendar calendar);
 
     // "2000-01-04 12:00:00", with ".fff" when the rounded milliseconds are not zero; rounded to
@@ -35,7 +35,7 @@ class TimeUnits {
 
  private:
     Calendar calendar_ = Calendar::Standard;
-    std::int64_t unitNs_ = 1;       // one unit
+    std::int64_t unitNs_ = 1;                          // one unit
     std::int64_t referenceDay_ = 0, referenceNs_ = 0;  // in UTC; 0 <= referenceNs_ < a day
 };
 

@@ -1,0 +1,181 @@
+#include "app/choice_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace app {
+namespace {
+
+template <typename T>
+std::optional<T> numberIn(std::string_view text) {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = text.find(separator, begin);
+        parts.push_back(text.substr(begin, end - begin));
+        if (end == std::string_view::npos) return parts;
+        begin = end + 1;
+    }
+}
+
+std::optional<std::vector<double>> numbers(std::string_view text) {
+    std::vector<double> out;
+    for (const std::string_view part : split(text, ',')) {
+        const auto number = numberIn<double>(part);
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        out.push_back(*number);
+    }
+    return out;
+}
+
+// A name of a short list, both ways.
+template <typename T>
+using Names = std::span<const std::pair<std::string_view, T>>;
+
+template <typename T>
+T named(std::string_view what, std::string_view name, Names<T> names) {
+    std::vector<std::string_view> known;
+    for (const auto& [each, value] : names) {
+        if (each == name) return value;
+        known.push_back(each);
+    }
+    throw ChoiceError(fmt::format("{} '{}' is not one of {}", what, name, fmt::join(known, ", ")));
+}
+
+template <typename T>
+std::string_view nameOf(T value, Names<T> names) {
+    for (const auto& [name, each] : names)
+        if (each == value) return name;
+    return {};
+}
+
+constexpr std::array<std::pair<std::string_view, Stereo>, 5> kStereo = {
+    {{"off", Stereo::Off},
+     {"side-by-side", Stereo::SideBySide},
+     {"top-bottom", Stereo::TopBottom},
+     {"multiview", Stereo::MultiView},
+     {"left-right", Stereo::LeftRight}}};
+constexpr std::array<std::pair<std::string_view, render::Kernel>, 2> kKernels = {
+    {{"kernel", render::Kernel::Quartic}, {"point", render::Kernel::Point}}};
+constexpr std::array<std::pair<std::string_view, render::Order>, 2> kOrders = {
+    {{"none", render::Order::None}, {"depth", render::Order::BackToFront}}};
+
+}  // namespace
+
+StepChoice parseSteps(std::string_view text) {
+    if (text == "all") return {0, std::nullopt};
+    const auto parts = split(text, ':');
+    const auto first = numberIn<std::size_t>(parts.front()),
+               last = numberIn<std::size_t>(parts.back());
+    if (parts.size() > 2 || !first || !last || *first > *last)
+        throw ChoiceError(fmt::format(
+            "step '{}' is not a step counted from 0, a range A:B with A <= B, or all", text));
+    return {*first, *last};
+}
+
+std::string stepsText(const StepChoice& steps) {
+    if (!steps.last) return steps.first == 0 ? "all" : fmt::format("{}:", steps.first);
+    if (*steps.last == steps.first) return fmt::format("{}", steps.first);
+    return fmt::format("{}:{}", steps.first, *steps.last);
+}
+
+glm::dvec3 parseColor(std::string_view text) {
+    std::uint32_t rgb = 0;
+    const auto [end, error] =
+        std::from_chars(text.data() + (text.empty() ? 0 : 1), text.data() + text.size(), rgb, 16);
+    if (text.size() != 7 || text[0] != '#' || error != std::errc{} || end != text.data() + 7)
+        throw ChoiceError(fmt::format("color '{}' is not of the form #rrggbb", text));
+    return glm::dvec3(rgb >> 16, rgb >> 8 & 255, rgb & 255) / 255.0;
+}
+
+std::string colorText(const glm::dvec3& srgb) {
+    const auto byte = [](double c) { return static_cast<int>(std::lround(c * 255)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(srgb.r), byte(srgb.g), byte(srgb.b));
+}
+
+ClipBox parseClip(std::string_view text) {
+    const auto parts = split(text, ',');
+    if (parts.size() != 3)
+        throw ChoiceError(fmt::format(
+            "clip '{}' is not of the form x0:x1,y0:y1,z0:z1 (min and max allowed)", text));
+    ClipBox box{};
+    for (int a = 0; a < 3; ++a) {
+        const auto set = timeseries::RangeSet::parse(parts[a]);
+        const timeseries::Range& range = set.ranges().front();
+        if (range.lo.open || range.hi.open)
+            throw ChoiceError(
+                fmt::format("clip '{}': a box has closed ends, without brackets", text));
+        box.lo[a] = timeseries::toDouble(range.lo.value);
+        box.hi[a] = timeseries::toDouble(range.hi.value);
+    }
+    return box;
+}
+
+std::string clipText(const ClipBox& clip) {
+    const auto side = [&](int a) {
+        return timeseries::RangeSet(std::vector{timeseries::Range{{clip.lo[a]}, {clip.hi[a]}}})
+            .text();
+    };
+    return fmt::format("{},{},{}", side(0), side(1), side(2));
+}
+
+glm::dvec3 parseScale(std::string_view text) {
+    const auto n = numbers(text);
+    if (!n || n->size() != 3 || !((*n)[0] > 0 && (*n)[1] > 0 && (*n)[2] > 0))
+        throw ChoiceError(fmt::format("scale '{}' is not three positive numbers x,y,z", text));
+    return {(*n)[0], (*n)[1], (*n)[2]};
+}
+
+ViewChoice parseView(std::string_view text) {
+    const auto n = numbers(text);
+    if (!n || n->size() < 2 || n->size() > 3 || (n->size() == 3 && !((*n)[2] > 0)))
+        throw ChoiceError(fmt::format(
+            "view '{}' is not azimuth,elevation in degrees, with a distance > 0 if wanted", text));
+    ViewChoice view{(*n)[0], (*n)[1], {}};
+    if (n->size() == 3) view.distance = (*n)[2];
+    return view;
+}
+
+glm::ivec2 parseSize(std::string_view text) {
+    const auto parts = split(text, 'x');
+    const auto width = numberIn<int>(parts.front()), height = numberIn<int>(parts.back());
+    constexpr int kMost = 16384;
+    if (parts.size() != 2 || !width || !height || *width < 1 || *height < 1 || *width > kMost ||
+        *height > kMost)
+        throw ChoiceError(
+            fmt::format("size '{}' is not WxH with 1 to {} pixels a side", text, kMost));
+    return {*width, *height};
+}
+
+render::ColorMap parseColorMap(std::string_view name) {
+    if (const auto map = render::colorMapNamed(name)) return *map;
+    throw ChoiceError(fmt::format("colormap '{}' is not one of {}", name,
+                                  fmt::join(render::colorMapNames(), ", ")));
+}
+
+Stereo parseStereo(std::string_view name) { return named<Stereo>("stereo", name, kStereo); }
+std::string_view stereoName(Stereo stereo) { return nameOf<Stereo>(stereo, kStereo); }
+render::Kernel parseKernel(std::string_view name) {
+    return named<render::Kernel>("splat", name, kKernels);
+}
+std::string_view kernelName(render::Kernel kernel) {
+    return nameOf<render::Kernel>(kernel, kKernels);
+}
+render::Order parseOrder(std::string_view name) {
+    return named<render::Order>("order", name, kOrders);
+}
+std::string_view orderName(render::Order order) { return nameOf<render::Order>(order, kOrders); }
+
+}  // namespace app

@@ -1,0 +1,38 @@
+// Text forms of a user's choices, shared by the command line and session files. Each parser throws
+// ChoiceError: one sentence that quotes the text and says what was expected.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "app/explorer.h"
+
+namespace app {
+
+struct ChoiceError : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
+
+StepChoice parseSteps(std::string_view text);  // "12", "0:30", "all"
+std::string stepsText(const StepChoice& steps);
+
+glm::dvec3 parseColor(std::string_view text);  // "#rrggbb" -> [0, 1], sRGB
+std::string colorText(const glm::dvec3& srgb);
+
+ClipBox parseClip(std::string_view text);  // "x0:x1,y0:y1,z0:z1", min and max allowed
+std::string clipText(const ClipBox& clip);
+
+glm::dvec3 parseScale(std::string_view text);  // "1,1,20", each > 0
+ViewChoice parseView(std::string_view text);   // "30,20" or "30,20,4.5"
+glm::ivec2 parseSize(std::string_view text);   // "1200x900"
+render::ColorMap parseColorMap(std::string_view name);
+
+Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multiview left-right
+std::string_view stereoName(Stereo stereo);
+render::Kernel parseKernel(std::string_view name);  // kernel point
+std::string_view kernelName(render::Kernel kernel);
+render::Order parseOrder(std::string_view name);  // none depth
+std::string_view orderName(render::Order order);
+
+}  // namespace app

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/dataset.h"
+
+namespace app {
+namespace {
+
+using nlohmann::ordered_json;
+using timeseries::Number;
+using timeseries::RangeSet;
+using timeseries::SortedStep;
+
+struct Row {
+    std::size_t step;
+    timeseries::StepStatistics statistics;
+    std::uint64_t selected;
+    // Of the valid points; 0 where there is none.
+    double percent() const {
+        return statistics.points == 0
+                   ? 0
+                   : 100.0 * static_cast<double>(selected) / static_cast<double>(statistics.points);
+    }
+};
+
+// JSON has no infinities and no NaN: unbounded ends and absent values are null.
+ordered_json number(const Number& n) {
+    return std::visit(
+        [](auto x) -> ordered_json {
+            if constexpr (std::is_same_v<decltype(x), double>)
+                if (!std::isfinite(x)) return nullptr;
+            return x;
+        },
+        n);
+}
+
+ordered_json json(const Dataset& dataset, const RangeSet& ranges, const std::vector<Row>& rows) {
+    ordered_json out{{"file", dataset.name()},
+                     {"variable", dataset.about.name},
+                     {"units", dataset.about.units},
+                     {"range", ranges.text()},
+                     {"ranges", ordered_json::array()}};
+    for (const timeseries::Range& range : ranges.ranges())
+        out["ranges"].push_back({number(range.lo.value), number(range.hi.value)});
+    for (const Row& row : rows)
+        out["steps"].push_back({{"step", row.step},
+                                {"time", dataset.about.time->points[row.step].value},
+                                {"points", row.statistics.points},
+                                {"missing", row.statistics.missing},
+                                {"min", number(row.statistics.min)},
+                                {"max", number(row.statistics.max)},
+                                {"selected", row.selected},
+                                {"percent", row.percent()}});
+    return out;
+}
+
+void printHead(const Dataset& dataset, const RangeSet& ranges) {
+    const auto& about = dataset.about;
+    fmt::print("{}: {}{}, range {}\n", dataset.name(), about.name,
+               about.units.empty() ? "" : " (" + about.units + ")", ranges.text());
+    fmt::print("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8}\n", "step", "time", "points",
+               "missing", "min", "max", "selected", "%");
+}
+
+void print(const Dataset& dataset, const Row& row) {
+    const auto value = [](const Number& n) {
+        const double d = timeseries::toDouble(n);
+        return std::isnan(d) ? std::string("-") : fmt::format("{:.7g}", d);
+    };
+    const timeseries::StepStatistics& s = row.statistics;
+    fmt::print("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8.2f}\n", row.step,
+               timeText(*dataset.about.time, row.step), withCommas(s.points), withCommas(s.missing),
+               value(s.min), value(s.max), withCommas(row.selected), row.percent());
+}
+
+}  // namespace
+
+int count(const CountOptions& options) {
+    Dataset dataset = openDataset(options.files, options.variable);
+    const RangeSet ranges = timeseries::unionOf(options.ranges);
+    const RangeSet kept = options.keep.value_or(RangeSet::everything());
+    const auto steps = stepsOf(dataset, options.steps);
+    std::vector<Row> rows;
+    if (!options.json) printHead(dataset, ranges);
+    for (const std::size_t step : steps) {
+        if (options.json && isatty(STDERR_FILENO))
+            fmt::print(stderr, "\rstep {} of {} ", rows.size() + 1, steps.size());
+        const SortedStep sorted =
+            SortedStep::build(dataset.reader->read(dataset.variable, step), kept);
+        rows.push_back({step, sorted.statistics(), sorted.count(ranges)});
+        if (!options.json) print(dataset, rows.back());
+    }
+    if (options.json && isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
+    if (options.json) fmt::print("{}\n", json(dataset, ranges, rows).dump(2));
+    return 0;
+}
+
+}  // namespace app

@@ -1,0 +1,54 @@
+#include "app/dataset.h"
+
+#include <fmt/format.h>
+
+namespace app {
+
+using timeseries::FileError;
+
+std::string Dataset::name() const { return reader->files().front().string(); }
+
+Dataset openDataset(std::span<const std::filesystem::path> files, const std::string& variable) {
+    Dataset dataset{timeseries::openReader(files), 0, {}};
+    const auto variables = dataset.reader->variables();
+    std::string names;
+    bool found = variable.empty();
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+        names += (names.empty() ? "" : ", ") + variables[i].name;
+        if (variables[i].name != variable) continue;
+        dataset.variable = i;
+        found = true;
+    }
+    if (!found)
+        throw FileError(fmt::format("{}: no variable '{}'; it has {}", files.front().string(),
+                                    variable, names));
+    dataset.about = variables[dataset.variable];
+    return dataset;
+}
+
+std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice) {
+    const std::size_t count = dataset.stepCount(), last = choice.last.value_or(count - 1);
+    if (last >= count || choice.first > last)
+        throw FileError(fmt::format("{}: no step {}; variable {} has steps 0 to {}", dataset.name(),
+                                    std::max(last, choice.first), dataset.about.name, count - 1));
+    std::vector<std::size_t> steps;
+    for (std::size_t step = choice.first; step <= last; ++step) steps.push_back(step);
+    return steps;
+}
+
+std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
+    const timeseries::TimePoint& point = axis.points[step];
+    if (!point.date.empty()) return point.date;
+    if (axis.name == "step") return fmt::format("step {}", step);
+    return axis.units.empty() ? fmt::format("{} {:.10g}", axis.name, point.value)
+                              : fmt::format("{:.10g} {}", point.value, axis.units);
+}
+
+std::string withCommas(std::uint64_t count) {
+    std::string text = std::to_string(count);
+    for (std::ptrdiff_t at = std::ssize(text) - 3; at > 0; at -= 3)
+        text.insert(static_cast<std::size_t>(at), ",");
+    return text;
+}
+
+}  // namespace app

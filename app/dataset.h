@@ -1,0 +1,37 @@
+// A file opened and one of its variables chosen.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/explorer.h"
+#include "timeseries/reader.h"
+#include "timeseries/sorted_step.h"
+
+namespace app {
+
+struct Dataset {
+    std::unique_ptr<timeseries::Reader> reader;
+    std::size_t variable = 0;
+    timeseries::Variable about;  // a copy: it outlives the reader's move to a loader
+
+    std::size_t stepCount() const { return about.time->points.size(); }
+    std::string name() const;  // the first file's, for messages
+};
+
+// `variable`: by name; "" is the first. Throws FileError, also for a name that is not there.
+Dataset openDataset(std::span<const std::filesystem::path> files, const std::string& variable);
+
+// The chosen steps, all there; throws FileError when one is not.
+std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice);
+
+// "2000-01-04 12:00:00", "1.1 s", or "step 3".
+std::string timeText(const timeseries::TimeAxis& axis, std::size_t step);
+
+// "13402" -> "13,402".
+std::string withCommas(std::uint64_t count);
+
+}  // namespace app

@@ -1,0 +1,83 @@
+// Everything that a user chooses of a picture, as one plain value: no GL, no window, no data.
+// The command line makes one, a session file holds one, a front end changes one.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "render/color_map.h"
+#include "render/scene.h"
+#include "timeseries/range_set.h"
+#include "timeseries/value_sweep.h"
+
+namespace app {
+
+struct MapChoice {
+    render::ColorMap map;
+    // Values of the map's ends; the layer's own ends where absent.
+    std::optional<double> lo, hi;
+    friend bool operator==(const MapChoice&, const MapChoice&) = default;
+};
+
+struct LayerChoice {
+    timeseries::RangeSet ranges;
+    // sRGB components as written, #rrggbb / 255; or a map. Absent: chosen by place (see styled()).
+    std::optional<std::variant<glm::dvec3, MapChoice>> color;
+    std::optional<double> opacity;  // of one unit length of fully selected points, [0, 1]
+    friend bool operator==(const LayerChoice&, const LayerChoice&) = default;
+};
+
+// Which steps: inclusive, counted from 0. Absent `last` is the series' last.
+struct StepChoice {
+    std::size_t first = 0;
+    std::optional<std::size_t> last;
+    friend bool operator==(const StepChoice&, const StepChoice&) = default;
+};
+
+struct ClipBox {
+    glm::dvec3 lo, hi;  // closed, grid coordinates; infinite where unbounded
+    friend bool operator==(const ClipBox&, const ClipBox&) = default;
+};
+
+// The eye looks at the centre of the box. Azimuth 0 stands at -y (x to the right), 90 at +x.
+struct ViewChoice {
+    double azimuthDegrees = 30, elevationDegrees = 20;
+    std::optional<double> distance;  // in half diagonals of the box; absent: all of it is seen
+    friend bool operator==(const ViewChoice&, const ViewChoice&) = default;
+};
+
+enum class Stereo { Off, SideBySide, TopBottom, MultiView, LeftRight };
+
+struct StereoChoice {
+    Stereo mode = Stereo::Off;
+    // In half diagonals of the box. Absent: a thirtieth of the distance, and the box's centre.
+    std::optional<double> eyeDistance, convergence;
+    friend bool operator==(const StereoChoice&, const StereoChoice&) = default;
+};
+
+struct Explorer {
+    std::vector<std::filesystem::path> files;
+    std::string variable;             // "": the file's first
+    std::optional<StepChoice> steps;  // absent: the middle one
+    std::optional<timeseries::RangeSet> keep;
+    std::vector<LayerChoice> layers;  // empty: a first choice from the data
+    // The swept window is a layer of its own, before the others; its ranges are ignored.
+    std::optional<timeseries::SweepSettings> sweep;
+    LayerChoice sweepLayer;
+    render::Footprint footprint;
+    render::Order order = render::Order::None;
+    std::optional<ClipBox> clip;
+    std::optional<glm::dvec3> scale;
+    ViewChoice view;
+    StereoChoice stereo;
+    glm::ivec2 size{1200, 900};
+
+    friend bool operator==(const Explorer&, const Explorer&) = default;
+};
+
+}  // namespace app

@@ -1,0 +1,106 @@
+#include "app/first_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace app {
+namespace {
+
+using timeseries::Bound;
+using timeseries::Range;
+using timeseries::RangeSet;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kShare = 0.10;    // of the points, to be selected
+constexpr double kDarkEnd = 0.3;   // of the map's span, left out at its dark end
+constexpr double kTwoSided = 0.4;  // the shorter reach over the longer, from where both count
+
+std::vector<double> finiteSorted(const Quantiles& sampled) {
+    std::vector<double> all;
+    for (const auto& step : sampled)
+        std::ranges::copy_if(step, std::back_inserter(all),
+                             [](double v) { return std::isfinite(v); });
+    std::ranges::sort(all);
+    return all;
+}
+
+// The middle of the shortest interval that holds half of the values (the half-sample mode's first
+// step, Robertson and Cryer 1974): the background value, tied or not.
+double background(const std::vector<double>& sorted) {
+    const std::size_t half = sorted.size() / 2;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i + half < sorted.size(); ++i)
+        if (sorted[i + half] - sorted[i] < sorted[best + half] - sorted[best]) best = i;
+    return 0.5 * sorted[best] + 0.5 * sorted[best + half];
+}
+
+double quantile(const std::vector<double>& sorted, double fraction) {
+    return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) +
+                                           0.5)];
+}
+
+// To three significant digits of `scale`.
+double rounded(double value, double scale) {
+    if (!(scale > 0) || !std::isfinite(scale)) return value;
+    const double unit = std::pow(10, std::floor(std::log10(scale)) - 2);
+    const double out = std::round(value / unit) * unit;
+    // The unit of a denormal scale underflows.
+    return std::isfinite(out) ? out : value;
+}
+
+}  // namespace
+
+LayerChoice firstChoice(const Quantiles& sampled) {
+    const std::vector<double> sorted = finiteSorted(sampled);
+    LayerChoice layer{.ranges = RangeSet::everything(), .color = {}, .opacity = {}};
+    if (sorted.empty() || sorted.front() == sorted.back()) return layer;
+    const double lo = sorted.front(), hi = sorted.back();
+    const double middle = background(sorted);
+    // How far the values reach, the outermost thousandth aside.
+    const double above = quantile(sorted, 0.999) - middle, below = middle - quantile(sorted, 0.001);
+    const double scale = std::max(above, below);
+    const auto mapped = [&](const char* name, double from, double to) {
+        layer.color = MapChoice{*render::colorMapNamed(name), from, to};
+    };
+    if (std::min(above, below) > kTwoSided * scale) {
+        const double low = rounded(quantile(sorted, kShare / 2), scale);
+        const double high = rounded(quantile(sorted, 1 - kShare / 2), scale);
+        if (low < high) {
+            layer.ranges = RangeSet({Range{{-kInfinity}, {low}}, Range{{high}, {kInfinity}}});
+            mapped("cool-warm", middle - scale, middle + scale);
+            return layer;
+        }
+    }
+    if (above >= below) {
+        const double from = rounded(quantile(sorted, 1 - kShare), scale);
+        // Few points beyond a tied background: all of them, not the background too.
+        const bool tied = !(from > middle);
+        layer.ranges = RangeSet(std::vector{Range{{tied ? middle : from, tied}, {kInfinity}}});
+        // The map's dark end lies below the range: on a dark ground it would not be seen.
+        const double low = tied ? middle : from;
+        mapped("inferno", low - kDarkEnd * (hi - low), hi);
+    } else {
+        const double to = rounded(quantile(sorted, kShare), scale);
+        const bool tied = !(to < middle);
+        layer.ranges = RangeSet(std::vector{Range{{-kInfinity}, {tied ? middle : to, tied}}});
+        const double high = tied ? middle : to;
+        mapped("viridis", lo - kDarkEnd * (high - lo), high);
+    }
+    return layer;
+}
+
+double opacityFor(std::uint64_t selectedPoints) {
+    constexpr double kOpticalDepth = 4;
+    const double thickness =
+        std::cbrt(static_cast<double>(std::max<std::uint64_t>(selectedPoints, 1)));
+    return std::clamp(-std::expm1(-kOpticalDepth / thickness), 0.01, 0.9);
+}
+
+Extent extentOf(const Quantiles& sampled) {
+    const std::vector<double> sorted = finiteSorted(sampled);
+    if (sorted.empty()) return {};
+    return {sorted.front(), sorted.back()};
+}
+
+}  // namespace app

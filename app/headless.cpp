@@ -1,0 +1,226 @@
+// `isochron render`: steps in, picture files out; no window.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/camera.h"
+#include "app/choice_text.h"
+#include "app/commands.h"
+#include "app/dataset.h"
+#include "app/picture.h"
+#include "app/session.h"
+#include "render/color.h"
+#include "render/exr.h"
+#include "render/frame.h"
+#include "render/gl/headless_context.h"
+#include "render/png.h"
+#include "timeseries/step_loader.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+using render::EyePicture;
+using timeseries::SortedStep;
+
+const glm::dvec3 kBackground = render::linearFromSrgb(glm::dvec3(13, 17, 23) / 255.0);
+
+struct FrameAt {
+    std::size_t step;
+    std::int64_t tick;
+    fs::path file;
+};
+
+// A frame a step; with a sweep a frame a tick of one cycle, over which the steps pass once.
+std::vector<FrameAt> framesOf(const RenderOptions& options, const Explorer& e,
+                              const std::vector<std::size_t>& steps) {
+    const std::size_t ticks =
+        e.sweep ? static_cast<std::size_t>(timeseries::ValueSweep(*e.sweep).ticksPerCycle()) : 0;
+    const std::size_t count = e.sweep ? ticks : steps.size();
+    const std::size_t width = std::to_string(e.sweep ? count - 1 : steps.back()).size();
+    std::vector<FrameAt> frames;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t step = e.sweep ? steps[i * steps.size() / count] : steps[i];
+        fs::path file = options.output;
+        if (count > 1)
+            file.replace_filename(fmt::format("{}_{:0{}}{}", file.stem().string(),
+                                              e.sweep ? i : step, width,
+                                              file.extension().string()));
+        frames.push_back({step, e.sweep ? static_cast<std::int64_t>(i) : 0, file});
+    }
+    return frames;
+}
+
+// First, middle and last of the chosen steps.
+Steps sample(Dataset& dataset, const std::vector<std::size_t>& steps,
+             const timeseries::RangeSet& kept) {
+    Steps sampled;
+    for (const std::size_t step : {steps.front(), steps[steps.size() / 2], steps.back()})
+        if (!sampled.contains(step))
+            sampled[step] = std::make_shared<const SortedStep>(
+                SortedStep::build(dataset.reader->read(dataset.variable, step), kept));
+    return sampled;
+}
+
+// Steps in the order of the frames, the next one loading while one is drawn.
+class StepSource {
+ public:
+    StepSource(Dataset& dataset, const timeseries::RangeSet& kept, Steps sampled)
+        : name_(dataset.name()),
+          sampled_(std::move(sampled)),
+          loader_(std::move(dataset.reader), dataset.variable, kept) {}
+
+    // Throws FileError when the step cannot be read.
+    std::shared_ptr<const SortedStep> get(std::size_t step, std::size_t next) {
+        if (const auto found = sampled_.find(step); found != sampled_.end()) {
+            last_ = found->second;
+            lastStep_ = step;
+        }
+        if (last_ && lastStep_ == step) return last_;
+        std::vector<std::size_t> wishes{step};
+        if (next != step && !sampled_.contains(next)) wishes.push_back(next);
+        loader_.want(wishes);
+        while (!ahead_.contains(step)) {
+            auto result = loader_.waitAndPoll();
+            if (auto* failed = std::get_if<timeseries::Failed>(&*result)) {
+                if (failed->step == step) throw timeseries::FileError(failed->why);
+                continue;  // the one ahead: told when its turn comes
+            }
+            auto& loaded = std::get<timeseries::Loaded>(*result);
+            ahead_[loaded.step] = loaded.sorted;
+        }
+        last_ = ahead_.extract(step).mapped();
+        lastStep_ = step;
+        return last_;
+    }
+
+ private:
+    std::string name_;
+    Steps sampled_, ahead_;
+    std::shared_ptr<const SortedStep> last_;
+    std::size_t lastStep_ = 0;
+    timeseries::StepLoader loader_;
+};
+
+render::ExrView exrView(std::string name, EyePicture picture) {
+    render::ExrView view{std::move(name), std::move(picture.image), {}};
+    if (!picture.opticalDepth.empty())
+        view.scalars["opticalDepth"] = std::move(picture.opticalDepth);
+    if (!picture.splatCount.empty()) view.scalars["splatCount"] = std::move(picture.splatCount);
+    return view;
+}
+
+void writeOne(const fs::path& file, EyePicture picture, const render::Metadata& metadata) {
+    if (file.extension() == ".exr") {
+        const std::array views{exrView("", std::move(picture))};
+        render::writeExr(file, views, metadata);
+    } else {
+        render::writePng(file, picture.image, metadata);
+    }
+}
+
+void write(const fs::path& file, Stereo stereo, std::vector<EyePicture> eyes,
+           const render::Metadata& metadata) {
+    const auto suffixed = [&](const char* suffix) {
+        fs::path other = file;
+        return other.replace_filename(file.stem().string() + suffix + file.extension().string());
+    };
+    switch (stereo) {
+        case Stereo::Off:
+            return writeOne(file, std::move(eyes[0]), metadata);
+        case Stereo::SideBySide:
+            return writeOne(file, {render::sideBySide(eyes[0].image, eyes[1].image), {}, {}},
+                            metadata);
+        case Stereo::TopBottom:
+            return writeOne(file, {render::topBottom(eyes[0].image, eyes[1].image), {}, {}},
+                            metadata);
+        case Stereo::LeftRight:
+            writeOne(suffixed("_left"), std::move(eyes[0]), metadata);
+            return writeOne(suffixed("_right"), std::move(eyes[1]), metadata);
+        case Stereo::MultiView: {
+            const std::array views{exrView("left", std::move(eyes[0])),
+                                   exrView("right", std::move(eyes[1]))};
+            return render::writeExr(file, views, metadata);
+        }
+    }
+}
+
+void tellStyle(const Explorer& e, const timeseries::Variable& about) {
+    const auto tell = [&](const timeseries::RangeSet& ranges, const LayerChoice& layer) {
+        std::string color;
+        if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
+            color = colorText(*rgb);
+        } else {
+            const auto& map = std::get<MapChoice>(*layer.color);
+            color = fmt::format("{} from {:g} to {:g}", map.map.name(), *map.lo, *map.hi);
+        }
+        fmt::print("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, about.units), color,
+                   *layer.opacity);
+    };
+    if (e.sweep) tell(e.sweep->animation, e.sweepLayer);
+    for (const LayerChoice& layer : e.layers) tell(layer.ranges, layer);
+}
+
+}  // namespace
+
+int renderHeadless(const RenderOptions& options) {
+    Explorer e = options.explorer;
+    Dataset dataset = openDataset(e.files, e.variable);
+    e.variable = dataset.about.name;
+    if (!e.steps) e.steps = StepChoice{dataset.stepCount() / 2, dataset.stepCount() / 2};
+    const auto steps = stepsOf(dataset, *e.steps);
+    const timeseries::RangeSet kept = e.keep.value_or(timeseries::RangeSet::everything());
+    Steps sampled;
+    if (needsSamples(e)) {
+        sampled = sample(dataset, steps, kept);
+        e = resolved(e, sampled);
+    }
+    const render::gl::HeadlessContext context(options.device);
+    render::FrameRenderer renderer;
+    const auto frames = framesOf(options, e, steps);
+    StepSource source(dataset, kept, std::move(sampled));
+
+    std::shared_ptr<const SortedStep> shown;
+    std::optional<render::Lattice> lattice;
+    std::optional<render::GpuStep> onGpu;
+    const bool terminal = isatty(STDERR_FILENO) && frames.size() > 1;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const FrameAt& frame = frames[i];
+        if (terminal) fmt::print(stderr, "\rpicture {} of {} ", i + 1, frames.size());
+        const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
+        if (step != shown) {
+            shown = step;
+            lattice.emplace(step->grid(), e.scale);
+            onGpu.emplace(*step, *lattice);
+        }
+        const auto views = eyes(e.view, e.stereo, lattice->boxHalf(), e.size);
+        const Picture picture =
+            makePicture(e, dataset.about, frame.step, *step, *lattice, frame.tick);
+        Explorer again = e;  // of this picture alone
+        again.steps = StepChoice{frame.step, frame.step};
+        auto eyePictures = renderer.render(
+            {picture.scene, step->grid(), picture.legend, kBackground}, *onGpu, views,
+            {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
+        write(frame.file, e.stereo.mode, std::move(eyePictures),
+              {{"isochronSession", toJson(again, frame.file.parent_path()).dump()}});
+    }
+    if (terminal) fmt::print(stderr, "\r\033[K");
+    if (frames.size() == 1) {
+        fmt::print("{}: {}, {}\n", frames[0].file.string(), dataset.about.name,
+                   timeText(*dataset.about.time, frames[0].step));
+    } else {
+        fmt::print("{} to {}: {}, {} to {}\n", frames.front().file.string(),
+                   frames.back().file.filename().string(), dataset.about.name,
+                   timeText(*dataset.about.time, frames.front().step),
+                   timeText(*dataset.about.time, frames.back().step));
+    }
+    tellStyle(e, dataset.about);
+    if (e.sweep && e.sweep->frequency > 0)
+        fmt::print("  {:.4g} pictures a second show it at {:g} cycles a second\n",
+                   static_cast<double>(frames.size()) * e.sweep->frequency, e.sweep->frequency);
+    fmt::print("  drawn by {}\n", context.renderer());
+    return 0;
+}
+
+}  // namespace app

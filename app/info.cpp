@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/dataset.h"
+
+namespace app {
+namespace {
+
+using nlohmann::ordered_json;
+using timeseries::Axis;
+using timeseries::Variable;
+
+const char* kindOf(const timeseries::Grid& grid) {
+    for (const Axis& axis : grid.axes())
+        if (axis.units == "index") return "index space";
+    return grid.uniform() ? "uniform" : "rectilinear";
+}
+
+ordered_json axisJson(const Axis& axis) {
+    ordered_json out{{"name", axis.name},
+                     {"units", axis.units},
+                     {"points", axis.coordinates.size()},
+                     {"first", axis.coordinates.front()},
+                     {"last", axis.coordinates.back()},
+                     {"uniform", axis.uniform()},
+                     {"down", axis.down}};
+    if (axis.uniform() && axis.coordinates.size() > 1)
+        out["spacing"] = (axis.coordinates.back() - axis.coordinates.front()) /
+                         static_cast<double>(axis.coordinates.size() - 1);
+    return out;
+}
+
+ordered_json variableJson(const Variable& v) {
+    ordered_json out{{"name", v.name},         {"longName", v.longName},
+                     {"units", v.units},       {"type", timeseries::typeName(v.type)},
+                     {"storedAs", v.storedAs}, {"missing", v.missing},
+                     {"notes", v.notes}};
+    out["grid"] = {{"kind", kindOf(*v.grid)}, {"points", v.grid->count()}};
+    for (const Axis& axis : v.grid->axes()) out["grid"]["axes"].push_back(axisJson(axis));
+    out["time"] = {
+        {"name", v.time->name}, {"units", v.time->units}, {"calendar", v.time->calendar}};
+    for (const auto& point : v.time->points)
+        out["time"]["steps"].push_back({{"value", point.value}, {"date", point.date}});
+    return out;
+}
+
+std::string axisText(const Axis& axis) {
+    const auto& c = axis.coordinates;
+    const std::string unit = axis.units.empty() ? "" : " " + axis.units;
+    if (c.size() == 1) return fmt::format("{}: 1 point at {:g}{}", axis.name, c[0], unit);
+    const double spacing = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+    return fmt::format("{}: {} points, {:g} to {:g}{}, {}{}", axis.name, c.size(), c.front(),
+                       c.back(), unit,
+                       axis.uniform() ? fmt::format("every {:g}", std::abs(spacing)) : "uneven",
+                       axis.down ? ", downward" : "");
+}
+
+void print(const Variable& v) {
+    fmt::print("\n{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
+               v.units.empty() ? "" : " (" + v.units + ")");
+    fmt::print("  type     {}{}\n", timeseries::typeName(v.type),
+               v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
+    if (!v.missing.empty()) fmt::print("  missing  {}\n", v.missing);
+    const auto n = v.grid->size();
+    fmt::print("  grid     {}, {} x {} x {} = {} points\n", kindOf(*v.grid), n[0], n[1], n[2],
+               withCommas(v.grid->count()));
+    for (const Axis& axis : v.grid->axes()) fmt::print("           {}\n", axisText(axis));
+    const std::size_t steps = v.time->points.size();
+    if (steps == 1) {
+        fmt::print("  time     1 step: {}\n", timeText(*v.time, 0));
+    } else {
+        fmt::print("  time     {} steps, {} to {}{}\n", steps, timeText(*v.time, 0),
+                   timeText(*v.time, steps - 1),
+                   v.time->calendar.empty() ? "" : ", calendar " + v.time->calendar);
+    }
+    for (const std::string& note : v.notes) fmt::print("  note     {}\n", note);
+}
+
+}  // namespace
+
+int info(const InfoOptions& options) {
+    const auto reader = timeseries::openReader(options.files);
+    std::vector<std::string> files;
+    for (const auto& file : reader->files()) files.push_back(file.string());
+    if (options.json) {
+        ordered_json out{{"files", files}, {"format", reader->format()}};
+        for (const Variable& v : reader->variables()) out["variables"].push_back(variableJson(v));
+        fmt::print("{}\n", out.dump(2));
+        return 0;
+    }
+    fmt::print("{}\n{}\n", fmt::join(files, "\n"), reader->format());
+    for (const Variable& v : reader->variables()) print(v);
+    return 0;
+}
+
+}  // namespace app

@@ -1,0 +1,47 @@
+// The command line, parsed once into types.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/explorer.h"
+
+namespace app {
+
+struct InfoOptions {
+    std::vector<std::filesystem::path> files;
+    bool json = false;
+};
+
+struct CountOptions {
+    std::vector<std::filesystem::path> files;
+    std::string variable;
+    std::vector<timeseries::RangeSet> ranges;  // a layer each
+    std::optional<timeseries::RangeSet> keep;
+    StepChoice steps;
+    bool json = false;
+};
+
+struct RenderOptions {
+    Explorer explorer;
+    std::filesystem::path output;
+    bool opticalDepth = false, splatCount = false;  // further EXR channels
+    std::string device = "any";
+};
+
+// Nothing to run: help was asked for (0), or the arguments are wrong (2). The text goes to stdout
+// or stderr accordingly.
+struct Exit {
+    int code = 0;
+    std::string text;
+};
+
+using Command = std::variant<InfoOptions, CountOptions, RenderOptions, Exit>;
+
+Command parse(std::span<const char* const> arguments);  // without the program's name
+
+}  // namespace app

@@ -1,0 +1,203 @@
+#include "app/picture.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/choice_text.h"
+#include "app/first_choice.h"
+#include "render/color.h"
+
+namespace app {
+namespace {
+
+using timeseries::Range;
+using timeseries::RangeSet;
+using timeseries::SortedStep;
+
+// Distinguishable with any colour vision (Okabe and Ito 2008), by place among several layers.
+constexpr std::array<glm::dvec3, render::kMaxLayers> kLayerColors = {
+    glm::dvec3(230, 159, 0),   glm::dvec3(86, 180, 233), glm::dvec3(0, 158, 115),
+    glm::dvec3(240, 228, 66),  glm::dvec3(0, 114, 178),  glm::dvec3(213, 94, 0),
+    glm::dvec3(204, 121, 167), glm::dvec3(200, 200, 200)};
+
+Quantiles quantilesOf(const Steps& sampled) {
+    constexpr std::size_t kQuantiles = 1025;
+    Quantiles rows;
+    for (const auto& [index, step] : sampled) rows.push_back(step->quantiles(kQuantiles));
+    return rows;
+}
+
+// Ends of a layer in doubles; infinite ones are the samples'.
+Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
+    if (ranges.empty()) return data;
+    const double lo = timeseries::toDouble(ranges.ranges().front().lo.value);
+    const double hi = timeseries::toDouble(ranges.ranges().back().hi.value);
+    return {std::isfinite(lo) ? lo : data.lo, std::isfinite(hi) ? hi : data.hi};
+}
+
+std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
+    std::uint64_t most = 0;
+    for (const auto& [index, step] : sampled)
+        most = std::max(most, step->count(timeseries::intersectionOf(ranges, step->kept())));
+    return most;
+}
+
+bool open(const LayerChoice& layer) {
+    if (layer.ranges.empty() || !layer.color || !layer.opacity) return true;
+    const auto* map = std::get_if<MapChoice>(&*layer.color);
+    return map != nullptr && !(map->lo && map->hi);
+}
+
+bool infinite(const RangeSet& ranges) {
+    for (const Range& range : ranges.ranges())
+        if (!std::isfinite(timeseries::toDouble(range.lo.value)) ||
+            !std::isfinite(timeseries::toDouble(range.hi.value)))
+            return true;
+    return false;
+}
+
+// A style for layer `place` of `count`; a lone layer is coloured by value.
+void style(LayerChoice& layer, const Extent& ends, std::size_t place, std::size_t count) {
+    if (!layer.color) {
+        if (count == 1) {
+            layer.color = MapChoice{};
+        } else {
+            layer.color = kLayerColors[place] / 255.0;
+        }
+    }
+    if (auto* map = std::get_if<MapChoice>(&*layer.color)) {
+        map->lo = map->lo.value_or(ends.lo);
+        map->hi = map->hi.value_or(ends.hi);
+    }
+}
+
+render::RangeStyle rangeStyle(const LayerChoice& layer) {
+    render::RangeStyle out{render::Constant{}, layer.opacity.value()};
+    if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
+        out.color = render::Constant{render::linearFromSrgb(*rgb)};
+    } else {
+        const auto& map = std::get<MapChoice>(*layer.color);
+        out.color = render::ByValue{map.map, *map.lo, *map.hi};
+    }
+    return out;
+}
+
+}  // namespace
+
+bool needsSamples(const Explorer& e) {
+    if (e.sweep && (infinite(e.sweep->animation) || open(e.sweepLayer))) return true;
+    return std::ranges::any_of(e.layers, open) || (e.layers.empty() && !e.sweep);
+}
+
+Explorer resolved(const Explorer& explorer, const Steps& sampled) {
+    Explorer e = explorer;
+    const Quantiles quantiles = quantilesOf(sampled);
+    const Extent data = extentOf(quantiles);
+    if (e.layers.empty() && !e.sweep) e.layers.push_back({});
+    const std::size_t count = e.layers.size() + (e.sweep ? 1 : 0);
+    std::size_t place = 0;
+    if (e.sweep) {
+        std::vector<Range> finite;
+        for (Range range : e.sweep->animation.ranges()) {
+            if (!std::isfinite(timeseries::toDouble(range.lo.value))) range.lo = {data.lo};
+            if (!std::isfinite(timeseries::toDouble(range.hi.value))) range.hi = {data.hi};
+            finite.push_back(range);
+        }
+        e.sweep->animation = RangeSet(std::move(finite));
+        style(e.sweepLayer, finiteEnds(e.sweep->animation, data), place++, count);
+        // A swept window holds about its share of the animation's points.
+        if (!e.sweepLayer.opacity)
+            e.sweepLayer.opacity = opacityFor(mostSelected(e.sweep->animation, sampled) / 8);
+    }
+    for (LayerChoice& layer : e.layers) {
+        if (layer.ranges.empty()) {
+            const LayerChoice first = firstChoice(quantiles);
+            layer.ranges = first.ranges;
+            // A map alone was asked for: it spans what was chosen.
+            auto* map = layer.color ? std::get_if<MapChoice>(&*layer.color) : nullptr;
+            const auto* chosen = first.color ? std::get_if<MapChoice>(&*first.color) : nullptr;
+            if (!layer.color)
+                layer.color = first.color;
+            else if (map && chosen)
+                *map = {map->map, chosen->lo, chosen->hi};
+            if (e.keep) layer.ranges = timeseries::intersectionOf(layer.ranges, *e.keep);
+        }
+        style(layer, finiteEnds(layer.ranges, data), place++, count);
+        if (!layer.opacity) layer.opacity = opacityFor(mostSelected(layer.ranges, sampled));
+    }
+    return e;
+}
+
+std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
+    std::string text;
+    for (const Range& r : ranges.ranges()) {
+        const auto isUnbounded = [](const timeseries::Bound& b) {
+            return std::isinf(timeseries::toDouble(b.value)) && !b.open;
+        };
+        const std::string lo = timeseries::toText(r.lo.value), hi = timeseries::toText(r.hi.value);
+        if (!text.empty()) text += ", ";
+        if (isUnbounded(r.lo) && isUnbounded(r.hi)) return "all values";
+        if (isUnbounded(r.lo))
+            text += fmt::format("{} {}", r.hi.open ? "<" : "≤", hi);
+        else if (isUnbounded(r.hi))
+            text += fmt::format("{} {}", r.lo.open ? ">" : "≥", lo);
+        else if (r.lo.open || r.hi.open)
+            text += fmt::format("{}{}, {}{}", r.lo.open ? '(' : '[', lo, hi, r.hi.open ? ')' : ']');
+        else
+            text += lo == hi ? lo : fmt::format("{} to {}", lo, hi);
+    }
+    if (text.empty()) return "no values";
+    return units.empty() ? text : text + " " + units;
+}
+
+Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::size_t stepIndex,
+                    const SortedStep& step, const render::Lattice& lattice, std::int64_t tick) {
+    Picture picture{{.step = step,
+                     .lattice = lattice,
+                     .layers = {},
+                     .footprint = e.footprint,
+                     .order = e.order,
+                     .clip = {}},
+                    {}};
+    if (e.clip) picture.scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
+    const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
+        render::Layer drawn{step.select(ranges), rangeStyle(layer)};
+        std::uint64_t selected = 0;
+        for (const timeseries::Run& run : drawn.runs) selected += run.count;
+        const std::uint64_t points = step.statistics().points;
+        const double percent =
+            points == 0 ? 0 : 100 * static_cast<double>(selected) / static_cast<double>(points);
+        picture.legend.layers.push_back(
+            {drawn.style, rangeLabel(ranges, about.units),
+             fmt::format("{} points, {:.3g} %", withCommas(selected), percent)});
+        picture.scene.layers.push_back(std::move(drawn));
+    };
+    if (e.sweep) {
+        const timeseries::ValueSweep sweep(*e.sweep);
+        // The window reaches beyond the animation's ends; only what was kept can be shown.
+        add(timeseries::intersectionOf(RangeSet(std::vector{sweep.window(tick)}), step.kept()),
+            e.sweepLayer);
+    }
+    for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
+
+    picture.legend.title = about.longName.empty() ? about.name : about.longName;
+    if (!about.units.empty()) picture.legend.title += " (" + about.units + ")";
+    const std::size_t steps = about.time->points.size();
+    const bool timed = about.time->name != "step";
+    if (timed) picture.legend.time = timeText(*about.time, stepIndex);
+    if (steps > 1)
+        picture.legend.time +=
+            fmt::format("{}step {} of 0\u2013{}", timed ? ", " : "", stepIndex, steps - 1);
+    picture.legend.notes = about.notes;
+    if (const std::string stretch = render::stretchText(step.grid(), lattice); !stretch.empty())
+        picture.legend.notes.push_back(stretch);
+    if (e.clip)
+        picture.legend.notes.push_back("drawn inside " + clipText(*e.clip) +
+                                       " only; counts are of the whole step");
+    return picture;
+}
+
+}  // namespace app

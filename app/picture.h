@@ -1,0 +1,38 @@
+// From a user's choices and the data of one step to what is drawn. No GL.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "app/dataset.h"
+#include "app/explorer.h"
+#include "render/legend.h"
+#include "render/scene.h"
+
+namespace app {
+
+using Steps = std::map<std::size_t, std::shared_ptr<const timeseries::SortedStep>>;
+
+// Whether something is left to choose from the data: a range, a colour map's ends, an opacity, an
+// unbounded sweep.
+bool needsSamples(const Explorer& explorer);
+// The choices with nothing left open, from a few steps of the series. A resolved Explorer draws the
+// same picture again whatever is sampled.
+Explorer resolved(const Explorer& explorer, const Steps& sampled);
+
+// "600 to 1600 K", "≥ 600 K", "all values".
+std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& units);
+
+// One step as the explorer wants it drawn. REQUIRES: a resolved explorer; `tick` of its sweep, if
+// it has one. `step` and `lattice` must outlive the scene. Throws OutsideKeptError when a layer
+// asks for values that were dropped.
+struct Picture {
+    render::Scene scene;
+    render::Legend legend;
+};
+Picture makePicture(const Explorer& explorer, const timeseries::Variable& about,
+                    std::size_t stepIndex, const timeseries::SortedStep& step,
+                    const render::Lattice& lattice, std::int64_t tick = 0);
+
+}  // namespace app

@@ -1,0 +1,21 @@
+// An Explorer as JSON, so that a picture can be made again. File paths are kept relative to the
+// session file.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/explorer.h"
+
+namespace app {
+
+// `folder`: what paths are relative to.
+nlohmann::json toJson(const Explorer& explorer, const std::filesystem::path& folder);
+// Unknown keys are refused: a misspelt one would be a silent default. Throws ChoiceError naming the
+// key and what was expected there.
+Explorer fromJson(const nlohmann::json& json, const std::filesystem::path& folder);
+
+// Throws ChoiceError naming the file.
+Explorer readSession(const std::filesystem::path& file);
+
+}  // namespace app

@@ -1,0 +1,2 @@
+#include "render/legend.h"
+namespace render { FlatMesh legendMesh(const Legend&, const Font&, glm::ivec2) { return {}; } }
