@@ -1,8 +1,11 @@
 #include "app/first_choice.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace app {
 namespace {
@@ -40,13 +43,15 @@ double quantile(const std::vector<double>& sorted, double fraction) {
                                            0.5)];
 }
 
-// To three significant digits of `scale`.
+// To three significant digits of `scale`: through decimal text, so that 23.7 is the double nearest to
+// 23.7 and is printed so.
 double rounded(double value, double scale) {
-    if (!(scale > 0) || !std::isfinite(scale)) return value;
-    const double unit = std::pow(10, std::floor(std::log10(scale)) - 2);
-    const double out = std::round(value / unit) * unit;
-    // The unit of a denormal scale underflows.
-    return std::isfinite(out) ? out : value;
+    if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite(value)) return value;
+    const int decimals = 2 - static_cast<int>(std::floor(std::log10(scale)));
+    if (decimals < -15 || decimals > 300) return value;
+    if (decimals >= 0) return std::stod(fmt::format("{:.{}f}", value, decimals));
+    const double unit = std::pow(10, -decimals);
+    return std::round(value / unit) * unit;
 }
 
 }  // namespace

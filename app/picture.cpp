@@ -150,7 +150,7 @@ std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
             text += lo == hi ? lo : fmt::format("{} to {}", lo, hi);
     }
     if (text.empty()) return "no values";
-    return units.empty() ? text : text + " " + units;
+    return shownUnits(units).empty() ? text : text + " " + units;
 }
 
 Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::size_t stepIndex,
@@ -184,7 +184,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
 
     picture.legend.title = about.longName.empty() ? about.name : about.longName;
-    if (!about.units.empty()) picture.legend.title += " (" + about.units + ")";
+    if (!shownUnits(about.units).empty()) picture.legend.title += " (" + about.units + ")";
     const std::size_t steps = about.time->points.size();
     const bool timed = about.time->name != "step";
     if (timed) picture.legend.time = timeText(*about.time, stepIndex);
