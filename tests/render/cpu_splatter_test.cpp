@@ -1,0 +1,245 @@
+// The truth itself against closed forms: if these fail, no other picture test means anything.
+#include "render/cpu_splatter.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "render/footprint.h"
+#include "tests/support/scenes.h"
+
+namespace render {
+namespace {
+
+using tests::axis;
+using timeseries::Grid;
+using timeseries::RangeSet;
+
+// Everything of a step in one layer.
+struct World {
+    explicit World(timeseries::SortedStep s, const RangeSet& range = RangeSet::everything(),
+                   Footprint footprint = {})
+        : step(std::move(s)),
+          lattice(step.grid()),
+          scene{.step = step,
+                .lattice = lattice,
+                .layers = {{step.select(range), {Constant{glm::dvec3(1)}, 0.5}}},
+                .footprint = footprint,
+                .order = Order::None,
+                .clip = {}} {}
+    timeseries::SortedStep step;
+    Lattice lattice;
+    Scene scene;
+};
+
+std::vector<double> weights(const World& world, const View& view) {
+    Accumulator<double> sums(view.size, {Channels::Weight});
+    splat(world.scene, Runs{}, view, {}, sums);
+    return sums.planes[0];
+}
+
+// Sum over pixels of W times the area that a pixel sees at the depth of the points: the mass that
+// was drawn, in units of l. Exact for parallel rays; the views below are nearly that.
+double massDrawn(const std::vector<double>& w, const View& view, double depth) {
+    const PixelRays rays = pixelRays(view);
+    double sum = 0;
+    for (int y = 0; y < view.size.y; ++y)
+        for (int x = 0; x < view.size.x; ++x) {
+            const glm::dvec2 slope = (glm::dvec2(x + 0.5, y + 0.5) - rays.centre) / rays.focal;
+            const double cosine = 1 / std::sqrt(1 + glm::dot(slope, slope));
+            sum += w[std::size_t(y) * view.size.x + x] * cosine;
+        }
+    return sum * depth * depth / (rays.focal.x * rays.focal.y);
+}
+
+timeseries::SortedStep onePoint() {
+    return tests::stepOf(std::make_shared<Grid>(std::array{axis(1), axis(1), axis(1)}),
+                         [](std::size_t) { return 1.0; });
+}
+
+TEST(Truth, ASingleSplatsCentreIsTheKernelsPeak) {
+    // V = l = 1, a = R: W = 5 / (pi R^2). An odd picture has a pixel on the axis.
+    const auto w = weights(World(onePoint()), tests::lookFrom({0, -50, 0}, {201, 201}, 0.05));
+    EXPECT_NEAR(w[100 * 201 + 100], 5 / (std::numbers::pi * kQuarticRadius * kQuarticRadius),
+                1e-12);
+}
+
+TEST(Truth, ASingleSplatsTotalIsItsCellsVolume) {
+    const View view = tests::lookFrom({0, -50, 0}, {201, 201}, 0.05);
+    for (const Footprint footprint :
+         {Footprint{Kernel::Quartic, 1}, Footprint{Kernel::Quartic, 1.5},
+          Footprint{Kernel::Point, 1}, Footprint{Kernel::Point, 7}}) {
+        const World world(onePoint(), RangeSet::everything(), footprint);
+        // Rays diverge by up to a / z over the splat: 1.5 R / 50 squared is 2e-3.
+        EXPECT_NEAR(massDrawn(weights(world, view), view, 50), 1, 2e-3)
+            << "kernel " << int(footprint.kernel) << " size " << footprint.size;
+    }
+}
+
+TEST(Truth, TheTotalStaysWhenTheSplatIsSmallerThanAPixel) {
+    // From far away the cell is a tenth of a pixel; its position between the pixels must not show.
+    for (const double shift : {0.0, 0.2, 0.37, 0.5}) {
+        View view = tests::lookFrom({0, -1000, 0}, {65, 65}, 0.325);
+        view.viewFromWorld[3].x += shift * 2 * 0.325 / 65 * 1000;
+        EXPECT_NEAR(massDrawn(weights(World(onePoint()), view), view, 1000), 1, 5e-3) << shift;
+    }
+}
+
+TEST(Truth, UnequalSpacingsKeepTheTotalFromEverySide) {
+    const auto grid = std::make_shared<Grid>(std::array{axis(2), axis(2, 0, 4), axis(2, 0, 0.25)});
+    const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }));
+    const glm::dvec3 cell = world.lattice.cell(0);
+    const double volume = 8 * cell.x * cell.y * cell.z / world.lattice.unitLength();
+    for (const glm::dvec3 from :
+         {glm::dvec3(0, -60, 0), glm::dvec3(0, -1, 60), glm::dvec3(40, -40, 20)}) {
+        const View view = tests::lookFrom(from, {301, 301}, 0.08);
+        EXPECT_NEAR(massDrawn(weights(world, view), view, glm::length(from)), volume, 5e-3 * volume)
+            << from.x << ' ' << from.y << ' ' << from.z;
+    }
+}
+
+TEST(Truth, ASlabOfUniformOpticalDepthIsItsThickness) {
+    // 40 x 40 columns of 8 cells, seen from far: W is 8 along the axis, 8 / cos obliquely, to the
+    // kernel's ripple of half a per cent.
+    const auto grid = std::make_shared<Grid>(std::array{axis(40), axis(40), axis(8)});
+    const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }));
+    for (const double tilt : {0.0, 0.3, 0.6}) {
+        const glm::dvec3 from = 200.0 * glm::dvec3(0, -std::sin(tilt) - 1e-9, std::cos(tilt));
+        const View view = tests::lookFrom(from, {64, 64}, 0.2 / 200);
+        for (const double w : weights(world, view))
+            EXPECT_NEAR(w, 8 / std::cos(tilt), 0.005 * 8 / std::cos(tilt)) << "tilt " << tilt;
+    }
+}
+
+TEST(Truth, AShellIsAsDeepAsTheChordsThroughIt) {
+    // Radii 12 to 20 cells; a ray at r cells from the middle meets 2 (sqrt(400 - r^2) - sqrt(144 -
+    // r^2)) of them. Which points are inside is decided point by point, so single rays are
+    // uncertain by a cell or so; over the middle's pixels, seen along no axis of the lattice, that
+    // averages out.
+    const std::size_t n = 48;
+    const auto radius = [n](std::size_t i) {
+        const glm::dvec3 p(i % n, i / n % n, i / n / n);
+        return glm::length(p - glm::dvec3((n - 1) / 2.0));
+    };
+    const World world(tests::stepOf(tests::cube(n), radius), RangeSet::parse("12:20"));
+    const View view = tests::lookFrom(200.0 * glm::normalize(glm::dvec3(0.31, -0.83, 0.47)),
+                                      {128, 128}, 1.0 / 200);
+    const auto w = weights(world, view);
+    const double cellsPerPixel = 1.0 / 64 / world.lattice.cell(0).x;
+    double drawn = 0, chords = 0;
+    for (int y = 54; y < 74; ++y)
+        for (int x = 54; x < 74; ++x) {
+            const double r = glm::length(glm::dvec2(x - 63.5, y - 63.5)) * cellsPerPixel;
+            if (r > 6) continue;
+            chords += 2 * (std::sqrt(400 - r * r) - std::sqrt(144 - r * r));
+            drawn += w[std::size_t(y) * 128 + x];
+        }
+    EXPECT_NEAR(drawn, chords, 0.02 * chords);
+    // The whole: the volume of the selected cells, l = cell.
+    const double l = world.lattice.unitLength();
+    const auto selected = static_cast<double>(world.step.count(RangeSet::parse("12:20")));
+    EXPECT_NEAR(massDrawn(w, view, 200), selected * l * l, 2e-3 * selected * l * l);
+}
+
+TEST(Truth, OffAxisSplatsAreTheEllipsesThatALensWouldDraw) {
+    // A sphere at 50 degrees off the axis covers more pixels than on it (by about 1 / cos^3): its
+    // total, weighed by solid angle, stays. On the plane at unit depth a pixel's solid angle is
+    // cos^3 / focal^2.
+    const World world(onePoint());
+    const double distance = 40, angle = 50 * std::numbers::pi / 180;
+    View view = tests::lookFrom({0, -distance, 0}, {501, 501}, 0.1);
+    // Turn the head: the splat stands at `angle`, an asymmetric frustum looks there.
+    const double t = std::tan(angle);
+    view.viewFromWorld =
+        glm::rotate(glm::dmat4(1.0), -angle, glm::dvec3(0, 1, 0)) * view.viewFromWorld;
+    view.clipFromView = clipFromView({t - 0.2, t + 0.2, -0.2, 0.2, 0.1, 100});
+    const auto w = weights(world, view);
+    const PixelRays rays = pixelRays(view);
+    double mass = 0;
+    for (int y = 0; y < 501; ++y)
+        for (int x = 0; x < 501; ++x) {
+            const glm::dvec2 slope = (glm::dvec2(x + 0.5, y + 0.5) - rays.centre) / rays.focal;
+            mass += w[std::size_t(y) * 501 + x] * std::pow(1 + glm::dot(slope, slope), -1.5);
+        }
+    mass *= distance * distance / (rays.focal.x * rays.focal.y);
+    EXPECT_NEAR(mass, 1, 3e-3);
+}
+
+TEST(Truth, PointsBehindOrNearerThanTheNearPlaneAreNotDrawn) {
+    const World world(onePoint());
+    View view = tests::lookFrom({0, -1, 0}, {33, 33});
+    view.clipFromView = clipFromView({-0.4, 0.4, -0.4, 0.4, 1.5, 100});
+    for (const double w : weights(world, view)) EXPECT_EQ(w, 0);
+    view = tests::lookFrom({0, 5, 0}, {33, 33});
+    view.viewFromWorld =
+        glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(0, 1, 0)) * view.viewFromWorld;
+    for (const double w : weights(world, view)) EXPECT_EQ(w, 0);
+}
+
+TEST(Truth, WeightChangesContinuouslyWhenTheEyeMovesThroughTheNearPlane) {
+    const World world(onePoint());
+    double before = 0;
+    for (int i = 0; i <= 200; ++i) {
+        View view = tests::lookFrom({0, -2.1 + i * 0.006, 0}, {9, 9}, 0.3);
+        view.clipFromView = clipFromView({-0.3, 0.3, -0.3, 0.3, 1, 100});
+        const double w = weights(world, view)[4 * 9 + 4];
+        if (i > 0) {
+            EXPECT_LT(std::abs(w - before), 0.02) << i;
+        }
+        before = w;
+    }
+    EXPECT_EQ(before, 0);
+}
+
+TEST(Truth, WhatLiesBehindTheOpaqueSceneIsHidden) {
+    const World world(onePoint());
+    const View view = tests::lookFrom({0, -5, 0}, {33, 33});
+    const auto depthAt = [&](double z) {
+        const glm::dvec4 p = view.clipFromView * glm::dvec4(0, 0, -z, 1);
+        return std::vector<float>(33 * 33, static_cast<float>(p.z / p.w));
+    };
+    Accumulator<double> behind(view.size, {Channels::Weight}),
+        before(view.size, {Channels::Weight});
+    splat(world.scene, Runs{}, view, depthAt(4.9), behind);
+    splat(world.scene, Runs{}, view, depthAt(5.1), before);
+    EXPECT_EQ(std::accumulate(behind.planes[0].begin(), behind.planes[0].end(), 0.0), 0);
+    EXPECT_EQ(before.planes[0], weights(world, view));
+}
+
+TEST(Resolve, ManyThinSplatsShowTheOpacityOfTheirSum) {
+    // Opacity 1e-7 a unit, W = 1e8: 1 - (1 - 1e-7)^1e8.
+    Accumulator<double> sums({1, 1}, {Channels::Weight});
+    sums.planes[0][0] = 1e8;
+    const std::vector<Layer> layers = {{{}, {Constant{glm::dvec3(0.2, 0.5, 1)}, 1e-7}}};
+    const Resolved r = resolvePixel(sums, layers, 0, 0);
+    const double expected = -std::expm1(1e8 * std::log1p(-1e-7));
+    EXPECT_NEAR(r.alpha, expected, 1e-12);
+    EXPECT_NEAR(r.rgb.g, 0.5 * expected, 1e-12);
+}
+
+TEST(Resolve, NothingShowsNothingAndFullOpacityStaysFinite) {
+    Accumulator<double> sums({1, 1}, {Channels::Weight});
+    const std::vector<Layer> layers = {{{}, {Constant{glm::dvec3(1)}, 1}}};
+    EXPECT_EQ(resolvePixel(sums, layers, 0, 0).alpha, 0);
+    EXPECT_EQ(resolvePixel(sums, layers, 0, 0).rgb, glm::dvec3(0));
+    sums.planes[0][0] = 1;
+    EXPECT_NEAR(resolvePixel(sums, layers, 0, 0).alpha, 1, 2e-7);
+}
+
+TEST(Resolve, TwoColoursMixByTheirOpticalDepths) {
+    Accumulator<double> sums({1, 1}, {Channels::Weight, Channels::Weight});
+    sums.planes[0][0] = 3;
+    sums.planes[1][0] = 1;
+    const std::vector<Layer> layers = {{{}, {Constant{{1, 0, 0}}, 0.5}},
+                                       {{}, {Constant{{0, 0, 1}}, 0.75}}};
+    // Optical depths 3 ln 2 and ln 4 = 2 ln 2: three fifths red of opacity 1 - 2^-5.
+    const Resolved r = resolvePixel(sums, layers, 0, 0);
+    EXPECT_NEAR(r.alpha, 1 - 1.0 / 32, 1e-12);
+    EXPECT_NEAR(r.rgb.r, 0.6 * r.alpha, 1e-12);
+    EXPECT_NEAR(r.rgb.b, 0.4 * r.alpha, 1e-12);
+}
+
+}  // namespace
+}  // namespace render

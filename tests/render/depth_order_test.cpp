@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "render/scene.h"
+#include "tests/support/scenes.h"
+
+namespace render {
+namespace {
+
+using timeseries::RangeSet;
+
+struct World {
+    timeseries::SortedStep step = tests::noise(tests::cube(20));
+    Lattice lattice{step.grid()};
+    Scene scene{.step = step,
+                .lattice = lattice,
+                .layers = {{step.select(RangeSet::parse("0.1:0.5")), {}},
+                           {step.select(RangeSet::parse("0.4:0.7")), {}}},
+                .footprint = {},
+                .order = Order::BackToFront,
+                .clip = {}};
+    double distance(std::uint32_t point, const glm::dvec3& eye) const {
+        return glm::distance(lattice.position(step.gridIndex()[point]), eye);
+    }
+};
+
+const glm::dvec3 kEyes[] = {{0, -3, 0}, {0.1, 0.05, -0.2}, {100, 40, 7}};
+
+TEST(DepthOrder, EveryPointOfEveryLayerIsThereOnce) {
+    const World w;
+    const auto sorted = std::get<Sorted>(order(w.scene, kEyes[0]));
+    std::vector<std::pair<int, std::uint32_t>> listed, expected;
+    for (std::size_t i = 0; i < sorted.point.size(); ++i)
+        listed.emplace_back(sorted.layer[i], sorted.point[i]);
+    for (int layer = 0; layer < 2; ++layer)
+        for (const auto& run : w.scene.layers[layer].runs)
+            for (std::uint64_t p = run.first; p < run.first + run.count; ++p)
+                expected.emplace_back(layer, static_cast<std::uint32_t>(p));
+    std::ranges::sort(listed);
+    EXPECT_EQ(listed, expected);
+}
+
+TEST(DepthOrder, FarthestFirstToOneKeyOf65536) {
+    const World w;
+    for (const glm::dvec3& eye : kEyes) {
+        const auto sorted = std::get<Sorted>(order(w.scene, eye));
+        double nearest = 1e300, farthest = 0;
+        for (const std::uint32_t p : sorted.point) {
+            nearest = std::min(nearest, w.distance(p, eye));
+            farthest = std::max(farthest, w.distance(p, eye));
+        }
+        const double key = (farthest - nearest) / 65535;
+        for (std::size_t i = 1; i < sorted.point.size(); ++i)
+            ASSERT_LE(w.distance(sorted.point[i], eye),
+                      w.distance(sorted.point[i - 1], eye) + key * 1.000001)
+                << "entry " << i << " from " << eye.x;
+    }
+}
+
+TEST(DepthOrder, TheTruthsOrderIsExact) {
+    const World w;
+    const auto sorted = std::get<Sorted>(orderExactly(w.scene, kEyes[1]));
+    for (std::size_t i = 1; i < sorted.point.size(); ++i)
+        ASSERT_GE(w.distance(sorted.point[i - 1], kEyes[1]), w.distance(sorted.point[i], kEyes[1]));
+}
+
+TEST(DepthOrder, ClippedPointsAreNotListed) {
+    World w;
+    w.scene.clip = {glm::uvec3(5, 0, 0), glm::uvec3(9, 19, 3)};
+    const auto sorted = std::get<Sorted>(order(w.scene, kEyes[0]));
+    ASSERT_FALSE(sorted.point.empty());
+    for (const std::uint32_t p : sorted.point) {
+        const std::uint32_t i = w.step.gridIndex()[p];
+        EXPECT_TRUE(w.scene.clip.holds({i % 20, i / 20 % 20, i / 400}));
+    }
+}
+
+TEST(DepthOrder, NothingSelectedIsAnEmptyList) {
+    World w;
+    w.scene.layers.clear();
+    EXPECT_TRUE(std::get<Sorted>(order(w.scene, kEyes[0])).point.empty());
+}
+
+TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
+    // Four corners of a square seen from above its middle: one distance, one key.
+    auto grid = std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(2), tests::axis(2), tests::axis(1)});
+    const auto step = tests::stepOf(grid, [](std::size_t i) { return 3 - double(i); });
+    const Lattice lattice(step.grid());
+    const Scene scene{.step = step,
+                      .lattice = lattice,
+                      .layers = {{step.select(RangeSet::everything()), {}}},
+                      .footprint = {},
+                      .order = Order::BackToFront,
+                      .clip = {}};
+    const auto sorted = std::get<Sorted>(order(scene, {0, 0, 3}));
+    EXPECT_EQ(sorted.point, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace render
