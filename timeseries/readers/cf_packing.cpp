@@ -25,16 +25,26 @@ constexpr ValueType kTypeOf = static_cast<ValueType>(Values(std::vector<T>{}).in
 template <typename Use>
 void withType(ValueType type, Use use) {
     switch (type) {
-        case ValueType::U8: return use(std::uint8_t{});
-        case ValueType::I8: return use(std::int8_t{});
-        case ValueType::U16: return use(std::uint16_t{});
-        case ValueType::I16: return use(std::int16_t{});
-        case ValueType::U32: return use(std::uint32_t{});
-        case ValueType::I32: return use(std::int32_t{});
-        case ValueType::U64: return use(std::uint64_t{});
-        case ValueType::I64: return use(std::int64_t{});
-        case ValueType::F32: return use(float{});
-        case ValueType::F64: return use(double{});
+        case ValueType::U8:
+            return use(std::uint8_t{});
+        case ValueType::I8:
+            return use(std::int8_t{});
+        case ValueType::U16:
+            return use(std::uint16_t{});
+        case ValueType::I16:
+            return use(std::int16_t{});
+        case ValueType::U32:
+            return use(std::uint32_t{});
+        case ValueType::I32:
+            return use(std::int32_t{});
+        case ValueType::U64:
+            return use(std::uint64_t{});
+        case ValueType::I64:
+            return use(std::int64_t{});
+        case ValueType::F32:
+            return use(float{});
+        case ValueType::F64:
+            return use(double{});
     }
 }
 
@@ -42,14 +52,19 @@ void withType(ValueType type, Use use) {
 ValueType withSign(ValueType type, bool isUnsigned) {
     switch (type) {
         case ValueType::U8:
-        case ValueType::I8: return isUnsigned ? ValueType::U8 : ValueType::I8;
+        case ValueType::I8:
+            return isUnsigned ? ValueType::U8 : ValueType::I8;
         case ValueType::U16:
-        case ValueType::I16: return isUnsigned ? ValueType::U16 : ValueType::I16;
+        case ValueType::I16:
+            return isUnsigned ? ValueType::U16 : ValueType::I16;
         case ValueType::U32:
-        case ValueType::I32: return isUnsigned ? ValueType::U32 : ValueType::I32;
+        case ValueType::I32:
+            return isUnsigned ? ValueType::U32 : ValueType::I32;
         case ValueType::U64:
-        case ValueType::I64: return isUnsigned ? ValueType::U64 : ValueType::I64;
-        default: return type;
+        case ValueType::I64:
+            return isUnsigned ? ValueType::U64 : ValueType::I64;
+        default:
+            return type;
     }
 }
 
@@ -99,24 +114,36 @@ std::optional<T> storedNumber(const Number& number, bool wrap) {
 
 template <typename T>
 Number toNumber(T value) {
-    if constexpr (std::is_floating_point_v<T>) return static_cast<double>(value);
-    else if constexpr (std::is_same_v<T, std::uint64_t>) return value;
-    else return static_cast<std::int64_t>(value);
+    if constexpr (std::is_floating_point_v<T>)
+        return static_cast<double>(value);
+    else if constexpr (std::is_same_v<T, std::uint64_t>)
+        return value;
+    else
+        return static_cast<std::int64_t>(value);
 }
 
 // NetCDF's fill for what was never written; bytes have none, for every byte may be meant
 // (NetCDF User's Guide, "Attribute Conventions", _FillValue).
 std::optional<Number> defaultFill(ValueType stored) {
     switch (stored) {
-        case ValueType::I16: return Number(std::int64_t{NC_FILL_SHORT});
-        case ValueType::U16: return Number(std::int64_t{NC_FILL_USHORT});
-        case ValueType::I32: return Number(std::int64_t{NC_FILL_INT});
-        case ValueType::U32: return Number(std::int64_t{NC_FILL_UINT});
-        case ValueType::I64: return Number(std::int64_t{NC_FILL_INT64});
-        case ValueType::U64: return Number(std::uint64_t{NC_FILL_UINT64});
-        case ValueType::F32: return Number(static_cast<double>(NC_FILL_FLOAT));
-        case ValueType::F64: return Number(NC_FILL_DOUBLE);
-        default: return std::nullopt;
+        case ValueType::I16:
+            return Number(std::int64_t{NC_FILL_SHORT});
+        case ValueType::U16:
+            return Number(std::int64_t{NC_FILL_USHORT});
+        case ValueType::I32:
+            return Number(std::int64_t{NC_FILL_INT});
+        case ValueType::U32:
+            return Number(std::int64_t{NC_FILL_UINT});
+        case ValueType::I64:
+            return Number(std::int64_t{NC_FILL_INT64});
+        case ValueType::U64:
+            return Number(std::uint64_t{NC_FILL_UINT64});
+        case ValueType::F32:
+            return Number(static_cast<double>(NC_FILL_FLOAT));
+        case ValueType::F64:
+            return Number(NC_FILL_DOUBLE);
+        default:
+            return std::nullopt;
     }
 }
 
@@ -147,8 +174,7 @@ void readScale(const NcVariable& variable, const Malformed& malformed, Packing& 
     // CF 1.10, section 8.1: the attributes' type, float only for integers of at most 16 bits, which
     // it holds exactly. A float variable is not made narrower nor wider than the wider of the two.
     const bool small = packing.stored < ValueType::U32;
-    const bool toFloat =
-        widest == ValueType::F32 && (small || packing.stored == ValueType::F32);
+    const bool toFloat = widest == ValueType::F32 && (small || packing.stored == ValueType::F32);
     packing.unpacked = toFloat ? ValueType::F32 : ValueType::F64;
 }
 
@@ -169,10 +195,8 @@ void readMissing(const NcVariable& variable, const Malformed& malformed, Packing
     if (const auto* list = numbersOf(variable, "missing_value", 0, malformed))
         for (const Number& number : *list) add("missing_value", number);
     if (!fill && variable.filled)
-        if (const auto number = defaultFill(packing.stored))
-            add("netCDF's default fill", *number);
-    for (std::size_t i = 0; i < told.size(); ++i)
-        packing.missingText += (i ? ", " : "") + told[i];
+        if (const auto number = defaultFill(packing.stored)) add("netCDF's default fill", *number);
+    for (std::size_t i = 0; i < told.size(); ++i) packing.missingText += (i ? ", " : "") + told[i];
 }
 
 void readValidRange(const NcVariable& variable, const Malformed& malformed, Packing& packing) {
@@ -198,11 +222,11 @@ void readValidRange(const NcVariable& variable, const Malformed& malformed, Pack
             bound("valid_max", hi->front(), packing.validMax);
     }
     if (!packing.validMin && !packing.validMax) return;
-    packing.missingText += fmt::format(
-        "{}outside {}..{}{}", packing.missingText.empty() ? "" : ", ",
-        packing.validMin ? toText(*packing.validMin) : "-inf",
-        packing.validMax ? toText(*packing.validMax) : "inf",
-        packing.scaled && !packing.validUnpacked ? " as stored" : "");
+    packing.missingText +=
+        fmt::format("{}outside {}..{}{}", packing.missingText.empty() ? "" : ", ",
+                    packing.validMin ? toText(*packing.validMin) : "-inf",
+                    packing.validMax ? toText(*packing.validMax) : "inf",
+                    packing.scaled && !packing.validUnpacked ? " as stored" : "");
 }
 
 // The bounds as closed ends in T: what compare() finds between them and no more.
@@ -217,12 +241,16 @@ struct ValidInterval {
             hi = max ? static_cast<T>(toDouble(*max)) : std::numeric_limits<T>::infinity();
         } else {
             if (min && compare(*min, toNumber(lo)) > 0) {
-                if (compare(*min, toNumber(hi)) > 0) empty = true;
-                else lo = inward(*min, true);
+                if (compare(*min, toNumber(hi)) > 0)
+                    empty = true;
+                else
+                    lo = inward(*min, true);
             }
             if (max && compare(*max, toNumber(hi)) < 0) {
-                if (compare(*max, toNumber(std::numeric_limits<T>::lowest())) < 0) empty = true;
-                else hi = inward(*max, false);
+                if (compare(*max, toNumber(std::numeric_limits<T>::lowest())) < 0)
+                    empty = true;
+                else
+                    hi = inward(*max, false);
             }
         }
     }
@@ -276,8 +304,8 @@ void unpackInto(const Packing& packing, const Layout& layout, const std::vector<
     for (std::size_t z = 0; z < nz; ++z)
         for (std::size_t y = 0; y < ny; ++y)
             for (std::size_t x = 0; x < nx; ++x, ++point) {
-                const Stored number = stored[x * layout.stride[0] + y * layout.stride[1] +
-                                             z * layout.stride[2]];
+                const Stored number =
+                    stored[x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]];
                 Value value = static_cast<Value>(number);
                 if (packing.scaled) value = static_cast<Value>(value * scale + offset);
                 values[point] = value;
@@ -303,14 +331,15 @@ Packing packingOf(const NcVariable& variable, const Malformed& malformed) {
     packing.stored = *variable.type;
     // CF 1.10, section 2.2, keeps this attribute of the NetCDF User's Guide.
     const std::string sign = lower(variable.text("_Unsigned"));
-    if (sign == "true" || sign == "false") packing.stored = withSign(packing.stored, sign == "true");
+    if (sign == "true" || sign == "false")
+        packing.stored = withSign(packing.stored, sign == "true");
     readScale(variable, malformed, packing);
     readMissing(variable, malformed, packing);
     readValidRange(variable, malformed, packing);
     packing.storedAs = typeName(packing.stored);
     if (packing.scaled)
-        packing.storedAs += fmt::format(" packed, scale {}, offset {}", packing.scale,
-                                        packing.offset);
+        packing.storedAs +=
+            fmt::format(" packed, scale {}, offset {}", packing.scale, packing.offset);
     return packing;
 }
 
@@ -335,9 +364,12 @@ void unpack(const Packing& packing, const Layout& layout, const std::function<vo
             unpackInto(packing, layout, stored, field, values);
             field.values = std::move(values);
         };
-        if (!packing.scaled) into(Stored{});
-        else if (packing.unpacked == ValueType::F32) into(float{});
-        else into(double{});
+        if (!packing.scaled)
+            into(Stored{});
+        else if (packing.unpacked == ValueType::F32)
+            into(float{});
+        else
+            into(double{});
     });
 }
 

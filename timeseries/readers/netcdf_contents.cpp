@@ -81,8 +81,10 @@ std::vector<FileVariable> contentsOf(const NetcdfFile& file) {
             passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
     }
     if (contents.empty())
-        file.fail("", "expected a numeric variable with at least two spatial dimensions, found "
-                      "none" + passedOver);
+        file.fail("",
+                  "expected a numeric variable with at least two spatial dimensions, found "
+                  "none" +
+                      passedOver);
     return contents;
 }
 
