@@ -175,6 +175,38 @@ TEST(DamagedNetcdf, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
     EXPECT_THAT(refusal({steps.close()}), HasSubstr("steps, found 1099511627776"));
 }
 
+TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {
+    NetcdfBuilder file("a.nc");
+    const int y = file.dimension("y", 64), x = file.dimension("x", 64);
+    const int v = file.variable("v", NC_FLOAT, {y, x});
+    NetcdfBuilder::check(nc_def_var_deflate(file.id(), v, 0, 1, 6));
+    std::mt19937 random(1);
+    std::vector<float> values(64 * 64);
+    for (float& value : values) value = static_cast<float>(random());
+    file.write(v, values);
+    const Path path = file.close();
+    std::string bytes = bytesOf(path);
+    // The chunk is most of the file: overwrite the middle of it.
+    for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 64; ++i) bytes[i] = '\xFF';
+    const Path damaged = write("damaged.nc", bytes);
+    const auto reader = openReader(std::span(&damaged, 1));
+    try {
+        reader->read(0, 0);
+        FAIL();
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), StartsWith(damaged.string() +
+                                             ": variable 'v': expected values that can be read"));
+    }
+}
+
+TEST(DamagedNetcdf, FiniteElementMeshesAreNotTakenForGrids) {
+    NetcdfBuilder file("a.e", 0);
+    const int dims = file.dimension("num_dim", 3), nodes = file.dimension("num_nodes", 8);
+    file.dimension("num_el_blk", 1);
+    file.variable("coord", NC_DOUBLE, {dims, nodes});
+    EXPECT_THAT(refusal({file.close()}), HasSubstr("found a finite-element mesh (Exodus II)"));
+}
+
 TEST(DamagedNetcdf, AnEmptySeriesIsTold) {
     NetcdfBuilder file("a.nc");
     const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 2),

@@ -233,6 +233,44 @@ TEST(NetcdfReader, UnsignedAttributeTurnsBytesAndTheirFill) {
     EXPECT_THAT(field.missing, ElementsAre(true, false, true, false));
 }
 
+TEST(NetcdfReader, ClassicFilesHaveDefaultFillsToo) {
+    const auto path = plane<float>(
+        "a.nc", {NC_FILL_FLOAT, 5, 6, 7}, [](auto&, int) {}, 0);
+    const auto reader = open(path);
+    EXPECT_EQ(reader->variables()[0].missing, "netCDF's default fill 9.96921e+36");
+    EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(true, false, false, false));
+}
+
+TEST(NetcdfReader, StorageIsToldInTheDigitsOfTheFile) {
+    const auto path = plane<std::uint8_t>("a.nc", {1, 2, 3, 4}, [](auto& file, int v) {
+        file.number(v, "scale_factor", 0.1f);
+        file.template number<std::uint8_t>(v, "_FillValue", 255);
+        file.number(v, "missing_value", std::vector<std::uint8_t>{255, 254});
+    });
+    const auto reader = open(path);
+    EXPECT_EQ(reader->variables()[0].storedAs, "uint8 packed, scale 0.1, offset 0");
+    EXPECT_EQ(reader->variables()[0].missing, "_FillValue 255, missing_value 254");
+    const auto floats = plane<float>("b.nc", {1, 2, 3, 4}, [](auto& file, int v) {
+        file.number(v, "_FillValue", -1e34f);
+        file.number(v, "missing_value", 1e300);  // no float: it stands for none
+    });
+    EXPECT_EQ(open(floats)->variables()[0].missing, "_FillValue -1e+34");
+}
+
+TEST(NetcdfReader, TurnedStepsAreUnpackedAndMaskedInTheirNewPlace) {
+    NetcdfBuilder file("a.nc");
+    const int x = file.dimension("x", 2), t = file.dimension("time", 2), y = file.dimension("y", 3);
+    const int v = file.variable("v", NC_SHORT, {x, t, y});
+    file.number(v, "add_offset", 100.0);
+    file.number<std::int16_t>(v, "_FillValue", 7);
+    // x 0: t 0: y 0..2, t 1: y 0..2; x 1: the same.
+    file.write(v, std::vector<std::int16_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+    const auto reader = open(file.close());
+    const Field field = reader->read(0, 0);
+    EXPECT_THAT(valuesOf<double>(field), ElementsAre(100, 106, 101, 107, 102, 108));
+    EXPECT_THAT(field.missing, ElementsAre(false, false, false, true, false, false));
+}
+
 TEST(NetcdfReader, MissingValuesMayBeSeveral) {
     const auto path = plane<float>("a.nc", {1, -9, -99, -9.5f}, [](auto& file, int v) {
         file.number(v, "missing_value", std::vector<double>{-9, -99});

@@ -122,6 +122,23 @@ TEST(NetcdfTime, AScalarCoordinateTellsTheTimeOfASingleStep) {
     EXPECT_EQ(axis.points[0].date, "2001-02-04 06:00:00");
 }
 
+TEST(NetcdfTime, FilesOfOneTimedStepEachAreASeries) {
+    const auto step = [](const std::string& name, double hours, float value) {
+        NetcdfBuilder file(name);
+        const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+        const int time = file.variable("time", NC_DOUBLE, {});
+        file.text(time, "units", "hours since 2001-02-03");
+        const int v = file.variable("v", NC_FLOAT, {y, x});
+        file.text(v, "coordinates", "time");
+        file.write(time, std::vector<double>{hours});
+        file.write(v, std::vector<float>(4, value));
+        return file.close();
+    };
+    const auto reader = openReader(std::vector<Path>{step("b.nc", 5, 50), step("a.nc", 2, 20)});
+    EXPECT_THAT(timesOf(*reader), ElementsAre(2, 5));
+    EXPECT_THAT(firstValues(*reader), ElementsAre(20, 50));
+}
+
 TEST(NetcdfTime, FilesAreJoinedInTheOrderOfTheirTimes) {
     const std::vector<Path> paths{series("c.nc", {6.0, 7.0}, "s", "", 60),
                                   series("a.nc", {1.0, 3.0}, "s", "", 10),

@@ -18,9 +18,6 @@ using Malformed = std::function<void(const std::string&)>;
 bool floating(ValueType type) { return type == ValueType::F32 || type == ValueType::F64; }
 bool wide(ValueType type) { return type == ValueType::I64 || type == ValueType::U64; }
 
-template <typename T>
-constexpr ValueType kTypeOf = static_cast<ValueType>(Values(std::vector<T>{}).index());
-
 // Calls use(T{}) with the C++ type.
 template <typename Use>
 void withType(ValueType type, Use use) {
@@ -82,12 +79,22 @@ const std::vector<Number>* numbersOf(const NcVariable& variable, const char* nam
     return numbers;
 }
 
+// The nearest T, infinite beyond its limits.
+template <typename T>
+T nearestFloat(double value) {
+    if (std::abs(value) > static_cast<double>(std::numeric_limits<T>::max()) && !std::isinf(value))
+        return static_cast<T>(std::copysign(std::numeric_limits<T>::infinity(), value));
+    return static_cast<T>(value);
+}
+
 // A number of an attribute as a T of the variable; with `wrap`, the bits of the other signedness
 // (_FillValue = -1b of an unsigned byte is 255). Nothing when no T equals it.
 template <typename T>
 std::optional<T> storedNumber(const Number& number, bool wrap) {
     if constexpr (std::is_floating_point_v<T>) {
-        return static_cast<T>(toDouble(number));
+        const T nearest = nearestFloat<T>(toDouble(number));
+        const bool overflow = std::isinf(nearest) && std::isfinite(toDouble(number));
+        return overflow ? std::nullopt : std::optional(nearest);
     } else {
         Number n = number;
         if (const double* d = std::get_if<double>(&n)) {
@@ -178,16 +185,27 @@ void readScale(const NcVariable& variable, const Malformed& malformed, Packing& 
     packing.unpacked = toFloat ? ValueType::F32 : ValueType::F64;
 }
 
+// The number in the digits of its own type: a float 0.1, not 0.10000000149011612.
+std::string asWritten(const NcVariable& variable, const char* attribute, double otherwise) {
+    const NcAttribute* found = variable.find(attribute);
+    if (!found) return fmt::format("{}", otherwise);
+    const double value = toDouble(std::get<std::vector<Number>>(found->value).front());
+    return found->type == ValueType::F32 ? fmt::format("{}", static_cast<float>(value))
+                                         : fmt::format("{}", value);
+}
+
 void readMissing(const NcVariable& variable, const Malformed& malformed, Packing& packing) {
     const bool wrap = packing.stored != *variable.type;
-    std::vector<std::string> told;
     const auto add = [&](const char* name, const Number& number) {
         withType(packing.stored, [&](auto t) {
             const auto stored = storedNumber<decltype(t)>(number, wrap);
-            if (!stored) return;
+            // A missing_value that repeats the fill is common, and tells nothing.
+            if (!stored ||
+                std::ranges::find(packing.missing, toNumber(*stored)) != packing.missing.end())
+                return;
             packing.missing.push_back(toNumber(*stored));
-            const std::string text = fmt::format("{} {}", name, toText(Number(toNumber(*stored))));
-            if (std::ranges::find(told, text) == told.end()) told.push_back(text);
+            packing.missingText +=
+                fmt::format("{}{} {}", packing.missingText.empty() ? "" : ", ", name, +*stored);
         });
     };
     const auto* fill = numbersOf(variable, "_FillValue", 1, malformed);
@@ -196,7 +214,6 @@ void readMissing(const NcVariable& variable, const Malformed& malformed, Packing
         for (const Number& number : *list) add("missing_value", number);
     if (!fill && variable.filled)
         if (const auto number = defaultFill(packing.stored)) add("netCDF's default fill", *number);
-    for (std::size_t i = 0; i < told.size(); ++i) packing.missingText += (i ? ", " : "") + told[i];
 }
 
 void readValidRange(const NcVariable& variable, const Malformed& malformed, Packing& packing) {
@@ -237,8 +254,8 @@ struct ValidInterval {
 
     ValidInterval(const std::optional<Number>& min, const std::optional<Number>& max) {
         if constexpr (std::is_floating_point_v<T>) {
-            lo = min ? static_cast<T>(toDouble(*min)) : -std::numeric_limits<T>::infinity();
-            hi = max ? static_cast<T>(toDouble(*max)) : std::numeric_limits<T>::infinity();
+            lo = min ? nearestFloat<T>(toDouble(*min)) : -std::numeric_limits<T>::infinity();
+            hi = max ? nearestFloat<T>(toDouble(*max)) : std::numeric_limits<T>::infinity();
         } else {
             if (min && compare(*min, toNumber(lo)) > 0) {
                 if (compare(*min, toNumber(hi)) > 0)
@@ -339,7 +356,8 @@ Packing packingOf(const NcVariable& variable, const Malformed& malformed) {
     packing.storedAs = typeName(packing.stored);
     if (packing.scaled)
         packing.storedAs +=
-            fmt::format(" packed, scale {}, offset {}", packing.scale, packing.offset);
+            fmt::format(" packed, scale {}, offset {}", asWritten(variable, "scale_factor", 1.0),
+                        asWritten(variable, "add_offset", 0.0));
     return packing;
 }
 

@@ -21,6 +21,8 @@ class NetcdfReader final : public Reader {
         format_ = file_->header().format;
         expectSameVariables();
         for (std::size_t v = 0; v < contents_[0].size(); ++v) addVariable(v);
+        for (auto& contents : contents_)  // told by variables_ now
+            for (FileVariable& variable : contents) variable.axes = {}, variable.times = {};
     }
 
     std::string format() const override { return format_; }
