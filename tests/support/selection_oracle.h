@@ -214,8 +214,8 @@ inline std::string describe(const timeseries::Range& range) {
 
 inline std::string describe(std::span<const timeseries::Range> ranges) {
     std::string text = "{";
-    for (const timeseries::Range& range : ranges) text += " " + describe(range);
-    return text + " }";
+    for (const timeseries::Range& range : ranges) text.append(" ").append(describe(range));
+    return text.append(" }");
 }
 
 }  // namespace oracle
