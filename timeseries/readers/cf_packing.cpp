@@ -18,9 +18,6 @@ using Malformed = std::function<void(const std::string&)>;
 bool floating(ValueType type) { return type == ValueType::F32 || type == ValueType::F64; }
 bool wide(ValueType type) { return type == ValueType::I64 || type == ValueType::U64; }
 
-template <typename T>
-constexpr ValueType kTypeOf = static_cast<ValueType>(Values(std::vector<T>{}).index());
-
 // Calls use(T{}) with the C++ type.
 template <typename Use>
 void withType(ValueType type, Use use) {
