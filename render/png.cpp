@@ -75,10 +75,9 @@ std::uint8_t alpha8(float alpha) {
     return static_cast<std::uint8_t>(std::lround(std::min(alpha, 1.0f) * 255.0));
 }
 
-// Straight alpha: the colour divided by the unrounded alpha.
+// Straight alpha: the colour divided by the unrounded alpha. What 0 / 0 gives is black.
 std::array<std::uint8_t, 4> encode(glm::vec4 linear) {
     const std::uint8_t alpha = alpha8(linear.a);
-    if (alpha == 0) return {0, 0, 0, 0};
     const double weight = std::min(static_cast<double>(linear.a), 1.0);
     return {srgb8FromLinear(linear.r / weight), srgb8FromLinear(linear.g / weight),
             srgb8FromLinear(linear.b / weight), alpha};

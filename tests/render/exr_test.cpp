@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -133,6 +134,20 @@ TEST(Exr, OnlyTheSecondViewIsNamedInItsChannels) {
                     Pair("splatCount", kFloat)));
 }
 
+TEST(Exr, AChannelOfOneViewCarriesThatViewsName) {
+    const auto file = freshFolder() / "stereo.exr";
+    auto views = stereo();
+    views[0].scalars["seenLeft"] = views[0].scalars["splatCount"];
+    views[1].scalars["seenRight"] = views[1].scalars["splatCount"];
+    writeExr(file, views);
+    std::vector<std::string> seen;
+    for (const auto& [name, type] : channelsOf(headerOf(readBytes(file)).at("channels").value)) {
+        if (name.find("seen") != std::string::npos) seen.push_back(name);
+    }
+    EXPECT_THAT(seen, ElementsAre("right.seenRight", "seenLeft"));
+    EXPECT_EQ(readExr(file).views, views);
+}
+
 TEST(Exr, DeclaresZipAndTheSrgbPrimaries) {
     const auto file = freshFolder() / "mono.exr";
     writeExr(file, std::vector{noisyView("", 3)});
@@ -188,6 +203,21 @@ TEST(Exr, OtherFilesAreRefused) {
     EXPECT_THROW(readExr(folder), ImageError);
 }
 
+std::string littleEndian(std::int32_t value) {
+    std::string bytes;
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xFF);
+    return bytes;
+}
+
+std::string refusal(const std::filesystem::path& file) {
+    try {
+        readExr(file);
+    } catch (const ImageError& error) {
+        return error.what();
+    }
+    return "read";
+}
+
 TEST(Exr, AbsurdDataWindowsAreRefused) {
     const auto folder = freshFolder();
     writeExr(folder / "whole.exr", stereo());
@@ -195,17 +225,34 @@ TEST(Exr, AbsurdDataWindowsAreRefused) {
     const std::string key("dataWindow\0box2i\0\x10\0\0\0", 21);
     const std::size_t window = whole.find(key) + key.size();
     ASSERT_GT(window, key.size());
-    const auto withWindow = [&](const std::string& box) {
+    const auto refusalOf = [&](std::array<std::int32_t, 4> box) {
+        std::string bytes;
+        for (const auto bound : box) bytes += littleEndian(bound);
         std::string changed = whole;
-        return changed.replace(window, 16, box);
+        writeBytes(folder / "huge.exr", changed.replace(window, 16, bytes));
+        return refusal(folder / "huge.exr");
     };
-    const std::string zero(4, '\0'), big("\xff\xff\xff\x3f", 4), most("\xff\xff\xff\x7f", 4),
-        least("\0\0\0\x80", 4), minusOne(4, '\xff');
-    for (const auto& box : {zero + zero + big + big, zero + zero + most + zero,
-                            least + least + most + most, zero + zero + minusOne + minusOne}) {
-        writeBytes(folder / "huge.exr", withWindow(box));
-        EXPECT_THROW(readExr(folder / "huge.exr"), ImageError);
+    constexpr auto kMost = std::numeric_limits<std::int32_t>::max();
+    constexpr auto kLeast = std::numeric_limits<std::int32_t>::min();
+    EXPECT_THAT(refusalOf({0, 0, 16384, 16384}), HasSubstr("declares 16385 x 16385 pixels"));
+    EXPECT_THAT(refusalOf({0, 0, kMost / 4, 0}), HasSubstr("declares 536870912 x 1 pixels"));
+    for (const std::array<std::int32_t, 4> box : {std::array{0, 0, kMost, 0},
+                                                  {kLeast, kLeast, kMost, kMost},
+                                                  {0, 0, -1, -1},
+                                                  {5, 5, 2, 2}}) {
+        EXPECT_NE(refusalOf(box), "read") << box[2];
     }
+}
+
+TEST(Exr, AnAttributeLongerThanTheFileIsRefusedBeforeItIsAllocated) {
+    const auto folder = freshFolder();
+    writeExr(folder / "whole.exr", stereo(), {{"key", "value"}});
+    std::string bytes = readBytes(folder / "whole.exr");
+    const std::string key("key\0string\0", 11);
+    ASSERT_NE(bytes.find(key), std::string::npos);
+    bytes.replace(bytes.find(key) + key.size(), 4, littleEndian(0x7fffffff));
+    writeBytes(folder / "long.exr", bytes);
+    EXPECT_THAT(refusal(folder / "long.exr"), HasSubstr("its header ends too early"));
 }
 
 TEST(Exr, ADamagedHeaderIsRefusedOrReadsAsAPicture) {

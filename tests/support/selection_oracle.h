@@ -145,11 +145,13 @@ inline std::vector<timeseries::Number> awkwardNumbers() {
         numbers.push_back(std::nextafter(f, -D::infinity()));
     }
     const std::int64_t two53 = std::int64_t{1} << 53, two60 = std::int64_t{1} << 60;
+    // The last two but for the ends: half the way between floats, and one more. By way of a double,
+    // which drops that one, the latter would be rounded twice.
     for (std::int64_t i :
          {std::int64_t{-1}, std::int64_t{0}, std::int64_t{1}, std::int64_t{2}, std::int64_t{127},
           std::int64_t{-128}, std::int64_t{255}, -two60, two53 - 1, two53, two53 + 1, two60 - 1,
-          two60, two60 + 1, two60 + 2, std::numeric_limits<std::int64_t>::min(),
-          std::numeric_limits<std::int64_t>::max()})
+          two60, two60 + 1, two60 + 2, two60 + (two60 >> 24), two60 + (two60 >> 24) + 1,
+          std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()})
         numbers.push_back(i);
     for (std::uint64_t u :
          {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{65535},
@@ -214,8 +216,8 @@ inline std::string describe(const timeseries::Range& range) {
 
 inline std::string describe(std::span<const timeseries::Range> ranges) {
     std::string text = "{";
-    for (const timeseries::Range& range : ranges) text += " " + describe(range);
-    return text + " }";
+    for (const timeseries::Range& range : ranges) text.append(" ").append(describe(range));
+    return text.append(" }");
 }
 
 }  // namespace oracle

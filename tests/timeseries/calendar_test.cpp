@@ -8,8 +8,9 @@
 namespace timeseries {
 namespace {
 
-constexpr std::array kAll{Calendar::Standard, Calendar::ProlepticGregorian, Calendar::Julian,
-                          Calendar::NoLeap,   Calendar::AllLeap,            Calendar::Day360};
+constexpr std::array kAll{Calendar::Standard, Calendar::ProlepticGregorian,
+                          Calendar::Julian,   Calendar::NoLeap,
+                          Calendar::AllLeap,  Calendar::Day360};
 
 // The day after, by nothing but exists(): the calendar's own words, one day at a time.
 CivilDate next(Calendar calendar, CivilDate d) {
@@ -67,8 +68,8 @@ TEST(Calendar, YearsAreAsLongAsTheirRuleSays) {
 }
 
 TEST(Calendar, KnownJulianDayNumbers) {
-    // The Julian day number 0 is -4712-01-01 of the Julian calendar, 2451545 is 2000-01-01 Gregorian
-    // and 2299161 the first Gregorian day (Meeus, Astronomical Algorithms, chapter 7).
+    // The Julian day number 0 is -4712-01-01 of the Julian calendar, 2451545 is 2000-01-01
+    // Gregorian and 2299161 the first Gregorian day (Meeus, Astronomical Algorithms, chapter 7).
     const std::int64_t zero = dayNumber(Calendar::Julian, {-4712, 1, 1});
     EXPECT_EQ(dayNumber(Calendar::Standard, {-4712, 1, 1}), zero);
     EXPECT_EQ(dayNumber(Calendar::Standard, {2000, 1, 1}) - zero, 2451545);

@@ -85,8 +85,8 @@ TEST_F(RealNetcdf, SharesInsideRangesAgreeWithNumpyInEveryStep) {
         for (std::size_t step = 0; step < row.percent.size(); ++step) {
             const Field field = reader->read(variable, step);
             EXPECT_EQ(percentInside(field, row.lo, row.hi), row.percent[step])
-                << row.file << ' ' << row.variable << " [" << row.lo << ", " << row.hi
-                << "] step " << step;
+                << row.file << ' ' << row.variable << " [" << row.lo << ", " << row.hi << "] step "
+                << step;
         }
     }
     EXPECT_EQ(files.size(), 8u) << "of the shared NetCDF files";
@@ -147,8 +147,10 @@ TEST_F(RealNetcdf, CurvilinearNemoIsPlacedByIndexAndSaysSo) {
     EXPECT_EQ(uo.grid->axes()[1].coordinates[200], 200.0);
     EXPECT_EQ(uo.grid->axes()[2].units, "m");
     EXPECT_TRUE(uo.grid->axes()[2].down);
-    EXPECT_EQ(uo.time->points[0].date.substr(0, 10), "2000-01-04");
-    EXPECT_EQ(uo.time->points[3].date.substr(0, 10), "2000-01-29");
+    // 3155803200 s are 36525.5 days, and 36524 days lie between 1900-01-01 and 2000-01-01. (The
+    // file's title tells of January 4th: its times are a day and a half behind.)
+    EXPECT_EQ(uo.time->points[0].date, "2000-01-02 12:00:00");
+    EXPECT_EQ(uo.time->points[3].date, "2000-01-27 12:00:00");
 }
 
 TEST_F(RealNetcdf, TimesHaveTheDatesTheirUnitsMean) {
@@ -172,6 +174,9 @@ TEST_F(RealNetcdf, TimesHaveTheDatesTheirUnitsMean) {
     const TimeAxis& tens = *colpex->variables()[0].time;
     for (std::size_t i = 1; i < tens.points.size(); ++i)
         EXPECT_NEAR(tens.points[i].value - tens.points[i - 1].value, 1.0 / 6, 1e-6);
+    // Stored to about 20 microseconds, shown as meant.
+    EXPECT_EQ(tens.points[0].date, "2009-09-09 17:10:00");
+    EXPECT_EQ(tens.points[5].date, "2009-09-09 18:00:00");
 }
 
 TEST_F(RealNetcdf, PackedShortsTellHowTheyAreStored) {

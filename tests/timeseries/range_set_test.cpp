@@ -267,6 +267,14 @@ TEST(RangeSetConversion, OpenAndClosedEndsOfFractionsAreTheSameInIntegers) {
             << describe(range);
 }
 
+TEST(RangeSetConversion, IntegersAreRoundedToFloatOnce) {
+    // Floats near 2^60 are 2^37 apart. Just above the half the nearest is the upper one; a double
+    // on the way would land on the half itself, and that goes to the even lower one.
+    const std::int64_t aboveHalf = kTwo60 + (std::int64_t{1} << 36) + 1;
+    EXPECT_EQ(RangeSet({closed(aboveHalf, aboveHalf)}).toIntervals<float>(),
+              (std::vector<Interval<float>>{{0x1p60F + 0x1p37F, 0x1p60F + 0x1p37F}}));
+}
+
 TEST(RangeSetConversion, NeighboursOfTwoToTheSixtyAreSeparate) {
     EXPECT_EQ(RangeSet({closed(kTwo60 + 1, kTwo60 + 1)}).toIntervals<std::int64_t>(),
               (std::vector<Interval<std::int64_t>>{{kTwo60 + 1, kTwo60 + 1}}));

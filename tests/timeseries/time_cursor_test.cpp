@@ -177,7 +177,7 @@ TEST(TimeCursor, TimesThatDoNotIncreaseFallBackToEvenStepsAndSayWhy) {
     for (const std::vector<double>& times :
          {std::vector{0.0, 1.0, 1.0, 2.0}, std::vector{0.0, 1.0, kNan, 2.0},
           std::vector{3.0, 2.0, 1.0, 0.0}, std::vector{0.0, 1.0, 2.0, kInf},
-          std::vector{-1e308, 0.0, 1.0, 1e308}}) {
+          std::vector{-1e308, 0.0, 1.0, 1e308}, std::vector{-8e307, 0.0, 1.0, 8e307}}) {
         const TimeCursor cursor(times, s);
         ASSERT_TRUE(cursor.whyEven());
         EXPECT_FALSE(cursor.whyEven()->empty());

@@ -31,10 +31,8 @@ TEST(TimeUnits, EachCalendarCountsItsOwnDays) {
     EXPECT_EQ(date("days since 1582-10-04", 1.0), "1582-10-15 00:00:00");
     EXPECT_EQ(date("days since 1582-10-04", 1.0, Calendar::ProlepticGregorian),
               "1582-10-05 00:00:00");
-    EXPECT_EQ(date("days since 0001-01-01", 360.0 * 1999, Calendar::Day360),
-              "2000-01-01 00:00:00");
-    EXPECT_EQ(date("days since 0001-01-01", 365.0 * 1999, Calendar::NoLeap),
-              "2000-01-01 00:00:00");
+    EXPECT_EQ(date("days since 0001-01-01", 360.0 * 1999, Calendar::Day360), "2000-01-01 00:00:00");
+    EXPECT_EQ(date("days since 0001-01-01", 365.0 * 1999, Calendar::NoLeap), "2000-01-01 00:00:00");
 }
 
 TEST(TimeUnits, FractionsShowTheTimeThatWasMeant) {

@@ -76,8 +76,9 @@ std::string twoDimensionalCoordinates(const NcHeader& header, const NcVariable& 
 // (rotated poles and map projections, CF 1.10, section 5.6).
 bool measured(const NcVariable* coordinate) {
     if (!coordinate) return false;
-    const std::string units = coordinate->text("units");
-    return sameDimension(units, "degree") || sameDimension(units, "m");
+    const std::string units = lower(coordinate->text("units"));
+    // By its name, for to udunits a degree is a number like 1.
+    return units.starts_with("deg") || units.starts_with("rad") || sameDimension(units, "m");
 }
 
 Axis axisOf(const NetcdfFile& file, const NcVariable& variable, std::size_t position,
@@ -132,10 +133,9 @@ std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, c
     const auto coordinate = [&](std::optional<std::size_t> position) {
         return position ? coordinateOf(header, variable, *position) : nullptr;
     };
-    const std::string twoD =
-        measured(coordinate(roles.x)) && measured(coordinate(roles.y))
-            ? ""
-            : twoDimensionalCoordinates(header, variable, roles);
+    const std::string twoD = measured(coordinate(roles.x)) && measured(coordinate(roles.y))
+                                 ? ""
+                                 : twoDimensionalCoordinates(header, variable, roles);
     if (!twoD.empty()) notes.push_back("drawn in index space: 2-D coordinates " + twoD);
 
     std::array<Axis, 3> axes;

@@ -18,23 +18,30 @@ using Malformed = std::function<void(const std::string&)>;
 bool floating(ValueType type) { return type == ValueType::F32 || type == ValueType::F64; }
 bool wide(ValueType type) { return type == ValueType::I64 || type == ValueType::U64; }
 
-template <typename T>
-constexpr ValueType kTypeOf = static_cast<ValueType>(Values(std::vector<T>{}).index());
-
 // Calls use(T{}) with the C++ type.
 template <typename Use>
 void withType(ValueType type, Use use) {
     switch (type) {
-        case ValueType::U8: return use(std::uint8_t{});
-        case ValueType::I8: return use(std::int8_t{});
-        case ValueType::U16: return use(std::uint16_t{});
-        case ValueType::I16: return use(std::int16_t{});
-        case ValueType::U32: return use(std::uint32_t{});
-        case ValueType::I32: return use(std::int32_t{});
-        case ValueType::U64: return use(std::uint64_t{});
-        case ValueType::I64: return use(std::int64_t{});
-        case ValueType::F32: return use(float{});
-        case ValueType::F64: return use(double{});
+        case ValueType::U8:
+            return use(std::uint8_t{});
+        case ValueType::I8:
+            return use(std::int8_t{});
+        case ValueType::U16:
+            return use(std::uint16_t{});
+        case ValueType::I16:
+            return use(std::int16_t{});
+        case ValueType::U32:
+            return use(std::uint32_t{});
+        case ValueType::I32:
+            return use(std::int32_t{});
+        case ValueType::U64:
+            return use(std::uint64_t{});
+        case ValueType::I64:
+            return use(std::int64_t{});
+        case ValueType::F32:
+            return use(float{});
+        case ValueType::F64:
+            return use(double{});
     }
 }
 
@@ -42,14 +49,19 @@ void withType(ValueType type, Use use) {
 ValueType withSign(ValueType type, bool isUnsigned) {
     switch (type) {
         case ValueType::U8:
-        case ValueType::I8: return isUnsigned ? ValueType::U8 : ValueType::I8;
+        case ValueType::I8:
+            return isUnsigned ? ValueType::U8 : ValueType::I8;
         case ValueType::U16:
-        case ValueType::I16: return isUnsigned ? ValueType::U16 : ValueType::I16;
+        case ValueType::I16:
+            return isUnsigned ? ValueType::U16 : ValueType::I16;
         case ValueType::U32:
-        case ValueType::I32: return isUnsigned ? ValueType::U32 : ValueType::I32;
+        case ValueType::I32:
+            return isUnsigned ? ValueType::U32 : ValueType::I32;
         case ValueType::U64:
-        case ValueType::I64: return isUnsigned ? ValueType::U64 : ValueType::I64;
-        default: return type;
+        case ValueType::I64:
+            return isUnsigned ? ValueType::U64 : ValueType::I64;
+        default:
+            return type;
     }
 }
 
@@ -67,12 +79,22 @@ const std::vector<Number>* numbersOf(const NcVariable& variable, const char* nam
     return numbers;
 }
 
+// The nearest T, infinite beyond its limits.
+template <typename T>
+T nearestFloat(double value) {
+    if (std::abs(value) > static_cast<double>(std::numeric_limits<T>::max()) && !std::isinf(value))
+        return static_cast<T>(std::copysign(std::numeric_limits<T>::infinity(), value));
+    return static_cast<T>(value);
+}
+
 // A number of an attribute as a T of the variable; with `wrap`, the bits of the other signedness
 // (_FillValue = -1b of an unsigned byte is 255). Nothing when no T equals it.
 template <typename T>
 std::optional<T> storedNumber(const Number& number, bool wrap) {
     if constexpr (std::is_floating_point_v<T>) {
-        return static_cast<T>(toDouble(number));
+        const T nearest = nearestFloat<T>(toDouble(number));
+        const bool overflow = std::isinf(nearest) && std::isfinite(toDouble(number));
+        return overflow ? std::nullopt : std::optional(nearest);
     } else {
         Number n = number;
         if (const double* d = std::get_if<double>(&n)) {
@@ -99,24 +121,36 @@ std::optional<T> storedNumber(const Number& number, bool wrap) {
 
 template <typename T>
 Number toNumber(T value) {
-    if constexpr (std::is_floating_point_v<T>) return static_cast<double>(value);
-    else if constexpr (std::is_same_v<T, std::uint64_t>) return value;
-    else return static_cast<std::int64_t>(value);
+    if constexpr (std::is_floating_point_v<T>)
+        return static_cast<double>(value);
+    else if constexpr (std::is_same_v<T, std::uint64_t>)
+        return value;
+    else
+        return static_cast<std::int64_t>(value);
 }
 
 // NetCDF's fill for what was never written; bytes have none, for every byte may be meant
 // (NetCDF User's Guide, "Attribute Conventions", _FillValue).
 std::optional<Number> defaultFill(ValueType stored) {
     switch (stored) {
-        case ValueType::I16: return Number(std::int64_t{NC_FILL_SHORT});
-        case ValueType::U16: return Number(std::int64_t{NC_FILL_USHORT});
-        case ValueType::I32: return Number(std::int64_t{NC_FILL_INT});
-        case ValueType::U32: return Number(std::int64_t{NC_FILL_UINT});
-        case ValueType::I64: return Number(std::int64_t{NC_FILL_INT64});
-        case ValueType::U64: return Number(std::uint64_t{NC_FILL_UINT64});
-        case ValueType::F32: return Number(static_cast<double>(NC_FILL_FLOAT));
-        case ValueType::F64: return Number(NC_FILL_DOUBLE);
-        default: return std::nullopt;
+        case ValueType::I16:
+            return Number(std::int64_t{NC_FILL_SHORT});
+        case ValueType::U16:
+            return Number(std::int64_t{NC_FILL_USHORT});
+        case ValueType::I32:
+            return Number(std::int64_t{NC_FILL_INT});
+        case ValueType::U32:
+            return Number(std::int64_t{NC_FILL_UINT});
+        case ValueType::I64:
+            return Number(std::int64_t{NC_FILL_INT64});
+        case ValueType::U64:
+            return Number(std::uint64_t{NC_FILL_UINT64});
+        case ValueType::F32:
+            return Number(static_cast<double>(NC_FILL_FLOAT));
+        case ValueType::F64:
+            return Number(NC_FILL_DOUBLE);
+        default:
+            return std::nullopt;
     }
 }
 
@@ -147,21 +181,31 @@ void readScale(const NcVariable& variable, const Malformed& malformed, Packing& 
     // CF 1.10, section 8.1: the attributes' type, float only for integers of at most 16 bits, which
     // it holds exactly. A float variable is not made narrower nor wider than the wider of the two.
     const bool small = packing.stored < ValueType::U32;
-    const bool toFloat =
-        widest == ValueType::F32 && (small || packing.stored == ValueType::F32);
+    const bool toFloat = widest == ValueType::F32 && (small || packing.stored == ValueType::F32);
     packing.unpacked = toFloat ? ValueType::F32 : ValueType::F64;
+}
+
+// The number in the digits of its own type: a float 0.1, not 0.10000000149011612.
+std::string asWritten(const NcVariable& variable, const char* attribute, double otherwise) {
+    const NcAttribute* found = variable.find(attribute);
+    if (!found) return fmt::format("{}", otherwise);
+    const double value = toDouble(std::get<std::vector<Number>>(found->value).front());
+    return found->type == ValueType::F32 ? fmt::format("{}", static_cast<float>(value))
+                                         : fmt::format("{}", value);
 }
 
 void readMissing(const NcVariable& variable, const Malformed& malformed, Packing& packing) {
     const bool wrap = packing.stored != *variable.type;
-    std::vector<std::string> told;
     const auto add = [&](const char* name, const Number& number) {
         withType(packing.stored, [&](auto t) {
             const auto stored = storedNumber<decltype(t)>(number, wrap);
-            if (!stored) return;
+            // A missing_value that repeats the fill is common, and tells nothing.
+            if (!stored ||
+                std::ranges::find(packing.missing, toNumber(*stored)) != packing.missing.end())
+                return;
             packing.missing.push_back(toNumber(*stored));
-            const std::string text = fmt::format("{} {}", name, toText(Number(toNumber(*stored))));
-            if (std::ranges::find(told, text) == told.end()) told.push_back(text);
+            packing.missingText +=
+                fmt::format("{}{} {}", packing.missingText.empty() ? "" : ", ", name, +*stored);
         });
     };
     const auto* fill = numbersOf(variable, "_FillValue", 1, malformed);
@@ -169,10 +213,7 @@ void readMissing(const NcVariable& variable, const Malformed& malformed, Packing
     if (const auto* list = numbersOf(variable, "missing_value", 0, malformed))
         for (const Number& number : *list) add("missing_value", number);
     if (!fill && variable.filled)
-        if (const auto number = defaultFill(packing.stored))
-            add("netCDF's default fill", *number);
-    for (std::size_t i = 0; i < told.size(); ++i)
-        packing.missingText += (i ? ", " : "") + told[i];
+        if (const auto number = defaultFill(packing.stored)) add("netCDF's default fill", *number);
 }
 
 void readValidRange(const NcVariable& variable, const Malformed& malformed, Packing& packing) {
@@ -198,11 +239,11 @@ void readValidRange(const NcVariable& variable, const Malformed& malformed, Pack
             bound("valid_max", hi->front(), packing.validMax);
     }
     if (!packing.validMin && !packing.validMax) return;
-    packing.missingText += fmt::format(
-        "{}outside {}..{}{}", packing.missingText.empty() ? "" : ", ",
-        packing.validMin ? toText(*packing.validMin) : "-inf",
-        packing.validMax ? toText(*packing.validMax) : "inf",
-        packing.scaled && !packing.validUnpacked ? " as stored" : "");
+    packing.missingText +=
+        fmt::format("{}outside {}..{}{}", packing.missingText.empty() ? "" : ", ",
+                    packing.validMin ? toText(*packing.validMin) : "-inf",
+                    packing.validMax ? toText(*packing.validMax) : "inf",
+                    packing.scaled && !packing.validUnpacked ? " as stored" : "");
 }
 
 // The bounds as closed ends in T: what compare() finds between them and no more.
@@ -213,16 +254,20 @@ struct ValidInterval {
 
     ValidInterval(const std::optional<Number>& min, const std::optional<Number>& max) {
         if constexpr (std::is_floating_point_v<T>) {
-            lo = min ? static_cast<T>(toDouble(*min)) : -std::numeric_limits<T>::infinity();
-            hi = max ? static_cast<T>(toDouble(*max)) : std::numeric_limits<T>::infinity();
+            lo = min ? nearestFloat<T>(toDouble(*min)) : -std::numeric_limits<T>::infinity();
+            hi = max ? nearestFloat<T>(toDouble(*max)) : std::numeric_limits<T>::infinity();
         } else {
             if (min && compare(*min, toNumber(lo)) > 0) {
-                if (compare(*min, toNumber(hi)) > 0) empty = true;
-                else lo = inward(*min, true);
+                if (compare(*min, toNumber(hi)) > 0)
+                    empty = true;
+                else
+                    lo = inward(*min, true);
             }
             if (max && compare(*max, toNumber(hi)) < 0) {
-                if (compare(*max, toNumber(std::numeric_limits<T>::lowest())) < 0) empty = true;
-                else hi = inward(*max, false);
+                if (compare(*max, toNumber(std::numeric_limits<T>::lowest())) < 0)
+                    empty = true;
+                else
+                    hi = inward(*max, false);
             }
         }
     }
@@ -276,8 +321,8 @@ void unpackInto(const Packing& packing, const Layout& layout, const std::vector<
     for (std::size_t z = 0; z < nz; ++z)
         for (std::size_t y = 0; y < ny; ++y)
             for (std::size_t x = 0; x < nx; ++x, ++point) {
-                const Stored number = stored[x * layout.stride[0] + y * layout.stride[1] +
-                                             z * layout.stride[2]];
+                const Stored number =
+                    stored[x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]];
                 Value value = static_cast<Value>(number);
                 if (packing.scaled) value = static_cast<Value>(value * scale + offset);
                 values[point] = value;
@@ -303,14 +348,16 @@ Packing packingOf(const NcVariable& variable, const Malformed& malformed) {
     packing.stored = *variable.type;
     // CF 1.10, section 2.2, keeps this attribute of the NetCDF User's Guide.
     const std::string sign = lower(variable.text("_Unsigned"));
-    if (sign == "true" || sign == "false") packing.stored = withSign(packing.stored, sign == "true");
+    if (sign == "true" || sign == "false")
+        packing.stored = withSign(packing.stored, sign == "true");
     readScale(variable, malformed, packing);
     readMissing(variable, malformed, packing);
     readValidRange(variable, malformed, packing);
     packing.storedAs = typeName(packing.stored);
     if (packing.scaled)
-        packing.storedAs += fmt::format(" packed, scale {}, offset {}", packing.scale,
-                                        packing.offset);
+        packing.storedAs +=
+            fmt::format(" packed, scale {}, offset {}", asWritten(variable, "scale_factor", 1.0),
+                        asWritten(variable, "add_offset", 0.0));
     return packing;
 }
 
@@ -335,9 +382,12 @@ void unpack(const Packing& packing, const Layout& layout, const std::function<vo
             unpackInto(packing, layout, stored, field, values);
             field.values = std::move(values);
         };
-        if (!packing.scaled) into(Stored{});
-        else if (packing.unpacked == ValueType::F32) into(float{});
-        else into(double{});
+        if (!packing.scaled)
+            into(Stored{});
+        else if (packing.unpacked == ValueType::F32)
+            into(float{});
+        else
+            into(double{});
     });
 }
 

@@ -1,5 +1,6 @@
-// How stored numbers become values: _Unsigned, scale_factor and add_offset, and which stored numbers
-// stand for nothing (CF 1.10, sections 2.5.1 and 8.1; NetCDF User's Guide, "Attribute Conventions").
+// How stored numbers become values: _Unsigned, scale_factor and add_offset, and which stored
+// numbers stand for nothing (CF 1.10, sections 2.5.1 and 8.1; NetCDF User's Guide, "Attribute
+// Conventions").
 #pragma once
 
 #include <array>

@@ -28,9 +28,8 @@ const NcVariable* scalarTime(const NcHeader& header, const NcVariable& variable)
 }
 
 void readCoordinate(const NetcdfFile& file, const NcVariable& time, StoredTimes& times) {
-    const Packing packing = packingOf(time, [&](const std::string& what) {
-        file.fail("variable '" + time.name + "'", what);
-    });
+    const Packing packing = packingOf(
+        time, [&](const std::string& what) { file.fail("variable '" + time.name + "'", what); });
     times.name = time.baseName();
     times.units = time.text("units");
     times.calendar = time.text("calendar");
@@ -150,11 +149,11 @@ JoinedTimes join(const std::vector<StoredTimes>& parts,
     for (std::size_t i = 0; i < parts.size(); ++i) {
         auto values = inUnitsOf(parts[0], parts[i]);
         if (!values)
-            refuse(0, i,
-                   fmt::format("expected times in units that agree, found \"{}\" ({}) and \"{}\" "
-                               "({})",
-                               parts[0].units, parts[0].calendar, parts[i].units,
-                               parts[i].calendar));
+            refuse(
+                0, i,
+                fmt::format("expected times in units that agree, found \"{}\" ({}) and \"{}\" "
+                            "({})",
+                            parts[0].units, parts[0].calendar, parts[i].units, parts[i].calendar));
         if (values->empty()) continue;
         for (const Number& value : *values)
             if (!std::isfinite(toDouble(value))) refuse(0, i, "expected finite times");
@@ -162,7 +161,8 @@ JoinedTimes join(const std::vector<StoredTimes>& parts,
         const Number least = *lo, most = *hi;
         sorted.push_back({i, std::move(*values), least, most});
     }
-    std::ranges::stable_sort(sorted, [](const Part& a, const Part& b) { return before(a.lo, b.lo); });
+    std::ranges::stable_sort(sorted,
+                             [](const Part& a, const Part& b) { return before(a.lo, b.lo); });
     JoinedTimes joined{parts[0], {}};
     joined.times.values.clear();
     for (std::size_t i = 0; i < sorted.size(); ++i) {

@@ -16,8 +16,8 @@ namespace timeseries {
 namespace {
 
 constexpr std::uint32_t kDimensionTag = 10, kVariableTag = 11, kAttributeTag = 12;
-constexpr std::uint64_t kMaxRank = 1024;   // NC_MAX_VAR_DIMS
-constexpr std::uint64_t kMaxName = 65536;  // far beyond NC_MAX_NAME, which old files may pass
+constexpr std::uint64_t kMaxRank = 1024;  // NC_MAX_VAR_DIMS
+constexpr std::uint64_t kMaxName = 256;   // NC_MAX_NAME, the size of the library's buffers
 
 class ClassicHeader {
  public:
@@ -46,8 +46,7 @@ class ClassicHeader {
     };
 
     [[noreturn]] void damaged(std::string_view what) const {
-        throw FileError(
-            fmt::format("{}: netCDF header at byte {}: {}", path_.string(), at_, what));
+        throw FileError(fmt::format("{}: netCDF header at byte {}: {}", path_.string(), at_, what));
     }
     [[noreturn]] void tooShort(const std::string& variable) const {
         throw FileError(fmt::format(
@@ -58,9 +57,10 @@ class ClassicHeader {
 
     void expectBytes(std::uint64_t count) const {
         if (count > fileBytes_ - at_)
-            damaged(fmt::format("expected {} more bytes, but the file ends at byte {}: it is cut "
-                                "off or damaged",
-                                count, fileBytes_));
+            damaged(
+                fmt::format("expected {} more bytes, but the file ends at byte {}: it is cut "
+                            "off or damaged",
+                            count, fileBytes_));
     }
     void bytes(char* to, std::uint64_t count) {
         expectBytes(count);
@@ -88,9 +88,10 @@ class ClassicHeader {
     std::string name() {
         const std::uint64_t length = count();
         if (length > kMaxName) damaged(fmt::format("expected a name, found {} bytes", length));
-        expectBytes(length);
         std::string text(length, '\0');
         bytes(text.data(), length);
+        for (const char c : text)
+            if (c >= '\0' && c < ' ') damaged("expected a name, found control characters");
         skip((4 - length % 4) % 4);
         return text;
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace timeseries {
@@ -17,6 +18,18 @@ std::set<std::string> auxiliaries(const NcHeader& header) {
                     names.insert(found->name);
     return names;
 }
+
+// Exodus II meshes are netCDF files too, but their arrays are lists of nodes and elements.
+bool exodus(const NcHeader& header) {
+    const auto has = [&](std::string_view name) {
+        return std::ranges::find(header.dimensions, name, &NcDimension::name) !=
+               header.dimensions.end();
+    };
+    return has("num_dim") && has("num_nodes") && has("num_el_blk");
+}
+
+// The connectivity of an unstructured mesh (UGRID 1.0), which is no data.
+bool mesh(const NcVariable& variable) { return variable.find("cf_role") != nullptr; }
 
 bool geographic(const NcVariable& variable) {
     const auto kind = kindByAttributes(variable);
@@ -67,11 +80,15 @@ FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const 
 
 std::vector<FileVariable> contentsOf(const NetcdfFile& file) {
     const NcHeader& header = file.header();
+    if (exodus(header))
+        file.fail("", "expected fields on a grid, found a finite-element mesh (Exodus II)");
     const std::set<std::string> named = auxiliaries(header);
     std::vector<FileVariable> contents;
     std::string passedOver;
     for (const NcVariable& variable : header.variables) {
-        if (!variable.type || named.contains(variable.name) || geographic(variable)) continue;
+        if (!variable.type || named.contains(variable.name) || geographic(variable) ||
+            mesh(variable))
+            continue;
         const Roles roles = rolesOf(header, variable);
         if (roles.spatial() < 2) continue;
         const std::string why = obstacle(file, variable, roles);
@@ -81,8 +98,10 @@ std::vector<FileVariable> contentsOf(const NetcdfFile& file) {
             passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
     }
     if (contents.empty())
-        file.fail("", "expected a numeric variable with at least two spatial dimensions, found "
-                      "none" + passedOver);
+        file.fail("",
+                  "expected a numeric variable with at least two spatial dimensions, found "
+                  "none" +
+                      passedOver);
     return contents;
 }
 

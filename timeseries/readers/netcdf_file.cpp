@@ -1,6 +1,7 @@
 #include "timeseries/readers/netcdf_file.h"
 
 #include <fmt/format.h>
+#include <hdf5.h>
 #include <netcdf.h>
 
 #include <algorithm>
@@ -18,24 +19,47 @@ constexpr int kMaxGroupDepth = 64;
 constexpr std::uint64_t kMaxStepPoints = std::uint64_t{1} << 32;  // SortedStep's indices
 constexpr std::size_t kMaxAttributeBytes = 1 << 20;
 
-std::mutex& library() {
-    static std::mutex one;
-    return one;
-}
+// Held during every call of the library. HDF5 prints its errors unless told not to, and keeps that
+// setting per thread: netCDF sets it on the first thread alone.
+class LibraryLock {
+ public:
+    LibraryLock() : lock_(mutex()) {
+        thread_local const herr_t quiet = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+        static_cast<void>(quiet);
+    }
+
+ private:
+    static std::mutex& mutex() {
+        static std::mutex one;
+        return one;
+    }
+    std::lock_guard<std::mutex> lock_;
+};
 
 std::optional<ValueType> valueType(nc_type type) {
     switch (type) {
-        case NC_BYTE: return ValueType::I8;
-        case NC_UBYTE: return ValueType::U8;
-        case NC_SHORT: return ValueType::I16;
-        case NC_USHORT: return ValueType::U16;
-        case NC_INT: return ValueType::I32;
-        case NC_UINT: return ValueType::U32;
-        case NC_INT64: return ValueType::I64;
-        case NC_UINT64: return ValueType::U64;
-        case NC_FLOAT: return ValueType::F32;
-        case NC_DOUBLE: return ValueType::F64;
-        default: return std::nullopt;
+        case NC_BYTE:
+            return ValueType::I8;
+        case NC_UBYTE:
+            return ValueType::U8;
+        case NC_SHORT:
+            return ValueType::I16;
+        case NC_USHORT:
+            return ValueType::U16;
+        case NC_INT:
+            return ValueType::I32;
+        case NC_UINT:
+            return ValueType::U32;
+        case NC_INT64:
+            return ValueType::I64;
+        case NC_UINT64:
+            return ValueType::U64;
+        case NC_FLOAT:
+            return ValueType::F32;
+        case NC_DOUBLE:
+            return ValueType::F64;
+        default:
+            return std::nullopt;
     }
 }
 
@@ -48,11 +72,16 @@ bool floating(ValueType type) { return type == ValueType::F32 || type == ValueTy
 
 std::string formatName(int format) {
     switch (format) {
-        case NC_FORMAT_CLASSIC: return "NetCDF classic";
-        case NC_FORMAT_64BIT_OFFSET: return "NetCDF 64-bit offset";
-        case NC_FORMAT_64BIT_DATA: return "NetCDF-5 (CDF-5)";
-        case NC_FORMAT_NETCDF4_CLASSIC: return "NetCDF-4 classic model";
-        default: return "NetCDF-4";
+        case NC_FORMAT_CLASSIC:
+            return "NetCDF classic";
+        case NC_FORMAT_64BIT_OFFSET:
+            return "NetCDF 64-bit offset";
+        case NC_FORMAT_64BIT_DATA:
+            return "NetCDF-5 (CDF-5)";
+        case NC_FORMAT_NETCDF4_CLASSIC:
+            return "NetCDF-4 classic model";
+        default:
+            return "NetCDF-4";
     }
 }
 
@@ -64,14 +93,17 @@ std::vector<Number> asNumbers(const std::vector<T>& values) {
 }  // namespace
 
 void NetcdfFile::fail(std::string_view place, std::string_view what) const {
-    throw FileError(place.empty() ? fmt::format("{}: {}", path_.string(), what)
-                                  : fmt::format("{}: {}: {}", path_.string(), place, what));
+    // Names and texts come from the file: whatever they hold, it stays one line.
+    std::string sentence = fmt::format("{}{}{}", place, place.empty() ? "" : ": ", what);
+    for (char& c : sentence)
+        if (c >= '\0' && c < ' ') c = ' ';
+    throw FileError(path_.string() + ": " + sentence);
 }
 
 void NetcdfFile::check(int status, std::string_view place, std::string_view expected) const {
     if (status != NC_NOERR)
-        fail(place,
-             fmt::format("expected {}, but the library says \"{}\"", expected, nc_strerror(status)));
+        fail(place, fmt::format("expected {}, but the library says \"{}\"", expected,
+                                nc_strerror(status)));
 }
 
 NetcdfFile::NetcdfFile(const std::filesystem::path& path) : path_(path) {
@@ -84,7 +116,7 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path) : path_(path) {
     if (first == 'C') checkClassicLayout(path, file, fileBytes_);
     file.close();
 
-    const std::lock_guard lock(library());
+    const LibraryLock lock;
     // Absolute: the library takes what looks like a URL for one.
     check(nc_open(std::filesystem::absolute(path).c_str(), NC_NOWRITE, &id_), "",
           "a whole netCDF file");
@@ -97,7 +129,7 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path) : path_(path) {
 }
 
 NetcdfFile::~NetcdfFile() {
-    const std::lock_guard lock(library());
+    const LibraryLock lock;
     nc_close(id_);
 }
 
@@ -198,7 +230,8 @@ void NetcdfFile::readAttribute(NcVariable& variable, int number) const {
         std::vector<char*> strings(length, nullptr);
         check(nc_get_att_string(group, id, name.data(), strings.data()), place, what);
         std::string text;
-        for (const char* one : strings) text += (text.empty() ? "" : " ") + std::string(one ? one : "");
+        for (const char* one : strings)
+            text += (text.empty() ? "" : " ") + std::string(one ? one : "");
         nc_free_string(length, strings.data());
         attribute.value = std::move(text);
     } else if (attribute.type && floating(*attribute.type)) {
@@ -230,9 +263,10 @@ std::string NetcdfFile::tooLarge(const NcVariable& variable, std::uint64_t point
     if (points > kMaxStepPoints)
         return fmt::format("expected at most 2^32 points, found {}", points);
     if (std::max(bytes, static_cast<double>(variable.chunkBytes)) > limit)
-        return fmt::format("expected values that a file of {} bytes can hold, found {:.0f} bytes "
-                           "of them (chunks of {})",
-                           fileBytes_, bytes, variable.chunkBytes);
+        return fmt::format(
+            "expected values that a file of {} bytes can hold, found {:.0f} bytes "
+            "of them (chunks of {})",
+            fileBytes_, bytes, variable.chunkBytes);
     return "";
 }
 
@@ -244,12 +278,12 @@ std::vector<Number> NetcdfFile::numbers(const NcVariable& variable) const {
     const auto count = static_cast<std::uint64_t>(std::min(points, 1e18));
     if (const std::string why = tooLarge(variable, count); !why.empty()) fail(place, why);
     std::vector<Number> values(count);
-    const std::lock_guard lock(library());
+    const LibraryLock lock;
     const auto fill = [&](auto get, auto zero, auto number) {
         std::vector<decltype(zero)> stored(count);
-        check(get(variable.groupId, variable.id, stored.data()), place,
-              "values that can be read");
-        for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<decltype(number)>(stored[i]);
+        check(get(variable.groupId, variable.id, stored.data()), place, "values that can be read");
+        for (std::size_t i = 0; i < count; ++i)
+            values[i] = static_cast<decltype(number)>(stored[i]);
     };
     if (floating(*variable.type))
         fill(nc_get_var_double, 0.0, 0.0);
@@ -262,7 +296,7 @@ std::vector<Number> NetcdfFile::numbers(const NcVariable& variable) const {
 
 void NetcdfFile::read(const NcVariable& variable, std::span<const std::size_t> start,
                       std::span<const std::size_t> count, void* values) const {
-    const std::lock_guard lock(library());
+    const LibraryLock lock;
     check(nc_get_vara(variable.groupId, variable.id, start.data(), count.data(), values),
           "variable '" + variable.name + "'", "values that can be read");
 }

@@ -22,8 +22,8 @@ std::string NcVariable::text(std::string_view attribute) const {
 
 const NcVariable* NcHeader::find(std::string_view name, std::string_view group) const {
     while (true) {
-        const std::string path = group.empty() ? std::string(name)
-                                               : std::string(group) + '/' + std::string(name);
+        const std::string path =
+            group.empty() ? std::string(name) : std::string(group) + '/' + std::string(name);
         const auto at = std::ranges::find(variables, path, &NcVariable::name);
         if (at != variables.end()) return &*at;
         if (group.empty()) return nullptr;

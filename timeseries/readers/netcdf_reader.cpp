@@ -21,6 +21,8 @@ class NetcdfReader final : public Reader {
         format_ = file_->header().format;
         expectSameVariables();
         for (std::size_t v = 0; v < contents_[0].size(); ++v) addVariable(v);
+        for (auto& contents : contents_)  // told by variables_ now
+            for (FileVariable& variable : contents) variable.axes = {}, variable.times = {};
     }
 
     std::string format() const override { return format_; }
@@ -53,19 +55,19 @@ NetcdfFile& NetcdfReader::open(std::size_t index) {
 }
 
 void NetcdfReader::differ(std::size_t file, const std::string& what) const {
-    throw FileError(
-        fmt::format("{} and {}: {}", paths_[0].string(), paths_[file].string(), what));
+    throw FileError(fmt::format("{} and {}: {}", paths_[0].string(), paths_[file].string(), what));
 }
 
 void NetcdfReader::expectSameVariables() const {
     const auto& first = contents_[0];
     for (std::size_t f = 1; f < contents_.size(); ++f) {
         const auto& other = contents_[f];
-        for (std::size_t v = 0; v < std::max(first.size(), other.size()); ++v) {
+        for (std::size_t v = 0; v < std::max(first.size(), other.size()); ++v)
             if (v >= first.size() || v >= other.size() || first[v].name != other[v].name)
                 differ(f, fmt::format("expected the same variables, found '{}' and '{}'",
                                       v < first.size() ? first[v].name : "none",
                                       v < other.size() ? other[v].name : "none"));
+        for (std::size_t v = 0; v < first.size(); ++v) {
             const FileVariable &a = first[v], &b = other[v];
             const std::string place = fmt::format("variable '{}': expected the same ", a.name);
             if (a.packing.unpacked != b.packing.unpacked)
@@ -168,8 +170,9 @@ Field NetcdfReader::read(std::size_t variable, std::size_t step) {
     Field field;
     field.grid = variables_[variable].grid;
     const Block block = blockOf(source, step);
-    unpack(source.packing, block.layout,
-           [&](void* values) { file.read(*found, block.start, block.count, values); }, field);
+    unpack(
+        source.packing, block.layout,
+        [&](void* values) { file.read(*found, block.start, block.count, values); }, field);
     return field;
 }
 

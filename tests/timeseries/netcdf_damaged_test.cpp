@@ -1,0 +1,235 @@
+// Files that are cut, damaged or lie about their size: one sentence, in bounded time and memory.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <optional>
+#include <random>
+
+#include "tests/support/netcdf_builder.h"
+#include "timeseries/reader.h"
+
+namespace timeseries {
+namespace {
+
+using support::NetcdfBuilder;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Path = std::filesystem::path;
+
+std::string bytesOf(const Path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Path write(const std::string& name, const std::string& bytes) {
+    const Path path = Path(testing::TempDir()) / name;
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+}
+
+// Everything a file holds; nothing when it is refused. The refusal is one sentence with the path.
+std::optional<std::vector<Values>> contents(const Path& path) {
+    try {
+        const auto reader = openReader(std::span(&path, 1));
+        std::vector<Values> all;
+        for (std::size_t v = 0; v < reader->variables().size(); ++v)
+            for (std::size_t t = 0; t < reader->variables()[v].time->points.size(); ++t)
+                all.push_back(reader->read(v, t).values);
+        return all;
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), StartsWith(path.string() + ": "));
+        EXPECT_THAT(error.what(), HasSubstr("expected"));
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        return std::nullopt;
+    }
+}
+
+std::string refusal(const std::vector<Path>& paths) {
+    try {
+        openReader(paths);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// Two record variables, a fixed one, coordinates and attributes.
+Path sample(int mode) {
+    NetcdfBuilder file("sample.nc", mode);
+    const int t = file.dimension("time", NC_UNLIMITED), z = file.dimension("z", 3),
+              y = file.dimension("y", 5), x = file.dimension("x", 7);
+    const int time = file.variable("time", NC_DOUBLE, {t});
+    file.text(time, "units", "hours since 2000-01-01");
+    const int zs = file.variable("z", NC_FLOAT, {z});
+    const int a = file.variable("a", NC_SHORT, {t, z, y, x}),
+              b = file.variable("b", NC_FLOAT, {t, y, x});
+    const int fixed = file.variable("fixed", NC_BYTE, {y, x});
+    file.text(a, "long_name", "odd number of shorts");
+    file.number(a, "scale_factor", 0.5);
+    if (mode & NC_NETCDF4) NetcdfBuilder::check(nc_def_var_deflate(file.id(), b, 1, 1, 6));
+    std::vector<std::int16_t> shorts(4 * 105);
+    std::vector<float> floats(4 * 35);
+    for (std::size_t i = 0; i < shorts.size(); ++i) shorts[i] = static_cast<std::int16_t>(i + 1);
+    for (std::size_t i = 0; i < floats.size(); ++i) floats[i] = static_cast<float>(i) + 0.5f;
+    file.write(time, {0}, {4}, std::vector<double>{1, 2, 3, 4});
+    file.write(zs, std::vector<float>{1, 2, 4});
+    file.write(a, {0, 0, 0, 0}, {4, 3, 5, 7}, shorts);
+    file.write(b, {0, 0, 0}, {4, 5, 7}, floats);
+    file.write(fixed, std::vector<std::int8_t>(35, 9));
+    return file.close();
+}
+
+void cutEverywhere(int mode, std::size_t stride) {
+    const std::string whole = bytesOf(sample(mode));
+    const auto expected = contents(write("whole.nc", whole));
+    ASSERT_TRUE(expected);
+    std::size_t refused = 0;
+    const Path path = write(fmt::format("cut{}.nc", mode), whole);
+    std::size_t cuts = 0;
+    for (std::size_t length = whole.size() - 1; length > stride; length -= stride, ++cuts) {
+        std::filesystem::resize_file(path, length);
+        const auto found = contents(path);
+        refused += !found;
+        if (found) {
+            EXPECT_EQ(*found, *expected) << "cut at " << length << " of " << whole.size();
+        }
+    }
+    // Only the padding after the last value may be missed.
+    EXPECT_GE(refused + 3, cuts);
+}
+
+TEST(DamagedNetcdf, ClassicFilesCutAnywhereAreRefused) { cutEverywhere(0, 1); }
+TEST(DamagedNetcdf, OffsetFilesCutAnywhereAreRefused) { cutEverywhere(NC_64BIT_OFFSET, 1); }
+TEST(DamagedNetcdf, Cdf5FilesCutAnywhereAreRefused) { cutEverywhere(NC_CDF5, 1); }
+TEST(DamagedNetcdf, Netcdf4FilesCutAnywhereAreRefused) { cutEverywhere(NC_NETCDF4, 37); }
+
+// What a wrong header says must not crash the reader; values may differ, for they are not checked.
+TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
+    std::mt19937 random(5);
+    for (const int mode : {0, NC_CDF5}) {
+        const std::string whole = bytesOf(sample(mode));
+        const Path path = Path(testing::TempDir()) / "flipped.nc";
+        for (int i = 0; i < 1000; ++i) {
+            std::string bytes = whole;
+            for (int n = 0; n < 1 + i % 3; ++n)
+                bytes[4 + random() % 700] = static_cast<char>(random() % 3 ? random() : 0xFF);
+            std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+            contents(path);
+        }
+    }
+}
+
+TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
+    EXPECT_EQ(refusal({}), "expected a file to open, but none is named");
+    const Path missing = Path(testing::TempDir()) / "there_is_none.nc";
+    EXPECT_EQ(refusal({missing}), missing.string() + ": expected a file, but there is none");
+    const Path folder = testing::TempDir();
+    EXPECT_EQ(refusal({folder}), folder.string() + ": expected a file, but it is a folder");
+    EXPECT_THAT(refusal({"/dev/null"}), HasSubstr("expected an ordinary file"));
+    const Path empty = write("empty.nc", "");
+    EXPECT_THAT(refusal({empty}), HasSubstr("but it is empty"));
+    if (geteuid() != 0) {
+        const Path locked = write("locked.nc", "CDF\1");
+        std::filesystem::permissions(locked, std::filesystem::perms::none);
+        EXPECT_EQ(refusal({locked}), locked.string() + ": expected a file that can be read");
+    }
+}
+
+TEST(DamagedNetcdf, OtherFormatsAreToldApart) {
+    using namespace std::string_literals;
+    for (const std::string& bytes :
+         {"NRRD0004\n"s, "CDF"s, "CDF\3aaaaaaaa"s, "CDF\4aaaaaaaa"s, "\x89HDG\r\n\x1a\n"s,
+          "\x89HDF\r\n\x1a"s, std::string(100, '\0')}) {
+        const Path path = write("other.bin", bytes);
+        EXPECT_THAT(refusal({path}),
+                    StartsWith(path.string() + ": expected a NetCDF file, which begins with"));
+    }
+    // The right first bytes and nothing after.
+    EXPECT_FALSE(contents(write("magic.nc", "CDF\1"s)));
+    EXPECT_FALSE(contents(write("magic.nc", "CDF\5aaaaaaaaaaaaaaaaaaaaaaaaa"s)));
+    EXPECT_FALSE(contents(write("magic.nc", "\x89HDF\r\n\x1a\n"s)));
+    EXPECT_FALSE(contents(write("magic.nc", "\x89HDF\r\n\x1a\n"s + std::string(5000, 'x'))));
+}
+
+TEST(DamagedNetcdf, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
+    // A NetCDF-4 file may declare any size: what was never written takes no room.
+    NetcdfBuilder file("huge.nc");
+    const int y = file.dimension("y", 60000), x = file.dimension("x", 60000);
+    file.variable("v", NC_DOUBLE, {y, x});
+    const std::string why = refusal({file.close()});
+    EXPECT_THAT(why, HasSubstr("v(y, x): expected values that a file of"));
+
+    NetcdfBuilder more("more.nc");
+    const int z = more.dimension("z", 100000), b = more.dimension("y", 100000),
+              a = more.dimension("x", 100000);
+    more.variable("v", NC_BYTE, {z, b, a});
+    EXPECT_THAT(refusal({more.close()}), HasSubstr("expected at most 2^32 points"));
+
+    NetcdfBuilder steps("steps.nc");
+    const int t = steps.dimension("time", std::size_t{1} << 40), d = steps.dimension("y", 2),
+              c = steps.dimension("x", 2);
+    steps.variable("v", NC_BYTE, {t, d, c});
+    EXPECT_THAT(refusal({steps.close()}), HasSubstr("steps, found 1099511627776"));
+}
+
+TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {
+    NetcdfBuilder file("a.nc");
+    const int y = file.dimension("y", 64), x = file.dimension("x", 64);
+    const int v = file.variable("v", NC_FLOAT, {y, x});
+    NetcdfBuilder::check(nc_def_var_deflate(file.id(), v, 0, 1, 6));
+    std::mt19937 random(1);
+    std::vector<float> values(64 * 64);
+    for (float& value : values) value = static_cast<float>(random());
+    file.write(v, values);
+    const Path path = file.close();
+    std::string bytes = bytesOf(path);
+    // The chunk is most of the file: overwrite the middle of it.
+    for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 64; ++i) bytes[i] = '\xFF';
+    const Path damaged = write("damaged.nc", bytes);
+    const auto reader = openReader(std::span(&damaged, 1));
+    try {
+        reader->read(0, 0);
+        FAIL();
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), StartsWith(damaged.string() +
+                                             ": variable 'v': expected values that can be read"));
+    }
+}
+
+TEST(DamagedNetcdf, FiniteElementMeshesAreNotTakenForGrids) {
+    NetcdfBuilder file("a.e", 0);
+    const int dims = file.dimension("num_dim", 3), nodes = file.dimension("num_nodes", 8);
+    file.dimension("num_el_blk", 1);
+    file.variable("coord", NC_DOUBLE, {dims, nodes});
+    EXPECT_THAT(refusal({file.close()}), HasSubstr("found a finite-element mesh (Exodus II)"));
+}
+
+TEST(DamagedNetcdf, AnEmptySeriesIsTold) {
+    NetcdfBuilder file("a.nc");
+    const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 2),
+              x = file.dimension("x", 2);
+    file.variable("v", NC_FLOAT, {t, y, x});
+    EXPECT_THAT(refusal({file.close()}), HasSubstr("v(time, y, x): the dimension time is empty"));
+}
+
+TEST(DamagedNetcdf, AFileThatChangesAfterItWasOpenedIsTold) {
+    const auto still = [](const char* name, std::size_t n) {
+        NetcdfBuilder file(name, 0);
+        const int y = file.dimension("y", n), x = file.dimension("x", 2);
+        const int v = file.variable("v", NC_BYTE, {y, x});
+        file.write(v, std::vector<std::int8_t>(2 * n, 1));
+        return file.close();
+    };
+    const std::vector<Path> paths{still("a.nc", 2), still("b.nc", 2)};
+    const auto reader = openReader(paths);
+    std::filesystem::copy_file(still("c.nc", 3), paths[1],
+                               std::filesystem::copy_options::overwrite_existing);
+    EXPECT_THROW(reader->read(0, 1), FileError);
+    EXPECT_NO_THROW(reader->read(0, 0));
+}
+
+}  // namespace
+}  // namespace timeseries

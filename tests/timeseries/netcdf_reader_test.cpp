@@ -1,0 +1,404 @@
+#include "timeseries/reader.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "tests/support/netcdf_builder.h"
+
+namespace timeseries {
+namespace {
+
+using support::ncType;
+using support::NetcdfBuilder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Path = std::filesystem::path;
+
+std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
+
+template <typename T>
+std::vector<T> valuesOf(const Field& field) {
+    return std::get<std::vector<T>>(field.values);
+}
+
+// What FileError says; "" when none is thrown.
+template <typename Do>
+std::string failure(Do action) {
+    try {
+        action();
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// "x0 y1 z2" of each point, from a value that encodes its place in the file.
+template <typename T>
+void expectPlaces(NetcdfBuilder& file, std::mt19937& random, const std::string& message) {
+    // Time, x, y, z and perhaps a dimension of one point, in any order.
+    std::vector<std::string> names{"time", "z", "y", "x"};
+    if (random() % 2) names.push_back("one");
+    if (random() % 4 == 0) std::erase(names, "z");
+    if (random() % 4 == 0) std::erase(names, "time");
+    std::ranges::shuffle(names, random);
+    std::vector<int> dimensions;
+    std::map<std::string, std::size_t> length;
+    for (const std::string& name : names) {
+        length[name] = name == "one" ? 1 : 1 + random() % 4;
+        dimensions.push_back(file.dimension(name, length[name]));
+    }
+    const int variable = file.variable("v", ncType<T>(), dimensions);
+    std::size_t total = 1;
+    for (const auto& [name, n] : length) total *= n;
+    std::vector<T> stored(total);
+    for (std::size_t i = 0; i < total; ++i) stored[i] = static_cast<T>(i % 120);
+    file.write(variable, stored);
+    const auto reader = open(file.close());
+
+    ASSERT_EQ(reader->variables().size(), 1u) << message;
+    const auto n = [&](const char* name) { return length.contains(name) ? length[name] : 1; };
+    const Variable& v = reader->variables()[0];
+    ASSERT_EQ(v.type, static_cast<ValueType>(Values(std::vector<T>{}).index())) << message;
+    ASSERT_EQ(v.grid->size(), (std::array{n("x"), n("y"), n("z")})) << message;
+    ASSERT_EQ(v.time->points.size(), n("time")) << message;
+    for (std::size_t t = 0; t < n("time"); ++t) {
+        const Field field = reader->read(0, t);
+        EXPECT_TRUE(field.missing.empty()) << message;
+        std::size_t point = 0;
+        for (std::size_t z = 0; z < n("z"); ++z)
+            for (std::size_t y = 0; y < n("y"); ++y)
+                for (std::size_t x = 0; x < n("x"); ++x, ++point) {
+                    const std::map<std::string, std::size_t> at{
+                        {"time", t}, {"z", z}, {"y", y}, {"x", x}, {"one", 0}};
+                    std::size_t offset = 0;
+                    for (const std::string& name : names)
+                        offset = offset * length[name] + at.at(name);
+                    ASSERT_EQ(valuesOf<T>(field)[point], stored[offset])
+                        << message
+                        << fmt::format(" at x {} y {} z {} t {} of {}", x, y, z, t,
+                                       fmt::join(names, ","));
+                }
+    }
+}
+
+TEST(NetcdfReader, EveryValueLandsInItsPlaceWhateverTheOrderOfDimensionsAndTheType) {
+    std::mt19937 random(11);
+    for (int i = 0; i < 60; ++i) {
+        const std::string name = fmt::format("{}.nc", i);
+        const std::string message = "case " + name;
+        NetcdfBuilder file(name, i % 3 == 0 ? NC_CDF5 : NC_NETCDF4);
+        switch (i % 10) {
+            case 0:
+                expectPlaces<std::int8_t>(file, random, message);
+                break;
+            case 1:
+                expectPlaces<std::uint8_t>(file, random, message);
+                break;
+            case 2:
+                expectPlaces<std::int16_t>(file, random, message);
+                break;
+            case 3:
+                expectPlaces<std::uint16_t>(file, random, message);
+                break;
+            case 4:
+                expectPlaces<std::int32_t>(file, random, message);
+                break;
+            case 5:
+                expectPlaces<std::uint32_t>(file, random, message);
+                break;
+            case 6:
+                expectPlaces<std::int64_t>(file, random, message);
+                break;
+            case 7:
+                expectPlaces<std::uint64_t>(file, random, message);
+                break;
+            case 8:
+                expectPlaces<float>(file, random, message);
+                break;
+            default:
+                expectPlaces<double>(file, random, message);
+                break;
+        }
+    }
+}
+
+// v(y = 2, x = 3) with what the test puts on it.
+template <typename T, typename Attributes>
+Path plane(const std::string& name, const std::vector<T>& values, Attributes attributes,
+           int mode = NC_NETCDF4) {
+    NetcdfBuilder file(name, mode);
+    const int y = file.dimension("y", 2), x = file.dimension("x", values.size() / 2);
+    const int v = file.variable("v", ncType<T>(), {y, x});
+    attributes(file, v);
+    file.write(v, values);
+    return file.close();
+}
+
+TEST(NetcdfReader, PackedShortsAreComparedWithFillBeforeUnpacking) {
+    // 20 unpacks to 22, 22 to 26: the fill is the stored 22.
+    const auto path =
+        plane<std::int16_t>("a.nc", {20, 22, 24, -1, 1000, 0}, [](NetcdfBuilder& file, int v) {
+            file.number(v, "scale_factor", 2.0);
+            file.number(v, "add_offset", -18.0);
+            file.number<std::int16_t>(v, "_FillValue", 22);
+        });
+    const auto reader = open(path);
+    EXPECT_EQ(reader->variables()[0].type, ValueType::F64);
+    const Field field = reader->read(0, 0);
+    EXPECT_THAT(valuesOf<double>(field), ElementsAre(22, 26, 30, -20, 1982, -18));
+    EXPECT_THAT(field.missing, ElementsAre(false, true, false, false, false, false));
+}
+
+template <typename Stored, typename Scale>
+ValueType unpackedType(const std::string& name) {
+    const auto path = plane<Stored>(name, {1, 2, 3, 4}, [](NetcdfBuilder& file, int v) {
+        file.number<Scale>(v, "scale_factor", 2);
+    });
+    const auto reader = open(path);
+    const Field field = reader->read(0, 0);
+    EXPECT_EQ(field.type(), reader->variables()[0].type);
+    std::visit([&](const auto& v) { EXPECT_EQ(v[3], static_cast<decltype(v[3])>(8)) << name; },
+               field.values);
+    return field.type();
+}
+
+TEST(NetcdfReader, UnpackedTypeIsThatOfTheScaleAndNeverLosesIntegers) {
+    // CF 1.10, section 8.1: float scales are for integers of at most 16 bits.
+    EXPECT_EQ((unpackedType<std::int8_t, float>("1")), ValueType::F32);
+    EXPECT_EQ((unpackedType<std::uint8_t, float>("2")), ValueType::F32);
+    EXPECT_EQ((unpackedType<std::int16_t, float>("3")), ValueType::F32);
+    EXPECT_EQ((unpackedType<std::uint16_t, float>("4")), ValueType::F32);
+    EXPECT_EQ((unpackedType<std::int32_t, float>("5")), ValueType::F64);
+    EXPECT_EQ((unpackedType<std::int16_t, double>("6")), ValueType::F64);
+    EXPECT_EQ((unpackedType<float, double>("7")), ValueType::F64);
+    EXPECT_EQ((unpackedType<float, float>("8")), ValueType::F32);
+    EXPECT_EQ((unpackedType<double, float>("9")), ValueType::F64);
+    EXPECT_EQ((unpackedType<std::int16_t, std::int16_t>("10")), ValueType::F64);
+}
+
+TEST(NetcdfReader, FloatScalesAreAppliedInFloatAsCfSays) {
+    const auto path = plane<std::int16_t>("a.nc", {1234, -777, 31, 5}, [](auto& file, int v) {
+        file.template number<float>(v, "scale_factor", 0.1f);
+        file.template number<float>(v, "add_offset", 0.3f);
+    });
+    const Field field = open(path)->read(0, 0);
+    const std::int16_t stored[] = {1234, -777, 31, 5};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const float product = static_cast<float>(stored[i]) * 0.1f;
+        EXPECT_EQ(valuesOf<float>(field)[i], product + 0.3f);
+    }
+}
+
+TEST(NetcdfReader, SixtyFourBitIntegersStayExact) {
+    const std::int64_t big = (std::int64_t{1} << 62) + 1;
+    const auto path = plane<std::int64_t>("a.nc", {big, -big, 0, big - 1}, [](auto& file, int v) {
+        file.number(v, "_FillValue", std::int64_t{1} << 62);
+        file.number(v, "scale_factor", 1.0);  // a scale of one changes nothing
+    });
+    const Field field = open(path)->read(0, 0);
+    EXPECT_THAT(valuesOf<std::int64_t>(field), ElementsAre(big, -big, 0, big - 1));
+    EXPECT_THAT(field.missing, ElementsAre(false, false, false, true)) << "exactly the fill";
+
+    const std::uint64_t top = std::numeric_limits<std::uint64_t>::max();
+    const auto other = plane<std::uint64_t>("b.nc", {top, top - 1, 1, 0}, [&](auto& file, int v) {
+        file.number(v, "_FillValue", top - 1);
+    });
+    const Field unsignedField = open(other)->read(0, 0);
+    EXPECT_THAT(valuesOf<std::uint64_t>(unsignedField), ElementsAre(top, top - 1, 1, 0));
+    EXPECT_THAT(unsignedField.missing, ElementsAre(false, true, false, false));
+}
+
+TEST(NetcdfReader, UnsignedAttributeTurnsBytesAndTheirFill) {
+    const auto path = plane<std::int8_t>(
+        "a.nc", {-1, -2, 0, 127},
+        [](auto& file, int v) {
+            file.text(v, "_Unsigned", "true");
+            file.template number<std::int8_t>(v, "_FillValue", -1);
+            file.template number<std::int8_t>(v, "valid_range", {1, -2});  // 1 to 254
+        },
+        NC_CLASSIC_MODEL);
+    const auto reader = open(path);
+    EXPECT_EQ(reader->variables()[0].missing, "_FillValue 255, outside 1..254");
+    const Field field = reader->read(0, 0);
+    EXPECT_THAT(valuesOf<std::uint8_t>(field), ElementsAre(255, 254, 0, 127));
+    EXPECT_THAT(field.missing, ElementsAre(true, false, true, false));
+}
+
+TEST(NetcdfReader, ClassicFilesHaveDefaultFillsToo) {
+    const auto path = plane<float>(
+        "a.nc", {NC_FILL_FLOAT, 5, 6, 7}, [](auto&, int) {}, 0);
+    const auto reader = open(path);
+    EXPECT_EQ(reader->variables()[0].missing, "netCDF's default fill 9.96921e+36");
+    EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(true, false, false, false));
+}
+
+TEST(NetcdfReader, StorageIsToldInTheDigitsOfTheFile) {
+    const auto path = plane<std::uint8_t>("a.nc", {1, 2, 3, 4}, [](auto& file, int v) {
+        file.number(v, "scale_factor", 0.1f);
+        file.template number<std::uint8_t>(v, "_FillValue", 255);
+        file.number(v, "missing_value", std::vector<std::uint8_t>{255, 254});
+    });
+    const auto reader = open(path);
+    EXPECT_EQ(reader->variables()[0].storedAs, "uint8 packed, scale 0.1, offset 0");
+    EXPECT_EQ(reader->variables()[0].missing, "_FillValue 255, missing_value 254");
+    const auto floats = plane<float>("b.nc", {1, 2, 3, 4}, [](auto& file, int v) {
+        file.number(v, "_FillValue", -1e34f);
+        file.number(v, "missing_value", 1e300);  // no float: it stands for none
+    });
+    EXPECT_EQ(open(floats)->variables()[0].missing, "_FillValue -1e+34");
+}
+
+TEST(NetcdfReader, TurnedStepsAreUnpackedAndMaskedInTheirNewPlace) {
+    NetcdfBuilder file("a.nc");
+    const int x = file.dimension("x", 2), t = file.dimension("time", 2), y = file.dimension("y", 3);
+    const int v = file.variable("v", NC_SHORT, {x, t, y});
+    file.number(v, "add_offset", 100.0);
+    file.number<std::int16_t>(v, "_FillValue", 7);
+    // x 0: t 0: y 0..2, t 1: y 0..2; x 1: the same.
+    file.write(v, std::vector<std::int16_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+    const auto reader = open(file.close());
+    const Field field = reader->read(0, 0);
+    EXPECT_THAT(valuesOf<double>(field), ElementsAre(100, 106, 101, 107, 102, 108));
+    EXPECT_THAT(field.missing, ElementsAre(false, false, false, true, false, false));
+}
+
+TEST(NetcdfReader, MissingValuesMayBeSeveral) {
+    const auto path = plane<float>("a.nc", {1, -9, -99, -9.5f}, [](auto& file, int v) {
+        file.number(v, "missing_value", std::vector<double>{-9, -99});
+    });
+    const auto reader = open(path);
+    EXPECT_THAT(reader->variables()[0].missing, HasSubstr("missing_value -9, missing_value -99"));
+    EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(false, true, true, false));
+}
+
+TEST(NetcdfReader, FillOfAnotherTypeIsTheNearestOfTheVariables) {
+    // 1e20 as a double is not the float 1e20, but means it.
+    const auto path = plane<float>("a.nc", {1, 1e20f, 1.0001e20f, 2}, [](auto& file, int v) {
+        file.number(v, "missing_value", 1e20);
+    });
+    EXPECT_THAT(open(path)->read(0, 0).missing, ElementsAre(false, true, false, false));
+}
+
+TEST(NetcdfReader, ValidRangeIsInStoredValuesUnlessItHasTheScalesType) {
+    const auto stored = plane<std::int16_t>("a.nc", {9, 10, 20, 21}, [](auto& file, int v) {
+        file.number(v, "scale_factor", 0.5);
+        file.template number<std::int16_t>(v, "valid_min", 10);
+        file.template number<std::int16_t>(v, "valid_max", 20);
+    });
+    EXPECT_THAT(open(stored)->read(0, 0).missing, ElementsAre(true, false, false, true));
+    const auto unpacked = plane<std::int16_t>("b.nc", {9, 10, 20, 21}, [](auto& file, int v) {
+        file.number(v, "scale_factor", 0.5);
+        file.number(v, "valid_range", std::vector<double>{4.75, 10});
+    });
+    EXPECT_THAT(open(unpacked)->read(0, 0).missing, ElementsAre(true, false, false, true));
+}
+
+TEST(NetcdfReader, DefaultFillIsMissingExceptInBytes) {
+    const auto shorts =
+        plane<std::int16_t>("a.nc", {NC_FILL_SHORT, -32766, -32768, 1}, [](auto&, int) {});
+    EXPECT_THAT(open(shorts)->read(0, 0).missing, ElementsAre(true, false, false, false));
+    const auto bytes = plane<std::int8_t>("b.nc", {NC_FILL_BYTE, -128, 127, 1}, [](auto&, int) {});
+    EXPECT_TRUE(open(bytes)->read(0, 0).missing.empty());
+    const auto floats = plane<float>(
+        "c.nc", {NC_FILL_FLOAT, std::nextafter(NC_FILL_FLOAT, 0.0f), 1, 2}, [](auto&, int) {});
+    EXPECT_THAT(open(floats)->read(0, 0).missing, ElementsAre(true, false, false, false));
+    // A _FillValue of its own takes the default's place; a variable that is not filled has none.
+    const auto own = plane<std::int16_t>("d.nc", {NC_FILL_SHORT, 5, 6, 7}, [](auto& file, int v) {
+        file.template number<std::int16_t>(v, "_FillValue", 5);
+    });
+    EXPECT_THAT(open(own)->read(0, 0).missing, ElementsAre(false, true, false, false));
+    const auto noFill =
+        plane<std::int16_t>("e.nc", {NC_FILL_SHORT, 5, 6, 7}, [](auto& file, int v) {
+            NetcdfBuilder::check(nc_def_var_fill(file.id(), v, NC_NOFILL, nullptr));
+        });
+    EXPECT_TRUE(open(noFill)->read(0, 0).missing.empty());
+}
+
+TEST(NetcdfReader, NanIsLeftUnmarkedAlsoAsFillAndInValidRanges) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto path = plane<float>("a.nc", {1, nan, 7, 3}, [&](auto& file, int v) {
+        file.number(v, "_FillValue", nan);
+        file.number(v, "valid_max", 5.0f);
+    });
+    const Field field = open(path)->read(0, 0);
+    EXPECT_TRUE(std::isnan(valuesOf<float>(field)[1]));
+    EXPECT_THAT(field.missing, ElementsAre(false, false, true, false));
+}
+
+TEST(NetcdfReader, MalformedAttributesAreOneSentence) {
+    struct Case {
+        std::string name, expected;
+        std::function<void(NetcdfBuilder&, int)> attributes;
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<Case> cases{
+        {"nan_scale", "scale_factor: expected a finite number, found nan",
+         [&](auto& f, int v) { f.number(v, "scale_factor", nan); }},
+        {"text_scale", "scale_factor: expected a number, found the text \"two\"",
+         [](auto& f, int v) { f.text(v, "scale_factor", "two"); }},
+        {"two_offsets", "add_offset: expected 1 number, found 2",
+         [](auto& f, int v) {
+             f.number(v, "add_offset", std::vector<double>{1, 2});
+         }},
+        {"text_missing", "missing_value: expected a number, found the text \"none\"",
+         [](auto& f, int v) { f.text(v, "missing_value", "none"); }},
+        {"text_valid", "valid_min: expected a number",
+         [](auto& f, int v) { f.text(v, "valid_min", "0"); }},
+        {"one_range", "valid_range: expected 2 numbers, found 1",
+         [](auto& f, int v) { f.number(v, "valid_range", 1.0); }},
+    };
+    for (const Case& c : cases) {
+        const auto path = plane<std::int16_t>(c.name, {1, 2, 3, 4}, c.attributes);
+        const std::string what = failure([&] { open(path); });
+        EXPECT_THAT(what, HasSubstr(path.string() + ": variable 'v': " + c.expected)) << c.name;
+    }
+}
+
+TEST(NetcdfReader, FormatsAreNamed) {
+    const std::vector<std::pair<int, std::string>> formats{
+        {0, "NetCDF classic"},
+        {NC_64BIT_OFFSET, "NetCDF 64-bit offset"},
+        {NC_CDF5, "NetCDF-5 (CDF-5)"},
+        {NC_NETCDF4, "NetCDF-4"},
+        {NC_NETCDF4 | NC_CLASSIC_MODEL, "NetCDF-4 classic model"}};
+    for (const auto& [mode, name] : formats) {
+        const auto reader = open(plane<float>(
+            "a.nc", {1, 2, 3, 4}, [](auto&, int) {}, mode));
+        EXPECT_EQ(reader->format(), name);
+        EXPECT_EQ(reader->variables()[0].storedAs, "float32");
+        EXPECT_THAT(valuesOf<float>(reader->read(0, 0)), ElementsAre(1, 2, 3, 4));
+    }
+}
+
+TEST(NetcdfReader, ReadersOnDifferentThreadsDoNotDisturbEachOther) {
+    std::vector<Path> paths;
+    for (int i = 0; i < 4; ++i)
+        paths.push_back(plane<float>(
+            fmt::format("{}.nc", i), std::vector<float>(2000, static_cast<float>(i)),
+            [](auto&, int) {}, i % 2 ? NC_NETCDF4 : 0));
+    std::vector<int> wrong(paths.size(), 0);
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            threads.emplace_back([&, i] {
+                for (int round = 0; round < 30; ++round) {
+                    const Field field = open(paths[i])->read(0, 0);
+                    for (const float v : valuesOf<float>(field))
+                        wrong[i] += v != static_cast<float>(i);
+                }
+            });
+    }
+    EXPECT_THAT(wrong, testing::Each(0));
+}
+
+}  // namespace
+}  // namespace timeseries

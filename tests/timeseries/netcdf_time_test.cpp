@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/netcdf_builder.h"
+#include "timeseries/reader.h"
+
+namespace timeseries {
+namespace {
+
+using support::ncType;
+using support::NetcdfBuilder;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Path = std::filesystem::path;
+
+std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
+
+std::string failure(const std::vector<Path>& paths) {
+    try {
+        openReader(paths);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// v(time, y = 2, x = 2), every value of step t being first + t.
+template <typename T = double>
+Path series(const std::string& name, const std::vector<T>& times, const std::string& units,
+            const std::string& calendar = "", float first = 0) {
+    NetcdfBuilder file(name, NC_NETCDF4);
+    const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 2),
+              x = file.dimension("x", 2);
+    const int time = file.variable("time", ncType<T>(), {t});
+    if (!units.empty()) file.text(time, "units", units);
+    if (!calendar.empty()) file.text(time, "calendar", calendar);
+    const int v = file.variable("v", NC_FLOAT, {t, y, x});
+    const int fixed = file.variable("orography", NC_FLOAT, {y, x});
+    std::vector<float> values;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        values.insert(values.end(), 4, first + static_cast<float>(i));
+    file.write(time, {0}, {times.size()}, times);
+    file.write(v, {0, 0, 0}, {times.size(), 2, 2}, values);
+    file.write(fixed, std::vector<float>{1, 2, 3, 4});
+    return file.close();
+}
+
+std::vector<double> timesOf(const Reader& reader) {
+    std::vector<double> values;
+    for (const TimePoint& point : reader.variables()[0].time->points) values.push_back(point.value);
+    return values;
+}
+
+// The first value of every step.
+std::vector<float> firstValues(Reader& reader) {
+    std::vector<float> values;
+    for (std::size_t t = 0; t < reader.variables()[0].time->points.size(); ++t)
+        values.push_back(std::get<std::vector<float>>(reader.read(0, t).values)[0]);
+    return values;
+}
+
+TEST(NetcdfTime, ValuesAreAsStoredWithDatesOfTheCalendar) {
+    const auto reader = open(series("a.nc", {0.0, 58.0, 59.0}, "days since 2000-01-01", "NoLeap"));
+    const TimeAxis& time = *reader->variables()[0].time;
+    EXPECT_EQ(time.name, "time");
+    EXPECT_EQ(time.units, "days since 2000-01-01");
+    EXPECT_EQ(time.calendar, "noleap");
+    EXPECT_EQ(time.points[1].value, 58.0);
+    EXPECT_EQ(time.points[1].date, "2000-02-28 00:00:00");
+    EXPECT_EQ(time.points[2].date, "2000-03-01 00:00:00");
+    // What has no time has one step.
+    EXPECT_EQ(reader->variables()[1].time->points.size(), 1u);
+    EXPECT_EQ(reader->variables()[1].time->name, "step");
+}
+
+TEST(NetcdfTime, PlainNumbersHaveNoDates) {
+    for (const char* units : {"", "s", "1"}) {
+        const auto reader = open(series("a.nc", {0.5, 0.25}, units));
+        const TimeAxis& time = *reader->variables()[0].time;
+        EXPECT_THAT(timesOf(*reader), ElementsAre(0.5, 0.25)) << "the stored order";
+        EXPECT_EQ(time.calendar, "");
+        EXPECT_EQ(time.points[0].date, "");
+        EXPECT_EQ(time.units, units);
+    }
+    const auto none = open(series("b.nc", {0.5}, "days since 2000-01-01", "none"));
+    EXPECT_EQ(none->variables()[0].time->points[0].date, "");
+    EXPECT_EQ(none->variables()[0].time->calendar, "");
+}
+
+TEST(NetcdfTime, DatesThatCannotBeToldAreNoted) {
+    const auto bad = open(series("a.nc", {1.0}, "days since the flood"));
+    EXPECT_EQ(bad->variables()[0].time->points[0].date, "");
+    EXPECT_THAT(bad->variables()[0].notes,
+                testing::Contains(HasSubstr("\"days since the flood\" is no date")));
+    const auto odd = open(series("b.nc", {1.0}, "days since 2000-01-01", "aztec"));
+    EXPECT_THAT(odd->variables()[0].notes, testing::Contains(HasSubstr("\"aztec\" is not known")));
+}
+
+TEST(NetcdfTime, SixtyFourBitTimesHaveExactDates) {
+    // Half a millisecond less a nanosecond: as a double it would round up.
+    const std::int64_t ns = 1'152'921'504'606'499'999;
+    const auto reader = open(series<std::int64_t>("a.nc", {ns}, "nanoseconds since 1970-01-01"));
+    EXPECT_EQ(reader->variables()[0].time->points[0].date, "2006-07-14 23:58:24.606");
+}
+
+TEST(NetcdfTime, AScalarCoordinateTellsTheTimeOfASingleStep) {
+    NetcdfBuilder file("a.nc");
+    const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+    const int time = file.variable("when", NC_INT, {});
+    file.text(time, "units", "hours since 2001-02-03");
+    const int v = file.variable("v", NC_FLOAT, {y, x});
+    file.text(v, "coordinates", "when");
+    file.write(time, std::vector<std::int32_t>{30});
+    const auto reader = open(file.close());
+    const TimeAxis& axis = *reader->variables()[0].time;
+    EXPECT_EQ(axis.name, "when");
+    ASSERT_EQ(axis.points.size(), 1u);
+    EXPECT_EQ(axis.points[0].date, "2001-02-04 06:00:00");
+}
+
+TEST(NetcdfTime, FilesOfOneTimedStepEachAreASeries) {
+    const auto step = [](const std::string& name, double hours, float value) {
+        NetcdfBuilder file(name);
+        const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+        const int time = file.variable("time", NC_DOUBLE, {});
+        file.text(time, "units", "hours since 2001-02-03");
+        const int v = file.variable("v", NC_FLOAT, {y, x});
+        file.text(v, "coordinates", "time");
+        file.write(time, std::vector<double>{hours});
+        file.write(v, std::vector<float>(4, value));
+        return file.close();
+    };
+    const auto reader = openReader(std::vector<Path>{step("b.nc", 5, 50), step("a.nc", 2, 20)});
+    EXPECT_THAT(timesOf(*reader), ElementsAre(2, 5));
+    EXPECT_THAT(firstValues(*reader), ElementsAre(20, 50));
+}
+
+TEST(NetcdfTime, FilesAreJoinedInTheOrderOfTheirTimes) {
+    const std::vector<Path> paths{series("c.nc", {6.0, 7.0}, "s", "", 60),
+                                  series("a.nc", {1.0, 3.0}, "s", "", 10),
+                                  series("b.nc", {4.0}, "s", "", 40)};
+    const auto reader = openReader(paths);
+    EXPECT_THAT(timesOf(*reader), ElementsAre(1, 3, 4, 6, 7));
+    EXPECT_THAT(firstValues(*reader), ElementsAre(10, 11, 40, 60, 61));
+    EXPECT_EQ(reader->read(0, 4).grid, reader->variables()[0].grid);
+    EXPECT_EQ(reader->files().size(), 3u);
+    EXPECT_EQ(reader->files()[0], paths[0]);
+    EXPECT_EQ(reader->variables()[1].time->points.size(), 1u) << "orography has no time";
+}
+
+TEST(NetcdfTime, ReferencesOfLaterFilesAreConvertedToTheFirst) {
+    // 2000 is a leap year: February has 29 days, in every file's own units.
+    const std::vector<Path> paths{series("a.nc", {0.0, 24.0}, "hours since 2000-02-01"),
+                                  series("b.nc", {0.0, 1.5}, "days since 2000-03-01"),
+                                  series("c.nc", {3600.0}, "seconds since 2000-04-01 00:00 -1:00")};
+    const auto reader = openReader(paths);
+    EXPECT_THAT(timesOf(*reader), ElementsAre(0, 24, 29 * 24, 29 * 24 + 36, (29 + 31) * 24 + 2));
+    EXPECT_EQ(reader->variables()[0].time->points[4].date, "2000-04-01 02:00:00");
+    EXPECT_EQ(reader->variables()[0].time->units, "hours since 2000-02-01");
+}
+
+TEST(NetcdfTime, OverlappingTimesAreRefusedNamingBothFiles) {
+    const Path a = series("a.nc", {0.0, 2.0}, "s"), b = series("b.nc", {1.0, 3.0}, "s"),
+               c = series("c.nc", {2.0}, "s");
+    EXPECT_THAT(failure({b, a}), AllOf(HasSubstr(a.string()), HasSubstr(b.string()),
+                                       HasSubstr("expected times that do not overlap")));
+    EXPECT_THAT(failure({a, c}), HasSubstr("do not overlap")) << "the same time twice";
+    EXPECT_THAT(failure({a, a}), HasSubstr("do not overlap")) << "the same file twice";
+}
+
+TEST(NetcdfTime, UnitsThatCannotMeetAreRefused) {
+    const Path a = series("a.nc", {0.0}, "s"), b = series("b.nc", {1.0}, "m"),
+               c = series("c.nc", {5.0}, "days since 2000-01-01"),
+               d = series("d.nc", {9.0}, "days since 2000-01-01", "noleap"),
+               e = series("e.nc", {2.0}, "ms");
+    EXPECT_THAT(failure({a, b}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(failure({a, c}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(failure({c, d}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(timesOf(*openReader(std::vector<Path>{a, e})), ElementsAre(0, 0.002));
+}
+
+Path still(const std::string& name, std::size_t nx, const std::string& units, nc_type type,
+           float value) {
+    NetcdfBuilder file(name);
+    const int y = file.dimension("y", 2), x = file.dimension("x", nx);
+    const int v = file.variable("v", type, {y, x});
+    file.text(v, "units", units);
+    file.end();
+    NetcdfBuilder::check(nc_put_var_float(file.id(), v, std::vector<float>(2 * nx, value).data()));
+    return file.close();
+}
+
+TEST(NetcdfTime, FilesWithoutTimeAreStepsInTheOrderGiven) {
+    const std::vector<Path> paths{still("b.nc", 2, "K", NC_FLOAT, 5),
+                                  still("a.nc", 2, "K", NC_FLOAT, 3)};
+    const auto reader = openReader(paths);
+    EXPECT_EQ(reader->variables()[0].time->name, "step");
+    EXPECT_THAT(timesOf(*reader), ElementsAre(0, 1));
+    EXPECT_THAT(firstValues(*reader), ElementsAre(5, 3));
+}
+
+TEST(NetcdfTime, FilesThatDifferAreRefusedNamingBoth) {
+    const Path a = still("a.nc", 2, "K", NC_FLOAT, 1), grid = still("b.nc", 3, "K", NC_FLOAT, 1),
+               units = still("c.nc", 2, "degC", NC_FLOAT, 1),
+               type = still("d.nc", 2, "K", NC_SHORT, 1);
+    EXPECT_THAT(failure({a, grid}),
+                AllOf(HasSubstr(a.string() + " and " + grid.string()), HasSubstr("the same grid")));
+    EXPECT_THAT(failure({a, units}), HasSubstr("the same units, found \"K\" and \"degC\""));
+    EXPECT_THAT(failure({a, type}), HasSubstr("the same type, found float32 and int16"));
+    const Path other = series("e.nc", {1.0}, "s");  // holds orography too
+    EXPECT_THAT(failure({other, a}),
+                HasSubstr("expected the same variables, found 'orography' and 'none'"));
+}
+
+TEST(NetcdfTime, EachFileOfASeriesHasItsOwnPacking) {
+    const auto packed = [](const std::string& name, double time, double offset) {
+        NetcdfBuilder file(name);
+        const auto t = file.coordinate("time", 1, "s");
+        const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+        const int v = file.variable("v", NC_SHORT, {t.dimension, y, x});
+        file.number(v, "add_offset", offset);
+        file.write(t.variable, std::vector<double>{time});
+        file.write(v, std::vector<std::int16_t>{1, 2, 3, 4});
+        return file.close();
+    };
+    const auto reader =
+        openReader(std::vector<Path>{packed("a.nc", 0, 100), packed("b.nc", 1, 200)});
+    EXPECT_THAT(std::get<std::vector<double>>(reader->read(0, 1).values),
+                ElementsAre(201, 202, 203, 204));
+    EXPECT_THAT(std::get<std::vector<double>>(reader->read(0, 0).values),
+                ElementsAre(101, 102, 103, 104));
+}
+
+}  // namespace
+}  // namespace timeseries
