@@ -98,6 +98,7 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
         if (!s.visible) return;
         const double windowDepth =
             (clip[3][2] - clip[2][2] * static_cast<double>(s.depth)) / static_cast<double>(s.depth);
+        if (windowDepth > 1) return;  // beyond the far plane
         const bool alone =
             into.channels[0] == Channels::Over || into.channels[0] == Channels::Count;
         const std::size_t plane = alone ? 0 : layer;

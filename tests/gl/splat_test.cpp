@@ -1,69 +1,210 @@
 // The GL splatter against the truth: the same model in double.
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include "render/cpu_splatter.h"
-#include "render/gl/debug_output.h"
-#include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
-#include "render/gl_list.h"
-#include "render/gl_splatter.h"
 #include "render/image_compare.h"
-#include "render/targets.h"
-#include "tests/support/scenes.h"
+#include "tests/support/gl_planes.h"
 
 namespace render {
 namespace {
 
 using tests::cube;
 using tests::lookFrom;
+using timeseries::RangeSet;
 
-class GlSplat : public testing::Test {
- protected:
-    // One plane drawn on GL, rows from the bottom.
-    std::vector<float> drawn(const Scene& scene, const View& view, Channels channels,
-                             std::size_t layer = 0) {
-        Targets targets(view.size);
-        gl::begin({.framebuffer = targets.opaqueFramebuffer(),
-                   .size = view.size,
-                   .clearColor = glm::vec4(0),
-                   .clearDepth = 1.0f});
-        GpuStep step(scene.step, scene.lattice);
-        GlSplatter splatter;
-        const auto list = splatter.upload(scene, order(scene, {0, -3, 0}), step);
-        splatter.draw(*list, view, channels, layer, targets.clearedPlane(0, channels));
-        std::vector<float> plane;
-        const bool scalar = channels == Channels::Weight || channels == Channels::Count;
-        plane.resize(std::size_t(view.size.x) * view.size.y * (scalar ? 1 : 4));
-        glGetTextureSubImage(targets.plane(0).id(), 0, 0, 0, 0, view.size.x, view.size.y, 1,
-                             scalar ? GL_RED : GL_RGBA, GL_FLOAT,
-                             static_cast<GLsizei>(plane.size() * 4), plane.data());
-        gl::throwOnError();
-        return plane;
-    }
-    std::vector<double> truth(const Scene& scene, const View& view, Channels channels) {
-        Accumulator<double> sums(view.size, {channels});
-        splat(scene, orderExactly(scene, {0, -3, 0}), view, {}, sums);
-        return sums.planes[0];
-    }
+class GlSplat : public tests::GlTest {};
 
-    gl::HeadlessContext context_;
-};
+Scene noiseScene(const timeseries::SortedStep& step, const Lattice& lattice, const char* range,
+                 RangeStyle style = {Constant{glm::dvec3(1)}, 0.5}) {
+    return {.step = step,
+            .lattice = lattice,
+            .layers = {{step.select(RangeSet::parse(range)), style}},
+            .footprint = {},
+            .order = Order::None,
+            .clip = {}};
+}
+
+std::vector<double> truth(const Scene& scene, const View& view, Channels channels,
+                          std::span<const float> opaqueDepth = {}) {
+    Accumulator<double> sums(view.size, {channels});
+    splat(scene, orderExactly(scene, tests::kMidEye), view, opaqueDepth, sums);
+    return sums.planes[0];
+}
+
+// relative L2 of a plane drawn on GL.
+double error(tests::GlTest& gl, const Scene& scene, const View& view, Channels channels) {
+    return compareScalars(gl.plane(scene, view, channels), truth(scene, view, channels)).relativeL2;
+}
+
+constexpr double kTarget = 1e-5;
 
 TEST_F(GlSplat, OpticalDepthIsTheTruthsToOnePartIn100000) {
-    const auto step = tests::noise(cube(40));
+    const auto step = tests::noise(cube(32));
     const Lattice lattice(step.grid());
-    const Scene scene{.step = step,
-                      .lattice = lattice,
-                      .layers = {{step.select(timeseries::RangeSet::parse("0.3:0.6")), {}}},
-                      .footprint = {},
-                      .order = Order::None,
-                      .clip = {}};
-    for (const glm::dvec3 eye :
-         {glm::dvec3(0, -3, 0), glm::dvec3(2, -2, 1), glm::dvec3(0.2, 0.1, 1.4)}) {
-        const View view = lookFrom(eye, {512, 512});
-        const auto error = compareScalars(drawn(scene, view, Channels::Weight),
-                                          truth(scene, view, Channels::Weight));
-        EXPECT_LE(error.relativeL2, 1e-5) << "eye " << eye.x << ' ' << eye.y << ' ' << eye.z;
+    const Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    // From outside with point sprites; from inside and from a corner with quads.
+    for (const glm::dvec3 eye : {glm::dvec3(0, -3, 0), glm::dvec3(2, -2, 1),
+                                 glm::dvec3(0.2, 0.1, 0.3), glm::dvec3(0.5, 0.5, 0.52)})
+        EXPECT_LE(error(*this, scene, lookFrom(eye, {320, 320}), Channels::Weight), kTarget)
+            << "eye " << eye.x << ' ' << eye.y << ' ' << eye.z;
+}
+
+TEST_F(GlSplat, UnequalAndUnevenCellsAreTheTruths) {
+    timeseries::Axis uneven = tests::axis(12, 0, 1);
+    for (double& x : uneven.coordinates) x = std::exp(0.4 * x);
+    const auto grid = std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(30, 5, -0.2), tests::axis(20, 0, 0.7), uneven});
+    const auto step = tests::noise(grid);
+    const Lattice lattice(*grid);
+    const Scene scene = noiseScene(step, lattice, "0.2:0.4");
+    for (const glm::dvec3 eye : {glm::dvec3(0, -3, 0.4), glm::dvec3(0.3, -0.2, 2.5)})
+        EXPECT_LE(error(*this, scene, lookFrom(eye, {400, 300}), Channels::Weight), kTarget);
+}
+
+TEST_F(GlSplat, AsymmetricAndWideFrustaAreTheTruths) {
+    const auto step = tests::noise(cube(24));
+    const Lattice lattice(step.grid());
+    const Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    View view = lookFrom({0, -1.3, 0}, {500, 400});
+    view.clipFromView = clipFromView({-1.4, 0.3, -0.2, 1.1, 0.05, 50});
+    EXPECT_LE(error(*this, scene, view, Channels::Weight), kTarget);
+}
+
+TEST_F(GlSplat, ASplatSlidingOutOfThePictureNeverVanishesWhole) {
+    // The centre leaves the clip volume while its footprint still shows.
+    auto grid = std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(1), tests::axis(1), tests::axis(1)});
+    const auto step = tests::stepOf(grid, [](std::size_t) { return 0.5; });
+    const Lattice lattice(*grid);
+    const Scene scene = noiseScene(step, lattice, "0:1");
+    for (double x = 1.0; x < 4.0; x += 0.25) {
+        View view = lookFrom({0, -6, 0}, {128, 128});
+        view.viewFromWorld[3].x = x;
+        EXPECT_LE(error(*this, scene, view, Channels::Weight), kTarget) << "moved by " << x;
+    }
+}
+
+TEST_F(GlSplat, SizesFarAboveAndBelowAPixelAreTheTruths) {
+    const auto step = tests::noise(cube(10));
+    const Lattice lattice(step.grid());
+    Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    for (const double size : {0.05, 0.5, 3.0, 20.0}) {
+        scene.footprint.size = size;
+        EXPECT_LE(error(*this, scene, lookFrom({0, -3, 0.3}, {256, 256}), Channels::Weight),
+                  kTarget)
+            << "size " << size;
+    }
+    scene.footprint.size = 1;
+    EXPECT_LE(error(*this, scene, lookFrom({0, -900, 0}, {256, 256}, 0.3), Channels::Weight),
+              kTarget)
+        << "sub-pixel cells";
+}
+
+TEST_F(GlSplat, PointSplatsDepositTheSameTotal) {
+    // A point at a pixel's border may fall to either side of it in float: totals are compared, over
+    // a picture that holds every point.
+    const auto step = tests::noise(cube(24));
+    const Lattice lattice(step.grid());
+    Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    scene.footprint.kernel = Kernel::Point;
+    const View view = lookFrom({1, -4, 1}, {300, 300});
+    for (const double size : {1.0, 3.0}) {
+        scene.footprint.size = size;
+        double drawn = 0, expected = 0;
+        for (const float w : plane(scene, view, Channels::Weight)) drawn += static_cast<double>(w);
+        for (const double w : truth(scene, view, Channels::Weight)) expected += w;
+        EXPECT_NEAR(drawn, expected, 1e-5 * expected) << "size " << size;
+    }
+}
+
+TEST_F(GlSplat, ColourByValueIsTheTruths) {
+    const auto step = tests::noise(cube(24));
+    const Lattice lattice(step.grid());
+    const View view = lookFrom({1, -3, 1}, {300, 300});
+    // Map ends inside, outside and equal.
+    for (const auto& [lo, hi] : {std::pair(0.3, 0.6), std::pair(-1.0, 4.0), std::pair(0.5, 0.5)}) {
+        const Scene scene = noiseScene(step, lattice, "0.3:0.6", {ByValue{{}, lo, hi}, 0.5});
+        EXPECT_LE(error(*this, scene, view, Channels::WeightedColor), kTarget) << lo << ' ' << hi;
+    }
+}
+
+TEST_F(GlSplat, OrderedOverIsTheTruthsToTheOrdersResolution) {
+    const auto step = tests::noise(cube(24));
+    const Lattice lattice(step.grid());
+    Scene scene = noiseScene(step, lattice, "0.1:0.6", {ByValue{{}, 0.1, 0.6}, 0.3});
+    scene.layers.push_back({step.select(RangeSet::parse("0.8:0.9")), {Constant{{1, 0, 0}}, 0.9}});
+    scene.order = Order::BackToFront;
+    for (const glm::dvec3 eye : {tests::kMidEye, glm::dvec3(0.03, -3, 0.02)}) {
+        // The second eye stands beside the point that the order was made for.
+        const View view = lookFrom(eye, {300, 300});
+        EXPECT_LE(error(*this, scene, view, Channels::Over), 1e-4);
+    }
+}
+
+TEST_F(GlSplat, CountsEveryFootprintThatTouchesAPixel) {
+    const auto step = tests::noise(cube(16));
+    const Lattice lattice(step.grid());
+    const Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    const View view = lookFrom({1, -3, 1}, {200, 200});
+    const auto drawn = plane(scene, view, Channels::Count);
+    const auto expected = truth(scene, view, Channels::Count);
+    // A pixel on a footprint's very border may fall to either side in float.
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        ASSERT_LE(std::abs(static_cast<double>(drawn[i]) - expected[i]), 1) << i;
+        differing += static_cast<double>(drawn[i]) != expected[i];
+    }
+    EXPECT_LE(differing, drawn.size() / 1000);
+}
+
+TEST_F(GlSplat, ClippedPointsAreNotDrawn) {
+    const auto step = tests::noise(cube(20));
+    const Lattice lattice(step.grid());
+    Scene scene = noiseScene(step, lattice, "0:1");
+    scene.clip = indexBox(step.grid(), {3, 5, 2}, {9, 19, 8.5});
+    EXPECT_LE(error(*this, scene, lookFrom({1, -3, 1}, {256, 256}), Channels::Weight), kTarget);
+}
+
+TEST_F(GlSplat, TheOpaqueSceneHidesWhatLiesBehindIt) {
+    const auto step = tests::noise(cube(20));
+    const Lattice lattice(step.grid());
+    const Scene scene = noiseScene(step, lattice, "0:1");
+    const View view = lookFrom({0, -3, 0}, {128, 128});
+    // A wall through the lattice, at a depth that no point has exactly.
+    const glm::dvec4 wall = view.clipFromView * glm::dvec4(0, 0, -3.01, 1);
+    const auto depth = static_cast<float>(wall.z / wall.w);
+    const auto drawn = plane(scene, view, Channels::Weight, depth);
+    const auto expected =
+        truth(scene, view, Channels::Weight, std::vector<float>(128 * 128, depth));
+    EXPECT_LE(compareScalars(drawn, expected).relativeL2, kTarget);
+    EXPECT_LT(compareScalars(drawn, truth(scene, view, Channels::Weight)).relativeL2, 1);
+    EXPECT_GT(compareScalars(drawn, truth(scene, view, Channels::Weight)).relativeL2, 0.1);
+}
+
+TEST_F(GlSplat, OffsetOfTheCoordinatesDoesNotChangeABit) {
+    const auto near = tests::noise(cube(16));
+    const double h = 1.0 / 1024;
+    const auto far = tests::noise(std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(16, 1e7, h), tests::axis(16, -1e7, h), tests::axis(16, 3e6, h)}));
+    const Lattice nearLattice(near.grid()), farLattice(far.grid());
+    const View view = lookFrom({1, -3, 1}, {200, 200});
+    const auto a = plane(noiseScene(near, nearLattice, "0.3:0.6"), view, Channels::Weight);
+    const auto b = plane(noiseScene(far, farLattice, "0.3:0.6"), view, Channels::Weight);
+    EXPECT_LE(compareScalars(b, a).relativeL2, 1e-6);
+}
+
+TEST_F(GlSplat, AnEmptySelectionDrawsNothing) {
+    const auto step = tests::noise(cube(8));
+    const Lattice lattice(step.grid());
+    Scene scene = noiseScene(step, lattice, "5:6");
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        scene.order = order;
+        const Channels channels = order == Order::None ? Channels::Weight : Channels::Over;
+        for (const float w : plane(scene, lookFrom({0, -3, 0}, {32, 32}), channels))
+            EXPECT_EQ(w, 0);
     }
 }
 

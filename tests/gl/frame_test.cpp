@@ -1,0 +1,138 @@
+// Whole frames: two eyes are one list drawn twice, and pictures are what the truth resolves to.
+#include "render/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "render/cpu_splatter.h"
+#include "render/gl/headless_context.h"
+#include "render/image_compare.h"
+#include "tests/support/scenes.h"
+
+namespace render {
+namespace {
+
+using timeseries::RangeSet;
+
+class Frame : public testing::Test {
+ protected:
+    FrameContent content() { return {scene_, step_.grid(), {}, glm::dvec3(0.02, 0.03, 0.04)}; }
+    std::vector<EyePicture> draw(const std::vector<View>& eyes, const Extras& extras = {}) {
+        return renderer_.render(content(), onGpu_, eyes, extras);
+    }
+
+    gl::HeadlessContext context_;
+    timeseries::SortedStep step_ = tests::noise(tests::cube(20));
+    Lattice lattice_{step_.grid()};
+    GpuStep onGpu_{step_, lattice_};
+    FrameRenderer renderer_;
+    Scene scene_{
+        .step = step_,
+        .lattice = lattice_,
+        .layers = {{step_.select(RangeSet::parse("0.1:0.2")), {Constant{{1, 0.2, 0}}, 0.2}},
+                   {step_.select(RangeSet::parse("0.7:0.9")), {ByValue{{}, 0.7, 0.9}, 0.3}}},
+        .footprint = {},
+        .order = Order::None,
+        .clip = {}};
+    View left_ = tests::lookFrom({-0.05, -3, 0}, {200, 160});
+    View right_ = tests::lookFrom({0.05, -3, 0}, {200, 160});
+};
+
+TEST_F(Frame, TwoEyesAreOneListOrderedAndUploadedOnce) {
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        scene_.order = order;
+        const auto before = renderer_.counts();
+        draw({left_, right_});
+        EXPECT_EQ(renderer_.counts().orders - before.orders, 1u);
+        EXPECT_EQ(renderer_.counts().uploads - before.uploads, 1u);
+        EXPECT_EQ(renderer_.counts().eyes - before.eyes, 2u);
+    }
+}
+
+TEST_F(Frame, EyesAtOnePlaceSeeTheSameBits) {
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        scene_.order = order;
+        const auto pictures = draw({left_, left_});
+        EXPECT_EQ(pictures[0].image, pictures[1].image);
+        EXPECT_NE(pictures[0].image, draw({right_})[0].image) << "or nothing was compared";
+    }
+}
+
+TEST_F(Frame, ResolvedColoursAreTheTruths) {
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        scene_.order = order;
+        Accumulator<double> sums(left_.size, channelsFor(scene_));
+        splat(scene_, orderExactly(scene_, pixelRays(left_).eye), left_, {}, sums);
+        // The same picture without splats is the ground that they stand before.
+        const Image drawn = draw({left_})[0].image;
+        const std::vector<Layer> layers = std::move(scene_.layers);
+        scene_.layers = {};
+        const Image ground = draw({left_})[0].image;
+        scene_.layers = layers;
+        Image expected(left_.size);
+        for (int y = 0; y < left_.size.y; ++y)
+            for (int x = 0; x < left_.size.x; ++x) {
+                const Resolved r = resolvePixel(sums, layers, x, left_.size.y - 1 - y);
+                expected.at(x, y) = glm::vec4(glm::dvec4(r.rgb, r.alpha) +
+                                              (1 - r.alpha) * glm::dvec4(ground.at(x, y)));
+            }
+        // Where the box's thin lines stand, some splats are behind them: a few pixels differ more.
+        const PictureError error = comparePictures(drawn, expected, 1e-4);
+        EXPECT_LE(error.differingPixels, 200 * 160 / 20);
+        EXPECT_GE(error.psnrLinear, 40);
+    }
+}
+
+TEST_F(Frame, OneColourDoesNotDependOnTheOrderOfDrawing) {
+    // A constant layer drawn by runs and drawn back to front: the same light to float rounding.
+    scene_.layers.pop_back();
+    const Image runs = draw({left_})[0].image;
+    scene_.order = Order::BackToFront;
+    EXPECT_LE(comparePictures(draw({left_})[0].image, runs).maxAbsolute, 2e-5);
+}
+
+TEST_F(Frame, OpticalDepthIsTheSumOverLayersOrderedOrNot) {
+    Accumulator<double> sums(left_.size, {Channels::Weight, Channels::WeightedColor});
+    splat(scene_, Runs{}, left_, {}, sums);
+    std::vector<double> expected(std::size_t(200) * 160);
+    for (int y = 0; y < 160; ++y)
+        for (int x = 0; x < 200; ++x)
+            expected[std::size_t(159 - y) * 200 + x] =
+                resolvePixel(sums, scene_.layers, x, y).opticalDepth;
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        scene_.order = order;
+        const auto depth = draw({left_}, {.opticalDepth = true})[0].opticalDepth;
+        double far = 0;  // beyond what thin lines of the box hide
+        std::size_t differing = 0;
+        for (std::size_t i = 0; i < depth.size(); ++i) {
+            const double by = std::abs(static_cast<double>(depth[i]) - expected[i]);
+            if (by > 1e-4 * (1 + expected[i])) ++differing;
+            far = std::max(far, by);
+        }
+        EXPECT_LE(differing, depth.size() / 20);
+        EXPECT_LT(far, 8);
+    }
+}
+
+TEST_F(Frame, ManyLayersUpToTheLimitAreDrawn) {
+    scene_.layers.clear();
+    for (std::size_t i = 0; i < kMaxLayers; ++i) {
+        const double lo = static_cast<double>(i) / 10;
+        const RangeSet range(std::vector{timeseries::Range{{lo}, {lo + 0.05}}});
+        scene_.layers.push_back({step_.select(range), {Constant{glm::dvec3(1)}, 0.2}});
+    }
+    const Image all = draw({left_})[0].image;
+    scene_.layers.pop_back();
+    EXPECT_NE(draw({left_})[0].image, all) << "the last layer counts";
+}
+
+TEST_F(Frame, PicturesOfAnotherSizeFollow) {
+    draw({left_});
+    const View larger = tests::lookFrom({0, -3, 0}, {256, 300});
+    EXPECT_EQ(draw({larger})[0].image.size, glm::ivec2(256, 300));
+}
+
+}  // namespace
+}  // namespace render
