@@ -21,8 +21,8 @@ glm::dvec3 midway(std::span<const View> eyes) {
 FrameRenderer::FrameRenderer()
     : font_(fontFor({64, 64})), resolve_("resolve", shaders::resolve_vert, shaders::resolve_frag) {}
 
-std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
-                                              std::span<const View> eyes, const Extras& extras) {
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, GpuStep& step,
+                                               std::span<const View> eyes) {
     const glm::ivec2 size = eyes.front().size;
     if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
     if (fontFor_ != size) {
@@ -33,19 +33,28 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
     const glm::dvec3 midEye = midway(eyes);
     ++orders_;
     const DrawList list = order(content.scene, midEye);
-    const auto uploaded = splatter_.upload(content.scene, list, step);
+    return {content, splatter_.upload(content.scene, list, step), midEye};
+}
+
+void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
+    ++eyes_;
+    drawOpaque(frame.content, eye, frame.midEye);
+    drawSplats(*frame.list, eye);
+    resolve(frame.content.scene, eye.size);
+    flat_->draw(legendMesh(frame.content.legend, font_, eye.size), targets_->lightFramebuffer(),
+                eye.size, gl::DepthTest::None);
+}
+
+std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
+                                              std::span<const View> eyes, const Extras& extras) {
+    const Prepared frame = prepare(content, step, eyes);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
-        ++eyes_;
-        drawOpaque(content, eye, midEye);
-        drawSplats(*uploaded, eye);
-        resolve(content.scene, size);
-        flat_->draw(legendMesh(content.legend, font_, size), targets_->lightFramebuffer(), size,
-                    gl::DepthTest::None);
+        drawEye(frame, eye);
         EyePicture& picture = pictures.emplace_back();
         picture.image = targets_->readLight();
         if (extras.splatCount) {
-            splatter_.draw(*uploaded, eye, Channels::Count, 0,
+            splatter_.draw(*frame.list, eye, Channels::Count, 0,
                            targets_->clearedPlane(0, Channels::Count));
             picture.splatCount = targets_->readScalarPlane(0);
         }
@@ -54,7 +63,7 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         // An ordered list interleaves the layers; their weights are added from the runs.
         const auto runs = splatter_.upload(content.scene, Runs{}, step);
         for (std::size_t i = 0; i < eyes.size(); ++i) {
-            drawOpaque(content, eyes[i], midEye);
+            drawOpaque(content, eyes[i], frame.midEye);
             pictures[i].opticalDepth = opticalDepth(*runs, eyes[i]);
         }
     }

@@ -37,10 +37,21 @@ class FrameRenderer {
  public:
     FrameRenderer();
 
-    // `step` holds the scene's step. Order is taken from the point midway between the eyes.
-    // REQUIRES: at least one eye, all of one size. Throws std::runtime_error on a GL error.
+    // Draws each eye and reads it back. `step` holds the scene's step. Order is taken from the
+    // point midway between the eyes. REQUIRES: at least one eye, all of one size. Throws
+    // std::runtime_error on a GL error.
     std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
+
+    // The same in its parts, for front ends that show the light instead of reading it.
+    struct Prepared {
+        const FrameContent& content;
+        std::unique_ptr<GpuList> list;
+        glm::dvec3 midEye;
+    };
+    Prepared prepare(const FrameContent& content, GpuStep& step, std::span<const View> eyes);
+    void drawEye(const Prepared& frame, const View& eye);  // its light is then in targets()
+    const Targets& targets() const { return *targets_; }
 
     struct Counts {
         std::uint64_t orders = 0, uploads = 0, eyes = 0;
