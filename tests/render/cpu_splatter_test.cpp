@@ -119,7 +119,7 @@ TEST(Truth, AShellIsAsDeepAsTheChordsThroughIt) {
     // uncertain by a cell or so; over the middle's pixels, seen along no axis of the lattice, that
     // averages out.
     const std::size_t n = 48;
-    const auto radius = [n](std::size_t i) {
+    const auto radius = [](std::size_t i) {
         const glm::dvec3 p(i % n, i / n % n, i / n / n);
         return glm::length(p - glm::dvec3((n - 1) / 2.0));
     };
