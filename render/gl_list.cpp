@@ -90,7 +90,7 @@ std::size_t GpuStep::bytes() const {
 
 GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
                  const ValueScale& scale)
-    : scene_(scene), step_(step) {
+    : scene_(scene), step_(step), cubes_(scene.lattice.cubes()) {
     if (const auto* sorted = std::get_if<Sorted>(&list)) {
         const std::vector<SortedPoint> points = gathered(scene, *sorted, scale);
         sorted_.emplace(std::span<const SortedPoint>(points));

@@ -14,6 +14,7 @@ class GpuList {
 
     const Scene& scene() const { return scene_; }
     const GpuStep& step() const { return step_; }
+    bool cubes() const { return cubes_; }
 
     // Issues the draw calls of one layer, or of all; program and state are set. A Sorted list is
     // always drawn whole.
@@ -26,6 +27,7 @@ class GpuList {
     };
     const Scene& scene_;
     const GpuStep& step_;
+    bool cubes_;
     std::vector<LayerRuns> runs_;       // per layer; empty for a sorted list
     std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first
     GLsizei sortedCount_ = 0;

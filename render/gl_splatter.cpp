@@ -102,6 +102,7 @@ const gl::Program& GlSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
     std::string defines = define(variant.channels);
     if (variant.quads) defines += "#define QUADS\n";
+    if (variant.cubes) defines += "#define CUBES\n";
     if (variant.kernel == Kernel::Point) defines += "#define KERNEL_POINT\n";
     return programs_
         .emplace(variant,
@@ -155,7 +156,8 @@ void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, 
     const int guard = quads ? 0 : static_cast<int>(std::ceil(reach)) + 1;
     const SplatViewBlock block = viewBlock(list.scene(), view, rays, guard);
     view_.write(0, sizeof block, &block);
-    const gl::Program& with = program({channels, list.scene().footprint.kernel, quads});
+    const gl::Program& with =
+        program({channels, list.scene().footprint.kernel, quads, list.cubes()});
     gl::begin({.framebuffer = framebuffer,
                .size = view.size,
                .guard = guard,

@@ -65,7 +65,7 @@ class GlSplatter {
     struct Variant {
         Channels channels;
         Kernel kernel;
-        bool quads;
+        bool quads, cubes;
         auto operator<=>(const Variant&) const = default;
     };
     const gl::Program& program(const Variant& variant);

@@ -84,6 +84,13 @@ glm::uvec3 Lattice::size() const {
     return {positions_[0].size(), positions_[1].size(), positions_[2].size()};
 }
 
+bool Lattice::cubes() const {
+    for (const auto& widths : widths_)
+        for (const double w : widths)
+            if (std::abs(w - unitLength_) > 1e-12 * unitLength_) return false;
+    return true;
+}
+
 namespace {
 
 glm::uvec3 unravel(std::uint64_t index, const glm::uvec3& n) {

@@ -31,6 +31,8 @@ class Lattice {
 
     // The length l in which optical depth is counted: the cube root of the mean cell volume.
     double unitLength() const { return unitLength_; }
+    // All cells are cubes of one size, to 1e-12.
+    bool cubes() const;
     // Corners of the points' box; half diagonal 1 (all zero for a single point).
     glm::dvec3 boxHalf() const { return boxHalf_; }
     // World length per grid unit along each axis, signed; their ratios are what a picture states.

@@ -1,2 +1,4 @@
 #include "render/legend.h"
-namespace render { FlatMesh legendMesh(const Legend&, const Font&, glm::ivec2) { return {}; } }
+namespace render {
+FlatMesh legendMesh(const Legend&, const Font&, glm::ivec2) { return {}; }
+}  // namespace render

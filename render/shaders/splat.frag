@@ -1,6 +1,6 @@
 // One pixel of one splat's footprint: W from the pixel ray's distance to the centre in kernel space.
 // Window space in, accumulated sums out; formulas: render/footprint.h.
-// Variants: WEIGHT, WEIGHTED_COLOR, OVER or COUNT (what is accumulated), KERNEL_POINT.
+// Variants: WEIGHT, WEIGHTED_COLOR, OVER or COUNT (what is accumulated), KERNEL_POINT, CUBES.
 
 layout(std140, binding = 0) uniform SplatView {
     mat4 viewFromWorld;
@@ -10,8 +10,12 @@ layout(std140, binding = 0) uniform SplatView {
 
 layout(location = 0) flat in vec4 centreAndWeight;
 layout(location = 1) flat in vec4 quadN;
+#if !defined(CUBES) && !defined(KERNEL_POINT)
 layout(location = 2) flat in vec4 quadD;
+#endif
+#if defined(WEIGHTED_COLOR) || defined(OVER)
 layout(location = 3) flat in vec3 color;
+#endif
 
 #if defined(WEIGHT) || defined(COUNT)
 layout(location = 0) out float sum;
@@ -34,11 +38,18 @@ void main() {
 #else
     const vec2 o = at - centreAndWeight.xy;
     const vec3 squares = vec3(o.x * o.x, o.x * o.y, o.y * o.y);
+#ifdef CUBES
+    const float q = dot(quadN.xyz, squares) / ray2;
+    if (q >= 1.0) discard;
+    const float u = (1.0 - q) * (1.0 - q);
+    const float w = centreAndWeight.z * u * u;
+#else
     const float d = 1.0 + dot(vec2(quadN.w, quadD.w), o) + dot(quadD.xyz, squares);
     const float q = dot(quadN.xyz, squares) / d;
     if (q >= 1.0) discard;
     const float u = (1.0 - q) * (1.0 - q);
     const float w = centreAndWeight.z * sqrt(ray2 / d) * u * u;
+#endif
 #endif
 #if defined(WEIGHT)
     sum = w;

@@ -1,6 +1,7 @@
 // One lattice point -> the screen square that holds its footprint, and the footprint's coefficients.
 // World space to window offsets from the view axis, in pixels; formulas: render/footprint.h.
-// Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT.
+// Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT, CUBES (all cells are equal
+// cubes: |d / a| is |d| / a, and the form in d needs no coefficients).
 
 // C++ mirror: SplatViewBlock in render/gl_splatter.cpp.
 layout(std140, binding = 0) uniform SplatView {
@@ -30,8 +31,12 @@ layout(location = 2) in uint layer;
 
 layout(location = 0) flat out vec4 centreAndWeight;  // window offset of the centre, W's factor, tau per W
 layout(location = 1) flat out vec4 quadN;            // n.xyz of the numerator; l.x of the denominator
+#if !defined(CUBES) && !defined(KERNEL_POINT)
 layout(location = 2) flat out vec4 quadD;            // d.xyz of the denominator; l.y
+#endif
+#if defined(WEIGHTED_COLOR) || defined(OVER)
 layout(location = 3) flat out vec3 color;
+#endif
 
 vec3 mapColor(uint row, float position) {
     const int last = int(layers.map[row].z) - 1;
@@ -95,15 +100,16 @@ void main() {
     const float volume = cell.x * cell.y * cell.z * view.kernel.z * fade;
 
     const uint l = min(layer, 7u);
+#if defined(WEIGHTED_COLOR) || defined(OVER)
     color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value + layers.map[l].y)
                                   : layers.style[l].rgb;
+#endif
     const float depthPerWeight = layers.style[l].w;
 #ifdef KERNEL_POINT
     const float side = view.kernel.w;
     centreAndWeight = vec4(centre, volume / (depth * depth * length(X) * length(Y) * side * side),
                            depthPerWeight);
     quadN = vec4(0.0);
-    quadD = vec4(0.0);
 #ifdef QUADS
     place(centre, 0.5 * side - 0.5, depth);
 #else
@@ -111,6 +117,14 @@ void main() {
 #endif
 #else
     const float pixel = depth * max(length(X), length(Y));
+#ifdef CUBES
+    const float a = max(cell.x * view.kernel.x, pixel * view.kernel.y);
+    const vec3 e = cross(C, X), f = cross(C, Y);
+    const float zOverA = depth / (a * view.rayAxis.w);
+    quadN = vec4(zOverA * zOverA * vec3(dot(e, e), 2.0 * dot(e, f), dot(f, f)), 0.0);
+    centreAndWeight = vec4(centre, 1.5915494309189535 * volume / (a * a), depthPerWeight);
+    const float widest = a;
+#else
     const vec3 a = max(cell * view.kernel.x, vec3(pixel * view.kernel.y));
     const vec3 c = C / a, x = X / a, y = Y / a;
     const vec3 e = cross(c, x), f = cross(c, y);
@@ -121,8 +135,10 @@ void main() {
     // 5 / pi, and |ray| = |axis| sqrt(1 + slope^2) left to the fragment but for |axis|.
     const float weight = 1.5915494309189535 * volume / (a.x * a.y * a.z) * sqrt(perC2) * view.rayAxis.w;
     centreAndWeight = vec4(centre, weight, depthPerWeight);
+    const float widest = max(a.x, max(a.y, a.z));
+#endif
     const float onUnitPlane =
-        sphereExtent(depth, max(a.x, max(a.y, a.z)) / view.rayAxis.w, length(centre / focal));
+        sphereExtent(depth, widest / view.rayAxis.w, length(centre / focal));
     const float extent = onUnitPlane < 0.0 ? 1e9 : onUnitPlane * max(focal.x, focal.y);
 #ifdef QUADS
     place(centre, extent, depth);
