@@ -21,11 +21,13 @@ namespace {
 
 constexpr const char* kMinus = "\u2212";
 
-// The double nearest to digits * 10^exponent.
+// The double nearest to digits * 10^exponent, which may be 0 or infinite.
 double decimal(std::int64_t digits, int exponent) {
     const std::string text = fmt::format("{}e{}", digits, exponent);
     double value = 0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (read.ec == std::errc::result_out_of_range && exponent > 0)
+        return std::copysign(std::numeric_limits<double>::infinity(), static_cast<double>(digits));
     return value;
 }
 
@@ -463,7 +465,7 @@ void chooseTicks(const Page& page, const Screen& screen, ShownAxis& shown) {
     const double pixels = glm::distance(glm::dvec2(screen.pixel(glm::mix(a, b, part->x))),
                                         glm::dvec2(screen.pixel(glm::mix(a, b, part->y))));
     const glm::dvec2 out = outward(page, screen, shown.edge, *part);
-    for (int wanted = std::clamp(static_cast<int>(pixels / (3.6 * page.line())), 1, 9); wanted >= 1;
+    for (int wanted = std::clamp(static_cast<int>(pixels / (4.5 * page.line())), 2, 9); wanted >= 1;
          --wanted) {
         shown.ticks = ticksOf(axis, lo, hi, wanted);
         shown.texts = tickTexts(shown.ticks);
@@ -508,7 +510,17 @@ std::vector<ShownAxis> chooseAxes(const Page& page, const View& view, const glm:
 // The labels of a picture so far: each in the picture and apart from the others.
 class Placed {
  public:
-    explicit Placed(const Page& page) : page_(page) {}
+    Placed(const Page& page, const FlatMesh& legend) : page_(page) {
+        const auto& corners = legend.triangles();
+        for (std::size_t i = 0; i + 6 <= corners.size(); i += 6) {  // two triangles a shape
+            Rect shape{glm::dvec2(1e9), glm::dvec2(-1e9)};
+            for (std::size_t j = i; j < i + 6; ++j) {
+                shape.lo = glm::min(shape.lo, glm::dvec2(corners[j].at));
+                shape.hi = glm::max(shape.hi, glm::dvec2(corners[j].at));
+            }
+            taken_.push_back(shape);
+        }
+    }
     bool fits(const Label& label) const {
         const Rect covers = label.covers();
         if (!inside(covers.grown(2), page_.size)) return false;
@@ -546,22 +558,24 @@ void drawAxis(const Page& page, const Screen& screen, const ShownAxis& axis, Pla
             std::max(farthest, page.tickLength() + page.gap() + glm::dot(size, glm::abs(out)));
     }
     if (axis.title.empty()) return;
-    for (const double along : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9, 0.0, 1.0}) {
-        const double t = glm::mix(part->x, part->y, along);
-        const glm::dvec2 from(screen.pixel(glm::mix(a, b, t)));
-        const Label title = beyond(page.font, page.style, axis.title,
-                                   from + out * (farthest + 1.2 * page.gap()), out);
-        if (!placed.fits(title)) continue;
-        placed.take(title);
-        meshes.labels.text(page.font, page.style, title.text, title.topLeft, kTitle);
-        return;
+    // Beyond the numbers, as near the middle as there is room; else between two of them.
+    for (const double away : {farthest + 1.2 * page.gap(), page.tickLength() + page.gap()}) {
+        for (const double along : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9, 0.0, 1.0}) {
+            const double t = glm::mix(part->x, part->y, along);
+            const glm::dvec2 from(screen.pixel(glm::mix(a, b, t)));
+            const Label title = beyond(page.font, page.style, axis.title, from + out * away, out);
+            if (!placed.fits(title)) continue;
+            placed.take(title);
+            meshes.labels.text(page.font, page.style, title.text, title.topLeft, kTitle);
+            return;
+        }
     }
 }
 
 }  // namespace
 
 AxesMeshes axesMeshes(const timeseries::Grid& grid, const Lattice& lattice, const View& view,
-                      const glm::dvec3& midEye, const Font& font) {
+                      const glm::dvec3& midEye, const Font& font, const FlatMesh& legend) {
     const Page page{grid, lattice, font, labelStyle(view.size), glm::dvec2(view.size)};
     const glm::dvec3 half = lattice.boxHalf();
     const Screen screen(view);
@@ -580,7 +594,7 @@ AxesMeshes axesMeshes(const timeseries::Grid& grid, const Lattice& lattice, cons
         meshes.lines.line(screen.pixel(glm::mix(a, b, part->x)),
                           screen.pixel(glm::mix(a, b, part->y)), width, glm::vec4(color, 1));
     }
-    Placed placed(page);
+    Placed placed(page, legend);
     for (const ShownAxis& axis : axes) drawAxis(page, screen, axis, placed, meshes, width);
     return meshes;
 }

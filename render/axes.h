@@ -22,12 +22,12 @@ struct AxesMeshes {
     FlatMesh lines, labels;
 };
 // Which edges carry the axes, and which ticks, is chosen from `midEye` (world), so that both eyes
-// label the same ones. Labels lie inside the picture, outside the box, and apart from each other;
-// where there is no such place, they are left out. An axis that is nowhere on the box's outline
-// (seen end on, or from inside) has none.
-// REQUIRES: `font` has labelStyle(view.size).
+// label the same ones. Labels lie inside the picture, outside the box, and apart from each other
+// and from what `legend` draws; where there is no such place, they are left out. An axis that is
+// nowhere on the box's outline (seen end on, or from inside) has none. REQUIRES: `font` has
+// labelStyle(view.size).
 AxesMeshes axesMeshes(const timeseries::Grid& grid, const Lattice& lattice, const View& view,
-                      const glm::dvec3& midEye, const Font& font);
+                      const glm::dvec3& midEye, const Font& font, const FlatMesh& legend = {});
 
 // "°E" for degrees_east, "m s⁻¹" for m s-1, else the unit as it stands.
 std::string shownUnit(const std::string& unit);

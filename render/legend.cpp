@@ -17,7 +17,7 @@ glm::vec3 light(int red, int green, int blue) {
     return glm::vec3(linearFromSrgb(glm::dvec3(red, green, blue) / 255.0));
 }
 const glm::vec3 kText = light(230, 233, 239), kQuiet = light(148, 157, 172),
-                kFaint = light(112, 121, 136);
+                kFaint = light(112, 121, 136), kFrame = light(58, 66, 79);
 
 // The longest beginning that fits, ended by an ellipsis; empty where not even that fits.
 std::string shortened(const Font& font, FontStyle style, std::string text, float width) {
@@ -72,7 +72,7 @@ class Writer {
     float titleHeight() const {
         return legend_.title.empty() ? 0 : static_cast<float>(title_.linePixels);
     }
-    float timeHeight() const { return legend_.time.empty() ? 0 : 1.15f * line_; }
+    float timeHeight() const { return legend_.time.empty() ? 0 : 1.2f * line_; }
     float notesHeight() const { return line_ * static_cast<float>(legend_.notes.size()); }
     bool byValue(const LegendLayer& layer) const {
         return std::holds_alternative<ByValue>(layer.style.color);
@@ -85,15 +85,27 @@ class Writer {
         const float swatch = swatchWidth(layer, detail);
         return column_ - (swatch > 0 ? swatch + 0.55f * line_ : 0);
     }
-    // The amount stands beside the range where it fits there, else below.
-    bool amountBeside(const LegendLayer& layer, const Detail& detail) const {
+    // The quiet text of a layer: what its colours span where no scale says it, and its amount.
+    std::string aside(const LegendLayer& layer, const Detail& detail) const {
+        std::string words;
+        if (byValue(layer) && !detail.scales) {
+            const auto& style = std::get<ByValue>(layer.style.color);
+            words = endText(style, style.lo);
+            if (style.hi > style.lo) words += " \u2013 " + endText(style, style.hi);
+        }
+        if (detail.amounts && !layer.amount.empty())
+            words += (words.empty() ? "" : ", ") + layer.amount;
+        return words;
+    }
+    // It stands beside the range where it fits there, else below.
+    bool isBeside(const LegendLayer& layer, const Detail& detail) const {
         return font_.measure(layer.range, label_).x + 0.7f * line_ +
-                   font_.measure(layer.amount, label_).x <=
+                   font_.measure(aside(layer, detail), label_).x <=
                textWidth(layer, detail);
     }
     float height(const LegendLayer& layer, const Detail& detail) const {
         float lines = 1.25f;
-        if (detail.amounts && !layer.amount.empty() && !amountBeside(layer, detail)) lines += 1;
+        if (!aside(layer, detail).empty() && !isBeside(layer, detail)) lines += 1;
         if (detail.scales && byValue(layer)) lines += 2.0f;
         return lines * line_;
     }
@@ -113,11 +125,12 @@ class Writer {
         const float used = columnHeight(detail);
         if (used + (detail.notes ? notesHeight() + line_ : 0) > room) return false;
         // The middle of the picture is the field's.
-        return !detail.layers || used <= (detail.scales ? 0.5f : 0.6f) * room;
+        return !detail.layers || used <= (detail.scales ? 0.4f : 0.6f) * room;
     }
 
-    void text(FontStyle style, const std::string& words, glm::vec2 topLeft, float width,
+    void text(FontStyle style, std::string words, glm::vec2 topLeft, float width,
               const glm::vec3& color) {
+        std::replace(words.begin(), words.end(), '\n', ' ');  // a name from a file may hold one
         mesh_.text(font_, style, shortened(font_, style, words, width), glm::round(topLeft), color);
     }
 
@@ -127,7 +140,7 @@ class Writer {
         text(title_, legend_.title, {margin_, y}, wide, kText);
         y += titleHeight();
         if (detail.time) {
-            text(label_, legend_.time, {margin_, y}, wide, kQuiet);
+            text(label_, legend_.time, {margin_, y + 0.1f * line_}, wide, kQuiet);
             y += timeHeight();
         }
         y += 0.45f * line_;
@@ -151,12 +164,12 @@ class Writer {
         if (!byValue(layer) || !detail.scales) drawSwatch(layer, swatchWidth(layer, detail), top);
         text(label_, layer.range, {left, top}, width, kText);
         float y = top + line_;
-        if (detail.amounts && !layer.amount.empty()) {
-            if (amountBeside(layer, detail)) {
+        if (const std::string words = aside(layer, detail); !words.empty()) {
+            if (isBeside(layer, detail)) {
                 const float past = font_.measure(layer.range, label_).x + 0.7f * line_;
-                text(label_, layer.amount, {left + past, top}, width - past, kQuiet);
+                text(label_, words, {left + past, top}, width - past, kQuiet);
             } else {
-                text(label_, layer.amount, {left, y}, width, kQuiet);
+                text(label_, words, {left, y}, width, kQuiet);
                 y += line_;
             }
         }
@@ -173,17 +186,22 @@ class Writer {
             const auto opacity = static_cast<float>(std::clamp(layer.style.opacity, 0.0, 1.0));
             const float rim = std::max(1.0f, std::round(line_ / 16));
             mesh_.rect(from + rim, to - rim, glm::vec4(color * opacity, opacity));
-            const glm::vec4 solid(color, 1);
-            mesh_.rect(from, {to.x, from.y + rim}, solid);
-            mesh_.rect({from.x, to.y - rim}, to, solid);
-            mesh_.rect({from.x, from.y + rim}, {from.x + rim, to.y - rim}, solid);
-            mesh_.rect({to.x - rim, from.y + rim}, {to.x, to.y - rim}, solid);
+            frame(from, to, rim, glm::vec4(color, 1));
         } else {
             bar(std::get<ByValue>(layer.style.color), from, to);
         }
     }
 
+    void frame(glm::vec2 from, glm::vec2 to, float rim, const glm::vec4& color) {
+        mesh_.rect(from, {to.x, from.y + rim}, color);
+        mesh_.rect({from.x, to.y - rim}, to, color);
+        mesh_.rect({from.x, from.y + rim}, {from.x + rim, to.y - rim}, color);
+        mesh_.rect({to.x - rim, from.y + rim}, {to.x, to.y - rim}, color);
+    }
+
+    // Framed: the dark end of many maps is the background's colour.
     void bar(const ByValue& style, glm::vec2 from, glm::vec2 to) {
+        frame(from - 1.0f, to + 1.0f, 1, glm::vec4(kFrame, 1));
         if (style.hi > style.lo) {
             mesh_.gradient(from, to, style.map.entries());
         } else {
@@ -191,51 +209,54 @@ class Writer {
         }
     }
 
-    // The colour bar with the values of its ends, and of its middle where there is room.
+    // The colour bar with the values of its ends, and of a round one between where there is room.
     void drawScale(const ByValue& style, float top) {
         const glm::vec2 from = glm::round(glm::vec2(margin_, top));
         const float width = std::round(std::min(column_, 13 * line_));
         const glm::vec2 to = from + glm::vec2(width, std::round(0.5f * line_));
         bar(style, from, to);
-        struct Value {
-            double value;
-            float at;
+        const float below = to.y + 0.12f * line_, gap = 0.8f * line_;
+        const auto widthOf = [&](const std::string& words) {
+            return font_.measure(words, label_).x;
         };
-        std::vector<Value> shown;
-        if (style.hi > style.lo) {
-            shown = {{style.lo, 0}, {style.hi, 1}, {0.5 * style.lo + 0.5 * style.hi, 0.5f}};
-        } else {
-            shown = {{style.lo, 0.5f}};
+        const std::string lo = endText(style, style.lo), hi = endText(style, style.hi);
+        if (!(style.hi > style.lo)) {
+            text(label_, lo, {from.x, below}, width, kQuiet);
+            return;
         }
-        const auto texts = scaleTexts(style);
-        float freeFrom = from.x, freeTo = to.x;
-        for (std::size_t i = 0; i < shown.size(); ++i) {
-            const float wide = font_.measure(texts[i], label_).x;
-            const float x = std::round(from.x + shown[i].at * (width - wide));
-            const float gap = i == 0 ? 0 : 0.8f * line_;
-            const bool room =
-                i == 1 ? x >= freeFrom + gap : x >= freeFrom + gap && x + wide <= freeTo - gap;
-            if (!room) continue;
-            text(label_, texts[i], {x, to.y + 0.08f * line_}, wide + 1, kQuiet);
-            if (i == 0) freeFrom = x + wide;
-            if (i == 1) freeTo = x;
-        }
+        text(label_, lo, {from.x, below}, width, kQuiet);
+        const float right = std::round(to.x - widthOf(hi));
+        if (right < from.x + widthOf(lo) + gap) return;
+        text(label_, hi, {right, below}, to.x - right + 1, kQuiet);
+        const double middle = roundMiddle(style);
+        const std::string words = tickTexts(std::array{middle})[0];
+        const float at = from.x + width * static_cast<float>(mapPosition(style, middle));
+        const float left = std::round(at - 0.5f * widthOf(words));
+        if (left < from.x + widthOf(lo) + gap || left + widthOf(words) > right - gap) return;
+        text(label_, words, {left, below}, to.x - left, kQuiet);
+        const float half = std::max(0.5f, std::round(line_ / 16) / 2);
+        mesh_.rect({std::round(at - half), to.y + 1}, {std::round(at + half), to.y + 0.22f * line_},
+                   glm::vec4(kQuiet, 1));
+    }
+
+    static double roundMiddle(const ByValue& style) {
+        const double middle = 0.5 * style.lo + 0.5 * style.hi;
+        const auto ticks = niceTicks(style.lo, style.hi, 3);
+        return *std::min_element(ticks.begin(), ticks.end(), [&](double a, double b) {
+            return std::abs(a - middle) < std::abs(b - middle);
+        });
     }
 
     // Four digits of the span tell any two places on a bar apart.
-    static std::vector<std::string> scaleTexts(const ByValue& style) {
-        if (!(style.hi > style.lo)) return tickTexts(std::array{style.lo});
+    static std::string endText(const ByValue& style, double value) {
+        double shown = value;
         const double span = 0.5 * style.hi - 0.5 * style.lo;
-        const int exponent = static_cast<int>(std::floor(std::log10(span))) - 3;
-        const auto rounded = [&](double value) {
-            const double magnitude = std::abs(value);
-            const int digits =
-                magnitude > 0 ? static_cast<int>(std::floor(std::log10(magnitude))) - exponent : 0;
-            if (digits < 0) return 0.0;
-            return std::stod(fmt::format("{:.{}e}", value, std::min(digits, 16)));
-        };
-        return tickTexts(std::array{rounded(style.lo), rounded(style.hi),
-                                    rounded(0.5 * style.lo + 0.5 * style.hi)});
+        if (span > 0 && value != 0) {
+            const auto exponent = [](double x) { return std::floor(std::log10(std::abs(x))); };
+            const int digits = static_cast<int>(exponent(value) - exponent(span)) + 3;
+            shown = digits < 0 ? 0 : std::stod(fmt::format("{:.{}e}", value, std::min(digits, 16)));
+        }
+        return tickTexts(std::array{shown})[0];
     }
 
     const Legend& legend_;
