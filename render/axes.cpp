@@ -521,12 +521,11 @@ class Placed {
             taken_.push_back(shape);
         }
     }
-    bool fits(const Label& label) const {
+    bool fits(const Label& label, double apart) const {
         const Rect covers = label.covers();
         if (!inside(covers.grown(2), page_.size)) return false;
-        return std::none_of(taken_.begin(), taken_.end(), [&](const Rect& other) {
-            return overlap(covers.grown(0.25 * page_.line()), other);
-        });
+        return std::none_of(taken_.begin(), taken_.end(),
+                            [&](const Rect& other) { return overlap(covers.grown(apart), other); });
     }
     void take(const Label& label) { taken_.push_back(label.covers()); }
 
@@ -550,7 +549,7 @@ void drawAxis(const Page& page, const Screen& screen, const ShownAxis& axis, Pla
         const glm::dvec3 from = screen.pixel(at);
         const glm::dvec3 to = from + glm::dvec3(out * page.tickLength(), 0);
         meshes.lines.line(from, to, width, glm::vec4(kAxisEdge, 1));
-        if (!placed.fits(labels[i])) continue;
+        if (!placed.fits(labels[i], 0.25 * page.line())) continue;
         placed.take(labels[i]);
         meshes.labels.text(page.font, page.style, labels[i].text, labels[i].topLeft, kNumber);
         const glm::dvec2 size = labels[i].covers().hi - labels[i].covers().lo;
@@ -564,7 +563,7 @@ void drawAxis(const Page& page, const Screen& screen, const ShownAxis& axis, Pla
             const double t = glm::mix(part->x, part->y, along);
             const glm::dvec2 from(screen.pixel(glm::mix(a, b, t)));
             const Label title = beyond(page.font, page.style, axis.title, from + out * away, out);
-            if (!placed.fits(title)) continue;
+            if (!placed.fits(title, 0.4 * page.line())) continue;
             placed.take(title);
             meshes.labels.text(page.font, page.style, title.text, title.topLeft, kTitle);
             return;

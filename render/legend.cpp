@@ -97,7 +97,10 @@ class Writer {
             words += (words.empty() ? "" : ", ") + layer.amount;
         return words;
     }
-    // It stands beside the range where it fits there, else below.
+    // It stands beside the range where it fits there, else below, or nowhere in small pictures.
+    bool isBelow(const LegendLayer& layer, const Detail& detail) const {
+        return detail.amounts && !aside(layer, detail).empty() && !isBeside(layer, detail);
+    }
     bool isBeside(const LegendLayer& layer, const Detail& detail) const {
         return font_.measure(layer.range, label_).x + 0.7f * line_ +
                    font_.measure(aside(layer, detail), label_).x <=
@@ -105,7 +108,7 @@ class Writer {
     }
     float height(const LegendLayer& layer, const Detail& detail) const {
         float lines = 1.25f;
-        if (!aside(layer, detail).empty() && !isBeside(layer, detail)) lines += 1;
+        if (isBelow(layer, detail)) lines += 1;
         if (detail.scales && byValue(layer)) lines += 2.0f;
         return lines * line_;
     }
@@ -125,7 +128,7 @@ class Writer {
         const float used = columnHeight(detail);
         if (used + (detail.notes ? notesHeight() + line_ : 0) > room) return false;
         // The middle of the picture is the field's.
-        return !detail.layers || used <= (detail.scales ? 0.4f : 0.6f) * room;
+        return !detail.layers || used <= (detail.amounts ? 0.4f : 0.6f) * room;
     }
 
     void text(FontStyle style, std::string words, glm::vec2 topLeft, float width,
@@ -164,14 +167,13 @@ class Writer {
         if (!byValue(layer) || !detail.scales) drawSwatch(layer, swatchWidth(layer, detail), top);
         text(label_, layer.range, {left, top}, width, kText);
         float y = top + line_;
-        if (const std::string words = aside(layer, detail); !words.empty()) {
-            if (isBeside(layer, detail)) {
-                const float past = font_.measure(layer.range, label_).x + 0.7f * line_;
-                text(label_, words, {left + past, top}, width - past, kQuiet);
-            } else {
-                text(label_, words, {left, y}, width, kQuiet);
-                y += line_;
-            }
+        const std::string words = aside(layer, detail);
+        if (isBelow(layer, detail)) {
+            text(label_, words, {left, y}, width, kQuiet);
+            y += line_;
+        } else if (isBeside(layer, detail)) {
+            const float past = font_.measure(layer.range, label_).x + 0.7f * line_;
+            text(label_, words, {left + past, top}, width - past, kQuiet);
         }
         if (byValue(layer) && detail.scales)
             drawScale(std::get<ByValue>(layer.style.color), y + 0.2f * line_);
