@@ -276,6 +276,23 @@ TEST(Axes, ADownAxisShowsItsOwnNumbersGrowingDownward) {
     }
 }
 
+TEST(Axes, WhatIsSeenOfAnEdgeIsNumbered) {
+    // Close to the top of the left edge, which is the sea's surface.
+    const Lattice lattice(ocean());
+    const glm::ivec2 size(1024, 1024);
+    const glm::dvec3 corner = lattice.boxHalf() * glm::dvec3(-1, -1, 1);
+    const glm::dvec3 eye = corner + glm::dvec3(0.15, -0.6, 0.1);
+    View view = lookFrom(eye, size);
+    view.viewFromWorld = glm::lookAt(eye, corner, glm::dvec3(0, 0, 1));
+    const auto meshes = axesMeshes(ocean(), lattice, view, eye, fontFor(size));
+    const auto shown = [&](const char* text) {
+        return tests::find(meshes.labels, fontFor(size), labelStyle(size), text).has_value();
+    };
+    EXPECT_TRUE(shown("depth (m)"));
+    EXPECT_TRUE(shown("100") || shown("200"));
+    EXPECT_FALSE(shown("900") || shown("1000"));
+}
+
 TEST(Axes, NumbersStandBesideTheirPlaces) {
     const Drawn d(fire(), eyeAt(-60, 25, 3.2), {1024, 1024});
     const float line = static_cast<float>(labelStyle({1024, 1024}).linePixels);
@@ -400,13 +417,13 @@ TEST(Axes, BothEyesLabelTheSameEdgesAndTicks) {
     const glm::ivec2 size(900, 900);
     const Grid grid = ocean();
     const Lattice lattice(grid);
-    for (int i = 0; i < 60; ++i) {
-        const glm::dvec3 mid = eyeAt(azimuth(random), elevation(random), 3.6);
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 mid = eyeAt(azimuth(random), elevation(random), 3.0);
         const View view = lookFrom(mid, size, 0.6);
         std::array<std::size_t, 2> tickCount{};
         for (const int side : {0, 1}) {
             View eye = view;
-            const double apart = side == 0 ? -0.03 : 0.03;
+            const double apart = side == 0 ? -0.06 : 0.06;
             eye.viewFromWorld[3].x -= apart;
             // The eyes' frusta lean outward, as a headset's do.
             eye.clipFromView[2][0] = side == 0 ? -0.1 : 0.1;

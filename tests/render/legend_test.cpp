@@ -116,6 +116,20 @@ TEST(Legend, GivesUpNotesThenAmountsThenLayersThenTimeAsPicturesShrink) {
     EXPECT_LE(last, 1);
 }
 
+TEST(Legend, NotesGoFirst) {
+    bool gone = false;
+    for (int height = 600; height >= 300 && !gone; --height) {
+        const glm::ivec2 size(500, height);
+        Legend legend = fire();
+        for (int i = 0; i < 20; ++i) legend.notes.push_back("drawn in index space");
+        const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+        gone = !find(mesh, size, "drawn in index space");
+        EXPECT_TRUE(find(mesh, size, "13,402 points, 6.2 %") && find(mesh, size, "1843.7"))
+            << height;
+    }
+    EXPECT_TRUE(gone);
+}
+
 TEST(Legend, LiesInThePictureWithItsPartsApartAtAnySize) {
     std::mt19937 random(21);
     std::uniform_real_distribution<double> logSize(std::log(64.0), std::log(4096.0)),
