@@ -41,7 +41,7 @@ std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
     if (!point.date.empty()) return point.date;
     if (axis.name == "step") return fmt::format("step {}", step);
     return shownUnits(axis.units).empty() ? fmt::format("{} {:.10g}", axis.name, point.value)
-                              : fmt::format("{:.10g} {}", point.value, axis.units);
+                                          : fmt::format("{:.10g} {}", point.value, axis.units);
 }
 
 std::string shownUnits(const std::string& units) { return units == "1" ? "" : units; }

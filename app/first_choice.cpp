@@ -43,8 +43,8 @@ double quantile(const std::vector<double>& sorted, double fraction) {
                                            0.5)];
 }
 
-// To three significant digits of `scale`: through decimal text, so that 23.7 is the double nearest to
-// 23.7 and is printed so.
+// To three significant digits of `scale`: through decimal text, so that 23.7 is the double nearest
+// to 23.7 and is printed so.
 double rounded(double value, double scale) {
     if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite(value)) return value;
     const int decimals = 2 - static_cast<int>(std::floor(std::log10(scale)));

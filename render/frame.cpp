@@ -38,11 +38,11 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, GpuS
 
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
     ++eyes_;
-    drawOpaque(frame.content, eye, frame.midEye);
+    const FlatMesh legend = legendMesh(frame.content.legend, font_, eye.size);
+    drawOpaque(frame.content, eye, frame.midEye, legend);
     drawSplats(*frame.list, eye);
     resolve(frame.content.scene, eye.size);
-    flat_->draw(legendMesh(frame.content.legend, font_, eye.size), targets_->lightFramebuffer(),
-                eye.size, gl::DepthTest::None);
+    flat_->draw(legend, targets_->lightFramebuffer(), eye.size, gl::DepthTest::None);
 }
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
@@ -63,7 +63,7 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         // An ordered list interleaves the layers; their weights are added from the runs.
         const auto runs = splatter_.upload(content.scene, Runs{}, step);
         for (std::size_t i = 0; i < eyes.size(); ++i) {
-            drawOpaque(content, eyes[i], frame.midEye);
+            drawOpaque(content, eyes[i], frame.midEye, {});
             pictures[i].opticalDepth = opticalDepth(*runs, eyes[i]);
         }
     }
@@ -72,12 +72,13 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
 }
 
 void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
-                               const glm::dvec3& midEye) {
+                               const glm::dvec3& midEye, const FlatMesh& legend) {
     gl::begin({.framebuffer = targets_->opaqueFramebuffer(),
                .size = view.size,
                .clearColor = glm::vec4(glm::vec3(content.background), 1),
                .clearDepth = 1.0f});
-    const AxesMeshes axes = axesMeshes(content.grid, content.scene.lattice, view, midEye, font_);
+    const AxesMeshes axes =
+        axesMeshes(content.grid, content.scene.lattice, view, midEye, font_, legend);
     const GLuint into = targets_->opaqueFramebuffer();
     flat_->draw(axes.lines, into, view.size, gl::DepthTest::TestAndWrite);
     flat_->draw(axes.labels, into, view.size, gl::DepthTest::None);

@@ -59,8 +59,11 @@ Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch) {
         scale_[a] = axis.down ? -stretched[a] : stretched[a];
         boxHalf_[a] = 0.5 * extent(axis) * stretched[a];
     }
-    const double radius = glm::length(boxHalf_);
-    if (radius > 0) {
+    // In two steps: the squares of very large or small extents would leave the doubles.
+    for (const bool byLargest : {true, false}) {
+        const double radius =
+            byLargest ? std::max({boxHalf_.x, boxHalf_.y, boxHalf_.z}) : glm::length(boxHalf_);
+        if (!(radius > 0)) break;
         scale_ /= radius;
         boxHalf_ /= radius;
     }

@@ -69,14 +69,20 @@ void splatsAndDiameters(benchmark::internal::Benchmark* b) {
         ->Args({100'000, 16})
         ->Args({1'000'000, 3})
         ->Unit(benchmark::kMillisecond)
-        ->MeasureProcessCPUTime()->UseRealTime();
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
 }
 BENCHMARK(BM_DrawUnordered)->Apply(splatsAndDiameters);
-BENCHMARK(BM_DrawByValue)->Args({100'000, 8})->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(BM_DrawByValue)
+    ->Args({100'000, 8})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK(BM_DrawOrdered)
     ->Args({100'000, 8})
     ->Args({1'000'000, 8})
     ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()->UseRealTime();
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 }  // namespace

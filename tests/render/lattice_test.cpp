@@ -68,6 +68,14 @@ TEST(Lattice, OffsetAndScaleOfTheCoordinatesDoNotChangeThePicture) {
         EXPECT_LT(glm::length(plain.position(i) - moved.position(i)), 1e-12) << i;
 }
 
+TEST(Lattice, VeryLargeAndVerySmallGridsFitTheWorldToo) {
+    for (const double unit : {1e300, 1e-300}) {
+        const Lattice lattice(Grid({axis(5, 0, unit), axis(5, 0, unit), axis(5, 0, unit)}));
+        EXPECT_NEAR(glm::length(lattice.boxHalf()), 1, 1e-12) << unit;
+        EXPECT_NEAR(glm::length(lattice.position(0)), 1, 1e-12) << unit;
+    }
+}
+
 TEST(Lattice, AStretchIsTakenAsGiven) {
     const Lattice lattice(Grid({axis(11), axis(11), axis(11)}), glm::dvec3(1, 2, 3));
     EXPECT_NEAR(lattice.boxHalf().y / lattice.boxHalf().x, 2, 1e-12);

@@ -1,0 +1,438 @@
+#include "render/axes.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <random>
+#include <set>
+
+#include "tests/support/flat_text.h"
+#include "tests/support/scenes.h"
+
+namespace render {
+namespace {
+
+using tests::fontFor;
+using tests::lookFrom;
+using tests::Rect;
+using tests::shapes;
+using timeseries::Axis;
+using timeseries::Grid;
+
+TEST(NiceTicks, AreRoundMultiplesInsideForAnyRange) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> decade(-300, 300), factor(1, 10), shift(-3, 3);
+    for (int i = 0; i < 4000; ++i) {
+        const double span = factor(random) * std::pow(10, decade(random));
+        const double lo = shift(random) * span, hi = lo + span;
+        const int wanted = 1 + i % 12;
+        const std::string which = fmt::format("{} to {}, {} wanted", lo, hi, wanted);
+        const auto ticks = niceTicks(lo, hi, wanted);
+        ASSERT_FALSE(ticks.empty()) << which;
+        // Steps grow by at most 2.5, and a range holds its span's worth of steps give or take one.
+        EXPECT_LE(static_cast<double>(ticks.size()), 2.5 * wanted + 1) << which;
+        EXPECT_GE(static_cast<double>(ticks.size()), wanted / 2.5 - 1) << which;
+        for (std::size_t t = 0; t < ticks.size(); ++t) {
+            EXPECT_GE(ticks[t], lo) << which;
+            EXPECT_LE(ticks[t], hi) << which;
+            EXPECT_TRUE(t == 0 || ticks[t] > ticks[t - 1]) << which;
+        }
+        if (ticks.size() < 3) continue;
+        const double step = (ticks.back() - ticks.front()) / static_cast<double>(ticks.size() - 1);
+        const double mantissa = step / std::pow(10, std::floor(std::log10(step) + 1e-9));
+        EXPECT_LT(
+            std::min({std::abs(mantissa - 1), std::abs(mantissa - 2), std::abs(mantissa - 5)}),
+            1e-9)
+            << which;
+        for (const double tick : ticks) {
+            const double n = tick / step;
+            EXPECT_NEAR(n, std::round(n), 1e-9 * std::max(1.0, std::abs(n))) << which;
+            // As written by hand: a few digits tell it exactly.
+            EXPECT_EQ(std::stod(fmt::format("{:.3e}", tick)), tick) << which;
+        }
+    }
+}
+
+TEST(NiceTicks, OfTenthsAreTheLiteralsOnePrints) {
+    EXPECT_EQ(niceTicks(0, 1, 11),
+              (std::vector<double>{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1}));
+    EXPECT_EQ(niceTicks(-0.35, 0.35, 3), (std::vector<double>{-0.2, 0, 0.2}));
+}
+
+TEST(NiceTicks, SurviveTheEndsOfDouble) {
+    EXPECT_EQ(niceTicks(3.7, 3.7, 5), std::vector<double>{3.7});
+    EXPECT_EQ(niceTicks(0, 0, 1), std::vector<double>{0});
+    EXPECT_EQ(niceTicks(-1.5e308, 1.5e308, 3), (std::vector<double>{-1e308, 0, 1e308}));
+    EXPECT_EQ(niceTicks(0, 2e-300, 3), (std::vector<double>{0, 1e-300, 2e-300}));
+    const double next = std::nextafter(1.0, 2.0);
+    for (const double tick : niceTicks(1, next, 5)) EXPECT_TRUE(tick == 1 || tick == next);
+    EXPECT_EQ(
+        niceTicks(1e7, 1e7 + 0.004, 5),
+        (std::vector<double>{10000000, 10000000.001, 10000000.002, 10000000.003, 10000000.004}));
+}
+
+using Texts = std::vector<std::string>;
+
+TEST(TickTexts, ShareTheirDecimals) {
+    EXPECT_EQ(tickTexts(std::array{0.0, 0.5, 1.0}), (Texts{"0.0", "0.5", "1.0"}));
+    EXPECT_EQ(tickTexts(std::array{-30.0, 0.0, 30.0}), (Texts{"−30", "0", "30"}));
+    EXPECT_EQ(tickTexts(std::array{5000.0, 10000.0}), (Texts{"5000", "10000"}));
+    EXPECT_EQ(tickTexts(std::array{5412000.0, 5413000.0}), (Texts{"5412000", "5413000"}));
+    EXPECT_EQ(tickTexts(std::array{10000000.001, 10000000.002}),
+              (Texts{"10000000.001", "10000000.002"}));
+    EXPECT_EQ(tickTexts(std::vector<double>{}), Texts{});
+    EXPECT_EQ(tickTexts(std::array{0.0, 0.0}), (Texts{"0", "0"}));
+}
+
+TEST(TickTexts, UsePowersOfTenWhereDigitsWouldBeLong) {
+    EXPECT_EQ(tickTexts(std::array{0.0, 5e-10, 1e-9, 1.5e-9}),
+              (Texts{"0", "0.5×10⁻⁹", "1.0×10⁻⁹", "1.5×10⁻⁹"}));
+    EXPECT_EQ(tickTexts(std::array{-2e300, 2e300}), (Texts{"−2×10³⁰⁰", "2×10³⁰⁰"}));
+    EXPECT_EQ(tickTexts(std::array{2e-320}), (Texts{"2×10⁻³²⁰"}));
+}
+
+// What the text says, read back by other means than it was written.
+double valueOf(std::string text) {
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        for (std::size_t at; (at = text.find(from)) != std::string::npos;)
+            text.replace(at, from.size(), to);
+    };
+    replace("−", "-");
+    replace("×10", "e");
+    replace("⁻", "-");
+    const Texts digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    for (std::size_t d = 0; d < digits.size(); ++d) replace(digits[d], std::to_string(d));
+    return std::stod(text);
+}
+
+TEST(TickTexts, SayTheTicksExactlyAndDifferently) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> decade(-300, 300), factor(-9, 9), offset(0, 7);
+    for (int i = 0; i < 2000; ++i) {
+        const double span = std::pow(10, decade(random));
+        const double lo = factor(random) * span * std::pow(10, offset(random));
+        const auto ticks = niceTicks(lo, lo + span, 6);
+        const auto texts = tickTexts(ticks);
+        for (std::size_t t = 0; t < ticks.size(); ++t)
+            EXPECT_EQ(valueOf(texts[t]), ticks[t]) << texts[t];
+        EXPECT_EQ(std::set<std::string>(texts.begin(), texts.end()).size(), ticks.size());
+    }
+}
+
+TEST(ShownUnit, IsWhatAPersonWouldWrite) {
+    EXPECT_EQ(shownUnit("degrees_east"), "°E");
+    EXPECT_EQ(shownUnit("degree_north"), "°N");
+    EXPECT_EQ(shownUnit("degC"), "°C");
+    EXPECT_EQ(shownUnit("m s-1"), "m s⁻¹");
+    EXPECT_EQ(shownUnit("W m-2 K-1"), "W m⁻² K⁻¹");
+    EXPECT_EQ(shownUnit("m2/s"), "m²/s");
+    for (const char* asItStands : {"", "K", "index", "ppm CO2", "1e-3", "10 m", "µm", "mm Hg"})
+        EXPECT_EQ(shownUnit(asItStands), asItStands);
+}
+
+TEST(LabelStyle, GrowsWithThePictureWithinLimits) {
+    EXPECT_EQ(labelStyle({64, 4096}).linePixels, 13);
+    EXPECT_EQ(labelStyle({920, 2000}).linePixels, 20);
+    EXPECT_EQ(labelStyle({8192, 8192}).linePixels, 40);
+    EXPECT_GT(titleStyle({920, 920}).linePixels, 20);
+    EXPECT_EQ(titleStyle({920, 920}).weight, FontWeight::SemiBold);
+}
+
+Axis axis(std::string name, std::string unit, double first, double last, int count,
+          bool down = false) {
+    Axis a{.name = std::move(name), .units = std::move(unit), .coordinates = {}, .down = down};
+    for (int i = 0; i < count; ++i)
+        a.coordinates.push_back(count == 1 ? first : first + (last - first) * i / (count - 1));
+    return a;
+}
+Grid fire() {
+    const double lo = 1 / 120.0, hi = 119 / 120.0;
+    return Grid(
+        {axis("x", "m", lo, hi, 60), axis("y", "m", lo, hi, 60), axis("z", "m", lo, hi, 60)});
+}
+Grid ocean() {
+    return Grid({axis("lon", "degrees_east", 20.5, 378.5, 180),
+                 axis("lat", "degrees_north", -89.5, 89.5, 90),
+                 axis("depth", "m", 0, 1000, 19, true)});
+}
+std::vector<Grid> worlds() {
+    return {
+        fire(),
+        ocean(),
+        Grid({axis("x", "index", 0, 255, 256), axis("y", "index", 3, 0, 4),
+              axis("z", "index", 0, 0, 1)}),
+        Grid({axis("easting", "m", 412000, 418000, 7), axis("northing", "m", 5416000, 5412000, 5),
+              axis("height above the ground", "m", -2e-9, 1e7, 9)}),
+        Grid({axis("x", "m", 10000000, 10000000.004, 5), axis("y", "m", 0, 0.001, 5),
+              axis("z", "", 0, 1e-3, 2)}),
+        Grid({axis("x", "m", 0, 1e-30, 5), axis("y", "m", 0, 0, 1), axis("z", "m", 0, 0, 1)}),
+        Grid({axis("x", "m", 4, 4, 1), axis("y", "m", 0, 0, 1), axis("z", "m", 0, 0, 1)})};
+}
+
+glm::dvec3 eyeAt(double azimuth, double elevation, double distance) {
+    const double a = glm::radians(azimuth), e = glm::radians(elevation);
+    return distance * glm::dvec3(std::cos(a) * std::cos(e), std::sin(a) * std::cos(e), std::sin(e));
+}
+
+struct Drawn {
+    Lattice lattice;
+    View view;
+    const Font& font;
+    AxesMeshes meshes;
+    Drawn(const Grid& grid, const glm::dvec3& eye, glm::ivec2 size, double tangent = 0.4)
+        : lattice(grid),
+          view(lookFrom(eye, size, tangent)),
+          font(fontFor(size)),
+          meshes(axesMeshes(grid, lattice, view, eye, font)) {}
+    std::optional<Rect> label(const std::string& text) const {
+        return tests::find(meshes.labels, font, labelStyle(view.size), text);
+    }
+};
+
+// Picture pixels and window depth by the definitions in view.h, with lookFrom's near and far.
+glm::dvec3 seen(const View& view, const glm::dvec3& world) {
+    const Projected p = project(view, world);
+    const double near = 0.01, far = 100;
+    return {p.window.x, view.size.y - p.window.y,
+            far * (p.depth - near) / (p.depth * (far - near))};
+}
+
+struct Segment {
+    glm::dvec3 a, b;
+};
+std::vector<Segment> segments(const FlatMesh& lines) {
+    std::vector<Segment> found;
+    const auto& v = lines.triangles();
+    for (std::size_t i = 0; i < v.size(); i += 6)  // a, b, b' | a, b', a' around the line
+        found.push_back({0.5 * (glm::dvec3(v[i].at) + glm::dvec3(v[i + 5].at)),
+                         0.5 * (glm::dvec3(v[i + 1].at) + glm::dvec3(v[i + 2].at))});
+    return found;
+}
+
+TEST(Axes, EdgesEndAtTheProjectedCornersAtTheirDepth) {
+    for (const glm::dvec3& eye : {eyeAt(-60, 25, 3), eyeAt(130, -50, 2.5), eyeAt(5, 5, 4)}) {
+        const Drawn d(ocean(), eye, {640, 480});
+        const auto drawn = segments(d.meshes.lines);
+        ASSERT_GE(drawn.size(), 12u);
+        const glm::dvec3 half = d.lattice.boxHalf();
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int sides = 0; sides < 4; ++sides) {
+                glm::dvec3 from = half, to = half;
+                from[(axis + 1) % 3] = to[(axis + 1) % 3] *= sides & 1 ? 1 : -1;
+                from[(axis + 2) % 3] = to[(axis + 2) % 3] *= sides & 2 ? 1 : -1;
+                from[axis] = -half[axis];
+                const glm::dvec3 a = seen(d.view, from), b = seen(d.view, to);
+                const auto is = [&](const Segment& s) {
+                    const auto near = [](const glm::dvec3& p, const glm::dvec3& q) {
+                        return glm::distance(glm::dvec2(p), glm::dvec2(q)) < 0.01 &&
+                               std::abs(p.z - q.z) < 1e-5;
+                    };
+                    return (near(s.a, a) && near(s.b, b)) || (near(s.a, b) && near(s.b, a));
+                };
+                EXPECT_EQ(std::count_if(drawn.begin(), drawn.begin() + 12, is), 1)
+                    << "axis " << axis << " sides " << sides;
+            }
+        }
+    }
+}
+
+TEST(Axes, EdgesEndAtTheNearPlaneWhenTheEyeIsInside) {
+    const Drawn d(fire(), {0.1, -0.2, 0.05}, {400, 300});
+    const auto drawn = segments(d.meshes.lines);
+    EXPECT_FALSE(drawn.empty());
+    for (const Segment& s : drawn)
+        for (const glm::dvec3& p : {s.a, s.b}) {
+            EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+            EXPECT_GE(p.z, -1e-6);
+            EXPECT_LE(p.z, 1);
+        }
+}
+
+TEST(Axes, AFlatBoxHasFourEdgesAndALineOne) {
+    const auto edgeCount = [](const Grid& grid) {
+        const Drawn d(grid, eyeAt(-60, 25, 3), {640, 480});
+        std::set<std::pair<double, double>> corners;
+        std::size_t count = 0;
+        for (const Segment& s : segments(d.meshes.lines))
+            if (glm::distance(s.a, s.b) > 0.5 * 13) ++count;  // ticks are shorter
+        return count;
+    };
+    EXPECT_EQ(edgeCount(fire()), 12u);
+    EXPECT_EQ(edgeCount(worlds()[2]), 4u);
+    EXPECT_EQ(edgeCount(worlds()[5]), 1u);
+    EXPECT_EQ(edgeCount(worlds()[6]), 0u);
+}
+
+TEST(Axes, ADownAxisShowsItsOwnNumbersGrowingDownward) {
+    for (const double elevation : {25.0, -25.0}) {
+        const Drawn d(ocean(), eyeAt(-70, elevation, 3), {1024, 1024});
+        const auto top = d.label("0"), bottom = d.label("1000"), title = d.label("depth (m)");
+        ASSERT_TRUE(top && bottom && title);
+        EXPECT_LT(top->hi.y, bottom->lo.y);
+        EXPECT_TRUE(d.label("lon (°E)") && d.label("lat (°N)"));
+    }
+}
+
+TEST(Axes, WhatIsSeenOfAnEdgeIsNumbered) {
+    // Close to the top of the left edge, which is the sea's surface.
+    const Lattice lattice(ocean());
+    const glm::ivec2 size(1024, 1024);
+    const glm::dvec3 corner = lattice.boxHalf() * glm::dvec3(-1, -1, 1);
+    const glm::dvec3 eye = corner + glm::dvec3(0.15, -0.6, 0.1);
+    View view = lookFrom(eye, size);
+    view.viewFromWorld = glm::lookAt(eye, corner, glm::dvec3(0, 0, 1));
+    const auto meshes = axesMeshes(ocean(), lattice, view, eye, fontFor(size));
+    const auto shown = [&](const char* text) {
+        return tests::find(meshes.labels, fontFor(size), labelStyle(size), text).has_value();
+    };
+    EXPECT_TRUE(shown("depth (m)"));
+    EXPECT_TRUE(shown("100") || shown("200"));
+    EXPECT_FALSE(shown("900") || shown("1000"));
+}
+
+TEST(Axes, NumbersStandBesideTheirPlaces) {
+    const Drawn d(fire(), eyeAt(-60, 25, 3.2), {1024, 1024});
+    const float line = static_cast<float>(labelStyle({1024, 1024}).linePixels);
+    // Seen from the lower left front: x runs along the front, z up the left.
+    const double half = d.lattice.boxHalf().x;
+    const auto world = [&](double v) { return (v - 0.5) * d.lattice.scale().x; };
+    const auto z = d.label("0.2"), x = d.label("x (m)");
+    ASSERT_TRUE(z && x);
+    const glm::dvec3 place = seen(d.view, {-half, -half, world(0.2)});
+    EXPECT_LT(z->hi.x, place.x);
+    EXPECT_GT(z->hi.x, place.x - line);
+    EXPECT_NEAR(0.5 * (z->lo.y + z->hi.y), place.y, 0.3 * line);
+    EXPECT_GT(x->lo.y, seen(d.view, {0, -half, -half}).y);
+}
+
+double cross(glm::dvec2 o, glm::dvec2 a, glm::dvec2 b) {
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+// Whether a convex polygon, the hull of points, and a rectangle are apart: some side of either
+// separates them.
+bool apart(const std::vector<glm::dvec2>& points, const Rect& r) {
+    std::vector<glm::dvec2> corners = {r.lo, {r.hi.x, r.lo.y}, r.hi, {r.lo.x, r.hi.y}};
+    const auto separated = [](const auto& from, const auto& a, const auto& b) {
+        for (const auto& p : from)
+            for (const auto& q : from) {
+                if (glm::distance(p, q) < 1e-6) continue;
+                bool all = true;
+                for (const auto& s : a) all = all && cross(p, q, s) <= 1e-6;
+                for (const auto& s : b) all = all && cross(p, q, s) >= -1e-6;
+                if (all) return true;
+            }
+        return false;
+    };
+    return separated(points, points, corners) || separated(corners, corners, points);
+}
+
+// Labels as glyphs that follow each other on a line.
+std::vector<Rect> labels(const FlatMesh& mesh, float line) {
+    std::vector<Rect> found;
+    const tests::Shape* last = nullptr;
+    const auto all = shapes(mesh);
+    for (const auto& shape : all) {
+        const bool follows = last != nullptr &&
+                             shape.covers.lo.x - last->covers.hi.x < 0.42f * line &&
+                             shape.covers.lo.x > last->covers.lo.x - 2 &&
+                             std::abs(shape.covers.hi.y - last->covers.hi.y) < 0.7f * line;
+        if (follows) {
+            found.back() = tests::around(found.back(), shape.covers);
+        } else {
+            found.push_back(shape.covers);
+        }
+        last = &shape;
+    }
+    return found;
+}
+
+TEST(Axes, LabelsLieInThePictureOutsideTheBoxAndApart) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> azimuth(-180, 180), elevation(-89.9, 89.9),
+        distance(1.2, 6), tangent(0.1, 1.2);
+    const std::vector<glm::ivec2> sizes = {{1024, 1024}, {1920, 1080}, {480, 360},  {200, 150},
+                                           {64, 64},     {360, 1200},  {3000, 400}, {4096, 4096}};
+    const auto grids = worlds();
+    std::size_t labelCount = 0;
+    for (int i = 0; i < 1200; ++i) {
+        glm::dvec3 eye = eyeAt(azimuth(random), elevation(random), distance(random));
+        if (i % 5 == 0) eye = eyeAt(90.0 * (i % 4), 1e-9 * (i % 3), 3);  // face on
+        const glm::ivec2 size = sizes[static_cast<std::size_t>(i) % sizes.size()];
+        const Grid& grid = grids[static_cast<std::size_t>(i / 8) % grids.size()];
+        const Drawn d(grid, eye, size, tangent(random));
+        const std::string which =
+            fmt::format("{}: {} x {}, eye {} {} {}", i, size.x, size.y, eye.x, eye.y, eye.z);
+        std::vector<glm::dvec2> corners;
+        for (int c = 0; c < 8; ++c) {
+            const glm::dvec3 signs(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
+            corners.emplace_back(seen(d.view, d.lattice.boxHalf() * signs));
+        }
+        const auto found = labels(d.meshes.labels, static_cast<float>(labelStyle(size).linePixels));
+        labelCount += found.size();
+        for (std::size_t a = 0; a < found.size(); ++a) {
+            EXPECT_TRUE(found[a].lo.x >= 0 && found[a].lo.y >= 0 &&
+                        found[a].hi.x <= static_cast<float>(size.x) &&
+                        found[a].hi.y <= static_cast<float>(size.y))
+                << which;
+            EXPECT_TRUE(apart(corners, found[a])) << which;
+            for (std::size_t b = 0; b < a; ++b)
+                EXPECT_FALSE(tests::overlap(found[a], found[b])) << which;
+        }
+        for (const FlatVertex& v : d.meshes.labels.triangles()) EXPECT_EQ(v.at.z, 0);
+    }
+    EXPECT_GT(labelCount, 6000u);
+}
+
+TEST(Axes, AllThreeAreNamedFromEveryCornerView) {
+    for (const double azimuth : {-150.0, -120.0, -60.0, -30.0, 30.0, 60.0, 120.0, 150.0}) {
+        for (const double elevation : {-50.0, -20.0, 20.0, 50.0}) {
+            const Drawn d(fire(), eyeAt(azimuth, elevation, 3.4), {800, 600});
+            for (const char* title : {"x (m)", "y (m)", "z (m)"})
+                EXPECT_TRUE(d.label(title)) << title << ' ' << azimuth << ' ' << elevation;
+        }
+    }
+}
+
+TEST(Axes, LabelsKeepOffTheLegend) {
+    const glm::ivec2 size(800, 600);
+    const glm::dvec3 eye = eyeAt(-60, 25, 3.4);
+    const Drawn alone(fire(), eye, size);
+    const auto where = alone.label("z (m)");
+    ASSERT_TRUE(where);
+    FlatMesh legend;
+    const float reach = 6;
+    legend.rect(where->lo - reach, where->hi + reach, glm::vec4(1));
+    const auto meshes = axesMeshes(fire(), alone.lattice, alone.view, eye, alone.font, legend);
+    for (const auto& shape : shapes(meshes.labels))
+        EXPECT_FALSE(tests::overlap(shape.covers, {where->lo - reach, where->hi + reach}));
+    EXPECT_TRUE(tests::find(meshes.labels, alone.font, labelStyle(size), "z (m)"));
+}
+
+TEST(Axes, BothEyesLabelTheSameEdgesAndTicks) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> azimuth(-180, 180), elevation(-80, 80);
+    const glm::ivec2 size(900, 900);
+    const Grid grid = ocean();
+    const Lattice lattice(grid);
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 mid = eyeAt(azimuth(random), elevation(random), 3.0);
+        const View view = lookFrom(mid, size, 0.6);
+        std::array<std::size_t, 2> tickCount{};
+        for (const int side : {0, 1}) {
+            View eye = view;
+            const double apart = side == 0 ? -0.06 : 0.06;
+            eye.viewFromWorld[3].x -= apart;
+            // The eyes' frusta lean outward, as a headset's do.
+            eye.clipFromView[2][0] = side == 0 ? -0.1 : 0.1;
+            const auto meshes = axesMeshes(grid, lattice, eye, mid, fontFor(size));
+            tickCount[static_cast<std::size_t>(side)] = meshes.lines.triangles().size();
+        }
+        EXPECT_EQ(tickCount[0], tickCount[1]) << i;
+    }
+}
+
+}  // namespace
+}  // namespace render

@@ -1,0 +1,176 @@
+#include "render/legend.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "render/axes.h"
+#include "tests/support/flat_text.h"
+
+namespace render {
+namespace {
+
+using tests::fontFor;
+using tests::Rect;
+using tests::shapes;
+
+RangeStyle constant(double opacity = 0.5) { return {Constant{{0.8, 0.4, 0.1}}, opacity}; }
+RangeStyle byValue(double lo, double hi) { return {ByValue{ColorMap(), lo, hi}, 0.5}; }
+
+Legend fire() {
+    return {"T, gas temperature (K)",
+            "1.10 s, step 13 of 31",
+            {{constant(), "600:1600 K", "13,402 points, 6.2 %"},
+             {byValue(300, 1843.7), "1600:inf K", "1,204 points, 0.56 %"}},
+            {"drawn in index space"}};
+}
+std::optional<Rect> find(const FlatMesh& mesh, glm::ivec2 size, const std::string& text) {
+    return tests::find(mesh, fontFor(size), labelStyle(size), text);
+}
+bool titled(const FlatMesh& mesh, glm::ivec2 size, const std::string& text) {
+    return tests::find(mesh, fontFor(size), titleStyle(size), text).has_value();
+}
+
+TEST(Legend, SaysEverythingInAnOrdinaryPicture) {
+    for (const glm::ivec2 size : {glm::ivec2(1024, 1024), {1920, 1080}, {480, 360}, {400, 1200}}) {
+        const FlatMesh mesh = legendMesh(fire(), fontFor(size), size);
+        EXPECT_TRUE(titled(mesh, size, "T, gas temperature (K)"));
+        for (const char* text :
+             {"1.10 s, step 13 of 31", "600:1600 K", "13,402 points, 6.2 %", "1600:inf K",
+              "1,204 points, 0.56 %", "300", "1000", "1843.7", "drawn in index space"})
+            EXPECT_TRUE(find(mesh, size, text)) << text << " at " << size.x << " x " << size.y;
+    }
+}
+
+TEST(Legend, AColourBarRunsThroughItsMapBetweenItsEnds) {
+    const glm::ivec2 size(1024, 1024);
+    const FlatMesh mesh = legendMesh({"", "", {{byValue(-5, 6), "", ""}}, {}}, fontFor(size), size);
+    const auto entries = ColorMap().entries();
+    float left = 1e9f, right = -1e9f;
+    for (const auto& v : mesh.triangles()) {
+        if (glm::vec3(v.color) == entries.front()) left = std::min(left, v.at.x);
+        if (glm::vec3(v.color) == entries.back()) right = std::max(right, v.at.x);
+    }
+    const auto lo = find(mesh, size, "−5"), zero = find(mesh, size, "0"),
+               hi = find(mesh, size, "6");
+    ASSERT_TRUE(lo && zero && hi);
+    EXPECT_NEAR(lo->lo.x, left, 3);
+    EXPECT_NEAR(0.5f * (zero->lo.x + zero->hi.x), left + 5 / 11.0f * (right - left), 2);
+    EXPECT_NEAR(hi->hi.x, right, 3);
+}
+
+TEST(Legend, AMapOfOneValueShowsItsMiddle) {
+    const glm::ivec2 size(1024, 1024);
+    const FlatMesh mesh = legendMesh({"", "", {{byValue(7, 7), "", ""}}, {}}, fontFor(size), size);
+    EXPECT_TRUE(find(mesh, size, "7"));
+    EXPECT_TRUE(std::any_of(mesh.triangles().begin(), mesh.triangles().end(), [](const auto& v) {
+        return v.texel.x < 0 && glm::vec3(v.color) == ColorMap().at(0.5);
+    }));
+}
+
+TEST(Legend, ASwatchIsAsBrightAsOneUnitLengthInAFullRim) {
+    const glm::ivec2 size(1024, 1024);
+    for (const double opacity : {0.0, 0.25, 1.0}) {
+        const FlatMesh mesh =
+            legendMesh({"", "", {{constant(opacity), "", ""}}, {}}, fontFor(size), size);
+        const glm::vec4 rim(0.8f, 0.4f, 0.1f, 1);
+        const auto count = [&](glm::vec4 color) {
+            return std::count_if(mesh.triangles().begin(), mesh.triangles().end(),
+                                 [&](const auto& v) { return v.color == color; });
+        };
+        EXPECT_EQ(count(rim), opacity == 1 ? 30 : 24);
+        EXPECT_EQ(count(rim * static_cast<float>(opacity)), opacity == 1 ? 30 : 6);
+    }
+}
+
+TEST(Legend, LongTextsAreShortenedWithAnEllipsis) {
+    const glm::ivec2 size(480, 360);
+    Legend legend = fire();
+    legend.title = "größte ";
+    for (int i = 0; i < 20; ++i) legend.title += "Geschwindigkeit über alles\n";
+    const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+    EXPECT_TRUE(titled(mesh, size, "…"));
+    EXPECT_TRUE(titled(mesh, size, "größte Geschwindigkeit"));
+    EXPECT_FALSE(titled(mesh, size, legend.title));
+}
+
+TEST(Legend, GivesUpNotesThenAmountsThenLayersThenTimeAsPicturesShrink) {
+    // 0: nothing but the title; +1 time, +1 ranges, +1 amounts, +1 notes.
+    int last = 4;
+    for (int height = 600; height >= 24; --height) {
+        const glm::ivec2 size(500, height);
+        Legend legend = fire();
+        for (int i = 0; i < 4; ++i) legend.layers.push_back(legend.layers[i % 2]);
+        for (int i = 0; i < 10; ++i) legend.notes.push_back("drawn in index space");
+        const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+        EXPECT_TRUE(height < 40 || titled(mesh, size, legend.title));
+        const std::array said = {find(mesh, size, "1.10 s, step 13 of 31").has_value(),
+                                 find(mesh, size, "600:1600 K").has_value(),
+                                 find(mesh, size, "13,402 points, 6.2 %").has_value()};
+        for (std::size_t i = 1; i < said.size(); ++i) EXPECT_LE(said[i], said[i - 1]) << height;
+        const int level = said[0] + said[1] + said[2];
+        EXPECT_LE(level, last) << height;
+        last = level;
+    }
+    EXPECT_LE(last, 1);
+}
+
+TEST(Legend, NotesGoFirst) {
+    bool gone = false;
+    for (int height = 600; height >= 300 && !gone; --height) {
+        const glm::ivec2 size(500, height);
+        Legend legend = fire();
+        for (int i = 0; i < 20; ++i) legend.notes.push_back("drawn in index space");
+        const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+        gone = !find(mesh, size, "drawn in index space");
+        EXPECT_TRUE(find(mesh, size, "13,402 points, 6.2 %") && find(mesh, size, "1843.7"))
+            << height;
+    }
+    EXPECT_TRUE(gone);
+}
+
+TEST(Legend, LiesInThePictureWithItsPartsApartAtAnySize) {
+    std::mt19937 random(21);
+    std::uniform_real_distribution<double> logSize(std::log(64.0), std::log(4096.0)),
+        decade(-300, 300), sign(-1, 1);
+    const auto number = [&] { return sign(random) * std::pow(10, decade(random)); };
+    for (int i = 0; i < 400; ++i) {
+        const glm::ivec2 size(std::exp(logSize(random)), std::exp(logSize(random)));
+        Legend legend;
+        const auto words = [&](int most) {
+            std::string text;
+            const int count = static_cast<int>(random() % static_cast<unsigned>(most));
+            for (int w = 0; w < count; ++w) text += (w ? " wind" : "Ωind");
+            return text;
+        };
+        legend.title = words(30);
+        legend.time = words(12);
+        const int layers = static_cast<int>(random() % 9);
+        for (int l = 0; l < layers; ++l) {
+            const double a = number(), b = random() % 4 == 0 ? a : number();
+            legend.layers.push_back(
+                {random() % 2 ? constant() : byValue(std::min(a, b), std::max(a, b)), words(12),
+                 words(8)});
+        }
+        for (auto n = random() % 5; n > 0; --n) legend.notes.push_back(words(40));
+        const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+        const auto all = shapes(mesh);
+        const std::string which = fmt::format("{}: {} x {}", i, size.x, size.y);
+        for (const auto& shape : all)
+            EXPECT_TRUE(shape.covers.lo.x >= 0 && shape.covers.lo.y >= 0 &&
+                        shape.covers.hi.x <= static_cast<float>(size.x) &&
+                        shape.covers.hi.y <= static_cast<float>(size.y))
+                << which;
+        std::size_t overlaps = 0;
+        for (std::size_t a = 0; a < all.size(); ++a)
+            for (std::size_t b = 0; b < a; ++b)
+                // Soft edges of neighbouring letters may share two columns of pixels.
+                if (all[a].glyph || all[b].glyph)
+                    overlaps += tests::overlap(all[a].covers, all[b].covers, 2.01f);
+        EXPECT_EQ(overlaps, 0u) << which;
+    }
+}
+
+}  // namespace
+}  // namespace render
