@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "render/ticks.h"
+
 namespace app {
 
 using timeseries::FileError;
@@ -40,11 +42,10 @@ std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
     const timeseries::TimePoint& point = axis.points[step];
     if (!point.date.empty()) return point.date;
     if (axis.name == "step") return fmt::format("step {}", step);
-    return shownUnits(axis.units).empty() ? fmt::format("{} {:.10g}", axis.name, point.value)
-                                          : fmt::format("{:.10g} {}", point.value, axis.units);
+    return render::shownUnit(axis.units).empty()
+               ? fmt::format("{} {:.10g}", axis.name, point.value)
+               : fmt::format("{:.10g} {}", point.value, axis.units);
 }
-
-std::string shownUnits(const std::string& units) { return units == "1" ? "" : units; }
 
 std::string withCommas(std::uint64_t count) {
     std::string text = std::to_string(count);

@@ -31,9 +31,6 @@ std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choic
 // "2000-01-04 12:00:00", "1.1 s", or "step 3".
 std::string timeText(const timeseries::TimeAxis& axis, std::size_t step);
 
-// A unit as it is shown: "" for "1", CF's word for none.
-std::string shownUnits(const std::string& units);
-
 // "13402" -> "13,402".
 std::string withCommas(std::uint64_t count);
 

@@ -9,6 +9,7 @@
 #include "app/choice_text.h"
 #include "app/first_choice.h"
 #include "render/color.h"
+#include "render/ticks.h"
 
 namespace app {
 namespace {
@@ -150,7 +151,8 @@ std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
             text += lo == hi ? lo : fmt::format("{} to {}", lo, hi);
     }
     if (text.empty()) return "no values";
-    return shownUnits(units).empty() ? text : text + " " + units;
+    const std::string unit = render::shownUnit(units);
+    return unit.empty() ? text : text + " " + unit;
 }
 
 Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::size_t stepIndex,
@@ -170,9 +172,13 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
         const std::uint64_t points = step.statistics().points;
         const double percent =
             points == 0 ? 0 : 100 * static_cast<double>(selected) / static_cast<double>(points);
-        picture.legend.layers.push_back(
-            {drawn.style, rangeLabel(ranges, about.units),
-             fmt::format("{} points, {:.3g} %", withCommas(selected), percent)});
+        render::LegendLayer& told = picture.legend.layers.emplace_back(
+            render::LegendLayer{drawn.style, rangeLabel(ranges, about.units),
+                                fmt::format("{} points, {:.3g} %", withCommas(selected), percent)});
+        if (const auto* byValue = std::get_if<render::ByValue>(&drawn.style.color)) {
+            const Extent ends = finiteEnds(ranges, {byValue->lo, byValue->hi});
+            told.shown.emplace(ends.lo, ends.hi);
+        }
         picture.scene.layers.push_back(std::move(drawn));
     };
     if (e.sweep) {
@@ -184,7 +190,8 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
 
     picture.legend.title = about.longName.empty() ? about.name : about.longName;
-    if (!shownUnits(about.units).empty()) picture.legend.title += " (" + about.units + ")";
+    if (const std::string unit = render::shownUnit(about.units); !unit.empty())
+        picture.legend.title += " (" + unit + ")";
     const std::size_t steps = about.time->points.size();
     const bool timed = about.time->name != "step";
     if (timed) picture.legend.time = timeText(*about.time, stepIndex);

@@ -39,9 +39,14 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, GpuS
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
     ++eyes_;
     const FlatMesh legend = legendMesh(frame.content.legend, font_, eye.size);
-    drawOpaque(frame.content, eye, frame.midEye, legend);
+    const AxesMeshes axes = axesMeshes(frame.content.grid, frame.content.scene.lattice, eye,
+                                       frame.midEye, font_, legend);
+    drawOpaque(frame.content, eye, axes);
     drawSplats(*frame.list, eye);
     resolve(frame.content.scene, eye.size);
+    // Lines before the volume have soft edges: blended over it, not under with a depth of their
+    // own.
+    flat_->draw(axes.before, targets_->lightFramebuffer(), eye.size, gl::DepthTest::None);
     flat_->draw(legend, targets_->lightFramebuffer(), eye.size, gl::DepthTest::None);
 }
 
@@ -63,7 +68,9 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         // An ordered list interleaves the layers; their weights are added from the runs.
         const auto runs = splatter_.upload(content.scene, Runs{}, step);
         for (std::size_t i = 0; i < eyes.size(); ++i) {
-            drawOpaque(content, eyes[i], frame.midEye, {});
+            drawOpaque(
+                content, eyes[i],
+                axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_));
             pictures[i].opticalDepth = opticalDepth(*runs, eyes[i]);
         }
     }
@@ -72,15 +79,13 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
 }
 
 void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
-                               const glm::dvec3& midEye, const FlatMesh& legend) {
-    gl::begin({.framebuffer = targets_->opaqueFramebuffer(),
+                               const AxesMeshes& axes) {
+    const GLuint into = targets_->opaqueFramebuffer();
+    gl::begin({.framebuffer = into,
                .size = view.size,
                .clearColor = glm::vec4(glm::vec3(content.background), 1),
                .clearDepth = 1.0f});
-    const AxesMeshes axes =
-        axesMeshes(content.grid, content.scene.lattice, view, midEye, font_, legend);
-    const GLuint into = targets_->opaqueFramebuffer();
-    flat_->draw(axes.lines, into, view.size, gl::DepthTest::TestAndWrite);
+    flat_->draw(axes.behind, into, view.size, gl::DepthTest::TestAndWrite);
     flat_->draw(axes.labels, into, view.size, gl::DepthTest::None);
 }
 

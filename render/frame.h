@@ -59,8 +59,7 @@ class FrameRenderer {
     Counts counts() const { return {orders_, splatter_.counts().uploads, eyes_}; }
 
  private:
-    void drawOpaque(const FrameContent& content, const View& view, const glm::dvec3& midEye,
-                    const FlatMesh& legend);
+    void drawOpaque(const FrameContent& content, const View& view, const AxesMeshes& axes);
     void drawSplats(const GpuList& list, const View& view);
     void resolve(const Scene& scene, glm::ivec2 size);
     std::vector<float> opticalDepth(const GpuList& list, const View& view);

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "render/ticks.h"
+
 namespace render {
 namespace {
 
@@ -124,9 +126,12 @@ std::string stretchText(const Grid& grid, const Lattice& lattice) {
             text += fmt::format("{}{} \u00d7 {:.3g}", text.empty() ? "" : ", ", axis.name, ratio);
         } else {
             // So many of its own units are drawn as long as one unit of the first axis.
-            text += fmt::format("{}{:.3g} {} {} drawn as 1 {}", text.empty() ? "" : ", ", 1 / ratio,
-                                axis.units.empty() ? "units" : axis.units, axis.name,
-                                first.units.empty() ? "unit" : comparableUnit(first));
+            const auto unit = [](const Axis& of) {
+                const std::string name = shownUnit(comparableUnit(of));
+                return name.empty() ? of.name : name + " " + of.name;
+            };
+            text += fmt::format("{}{:.3g} {} drawn as 1 {}", text.empty() ? "" : ", ", 1 / ratio,
+                                unit(axis), unit(first));
         }
     }
     return text;

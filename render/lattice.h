@@ -45,7 +45,7 @@ class Lattice {
     double unitLength_ = 1;
 };
 
-// How much the axes are stretched against each other, in words: "depth x 0.012 degrees per m";
+// How much the axes are stretched against each other, in words: "5.6 m depth drawn as 1° lon";
 // empty when all are drawn to one scale.
 std::string stretchText(const timeseries::Grid& grid, const Lattice& lattice);
 

@@ -9,6 +9,7 @@
 
 #include "render/axes.h"
 #include "render/color.h"
+#include "render/ticks.h"
 
 namespace render {
 namespace {
@@ -89,9 +90,9 @@ class Writer {
     std::string aside(const LegendLayer& layer, const Detail& detail) const {
         std::string words;
         if (byValue(layer) && !detail.scales) {
-            const auto& style = std::get<ByValue>(layer.style.color);
-            words = endText(style, style.lo);
-            if (style.hi > style.lo) words += " \u2013 " + endText(style, style.hi);
+            const Bar shown = barOf(layer);
+            words = endText(shown, shown.lo);
+            if (shown.hi > shown.lo) words += " \u2013 " + endText(shown, shown.hi);
         }
         if (detail.amounts && !layer.amount.empty())
             words += (words.empty() ? "" : ", ") + layer.amount;
@@ -175,8 +176,7 @@ class Writer {
             const float past = font_.measure(layer.range, label_).x + 0.7f * line_;
             text(label_, words, {left + past, top}, width - past, kQuiet);
         }
-        if (byValue(layer) && detail.scales)
-            drawScale(std::get<ByValue>(layer.style.color), y + 0.2f * line_);
+        if (byValue(layer) && detail.scales) drawScale(barOf(layer), y + 0.2f * line_);
     }
 
     // The outline shows the colour, the inside how much of it one unit length adds.
@@ -190,7 +190,7 @@ class Writer {
             mesh_.rect(from + rim, to - rim, glm::vec4(color * opacity, opacity));
             frame(from, to, rim, glm::vec4(color, 1));
         } else {
-            bar(std::get<ByValue>(layer.style.color), from, to);
+            bar(barOf(layer), from, to);
         }
     }
 
@@ -201,28 +201,41 @@ class Writer {
         mesh_.rect({to.x - rim, from.y + rim}, {to.x, to.y - rim}, color);
     }
 
+    // What a colour bar covers: the layer's values, which need not be the whole map's.
+    struct Bar {
+        ByValue style;
+        double lo, hi;
+    };
+    static Bar barOf(const LegendLayer& layer) {
+        const auto& style = std::get<ByValue>(layer.style.color);
+        const auto [lo, hi] = layer.shown.value_or(std::pair(style.lo, style.hi));
+        return {style, lo, hi};
+    }
+
     // Framed: the dark end of many maps is the background's colour.
-    void bar(const ByValue& style, glm::vec2 from, glm::vec2 to) {
+    void bar(const Bar& shown, glm::vec2 from, glm::vec2 to) {
         frame(from - 1.0f, to + 1.0f, 1, glm::vec4(kFrame, 1));
-        if (style.hi > style.lo) {
-            mesh_.gradient(from, to, style.map.entries());
-        } else {
-            mesh_.rect(from, to, glm::vec4(style.map.at(0.5), 1));
+        constexpr int kStops = 64;
+        std::vector<glm::vec3> stops;
+        for (int i = 0; i <= kStops; ++i) {
+            const double value = std::lerp(shown.lo, shown.hi, static_cast<double>(i) / kStops);
+            stops.push_back(shown.style.map.at(mapPosition(shown.style, value)));
         }
+        mesh_.gradient(from, to, stops);
     }
 
     // The colour bar with the values of its ends, and of a round one between where there is room.
-    void drawScale(const ByValue& style, float top) {
+    void drawScale(const Bar& shown, float top) {
         const glm::vec2 from = glm::round(glm::vec2(margin_, top));
         const float width = std::round(std::min(column_, 13 * line_));
         const glm::vec2 to = from + glm::vec2(width, std::round(0.5f * line_));
-        bar(style, from, to);
+        bar(shown, from, to);
         const float below = to.y + 0.12f * line_, gap = 0.8f * line_;
         const auto widthOf = [&](const std::string& words) {
             return font_.measure(words, label_).x;
         };
-        const std::string lo = endText(style, style.lo), hi = endText(style, style.hi);
-        if (!(style.hi > style.lo)) {
+        const std::string lo = endText(shown, shown.lo), hi = endText(shown, shown.hi);
+        if (!(shown.hi > shown.lo)) {
             text(label_, lo, {from.x, below}, width, kQuiet);
             return;
         }
@@ -230,9 +243,10 @@ class Writer {
         const float right = std::round(to.x - widthOf(hi));
         if (right < from.x + widthOf(lo) + gap) return;
         text(label_, hi, {right, below}, to.x - right + 1, kQuiet);
-        const double middle = roundMiddle(style);
+        const double middle = roundMiddle(shown);
         const std::string words = tickTexts(std::array{middle})[0];
-        const float at = from.x + width * static_cast<float>(mapPosition(style, middle));
+        const float at =
+            from.x + width * static_cast<float>((middle - shown.lo) / (shown.hi - shown.lo));
         const float left = std::round(at - 0.5f * widthOf(words));
         if (left < from.x + widthOf(lo) + gap || left + widthOf(words) > right - gap) return;
         text(label_, words, {left, below}, to.x - left, kQuiet);
@@ -241,18 +255,18 @@ class Writer {
                    glm::vec4(kQuiet, 1));
     }
 
-    static double roundMiddle(const ByValue& style) {
-        const double middle = 0.5 * style.lo + 0.5 * style.hi;
-        const auto ticks = niceTicks(style.lo, style.hi, 3);
+    static double roundMiddle(const Bar& shown) {
+        const double middle = 0.5 * shown.lo + 0.5 * shown.hi;
+        const auto ticks = niceTicks(shown.lo, shown.hi, 3);
         return *std::min_element(ticks.begin(), ticks.end(), [&](double a, double b) {
             return std::abs(a - middle) < std::abs(b - middle);
         });
     }
 
     // Four digits of the span tell any two places on a bar apart.
-    static std::string endText(const ByValue& style, double value) {
+    static std::string endText(const Bar& shownBar, double value) {
         double shown = value;
-        const double span = 0.5 * style.hi - 0.5 * style.lo;
+        const double span = 0.5 * shownBar.hi - 0.5 * shownBar.lo;
         if (span > 0 && value != 0) {
             const auto exponent = [](double x) { return std::floor(std::log10(std::abs(x))); };
             const int digits = static_cast<int>(exponent(value) - exponent(span)) + 3;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/flat_mesh.h"
@@ -14,6 +15,8 @@ struct LegendLayer {
     RangeStyle style;
     std::string range;   // "600:1600 K"
     std::string amount;  // "13,402 points, 6.2 %"
+    // The values that a colour bar covers, in order; the map's ends where absent.
+    std::optional<std::pair<double, double>> shown = {};
 };
 
 struct Legend {

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "render/ticks.h"
 #include "tests/support/flat_text.h"
 #include "tests/support/scenes.h"
 
@@ -195,7 +196,7 @@ struct Drawn {
 // Picture pixels and window depth by the definitions in view.h, with lookFrom's near and far.
 glm::dvec3 seen(const View& view, const glm::dvec3& world) {
     const Projected p = project(view, world);
-    const double near = 0.01, far = 100;
+    const double near = 0.01, far = 5000;
     return {p.window.x, view.size.y - p.window.y,
             far * (p.depth - near) / (p.depth * (far - near))};
 }
@@ -203,19 +204,22 @@ glm::dvec3 seen(const View& view, const glm::dvec3& world) {
 struct Segment {
     glm::dvec3 a, b;
 };
-std::vector<Segment> segments(const FlatMesh& lines) {
+// Edges first: the ticks are the last lines of `before`.
+std::vector<Segment> segments(const AxesMeshes& meshes) {
     std::vector<Segment> found;
-    const auto& v = lines.triangles();
-    for (std::size_t i = 0; i < v.size(); i += 6)  // a, b, b' | a, b', a' around the line
-        found.push_back({0.5 * (glm::dvec3(v[i].at) + glm::dvec3(v[i + 5].at)),
-                         0.5 * (glm::dvec3(v[i + 1].at) + glm::dvec3(v[i + 2].at))});
+    for (const FlatMesh* lines : {&meshes.behind, &meshes.before}) {
+        const auto& v = lines->triangles();
+        for (std::size_t i = 0; i < v.size(); i += 6)  // a, b, b' | a, b', a' around the line
+            found.push_back({0.5 * (glm::dvec3(v[i].at) + glm::dvec3(v[i + 5].at)),
+                             0.5 * (glm::dvec3(v[i + 1].at) + glm::dvec3(v[i + 2].at))});
+    }
     return found;
 }
 
 TEST(Axes, EdgesEndAtTheProjectedCornersAtTheirDepth) {
     for (const glm::dvec3& eye : {eyeAt(-60, 25, 3), eyeAt(130, -50, 2.5), eyeAt(5, 5, 4)}) {
         const Drawn d(ocean(), eye, {640, 480});
-        const auto drawn = segments(d.meshes.lines);
+        const auto drawn = segments(d.meshes);
         ASSERT_GE(drawn.size(), 12u);
         const glm::dvec3 half = d.lattice.boxHalf();
         for (int axis = 0; axis < 3; ++axis) {
@@ -239,9 +243,25 @@ TEST(Axes, EdgesEndAtTheProjectedCornersAtTheirDepth) {
     }
 }
 
+TEST(Axes, OnlyEdgesBehindTheWholeBoxAreDrawnBeforeTheVolume) {
+    // From a corner's direction three edges meet at the farthest corner: those, no other.
+    const Drawn d(fire(), eyeAt(-60, 25, 3), {640, 480});
+    double deepest = 0;
+    for (const Segment& s : segments(d.meshes)) deepest = std::max({deepest, s.a.z, s.b.z});
+    AxesMeshes onlyBehind;
+    onlyBehind.behind = d.meshes.behind;
+    const auto behind = segments(onlyBehind);
+    EXPECT_EQ(behind.size(), 3u);
+    for (const Segment& s : behind) EXPECT_NEAR(std::max(s.a.z, s.b.z), deepest, 1e-6);
+    // Inside, everything is behind what the box holds between the eye and its walls.
+    const Drawn inside(fire(), {0.1, -0.2, 0.05}, {400, 300});
+    EXPECT_FALSE(inside.meshes.behind.triangles().empty());
+    EXPECT_TRUE(inside.meshes.before.triangles().empty());
+}
+
 TEST(Axes, EdgesEndAtTheNearPlaneWhenTheEyeIsInside) {
     const Drawn d(fire(), {0.1, -0.2, 0.05}, {400, 300});
-    const auto drawn = segments(d.meshes.lines);
+    const auto drawn = segments(d.meshes);
     EXPECT_FALSE(drawn.empty());
     for (const Segment& s : drawn)
         for (const glm::dvec3& p : {s.a, s.b}) {
@@ -256,7 +276,7 @@ TEST(Axes, AFlatBoxHasFourEdgesAndALineOne) {
         const Drawn d(grid, eyeAt(-60, 25, 3), {640, 480});
         std::set<std::pair<double, double>> corners;
         std::size_t count = 0;
-        for (const Segment& s : segments(d.meshes.lines))
+        for (const Segment& s : segments(d.meshes))
             if (glm::distance(s.a, s.b) > 0.5 * 13) ++count;  // ticks are shorter
         return count;
     };
@@ -428,7 +448,7 @@ TEST(Axes, BothEyesLabelTheSameEdgesAndTicks) {
             // The eyes' frusta lean outward, as a headset's do.
             eye.clipFromView[2][0] = side == 0 ? -0.1 : 0.1;
             const auto meshes = axesMeshes(grid, lattice, eye, mid, fontFor(size));
-            tickCount[static_cast<std::size_t>(side)] = meshes.lines.triangles().size();
+            tickCount[static_cast<std::size_t>(side)] = meshes.before.triangles().size();
         }
         EXPECT_EQ(tickCount[0], tickCount[1]) << i;
     }

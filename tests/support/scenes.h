@@ -42,7 +42,7 @@ inline timeseries::SortedStep noise(std::shared_ptr<const timeseries::Grid> grid
 inline render::View lookFrom(glm::dvec3 from, glm::ivec2 size, double tangent = 0.4) {
     const double aspect = static_cast<double>(size.x) / size.y;
     return {.clipFromView = render::clipFromView(
-                {-tangent * aspect, tangent * aspect, -tangent, tangent, 0.01, 100}),
+                {-tangent * aspect, tangent * aspect, -tangent, tangent, 0.01, 5000}),
             .viewFromWorld = glm::lookAt(from, glm::dvec3(0), glm::dvec3(0, 0, 1)),
             .size = size};
 }
