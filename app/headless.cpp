@@ -8,6 +8,7 @@
 #include "app/choice_text.h"
 #include "app/commands.h"
 #include "app/dataset.h"
+#include "app/json_text.h"
 #include "app/picture.h"
 #include "app/session.h"
 #include "render/color.h"
@@ -111,6 +112,16 @@ render::ExrView exrView(std::string name, EyePicture picture) {
     return view;
 }
 
+// What a frame is written to.
+std::vector<fs::path> filesOf(const fs::path& file, Stereo stereo) {
+    if (stereo != Stereo::LeftRight) return {file};
+    const auto suffixed = [&](const char* suffix) {
+        return fs::path(file).replace_filename(file.stem().string() + suffix +
+                                               file.extension().string());
+    };
+    return {suffixed("_left"), suffixed("_right")};
+}
+
 void writeOne(const fs::path& file, EyePicture picture, const render::Metadata& metadata) {
     if (file.extension() == ".exr") {
         const std::array views{exrView("", std::move(picture))};
@@ -122,10 +133,6 @@ void writeOne(const fs::path& file, EyePicture picture, const render::Metadata& 
 
 void write(const fs::path& file, Stereo stereo, std::vector<EyePicture> eyes,
            const render::Metadata& metadata) {
-    const auto suffixed = [&](const char* suffix) {
-        fs::path other = file;
-        return other.replace_filename(file.stem().string() + suffix + file.extension().string());
-    };
     switch (stereo) {
         case Stereo::Off:
             return writeOne(file, std::move(eyes[0]), metadata);
@@ -136,8 +143,8 @@ void write(const fs::path& file, Stereo stereo, std::vector<EyePicture> eyes,
             return writeOne(file, {render::topBottom(eyes[0].image, eyes[1].image), {}, {}},
                             metadata);
         case Stereo::LeftRight:
-            writeOne(suffixed("_left"), std::move(eyes[0]), metadata);
-            return writeOne(suffixed("_right"), std::move(eyes[1]), metadata);
+            writeOne(filesOf(file, stereo)[0], std::move(eyes[0]), metadata);
+            return writeOne(filesOf(file, stereo)[1], std::move(eyes[1]), metadata);
         case Stereo::MultiView: {
             const std::array views{exrView("left", std::move(eyes[0])),
                                    exrView("right", std::move(eyes[1]))};
@@ -197,22 +204,23 @@ int renderHeadless(const RenderOptions& options) {
         const auto views = eyes(e.view, e.stereo, lattice->boxHalf(), e.size);
         const Picture picture =
             makePicture(e, dataset.about, frame.step, *step, *lattice, frame.tick);
-        Explorer again = e;  // of this picture alone
-        again.steps = StepChoice{frame.step, frame.step};
+        const Explorer alone = onlyThis(e, frame.step, *step, frame.tick);
         auto eyePictures = renderer.render(
             {picture.scene, step->grid(), picture.legend, kBackground}, *onGpu, views,
             {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
         write(frame.file, e.stereo.mode, std::move(eyePictures),
-              {{"isochronSession", toJson(again, frame.file.parent_path()).dump()}});
+              {{"isochronSession", jsonText(toJson(alone, frame.file.parent_path()), -1)}});
     }
     if (terminal) fmt::print(stderr, "\r\033[K");
+    const fs::path first = filesOf(frames.front().file, e.stereo.mode).front();
+    const fs::path last = filesOf(frames.back().file, e.stereo.mode).back();
     if (frames.size() == 1) {
-        fmt::print("{}: {}, {}\n", frames[0].file.string(), dataset.about.name,
+        fmt::print("{}{}: {}, {}\n", first.string(),
+                   first == last ? "" : " and " + last.filename().string(), dataset.about.name,
                    timeText(*dataset.about.time, frames[0].step));
     } else {
-        fmt::print("{} to {}: {}, {} to {}\n", frames.front().file.string(),
-                   frames.back().file.filename().string(), dataset.about.name,
-                   timeText(*dataset.about.time, frames.front().step),
+        fmt::print("{} to {}: {}, {} to {}\n", first.string(), last.filename().string(),
+                   dataset.about.name, timeText(*dataset.about.time, frames.front().step),
                    timeText(*dataset.about.time, frames.back().step));
     }
     tellStyle(e, dataset.about);
