@@ -33,25 +33,35 @@ struct FrameAt {
     fs::path file;
 };
 
-// A frame a step; with a sweep a frame a tick of one cycle, over which the steps pass once.
-std::vector<FrameAt> framesOf(const RenderOptions& options, const Explorer& e,
-                              const std::vector<std::size_t>& steps) {
-    const std::size_t ticks =
-        e.sweep ? static_cast<std::size_t>(timeseries::ValueSweep(*e.sweep).ticksPerCycle()) : 0;
-    const std::size_t count = e.sweep ? ticks : steps.size();
-    const std::size_t width = std::to_string(e.sweep ? count - 1 : steps.back()).size();
-    std::vector<FrameAt> frames;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t step = e.sweep ? steps[i * steps.size() / count] : steps[i];
-        fs::path file = options.output;
-        if (count > 1)
-            file.replace_filename(fmt::format("{}_{:0{}}{}", file.stem().string(),
-                                              e.sweep ? i : step, width,
-                                              file.extension().string()));
-        frames.push_back({step, e.sweep ? static_cast<std::int64_t>(i) : 0, file});
+// A frame a step; with a sweep a frame a tick of one cycle, over which the steps pass once. Told
+// one by one: a cycle may have 2^30 ticks.
+class Frames {
+ public:
+    Frames(fs::path output, const Explorer& e, std::vector<std::size_t> steps)
+        : output_(std::move(output)), steps_(std::move(steps)), swept_(e.sweep.has_value()) {
+        count_ = swept_ ? static_cast<std::size_t>(timeseries::ValueSweep(*e.sweep).ticksPerCycle())
+                        : steps_.size();
+        digits_ = std::to_string(swept_ ? count_ - 1 : steps_.back()).size();
     }
-    return frames;
-}
+    std::size_t size() const { return count_; }
+    FrameAt operator[](std::size_t i) const {
+        const std::size_t step = swept_ ? steps_[i * steps_.size() / count_] : steps_[i];
+        fs::path file = output_;
+        if (count_ > 1)
+            file.replace_filename(fmt::format("{}_{:0{}}{}", file.stem().string(),
+                                              swept_ ? i : step, digits_,
+                                              file.extension().string()));
+        return {step, swept_ ? static_cast<std::int64_t>(i) : 0, file};
+    }
+    FrameAt front() const { return (*this)[0]; }
+    FrameAt back() const { return (*this)[count_ - 1]; }
+
+ private:
+    fs::path output_;
+    std::vector<std::size_t> steps_;
+    bool swept_;
+    std::size_t count_ = 0, digits_ = 0;
+};
 
 // First, middle and last of the chosen steps.
 Steps sample(Dataset& dataset, const std::vector<std::size_t>& steps,
@@ -185,7 +195,7 @@ int renderHeadless(const RenderOptions& options) {
     }
     const render::gl::HeadlessContext context(options.device);
     render::FrameRenderer renderer;
-    const auto frames = framesOf(options, e, steps);
+    const Frames frames(options.output, e, steps);
     StepSource source(dataset, kept, std::move(sampled));
 
     std::shared_ptr<const SortedStep> shown;
@@ -193,7 +203,7 @@ int renderHeadless(const RenderOptions& options) {
     std::optional<render::GpuStep> onGpu;
     const bool terminal = isatty(STDERR_FILENO) && frames.size() > 1;
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const FrameAt& frame = frames[i];
+        const FrameAt frame = frames[i];
         if (terminal) fmt::print(stderr, "\rpicture {} of {} ", i + 1, frames.size());
         const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
         if (step != shown) {
