@@ -14,16 +14,20 @@ const double kHalfAngle = glm::radians(15.0);
 // The share of the picture that the box may fill; labels stand around it.
 constexpr double kBoxShare = 0.80;
 
-// From where all corners are inside the share. A single point is seen from 4 away.
+// From where all corners are inside the share, and none is so near that the near plane cuts it, as
+// the tip of a needle seen end on. A single point is seen from 4 away.
 double fittingDistance(const glm::dmat3& axes, const glm::dvec3& boxHalf, const glm::dvec2& slope) {
+    constexpr double kNearestCorner = 0.3;
+    if (boxHalf == glm::dvec3(0)) return 4;
     double distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
         const glm::dvec3 at = glm::transpose(axes) * (sign * boxHalf);
-        distance = std::max({distance, at.z + std::abs(at.x) / (slope.x * kBoxShare),
+        distance = std::max({distance, at.z + kNearestCorner,
+                             at.z + std::abs(at.x) / (slope.x * kBoxShare),
                              at.z + std::abs(at.y) / (slope.y * kBoxShare)});
     }
-    return distance > 0 ? distance : 4;
+    return distance;
 }
 
 }  // namespace

@@ -40,6 +40,14 @@ std::optional<std::vector<double>> numbers(std::string_view text) {
     return out;
 }
 
+timeseries::RangeSet rangeOf(std::string_view clip, std::string_view side) {
+    try {
+        return timeseries::RangeSet::parse(side);
+    } catch (const timeseries::RangeSyntaxError& error) {
+        throw ChoiceError(fmt::format("clip '{}': {}", clip, error.what()));
+    }
+}
+
 // A name of a short list, both ways.
 template <typename T>
 using Names = std::span<const std::pair<std::string_view, T>>;
@@ -77,8 +85,9 @@ constexpr std::array<std::pair<std::string_view, render::Order>, 2> kOrders = {
 StepChoice parseSteps(std::string_view text) {
     if (text == "all") return {0, std::nullopt};
     const auto parts = split(text, ':');
-    const auto first = numberIn<std::size_t>(parts.front()),
-               last = numberIn<std::size_t>(parts.back());
+    const auto first = numberIn<std::size_t>(parts.front());
+    if (parts.size() == 2 && first && parts.back().empty()) return {*first, std::nullopt};
+    const auto last = numberIn<std::size_t>(parts.back());
     if (parts.size() > 2 || !first || !last || *first > *last)
         throw ChoiceError(fmt::format(
             "step '{}' is not a step counted from 0, a range A:B with A <= B, or all", text));
@@ -112,7 +121,7 @@ ClipBox parseClip(std::string_view text) {
             "clip '{}' is not of the form x0:x1,y0:y1,z0:z1 (min and max allowed)", text));
     ClipBox box{};
     for (int a = 0; a < 3; ++a) {
-        const auto set = timeseries::RangeSet::parse(parts[a]);
+        const auto set = rangeOf(text, parts[a]);
         const timeseries::Range& range = set.ranges().front();
         if (range.lo.open || range.hi.open)
             throw ChoiceError(

@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/dataset.h"
+#include "app/json_text.h"
 
 namespace app {
 namespace {
@@ -42,7 +43,6 @@ ordered_json json(const Dataset& dataset, const RangeSet& ranges, const std::vec
     ordered_json out{{"file", dataset.name()},
                      {"variable", dataset.about.name},
                      {"units", dataset.about.units},
-                     {"range", ranges.text()},
                      {"ranges", ordered_json::array()}};
     for (const timeseries::Range& range : ranges.ranges())
         out["ranges"].push_back({number(range.lo.value), number(range.hi.value)});
@@ -95,7 +95,7 @@ int count(const CountOptions& options) {
         if (!options.json) print(dataset, rows.back());
     }
     if (options.json && isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
-    if (options.json) fmt::print("{}\n", json(dataset, ranges, rows).dump(2));
+    if (options.json) fmt::print("{}\n", jsonText(json(dataset, ranges, rows), 2));
     return 0;
 }
 

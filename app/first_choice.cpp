@@ -43,15 +43,28 @@ double quantile(const std::vector<double>& sorted, double fraction) {
                                            0.5)];
 }
 
-// To three significant digits of `scale`: through decimal text, so that 23.7 is the double nearest
-// to 23.7 and is printed so.
-double rounded(double value, double scale) {
-    if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite(value)) return value;
-    const int decimals = 2 - static_cast<int>(std::floor(std::log10(scale)));
-    if (decimals < -15 || decimals > 300) return value;
+// To so many decimals (negative: to tens, hundreds, ...): through decimal text, so that 23.7 is the
+// double nearest to 23.7 and is printed so.
+double toDecimals(double value, int decimals) {
     if (decimals >= 0) return std::stod(fmt::format("{:.{}f}", value, decimals));
     const double unit = std::pow(10, -decimals);
     return std::round(value / unit) * unit;
+}
+
+// Rounded towards `middle`, so that what lies beyond the value stays selected: to three significant
+// digits of `scale`, or to two of the distance from `middle` where that is much less (the value is
+// inside, the scale far out in a heavy tail).
+double rounded(double value, double middle, double scale) {
+    const double size = std::min(scale, 10 * std::abs(value - middle));
+    if (!(size > 0) || !std::isfinite(size)) return value;
+    const int decimals = 2 - static_cast<int>(std::floor(std::log10(size)));
+    if (decimals < -15 || decimals > 300) return value;
+    const auto isInside = [&](double v) { return value > middle ? v <= value : v >= value; };
+    const double nearest = toDecimals(value, decimals);
+    if (isInside(nearest)) return nearest;
+    const double unit = std::pow(10, -decimals);
+    const double next = toDecimals(value > middle ? value - unit : value + unit, decimals);
+    return isInside(next) ? next : value;
 }
 
 }  // namespace
@@ -63,14 +76,20 @@ LayerChoice firstChoice(const Quantiles& sampled) {
     const double lo = sorted.front(), hi = sorted.back();
     const double middle = background(sorted);
     // How far the values reach, the outermost thousandth aside.
-    const double above = quantile(sorted, 0.999) - middle, below = middle - quantile(sorted, 0.001);
+    double above = quantile(sorted, 0.999) - middle, below = middle - quantile(sorted, 0.001);
+    if (std::max(above, below) <= 0) {  // nothing but the outermost thousandth differs
+        above = hi - middle;
+        below = middle - lo;
+    }
     const double scale = std::max(above, below);
     const auto mapped = [&](const char* name, double from, double to) {
-        layer.color = MapChoice{*render::colorMapNamed(name), from, to};
+        constexpr double kMost = std::numeric_limits<double>::max();
+        layer.color = MapChoice{*render::colorMapNamed(name), std::clamp(from, -kMost, kMost),
+                                std::clamp(to, -kMost, kMost)};
     };
     if (std::min(above, below) > kTwoSided * scale) {
-        const double low = rounded(quantile(sorted, kShare / 2), scale);
-        const double high = rounded(quantile(sorted, 1 - kShare / 2), scale);
+        const double low = rounded(quantile(sorted, kShare / 2), middle, scale);
+        const double high = rounded(quantile(sorted, 1 - kShare / 2), middle, scale);
         if (low < high) {
             layer.ranges = RangeSet({Range{{-kInfinity}, {low}}, Range{{high}, {kInfinity}}});
             mapped("cool-warm", middle - scale, middle + scale);
@@ -78,7 +97,7 @@ LayerChoice firstChoice(const Quantiles& sampled) {
         }
     }
     if (above >= below) {
-        const double from = rounded(quantile(sorted, 1 - kShare), scale);
+        const double from = rounded(quantile(sorted, 1 - kShare), middle, scale);
         // Few points beyond a tied background: all of them, not the background too.
         const bool tied = !(from > middle);
         layer.ranges = RangeSet(std::vector{Range{{tied ? middle : from, tied}, {kInfinity}}});
@@ -86,7 +105,7 @@ LayerChoice firstChoice(const Quantiles& sampled) {
         const double low = tied ? middle : from;
         mapped("inferno", low - kDarkEnd * (hi - low), hi);
     } else {
-        const double to = rounded(quantile(sorted, kShare), scale);
+        const double to = rounded(quantile(sorted, kShare), middle, scale);
         const bool tied = !(to < middle);
         layer.ranges = RangeSet(std::vector{Range{{-kInfinity}, {tied ? middle : to, tied}}});
         const double high = tied ? middle : to;

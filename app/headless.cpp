@@ -8,6 +8,7 @@
 #include "app/choice_text.h"
 #include "app/commands.h"
 #include "app/dataset.h"
+#include "app/json_text.h"
 #include "app/picture.h"
 #include "app/session.h"
 #include "render/color.h"
@@ -32,25 +33,35 @@ struct FrameAt {
     fs::path file;
 };
 
-// A frame a step; with a sweep a frame a tick of one cycle, over which the steps pass once.
-std::vector<FrameAt> framesOf(const RenderOptions& options, const Explorer& e,
-                              const std::vector<std::size_t>& steps) {
-    const std::size_t ticks =
-        e.sweep ? static_cast<std::size_t>(timeseries::ValueSweep(*e.sweep).ticksPerCycle()) : 0;
-    const std::size_t count = e.sweep ? ticks : steps.size();
-    const std::size_t width = std::to_string(e.sweep ? count - 1 : steps.back()).size();
-    std::vector<FrameAt> frames;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t step = e.sweep ? steps[i * steps.size() / count] : steps[i];
-        fs::path file = options.output;
-        if (count > 1)
-            file.replace_filename(fmt::format("{}_{:0{}}{}", file.stem().string(),
-                                              e.sweep ? i : step, width,
-                                              file.extension().string()));
-        frames.push_back({step, e.sweep ? static_cast<std::int64_t>(i) : 0, file});
+// A frame a step; with a sweep a frame a tick of one cycle, over which the steps pass once. Told
+// one by one: a cycle may have 2^30 ticks.
+class Frames {
+ public:
+    Frames(fs::path output, const Explorer& e, std::vector<std::size_t> steps)
+        : output_(std::move(output)), steps_(std::move(steps)), swept_(e.sweep.has_value()) {
+        count_ = swept_ ? static_cast<std::size_t>(timeseries::ValueSweep(*e.sweep).ticksPerCycle())
+                        : steps_.size();
+        digits_ = std::to_string(swept_ ? count_ - 1 : steps_.back()).size();
     }
-    return frames;
-}
+    std::size_t size() const { return count_; }
+    FrameAt operator[](std::size_t i) const {
+        const std::size_t step = swept_ ? steps_[i * steps_.size() / count_] : steps_[i];
+        fs::path file = output_;
+        if (count_ > 1)
+            file.replace_filename(fmt::format("{}_{:0{}}{}", file.stem().string(),
+                                              swept_ ? i : step, digits_,
+                                              file.extension().string()));
+        return {step, swept_ ? static_cast<std::int64_t>(i) : 0, file};
+    }
+    FrameAt front() const { return (*this)[0]; }
+    FrameAt back() const { return (*this)[count_ - 1]; }
+
+ private:
+    fs::path output_;
+    std::vector<std::size_t> steps_;
+    bool swept_;
+    std::size_t count_ = 0, digits_ = 0;
+};
 
 // First, middle and last of the chosen steps.
 Steps sample(Dataset& dataset, const std::vector<std::size_t>& steps,
@@ -111,6 +122,16 @@ render::ExrView exrView(std::string name, EyePicture picture) {
     return view;
 }
 
+// What a frame is written to.
+std::vector<fs::path> filesOf(const fs::path& file, Stereo stereo) {
+    if (stereo != Stereo::LeftRight) return {file};
+    const auto suffixed = [&](const char* suffix) {
+        return fs::path(file).replace_filename(file.stem().string() + suffix +
+                                               file.extension().string());
+    };
+    return {suffixed("_left"), suffixed("_right")};
+}
+
 void writeOne(const fs::path& file, EyePicture picture, const render::Metadata& metadata) {
     if (file.extension() == ".exr") {
         const std::array views{exrView("", std::move(picture))};
@@ -122,10 +143,6 @@ void writeOne(const fs::path& file, EyePicture picture, const render::Metadata& 
 
 void write(const fs::path& file, Stereo stereo, std::vector<EyePicture> eyes,
            const render::Metadata& metadata) {
-    const auto suffixed = [&](const char* suffix) {
-        fs::path other = file;
-        return other.replace_filename(file.stem().string() + suffix + file.extension().string());
-    };
     switch (stereo) {
         case Stereo::Off:
             return writeOne(file, std::move(eyes[0]), metadata);
@@ -136,8 +153,8 @@ void write(const fs::path& file, Stereo stereo, std::vector<EyePicture> eyes,
             return writeOne(file, {render::topBottom(eyes[0].image, eyes[1].image), {}, {}},
                             metadata);
         case Stereo::LeftRight:
-            writeOne(suffixed("_left"), std::move(eyes[0]), metadata);
-            return writeOne(suffixed("_right"), std::move(eyes[1]), metadata);
+            writeOne(filesOf(file, stereo)[0], std::move(eyes[0]), metadata);
+            return writeOne(filesOf(file, stereo)[1], std::move(eyes[1]), metadata);
         case Stereo::MultiView: {
             const std::array views{exrView("left", std::move(eyes[0])),
                                    exrView("right", std::move(eyes[1]))};
@@ -178,7 +195,7 @@ int renderHeadless(const RenderOptions& options) {
     }
     const render::gl::HeadlessContext context(options.device);
     render::FrameRenderer renderer;
-    const auto frames = framesOf(options, e, steps);
+    const Frames frames(options.output, e, steps);
     StepSource source(dataset, kept, std::move(sampled));
 
     std::shared_ptr<const SortedStep> shown;
@@ -186,7 +203,7 @@ int renderHeadless(const RenderOptions& options) {
     std::optional<render::GpuStep> onGpu;
     const bool terminal = isatty(STDERR_FILENO) && frames.size() > 1;
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const FrameAt& frame = frames[i];
+        const FrameAt frame = frames[i];
         if (terminal) fmt::print(stderr, "\rpicture {} of {} ", i + 1, frames.size());
         const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
         if (step != shown) {
@@ -197,22 +214,23 @@ int renderHeadless(const RenderOptions& options) {
         const auto views = eyes(e.view, e.stereo, lattice->boxHalf(), e.size);
         const Picture picture =
             makePicture(e, dataset.about, frame.step, *step, *lattice, frame.tick);
-        Explorer again = e;  // of this picture alone
-        again.steps = StepChoice{frame.step, frame.step};
+        const Explorer alone = onlyThis(e, frame.step, *step, frame.tick);
         auto eyePictures = renderer.render(
             {picture.scene, step->grid(), picture.legend, kBackground}, *onGpu, views,
             {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
         write(frame.file, e.stereo.mode, std::move(eyePictures),
-              {{"isochronSession", toJson(again, frame.file.parent_path()).dump()}});
+              {{"isochronSession", jsonText(toJson(alone, frame.file.parent_path()), -1)}});
     }
     if (terminal) fmt::print(stderr, "\r\033[K");
+    const fs::path first = filesOf(frames.front().file, e.stereo.mode).front();
+    const fs::path last = filesOf(frames.back().file, e.stereo.mode).back();
     if (frames.size() == 1) {
-        fmt::print("{}: {}, {}\n", frames[0].file.string(), dataset.about.name,
+        fmt::print("{}{}: {}, {}\n", first.string(),
+                   first == last ? "" : " and " + last.filename().string(), dataset.about.name,
                    timeText(*dataset.about.time, frames[0].step));
     } else {
-        fmt::print("{} to {}: {}, {} to {}\n", frames.front().file.string(),
-                   frames.back().file.filename().string(), dataset.about.name,
-                   timeText(*dataset.about.time, frames.front().step),
+        fmt::print("{} to {}: {}, {} to {}\n", first.string(), last.filename().string(),
+                   dataset.about.name, timeText(*dataset.about.time, frames.front().step),
                    timeText(*dataset.about.time, frames.back().step));
     }
     tellStyle(e, dataset.about);

@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/dataset.h"
+#include "app/json_text.h"
 
 namespace app {
 namespace {
@@ -88,7 +89,7 @@ int info(const InfoOptions& options) {
     if (options.json) {
         ordered_json out{{"files", files}, {"format", reader->format()}};
         for (const Variable& v : reader->variables()) out["variables"].push_back(variableJson(v));
-        fmt::print("{}\n", out.dump(2));
+        fmt::print("{}\n", jsonText(out, 2));
         return 0;
     }
     fmt::print("{}\n{}\n", fmt::join(files, "\n"), reader->format());

@@ -1,7 +1,9 @@
 // isochron: parses the command line, runs one command, and turns failures into one sentence.
 #include <fmt/core.h>
 
+#include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "app/commands.h"
 
@@ -22,7 +24,11 @@ struct Run {
 
 int main(int argc, char** argv) {
     try {
-        return std::visit(Run{}, app::parse(std::span<const char* const>(argv + 1, argv + argc)));
+        const int code =
+            std::visit(Run{}, app::parse(std::span<const char* const>(argv + 1, argv + argc)));
+        // A full disk behind a redirection shows only now.
+        if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
+        return code;
     } catch (const std::exception& error) {
         fmt::print(stderr, "isochron: {}\n", error.what());
         return 1;

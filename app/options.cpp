@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 
 #include "app/choice_text.h"
 #include "app/session.h"
@@ -18,6 +19,26 @@ using timeseries::RangeSet;
 constexpr const char* kRangeHelp =
     "lo:hi, [lo,hi) with open ends, c~d for c plus or minus d, min, max; commas in one layer, "
     "repeat the option for a new layer";
+
+constexpr double kMost = std::numeric_limits<double>::max();
+
+// CLI11's own checks let NaN pass.
+CLI::Validator between(double lo, double hi) {
+    return CLI::Validator(
+        [=](std::string& text) -> std::string {
+            double value = 0;
+            const bool isNumber = CLI::detail::lexical_cast(text, value);
+            if (isNumber && value >= lo && value <= hi) return {};
+            return hi == kMost ? fmt::format("'{}' is not a finite number of at least {}", text, lo)
+                               : fmt::format("'{}' is not a number from {} to {}", text, lo, hi);
+        },
+        hi == kMost ? fmt::format("at least {}", lo) : fmt::format("{} to {}", lo, hi));
+}
+
+CLI::Validator notEmpty() {
+    return CLI::Validator(
+        [](std::string& text) { return std::string(text.empty() ? "is an empty text" : ""); }, "");
+}
 
 // What CLI11 collects for `render`, as text, before it becomes an Explorer.
 struct RenderText {
@@ -32,7 +53,9 @@ struct RenderText {
 };
 
 void addInfo(CLI::App& app, InfoOptions& into) {
-    app.add_option("FILE", into.files, "A file, or several that make one series")->required();
+    app.add_option("FILE", into.files, "A file, or several that make one series")
+        ->check(notEmpty())
+        ->required();
     app.add_flag("--json", into.json, "Machine-readable");
 }
 
@@ -43,7 +66,9 @@ struct CountText {
 };
 
 void addCount(CLI::App& app, CountText& into) {
-    app.add_option("FILE", into.files, "A file, or several that make one series")->required();
+    app.add_option("FILE", into.files, "A file, or several that make one series")
+        ->check(notEmpty())
+        ->required();
     app.add_option("--variable", into.variable, "Which variable; the file's first without it");
     app.add_option("--range", into.ranges, kRangeHelp)->required()->allow_extra_args(false);
     app.add_option("--keep", into.keep, "Values to keep when the sorted list is built");
@@ -52,7 +77,8 @@ void addCount(CLI::App& app, CountText& into) {
 }
 
 void addRender(CLI::App& app, RenderText& into) {
-    app.add_option("FILE", into.files, "A file, or several that make one series");
+    app.add_option("FILE", into.files, "A file, or several that make one series")
+        ->check(notEmpty());
     app.add_option("--session", into.session, "A session file; options given beside it win");
     app.add_option("--variable", into.variable, "Which variable; the file's first without it");
     app.add_option("--step", into.steps,
@@ -67,22 +93,22 @@ void addRender(CLI::App& app, RenderText& into) {
     app.add_option("--opacity", into.opacities,
                    "Of one cell of fully selected points, per layer, 0 to 1")
         ->allow_extra_args(false)
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(between(0, 1));
     app.add_option("--splat", into.splat, "kernel (default) or point");
     app.add_option("--splat-size", into.splatSize,
                    "kernel: times the radius that suits the spacing; point: pixels")
-        ->check(CLI::Range(1e-3, 1e3));
+        ->check(between(1e-3, 1e3));
     app.add_option("--order", into.order,
                    "none (default), or depth: back to front, true occlusion");
     app.add_option("--sweep", into.sweep, "Animate a window of values through these ranges");
     app.add_option("--delta", into.delta, "Half the swept window's width")
-        ->check(CLI::NonNegativeNumber);
+        ->check(between(0, kMost));
     app.add_option("--timer-steps", into.timerSteps, "Timer counts in a cycle (256)")
         ->check(CLI::Range(1, 1 << 30));
     app.add_option("--timer-step", into.timerStep, "The timer counts by this many (1)")
         ->check(CLI::Range(1, 1 << 30));
     app.add_option("--frequency", into.frequency, "Cycles a second (0.1)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(between(0, kMost));
     app.add_flag("--swing", into.swing, "There and back on a cosine, instead of a loop");
     app.add_option("--clip", into.clip, "x0:x1,y0:y1,z0:z1 in the file's coordinates");
     app.add_option("--scale", into.scale, "x,y,z: stretch of the axes");
@@ -92,9 +118,9 @@ void addRender(CLI::App& app, RenderText& into) {
     app.add_option("--stereo", into.stereo,
                    "off, side-by-side, top-bottom, multiview (one EXR), left-right (two files)");
     app.add_option("--eye-distance", into.eyeDistance, "In half diagonals of the box")
-        ->check(CLI::NonNegativeNumber);
+        ->check(between(0, kMost));
     app.add_option("--convergence", into.convergence, "Distance of zero parallax, likewise")
-        ->check(CLI::Range(1e-6, 1e6));
+        ->check(between(1e-6, 1e6));
     app.add_option("--channel", into.channels, "A further EXR channel: opticalDepth, splatCount")
         ->allow_extra_args(false)
         ->check(CLI::IsMember({"opticalDepth", "splatCount"}));
@@ -210,12 +236,12 @@ RenderOptions renderOptions(const CLI::App& app, const RenderText& text) {
     return options;
 }
 
-CountOptions countOptions(const CountText& text) {
+CountOptions countOptions(const CLI::App& app, const CountText& text) {
     CountOptions options;
     options.files.assign(text.files.begin(), text.files.end());
     options.variable = text.variable;
     for (const std::string& range : text.ranges) options.ranges.push_back(RangeSet::parse(range));
-    if (!text.keep.empty()) options.keep = RangeSet::parse(text.keep);
+    if (given(app, "--keep")) options.keep = RangeSet::parse(text.keep);
     options.steps = parseSteps(text.steps);
     options.json = text.json;
     return options;
@@ -250,12 +276,17 @@ Command parse(std::span<const char* const> arguments) {
         // CLI11 takes them last first.
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
         if (*infoApp) return info;
-        if (*countApp) return countOptions(countText);
+        if (*countApp) return countOptions(*countApp, countText);
         return renderOptions(*renderApp, renderText);
     } catch (const CLI::CallForHelp&) {
-        const auto chosen = app.get_subcommands();
-        return Exit{0, chosen.empty() ? app.help() : chosen.front()->help()};
+        return Exit{0, app.help()};  // of the command, where one was given
     } catch (const CLI::ParseError& error) {
+        if (arguments.empty())
+            return Exit{2, "expected a command: info, count or render (see isochron --help)"};
+        if (app.get_subcommands().empty())
+            return Exit{2, fmt::format("'{}' is no command: expected info, count or render (see "
+                                       "isochron --help)",
+                                       arguments.front())};
         return Exit{2, fmt::format("{} (see isochron --help)", error.what())};
     } catch (const std::invalid_argument& error) {
         return Exit{2, error.what()};

@@ -42,6 +42,8 @@ struct Exit {
 
 using Command = std::variant<InfoOptions, CountOptions, RenderOptions, Exit>;
 
-Command parse(std::span<const char* const> arguments);  // without the program's name
+// `arguments`: without the program's name. Throws timeseries::FileError when a session file cannot
+// be read.
+Command parse(std::span<const char* const> arguments);
 
 }  // namespace app

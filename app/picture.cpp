@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "app/choice_text.h"
 #include "app/first_choice.h"
@@ -17,6 +18,8 @@ namespace {
 using timeseries::Range;
 using timeseries::RangeSet;
 using timeseries::SortedStep;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Distinguishable with any colour vision (Okabe and Ito 2008), by place among several layers.
 constexpr std::array<glm::dvec3, render::kMaxLayers> kLayerColors = {
@@ -46,8 +49,8 @@ std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
     return most;
 }
 
-bool open(const LayerChoice& layer) {
-    if (layer.ranges.empty() || !layer.color || !layer.opacity) return true;
+bool openStyle(const LayerChoice& layer) {
+    if (!layer.color || !layer.opacity) return true;
     const auto* map = std::get_if<MapChoice>(&*layer.color);
     return map != nullptr && !(map->lo && map->hi);
 }
@@ -86,10 +89,19 @@ render::RangeStyle rangeStyle(const LayerChoice& layer) {
     return out;
 }
 
+// The window reaches beyond the animation's ends; only what was kept can be shown.
+RangeSet sweptRanges(const Explorer& e, const SortedStep& step, std::int64_t tick) {
+    const RangeSet window(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)});
+    return timeseries::intersectionOf(window, step.kept());
+}
+
 }  // namespace
 
 bool needsSamples(const Explorer& e) {
-    if (e.sweep && (infinite(e.sweep->animation) || open(e.sweepLayer))) return true;
+    if (e.sweep && (infinite(e.sweep->animation) || openStyle(e.sweepLayer))) return true;
+    const auto open = [](const LayerChoice& layer) {
+        return layer.ranges.empty() || openStyle(layer);
+    };
     return std::ranges::any_of(e.layers, open) || (e.layers.empty() && !e.sweep);
 }
 
@@ -107,7 +119,12 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
             if (!std::isfinite(timeseries::toDouble(range.hi.value))) range.hi = {data.hi};
             finite.push_back(range);
         }
-        e.sweep->animation = RangeSet(std::move(finite));
+        const RangeSet within(std::move(finite));
+        if (within.empty())
+            throw std::invalid_argument(
+                fmt::format("sweep {} reaches none of the data's values, {} to {}",
+                            e.sweep->animation.text(), data.lo, data.hi));
+        e.sweep->animation = within;
         style(e.sweepLayer, finiteEnds(e.sweep->animation, data), place++, count);
         // A swept window holds about its share of the animation's points.
         if (!e.sweepLayer.opacity)
@@ -132,23 +149,41 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
     return e;
 }
 
+Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, const SortedStep& step,
+                  std::int64_t tick) {
+    Explorer e = explorer;
+    e.steps = StepChoice{stepIndex, stepIndex};
+    if (!e.sweep) return e;
+    LayerChoice swept = e.sweepLayer;
+    swept.ranges = sweptRanges(e, step, tick);
+    // A layer without ranges would be the first choice: such a picture keeps its sweep.
+    if (swept.ranges.empty()) return e;
+    e.layers.insert(e.layers.begin(), std::move(swept));
+    e.sweep.reset();
+    e.sweepLayer = {};
+    return e;
+}
+
 std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
     std::string text;
     for (const Range& r : ranges.ranges()) {
-        const auto isUnbounded = [](const timeseries::Bound& b) {
-            return std::isinf(timeseries::toDouble(b.value)) && !b.open;
+        const auto isUnbounded = [](const timeseries::Bound& b, double end) {
+            return timeseries::toDouble(b.value) == end && !b.open;
         };
+        const bool down = isUnbounded(r.lo, -kInfinity), up = isUnbounded(r.hi, kInfinity);
         const std::string lo = timeseries::toText(r.lo.value), hi = timeseries::toText(r.hi.value);
         if (!text.empty()) text += ", ";
-        if (isUnbounded(r.lo) && isUnbounded(r.hi)) return "all values";
-        if (isUnbounded(r.lo))
+        if (down && up) return "all values";
+        if (lo == hi)
+            text += lo;
+        else if (down)
             text += fmt::format("{} {}", r.hi.open ? "<" : "≤", hi);
-        else if (isUnbounded(r.hi))
+        else if (up)
             text += fmt::format("{} {}", r.lo.open ? ">" : "≥", lo);
         else if (r.lo.open || r.hi.open)
             text += fmt::format("{}{}, {}{}", r.lo.open ? '(' : '[', lo, hi, r.hi.open ? ')' : ']');
         else
-            text += lo == hi ? lo : fmt::format("{} to {}", lo, hi);
+            text += fmt::format("{} to {}", lo, hi);
     }
     if (text.empty()) return "no values";
     const std::string unit = render::shownUnit(units);
@@ -182,10 +217,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
         picture.scene.layers.push_back(std::move(drawn));
     };
     if (e.sweep) {
-        const timeseries::ValueSweep sweep(*e.sweep);
-        // The window reaches beyond the animation's ends; only what was kept can be shown.
-        add(timeseries::intersectionOf(RangeSet(std::vector{sweep.window(tick)}), step.kept()),
-            e.sweepLayer);
+        add(sweptRanges(e, step, tick), e.sweepLayer);
     }
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
 

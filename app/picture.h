@@ -18,8 +18,14 @@ using Steps = std::map<std::size_t, std::shared_ptr<const timeseries::SortedStep
 // unbounded sweep.
 bool needsSamples(const Explorer& explorer);
 // The choices with nothing left open, from a few steps of the series. A resolved Explorer draws the
-// same picture again whatever is sampled.
+// same picture again whatever is sampled. Throws std::invalid_argument (one sentence) when an
+// unbounded sweep does not reach the data.
 Explorer resolved(const Explorer& explorer, const Steps& sampled);
+
+// The choices of one picture of a series: its step alone, and the swept window where it stands at
+// `tick` as a layer like the others. Draws the same pixels. REQUIRES: as makePicture.
+Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex,
+                  const timeseries::SortedStep& step, std::int64_t tick);
 
 // "600 to 1600 K", "≥ 600 K", "all values".
 std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& units);

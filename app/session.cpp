@@ -4,17 +4,21 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/choice_text.h"
+#include "timeseries/reader.h"
 
 namespace app {
 namespace {
 
 using nlohmann::json;
+using timeseries::FileError;
 using timeseries::RangeSet;
 
 constexpr int kVersion = 1;
@@ -31,10 +35,14 @@ class Object {
         known_.insert(key);
         const auto found = object_.find(key);
         if (found == object_.end()) return;
-        try {
-            use(found->get<T>());
-        } catch (const json::exception&) {
+        if (!is<T>(*found))
             throw ChoiceError(fmt::format("{}.{} is not {}", where_, key, expected<T>()));
+        try {
+            // No copy of what is read further on: copies of deep nesting overflow the stack.
+            if constexpr (std::is_same_v<T, json>)
+                use(*found);
+            else
+                use(found->get<T>());
         } catch (const std::invalid_argument& error) {
             throw ChoiceError(fmt::format("{}.{}: {}", where_, key, error.what()));
         }
@@ -47,12 +55,30 @@ class Object {
     }
 
  private:
+    // Stricter than nlohmann's conversions, which take true for 1 and 2.7 for 2.
+    template <typename T>
+    static bool is(const json& value) {
+        if constexpr (std::is_same_v<T, std::string>) return value.is_string();
+        if constexpr (std::is_same_v<T, bool>) return value.is_boolean();
+        if constexpr (std::is_same_v<T, double>) return value.is_number();
+        if constexpr (std::is_same_v<T, std::int64_t>)
+            return value.is_number_integer() &&
+                   (!value.is_number_unsigned() ||
+                    value.get<std::uint64_t>() <= std::numeric_limits<std::int64_t>::max());
+        if constexpr (std::is_same_v<T, std::vector<std::string>>)
+            return value.is_array() && std::ranges::all_of(value, is<std::string>);
+        if constexpr (std::is_same_v<T, std::vector<double>>)
+            return value.is_array() && std::ranges::all_of(value, is<double>);
+        return true;
+    }
     template <typename T>
     static const char* expected() {
         if constexpr (std::is_same_v<T, std::string>) return "a text";
         if constexpr (std::is_same_v<T, bool>) return "true or false";
-        if constexpr (std::is_arithmetic_v<T>) return "a number";
-        return "of the form that the README shows";
+        if constexpr (std::is_same_v<T, std::int64_t>) return "a whole number";
+        if constexpr (std::is_same_v<T, double>) return "a number";
+        if constexpr (std::is_same_v<T, std::vector<double>>) return "a list of numbers";
+        return "a list of texts";
     }
     const json& object_;
     std::string where_;
@@ -124,6 +150,11 @@ void readSweep(const json& value, const std::string& where, Explorer& explorer) 
     });
     explorer.sweepLayer = readStyle(object);
     object.refuseOthers();
+    if (s.animation.empty()) throw ChoiceError("has no animation");
+    // The settings as the sweep itself checks them; unbounded ends become finite later.
+    timeseries::SweepSettings finite = s;
+    finite.animation = RangeSet::parse("0");
+    timeseries::ValueSweep{finite};
     explorer.sweep = s;
 }
 
@@ -131,16 +162,19 @@ void readSweep(const json& value, const std::string& where, Explorer& explorer) 
 
 json toJson(const Explorer& e, const std::filesystem::path& folder) {
     json out{{"isochron", kVersion}};
+    const auto normal = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path.empty() ? "." : path).lexically_normal();
+    };
     for (const auto& file : e.files) {
-        const auto near =
-            std::filesystem::absolute(file).lexically_relative(std::filesystem::absolute(folder));
+        const auto near = normal(file).lexically_relative(normal(folder));
         out["files"].push_back((near.empty() ? file : near).generic_string());
     }
     if (!e.variable.empty()) out["variable"] = e.variable;
     if (e.steps) out["steps"] = stepsText(*e.steps);
     if (e.keep) out["keep"] = e.keep->text();
     for (const LayerChoice& layer : e.layers) {
-        json each{{"range", layer.ranges.text()}};
+        json each = json::object();
+        if (!layer.ranges.empty()) each["range"] = layer.ranges.text();
         writeStyle(each, layer);
         out["layers"].push_back(each);
     }
@@ -162,8 +196,8 @@ json toJson(const Explorer& e, const std::filesystem::path& folder) {
 Explorer fromJson(const json& value, const std::filesystem::path& folder) {
     Explorer e;
     Object object(value, "session");
-    int version = 0;
-    object.read<int>("isochron", [&](int v) { version = v; });
+    std::int64_t version = 0;
+    object.read<std::int64_t>("isochron", [&](std::int64_t v) { version = v; });
     if (version != kVersion)
         throw ChoiceError(
             fmt::format("session.isochron is not {}, the version read here", kVersion));
@@ -177,17 +211,17 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
         for (std::size_t i = 0; i < layers.size(); ++i) {
             Object each(layers[i], fmt::format("session.layers[{}]", i));
-            RangeSet ranges;
-            each.read<std::string>("range",
-                                   [&](const std::string& r) { ranges = RangeSet::parse(r); });
-            if (ranges.empty()) throw ChoiceError(fmt::format("[{}] has no range", i));
             LayerChoice layer = readStyle(each);
-            layer.ranges = ranges;
+            each.read<std::string>(
+                "range", [&](const std::string& r) { layer.ranges = RangeSet::parse(r); });
             each.refuseOthers();
             e.layers.push_back(layer);
         }
     });
     object.read<json>("sweep", [&](const json& s) { readSweep(s, object.place("sweep"), e); });
+    if (e.layers.size() + (e.sweep ? 1 : 0) > render::kMaxLayers)
+        throw ChoiceError(fmt::format("session.layers has more than the {} that are drawn at once",
+                                      render::kMaxLayers));
     object.read<std::string>("splat",
                              [&](const std::string& s) { e.footprint.kernel = parseKernel(s); });
     object.read<double>("splatSize", [&](double s) { e.footprint.size = finite(s, "size", 1e-6); });
@@ -222,13 +256,16 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
 
 Explorer readSession(const std::filesystem::path& file) {
     std::ifstream in(file);
-    if (!in) throw ChoiceError(fmt::format("{}: the session file cannot be opened", file.string()));
+    if (!in || std::filesystem::is_directory(file))
+        throw FileError(fmt::format("{}: the session file cannot be opened", file.string()));
     try {
         return fromJson(json::parse(in), file.parent_path());
     } catch (const json::parse_error& error) {
-        throw ChoiceError(fmt::format("{}: not JSON at byte {}", file.string(), error.byte));
+        throw FileError(fmt::format("{}: not JSON at byte {}", file.string(), error.byte));
+    } catch (const json::out_of_range&) {
+        throw FileError(fmt::format("{}: holds a number beyond all doubles", file.string()));
     } catch (const ChoiceError& error) {
-        throw ChoiceError(fmt::format("{}: {}", file.string(), error.what()));
+        throw FileError(fmt::format("{}: {}", file.string(), error.what()));
     }
 }
 

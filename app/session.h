@@ -15,7 +15,7 @@ nlohmann::json toJson(const Explorer& explorer, const std::filesystem::path& fol
 // key and what was expected there.
 Explorer fromJson(const nlohmann::json& json, const std::filesystem::path& folder);
 
-// Throws ChoiceError naming the file.
+// Throws timeseries::FileError naming the file and, where it is JSON, the key.
 Explorer readSession(const std::filesystem::path& file);
 
 }  // namespace app

@@ -1,0 +1,199 @@
+#include "app/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace app {
+namespace {
+
+using glm::dvec3;
+using glm::ivec2;
+using render::project;
+using render::Projected;
+using render::View;
+
+const dvec3 kCube = dvec3(1) / std::sqrt(3.0);
+
+std::vector<dvec3> corners(const dvec3& half) {
+    std::vector<dvec3> all;
+    for (int c = 0; c < 8; ++c)
+        all.push_back(half * dvec3(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1));
+    return all;
+}
+
+void expectInside(const View& view, const dvec3& world, const std::string& which) {
+    const Projected p = project(view, world);
+    EXPECT_GT(p.depth, 0) << which;
+    EXPECT_GE(p.window.x, 0) << which;
+    EXPECT_GE(p.window.y, 0) << which;
+    EXPECT_LE(p.window.x, view.size.x) << which;
+    EXPECT_LE(p.window.y, view.size.y) << which;
+    // Neither plane cuts it.
+    const glm::dvec4 clip = view.clipFromView * view.viewFromWorld * glm::dvec4(world, 1);
+    EXPECT_GE(clip.z, 0) << which << ": cut by the near plane";
+    EXPECT_LE(clip.z, clip.w) << which << ": cut by the far plane";
+}
+
+// A box of half diagonal 1, as Lattice makes them; a side may be nothing.
+dvec3 randomBox(std::mt19937& random) {
+    std::uniform_real_distribution<double> side(0.001, 1);
+    dvec3 half(side(random), side(random), side(random));
+    for (int a = 0; a < 3; ++a)
+        if (random() % 4 == 0) half[a] = 0;
+    const double length = std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z);
+    return length > 0 ? half / length : half;
+}
+
+TEST(Camera, WithoutADistanceEveryBoxIsInsideThePicture) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> turn(-360, 360), tilt(-90, 90), log(-1.5, 1.5);
+    for (int i = 0; i < 2000; ++i) {
+        const double aspect = std::exp(log(random));
+        const ivec2 size(static_cast<int>(400 * std::max(1.0, aspect)),
+                         static_cast<int>(400 * std::max(1.0, 1 / aspect)));
+        ViewChoice view{turn(random), tilt(random), {}};
+        if (random() % 8 == 0) view.elevationDegrees = random() % 2 == 0 ? 90 : -90;
+        if (random() % 8 == 0) view.azimuthDegrees = 90.0 * static_cast<double>(random() % 4);
+        const dvec3 half = randomBox(random);
+        for (const Stereo mode : {Stereo::Off, Stereo::SideBySide})
+            for (const View& eye : eyes(view, {mode, {}, {}}, half, size))
+                for (const dvec3& corner : corners(half))
+                    expectInside(eye, corner,
+                                 "case " + std::to_string(i) + ", azimuth " +
+                                     std::to_string(view.azimuthDegrees) + ", elevation " +
+                                     std::to_string(view.elevationDegrees) + ", box " +
+                                     std::to_string(half.x) + " " + std::to_string(half.y) + " " +
+                                     std::to_string(half.z));
+        if (HasFailure()) return;
+    }
+}
+
+TEST(Camera, ANeedleSeenFromItsTipIsInsideThePicture) {
+    const dvec3 needle(0, 0, 1);
+    for (const double elevation : {90.0, -90.0})
+        for (const View& eye : eyes({0, elevation, {}}, {}, needle, {300, 200}))
+            for (const dvec3& corner : corners(needle)) expectInside(eye, corner, "needle");
+}
+
+TEST(Camera, AzimuthAndElevationStandWhereTheyAreSaidTo) {
+    const auto eyeOf = [](double azimuth, double elevation) {
+        return render::pixelRays(eyes({azimuth, elevation, 5.0}, {}, kCube, {100, 100})[0]).eye;
+    };
+    const auto expectNear = [](const dvec3& a, const dvec3& b) {
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1e-12);
+    };
+    expectNear(eyeOf(0, 0), {0, -5, 0});
+    expectNear(eyeOf(90, 0), {5, 0, 0});
+    expectNear(eyeOf(180, 0), {0, 5, 0});
+    expectNear(eyeOf(0, 90), {0, 0, 5});
+    expectNear(eyeOf(123, -90), {0, 0, -5});
+}
+
+TEST(Camera, FromTheFrontXGoesRightAndZUp) {
+    const View view = eyes({0, 0, {}}, {}, kCube, {200, 100})[0];
+    const glm::dvec2 centre = project(view, dvec3(0)).window;
+    EXPECT_NEAR(centre.x, 100, 1e-9);
+    EXPECT_NEAR(centre.y, 50, 1e-9);
+    EXPECT_GT(project(view, {0.1, 0, 0}).window.x, centre.x);
+    EXPECT_GT(project(view, {0, 0, 0.1}).window.y, centre.y);
+    EXPECT_GT(project(view, {0, 0.1, 0}).depth, project(view, dvec3(0)).depth);
+}
+
+TEST(Camera, StraightDownXGoesRightAndYUp) {
+    const View view = eyes({0, 90, {}}, {}, kCube, {200, 100})[0];
+    const glm::dvec2 centre = project(view, dvec3(0)).window;
+    const glm::dvec2 x = project(view, {0.1, 0, 0}).window, y = project(view, {0, 0.1, 0}).window;
+    EXPECT_GT(x.x, centre.x);
+    EXPECT_NEAR(x.y, centre.y, 1e-9);
+    EXPECT_GT(y.y, centre.y);
+    EXPECT_NEAR(y.x, centre.x, 1e-9);
+}
+
+TEST(Camera, EyeDistanceZeroGivesIdenticalEyes) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> turn(-360, 360), tilt(-90, 90), far(0.1, 20);
+    for (int i = 0; i < 200; ++i) {
+        ViewChoice view{turn(random), tilt(random), {}};
+        if (i % 3 == 0) view = {90.0 * (i % 4), 0, far(random)};
+        const auto both = eyes(view, {Stereo::MultiView, 0.0, far(random)}, kCube, {300, 200});
+        const auto one = eyes(view, {}, kCube, {300, 200});
+        ASSERT_EQ(both.size(), 2u);
+        ASSERT_EQ(one.size(), 1u);
+        for (const View& eye : both) {
+            EXPECT_EQ(eye.clipFromView, one[0].clipFromView);
+            EXPECT_EQ(eye.viewFromWorld, one[0].viewFromWorld);
+            EXPECT_EQ(eye.size, one[0].size);
+        }
+    }
+}
+
+// A world point `depth` in front of the point midway between the eyes, off the axis.
+dvec3 inFront(const std::vector<View>& both, double depth, double right, double up) {
+    const auto a = render::pixelRays(both[0]), b = render::pixelRays(both[1]);
+    const glm::dmat3 rotation = glm::transpose(glm::dmat3(both[0].viewFromWorld));
+    return 0.5 * (a.eye + b.eye) + rotation * dvec3(right, up, -depth);
+}
+
+TEST(Camera, ParallaxIsZeroAtTheConvergenceDistanceAndCrossedBeforeIt) {
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> turn(-180, 180), tilt(-90, 90), distance(1, 10),
+        apart(0.01, 0.5), converge(0.5, 12), aside(-0.3, 0.3), share(0.3, 0.95);
+    for (int i = 0; i < 500; ++i) {
+        const double meet = converge(random);
+        const StereoChoice stereo{Stereo::LeftRight, apart(random), meet};
+        const auto both =
+            eyes({turn(random), tilt(random), distance(random)}, stereo, kCube, {640, 480});
+        const auto parallax = [&](double depth) {
+            const dvec3 world = inFront(both, depth, aside(random) * depth, aside(random) * depth);
+            const glm::dvec2 left = project(both[0], world).window,
+                             right = project(both[1], world).window;
+            EXPECT_NEAR(left.y, right.y, 1e-8) << "never a vertical one";
+            return right.x - left.x;
+        };
+        EXPECT_NEAR(parallax(meet), 0, 1e-8) << "case " << i;
+        EXPECT_LT(parallax(meet * share(random)), 0) << "case " << i << ": in front is crossed";
+        EXPECT_GT(parallax(meet / share(random)), 0) << "case " << i << ": behind is uncrossed";
+    }
+}
+
+TEST(Camera, LeftIsToTheLeftAndTheEyesLookAlongParallelAxes) {
+    const auto both = eyes({40, 25, 4.0}, {Stereo::SideBySide, 0.2, {}}, kCube, {640, 480});
+    const auto left = render::pixelRays(both[0]), right = render::pixelRays(both[1]);
+    const dvec3 apart = right.eye - left.eye;
+    EXPECT_NEAR(std::sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z), 0.2, 1e-12);
+    const dvec3 inView = glm::dmat3(both[0].viewFromWorld) * apart;
+    EXPECT_NEAR(inView.x, 0.2, 1e-12);
+    EXPECT_EQ(glm::dmat3(both[0].viewFromWorld), glm::dmat3(both[1].viewFromWorld));
+}
+
+TEST(Camera, WithoutChoicesTheEyesMeetAtTheCentreAThirtiethOfTheDistanceApart) {
+    const auto both = eyes({10, 20, 6.0}, {Stereo::SideBySide, {}, {}}, kCube, {640, 480});
+    const glm::dvec2 left = project(both[0], dvec3(0)).window,
+                     right = project(both[1], dvec3(0)).window;
+    EXPECT_NEAR(left.x, right.x, 1e-9);
+    EXPECT_NEAR(left.x, 320, 1e-9);
+    const dvec3 inView = glm::dmat3(both[0].viewFromWorld) *
+                         (render::pixelRays(both[1]).eye - render::pixelRays(both[0]).eye);
+    EXPECT_NEAR(inView.x, 6.0 / 30, 1e-12);
+}
+
+TEST(Camera, AnEyeInsideTheBoxSeesWhatIsBeforeItAndBehindItToTheFarSide) {
+    const View view = eyes({0, 0, 0.1}, {}, kCube, {100, 100})[0];
+    const glm::dvec4 farCorner =
+        view.clipFromView * view.viewFromWorld * glm::dvec4(0, kCube.y, 0, 1);
+    EXPECT_LE(farCorner.z, farCorner.w);
+    const glm::dvec4 centre = view.clipFromView * view.viewFromWorld * glm::dvec4(0, 0, 0, 1);
+    EXPECT_GE(centre.z, 0);
+}
+
+TEST(Camera, ASinglePointIsInTheMiddle) {
+    const View view = eyes({}, {}, dvec3(0), {64, 32})[0];
+    const Projected p = project(view, dvec3(0));
+    EXPECT_EQ(p.window, glm::dvec2(32, 16));
+    EXPECT_GT(p.depth, 0);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,126 @@
+#include "app/dataset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/netcdf_builder.h"
+
+namespace app {
+namespace {
+
+using testing::HasSubstr;
+using timeseries::FileError;
+using timeseries::TimeAxis;
+
+TEST(TimeText, IsTheDateTheNumberOrTheStep) {
+    const TimeAxis dates{
+        "time", "days since 2000-01-01", "standard", {{3.5, "2000-01-04 12:00:00"}}};
+    EXPECT_EQ(timeText(dates, 0), "2000-01-04 12:00:00");
+    const TimeAxis seconds{"time", "s", "", {{0.5, ""}, {1.1, ""}}};
+    EXPECT_EQ(timeText(seconds, 1), "1.1 s");
+    const TimeAxis unitless{"cycle", "", "", {{2000, ""}}};
+    EXPECT_EQ(timeText(unitless, 0), "cycle 2000");
+    const TimeAxis one{"cycle", "1", "", {{2000, ""}}};
+    EXPECT_EQ(timeText(one, 0), "cycle 2000");
+    const TimeAxis counted{"step", "", "", {{0, ""}, {1, ""}, {2, ""}, {3, ""}}};
+    EXPECT_EQ(timeText(counted, 3), "step 3");
+}
+
+TEST(TimeText, KeepsTheDigitsOfStoredFloats) {
+    const TimeAxis axis{"time", "s", "", {{0.1, ""}, {1.0 / 3, ""}, {1234567.5, ""}, {1e300, ""}}};
+    EXPECT_EQ(timeText(axis, 0), "0.1 s");
+    EXPECT_EQ(timeText(axis, 1), "0.3333333333 s");
+    EXPECT_EQ(timeText(axis, 2), "1234567.5 s");
+    EXPECT_EQ(timeText(axis, 3), "1e+300 s");
+}
+
+TEST(WithCommas, GroupsByThree) {
+    EXPECT_EQ(withCommas(0), "0");
+    EXPECT_EQ(withCommas(999), "999");
+    EXPECT_EQ(withCommas(1000), "1,000");
+    EXPECT_EQ(withCommas(13402), "13,402");
+    EXPECT_EQ(withCommas(1234567890), "1,234,567,890");
+    EXPECT_EQ(withCommas(std::numeric_limits<std::uint64_t>::max()), "18,446,744,073,709,551,615");
+}
+
+TEST(ShownUnits, LeavesOutCfsWordForNone) {
+    EXPECT_EQ(shownUnits("1"), "");
+    EXPECT_EQ(shownUnits(""), "");
+    EXPECT_EQ(shownUnits("K"), "K");
+    EXPECT_EQ(shownUnits("10"), "10");
+}
+
+// Two variables of 3 steps on 2 x 2 x 2 points.
+std::filesystem::path twoVariables() {
+    support::NetcdfBuilder file("two.nc");
+    const auto t = file.coordinate("time", 3, "s"), z = file.coordinate("z", 2, "m"),
+               y = file.coordinate("y", 2, "m"), x = file.coordinate("x", 2, "m");
+    const int first =
+        file.variable("first", NC_FLOAT, {t.dimension, z.dimension, y.dimension, x.dimension});
+    const int second =
+        file.variable("second", NC_FLOAT, {t.dimension, z.dimension, y.dimension, x.dimension});
+    file.write(t.variable, std::vector<double>{0, 1, 2});
+    for (const int axis : {z.variable, y.variable, x.variable})
+        file.write(axis, std::vector<double>{0, 1});
+    file.write(first, std::vector<float>(24, 1));
+    file.write(second, std::vector<float>(24, 2));
+    return file.close();
+}
+
+Dataset open(const std::filesystem::path& file, const std::string& variable) {
+    return openDataset(std::span(&file, 1), variable);
+}
+
+TEST(Dataset, AVariableIsChosenByNameOrTheFirst) {
+    const auto file = twoVariables();
+    EXPECT_EQ(open(file, "").about.name, "first");
+    EXPECT_EQ(open(file, "second").about.name, "second");
+    EXPECT_EQ(open(file, "second").stepCount(), 3u);
+    EXPECT_EQ(open(file, "").name(), file.string());
+}
+
+TEST(Dataset, AnUnknownVariableIsToldWithThoseThereAre) {
+    const auto file = twoVariables();
+    for (const char* name : {"third", "First", "first ", "time", " "}) {
+        try {
+            open(file, name);
+            ADD_FAILURE() << name;
+        } catch (const FileError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(file.string()));
+            EXPECT_THAT(error.what(), HasSubstr("'" + std::string(name) + "'"));
+            EXPECT_THAT(error.what(), HasSubstr("first, second"));
+        }
+    }
+}
+
+TEST(Dataset, StepsAreThoseChosen) {
+    const Dataset dataset = open(twoVariables(), "");
+    EXPECT_EQ(stepsOf(dataset, {0, {}}), (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_EQ(stepsOf(dataset, {1, {}}), (std::vector<std::size_t>{1, 2}));
+    EXPECT_EQ(stepsOf(dataset, {2, 2}), (std::vector<std::size_t>{2}));
+    EXPECT_EQ(stepsOf(dataset, {0, 1}), (std::vector<std::size_t>{0, 1}));
+}
+
+TEST(Dataset, AStepThatIsNotThereIsToldWithThoseThatAre) {
+    const Dataset dataset = open(twoVariables(), "second");
+    constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+    for (const auto& [steps, named] : {std::pair{StepChoice{3, 3}, std::size_t{3}},
+                                       {{0, 3}, 3},
+                                       {{7, {}}, 7},
+                                       {{0, kMost}, kMost},
+                                       {{kMost, kMost}, kMost}}) {
+        try {
+            stepsOf(dataset, steps);
+            ADD_FAILURE() << steps.first;
+        } catch (const FileError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(dataset.name()));
+            EXPECT_THAT(error.what(), HasSubstr("no step " + std::to_string(named)));
+            EXPECT_THAT(error.what(), HasSubstr("second has steps 0 to 2"));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,421 @@
+#include "app/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/choice_text.h"
+#include "app/session.h"
+#include "tests/support/files.h"
+#include "timeseries/reader.h"
+
+namespace app {
+namespace {
+
+using testing::HasSubstr;
+using timeseries::RangeSet;
+
+Command parsed(const std::vector<std::string>& arguments) {
+    std::vector<const char*> pointers;
+    for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
+    return parse(pointers);
+}
+
+template <typename T>
+T as(const std::vector<std::string>& arguments) {
+    Command command = parsed(arguments);
+    if (const auto* exit = std::get_if<Exit>(&command))
+        throw std::runtime_error("exit " + std::to_string(exit->code) + ": " + exit->text);
+    return std::get<T>(command);
+}
+
+// `isochron render a.nc -o o.exr` and these.
+RenderOptions render(std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "a.nc", "-o", "o.exr"});
+    return as<RenderOptions>(more);
+}
+Explorer explorer(const std::vector<std::string>& more) { return render(more).explorer; }
+
+// Refused with exit code 2 in one sentence, which is returned.
+std::string refused(const std::vector<std::string>& arguments) {
+    const Command command = parsed(arguments);
+    std::string line;
+    for (const std::string& argument : arguments) line += " '" + argument + "'";
+    const auto* exit = std::get_if<Exit>(&command);
+    if (exit == nullptr) {
+        ADD_FAILURE() << "accepted:" << line;
+        return {};
+    }
+    EXPECT_EQ(exit->code, 2) << line;
+    EXPECT_FALSE(exit->text.empty()) << line;
+    EXPECT_EQ(exit->text.find('\n'), std::string::npos) << line << ": " << exit->text;
+    return exit->text;
+}
+std::string renderRefused(std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "a.nc", "-o", "o.exr"});
+    return refused(more);
+}
+
+glm::dvec3 rgb(const LayerChoice& layer) { return std::get<glm::dvec3>(layer.color.value()); }
+std::string_view mapName(const LayerChoice& layer) {
+    return std::get<MapChoice>(layer.color.value()).map.name();
+}
+
+TEST(Options, HelpIsNoFailureAndNamesTheCommand) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                      {"-h"},
+                                                      {"info", "--help"},
+                                                      {"count", "--help"},
+                                                      {"render", "--help"},
+                                                      {"render", "-h"},
+                                                      {"render", "a.nc", "--help"}}) {
+        const Command command = parsed(arguments);
+        const auto& exit = std::get<Exit>(command);
+        EXPECT_EQ(exit.code, 0);
+        EXPECT_THAT(exit.text, HasSubstr("Exit codes"));
+        EXPECT_THAT(exit.text,
+                    HasSubstr(arguments.size() == 1 ? "isochron" : "isochron " + arguments[0]));
+    }
+}
+
+TEST(Options, HelpListsEveryOptionOfRender) {
+    const std::string help = std::get<Exit>(parsed({"render", "--help"})).text;
+    for (const char* option :
+         {"--session",   "--variable", "--step",         "--range",       "--keep",
+          "--color",     "--colormap", "--opacity",      "--splat",       "--splat-size",
+          "--order",     "--sweep",    "--delta",        "--timer-steps", "--timer-step",
+          "--frequency", "--swing",    "--clip",         "--scale",       "--view",
+          "--size",      "--stereo",   "--eye-distance", "--convergence", "--channel",
+          "--device",    "-o"})
+        EXPECT_THAT(help, HasSubstr(option));
+}
+
+TEST(Options, WrongCommandLinesExitWithTwo) {
+    EXPECT_THAT(refused({}), HasSubstr("info"));
+    EXPECT_THAT(refused({"bogus"}), HasSubstr("bogus"));
+    EXPECT_THAT(refused({""}), HasSubstr("''"));
+    EXPECT_THAT(refused({"a.nc"}), HasSubstr("a.nc"));
+    EXPECT_THAT(refused({"info"}), HasSubstr("FILE"));
+    EXPECT_THAT(refused({"count", "a.nc"}), HasSubstr("--range"));
+    EXPECT_THAT(refused({"count", "--range", "0:1"}), HasSubstr("FILE"));
+    EXPECT_THAT(refused({"render", "a.nc"}), HasSubstr("--output"));
+    EXPECT_THAT(refused({"render", "-o", "o.png"}), HasSubstr("FILE"));
+    EXPECT_THAT(refused({"info", "a.nc", "--bogus"}), HasSubstr("--bogus"));
+    EXPECT_THAT(refused({"--bogus"}), HasSubstr("--bogus"));
+    EXPECT_THAT(renderRefused({"--bogus", "3"}), HasSubstr("--bogus"));
+    EXPECT_THAT(renderRefused({"--size"}), HasSubstr("--size"));
+    EXPECT_THAT(renderRefused({"--size", "1x1", "--size", "2x2"}), HasSubstr("--size"));
+    refused({"info", "a.nc", "count", "a.nc", "--range", "0:1"});
+}
+
+TEST(Options, InfoTakesFilesAndAFlag) {
+    const auto one = as<InfoOptions>({"info", "a.nc"});
+    EXPECT_EQ(one.files, (std::vector<std::filesystem::path>{"a.nc"}));
+    EXPECT_FALSE(one.json);
+    const auto two = as<InfoOptions>({"info", "--json", "a.nc", "b c.nc"});
+    EXPECT_EQ(two.files, (std::vector<std::filesystem::path>{"a.nc", "b c.nc"}));
+    EXPECT_TRUE(two.json);
+}
+
+TEST(Options, FileNamesMayLookLikeLists) {
+    EXPECT_EQ(as<InfoOptions>({"info", "[a,b].nc"}).files,
+              (std::vector<std::filesystem::path>{"[a,b].nc"}));
+}
+
+TEST(Options, CountTakesWhatItSays) {
+    const auto count =
+        as<CountOptions>({"count", "a.nc", "b.nc", "--variable", "T", "--range", "0:1,3:4",
+                          "--range", "(5,6)", "--keep", "0:10", "--step", "2:5", "--json"});
+    EXPECT_EQ(count.files.size(), 2u);
+    EXPECT_EQ(count.variable, "T");
+    EXPECT_EQ(count.ranges, (std::vector{RangeSet::parse("0:1,3:4"), RangeSet::parse("(5,6)")}));
+    EXPECT_EQ(count.keep, RangeSet::parse("0:10"));
+    EXPECT_EQ(count.steps, (StepChoice{2, 5}));
+    EXPECT_TRUE(count.json);
+    const auto plain = as<CountOptions>({"count", "a.nc", "--range", "0:1"});
+    EXPECT_EQ(plain.steps, (StepChoice{0, {}}));
+    EXPECT_FALSE(plain.keep);
+}
+
+TEST(Options, RangesKeepTheirBracketsCommasAndSigns) {
+    for (const char* text : {"[600,1600]", "[600,1600)", "(600,1600]", "(600,1600)", "-3:0", "-3",
+                             "-3:-1", "min:-2", "-1e5~3", "[1,2],[3,4]", "(1,2),(3,4)", "min:max",
+                             "600:1600", "850~50", "300:400,900:max", "[-5,-4]"}) {
+        const auto want = std::vector{RangeSet::parse(text)};
+        EXPECT_EQ(as<CountOptions>({"count", "a.nc", "--range", text}).ranges, want) << text;
+        EXPECT_EQ(as<CountOptions>({"count", "a.nc", std::string("--range=") + text}).ranges, want)
+            << text;
+        EXPECT_EQ(as<CountOptions>({"count", "--range", text, "a.nc"}).ranges, want) << text;
+        const Explorer e = explorer({"--range", text, "--keep", text});
+        ASSERT_EQ(e.layers.size(), 1u) << text;
+        EXPECT_EQ(e.layers[0].ranges, want[0]) << text;
+        EXPECT_EQ(e.keep, want[0]) << text;
+    }
+}
+
+TEST(Options, WithoutOptionsEverythingIsLeftOpen) {
+    const RenderOptions options = render({});
+    Explorer e;
+    e.files = {"a.nc"};
+    EXPECT_TRUE(options.explorer == e);
+    EXPECT_EQ(options.output, "o.exr");
+    EXPECT_EQ(options.device, "any");
+    EXPECT_FALSE(options.opticalDepth || options.splatCount);
+}
+
+TEST(Options, EveryRenderOptionArrives) {
+    const RenderOptions options = render({"--variable",     "T",
+                                          "--step",         "3:7",
+                                          "--range",        "600:1600",
+                                          "--keep",         "500:max",
+                                          "--color",        "#336699",
+                                          "--opacity",      "0.25",
+                                          "--splat",        "point",
+                                          "--splat-size",   "3.5",
+                                          "--order",        "depth",
+                                          "--clip",         "0:1,2:3,min:max",
+                                          "--scale",        "1,2,3",
+                                          "--view",         "-30,45,2.5",
+                                          "--size",         "320x240",
+                                          "--stereo",       "multiview",
+                                          "--eye-distance", "0.1",
+                                          "--convergence",  "4",
+                                          "--channel",      "opticalDepth",
+                                          "--channel",      "splatCount",
+                                          "--device",       "cpu"});
+    const Explorer& e = options.explorer;
+    EXPECT_EQ(e.variable, "T");
+    EXPECT_EQ(e.steps, (StepChoice{3, 7}));
+    EXPECT_EQ(e.keep, RangeSet::parse("500:max"));
+    ASSERT_EQ(e.layers.size(), 1u);
+    EXPECT_EQ(e.layers[0].ranges, RangeSet::parse("600:1600"));
+    EXPECT_EQ(rgb(e.layers[0]), parseColor("#336699"));
+    EXPECT_EQ(e.layers[0].opacity, 0.25);
+    EXPECT_EQ(e.footprint.kernel, render::Kernel::Point);
+    EXPECT_EQ(e.footprint.size, 3.5);
+    EXPECT_EQ(e.order, render::Order::BackToFront);
+    EXPECT_EQ(e.clip, parseClip("0:1,2:3,min:max"));
+    EXPECT_EQ(e.scale, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(e.view, (ViewChoice{-30, 45, 2.5}));
+    EXPECT_EQ(e.size, glm::ivec2(320, 240));
+    EXPECT_EQ(e.stereo, (StereoChoice{Stereo::MultiView, 0.1, 4.0}));
+    EXPECT_TRUE(options.opticalDepth && options.splatCount);
+    EXPECT_EQ(options.device, "cpu");
+}
+
+TEST(Options, EveryStereoModeAndDeviceIsTaken) {
+    for (const char* mode : {"off", "side-by-side", "top-bottom", "multiview", "left-right"})
+        EXPECT_EQ(explorer({"--stereo", mode}).stereo.mode, parseStereo(mode));
+    for (const char* device : {"any", "gpu", "cpu"})
+        EXPECT_EQ(render({"--device", device}).device, device);
+}
+
+TEST(Options, TheSweepTakesItsSettings) {
+    const Explorer e = explorer({"--sweep", "300:400,900:1600", "--delta", "25", "--timer-steps",
+                                 "128", "--timer-step", "4", "--frequency", "0.5", "--swing"});
+    ASSERT_TRUE(e.sweep);
+    EXPECT_EQ(*e.sweep, (timeseries::SweepSettings{RangeSet::parse("300:400,900:1600"), 25, 128, 4,
+                                                   0.5, timeseries::SweepPath::Swing}));
+    const Explorer plain = explorer({"--sweep", "min:max"});
+    EXPECT_EQ(*plain.sweep, (timeseries::SweepSettings{RangeSet::everything(), 0, 256, 1, 0.1,
+                                                       timeseries::SweepPath::Loop}));
+    for (const std::vector<std::string>& alone : {std::vector<std::string>{"--delta", "1"},
+                                                  {"--timer-steps", "2"},
+                                                  {"--timer-step", "2"},
+                                                  {"--frequency", "1"},
+                                                  {"--swing"}})
+        EXPECT_THAT(renderRefused(alone), HasSubstr(alone[0] + " needs --sweep"));
+}
+
+TEST(Options, ColorsAndMapsTakeTheLayersInTheOrderWritten) {
+    const Explorer e = explorer({"--range", "0:1", "--color", "#ff0000", "--range", "2:3",
+                                 "--range", "4:5", "--colormap", "inferno", "--color", "#0000ff",
+                                 "--opacity", "0.1", "--opacity", "0.2"});
+    ASSERT_EQ(e.layers.size(), 3u);
+    EXPECT_EQ(rgb(e.layers[0]), parseColor("#ff0000"));
+    EXPECT_EQ(mapName(e.layers[1]), "inferno");
+    EXPECT_EQ(rgb(e.layers[2]), parseColor("#0000ff"));
+    EXPECT_EQ(e.layers[0].opacity, 0.1);
+    EXPECT_EQ(e.layers[1].opacity, 0.2);
+    EXPECT_FALSE(e.layers[2].opacity);
+}
+
+TEST(Options, TheSweptLayerTakesTheFirstStyle) {
+    const Explorer e = explorer({"--range", "0:1", "--sweep", "5:9", "--color", "#ff0000",
+                                 "--colormap", "cividis", "--opacity", "0.3"});
+    EXPECT_EQ(rgb(e.sweepLayer), parseColor("#ff0000"));
+    EXPECT_EQ(e.sweepLayer.opacity, 0.3);
+    EXPECT_EQ(mapName(e.layers.at(0)), "cividis");
+    EXPECT_FALSE(e.layers.at(0).opacity);
+}
+
+TEST(Options, OneStyleWithoutARangeIsTheFirstChoices) {
+    const Explorer e = explorer({"--color", "#ff0000", "--opacity", "0.3"});
+    ASSERT_EQ(e.layers.size(), 1u);
+    EXPECT_TRUE(e.layers[0].ranges.empty());
+    EXPECT_EQ(rgb(e.layers[0]), parseColor("#ff0000"));
+}
+
+TEST(Options, MoreStylesThanLayersAreRefused) {
+    renderRefused({"--color", "#ff0000", "--color", "#00ff00"});
+    renderRefused({"--range", "0:1", "--color", "#ff0000", "--colormap", "inferno"});
+    renderRefused({"--range", "0:1", "--opacity", "0.1", "--opacity", "0.2"});
+    std::vector<std::string> nine;
+    for (int i = 0; i < 9; ++i) nine.insert(nine.end(), {"--range", "0:1"});
+    EXPECT_THAT(renderRefused(nine), HasSubstr("8"));
+    nine.resize(16);
+    EXPECT_EQ(explorer(nine).layers.size(), 8u);
+    nine.insert(nine.end(), {"--sweep", "0:1"});
+    renderRefused(nine);
+}
+
+TEST(Options, ZeroAndOneAreOpacities) {
+    EXPECT_EQ(explorer({"--opacity", "0"}).layers.at(0).opacity, 0);
+    EXPECT_EQ(explorer({"--opacity", "1"}).layers.at(0).opacity, 1);
+}
+
+TEST(Options, BadValuesAreRefusedByTheNameOfTheirOption) {
+    const std::pair<const char*, std::vector<const char*>> bad[] = {
+        {"step", {"", "a", "-1", "3:2", "1.5"}},
+        {"range", {"", "a", "2:1", "nan:1", "[1,2", "1:2,", "1~-1"}},
+        {"keep", {"", "a", "2:1"}},
+        {"color", {"", "red", "#12345", "#1234567"}},
+        {"colormap", {"", "jet", "Viridis"}},
+        {"opacity", {"", "-0.1", "1.1", "a", "nan", "inf", "-nan"}},
+        {"splat", {"", "ball"}},
+        {"splat-size", {"", "0", "-1", "1e9", "nan", "inf", "a"}},
+        {"order", {"", "front"}},
+        {"clip", {"", "0:1", "1:0,0:1,0:1"}},
+        {"scale", {"", "1", "0,1,1", "1,1,nan"}},
+        {"view", {"", "1", "a,b", "1,2,0"}},
+        {"size", {"", "0x0", "1x", "16385x1", "-1x1"}},
+        {"stereo", {"", "both"}},
+        {"eye-distance", {"", "-1", "nan", "inf", "a"}},
+        {"convergence", {"", "0", "-1", "nan", "inf"}},
+        {"channel", {"", "depth", "opticaldepth"}},
+        {"device", {"", "gl", "GPU"}}};
+    for (const auto& [option, values] : bad)
+        for (const char* value : values) {
+            const std::string text = renderRefused({std::string("--") + option, value});
+            // "splat-size 0 is ..." or "splat size '0'": the first word of the option is enough.
+            const std::string word =
+                option == std::string("keep")
+                    ? "range"
+                    : std::string(option).substr(0, std::string(option).find('-'));
+            EXPECT_THAT(text, HasSubstr(word)) << option << " '" << value << "'";
+        }
+    for (const auto& [option, values] :
+         std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"--delta", {"-1", "nan", "inf", ""}},
+             {"--timer-steps", {"0", "-1", "1.5", "1073741825", "nan", ""}},
+             {"--timer-step", {"0", "-1", "1.5", "1073741825", ""}},
+             {"--frequency", {"-1", "nan", "inf", ""}}})
+        for (const std::string& value : values)
+            EXPECT_THAT(renderRefused({"--sweep", "0:1", option, value}), HasSubstr(option))
+                << value;
+    EXPECT_THAT(renderRefused({"--sweep", ""}), HasSubstr("range"));
+}
+
+TEST(Options, AnEmptyTextIsNoChoiceThatWasNotMade) {
+    refused({"count", "a.nc", "--range", "0:1", "--keep", ""});
+    refused({"count", "a.nc", "--range", "0:1", "--step", ""});
+    refused({"count", "a.nc", "--range", ""});
+    refused({"render", "a.nc", "-o", ""});
+    refused({"render", "", "-o", "o.png"});
+    refused({"info", ""});
+}
+
+TEST(Options, TheOutputsEndingDecidesTheFormat) {
+    for (const char* output : {"o", "o.jpg", "png", ".png", "o.png/", "", "o.png.txt"})
+        refused({"render", "a.nc", "-o", output});
+    const auto png = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", "a.nc", "-o", "o.png"});
+        return refused(more);
+    };
+    EXPECT_THAT(png({"--stereo", "multiview"}), HasSubstr(".exr"));
+    EXPECT_THAT(png({"--channel", "opticalDepth"}), HasSubstr(".exr"));
+    renderRefused({"--channel", "opticalDepth", "--stereo", "side-by-side"});
+    renderRefused({"--channel", "splatCount", "--stereo", "top-bottom"});
+    for (const char* stereo : {"off", "multiview", "left-right"})
+        EXPECT_TRUE(render({"--channel", "splatCount", "--stereo", stereo}).splatCount);
+}
+
+class OptionsWithSession : public testing::Test {
+ protected:
+    OptionsWithSession() : file_(test_support::freshFolder() / "s.json") {
+        saved_.files = {file_.parent_path() / "saved.nc"};
+        saved_.variable = "T";
+        saved_.steps = StepChoice{4, 4};
+        saved_.keep = RangeSet::parse("0:2000");
+        saved_.layers = {{RangeSet::parse("600:1600"), parseColor("#112233"), 0.5},
+                         {RangeSet::parse("300:400"), parseColor("#445566"), 0.6}};
+        saved_.sweep.emplace();
+        saved_.sweep->animation = RangeSet::parse("300:1600");
+        saved_.sweep->delta = 20;
+        saved_.sweepLayer = {{}, parseColor("#778899"), 0.7};
+        saved_.footprint = {render::Kernel::Point, 2};
+        saved_.order = render::Order::BackToFront;
+        saved_.clip = parseClip("0:1,0:1,0:1");
+        saved_.scale = glm::dvec3(1, 2, 3);
+        saved_.view = {1, 2, 3.0};
+        saved_.stereo = {Stereo::TopBottom, 0.2, 5.0};
+        saved_.size = {64, 48};
+        test_support::writeBytes(file_, toJson(saved_, file_.parent_path()).dump());
+    }
+    Explorer with(std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", "--session", file_.string(), "-o", "o.exr"});
+        return as<RenderOptions>(more).explorer;
+    }
+    std::filesystem::path file_;
+    Explorer saved_;
+};
+
+TEST_F(OptionsWithSession, AloneItIsTheSession) { EXPECT_TRUE(with({}) == saved_); }
+
+TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
+    const auto expectOnly = [&](const std::vector<std::string>& more, auto change) {
+        Explorer e = saved_;
+        change(e);
+        EXPECT_TRUE(with(more) == e) << more.front();
+    };
+    expectOnly({"other.nc"}, [](Explorer& e) { e.files = {"other.nc"}; });
+    expectOnly({"--variable", "U"}, [](Explorer& e) { e.variable = "U"; });
+    expectOnly({"--variable", ""}, [](Explorer& e) { e.variable = ""; });
+    expectOnly({"--step", "7"}, [](Explorer& e) { e.steps = StepChoice{7, 7}; });
+    expectOnly({"--keep", "1:2"}, [](Explorer& e) { e.keep = RangeSet::parse("1:2"); });
+    expectOnly({"--range", "1:2"}, [](Explorer& e) {
+        e.layers = {{RangeSet::parse("1:2"), {}, {}}};
+    });
+    expectOnly({"--color", "#ffffff"}, [](Explorer& e) { e.sweepLayer.color = glm::dvec3(1); });
+    expectOnly({"--opacity", "0.1"}, [](Explorer& e) { e.sweepLayer.opacity = 0.1; });
+    expectOnly({"--sweep", "5:6"}, [](Explorer& e) {
+        e.sweep.emplace();
+        e.sweep->path = timeseries::SweepPath::Loop;
+        e.sweep->animation = RangeSet::parse("5:6");
+    });
+    expectOnly({"--delta", "3"}, [](Explorer& e) { e.sweep->delta = 3; });
+    expectOnly({"--timer-steps", "9"}, [](Explorer& e) { e.sweep->timerSteps = 9; });
+    expectOnly({"--splat", "kernel"},
+               [](Explorer& e) { e.footprint.kernel = render::Kernel::Quartic; });
+    expectOnly({"--splat-size", "1"}, [](Explorer& e) { e.footprint.size = 1; });
+    expectOnly({"--order", "none"}, [](Explorer& e) { e.order = render::Order::None; });
+    expectOnly({"--clip", "1:2,1:2,1:2"}, [](Explorer& e) { e.clip = parseClip("1:2,1:2,1:2"); });
+    expectOnly({"--scale", "1,1,1"}, [](Explorer& e) { e.scale = glm::dvec3(1); });
+    expectOnly({"--view", "9,8"}, [](Explorer& e) { e.view = {9, 8, {}}; });
+    expectOnly({"--size", "5x6"}, [](Explorer& e) { e.size = {5, 6}; });
+    expectOnly({"--stereo", "off"}, [](Explorer& e) { e.stereo.mode = Stereo::Off; });
+    expectOnly({"--eye-distance", "0"}, [](Explorer& e) { e.stereo.eyeDistance = 0; });
+    expectOnly({"--convergence", "1"}, [](Explorer& e) { e.stereo.convergence = 1; });
+}
+
+TEST_F(OptionsWithSession, AFileThatCannotBeReadIsNoWrongArgument) {
+    // Exit code 1, as for any file: main catches it.
+    EXPECT_THROW(parsed({"render", "--session", "/none.json", "-o", "o.png"}),
+                 timeseries::FileError);
+    test_support::writeBytes(file_, "{");
+    EXPECT_THROW(with({}), timeseries::FileError);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,330 @@
+#include "app/picture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "app/choice_text.h"
+#include "tests/support/scenes.h"
+
+namespace app {
+namespace {
+
+using testing::HasSubstr;
+using timeseries::RangeSet;
+using timeseries::SortedStep;
+
+// Values 0, 1, ..., 999 on 10^3 points in grid order, and what a reader would say of them.
+class PictureOfARamp : public testing::Test {
+ protected:
+    static std::shared_ptr<const SortedStep> ramp(double first, const RangeSet& kept) {
+        std::vector<float> values(1000);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<float>(first + static_cast<double>(i));
+        return std::make_shared<const SortedStep>(
+            SortedStep::build({tests::cube(10), std::move(values), {}}, kept));
+    }
+    PictureOfARamp() {
+        about_.name = "T";
+        about_.longName = "temperature";
+        about_.units = "K";
+        about_.grid = step_->sharedGrid();
+        about_.time = std::make_shared<const timeseries::TimeAxis>(
+            timeseries::TimeAxis{"time", "s", "", {{0, ""}, {0.5, ""}, {1, ""}}});
+    }
+    Picture pictureOf(const Explorer& e, std::int64_t tick = 0) const {
+        return makePicture(resolved(e, steps_), about_, 1, *step_, lattice_, tick);
+    }
+    static Explorer withRanges(const std::vector<const char*>& ranges) {
+        Explorer e;
+        for (const char* range : ranges) e.layers.push_back({RangeSet::parse(range), {}, {}});
+        return e;
+    }
+
+    std::shared_ptr<const SortedStep> step_ = ramp(0, RangeSet::everything());
+    Steps steps_{{1, step_}};
+    render::Lattice lattice_{step_->grid()};
+    timeseries::Variable about_;
+};
+
+TEST(RangeLabel, SaysARangeAsPeopleDo) {
+    const auto label = [](const char* text, const char* units = "K") {
+        return rangeLabel(RangeSet::parse(text), units);
+    };
+    EXPECT_EQ(label("600:1600"), "600 to 1600 K");
+    EXPECT_EQ(label("600:max"), "≥ 600 K");
+    EXPECT_EQ(label("min:600"), "≤ 600 K");
+    EXPECT_EQ(label("(600,max]"), "> 600 K");
+    EXPECT_EQ(label("[min,600)"), "< 600 K");
+    EXPECT_EQ(label("[600,1600)"), "[600, 1600) K");
+    EXPECT_EQ(label("(600,1600]"), "(600, 1600] K");
+    EXPECT_EQ(label("5"), "5 K");
+    EXPECT_EQ(label("-3:-1"), "-3 to -1 K");
+    EXPECT_EQ(label("min:max"), "all values");
+    EXPECT_EQ(label("0:1,5:6,9:max"), "0 to 1, 5 to 6, ≥ 9 K");
+    EXPECT_EQ(label("0:1", ""), "0 to 1");
+    EXPECT_EQ(label("0:1", "1"), "0 to 1");
+    EXPECT_EQ(label("0.1:0.30000000000000004"), "0.1 to 0.30000000000000004 K");
+    EXPECT_EQ(rangeLabel(RangeSet(), "K"), "no values");
+}
+
+TEST(RangeLabel, AnInfiniteValueAloneIsNotAllValues) {
+    EXPECT_EQ(rangeLabel(RangeSet::parse("max:max"), "K"), "inf K");
+    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min"), "K"), "-inf K");
+    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min,max:max"), ""), "-inf, inf");
+}
+
+bool nothingOpen(const Explorer& e) {
+    const auto closed = [](const LayerChoice& layer) {
+        if (!layer.color || !layer.opacity) return false;
+        const auto* map = std::get_if<MapChoice>(&*layer.color);
+        return map == nullptr || (map->lo && map->hi);
+    };
+    if (e.sweep && !closed(e.sweepLayer)) return false;
+    return (e.sweep || !e.layers.empty()) && std::ranges::all_of(e.layers, [&](const auto& layer) {
+               return closed(layer) && !layer.ranges.empty();
+           });
+}
+
+TEST_F(PictureOfARamp, ResolvedLeavesNothingOpenAndIsIdempotent) {
+    std::mt19937 random(12);
+    const char* const ranges[] = {"0:10",    "min:max", "900:max", "2000:3000",
+                                  "max:max", "5",       "1:2,4:5", "(min,3)"};
+    for (int i = 0; i < 400; ++i) {
+        Explorer e;
+        const auto maybe = [&] { return random() % 2 == 0; };
+        const auto style = [&](RangeSet set) {
+            LayerChoice layer{std::move(set), {}, {}};
+            if (maybe()) layer.opacity = 0.25;
+            if (random() % 3 == 0) layer.color = glm::dvec3(1, 0, 0);
+            if (random() % 3 == 0) {
+                MapChoice map;
+                if (maybe()) map.lo = 1;
+                if (maybe()) map.hi = 2;
+                layer.color = map;
+            }
+            return layer;
+        };
+        if (random() % 3 == 0) {
+            e.sweep.emplace();
+            e.sweep->animation = RangeSet::parse(ranges[random() % 2]);
+            e.sweepLayer = style({});
+        }
+        for (std::size_t n = random() % 4; n > 0; --n)
+            e.layers.push_back(style(maybe() ? RangeSet::parse(ranges[random() % 8]) : RangeSet()));
+        Steps steps = steps_;
+        if (random() % 8 == 0) steps.clear();
+        if (random() % 4 == 0) {
+            e.keep = RangeSet::parse("100:200");
+            steps = {{1, ramp(0, *e.keep)}};
+        }
+        const Explorer once = resolved(e, steps);
+        ASSERT_TRUE(nothingOpen(once)) << "case " << i;
+        EXPECT_FALSE(needsSamples(once)) << "case " << i;
+        // Whatever is sampled.
+        EXPECT_TRUE(resolved(once, steps) == once) << "case " << i;
+        EXPECT_TRUE(resolved(once, {{0, ramp(5000, RangeSet::everything())}}) == once)
+            << "case " << i;
+        EXPECT_TRUE(resolved(once, {}) == once) << "case " << i;
+    }
+}
+
+TEST_F(PictureOfARamp, WhatWasChosenIsNotResolvedAway) {
+    Explorer e = withRanges({"0:10"});
+    e.layers[0].color = MapChoice{*render::colorMapNamed("cividis"), 3.0, {}};
+    e.layers[0].opacity = 0.125;
+    const Explorer r = resolved(e, steps_);
+    EXPECT_EQ(r.layers[0].opacity, 0.125);
+    const auto& map = std::get<MapChoice>(*r.layers[0].color);
+    EXPECT_EQ(map.map.name(), "cividis");
+    EXPECT_EQ(map.lo, 3);
+    EXPECT_EQ(map.hi, 10) << "the layer's own end";
+}
+
+TEST_F(PictureOfARamp, UnboundedEndsOfAMapAreTheDatas) {
+    const Explorer r = resolved(withRanges({"min:max"}), steps_);
+    const auto& map = std::get<MapChoice>(*r.layers[0].color);
+    EXPECT_EQ(map.lo, 0);
+    EXPECT_EQ(map.hi, 999);
+}
+
+TEST_F(PictureOfARamp, SeveralLayersHaveDifferentPlainColors) {
+    const Explorer r = resolved(
+        withRanges({"0:1", "2:3", "4:5", "6:7", "8:9", "10:11", "12:13", "14:15"}), steps_);
+    for (std::size_t i = 0; i < r.layers.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_NE(std::get<glm::dvec3>(*r.layers[i].color),
+                      std::get<glm::dvec3>(*r.layers[j].color));
+}
+
+TEST_F(PictureOfARamp, TheLegendStatesTitleTimeLayersAndCounts) {
+    const Picture p = pictureOf(withRanges({"100:199", "990:max", "2000:3000", "0,5,9"}));
+    EXPECT_EQ(p.legend.title, "temperature (K)");
+    EXPECT_EQ(p.legend.time, "0.5 s, step 1 of 0–2");
+    ASSERT_EQ(p.legend.layers.size(), 4u);
+    EXPECT_EQ(p.legend.layers[0].range, "100 to 199 K");
+    EXPECT_EQ(p.legend.layers[0].amount, "100 points, 10 %");
+    EXPECT_EQ(p.legend.layers[1].range, "≥ 990 K");
+    EXPECT_EQ(p.legend.layers[1].amount, "10 points, 1 %");
+    EXPECT_EQ(p.legend.layers[2].amount, "0 points, 0 %");
+    EXPECT_EQ(p.legend.layers[3].amount, "3 points, 0.3 %");
+    EXPECT_TRUE(p.legend.notes.empty());
+    ASSERT_EQ(p.scene.layers.size(), 4u);
+    EXPECT_EQ(p.scene.layers[0].runs, (std::vector<timeseries::Run>{{100, 100}}));
+    EXPECT_EQ(p.scene.layers[3].runs, (std::vector<timeseries::Run>{{0, 1}, {5, 1}, {9, 1}}));
+}
+
+TEST_F(PictureOfARamp, PercentsAreOfTheValidPointsKeptOrNot) {
+    step_ = ramp(0, RangeSet::parse("500:max"));
+    const Picture p = pictureOf(withRanges({"500:749"}));
+    EXPECT_EQ(p.legend.layers.at(0).amount, "250 points, 25 %");
+    EXPECT_EQ(p.scene.layers.at(0).runs, (std::vector<timeseries::Run>{{0, 250}}));
+}
+
+TEST_F(PictureOfARamp, AskingOutsideWhatWasKeptIsRefusedInWords) {
+    step_ = ramp(0, RangeSet::parse("500:max"));
+    try {
+        pictureOf(withRanges({"400:600"}));
+        FAIL();
+    } catch (const timeseries::OutsideKeptError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("400:600"));
+        EXPECT_THAT(error.what(), HasSubstr("500:max"));
+    }
+}
+
+TEST_F(PictureOfARamp, TitlesFallBackToTheNameAndLeaveOutUnitsOfNone) {
+    about_.longName.clear();
+    about_.units = "1";
+    EXPECT_EQ(pictureOf({}).legend.title, "T");
+    about_.time = std::make_shared<const timeseries::TimeAxis>(
+        timeseries::TimeAxis{"step", "", "", {{0, ""}, {1, ""}}});
+    EXPECT_EQ(pictureOf({}).legend.time, "step 1 of 0–1");
+}
+
+TEST_F(PictureOfARamp, OneUncountedStepHasNoTimeToState) {
+    about_.time = std::make_shared<const timeseries::TimeAxis>(
+        timeseries::TimeAxis{"step", "", "", {{0, ""}}});
+    const Picture p = makePicture(resolved({}, steps_), about_, 0, *step_, lattice_);
+    EXPECT_EQ(p.legend.time, "");
+}
+
+TEST_F(PictureOfARamp, NotesTellWhatWasBentToDrawIt) {
+    about_.notes = {"drawn in index space"};
+    Explorer e = withRanges({"0:max"});
+    e.clip = parseClip("2:5,min:max,0:0");
+    const Picture p = pictureOf(e);
+    ASSERT_EQ(p.legend.notes.size(), 2u);
+    EXPECT_EQ(p.legend.notes[0], "drawn in index space");
+    EXPECT_THAT(p.legend.notes[1], HasSubstr("2:5,min:max,0:0"));
+    EXPECT_EQ(p.scene.clip.lo, glm::uvec3(2, 0, 0));
+    EXPECT_EQ(p.scene.clip.hi, glm::uvec3(5, 9, 0));
+    EXPECT_EQ(p.legend.layers.at(0).amount, "1,000 points, 100 %") << "of the whole step";
+}
+
+TEST_F(PictureOfARamp, TheSweptWindowIsTheFirstLayerOfEachTick) {
+    Explorer e = withRanges({"0:9"});
+    e.sweep.emplace();
+    e.sweep->animation = RangeSet::parse("100:200");
+    e.sweep->delta = 5;
+    e.sweep->timerSteps = 11;
+    e.sweep->path = timeseries::SweepPath::Loop;
+    for (std::int64_t tick = 0; tick < 11; ++tick) {
+        const Picture p = pictureOf(e, tick);
+        ASSERT_EQ(p.scene.layers.size(), 2u);
+        // Contours 100, 110, ..., 200, and 5 to either side.
+        const auto centre = static_cast<std::uint64_t>(100 + 10 * tick);
+        ASSERT_EQ(p.scene.layers[0].runs.size(), 1u);
+        EXPECT_EQ(p.scene.layers[0].runs[0], (timeseries::Run{centre - 5, 11})) << tick;
+        EXPECT_EQ(p.scene.layers[1].runs, (std::vector<timeseries::Run>{{0, 10}}));
+        EXPECT_EQ(p.legend.layers[0].amount, "11 points, 1.1 %");
+    }
+}
+
+TEST_F(PictureOfARamp, TheSweptWindowIsCutToWhatWasKept) {
+    step_ = ramp(0, RangeSet::parse("150:160"));
+    Explorer e;
+    e.keep = RangeSet::parse("150:160");
+    e.sweep.emplace();
+    e.sweep->animation = RangeSet::parse("100:200");
+    e.sweep->delta = 5;
+    e.sweep->timerSteps = 11;
+    e.sweep->path = timeseries::SweepPath::Loop;
+    std::vector<std::string> amounts;
+    for (std::int64_t tick = 4; tick < 8; ++tick)
+        amounts.push_back(pictureOf(e, tick).legend.layers.at(0).amount);
+    // 135:145, 145:155, 155:165, 165:175 of 150:160.
+    EXPECT_EQ(amounts, (std::vector<std::string>{"0 points, 0 %", "6 points, 0.6 %",
+                                                 "6 points, 0.6 %", "0 points, 0 %"}));
+}
+
+TEST_F(PictureOfARamp, OneTickAloneIsTheSamePictureWithoutASweep) {
+    Explorer e = withRanges({"0:9"});
+    e.sweep.emplace();
+    e.sweep->animation = RangeSet::parse("100:200");
+    e.sweep->delta = 5;
+    e.sweep->timerSteps = 11;
+    e = resolved(e, steps_);
+    for (std::int64_t tick = 0; tick < 11; ++tick) {
+        const Explorer alone = onlyThis(e, 1, *step_, tick);
+        EXPECT_FALSE(alone.sweep);
+        EXPECT_FALSE(needsSamples(alone));
+        EXPECT_EQ(alone.steps, (StepChoice{1, 1}));
+        const Picture a = makePicture(e, about_, 1, *step_, lattice_, tick);
+        const Picture b = makePicture(alone, about_, 1, *step_, lattice_);
+        ASSERT_EQ(a.scene.layers.size(), b.scene.layers.size());
+        for (std::size_t i = 0; i < a.scene.layers.size(); ++i) {
+            EXPECT_EQ(a.scene.layers[i].runs, b.scene.layers[i].runs);
+            EXPECT_EQ(a.scene.layers[i].style.opacity, b.scene.layers[i].style.opacity);
+            EXPECT_EQ(a.legend.layers[i].range, b.legend.layers[i].range);
+        }
+    }
+}
+
+TEST_F(PictureOfARamp, AnUnboundedSweepGoesThroughTheDatasValues) {
+    Explorer e;
+    e.sweep.emplace();
+    e.sweep->animation = RangeSet::everything();
+    EXPECT_TRUE(needsSamples(e));
+    const Explorer r = resolved(e, steps_);
+    EXPECT_EQ(r.sweep->animation, RangeSet::parse("0:999"));
+}
+
+TEST_F(PictureOfARamp, AnUnboundedSweepBeyondTheDataIsRefused) {
+    for (const char* animation : {"2000:max", "min:-5"}) {
+        Explorer e;
+        e.sweep.emplace();
+        e.sweep->animation = RangeSet::parse(animation);
+        try {
+            resolved(e, steps_);
+            ADD_FAILURE() << animation;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_THAT(error.what(), HasSubstr(animation));
+            EXPECT_THAT(error.what(), HasSubstr("0 to 999"));
+        }
+    }
+}
+
+TEST_F(PictureOfARamp, AStyleAloneLeavesTheRangeToTheFirstChoice) {
+    Explorer plain, red;
+    red.layers = {{RangeSet(), glm::dvec3(1, 0, 0), 0.5}};
+    const Explorer a = resolved(plain, steps_), b = resolved(red, steps_);
+    EXPECT_EQ(a.layers.at(0).ranges, b.layers.at(0).ranges);
+    EXPECT_EQ(std::get<glm::dvec3>(b.layers[0].color.value()), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(b.layers[0].opacity, 0.5);
+}
+
+TEST_F(PictureOfARamp, TheFirstChoiceIsInsideWhatWasKept) {
+    for (const char* kept : {"0:100", "950:max", "3", "(10,20)", "5000:6000"}) {
+        Explorer e;
+        e.keep = RangeSet::parse(kept);
+        step_ = ramp(0, *e.keep);
+        steps_ = {{1, step_}};
+        const Picture p = pictureOf(e);  // does not throw
+        EXPECT_EQ(p.scene.layers.at(0).runs.empty(), step_->size() == 0) << kept;
+    }
+}
+
+}  // namespace
+}  // namespace app

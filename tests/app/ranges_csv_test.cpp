@@ -1,0 +1,67 @@
+// The whole path of `isochron count` against percentages that other software (numpy) counted.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "app/dataset.h"
+#include "tests/support/shared_data.h"
+#include "timeseries/sorted_step.h"
+
+namespace app {
+namespace {
+
+struct Row {
+    std::string file, variable, lo, hi;
+    std::vector<std::string> percents;  // two decimals, a step each
+};
+
+std::vector<Row> netcdfRows() {
+    std::ifstream in(support::sharedData("ranges.csv"));
+    std::vector<Row> rows;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream cut(line);
+        std::vector<std::string> cells;
+        for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
+        if (cells.size() != 8 || !cells[0].ends_with(".nc")) continue;
+        Row row{cells[0], cells[1], cells[2], cells[3], {}};
+        std::istringstream percents(cells[7]);
+        for (std::string one; percents >> one;) row.percents.push_back(one);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+TEST(RangesCsv, CountAgreesInEveryStepOfEveryNetcdfRow) {
+    if (!std::filesystem::exists(support::sharedData("ranges.csv")))
+        GTEST_SKIP() << "no real data at " << support::sharedData("ranges.csv");
+    const std::vector<Row> rows = netcdfRows();
+    EXPECT_GE(rows.size(), 19u);
+    std::set<std::pair<std::string, std::string>> done;
+    for (const Row& row : rows) {
+        // Each step is built once for all rows of its file.
+        if (!done.insert({row.file, row.variable}).second) continue;
+        const std::filesystem::path file = support::sharedData(row.file);
+        Dataset dataset = openDataset(std::span(&file, 1), row.variable);
+        for (std::size_t step = 0; step < dataset.stepCount(); ++step) {
+            const auto sorted =
+                timeseries::SortedStep::build(dataset.reader->read(dataset.variable, step));
+            for (const Row& each : rows) {
+                if (each.file != row.file || each.variable != row.variable) continue;
+                ASSERT_EQ(each.percents.size(), dataset.stepCount()) << row.file;
+                const auto ranges = timeseries::RangeSet::parse(each.lo + ":" + each.hi);
+                const double percent = 100.0 * static_cast<double>(sorted.count(ranges)) /
+                                       static_cast<double>(sorted.statistics().points);
+                // Half a unit of the last digit printed; the rest is for percents that lie on a
+                // tie.
+                EXPECT_NEAR(percent, std::stod(each.percents[step]), 0.005 + 1e-9)
+                    << row.file << ' ' << row.variable << ' ' << ranges.text() << " step " << step;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace app

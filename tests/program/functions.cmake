@@ -1,0 +1,39 @@
+# Functions for the scripts of this folder, which run the real program in an empty folder of the
+# test's own. A command line is a text of arguments in bracket quotes: no list of CMake's, which
+# would lose empty arguments and split at ';'.
+
+function(fail)
+  string(CONCAT text ${ARGN})
+  message(FATAL_ERROR "${text}\ncommand: ${commandText}\nexit code: ${code}\nstdout:\n${out}\nstderr:\n${err}")
+endfunction()
+
+# arguments(VARIABLE FIRST LAST): the script's own arguments FIRST to LAST - 1, quoted.
+function(arguments variable first last)
+  set(text "")
+  set(i ${first})
+  while(i LESS last)
+    string(APPEND text " [==[${CMAKE_ARGV${i}}]==]")
+    math(EXPR i "${i} + 1")
+  endwhile()
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Sets code, out and err.
+macro(run text)
+  set(commandText "${text}")
+  cmake_language(EVAL CODE "execute_process(COMMAND ${text} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err TIMEOUT 120)")
+endmacro()
+
+# Where the script's own arguments begin (after --) and end.
+set(begin 0)
+foreach(i RANGE ${CMAKE_ARGC})
+  if(begin EQUAL 0 AND "${CMAKE_ARGV${i}}" STREQUAL "--")
+    math(EXPR begin "${i} + 1")
+  endif()
+endforeach()
+set(end ${CMAKE_ARGC})
+
+file(GLOB left ${WORK}/*)
+if(left)
+  file(REMOVE_RECURSE ${left})
+endif()
