@@ -10,19 +10,17 @@
 #include "app/dataset.h"
 #include "app/json_text.h"
 #include "app/picture.h"
+#include "app/picture_files.h"
 #include "app/session.h"
+#include "app/step_source.h"
 #include "render/color.h"
-#include "render/exr.h"
 #include "render/frame.h"
 #include "render/gl/headless_context.h"
-#include "render/png.h"
-#include "timeseries/step_loader.h"
 
 namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-using render::EyePicture;
 using timeseries::SortedStep;
 
 const glm::dvec3 kBackground = render::linearFromSrgb(glm::dvec3(13, 17, 23) / 255.0);
@@ -64,103 +62,11 @@ class Frames {
 };
 
 // First, middle and last of the chosen steps.
-Steps sample(Dataset& dataset, const std::vector<std::size_t>& steps,
-             const timeseries::RangeSet& kept) {
+Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
     Steps sampled;
     for (const std::size_t step : {steps.front(), steps[steps.size() / 2], steps.back()})
-        if (!sampled.contains(step))
-            sampled[step] = std::make_shared<const SortedStep>(
-                SortedStep::build(dataset.reader->read(dataset.variable, step), kept));
+        sampled[step] = source.get(step, step);
     return sampled;
-}
-
-// Steps in the order of the frames, the next one loading while one is drawn.
-class StepSource {
- public:
-    StepSource(Dataset& dataset, const timeseries::RangeSet& kept, Steps sampled)
-        : name_(dataset.name()),
-          sampled_(std::move(sampled)),
-          loader_(std::move(dataset.reader), dataset.variable, kept) {}
-
-    // Throws FileError when the step cannot be read.
-    std::shared_ptr<const SortedStep> get(std::size_t step, std::size_t next) {
-        if (const auto found = sampled_.find(step); found != sampled_.end()) {
-            last_ = found->second;
-            lastStep_ = step;
-        }
-        if (last_ && lastStep_ == step) return last_;
-        std::vector<std::size_t> wishes{step};
-        if (next != step && !sampled_.contains(next)) wishes.push_back(next);
-        loader_.want(wishes);
-        while (!ahead_.contains(step)) {
-            auto result = loader_.waitAndPoll();
-            if (auto* failed = std::get_if<timeseries::Failed>(&*result)) {
-                if (failed->step == step) throw timeseries::FileError(failed->why);
-                continue;  // the one ahead: told when its turn comes
-            }
-            auto& loaded = std::get<timeseries::Loaded>(*result);
-            ahead_[loaded.step] = loaded.sorted;
-        }
-        last_ = ahead_.extract(step).mapped();
-        lastStep_ = step;
-        return last_;
-    }
-
- private:
-    std::string name_;
-    Steps sampled_, ahead_;
-    std::shared_ptr<const SortedStep> last_;
-    std::size_t lastStep_ = 0;
-    timeseries::StepLoader loader_;
-};
-
-render::ExrView exrView(std::string name, EyePicture picture) {
-    render::ExrView view{std::move(name), std::move(picture.image), {}};
-    if (!picture.opticalDepth.empty())
-        view.scalars["opticalDepth"] = std::move(picture.opticalDepth);
-    if (!picture.splatCount.empty()) view.scalars["splatCount"] = std::move(picture.splatCount);
-    return view;
-}
-
-// What a frame is written to.
-std::vector<fs::path> filesOf(const fs::path& file, Stereo stereo) {
-    if (stereo != Stereo::LeftRight) return {file};
-    const auto suffixed = [&](const char* suffix) {
-        return fs::path(file).replace_filename(file.stem().string() + suffix +
-                                               file.extension().string());
-    };
-    return {suffixed("_left"), suffixed("_right")};
-}
-
-void writeOne(const fs::path& file, EyePicture picture, const render::Metadata& metadata) {
-    if (file.extension() == ".exr") {
-        const std::array views{exrView("", std::move(picture))};
-        render::writeExr(file, views, metadata);
-    } else {
-        render::writePng(file, picture.image, metadata);
-    }
-}
-
-void write(const fs::path& file, Stereo stereo, std::vector<EyePicture> eyes,
-           const render::Metadata& metadata) {
-    switch (stereo) {
-        case Stereo::Off:
-            return writeOne(file, std::move(eyes[0]), metadata);
-        case Stereo::SideBySide:
-            return writeOne(file, {render::sideBySide(eyes[0].image, eyes[1].image), {}, {}},
-                            metadata);
-        case Stereo::TopBottom:
-            return writeOne(file, {render::topBottom(eyes[0].image, eyes[1].image), {}, {}},
-                            metadata);
-        case Stereo::LeftRight:
-            writeOne(filesOf(file, stereo)[0], std::move(eyes[0]), metadata);
-            return writeOne(filesOf(file, stereo)[1], std::move(eyes[1]), metadata);
-        case Stereo::MultiView: {
-            const std::array views{exrView("left", std::move(eyes[0])),
-                                   exrView("right", std::move(eyes[1]))};
-            return render::writeExr(file, views, metadata);
-        }
-    }
 }
 
 void tellStyle(const Explorer& e, const timeseries::Variable& about) {
@@ -187,16 +93,11 @@ int renderHeadless(const RenderOptions& options) {
     e.variable = dataset.about.name;
     if (!e.steps) e.steps = StepChoice{dataset.stepCount() / 2, dataset.stepCount() / 2};
     const auto steps = stepsOf(dataset, *e.steps);
-    const timeseries::RangeSet kept = e.keep.value_or(timeseries::RangeSet::everything());
-    Steps sampled;
-    if (needsSamples(e)) {
-        sampled = sample(dataset, steps, kept);
-        e = resolved(e, sampled);
-    }
+    StepSource source(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
+    if (needsSamples(e)) e = resolved(e, sample(source, steps));
     const render::gl::HeadlessContext context(options.device);
     render::FrameRenderer renderer;
     const Frames frames(options.output, e, steps);
-    StepSource source(dataset, kept, std::move(sampled));
 
     std::shared_ptr<const SortedStep> shown;
     std::optional<render::Lattice> lattice;

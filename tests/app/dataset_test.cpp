@@ -45,13 +45,6 @@ TEST(WithCommas, GroupsByThree) {
     EXPECT_EQ(withCommas(std::numeric_limits<std::uint64_t>::max()), "18,446,744,073,709,551,615");
 }
 
-TEST(ShownUnits, LeavesOutCfsWordForNone) {
-    EXPECT_EQ(shownUnits("1"), "");
-    EXPECT_EQ(shownUnits(""), "");
-    EXPECT_EQ(shownUnits("K"), "K");
-    EXPECT_EQ(shownUnits("10"), "10");
-}
-
 // Two variables of 3 steps on 2 x 2 x 2 points.
 std::filesystem::path twoVariables() {
     support::NetcdfBuilder file("two.nc");

@@ -216,6 +216,8 @@ std::vector<Segment> segments(const AxesMeshes& meshes) {
     return found;
 }
 
+TEST(ShownUnit, OneIsNoUnit) { EXPECT_EQ(shownUnit("1"), ""); }
+
 TEST(Axes, EdgesEndAtTheProjectedCornersAtTheirDepth) {
     for (const glm::dvec3& eye : {eyeAt(-60, 25, 3), eyeAt(130, -50, 2.5), eyeAt(5, 5, 4)}) {
         const Drawn d(ocean(), eye, {640, 480});
