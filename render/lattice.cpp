@@ -128,10 +128,12 @@ std::string stretchText(const Grid& grid, const Lattice& lattice) {
             // So many of its own units are drawn as long as one unit of the first axis.
             const auto unit = [](const Axis& of) {
                 const std::string name = shownUnit(comparableUnit(of));
-                return name.empty() ? of.name : name + " " + of.name;
+                const char* gap = name.starts_with("\u00b0") ? "" : " ";
+                return name.empty() ? " " + of.name : gap + name + " " + of.name;
             };
-            text += fmt::format("{}{:.3g} {} drawn as 1 {}", text.empty() ? "" : ", ", 1 / ratio,
-                                unit(axis), unit(first));
+            const double rounded = std::stod(fmt::format("{:.3g}", 1 / ratio));
+            text += fmt::format("{}{}{} drawn as 1{}", text.empty() ? "" : ", ",
+                                tickTexts(std::array{rounded})[0], unit(axis), unit(first));
         }
     }
     return text;

@@ -143,8 +143,8 @@ void main() {
 #ifdef QUADS
     place(centre, extent, depth);
 #else
-    // One pixel more than the diameter: the rasteriser snaps centres to a fraction of a pixel.
-    place(centre, 2.0 * extent + 1.0, depth);
+    // A little more than the diameter: the rasteriser snaps centres to a fraction of a pixel.
+    place(centre, 2.0 * extent + 0.0625, depth);
 #endif
 #endif
 }

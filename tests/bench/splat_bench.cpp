@@ -64,7 +64,8 @@ void BM_DrawByValue(benchmark::State& state) { drawAndResolve(state, Order::None
 void BM_DrawOrdered(benchmark::State& state) { drawAndResolve(state, Order::BackToFront, true); }
 
 void splatsAndDiameters(benchmark::internal::Benchmark* b) {
-    b->Args({100'000, 8})
+    b->Args({1, 8})
+        ->Args({100'000, 8})
         ->Args({1'000'000, 8})
         ->Args({100'000, 16})
         ->Args({1'000'000, 3})

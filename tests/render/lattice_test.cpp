@@ -35,7 +35,7 @@ TEST(Lattice, OtherUnitsAreFittedToHalfTheLongest) {
     EXPECT_NEAR(lattice.boxHalf().y / lattice.boxHalf().x, 0.5, 1e-12) << "degrees stay alike";
     EXPECT_NEAR(lattice.boxHalf().z / lattice.boxHalf().x, 0.5, 1e-12) << "metres are fitted";
     EXPECT_EQ(stretchText(ocean, lattice),
-              "5.56 m x drawn as 1 ° x");  // 1000 m over 180 degrees
+              "5.56 m x drawn as 1° x");  // 1000 m over 180 degrees
 }
 
 TEST(Lattice, DownwardAxesAreDrawnDownwards) {
