@@ -209,7 +209,8 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
             points == 0 ? 0 : 100 * static_cast<double>(selected) / static_cast<double>(points);
         render::LegendLayer& told = picture.legend.layers.emplace_back(
             render::LegendLayer{drawn.style, rangeLabel(ranges, about.units),
-                                fmt::format("{} points, {:.3g} %", withCommas(selected), percent)});
+                                fmt::format("{} {}, {:.3g} %", withCommas(selected),
+                                            selected == 1 ? "point" : "points", percent)});
         if (const auto* byValue = std::get_if<render::ByValue>(&drawn.style.color)) {
             const Extent ends = finiteEnds(ranges, {byValue->lo, byValue->hi});
             told.shown.emplace(ends.lo, ends.hi);

@@ -160,18 +160,19 @@ TEST_F(PictureOfARamp, SeveralLayersHaveDifferentPlainColors) {
 }
 
 TEST_F(PictureOfARamp, TheLegendStatesTitleTimeLayersAndCounts) {
-    const Picture p = pictureOf(withRanges({"100:199", "990:max", "2000:3000", "0,5,9"}));
+    const Picture p = pictureOf(withRanges({"100:199", "990:max", "2000:3000", "0,5,9", "7"}));
     EXPECT_EQ(p.legend.title, "temperature (K)");
     EXPECT_EQ(p.legend.time, "0.5 s, step 1 of 0–2");
-    ASSERT_EQ(p.legend.layers.size(), 4u);
+    ASSERT_EQ(p.legend.layers.size(), 5u);
     EXPECT_EQ(p.legend.layers[0].range, "100 to 199 K");
     EXPECT_EQ(p.legend.layers[0].amount, "100 points, 10 %");
     EXPECT_EQ(p.legend.layers[1].range, "≥ 990 K");
     EXPECT_EQ(p.legend.layers[1].amount, "10 points, 1 %");
     EXPECT_EQ(p.legend.layers[2].amount, "0 points, 0 %");
     EXPECT_EQ(p.legend.layers[3].amount, "3 points, 0.3 %");
+    EXPECT_EQ(p.legend.layers[4].amount, "1 point, 0.1 %");
     EXPECT_TRUE(p.legend.notes.empty());
-    ASSERT_EQ(p.scene.layers.size(), 4u);
+    ASSERT_EQ(p.scene.layers.size(), 5u);
     EXPECT_EQ(p.scene.layers[0].runs, (std::vector<timeseries::Run>{{100, 100}}));
     EXPECT_EQ(p.scene.layers[3].runs, (std::vector<timeseries::Run>{{0, 1}, {5, 1}, {9, 1}}));
 }
