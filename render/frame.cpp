@@ -1,5 +1,7 @@
 #include "render/frame.h"
 
+#include <fmt/format.h>
+
 #include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
@@ -18,8 +20,7 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer()
-    : font_(fontFor({64, 64})), resolve_("resolve", shaders::resolve_vert, shaders::resolve_frag) {}
+FrameRenderer::FrameRenderer() : font_(fontFor({64, 64})) {}
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, GpuStep& step,
                                                std::span<const View> eyes) {
@@ -95,15 +96,24 @@ void FrameRenderer::drawSplats(const GpuList& list, const View& view) {
         splatter_.draw(list, view, channels[i], i, targets_->clearedPlane(i, channels[i]));
 }
 
+const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
+    const bool over = scene.order == Order::BackToFront;
+    const int variant = over ? -1 : static_cast<int>(scene.layers.size());
+    if (const auto found = resolve_.find(variant); found != resolve_.end()) return found->second;
+    const std::string define =
+        over ? "#define OVER\n" : fmt::format("#define LAYERS {}\n", variant);
+    return resolve_
+        .emplace(variant, gl::Program("resolve", shaders::resolve_vert, shaders::resolve_frag,
+                                      define.c_str()))
+        .first->second;
+}
+
 void FrameRenderer::resolve(const Scene& scene, glm::ivec2 size) {
     gl::begin({.framebuffer = targets_->lightFramebuffer(), .size = size});
-    glUseProgram(resolve_.id());
+    glUseProgram(resolveProgram(scene).id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, splatter_.layerBlock().id());
-    const bool over = scene.order == Order::BackToFront;
-    glUniform1i(0, over ? -1 : static_cast<GLint>(scene.layers.size()));
-    const std::size_t planes = over ? 1 : scene.layers.size();
-    for (std::size_t i = 0; i < kMaxLayers; ++i)
-        glBindTextureUnit(static_cast<GLuint>(i), i < planes ? targets_->plane(i).id() : 0);
+    for (std::size_t i = 0; i < channelsFor(scene).size(); ++i)
+        glBindTextureUnit(static_cast<GLuint>(i), targets_->plane(i).id());
     glBindTextureUnit(kMaxLayers, targets_->opaqueColor().id());
     glBindVertexArray(noVertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);

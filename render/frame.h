@@ -2,6 +2,7 @@
 // and uploaded once and drawn once an eye, whichever front end asks.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -62,13 +63,14 @@ class FrameRenderer {
     void drawOpaque(const FrameContent& content, const View& view, const AxesMeshes& axes);
     void drawSplats(const GpuList& list, const View& view);
     void resolve(const Scene& scene, glm::ivec2 size);
+    const gl::Program& resolveProgram(const Scene& scene);
     std::vector<float> opticalDepth(const GpuList& list, const View& view);
 
     Font font_;
     glm::ivec2 fontFor_{0};  // the picture size whose label styles font_ holds
     std::unique_ptr<FlatPass> flat_;
     GlSplatter splatter_;
-    gl::Program resolve_;
+    std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
     gl::VertexArray noVertices_;
     std::unique_ptr<Targets> targets_;
     std::uint64_t orders_ = 0, eyes_ = 0;

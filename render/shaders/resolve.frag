@@ -1,12 +1,17 @@
 // Accumulated sums -> linear premultiplied colour over the opaque scene. Window space.
 // The CPU's version is resolvePixel in render/cpu_splatter.h.
+// Variants: OVER (one plane, already composited), or LAYERS n: one plane each. Their number is known
+// when compiling, as samplers chosen at run time are slow.
 
 layout(std140, binding = 1) uniform Layers {
     vec4 style[8];  // constant linear colour; w: optical depth per weight
     vec4 map[8];    // z: > 0 when by value
 } layers;
-layout(location = 0) uniform int layerCount;  // -1: the single plane is Over
-layout(binding = 0) uniform sampler2D planes[8];
+#ifdef OVER
+layout(binding = 0) uniform sampler2D over;
+#elif LAYERS > 0
+layout(binding = 0) uniform sampler2D planes[LAYERS];
+#endif
 layout(binding = 8) uniform sampler2D opaque;
 
 layout(location = 0) out vec4 light;
@@ -20,14 +25,14 @@ float meanTransmission(float t) {
 void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy);
     const vec4 behind = texelFetch(opaque, at, 0);
-    if (layerCount < 0) {
-        const vec4 over = texelFetch(planes[0], at, 0);
-        light = over + (1.0 - over.a) * behind;
-        return;
-    }
+#ifdef OVER
+    const vec4 volume = texelFetch(over, at, 0);
+    light = volume + (1.0 - volume.a) * behind;
+#else
     vec3 glow = vec3(0.0);
     float depth = 0.0;
-    for (int k = 0; k < layerCount; ++k) {
+#if LAYERS > 0
+    for (int k = 0; k < LAYERS; ++k) {
         const vec4 sum = texelFetch(planes[k], at, 0);
         const float perWeight = layers.style[k].w;
         const bool byValue = layers.map[k].z > 0.0;
@@ -35,6 +40,10 @@ void main() {
         depth += tau;
         glow += byValue ? perWeight * sum.rgb : tau * layers.style[k].rgb;
     }
+#endif
+    light = behind;
+    if (depth <= 0.0) return;
     const float mean = meanTransmission(depth);
     light = vec4(glow * mean, depth * mean) + (1.0 - depth * mean) * behind;
+#endif
 }
