@@ -12,20 +12,23 @@ void forEachPixel(const Splat<Real>& s, const View& view, const PixelRays& rays,
     using Vec2 = glm::vec<2, Real>;
     const Vec2 axis(rays.centre), focal(rays.focal);
     const Real rayUnit = static_cast<Real>(glm::length(rays.axis));
-    // Pixel i has its centre at i + 0.5; the square holds those in [window - extent, window +
-    // extent).
+    // Pixels from..to-1 along an axis; pixel i has its centre at i + 0.5.
+    const auto span = [&](Real centre, int size) {
+        Real from = std::ceil(centre - s.extent - Real(0.5));
+        Real to = std::ceil(centre + s.extent - Real(0.5));
+        if (kernel == Kernel::Point) {
+            from = std::floor(centre - s.extent + Real(0.5));
+            to = from + 2 * s.extent;
+        }
+        const auto limit = static_cast<Real>(size);
+        return std::pair(static_cast<int>(std::clamp<Real>(from, 0, limit)),
+                         static_cast<int>(std::clamp<Real>(to, 0, limit)));
+    };
     const Vec2 window = axis + s.centre;
-    const auto first = [](Real edge) {
-        return static_cast<int>(std::max<Real>(0, std::ceil(edge - Real(0.5))));
-    };
-    const auto past = [](Real edge, int size) {
-        return static_cast<int>(
-            std::min<Real>(static_cast<Real>(size), std::ceil(edge - Real(0.5))));
-    };
-    const int x1 = past(window.x + s.extent, view.size.x),
-              y1 = past(window.y + s.extent, view.size.y);
-    for (int y = first(window.y - s.extent); y < y1; ++y) {
-        for (int x = first(window.x - s.extent); x < x1; ++x) {
+    const auto [x0, x1] = span(window.x, view.size.x);
+    const auto [y0, y1] = span(window.y, view.size.y);
+    for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
             const Vec2 at =
                 Vec2(static_cast<Real>(x) + Real(0.5), static_cast<Real>(y) + Real(0.5)) - axis;
             const Vec2 slope = at / focal;

@@ -71,6 +71,12 @@ Real nearFade(Real depth, Real near) {
     return t * t * (3 - 2 * t);
 }
 
+// Point splats are squares of whole pixels, so that each deposits exactly its mass. The first pixel
+// of a square about window position w is floor(w - (side - 1) / 2), in x and in y.
+inline int pointSide(const Footprint& footprint) {
+    return std::max(1, static_cast<int>(std::lround(footprint.size)));
+}
+
 template <typename Real>
 Splat<Real> splatAt(const PixelRays& rays, const glm::dmat4& viewFromWorld, const glm::dvec3& world,
                     const glm::dvec3& cell, double unitLength, const Footprint& footprint) {
@@ -86,12 +92,12 @@ Splat<Real> splatAt(const PixelRays& rays, const glm::dmat4& viewFromWorld, cons
     const Vec3 X(rays.perPixelX), Y(rays.perPixelY);
     const Vec3 C = Vec3(rays.axis) + s.centre.x * X + s.centre.y * Y;
     const Real volume = static_cast<Real>(cell.x * cell.y * cell.z / unitLength);
-    const Real size = static_cast<Real>(footprint.size);
     if (footprint.kernel == Kernel::Point) {
-        // The whole mass on `size`^2 pixels: each is z^2 |X x Y| wide, seen at the ray's slant.
-        s.extent = size / 2;
+        // The whole mass on `side`^2 pixels: each is z^2 |X x Y| wide, seen at the ray's slant.
+        const Real side = static_cast<Real>(pointSide(footprint));
+        s.extent = side / 2;
         s.weight = volume * nearFade(s.depth, near) /
-                   (s.depth * s.depth * glm::length(X) * glm::length(Y) * size * size *
+                   (s.depth * s.depth * glm::length(X) * glm::length(Y) * side * side *
                     glm::length(Vec3(rays.axis)));
         return s;
     }

@@ -81,7 +81,7 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
 
 void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
                                const AxesMeshes& axes) {
-    const GLuint into = targets_->opaqueFramebuffer();
+    const GLuint into = targets_->lightFramebuffer();
     gl::begin({.framebuffer = into,
                .size = view.size,
                .clearColor = glm::vec4(glm::vec3(content.background), 1),
@@ -109,12 +109,13 @@ const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
 }
 
 void FrameRenderer::resolve(const Scene& scene, glm::ivec2 size) {
-    gl::begin({.framebuffer = targets_->lightFramebuffer(), .size = size});
+    gl::begin({.framebuffer = targets_->lightFramebuffer(),
+               .size = size,
+               .blend = gl::Blend::Premultiplied});
     glUseProgram(resolveProgram(scene).id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, splatter_.layerBlock().id());
     for (std::size_t i = 0; i < channelsFor(scene).size(); ++i)
         glBindTextureUnit(static_cast<GLuint>(i), targets_->plane(i).id());
-    glBindTextureUnit(kMaxLayers, targets_->opaqueColor().id());
     glBindVertexArray(noVertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -19,7 +19,7 @@ namespace {
 // GLSL mirror: SplatView in shaders/splat.vert.
 struct SplatViewBlock {
     glm::mat4 viewFromWorld;
-    glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel;
+    glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slope;
     glm::uvec4 lattice, clipLo, clipHi;
 };
 
@@ -31,7 +31,7 @@ struct LayerBlock {
 // How far, in pixels from its centre, any footprint of the scene reaches in this view; infinite
 // when the eye is among the points.
 double farthestReach(const Scene& scene, const View& view, const PixelRays& rays) {
-    if (scene.footprint.kernel == Kernel::Point) return scene.footprint.size / 2;
+    if (scene.footprint.kernel == Kernel::Point) return pointSide(scene.footprint) / 2.0;
     glm::dvec3 widest(0);
     for (int a = 0; a < 3; ++a)
         for (const double w : scene.lattice.widths()[a]) widest[a] = std::max(widest[a], w);
@@ -62,7 +62,8 @@ SplatViewBlock viewBlock(const Scene& scene, const View& view, const PixelRays& 
     b.window = {glm::vec2(rays.centre), glm::vec2(view.size)};
     b.depths = {rays.near, -clip[2][2], clip[3][2], guard};
     b.kernel = {scene.footprint.size * kQuarticRadius, kSmallestRadiusPixels,
-                1 / scene.lattice.unitLength(), scene.footprint.size};
+                1 / scene.lattice.unitLength(), static_cast<float>(pointSide(scene.footprint))};
+    b.slope = glm::vec4(glm::dvec4(1.0 / (rays.focal * rays.focal), 0, 0));
     b.lattice = {scene.lattice.size(), 0};
     b.clipLo = {scene.clip.lo, 0};
     b.clipHi = {scene.clip.hi, 0};

@@ -48,7 +48,7 @@ struct Layer {
 constexpr std::size_t kMaxLayers = 8;
 
 enum class Kernel {
-    Point,   // a square of `size` pixels
+    Point,   // a square of `size` pixels, rounded to whole ones
     Quartic  // (1 - q)^4, `size` times the radius that suits the spacing
 };
 struct Footprint {

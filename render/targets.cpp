@@ -48,11 +48,9 @@ std::vector<T> readPixels(GLuint framebuffer, glm::ivec2 size, GLenum format) {
 Targets::Targets(glm::ivec2 size)
     : size_(size),
       padded_(padded(size)),
-      opaqueColor_(GL_RGBA32F, padded_),
+      color_(GL_RGBA32F, padded_),
       depth_(GL_DEPTH_COMPONENT32F, padded_),
-      lightColor_(GL_RGBA32F, padded_),
-      opaque_(ids(opaqueColor_), depth_.id()),
-      light_(ids(lightColor_)) {}
+      light_(ids(color_), depth_.id()) {}
 
 GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
     const bool scalar = channels == Channels::Weight || channels == Channels::Count;
@@ -76,10 +74,6 @@ Image Targets::readLight() const {
 
 std::vector<float> Targets::readScalarPlane(std::size_t i) const {
     return flipped(readPixels<float>(planes_[i]->framebuffer.id(), size_, GL_RED), size_);
-}
-
-std::vector<float> Targets::readOpaqueDepth() const {
-    return readPixels<float>(opaque_.id(), size_, GL_DEPTH_COMPONENT);
 }
 
 }  // namespace render

@@ -18,8 +18,7 @@ class Targets {
     explicit Targets(glm::ivec2 size);
 
     glm::ivec2 size() const { return size_; }
-    GLuint opaqueFramebuffer() const { return opaque_.id(); }
-    const gl::Texture& opaqueColor() const { return opaqueColor_; }
+    // RGBA32F, linear, premultiplied; with the opaque scene's depth.
     GLuint lightFramebuffer() const { return light_.id(); }
 
     // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
@@ -30,8 +29,6 @@ class Targets {
     Image readLight() const;
     // Row 0 at the top, as in Image. REQUIRES: plane i is Weight or Count.
     std::vector<float> readScalarPlane(std::size_t i) const;
-    // Row 0 at the bottom, as a View counts.
-    std::vector<float> readOpaqueDepth() const;
 
  private:
     struct Plane {
@@ -40,8 +37,8 @@ class Targets {
         gl::Framebuffer framebuffer;
     };
     glm::ivec2 size_, padded_;
-    gl::Texture opaqueColor_, depth_, lightColor_;
-    gl::Framebuffer opaque_, light_;
+    gl::Texture color_, depth_;
+    gl::Framebuffer light_;
     std::vector<std::optional<Plane>> planes_;
 };
 

@@ -1,4 +1,4 @@
-// Accumulated sums -> linear premultiplied colour over the opaque scene. Window space.
+// Accumulated sums -> linear premultiplied colour, blended over the opaque scene. Window space.
 // The CPU's version is resolvePixel in render/cpu_splatter.h.
 // Variants: OVER (one plane, already composited), or LAYERS n: one plane each. Their number is known
 // when compiling, as samplers chosen at run time are slow.
@@ -12,7 +12,6 @@ layout(binding = 0) uniform sampler2D over;
 #elif LAYERS > 0
 layout(binding = 0) uniform sampler2D planes[LAYERS];
 #endif
-layout(binding = 8) uniform sampler2D opaque;
 
 layout(location = 0) out vec4 light;
 
@@ -24,10 +23,8 @@ float meanTransmission(float t) {
 
 void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy);
-    const vec4 behind = texelFetch(opaque, at, 0);
 #ifdef OVER
-    const vec4 volume = texelFetch(over, at, 0);
-    light = volume + (1.0 - volume.a) * behind;
+    light = texelFetch(over, at, 0);
 #else
     vec3 glow = vec3(0.0);
     float depth = 0.0;
@@ -41,9 +38,8 @@ void main() {
         glow += byValue ? perWeight * sum.rgb : tau * layers.style[k].rgb;
     }
 #endif
-    light = behind;
-    if (depth <= 0.0) return;
+    if (depth <= 0.0) discard;
     const float mean = meanTransmission(depth);
-    light = vec4(glow * mean, depth * mean) + (1.0 - depth * mean) * behind;
+    light = vec4(glow * mean, depth * mean);
 #endif
 }

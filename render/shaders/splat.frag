@@ -4,7 +4,7 @@
 
 layout(std140, binding = 0) uniform SplatView {
     mat4 viewFromWorld;
-    vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel;
+    vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slope;
     uvec4 lattice, clipLo, clipHi;
 } view;
 
@@ -31,8 +31,7 @@ float opacity(float x) {
 
 void main() {
     const vec2 at = gl_FragCoord.xy - view.window.xy;
-    const vec2 slope = at / vec2(view.perPixelX.w, view.perPixelY.w);
-    const float ray2 = 1.0 + dot(slope, slope);
+    const float ray2 = 1.0 + dot(at * at, view.slope.xy);
 #ifdef KERNEL_POINT
     const float w = centreAndWeight.z * sqrt(ray2);
 #else

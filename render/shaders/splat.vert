@@ -12,6 +12,7 @@ layout(std140, binding = 0) uniform SplatView {
     vec4 window;    // window position of the view axis, size in pixels
     vec4 depths;    // near; window depth = (y d + z) / d of view depth d: y, z; guard in pixels
     vec4 kernel;    // radius in cells, smallest radius in pixels, 1 / unit length, point's side in pixels
+    vec4 slope;     // squares of x / -z and y / -z per pixel
     uvec4 lattice;  // points along x, y, z
     uvec4 clipLo, clipHi;  // inclusive index box
 } view;
@@ -110,10 +111,13 @@ void main() {
     centreAndWeight = vec4(centre, volume / (depth * depth * length(X) * length(Y) * side * side),
                            depthPerWeight);
     quadN = vec4(0.0);
+    // On whole pixels: the rasteriser snaps positions to a fraction of a pixel, on borders wrongly.
+    const vec2 first = floor(centre + view.window.xy - 0.5 * (side - 1.0));
+    const vec2 middle = first + 0.5 * side - view.window.xy;
 #ifdef QUADS
-    place(centre, 0.5 * side - 0.5, depth);
+    place(middle, 0.5 * side - 0.5, depth);
 #else
-    place(centre, side, depth);
+    place(middle, side, depth);
 #endif
 #else
     const float pixel = depth * max(length(X), length(Y));

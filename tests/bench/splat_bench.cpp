@@ -3,11 +3,13 @@
 
 #include <glm/geometric.hpp>
 
+#include "render/cpu_splatter.h"
 #include "render/frame.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
 #include "render/gl_splatter.h"
+#include "render/image_compare.h"
 #include "tests/support/scenes.h"
 
 namespace {
@@ -62,6 +64,83 @@ void drawAndResolve(benchmark::State& state, Order order, bool byValue) {
 void BM_DrawUnordered(benchmark::State& state) { drawAndResolve(state, Order::None, false); }
 void BM_DrawByValue(benchmark::State& state) { drawAndResolve(state, Order::None, true); }
 void BM_DrawOrdered(benchmark::State& state) { drawAndResolve(state, Order::BackToFront, true); }
+
+// How far a frame is from the truth, as counters; the time is the truth's own. Optical depth: the
+// weights by GL against the CPU's in double. Light: linear RGB of the frame, with splats in both
+// orders, against the truth's own order; what is lost by not ordering is the difference.
+void BM_ErrorAgainstTruth(benchmark::State& state) {
+    const auto step = tests::noise(tests::cube(64));
+    const Lattice lattice(step.grid());
+    Scene scene{.step = step,
+                .lattice = lattice,
+                .layers = {{step.select(timeseries::RangeSet::parse("0.1:0.3")),
+                            {ByValue{{}, 0.1, 0.3}, static_cast<double>(state.range(0)) / 1000}}},
+                .footprint = {.kernel = state.range(1) != 0 ? Kernel::Quartic : Kernel::Point},
+                .order = Order::BackToFront,
+                .clip = {}};
+    const View view = tests::lookFrom({1, -3, 1}, {512, 512});
+    const glm::dvec3 eye = pixelRays(view).eye;
+    const std::size_t pixels = std::size_t(view.size.x) * view.size.y;
+    Accumulator<double> weights(view.size, {Channels::Weight}), over(view.size, {Channels::Over});
+    for (auto _ : state) {
+        splat(scene, Runs{}, view, {}, weights);
+        splat(scene, orderExactly(scene, eye), view, {}, over);
+    }
+    std::vector<double> truth;
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (int c = 0; c < 3; ++c) truth.push_back(over.planes[0][4 * i + c]);
+
+    const gl::HeadlessContext context;
+    GpuStep onGpu(step, lattice);
+    GlSplatter splatter;
+    Targets targets(view.size);
+    gl::begin({.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
+    const auto plane = [&](Channels channels) {
+        const auto list = splatter.upload(scene, order(scene, eye), onGpu);
+        splatter.draw(*list, view, channels, 0, targets.clearedPlane(0, channels));
+        const bool scalar = channels == Channels::Weight;
+        std::vector<float> read(pixels * (scalar ? 1 : 4));
+        glGetTextureSubImage(targets.plane(0).id(), 0, 0, 0, 0, view.size.x, view.size.y, 1,
+                             scalar ? GL_RED : GL_RGBA, GL_FLOAT,
+                             static_cast<GLsizei>(read.size() * sizeof(float)), read.data());
+        return read;
+    };
+    const auto light = [&](const auto& rgbAt) {
+        std::vector<double> rgb;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const glm::dvec3 c = rgbAt(i);
+            rgb.insert(rgb.end(), {c.r, c.g, c.b});
+        }
+        return compareScalars(rgb, truth).relativeL2;
+    };
+    const auto ordered = plane(Channels::Over);
+    state.counters["ordered"] = light([&](std::size_t i) {
+        return glm::dvec3(ordered[4 * i], ordered[4 * i + 1], ordered[4 * i + 2]);
+    });
+    scene.order = Order::None;
+    state.counters["depth"] = compareScalars(plane(Channels::Weight), weights.planes[0]).relativeL2;
+    const auto colored = plane(Channels::WeightedColor);
+    const double tau = opticalDepthPerWeight(scene.layers[0].style.opacity);
+    double meanDepth = 0;
+    std::size_t covered = 0;
+    state.counters["unordered"] = light([&](std::size_t i) {
+        const auto w = static_cast<double>(colored[4 * i + 3]);
+        if (w <= 0) return glm::dvec3(0);
+        meanDepth += tau * w;
+        ++covered;
+        return glm::dvec3(colored[4 * i], colored[4 * i + 1], colored[4 * i + 2]) *
+               (-std::expm1(-tau * w) / w);
+    });
+    state.counters["meanTau"] = meanDepth / static_cast<double>(std::max<std::size_t>(covered, 1));
+}
+BENCHMARK(BM_ErrorAgainstTruth)
+    ->ArgNames({"opacity/1000", "kernel"})
+    ->Args({10, 1})
+    ->Args({100, 1})
+    ->Args({500, 1})
+    ->Args({100, 0})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 void splatsAndDiameters(benchmark::internal::Benchmark* b) {
     b->Args({1, 8})

@@ -23,7 +23,7 @@ class GlTest : public testing::Test {
                              render::Channels channels, float opaqueDepth = 1) {
         using render::Channels;
         render::Targets targets(view.size);
-        render::gl::begin({.framebuffer = targets.opaqueFramebuffer(),
+        render::gl::begin({.framebuffer = targets.lightFramebuffer(),
                            .size = view.size,
                            .clearColor = glm::vec4(0),
                            .clearDepth = opaqueDepth});
