@@ -1,0 +1,28 @@
+#!/bin/bash
+# Makes the README's pictures again: app/gallery/make.sh [FOLDER], the folder with the data sets that
+# the project does not ship (app/gallery/README.md says where they are from). What is not there is
+# skipped.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+data=${1:-}
+picture() {
+    local file=$1 out=app/gallery/$2; shift 2
+    if [[ -f $file ]]; then ./run render "$file" -o "$out" "$@"; else echo "skipped: $out needs $file"; fi
+}
+
+picture datasets/pool_fire_T.nc pool_fire.png --size 1000x750 --step 14 --order depth \
+    --range 320:400 --color '#5b9bd5' --opacity 0.05 \
+    --range 600:1000 --color '#e0562b' --opacity 0.12 \
+    --range 1000:max --color '#ffe08a' --opacity 0.5
+picture datasets/pool_fire_T.nc pool_fire_stereo.png --step 14 --order depth --size 700x700 \
+    --range 500:max --colormap inferno --opacity 0.2 --stereo side-by-side
+picture "$data/woa_temp_monthly_f32.nc" ocean.png --size 1000x750 --step 7 --order depth --view 0,40 \
+    --range 18:22 --color '#56b4e9' --opacity 0.12 \
+    --range 28:max --color '#e69f00' --opacity 0.5 --scale 1,1,0.06
+picture "$data/viscous_fingers_demo.nc" viscous_fingers.png --size 1000x750 --step 12 --order depth --view 25,12 \
+    --range 15:60 --colormap viridis --opacity 0.06 \
+    --range 60:max --color '#e69f00' --opacity 0.08
+picture "$data/viscous_fingers_demo.nc" viscous_fingers_stereo.png --step 12 --order depth \
+    --view 25,12 --size 700x700 --range 25~5 --colormap cividis --opacity 0.1 --stereo side-by-side
+picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --order depth --view 0,50 \
+    --range 0.95:max --colormap viridis --opacity 0.35 --scale 1,1,0.0004
