@@ -11,7 +11,10 @@
 namespace timeseries {
 namespace {
 
-enum class FileFormat { Netcdf };
+using namespace std::string_view_literals;
+
+// The longest beginning that any format is told by.
+constexpr std::size_t kMagicBytes = 64;
 
 std::string beginning(const std::filesystem::path& path) {
     const auto fail = [&](std::string_view what) {
@@ -23,21 +26,37 @@ std::string beginning(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(status)) fail("expected a file, but it is a folder");
     if (!std::filesystem::is_regular_file(status)) fail("expected an ordinary file");
     std::ifstream file(path, std::ios::binary);
-    std::string start(8, '\0');
-    file.read(start.data(), 8);
+    std::string start(kMagicBytes, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(kMagicBytes));
     if (file.bad() || !file.is_open()) fail("expected a file that can be read");
     start.resize(static_cast<std::size_t>(file.gcount()));
     return start;
 }
 
-FileFormat recognise(const std::filesystem::path& path) {
-    using namespace std::string_view_literals;
+struct Format {
+    std::string_view expected;  // what a file of this format is and how it begins, for messages
+    bool (*begins)(std::string_view start);
+    std::unique_ptr<Reader> (*open)(std::span<const std::filesystem::path> paths);
+};
+
+const std::array kFormats = {
+    Format{"a NetCDF file, which begins with CDF (classic) or \\x89HDF (NetCDF-4)",
+           [](std::string_view start) {
+               return start.starts_with("CDF\1"sv) || start.starts_with("CDF\2"sv) ||
+                      start.starts_with("CDF\5"sv) || start.starts_with("\x89HDF\r\n\x1a\n"sv);
+           },
+           openNetcdf},
+};
+
+const Format& recognise(const std::filesystem::path& path) {
     const std::string start = beginning(path);
-    for (const std::string_view magic : {"CDF\1"sv, "CDF\2"sv, "CDF\5"sv, "\x89HDF\r\n\x1a\n"sv})
-        if (start.starts_with(magic)) return FileFormat::Netcdf;
-    throw FileError(fmt::format(
-        "{}: expected a NetCDF file, which begins with CDF (classic) or \\x89HDF (NetCDF-4){}",
-        path.string(), start.empty() ? ", but it is empty" : ""));
+    std::string expected;
+    for (const Format& format : kFormats) {
+        if (format.begins(start)) return format;
+        expected += fmt::format("{}{}", expected.empty() ? "" : ", or ", format.expected);
+    }
+    throw FileError(fmt::format("{}: expected {}{}", path.string(), expected,
+                                start.empty() ? ", but it is empty" : ""));
 }
 
 }  // namespace
@@ -45,8 +64,13 @@ FileFormat recognise(const std::filesystem::path& path) {
 std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths) {
     if (paths.empty()) throw FileError("expected a file to open, but none is named");
     // All of them first: a wrong file among many is told before any is read.
-    for (const std::filesystem::path& path : paths) recognise(path);
-    return openNetcdf(paths);
+    const Format& format = recognise(paths.front());
+    for (const std::filesystem::path& path : paths)
+        if (&recognise(path) != &format)
+            throw FileError(
+                fmt::format("{}: expected the format of {}, so that they make one series",
+                            path.string(), paths.front().string()));
+    return format.open(paths);
 }
 
 }  // namespace timeseries
