@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,6 +6,7 @@
 #include "app/commands.h"
 #include "app/dataset.h"
 #include "app/json_text.h"
+#include "app/progress.h"
 
 namespace app {
 namespace {
@@ -86,15 +86,17 @@ int count(const CountOptions& options) {
     const auto steps = stepsOf(dataset, options.steps);
     std::vector<Row> rows;
     if (!options.json) printHead(dataset, ranges);
-    for (const std::size_t step : steps) {
-        if (options.json && isatty(STDERR_FILENO))
-            fmt::print(stderr, "\rstep {} of {} ", rows.size() + 1, steps.size());
-        const SortedStep sorted =
-            SortedStep::build(dataset.reader->read(dataset.variable, step), kept);
-        rows.push_back({step, sorted.statistics(), sorted.count(ranges)});
-        if (!options.json) print(dataset, rows.back());
+    {
+        // The table shows by itself how far it is.
+        const Progress progress("step", options.json ? steps.size() : 0);
+        for (const std::size_t step : steps) {
+            progress.at(rows.size());
+            const SortedStep sorted =
+                SortedStep::build(dataset.reader->read(dataset.variable, step), kept);
+            rows.push_back({step, sorted.statistics(), sorted.count(ranges)});
+            if (!options.json) print(dataset, rows.back());
+        }
     }
-    if (options.json && isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
     if (options.json) fmt::print("{}\n", jsonText(json(dataset, ranges, rows), 2));
     return 0;
 }

@@ -1,6 +1,5 @@
 // `isochron render`: steps in, picture files out; no window.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +10,7 @@
 #include "app/json_text.h"
 #include "app/picture.h"
 #include "app/picture_files.h"
+#include "app/progress.h"
 #include "app/session.h"
 #include "app/step_source.h"
 #include "render/color.h"
@@ -85,6 +85,48 @@ void tellStyle(const Explorer& e, const timeseries::Variable& about) {
     for (const LayerChoice& layer : e.layers) tell(layer.ranges, layer);
 }
 
+void tellFiles(const Frames& frames, Stereo stereo, const timeseries::Variable& about) {
+    const fs::path first = filesOf(frames.front().file, stereo).front();
+    const fs::path last = filesOf(frames.back().file, stereo).back();
+    const std::string from = timeText(*about.time, frames.front().step);
+    if (frames.size() == 1) {
+        fmt::print("{}{}: {}, {}\n", first.string(),
+                   first == last ? "" : " and " + last.filename().string(), about.name, from);
+    } else {
+        fmt::print("{} to {}: {}, {} to {}\n", first.string(), last.filename().string(), about.name,
+                   from, timeText(*about.time, frames.back().step));
+    }
+}
+
+// Draws and writes every frame. What stays from one frame to the next is the step and its place on
+// the GPU.
+void drawFrames(const RenderOptions& options, const Explorer& e, const timeseries::Variable& about,
+                const Frames& frames, StepSource& source) {
+    render::FrameRenderer renderer;
+    std::shared_ptr<const SortedStep> shown;
+    std::optional<render::Lattice> lattice;
+    std::optional<render::GpuStep> onGpu;
+    const Progress progress("picture", frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        progress.at(i);
+        const FrameAt frame = frames[i];
+        const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
+        if (step != shown) {
+            shown = step;
+            lattice.emplace(step->grid(), e.scale);
+            onGpu.emplace(*step, *lattice);
+        }
+        const auto views = eyes(e.view, e.stereo, lattice->boxHalf(), e.size);
+        const Picture picture = makePicture(e, about, frame.step, *step, *lattice, frame.tick);
+        const Explorer alone = onlyThis(e, frame.step, *step, frame.tick);
+        auto eyePictures = renderer.render(
+            {picture.scene, step->grid(), picture.legend, kBackground}, *onGpu, views,
+            {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
+        write(frame.file, e.stereo.mode, std::move(eyePictures),
+              {{"isochronSession", jsonText(toJson(alone, frame.file.parent_path()), -1)}});
+    }
+}
+
 }  // namespace
 
 int renderHeadless(const RenderOptions& options) {
@@ -96,44 +138,9 @@ int renderHeadless(const RenderOptions& options) {
     StepSource source(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
     if (needsSamples(e)) e = resolved(e, sample(source, steps));
     const render::gl::HeadlessContext context(options.device);
-    render::FrameRenderer renderer;
     const Frames frames(options.output, e, steps);
-
-    std::shared_ptr<const SortedStep> shown;
-    std::optional<render::Lattice> lattice;
-    std::optional<render::GpuStep> onGpu;
-    const bool terminal = isatty(STDERR_FILENO) && frames.size() > 1;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const FrameAt frame = frames[i];
-        if (terminal) fmt::print(stderr, "\rpicture {} of {} ", i + 1, frames.size());
-        const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
-        if (step != shown) {
-            shown = step;
-            lattice.emplace(step->grid(), e.scale);
-            onGpu.emplace(*step, *lattice);
-        }
-        const auto views = eyes(e.view, e.stereo, lattice->boxHalf(), e.size);
-        const Picture picture =
-            makePicture(e, dataset.about, frame.step, *step, *lattice, frame.tick);
-        const Explorer alone = onlyThis(e, frame.step, *step, frame.tick);
-        auto eyePictures = renderer.render(
-            {picture.scene, step->grid(), picture.legend, kBackground}, *onGpu, views,
-            {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
-        write(frame.file, e.stereo.mode, std::move(eyePictures),
-              {{"isochronSession", jsonText(toJson(alone, frame.file.parent_path()), -1)}});
-    }
-    if (terminal) fmt::print(stderr, "\r\033[K");
-    const fs::path first = filesOf(frames.front().file, e.stereo.mode).front();
-    const fs::path last = filesOf(frames.back().file, e.stereo.mode).back();
-    if (frames.size() == 1) {
-        fmt::print("{}{}: {}, {}\n", first.string(),
-                   first == last ? "" : " and " + last.filename().string(), dataset.about.name,
-                   timeText(*dataset.about.time, frames[0].step));
-    } else {
-        fmt::print("{} to {}: {}, {} to {}\n", first.string(), last.filename().string(),
-                   dataset.about.name, timeText(*dataset.about.time, frames.front().step),
-                   timeText(*dataset.about.time, frames.back().step));
-    }
+    drawFrames(options, e, dataset.about, frames, source);
+    tellFiles(frames, e.stereo.mode, dataset.about);
     tellStyle(e, dataset.about);
     if (e.sweep && e.sweep->frequency > 0)
         fmt::print("  {:.4g} pictures a second show it at {:g} cycles a second\n",

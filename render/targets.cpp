@@ -45,12 +45,17 @@ std::vector<T> readPixels(GLuint framebuffer, glm::ivec2 size, GLenum format) {
 
 }  // namespace
 
-Targets::Targets(glm::ivec2 size)
+Targets::Targets(glm::ivec2 size) try
     : size_(size),
       padded_(padded(size)),
       color_(GL_RGBA32F, padded_),
       depth_(GL_DEPTH_COMPONENT32F, padded_),
-      light_(ids(color_), depth_.id()) {}
+      light_(ids(color_), depth_.id()) {
+} catch (const std::runtime_error& error) {
+    // Most often memory: the driver's own words do not say for what.
+    throw std::runtime_error(
+        fmt::format("no room for a picture of {} x {} pixels: {}", size.x, size.y, error.what()));
+}
 
 GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
     const bool scalar = channels == Channels::Weight || channels == Channels::Count;

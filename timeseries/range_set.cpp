@@ -47,15 +47,9 @@ bool floatInterval(const Range& range, Interval<T>& out) {
     };
     bool beyond = false;
     T lo = nearest(range.lo.value, kInf, -kMax, beyond);
-    if (range.lo.open && !beyond) {
-        if (lo == kInf) return false;
-        lo = std::nextafter(lo, kInf);
-    }
+    if (range.lo.open && !beyond) lo = std::nextafter(lo, kInf);
     T hi = nearest(range.hi.value, kMax, -kInf, beyond);
-    if (range.hi.open && !beyond) {
-        if (hi == -kInf) return false;
-        hi = std::nextafter(hi, -kInf);
-    }
+    if (range.hi.open && !beyond) hi = std::nextafter(hi, -kInf);
     out = {lo, hi};
     return lo <= hi;  // false for NaN
 }
