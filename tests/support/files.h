@@ -1,8 +1,11 @@
 // Small files for tests, all inside the test's own folder.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -12,15 +15,38 @@
 
 namespace test_support {
 
-// An empty folder of the running test, under TempDir.
-inline std::filesystem::path freshFolder() {
+// This process's folder under TempDir, removed when it ends: tests run side by side, builds too.
+class ProcessFolder {
+ public:
+    static const std::filesystem::path& path() {
+        static const ProcessFolder folder;
+        return folder.path_;
+    }
+    ~ProcessFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+ private:
+    ProcessFolder()
+        : path_(std::filesystem::path(testing::TempDir()) / fmt::format("isochron-{}", getpid())) {}
+    std::filesystem::path path_;
+};
+
+// A folder of the running test alone.
+inline std::filesystem::path testFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) /
-        (std::string(test->test_suite_name()) + "." + test->name());
-    std::filesystem::remove_all(folder);
+    std::string name = fmt::format("{}.{}", test->test_suite_name(), test->name());
+    std::replace(name.begin(), name.end(), '/', '-');  // of parameterised tests
+    const std::filesystem::path folder = ProcessFolder::path() / name;
     std::filesystem::create_directories(folder);
     return folder;
+}
+
+// The same, emptied.
+inline std::filesystem::path freshFolder() {
+    std::filesystem::remove_all(testFolder());
+    return testFolder();
 }
 
 inline std::string readBytes(const std::filesystem::path& file) {

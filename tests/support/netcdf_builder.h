@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/support/files.h"
+
 namespace support {
 
 template <typename T>
@@ -29,11 +31,9 @@ constexpr nc_type ncType() {
 // Declare dimensions, variables and attributes, then write; the file is whole after close().
 class NetcdfBuilder {
  public:
-    // A name of its own for each test, in the temporary folder.
+    // In the test's own folder.
     explicit NetcdfBuilder(const std::string& name, int mode = NC_NETCDF4) {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        path_ = std::filesystem::path(testing::TempDir()) /
-                (std::string(test->test_suite_name()) + "_" + test->name() + "_" + name);
+        path_ = test_support::testFolder() / name;
         check(nc_create(path_.c_str(), mode | NC_CLOBBER, &id_));
     }
     ~NetcdfBuilder() {
