@@ -418,6 +418,19 @@ TEST(Axes, AllThreeAreNamedFromEveryCornerView) {
     }
 }
 
+TEST(Axes, DegreesOfManyCirclesAreNumberedSparsely) {
+    for (const double step : {500.0, 1e12, 1e300}) {
+        Axis lon = tests::axis(6, 0, step);
+        lon.units = "degrees_east";
+        const Grid grid({lon, tests::axis(5), tests::axis(4)});
+        const glm::ivec2 size(800, 600);
+        const glm::dvec3 eye(0.5, -4, 1);
+        const AxesMeshes meshes =
+            axesMeshes(grid, Lattice(grid), lookFrom(eye, size), eye, fontFor(size));
+        EXPECT_LT(meshes.before.triangles().size(), 6u * 60) << step;
+    }
+}
+
 TEST(Axes, LabelsKeepOffTheLegend) {
     const glm::ivec2 size(800, 600);
     const glm::dvec3 eye = eyeAt(-60, 25, 3.4);
