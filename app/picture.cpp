@@ -226,7 +226,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
     if (const std::string unit = render::shownUnit(about.units); !unit.empty())
         picture.legend.title += " (" + unit + ")";
     const std::size_t steps = about.time->points.size();
-    const bool timed = about.time->name != "step";
+    const bool timed = !about.time->counted;
     if (timed) picture.legend.time = timeText(*about.time, stepIndex);
     if (steps > 1)
         picture.legend.time +=

@@ -200,13 +200,13 @@ TEST_F(PictureOfARamp, TitlesFallBackToTheNameAndLeaveOutUnitsOfNone) {
     about_.units = "1";
     EXPECT_EQ(pictureOf({}).legend.title, "T");
     about_.time = std::make_shared<const timeseries::TimeAxis>(
-        timeseries::TimeAxis{"step", "", "", {{0, ""}, {1, ""}}});
+        timeseries::TimeAxis{"step", "", "", {{0, ""}, {1, ""}}, true});
     EXPECT_EQ(pictureOf({}).legend.time, "step 1 of 0–1");
 }
 
 TEST_F(PictureOfARamp, OneUncountedStepHasNoTimeToState) {
     about_.time = std::make_shared<const timeseries::TimeAxis>(
-        timeseries::TimeAxis{"step", "", "", {{0, ""}}});
+        timeseries::TimeAxis{"step", "", "", {{0, ""}}, true});
     const Picture p = makePicture(resolved({}, steps_), about_, 0, *step_, lattice_);
     EXPECT_EQ(p.legend.time, "");
 }
