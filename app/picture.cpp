@@ -45,7 +45,7 @@ Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
 std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
     std::uint64_t most = 0;
     for (const auto& [index, step] : sampled)
-        most = std::max(most, step->count(timeseries::intersectionOf(ranges, step->kept())));
+        most = std::max(most, step->count(step->keptPart(ranges)));
     return most;
 }
 
@@ -91,8 +91,7 @@ render::RangeStyle rangeStyle(const LayerChoice& layer) {
 
 // The window reaches beyond the animation's ends; only what was kept can be shown.
 RangeSet sweptRanges(const Explorer& e, const SortedStep& step, std::int64_t tick) {
-    const RangeSet window(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)});
-    return timeseries::intersectionOf(window, step.kept());
+    return step.keptPart(RangeSet(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)}));
 }
 
 }  // namespace
@@ -141,7 +140,7 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
                 layer.color = first.color;
             else if (map && chosen)
                 *map = {map->map, chosen->lo, chosen->hi};
-            if (e.keep) layer.ranges = timeseries::intersectionOf(layer.ranges, *e.keep);
+            if (!sampled.empty()) layer.ranges = sampled.begin()->second->keptPart(layer.ranges);
         }
         style(layer, finiteEnds(layer.ranges, data), place++, count);
         if (!layer.opacity) layer.opacity = opacityFor(mostSelected(layer.ranges, sampled));

@@ -260,6 +260,27 @@ TEST_F(PictureOfARamp, TheSweptWindowIsCutToWhatWasKept) {
                                                  "6 points, 0.6 %", "0 points, 0 %"}));
 }
 
+TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {
+    // The least double above 600 is 600 as a float, which was dropped.
+    const auto step = ramp(0, RangeSet::parse("(600,900)"));
+    Explorer e;
+    e.keep = RangeSet::parse("(600,900)");
+    e.sweep.emplace();
+    e.sweep->animation = *e.keep;
+    e.sweep->timerSteps = 3;
+    for (const double delta : {0.0, 1e-9, 2.0}) {
+        e.sweep->delta = delta;
+        const Explorer whole = resolved(e, {{1, step}});
+        for (std::int64_t tick = 0; tick < 3; ++tick) {
+            const Picture picture = makePicture(whole, about_, 1, *step, lattice_, tick);
+            EXPECT_EQ(picture.scene.layers.size(), 1u);
+            const Explorer alone = onlyThis(whole, 1, *step, tick);
+            EXPECT_EQ(makePicture(alone, about_, 1, *step, lattice_, tick).scene.layers[0].runs,
+                      picture.scene.layers[0].runs);
+        }
+    }
+}
+
 TEST_F(PictureOfARamp, OneTickAloneIsTheSamePictureWithoutASweep) {
     Explorer e = withRanges({"0:9"});
     e.sweep.emplace();
