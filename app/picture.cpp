@@ -34,12 +34,17 @@ Quantiles quantilesOf(const Steps& sampled) {
     return rows;
 }
 
-// Ends of a layer in doubles; infinite ones are the samples'.
+// Ends of a layer in doubles, in order; infinite ones are the samples', or, where the layer lies
+// beyond these, its other end.
 Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
     if (ranges.empty()) return data;
     const double lo = timeseries::toDouble(ranges.ranges().front().lo.value);
     const double hi = timeseries::toDouble(ranges.ranges().back().hi.value);
-    return {std::isfinite(lo) ? lo : data.lo, std::isfinite(hi) ? hi : data.hi};
+    const bool low = std::isfinite(lo), high = std::isfinite(hi);
+    if (low && high) return {lo, hi};
+    if (low) return {lo, std::max(data.hi, lo)};
+    if (high) return {std::min(data.lo, hi), hi};
+    return data;
 }
 
 std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {

@@ -281,6 +281,15 @@ TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {
     }
 }
 
+TEST_F(PictureOfARamp, AMapOfARangeBeyondTheDataHasItsEndsInOrder) {
+    for (const auto& [range, end] : {std::pair("2000:max", 2000.0), std::pair("min:-5", -5.0)}) {
+        const Explorer e = resolved(withRanges({range}), steps_);
+        const auto& map = std::get<MapChoice>(*e.layers[0].color);
+        EXPECT_EQ(*map.lo, end);
+        EXPECT_EQ(*map.hi, end);
+    }
+}
+
 TEST_F(PictureOfARamp, OneTickAloneIsTheSamePictureWithoutASweep) {
     Explorer e = withRanges({"0:9"});
     e.sweep.emplace();
