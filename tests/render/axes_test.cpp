@@ -64,6 +64,9 @@ TEST(NiceTicks, OfTenthsAreTheLiteralsOnePrints) {
 }
 
 TEST(NiceTicks, SurviveTheEndsOfDouble) {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    for (int wanted = 1; wanted < 10; ++wanted)
+        EXPECT_LE(niceTicks(-kMost, kMost, wanted).size(), 2.5 * wanted + 1) << wanted;
     EXPECT_EQ(niceTicks(3.7, 3.7, 5), std::vector<double>{3.7});
     EXPECT_EQ(niceTicks(0, 0, 1), std::vector<double>{0});
     EXPECT_EQ(niceTicks(-1.5e308, 1.5e308, 3), (std::vector<double>{-1e308, 0, 1e308}));
