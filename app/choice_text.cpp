@@ -149,9 +149,11 @@ glm::dvec3 parseScale(std::string_view text) {
 
 ViewChoice parseView(std::string_view text) {
     const auto n = numbers(text);
-    if (!n || n->size() < 2 || n->size() > 3 || (n->size() == 3 && !((*n)[2] > 0)))
+    if (!n || n->size() < 2 || n->size() > 3 ||
+        (n->size() == 3 && !((*n)[2] >= kNearest && (*n)[2] <= kFarthest)))
         throw ChoiceError(fmt::format(
-            "view '{}' is not azimuth,elevation in degrees, with a distance > 0 if wanted", text));
+            "view '{}' is not azimuth,elevation in degrees, with a distance of {} to {} if wanted",
+            text, kNearest, kFarthest));
     ViewChoice view{(*n)[0], (*n)[1], {}};
     if (n->size() == 3) view.distance = (*n)[2];
     return view;

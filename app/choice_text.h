@@ -25,7 +25,10 @@ std::string clipText(const ClipBox& clip);
 
 glm::dvec3 parseScale(std::string_view text);  // "1,1,20", each > 0
 ViewChoice parseView(std::string_view text);   // "30,20" or "30,20,4.5"
-glm::ivec2 parseSize(std::string_view text);   // "1200x900"
+// What an eye's distance may be, to the centre and to zero parallax, in half diagonals: beyond, the
+// box has no depth left.
+inline constexpr double kNearest = 1e-6, kFarthest = 1e6;
+glm::ivec2 parseSize(std::string_view text);  // "1200x900"
 render::ColorMap parseColorMap(std::string_view name);
 
 Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multiview left-right

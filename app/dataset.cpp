@@ -41,7 +41,7 @@ std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choic
 std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
     const timeseries::TimePoint& point = axis.points[step];
     if (!point.date.empty()) return point.date;
-    if (axis.name == "step") return fmt::format("step {}", step);
+    if (axis.counted) return fmt::format("step {}", step);
     return render::shownUnit(axis.units).empty()
                ? fmt::format("{} {:.10g}", axis.name, point.value)
                : fmt::format("{:.10g} {}", point.value, axis.units);

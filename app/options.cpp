@@ -118,9 +118,9 @@ void addRender(CLI::App& app, RenderText& into) {
     app.add_option("--stereo", into.stereo,
                    "off, side-by-side, top-bottom, multiview (one EXR), left-right (two files)");
     app.add_option("--eye-distance", into.eyeDistance, "In half diagonals of the box")
-        ->check(between(0, kMost));
+        ->check(between(0, kFarthest));
     app.add_option("--convergence", into.convergence, "Distance of zero parallax, likewise")
-        ->check(between(1e-6, 1e6));
+        ->check(between(kNearest, kFarthest));
     app.add_option("--channel", into.channels, "A further EXR channel: opticalDepth, splatCount")
         ->allow_extra_args(false)
         ->check(CLI::IsMember({"opticalDepth", "splatCount"}));

@@ -34,18 +34,23 @@ Quantiles quantilesOf(const Steps& sampled) {
     return rows;
 }
 
-// Ends of a layer in doubles; infinite ones are the samples'.
+// Ends of a layer in doubles, in order; infinite ones are the samples', or, where the layer lies
+// beyond these, its other end.
 Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
     if (ranges.empty()) return data;
     const double lo = timeseries::toDouble(ranges.ranges().front().lo.value);
     const double hi = timeseries::toDouble(ranges.ranges().back().hi.value);
-    return {std::isfinite(lo) ? lo : data.lo, std::isfinite(hi) ? hi : data.hi};
+    const bool low = std::isfinite(lo), high = std::isfinite(hi);
+    if (low && high) return {lo, hi};
+    if (low) return {lo, std::max(data.hi, lo)};
+    if (high) return {std::min(data.lo, hi), hi};
+    return data;
 }
 
 std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
     std::uint64_t most = 0;
     for (const auto& [index, step] : sampled)
-        most = std::max(most, step->count(timeseries::intersectionOf(ranges, step->kept())));
+        most = std::max(most, step->count(step->keptPart(ranges)));
     return most;
 }
 
@@ -91,8 +96,7 @@ render::RangeStyle rangeStyle(const LayerChoice& layer) {
 
 // The window reaches beyond the animation's ends; only what was kept can be shown.
 RangeSet sweptRanges(const Explorer& e, const SortedStep& step, std::int64_t tick) {
-    const RangeSet window(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)});
-    return timeseries::intersectionOf(window, step.kept());
+    return step.keptPart(RangeSet(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)}));
 }
 
 }  // namespace
@@ -141,7 +145,7 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
                 layer.color = first.color;
             else if (map && chosen)
                 *map = {map->map, chosen->lo, chosen->hi};
-            if (e.keep) layer.ranges = timeseries::intersectionOf(layer.ranges, *e.keep);
+            if (!sampled.empty()) layer.ranges = sampled.begin()->second->keptPart(layer.ranges);
         }
         style(layer, finiteEnds(layer.ranges, data), place++, count);
         if (!layer.opacity) layer.opacity = opacityFor(mostSelected(layer.ranges, sampled));
@@ -226,7 +230,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
     if (const std::string unit = render::shownUnit(about.units); !unit.empty())
         picture.legend.title += " (" + unit + ")";
     const std::size_t steps = about.time->points.size();
-    const bool timed = about.time->name != "step";
+    const bool timed = !about.time->counted;
     if (timed) picture.legend.time = timeText(*about.time, stepIndex);
     if (steps > 1)
         picture.legend.time +=

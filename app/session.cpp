@@ -85,9 +85,9 @@ class Object {
     std::set<std::string> known_;
 };
 
-double finite(double value, const char* what, double above) {
-    if (!std::isfinite(value) || value < above)
-        throw ChoiceError(fmt::format("{} {} is not a number of at least {}", what, value, above));
+double within(double value, const char* what, double lo, double hi) {
+    if (!(value >= lo && value <= hi))
+        throw ChoiceError(fmt::format("{} {} is not a number from {} to {}", what, value, lo, hi));
     return value;
 }
 
@@ -224,7 +224,8 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
                                       render::kMaxLayers));
     object.read<std::string>("splat",
                              [&](const std::string& s) { e.footprint.kernel = parseKernel(s); });
-    object.read<double>("splatSize", [&](double s) { e.footprint.size = finite(s, "size", 1e-6); });
+    object.read<double>("splatSize",
+                        [&](double s) { e.footprint.size = within(s, "size", 1e-3, 1e3); });
     object.read<std::string>("order", [&](const std::string& o) { e.order = parseOrder(o); });
     object.read<std::string>("clip", [&](const std::string& c) { e.clip = parseClip(c); });
     object.read<std::vector<double>>("scale", [&](const std::vector<double>& s) {
@@ -234,18 +235,20 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
         Object view(v, object.place("view"));
         view.read<double>("azimuth", [&](double d) { e.view.azimuthDegrees = d; });
         view.read<double>("elevation", [&](double d) { e.view.elevationDegrees = d; });
-        view.read<double>("distance",
-                          [&](double d) { e.view.distance = finite(d, "distance", 1e-6); });
+        view.read<double>("distance", [&](double d) {
+            e.view.distance = within(d, "distance", kNearest, kFarthest);
+        });
         view.refuseOthers();
     });
     object.read<json>("stereo", [&](const json& v) {
         Object stereo(v, object.place("stereo"));
         stereo.read<std::string>("mode",
                                  [&](const std::string& m) { e.stereo.mode = parseStereo(m); });
-        stereo.read<double>("eyeDistance",
-                            [&](double d) { e.stereo.eyeDistance = finite(d, "eye distance", 0); });
+        stereo.read<double>("eyeDistance", [&](double d) {
+            e.stereo.eyeDistance = within(d, "eye distance", 0, kFarthest);
+        });
         stereo.read<double>("convergence", [&](double d) {
-            e.stereo.convergence = finite(d, "convergence", 1e-6);
+            e.stereo.convergence = within(d, "convergence", kNearest, kFarthest);
         });
         stereo.refuseOthers();
     });

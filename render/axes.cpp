@@ -232,13 +232,13 @@ bool crowded(const std::vector<Label>& labels, double apart) {
     return false;
 }
 
-// Degrees divide a circle rather than a ten.
+// Degrees divide a circle rather than a ten; none where they pass many circles.
 std::vector<double> degreeTicks(double lo, double hi, int wanted) {
     double best = 0, least = std::numeric_limits<double>::infinity();
     for (const double step : {10.0, 20.0, 30.0, 60.0, 90.0, 180.0}) {
         const double count = std::floor(hi / step) - std::ceil(lo / step) + 1;
         const double off = std::abs(std::log(count / wanted));
-        if (count >= 1 && off < least) {
+        if (count >= 1 && count <= 3 * wanted && off < least) {
             least = off;
             best = step;
         }
@@ -270,10 +270,11 @@ void chooseTicks(const Page& page, const Screen& screen, ShownAxis& shown) {
     double first = std::min(axis.coordinates.front(), axis.coordinates.back());
     double last = std::max(axis.coordinates.front(), axis.coordinates.back());
     // Coordinates come from files as floats or as sums: an end a rounding short of 1 is 1.
-    const double slack = 1e-6 * (last - first);
+    const double slack = 1e-6 * last - 1e-6 * first;
     const glm::dvec2 fractions = axis.down ? glm::dvec2(1 - part->y, 1 - part->x) : *part;
-    const double lo = glm::mix(first, last, fractions[0]) - slack;
-    const double hi = glm::mix(first, last, fractions[1]) + slack;
+    constexpr double kMost = std::numeric_limits<double>::max();
+    const double lo = std::max(glm::mix(first, last, fractions[0]) - slack, -kMost);
+    const double hi = std::min(glm::mix(first, last, fractions[1]) + slack, kMost);
     const double pixels = glm::distance(glm::dvec2(screen.pixel(glm::mix(a, b, part->x))),
                                         glm::dvec2(screen.pixel(glm::mix(a, b, part->y))));
     const glm::dvec2 out = outward(page, screen, shown.edge, *part);

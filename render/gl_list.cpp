@@ -17,17 +17,12 @@ struct SortedPoint {
     std::uint32_t layer;
 };
 
-float normalised(double value, const ValueScale& scale) {
-    return static_cast<float>(std::clamp((value - scale.lo) * scale.perUnit, 0.0, 1.0));
-}
-
 std::vector<SortedPoint> gathered(const Scene& scene, const Sorted& list, const ValueScale& scale) {
     std::vector<SortedPoint> out;
     out.reserve(list.point.size());
     for (std::size_t i = 0; i < list.point.size(); ++i) {
         const std::uint32_t p = list.point[i];
-        out.push_back({scene.step.gridIndex()[p],
-                       normalised(timeseries::toDouble(scene.step.value(p)), scale),
+        out.push_back({scene.step.gridIndex()[p], scale(timeseries::toDouble(scene.step.value(p))),
                        list.layer[i]});
     }
     return out;
@@ -53,21 +48,22 @@ const timeseries::SortedStep& drawable(const timeseries::SortedStep& step) {
 
 }  // namespace
 
-ValueScale ValueScale::of(const timeseries::SortedStep& step) {
-    // Infinite values take the ends of the finite ones.
-    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-    for (std::uint64_t i = 0; i < step.size() && !std::isfinite(lo); ++i) {
-        const double v = timeseries::toDouble(step.value(i));
-        if (std::isfinite(v)) lo = v;
+ValueScale ValueScale::of(const std::vector<Layer>& layers) {
+    ValueScale narrowest;
+    for (const Layer& layer : layers) {
+        const auto* map = std::get_if<ByValue>(&layer.style.color);
+        if (map == nullptr) continue;
+        const double halfWidth = map->halfWidth();
+        if (halfWidth > 0 && (narrowest.halfWidth == 0 || halfWidth < narrowest.halfWidth))
+            narrowest = {map->lo, halfWidth};
     }
-    for (std::uint64_t i = step.size(); i > 0 && !std::isfinite(hi); --i) {
-        const double v = timeseries::toDouble(step.value(i - 1));
-        if (std::isfinite(v)) hi = v;
-    }
-    if (!std::isfinite(lo)) return {};
-    // Halves keep the difference of two huge values finite.
-    const double halfWidth = 0.5 * hi - 0.5 * lo;
-    return {lo, halfWidth > 0 ? 0.5 / halfWidth : 0};
+    return narrowest;
+}
+
+float ValueScale::operator()(double value) const {
+    if (halfWidth == 0) return 0;
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp((0.5 * value - 0.5 * lo) / halfWidth, -kMost, kMost));
 }
 
 GpuStep::GpuStep(const timeseries::SortedStep& step, const Lattice& lattice)
@@ -75,13 +71,13 @@ GpuStep::GpuStep(const timeseries::SortedStep& step, const Lattice& lattice)
       axisPoints_(std::span<const glm::vec2>(axisTable(lattice))),
       axisTexture_(GL_RG32F, axisPoints_) {}
 
-void GpuStep::needValues(const timeseries::SortedStep& step) {
-    if (values_) return;
-    const ValueScale scale = ValueScale::of(step);
+void GpuStep::needValues(const timeseries::SortedStep& step, const ValueScale& scale) {
+    if (values_ && scale == scale_) return;
     std::vector<float> values(step.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = normalised(timeseries::toDouble(step.value(i)), scale);
+        values[i] = scale(timeseries::toDouble(step.value(i)));
     values_.emplace(std::span<const float>(values));
+    scale_ = scale;
 }
 
 std::size_t GpuStep::bytes() const {

@@ -84,6 +84,16 @@ const char* define(Channels channels) {
     return "";
 }
 
+// Position in the map = x s + y of a value s on the scale: affine, in double. REQUIRES: no map is
+// narrower than the scale.
+glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
+    const double halfWidth = map.halfWidth();
+    if (!(halfWidth > 0)) return {0, 0.5};
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return {scale.halfWidth / halfWidth,
+            std::clamp((0.5 * scale.lo - 0.5 * map.lo) / halfWidth, -kMost, kMost)};
+}
+
 constexpr int kMapEntries = 257;  // the most that a ColorMap has
 
 }  // namespace
@@ -115,7 +125,7 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
                                             GpuStep& step) {
     ++counts_.uploads;
     LayerBlock block{};
-    const ValueScale scale = ValueScale::of(scene.step);
+    const ValueScale scale = ValueScale::of(scene.layers);
     bool byValue = false;
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
         const RangeStyle& style = scene.layers[k].style;
@@ -127,22 +137,15 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
         byValue = true;
         const auto& map = std::get<ByValue>(style.color);
         const auto entries = map.map.entries();
-        // position = (v - map.lo) / (map.hi - map.lo), v = normalised / perUnit + lo: affine, in
-        // double.
-        const double width = map.hi - map.lo;
-        const bool degenerate = !(width > 0) || scale.perUnit == 0;
         block.style[k] = glm::vec4(0, 0, 0, tau);
-        block.map[k] =
-            glm::vec4(degenerate ? 0.0 : 1 / (scale.perUnit * width),
-                      degenerate ? mapPosition(map, scale.lo) : (scale.lo - map.lo) / width,
-                      entries.size(), 0);
+        block.map[k] = glm::vec4(positionOnScale(map, scale), entries.size(), 0);
         std::vector<glm::vec4> row;
         for (const glm::vec3& color : entries) row.emplace_back(color, 1.0f);
         glTextureSubImage2D(colorMaps_.id(), 0, 0, static_cast<GLint>(k),
                             static_cast<GLsizei>(row.size()), 1, GL_RGBA, GL_FLOAT, row.data());
     }
     layers_.write(0, sizeof block, &block);
-    if (byValue) step.needValues(scene.step);
+    if (byValue) step.needValues(scene.step, scale);
     return std::make_unique<GpuList>(scene, list, step, scale);
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 
 #include "render/ticks.h"
@@ -16,8 +16,10 @@ namespace {
 using timeseries::Axis;
 using timeseries::Grid;
 
-double extent(const Axis& axis) {
-    return std::abs(axis.coordinates.back() - axis.coordinates.front());
+using Wide = long double;
+
+Wide extent(const Axis& axis) {
+    return std::abs(Wide{axis.coordinates.back()} - Wide{axis.coordinates.front()});
 }
 
 // Degrees of longitude and of latitude are drawn alike.
@@ -26,19 +28,19 @@ std::string comparableUnit(const Axis& axis) {
 }
 
 // An axis of other units, or far shorter than the longest, would be drawn as a sheet or a needle.
-glm::dvec3 fittedStretch(const Grid& grid) {
-    constexpr double kFlattest = 20, kFittedShare = 0.5;
+std::array<Wide, 3> fittedStretch(const Grid& grid) {
+    constexpr Wide kFlattest = 20, kFittedShare = 0.5;
     const auto& axes = grid.axes();
     // The axes that share the first axis's unit keep their proportions and lead.
     const std::string leading = comparableUnit(axes[0]);
-    double longest = 0;
+    Wide longest = 0;
     for (const Axis& axis : axes)
         if (comparableUnit(axis) == leading) longest = std::max(longest, extent(axis));
     if (longest == 0)
         for (const Axis& axis : axes) longest = std::max(longest, extent(axis));
-    glm::dvec3 stretch(1);
-    for (int a = 0; a < 3; ++a) {
-        const double length = extent(axes[a]);
+    std::array<Wide, 3> stretch{1, 1, 1};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Wide length = extent(axes[a]);
         if (length == 0) continue;
         if (comparableUnit(axes[a]) != leading || length * kFlattest < longest)
             stretch[a] = kFittedShare * longest / length;
@@ -53,28 +55,29 @@ double mean(const std::vector<double>& v) {
 }  // namespace
 
 Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch) {
-    const glm::dvec3 stretched = stretch.value_or(fittedStretch(grid));
-    for (int a = 0; a < 3; ++a) {
-        const Axis& axis = grid.axes()[a];
-        // Halved first: the sum of two huge coordinates may overflow.
-        centre_[a] = 0.5 * axis.coordinates.front() + 0.5 * axis.coordinates.back();
-        scale_[a] = axis.down ? -stretched[a] : stretched[a];
-        boxHalf_[a] = 0.5 * extent(axis) * stretched[a];
-    }
-    // In two steps: the squares of very large or small extents would leave the doubles.
-    for (const bool byLargest : {true, false}) {
-        const double radius =
-            byLargest ? std::max({boxHalf_.x, boxHalf_.y, boxHalf_.z}) : glm::length(boxHalf_);
-        if (!(radius > 0)) break;
-        scale_ /= radius;
-        boxHalf_ /= radius;
-    }
+    // Thinner boxes and cells could not be seen; their volumes would leave the GPU's floats.
+    constexpr Wide kThinnestBox = 1e-9L, kThinnestCell = 1e-15L;
+    const auto stretched =
+        stretch ? std::array<Wide, 3>{stretch->x, stretch->y, stretch->z} : fittedStretch(grid);
+    std::array<Wide, 3> half{};
+    for (std::size_t a = 0; a < 3; ++a) half[a] = extent(grid.axes()[a]) / 2 * stretched[a];
+    Wide radius = std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    if (!(radius > 0)) radius = 1;
     double thinnest = 0;  // an axis of one point takes the smallest mean width of the others
     for (int a = 0; a < 3; ++a) {
         const Axis& axis = grid.axes()[a];
+        const Wide length = extent(axis);
+        const Wide size = length > 0 ? std::max(half[a] / radius, kThinnestBox) : 0;
+        const Wide perUnit = length > 0 ? 2 * size / length : stretched[a] / radius;
+        boxHalf_[a] = static_cast<double>(size);
+        centre_[a] = (Wide{axis.coordinates.front()} + Wide{axis.coordinates.back()}) / 2;
+        scale_[a] = axis.down ? -perUnit : perUnit;
         for (std::size_t i = 0; i < axis.coordinates.size(); ++i) {
-            positions_[a].push_back((axis.coordinates[i] - centre_[a]) * scale_[a]);
-            widths_[a].push_back(std::abs(axis.width(i) * scale_[a]));
+            positions_[a].push_back(
+                static_cast<double>((Wide{axis.coordinates[i]} - centre_[a]) * scale_[a]));
+            // No cell is longer than its axis: the width of the widest overflows.
+            const Wide width = std::min(std::abs(Wide{axis.width(i)}), length) * perUnit;
+            widths_[a].push_back(static_cast<double>(std::max(width, kThinnestCell)));
         }
         if (axis.coordinates.size() > 1 && (thinnest == 0 || mean(widths_[a]) < thinnest))
             thinnest = mean(widths_[a]);
@@ -87,6 +90,21 @@ Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch) {
 
 glm::uvec3 Lattice::size() const {
     return {positions_[0].size(), positions_[1].size(), positions_[2].size()};
+}
+
+glm::dvec3 Lattice::scale() const {
+    constexpr Wide kMost = std::numeric_limits<double>::max();
+    glm::dvec3 scale;
+    for (int a = 0; a < 3; ++a)
+        scale[a] = static_cast<double>(std::clamp(scale_[a], -kMost, kMost));
+    return scale;
+}
+
+glm::dvec3 Lattice::worldFromGrid(const glm::dvec3& grid) const {
+    glm::dvec3 world;
+    for (int a = 0; a < 3; ++a)
+        world[a] = static_cast<double>((Wide{grid[a]} - centre_[a]) * scale_[a]);
+    return world;
 }
 
 bool Lattice::cubes() const {

@@ -36,12 +36,14 @@ class Lattice {
     // Corners of the points' box; half diagonal 1 (all zero for a single point).
     glm::dvec3 boxHalf() const { return boxHalf_; }
     // World length per grid unit along each axis, signed; their ratios are what a picture states.
-    glm::dvec3 scale() const { return scale_; }
-    glm::dvec3 worldFromGrid(const glm::dvec3& grid) const { return (grid - centre_) * scale_; }
+    glm::dvec3 scale() const;
+    glm::dvec3 worldFromGrid(const glm::dvec3& grid) const;
 
  private:
     std::array<std::vector<double>, 3> positions_, widths_;
-    glm::dvec3 scale_{1}, centre_{0}, boxHalf_{0};
+    // Long doubles: products and squares of very large or small extents leave the doubles.
+    std::array<long double, 3> scale_{}, centre_{};
+    glm::dvec3 boxHalf_{0};
     double unitLength_ = 1;
 };
 

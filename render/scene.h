@@ -20,13 +20,14 @@ struct Constant {
 };
 struct ByValue {
     ColorMap map;
-    double lo, hi;  // values of the map's two ends; lo == hi gives its middle everywhere
+    double lo, hi;  // values of the map's two ends; lo >= hi gives its middle everywhere
+    double halfWidth() const { return 0.5 * hi - 0.5 * lo; }  // halves: the whole may overflow
 };
 
 // Position of a value in its map, [0, 1]; the limit case lo == hi is the middle.
 inline double mapPosition(const ByValue& style, double value) {
-    if (!(style.hi > style.lo)) return 0.5;
-    return std::clamp((value - style.lo) / (style.hi - style.lo), 0.0, 1.0);
+    if (!(style.halfWidth() > 0)) return 0.5;
+    return std::clamp((0.5 * value - 0.5 * style.lo) / style.halfWidth(), 0.0, 1.0);
 }
 
 struct RangeStyle {

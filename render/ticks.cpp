@@ -54,8 +54,8 @@ std::optional<Multiples> multiples(Step step, double lo, double hi) {
 
 std::vector<double> niceTicks(double lo, double hi, int wanted) {
     assert(lo <= hi && wanted >= 1);
-    // Divided before the difference, which may overflow.
-    const double rough = hi / wanted - lo / wanted;
+    // Divided before the difference, which may overflow; for one tick it still may.
+    const double rough = std::min(hi / wanted - lo / wanted, std::numeric_limits<double>::max());
     if (!(rough > 0)) return {lo};
     const int decade = static_cast<int>(std::floor(std::log10(rough)));
     Step best{0, 0};

@@ -25,11 +25,12 @@ struct TimePoint {
 };
 
 struct TimeAxis {
-    std::string name;      // "time"; "step" when the file has no time and steps are counted
+    std::string name;      // "time"; "step" when steps are counted
     std::string units;     // "s", "hours since 0000-01-01"; "" for none
     std::string calendar;  // CF calendar of dates; "" for plain numbers
     std::vector<TimePoint>
-        points;  // [steps] in the order of the steps, which the reader keeps as stored
+        points;            // [steps] in the order of the steps, which the reader keeps as stored
+    bool counted = false;  // the file has no time: steps are counted, points[i].value is i
 };
 
 struct Variable {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "timeseries/run_search.h"
 #include "timeseries/value_sort.h"
@@ -88,6 +89,18 @@ void forEachRun(std::span<const T> ascending, const RangeSet& ranges, const Rang
     }
 }
 
+// The values of T that both ranges hold, by the bounds as they are written where these say it.
+template <typename T>
+std::optional<Range> commonPart(const Range& a, const Range& b) {
+    Interval<T> x, y, both;
+    if (!toInterval(a, x) || !toInterval(b, y)) return std::nullopt;
+    const Interval<T> common{std::max(x.lo, y.lo), std::min(x.hi, y.hi)};
+    if (!(common.lo <= common.hi)) return std::nullopt;
+    const Range written{x.lo < y.lo ? b.lo : a.lo, y.hi < x.hi ? b.hi : a.hi};
+    if (toInterval(written, both) && both == common) return written;
+    return Range{{numberOf(common.lo)}, {numberOf(common.hi)}};
+}
+
 }  // namespace
 
 SortedStep SortedStep::build(const Field& field, const RangeSet& kept) {
@@ -139,6 +152,18 @@ std::uint64_t SortedStep::count(const RangeSet& ranges) const {
         },
         values_);
     return count;
+}
+
+RangeSet SortedStep::keptPart(const RangeSet& ranges) const {
+    std::vector<Range> parts;
+    std::visit(
+        [&]<typename T>(const std::vector<T>&) {
+            for (const Range& range : ranges.ranges())
+                for (const Range& kept : kept_.ranges())
+                    if (const auto part = commonPart<T>(range, kept)) parts.push_back(*part);
+        },
+        values_);
+    return RangeSet(std::move(parts));
 }
 
 Number SortedStep::value(std::uint64_t point) const {

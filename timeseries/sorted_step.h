@@ -46,6 +46,10 @@ class SortedStep {
     // The sum of select()'s counts; touches no point.
     std::uint64_t count(const RangeSet& ranges) const;
 
+    // What of `ranges` was kept, in the field's type: select() takes it whatever the rounding of
+    // its bounds.
+    RangeSet keptPart(const RangeSet& ranges) const;
+
     std::uint64_t size() const { return index_.size(); }
     // Grid index of each point, in order of value.
     std::span<const std::uint32_t> gridIndex() const { return index_; }

@@ -20,14 +20,14 @@ layout(std140, binding = 0) uniform SplatView {
 // C++ mirror: LayerBlock.
 layout(std140, binding = 1) uniform Layers {
     vec4 style[8];  // constant linear colour; w: optical depth per weight
-    vec4 map[8];    // position in the map = x v + y of the normalised value v; z: by value: the map's entries, else 0
+    vec4 map[8];    // position in the map = x v + y of the value v on that scale; z: by value: the map's entries, else 0
 } layers;
 
 layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: world position, cell width
 layout(binding = 1) uniform sampler2D colorMaps;       // a row a layer, linear colour
 
 layout(location = 0) in uint gridIndex;
-layout(location = 1) in float value;  // [0, 1] over the step's values
+layout(location = 1) in float value;  // 0 and 1 at the ends of the narrowest map; see ValueScale
 layout(location = 2) in uint layer;
 
 layout(location = 0) flat out vec4 centreAndWeight;  // window offset of the centre, W's factor, tau per W

@@ -24,8 +24,13 @@ TEST(TimeText, IsTheDateTheNumberOrTheStep) {
     EXPECT_EQ(timeText(unitless, 0), "cycle 2000");
     const TimeAxis one{"cycle", "1", "", {{2000, ""}}};
     EXPECT_EQ(timeText(one, 0), "cycle 2000");
-    const TimeAxis counted{"step", "", "", {{0, ""}, {1, ""}, {2, ""}, {3, ""}}};
+    const TimeAxis counted{"step", "", "", {{0, ""}, {1, ""}, {2, ""}, {3, ""}}, true};
     EXPECT_EQ(timeText(counted, 3), "step 3");
+}
+
+TEST(TimeText, ATimeMayBeCalledStep) {
+    const TimeAxis forecast{"step", "hours", "", {{6, ""}, {12, ""}}};
+    EXPECT_EQ(timeText(forecast, 1), "12 hours");
 }
 
 TEST(TimeText, KeepsTheDigitsOfStoredFloats) {

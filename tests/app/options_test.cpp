@@ -288,10 +288,10 @@ TEST(Options, BadValuesAreRefusedByTheNameOfTheirOption) {
         {"order", {"", "front"}},
         {"clip", {"", "0:1", "1:0,0:1,0:1"}},
         {"scale", {"", "1", "0,1,1", "1,1,nan"}},
-        {"view", {"", "1", "a,b", "1,2,0"}},
+        {"view", {"", "1", "a,b", "1,2,0", "1,2,1e7", "1,2,1e-7"}},
         {"size", {"", "0x0", "1x", "16385x1", "-1x1"}},
         {"stereo", {"", "both"}},
-        {"eye-distance", {"", "-1", "nan", "inf", "a"}},
+        {"eye-distance", {"", "-1", "nan", "inf", "a", "1e7"}},
         {"convergence", {"", "0", "-1", "nan", "inf"}},
         {"channel", {"", "depth", "opticaldepth"}},
         {"device", {"", "gl", "GPU"}}};

@@ -200,13 +200,13 @@ TEST_F(PictureOfARamp, TitlesFallBackToTheNameAndLeaveOutUnitsOfNone) {
     about_.units = "1";
     EXPECT_EQ(pictureOf({}).legend.title, "T");
     about_.time = std::make_shared<const timeseries::TimeAxis>(
-        timeseries::TimeAxis{"step", "", "", {{0, ""}, {1, ""}}});
+        timeseries::TimeAxis{"step", "", "", {{0, ""}, {1, ""}}, true});
     EXPECT_EQ(pictureOf({}).legend.time, "step 1 of 0–1");
 }
 
 TEST_F(PictureOfARamp, OneUncountedStepHasNoTimeToState) {
     about_.time = std::make_shared<const timeseries::TimeAxis>(
-        timeseries::TimeAxis{"step", "", "", {{0, ""}}});
+        timeseries::TimeAxis{"step", "", "", {{0, ""}}, true});
     const Picture p = makePicture(resolved({}, steps_), about_, 0, *step_, lattice_);
     EXPECT_EQ(p.legend.time, "");
 }
@@ -258,6 +258,36 @@ TEST_F(PictureOfARamp, TheSweptWindowIsCutToWhatWasKept) {
     // 135:145, 145:155, 155:165, 165:175 of 150:160.
     EXPECT_EQ(amounts, (std::vector<std::string>{"0 points, 0 %", "6 points, 0.6 %",
                                                  "6 points, 0.6 %", "0 points, 0 %"}));
+}
+
+TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {
+    // The least double above 600 is 600 as a float, which was dropped.
+    const auto step = ramp(0, RangeSet::parse("(600,900)"));
+    Explorer e;
+    e.keep = RangeSet::parse("(600,900)");
+    e.sweep.emplace();
+    e.sweep->animation = *e.keep;
+    e.sweep->timerSteps = 3;
+    for (const double delta : {0.0, 1e-9, 2.0}) {
+        e.sweep->delta = delta;
+        const Explorer whole = resolved(e, {{1, step}});
+        for (std::int64_t tick = 0; tick < 3; ++tick) {
+            const Picture picture = makePicture(whole, about_, 1, *step, lattice_, tick);
+            EXPECT_EQ(picture.scene.layers.size(), 1u);
+            const Explorer alone = onlyThis(whole, 1, *step, tick);
+            EXPECT_EQ(makePicture(alone, about_, 1, *step, lattice_, tick).scene.layers[0].runs,
+                      picture.scene.layers[0].runs);
+        }
+    }
+}
+
+TEST_F(PictureOfARamp, AMapOfARangeBeyondTheDataHasItsEndsInOrder) {
+    for (const auto& [range, end] : {std::pair("2000:max", 2000.0), std::pair("min:-5", -5.0)}) {
+        const Explorer e = resolved(withRanges({range}), steps_);
+        const auto& map = std::get<MapChoice>(*e.layers[0].color);
+        EXPECT_EQ(*map.lo, end);
+        EXPECT_EQ(*map.hi, end);
+    }
 }
 
 TEST_F(PictureOfARamp, OneTickAloneIsTheSamePictureWithoutASweep) {

@@ -279,6 +279,11 @@ TEST(Session, ValuesOutOfBoundsAreRefused) {
     expectRefused(with("scale", {1, 2}), "session.scale");
     expectRefused(with("scale", {1, 2, 0}), "session.scale");
     expectRefused(with("view", {{"distance", 0}}), "distance");
+    // As the command line: what it cannot have written is not read.
+    expectRefused(with("view", {{"distance", 1e7}}), "distance");
+    expectRefused(with("stereo", {{"convergence", 1e7}}), "convergence");
+    expectRefused(with("stereo", {{"eyeDistance", 1e7}}), "eye distance");
+    expectRefused(with("splatSize", 1e4), "size");
     expectRefused(with("stereo", {{"convergence", 0}}), "convergence");
     expectRefused(with("stereo", {{"eyeDistance", -0.1}}), "eye");
     for (const json& layer :

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "render/cpu_splatter.h"
 #include "render/gl/pass.h"
@@ -137,6 +138,31 @@ TEST_F(GlSplat, ColourByValueIsTheTruths) {
         const Scene scene = noiseScene(step, lattice, "0.3:0.6", {ByValue{{}, lo, hi}, 0.5});
         EXPECT_LE(error(*this, scene, view, Channels::WeightedColor), kTarget) << lo << ' ' << hi;
     }
+}
+
+TEST_F(GlSplat, ColourByValueDoesNotSufferFromValuesFarOutsideTheMap) {
+    // As files hold them whose fill value is not told, or that hold infinities.
+    const auto noise = tests::noise(cube(24));
+    std::vector<float> values(noise.size());
+    for (std::size_t p = 0; p < values.size(); ++p)
+        values[noise.gridIndex()[p]] = static_cast<float>(timeseries::toDouble(noise.value(p)));
+    values[5] = -1e34f;
+    values[77] = std::numeric_limits<float>::infinity();
+    values[99] = -std::numeric_limits<float>::infinity();
+    const auto step = timeseries::SortedStep::build({cube(24), values, {}});
+    const Lattice lattice(step.grid());
+    const View view = lookFrom({1, -3, 1}, {300, 300});
+    for (const auto& [lo, hi] : {std::pair(0.3, 0.6), std::pair(-1e34, 1.0)}) {
+        const Scene scene = noiseScene(step, lattice, "min:max", {ByValue{{}, lo, hi}, 0.5});
+        EXPECT_LE(error(*this, scene, view, Channels::WeightedColor), kTarget) << lo << ' ' << hi;
+    }
+    // Two maps of very unlike width, each with its own layer.
+    Scene scene = noiseScene(step, lattice, "0.3:0.6", {ByValue{{}, 0.3, 0.6}, 0.5});
+    scene.layers.push_back(
+        {step.select(RangeSet::parse("min:0.2")), {ByValue{{}, -1e34, 0.2}, 0.5}});
+    EXPECT_LE(error(*this, scene, view, Channels::WeightedColor), kTarget);
+    scene.order = Order::BackToFront;
+    EXPECT_LE(error(*this, scene, view, Channels::Over), 1e-4);
 }
 
 TEST_F(GlSplat, OrderedOverIsTheTruthsToTheOrdersResolution) {

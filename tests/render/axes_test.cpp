@@ -64,6 +64,9 @@ TEST(NiceTicks, OfTenthsAreTheLiteralsOnePrints) {
 }
 
 TEST(NiceTicks, SurviveTheEndsOfDouble) {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    for (int wanted = 1; wanted < 10; ++wanted)
+        EXPECT_LE(niceTicks(-kMost, kMost, wanted).size(), 2.5 * wanted + 1) << wanted;
     EXPECT_EQ(niceTicks(3.7, 3.7, 5), std::vector<double>{3.7});
     EXPECT_EQ(niceTicks(0, 0, 1), std::vector<double>{0});
     EXPECT_EQ(niceTicks(-1.5e308, 1.5e308, 3), (std::vector<double>{-1e308, 0, 1e308}));
@@ -415,6 +418,19 @@ TEST(Axes, AllThreeAreNamedFromEveryCornerView) {
             for (const char* title : {"x (m)", "y (m)", "z (m)"})
                 EXPECT_TRUE(d.label(title)) << title << ' ' << azimuth << ' ' << elevation;
         }
+    }
+}
+
+TEST(Axes, DegreesOfManyCirclesAreNumberedSparsely) {
+    for (const double step : {500.0, 1e12, 1e300}) {
+        Axis lon = tests::axis(6, 0, step);
+        lon.units = "degrees_east";
+        const Grid grid({lon, tests::axis(5), tests::axis(4)});
+        const glm::ivec2 size(800, 600);
+        const glm::dvec3 eye(0.5, -4, 1);
+        const AxesMeshes meshes =
+            axesMeshes(grid, Lattice(grid), lookFrom(eye, size), eye, fontFor(size));
+        EXPECT_LT(meshes.before.triangles().size(), 6u * 60) << step;
     }
 }
 

@@ -76,6 +76,25 @@ TEST(Lattice, VeryLargeAndVerySmallGridsFitTheWorldToo) {
     }
 }
 
+TEST(Lattice, AxesBeyondAllProportionStayFinite) {
+    Axis widest = axis(2, -1.7e308), thinnest = axis(6, 5e-324, 5e-324);
+    widest.coordinates[1] = 1.7e308;
+    for (const Grid& grid : {Grid({widest, axis(5), axis(4)}), Grid({thinnest, axis(5), axis(4)}),
+                             Grid({widest, thinnest, in("K", axis(4))})}) {
+        for (const auto stretch : {std::optional<glm::dvec3>(), std::optional(glm::dvec3(1)),
+                                   std::optional(glm::dvec3(1e308, 1, 1e-300))}) {
+            const Lattice lattice(grid, stretch);
+            EXPECT_NEAR(glm::length(lattice.boxHalf()), 1, 1e-9);
+            EXPECT_GT(lattice.unitLength(), 0);
+            for (std::uint64_t i = 0; i < grid.count(); ++i) {
+                EXPECT_LE(glm::length(lattice.position(i)), 1 + 1e-9);
+                const glm::vec3 cell(lattice.cell(i));
+                EXPECT_GT(cell.x * cell.y * cell.z, 0);
+            }
+        }
+    }
+}
+
 TEST(Lattice, AStretchIsTakenAsGiven) {
     const Lattice lattice(Grid({axis(11), axis(11), axis(11)}), glm::dvec3(1, 2, 3));
     EXPECT_NEAR(lattice.boxHalf().y / lattice.boxHalf().x, 2, 1e-12);

@@ -115,7 +115,7 @@ StoredTimes timesOf(const NetcdfFile& file, const NcVariable& variable, const Ro
 }
 
 TimeAxis timeAxisOf(const StoredTimes& times, std::vector<std::string>& notes) {
-    TimeAxis axis{times.name, times.units, "", {}};
+    TimeAxis axis{times.name, times.units, "", {}, times.counted};
     std::optional<TimeUnits> units;
     if (looksLikeTimeUnits(times.units) && lower(times.calendar) != "none") {
         const auto calendar = calendarFromName(times.calendar);
