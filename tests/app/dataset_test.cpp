@@ -71,7 +71,7 @@ TEST(Dataset, AVariableIsChosenByNameOrTheFirst) {
     EXPECT_EQ(open(file, "").about.name, "first");
     EXPECT_EQ(open(file, "second").about.name, "second");
     EXPECT_EQ(open(file, "second").stepCount(), 3u);
-    EXPECT_EQ(open(file, "").name(), file.string());
+    EXPECT_EQ(open(file, "").name, file.string());
 }
 
 TEST(Dataset, AnUnknownVariableIsToldWithThoseThereAre) {
@@ -108,7 +108,7 @@ TEST(Dataset, AStepThatIsNotThereIsToldWithThoseThatAre) {
             stepsOf(dataset, steps);
             ADD_FAILURE() << steps.first;
         } catch (const FileError& error) {
-            EXPECT_THAT(error.what(), HasSubstr(dataset.name()));
+            EXPECT_THAT(error.what(), HasSubstr(dataset.name));
             EXPECT_THAT(error.what(), HasSubstr("no step " + std::to_string(named)));
             EXPECT_THAT(error.what(), HasSubstr("second has steps 0 to 2"));
         }
