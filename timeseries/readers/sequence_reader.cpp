@@ -174,10 +174,21 @@ Reader& SequenceReader::open(std::size_t file) {
     const auto found = std::ranges::find(open_, file, &Open::file);
     if (found != open_.end()) {
         open_.splice(open_.begin(), open_, found);
-    } else {
-        if (open_.size() == kMostOpen) open_.pop_back();
-        open_.push_front({file, openOne_(paths_[file])});
+        return *open_.front().reader;
     }
+    if (open_.size() == kMostOpen) open_.pop_back();
+    auto reader = openOne_(paths_[file]);
+    // It may have been written anew since the series was opened.
+    for (std::size_t v = 0; v < variables_.size(); ++v) {
+        const std::size_t then = begins_[v][file + 1] - begins_[v][file];
+        const std::size_t now = expectSame(variables_[v], file, *reader).time->points.size();
+        if (now != then)
+            throw FileError(
+                fmt::format("{}: expected {} steps as when the series was opened, "
+                            "found {}",
+                            paths_[file].string(), then, now));
+    }
+    open_.push_front({file, std::move(reader)});
     return *open_.front().reader;
 }
 
@@ -186,15 +197,9 @@ Field SequenceReader::read(std::size_t variable, std::size_t step) {
     const auto file =
         static_cast<std::size_t>(std::ranges::upper_bound(begins, step) - begins.begin() - 1);
     Reader& reader = open(file);
-    // It may have been written anew since the series was opened.
-    const Variable& found = expectSame(variables_[variable], file, reader);
-    if (found.time->points.size() != begins[file + 1] - begins[file])
-        throw FileError(
-            fmt::format("{}: expected {} steps as when the series was opened, but the "
-                        "file has changed",
-                        paths_[file].string(), begins[file + 1] - begins[file]));
-    Field field = reader.read(static_cast<std::size_t>(&found - reader.variables().data()),
-                              step - begins[file]);
+    const auto all = reader.variables();
+    const auto found = std::ranges::find(all, variables_[variable].name, &Variable::name);
+    Field field = reader.read(static_cast<std::size_t>(found - all.begin()), step - begins[file]);
     field.grid = variables_[variable].grid;
     return field;
 }
