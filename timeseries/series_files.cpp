@@ -1,6 +1,7 @@
 #include "timeseries/series_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glob.h>
 
 #include <algorithm>
@@ -236,14 +237,17 @@ std::optional<Paths> filesIn(const Path& folder) {
     return files;
 }
 
-// `chosen`: the number that varies.
-std::string otherNumbers(const std::map<std::size_t, Paths>& siblings, std::size_t chosen) {
-    std::string text;
-    for (const auto& [at, files] : siblings)
-        if (at != chosen)
-            text += (text.empty() ? "" : ", ") +
-                    std::ranges::min_element(files, nameLess)->filename().string();
-    return text;
+// Files named alike that are no part of the series.
+void tellOthers(Paths others, ExpandedSeries& into) {
+    if (others.empty()) return;
+    std::ranges::sort(others, nameLess);
+    const std::string first = others.front().filename().string();
+    into.notes.push_back(
+        others.size() == 1
+            ? fmt::format("{} is not taken: it differs in another number, or in several", first)
+            : fmt::format("{} files {} to {} are not taken: they differ in another number, or in "
+                          "several; a folder or a pattern opens them together",
+                          others.size(), first, others.back().filename().string()));
 }
 
 ExpandedSeries member(const Path& file) {
@@ -254,7 +258,8 @@ ExpandedSeries member(const Path& file) {
     try {
         listed = filesIn(file.parent_path());
     } catch (const FileError&) {
-        return alone;  // a folder that may be entered, not listed
+        alone.notes.push_back("only this file is opened: its folder cannot be listed");
+        return alone;
     }
     if (!listed) {
         alone.notes.push_back(
@@ -264,8 +269,16 @@ ExpandedSeries member(const Path& file) {
         return alone;
     }
     std::map<std::size_t, Paths> siblings;  // by the number in which they differ
-    for (const Path& other : *listed)
-        if (const auto at = onlyDifference(name, cut(other))) siblings[*at].push_back(other);
+    Paths further;                          // in several numbers
+    for (const Path& other : *listed) {
+        const Name its = cut(other);
+        if (its.texts != name.texts || its.extension != name.extension || its.digits == name.digits)
+            continue;
+        if (const auto at = onlyDifference(name, its))
+            siblings[*at].push_back(other);
+        else
+            further.push_back(other);
+    }
 
     // The last number that takes another value: a_1 and a_01 alone are no series.
     const auto varies = std::find_if(siblings.rbegin(), siblings.rend(), [&](const auto& each) {
@@ -281,6 +294,7 @@ ExpandedSeries member(const Path& file) {
                             "named is opened",
                             withoutZeros(name.digits[at]), file.filename().string(),
                             files.front().filename().string()));
+        tellOthers(std::move(further), alone);
         return alone;
     }
     const std::size_t at = varies->first;
@@ -298,9 +312,9 @@ ExpandedSeries member(const Path& file) {
     const Numbered series = byNumber(std::move(files), at);
     ExpandedSeries result;
     describe(series, result);
-    if (const std::string others = otherNumbers(siblings, at); !others.empty())
-        result.notes.push_back(
-            fmt::format("files that differ in another number are not taken: {}", others));
+    for (const auto& [number, others] : siblings)
+        if (number != at) further.insert(further.end(), others.begin(), others.end());
+    tellOthers(std::move(further), result);
     result.files = series.files;
     result.here =
         static_cast<std::size_t>(std::ranges::find(series.files, file) - series.files.begin());
@@ -309,6 +323,11 @@ ExpandedSeries member(const Path& file) {
 
 // Files that were named or found together.
 ExpandedSeries together(Paths files, std::string_view order) {
+    const auto isCollection = [](const Path& file) { return file.extension() == ".pvd"; };
+    const auto collection = std::ranges::find_if(files, isCollection);
+    if (collection != files.end() && !std::ranges::all_of(files, isCollection))
+        throw FileError(fmt::format("{}: expected it alone, for it lists the files of its series",
+                                    collection->string()));
     ExpandedSeries result;
     if (const auto series = numbered(files)) {
         describe(*series, result);

@@ -103,20 +103,45 @@ TEST_F(SeriesFiles, TheLastNumberThatVariesCounts) {
           "run03_099_v2.vti"});
     const ExpandedSeries series = expand("run01_041_v2.vti");
     EXPECT_THAT(names(series), ElementsAre("run01_001_v2.vti", "run01_041_v2.vti"));
-    EXPECT_THAT(series.notes, ElementsAre("files that differ in another number are not taken: "
-                                          "run02_041_v2.vti"));
+    EXPECT_THAT(series.notes,
+                ElementsAre("3 files run02_001_v2.vti to run03_099_v2.vti are not taken: they "
+                            "differ in another number, or in several; a folder or a pattern opens "
+                            "them together"));
 }
 
 TEST_F(SeriesFiles, AFileStaysAloneWithoutSiblingsThatDifferInOneNumber) {
-    make({"a_1_1.nc", "a_2_2.nc", "b_7.nc", "word.nc", "x_1.pvd", "x_2.pvd", ".h_1.nc"});
+    make({"b_7.nc", "word.nc", "x_1.pvd", "x_2.pvd", ".h_1.nc"});
     std::filesystem::create_directory(folder_ / "b_8.nc");
-    for (const char* name : {"a_1_1.nc", "b_7.nc", "word.nc", "x_1.pvd", "not_there_1.nc"}) {
+    for (const char* name : {"b_7.nc", "word.nc", "x_1.pvd", "not_there_1.nc"}) {
         const ExpandedSeries series = expand(name);
         EXPECT_THAT(names(series), ElementsAre(name));
         EXPECT_EQ(series.recognised, "");
         EXPECT_EQ(series.here, std::nullopt);
         EXPECT_THAT(series.notes, IsEmpty());
     }
+}
+
+TEST_F(SeriesFiles, FilesThatDifferInSeveralNumbersAreTold) {
+    make({"a_1_1.nc", "a_2_2.nc", "t_0.50.nc", "t_1.00.nc", "t_1.50.nc"});
+    const ExpandedSeries alone = expand("a_1_1.nc");
+    EXPECT_THAT(names(alone), ElementsAre("a_1_1.nc"));
+    EXPECT_EQ(alone.recognised, "");
+    EXPECT_THAT(alone.notes, ElementsAre("a_2_2.nc is not taken: it differs in another number, or "
+                                         "in several"));
+    const ExpandedSeries some = expand("t_1.00.nc");
+    EXPECT_THAT(names(some), ElementsAre("t_1.00.nc", "t_1.50.nc"));
+    EXPECT_THAT(some.notes, ElementsAre(HasSubstr("t_0.50.nc is not taken")));
+    EXPECT_THAT(names(expand("t_*.nc")), ElementsAre("t_0.50.nc", "t_1.00.nc", "t_1.50.nc"));
+}
+
+TEST_F(SeriesFiles, ACollectionStandsAloneAndForItsFolder) {
+    writeBytes(folder_ / "x.pvd", "CDF\1");  // begins as something that is read
+    writeBytes(folder_ / "x_1.vti", "CDF\1");
+    writeBytes(folder_ / "x_2.vti", "CDF\1");
+    EXPECT_THAT(names(expand("")), ElementsAre("x.pvd"));
+    EXPECT_THAT(names(expand("x.pvd")), ElementsAre("x.pvd"));
+    EXPECT_THAT(names(expand("x_2.vti")), ElementsAre("x_1.vti", "x_2.vti"));
+    EXPECT_THAT(failure("x*"), HasSubstr("x.pvd: expected it alone"));
 }
 
 TEST_F(SeriesFiles, ANumberMayStandWhereAnExtensionWould) {
