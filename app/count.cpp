@@ -40,12 +40,14 @@ ordered_json number(const Number& n) {
 }
 
 ordered_json json(const Dataset& dataset, const RangeSet& ranges, const std::vector<Row>& rows) {
-    ordered_json out{{"file", dataset.name()},
+    ordered_json out{{"file", dataset.name},
                      {"variable", dataset.about.name},
                      {"units", dataset.about.units},
                      {"ranges", ordered_json::array()}};
     for (const timeseries::Range& range : ranges.ranges())
         out["ranges"].push_back({number(range.lo.value), number(range.hi.value)});
+    if (!dataset.series.recognised.empty()) out["series"] = dataset.series.recognised;
+    if (!dataset.series.notes.empty()) out["notes"] = dataset.series.notes;
     for (const Row& row : rows)
         out["steps"].push_back({{"step", row.step},
                                 {"time", dataset.about.time->points[row.step].value},
@@ -60,8 +62,10 @@ ordered_json json(const Dataset& dataset, const RangeSet& ranges, const std::vec
 
 void printHead(const Dataset& dataset, const RangeSet& ranges) {
     const auto& about = dataset.about;
-    fmt::print("{}: {}{}, range {}\n", dataset.name(), about.name,
+    fmt::print("{}: {}{}, range {}\n", dataset.name, about.name,
                about.units.empty() ? "" : " (" + about.units + ")", ranges.text());
+    if (!dataset.series.recognised.empty()) fmt::print("{}\n", dataset.series.recognised);
+    for (const std::string& note : dataset.series.notes) fmt::print("note: {}\n", note);
     fmt::print("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8}\n", "step", "time", "points",
                "missing", "min", "max", "selected", "%");
 }

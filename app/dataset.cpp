@@ -8,10 +8,24 @@ namespace app {
 
 using timeseries::FileError;
 
-std::string Dataset::name() const { return reader->files().front().string(); }
+OpenedSeries openSeries(std::span<const std::filesystem::path> named) {
+    timeseries::ExpandedSeries series = timeseries::expandSeries(named);
+    try {
+        auto reader = timeseries::openReader(series.files);
+        return {std::move(reader), std::move(series)};
+    } catch (const FileError& error) {
+        if (!series.here) throw;
+        const auto& file = series.files[*series.here];
+        const std::string note = fmt::format("only this file is opened, not the {}: {}",
+                                             series.recognised, error.what());
+        auto reader = timeseries::openReader(std::span(&file, 1));
+        return {std::move(reader), {{file}, {}, "", {note}}};
+    }
+}
 
-Dataset openDataset(std::span<const std::filesystem::path> files, const std::string& variable) {
-    Dataset dataset{timeseries::openReader(files), 0, {}};
+Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable) {
+    auto [reader, series] = openSeries(named);
+    Dataset dataset{std::move(reader), std::move(series), 0, {}, named.front().string(), 0};
     const auto variables = dataset.reader->variables();
     std::string names;
     bool found = variable.empty();
@@ -22,16 +36,20 @@ Dataset openDataset(std::span<const std::filesystem::path> files, const std::str
         found = true;
     }
     if (!found)
-        throw FileError(fmt::format("{}: no variable '{}'; it has {}", files.front().string(),
-                                    variable, names));
+        throw FileError(
+            fmt::format("{}: no variable '{}'; it has {}", dataset.name, variable, names));
     dataset.about = variables[dataset.variable];
+    timeseries::StepSpan span{0, dataset.stepCount()};
+    if (dataset.series.here)
+        span = dataset.reader->stepsOf(dataset.variable, *dataset.series.here).value_or(span);
+    dataset.defaultStep = span.first + span.count / 2;
     return dataset;
 }
 
 std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice) {
     const std::size_t count = dataset.stepCount(), last = choice.last.value_or(count - 1);
     if (last >= count || choice.first > last)
-        throw FileError(fmt::format("{}: no step {}; variable {} has steps 0 to {}", dataset.name(),
+        throw FileError(fmt::format("{}: no step {}; variable {} has steps 0 to {}", dataset.name,
                                     std::max(last, choice.first), dataset.about.name, count - 1));
     std::vector<std::size_t> steps;
     for (std::size_t step = choice.first; step <= last; ++step) steps.push_back(step);

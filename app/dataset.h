@@ -9,21 +9,36 @@
 
 #include "app/explorer.h"
 #include "timeseries/reader.h"
+#include "timeseries/series_files.h"
 #include "timeseries/sorted_step.h"
 
 namespace app {
 
+// What a user named, opened.
+struct OpenedSeries {
+    std::unique_ptr<timeseries::Reader> reader;
+    timeseries::ExpandedSeries series;  // the files opened, and what is told of them
+};
+
+// A member of a numbered series, a folder, a pattern, or several files. Files that were found
+// beside the one named, but cannot be joined with it, are left out with a note that tells why.
+// Throws FileError.
+OpenedSeries openSeries(std::span<const std::filesystem::path> named);
+
 struct Dataset {
     std::unique_ptr<timeseries::Reader> reader;
+    timeseries::ExpandedSeries series;
     std::size_t variable = 0;
     timeseries::Variable about;  // a copy: it outlives the reader's move to a loader
 
+    std::string name;             // the file, folder or pattern named first, for messages
+    std::size_t defaultStep = 0;  // the middle one; of the member's own when one was named
+
     std::size_t stepCount() const { return about.time->points.size(); }
-    std::string name() const;  // the first file's, for messages
 };
 
 // `variable`: by name; "" is the first. Throws FileError, also for a name that is not there.
-Dataset openDataset(std::span<const std::filesystem::path> files, const std::string& variable);
+Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable);
 
 // The chosen steps, all there; throws FileError when one is not.
 std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice);

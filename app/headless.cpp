@@ -133,7 +133,7 @@ int renderHeadless(const RenderOptions& options) {
     Explorer e = options.explorer;
     Dataset dataset = openDataset(e.files, e.variable);
     e.variable = dataset.about.name;
-    if (!e.steps) e.steps = StepChoice{dataset.stepCount() / 2, dataset.stepCount() / 2};
+    if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     const auto steps = stepsOf(dataset, *e.steps);
     StepSource source(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
     if (needsSamples(e)) e = resolved(e, sample(source, steps));
@@ -141,6 +141,8 @@ int renderHeadless(const RenderOptions& options) {
     const Frames frames(options.output, e, steps);
     drawFrames(options, e, dataset.about, frames, source);
     tellFiles(frames, e.stereo.mode, dataset.about);
+    if (!dataset.series.recognised.empty()) fmt::print("  {}\n", dataset.series.recognised);
+    for (const std::string& note : dataset.series.notes) fmt::print("  note: {}\n", note);
     tellStyle(e, dataset.about);
     if (e.sweep && e.sweep->frequency > 0)
         fmt::print("  {:.4g} pictures a second show it at {:g} cycles a second\n",

@@ -10,6 +10,7 @@
 namespace app {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 using timeseries::Axis;
 using timeseries::Variable;
@@ -80,19 +81,35 @@ void print(const Variable& v) {
     for (const std::string& note : v.notes) fmt::print("  note     {}\n", note);
 }
 
+// All of a few files, else the first and the last: what was recognised tells the rest.
+void printFiles(const std::vector<std::string>& files) {
+    constexpr std::size_t kFew = 6;
+    if (files.size() <= kFew)
+        fmt::print("{}\n", fmt::join(files, "\n"));
+    else
+        fmt::print("{}\n...\n{}\n", files.front(), files.back());
+}
+
 }  // namespace
 
 int info(const InfoOptions& options) {
-    const auto reader = timeseries::openReader(options.files);
+    const auto [reader, series] = openSeries(options.files);
     std::vector<std::string> files;
     for (const auto& file : reader->files()) files.push_back(file.string());
     if (options.json) {
         ordered_json out{{"files", files}, {"format", reader->format()}};
+        if (!series.recognised.empty()) out["series"] = series.recognised;
+        if (series.here) out["named"] = files[*series.here];
+        if (!series.notes.empty()) out["notes"] = series.notes;
         for (const Variable& v : reader->variables()) out["variables"].push_back(variableJson(v));
         fmt::print("{}\n", jsonText(out, 2));
         return 0;
     }
-    fmt::print("{}\n{}\n", fmt::join(files, "\n"), reader->format());
+    printFiles(files);
+    if (!series.recognised.empty()) fmt::print("{}\n", series.recognised);
+    if (series.here) fmt::print("named: {}\n", fs::path(files[*series.here]).filename().string());
+    for (const std::string& note : series.notes) fmt::print("note: {}\n", note);
+    fmt::print("{}\n", reader->format());
     for (const Variable& v : reader->variables()) print(v);
     return 0;
 }

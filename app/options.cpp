@@ -20,6 +20,10 @@ constexpr const char* kRangeHelp =
     "lo:hi, [lo,hi) with open ends, c~d for c plus or minus d, min, max; commas in one layer, "
     "repeat the option for a new layer";
 
+constexpr const char* kFileHelp =
+    "A file, any file of a numbered series, a folder, a pattern, or several files that make one "
+    "series";
+
 constexpr double kMost = std::numeric_limits<double>::max();
 
 // CLI11's own checks let NaN pass.
@@ -53,9 +57,7 @@ struct RenderText {
 };
 
 void addInfo(CLI::App& app, InfoOptions& into) {
-    app.add_option("FILE", into.files, "A file, or several that make one series")
-        ->check(notEmpty())
-        ->required();
+    app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
     app.add_flag("--json", into.json, "Machine-readable");
 }
 
@@ -66,9 +68,7 @@ struct CountText {
 };
 
 void addCount(CLI::App& app, CountText& into) {
-    app.add_option("FILE", into.files, "A file, or several that make one series")
-        ->check(notEmpty())
-        ->required();
+    app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
     app.add_option("--variable", into.variable, "Which variable; the file's first without it");
     app.add_option("--range", into.ranges, kRangeHelp)->required()->allow_extra_args(false);
     app.add_option("--keep", into.keep, "Values to keep when the sorted list is built");
@@ -77,8 +77,7 @@ void addCount(CLI::App& app, CountText& into) {
 }
 
 void addRender(CLI::App& app, RenderText& into) {
-    app.add_option("FILE", into.files, "A file, or several that make one series")
-        ->check(notEmpty());
+    app.add_option("FILE", into.files, kFileHelp)->check(notEmpty());
     app.add_option("--session", into.session, "A session file; options given beside it win");
     app.add_option("--variable", into.variable, "Which variable; the file's first without it");
     app.add_option("--step", into.steps,

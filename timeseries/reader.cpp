@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "timeseries/readers/netcdf_reader.h"
+#include "timeseries/readers/sequence_reader.h"
 
 namespace timeseries {
 namespace {
@@ -37,6 +38,7 @@ struct Format {
     std::string_view expected;  // what a file of this format is and how it begins, for messages
     bool (*begins)(std::string_view start);
     std::unique_ptr<Reader> (*open)(std::span<const std::filesystem::path> paths);
+    bool joins = false;  // open() makes several files one series; else it is given one at a time
 };
 
 const std::array kFormats = {
@@ -45,7 +47,7 @@ const std::array kFormats = {
                return start.starts_with("CDF\1"sv) || start.starts_with("CDF\2"sv) ||
                       start.starts_with("CDF\5"sv) || start.starts_with("\x89HDF\r\n\x1a\n"sv);
            },
-           openNetcdf},
+           openNetcdf, true},
 };
 
 const Format& recognise(const std::filesystem::path& path) {
@@ -70,7 +72,19 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
             throw FileError(
                 fmt::format("{}: expected the format of {}, so that they make one series",
                             path.string(), paths.front().string()));
-    return format.open(paths);
+    if (format.joins || paths.size() == 1) return format.open(paths);
+    return openSequence(paths, [open = format.open](const std::filesystem::path& path) {
+        return open(std::span(&path, 1));
+    });
+}
+
+bool isReadable(const std::filesystem::path& path) {
+    try {
+        recognise(path);
+        return true;
+    } catch (const FileError&) {
+        return false;
+    }
 }
 
 }  // namespace timeseries

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -44,6 +45,11 @@ struct Variable {
         notes;  // what a user must know: "drawn in index space: lon(y,x) is 2-D"
 };
 
+// Consecutive steps.
+struct StepSpan {
+    std::size_t first, count;
+};
+
 // Not thread-safe: one thread at a time. Different Readers may be used on different threads.
 class Reader {
  public:
@@ -53,9 +59,18 @@ class Reader {
     virtual std::span<const Variable> variables() const = 0;  // at least one
     // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
     virtual Field read(std::size_t variable, std::size_t step) = 0;
+    // Which steps of a variable files()[file] holds; none where the reader does not know. A reader
+    // that joins files tells it.
+    virtual std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const {
+        if (files().size() != 1 || file != 0) return std::nullopt;
+        return StepSpan{0, variables()[variable].time->points.size()};
+    }
 };
 
 // Opens by content. Several paths are one series. Throws FileError.
 std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths);
+
+// Whether the file begins as one of the formats does that are read.
+bool isReadable(const std::filesystem::path& path);
 
 }  // namespace timeseries

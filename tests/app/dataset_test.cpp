@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "tests/support/files.h"
 #include "tests/support/netcdf_builder.h"
 
 namespace app {
@@ -67,6 +68,18 @@ std::filesystem::path twoVariables() {
     return file.close();
 }
 
+// v(time, 2, 2) in a file of exactly this name, in the test's folder.
+std::filesystem::path timed(const std::filesystem::path& folder, const std::string& name,
+                            const std::vector<double>& times, std::size_t nx = 2) {
+    support::NetcdfBuilder file(name);
+    const auto t = file.coordinate("time", times.size(), "s");
+    const int y = file.dimension("y", 2), x = file.dimension("x", nx);
+    file.variable("v", NC_FLOAT, {t.dimension, y, x});
+    file.write(t.variable, times);
+    std::filesystem::rename(file.close(), folder / name);
+    return folder / name;
+}
+
 Dataset open(const std::filesystem::path& file, const std::string& variable) {
     return openDataset(std::span(&file, 1), variable);
 }
@@ -76,7 +89,7 @@ TEST(Dataset, AVariableIsChosenByNameOrTheFirst) {
     EXPECT_EQ(open(file, "").about.name, "first");
     EXPECT_EQ(open(file, "second").about.name, "second");
     EXPECT_EQ(open(file, "second").stepCount(), 3u);
-    EXPECT_EQ(open(file, "").name(), file.string());
+    EXPECT_EQ(open(file, "").name, file.string());
 }
 
 TEST(Dataset, AnUnknownVariableIsToldWithThoseThereAre) {
@@ -90,6 +103,52 @@ TEST(Dataset, AnUnknownVariableIsToldWithThoseThereAre) {
             EXPECT_THAT(error.what(), HasSubstr("'" + std::string(name) + "'"));
             EXPECT_THAT(error.what(), HasSubstr("first, second"));
         }
+    }
+}
+
+TEST(Dataset, AMemberOpensItsSeriesAtItsOwnSteps) {
+    const auto folder = test_support::freshFolder();
+    // By their times the files follow each other backwards.
+    const auto last = timed(folder, "a_1.nc", {7, 8, 9}), first = timed(folder, "a_2.nc", {1}),
+               middle = timed(folder, "a_3.nc", {4, 5});
+    const Dataset dataset = open(last, "");
+    EXPECT_EQ(dataset.stepCount(), 6u);
+    EXPECT_EQ(dataset.defaultStep, 4u) << "the middle one of 7, 8, 9";
+    EXPECT_EQ(dataset.name, last.string());
+    EXPECT_EQ(open(first, "").defaultStep, 0u);
+    EXPECT_EQ(open(middle, "").defaultStep, 2u);
+    EXPECT_EQ(open(folder, "").defaultStep, 3u) << "the middle one of all";
+    EXPECT_EQ(open(folder, "").stepCount(), 6u);
+}
+
+TEST(Dataset, SiblingsThatCannotBeJoinedAreLeftOutAndTold) {
+    const auto folder = test_support::freshFolder();
+    const auto named = timed(folder, "a_1.nc", {1, 2, 3});
+    timed(folder, "a_2.nc", {3, 4});
+    const Dataset overlap = open(named, "");
+    EXPECT_EQ(overlap.stepCount(), 3u);
+    EXPECT_EQ(overlap.defaultStep, 1u);
+    EXPECT_THAT(overlap.series.notes,
+                testing::ElementsAre(testing::AllOf(HasSubstr("only this file is opened"),
+                                                    HasSubstr("that do not overlap"))));
+    timed(folder, "a_2.nc", {4}, 3);
+    EXPECT_THAT(open(named, "").series.notes, testing::ElementsAre(HasSubstr("the same grid")));
+    EXPECT_THROW(open(folder, ""), FileError) << "what is named is not left out";
+    EXPECT_THROW(open(folder / "*.nc", ""), FileError);
+    timed(folder, "a_2.nc", {4});
+    EXPECT_EQ(open(named, "").stepCount(), 4u);
+}
+
+TEST(Dataset, AnUnreadableMemberIsNamed) {
+    const auto folder = test_support::freshFolder();
+    const auto good = timed(folder, "a_1.nc", {1}), bad = folder / "a_2.nc";
+    test_support::writeBytes(bad, "no data");
+    EXPECT_THAT(open(good, "").series.notes, testing::ElementsAre(HasSubstr(bad.string())));
+    try {
+        open(bad, "");
+        ADD_FAILURE();
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), testing::StartsWith(bad.string() + ": expected"));
     }
 }
 
@@ -113,7 +172,7 @@ TEST(Dataset, AStepThatIsNotThereIsToldWithThoseThatAre) {
             stepsOf(dataset, steps);
             ADD_FAILURE() << steps.first;
         } catch (const FileError& error) {
-            EXPECT_THAT(error.what(), HasSubstr(dataset.name()));
+            EXPECT_THAT(error.what(), HasSubstr(dataset.name));
             EXPECT_THAT(error.what(), HasSubstr("no step " + std::to_string(named)));
             EXPECT_THAT(error.what(), HasSubstr("second has steps 0 to 2"));
         }

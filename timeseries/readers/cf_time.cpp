@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "timeseries/readers/cf_packing.h"
+#include "timeseries/series_files.h"
 #include "timeseries/time_units.h"
 #include "timeseries/units.h"
 
@@ -74,7 +75,9 @@ struct Part {
 
 bool before(const Number& a, const Number& b) { return compare(a, b) < 0; }
 
-JoinedTimes count(const std::vector<StoredTimes>& parts) {
+// By the numbers in the files' names, where each is one step.
+JoinedTimes count(const std::vector<StoredTimes>& parts,
+                  const std::vector<std::filesystem::path>& paths) {
     JoinedTimes joined{parts.front(), {}};
     std::size_t steps = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -84,6 +87,11 @@ JoinedTimes count(const std::vector<StoredTimes>& parts) {
     joined.times.values.clear();
     for (std::size_t i = 0; i < steps; ++i)
         joined.times.values.emplace_back(static_cast<double>(i));
+    if (!std::ranges::all_of(parts, &StoredTimes::single)) return joined;
+    if (const auto numbers = ascendingNumbers(paths)) {
+        joined.times.name = "number";
+        joined.times.values.assign(numbers->begin(), numbers->end());
+    }
     return joined;
 }
 
@@ -143,7 +151,7 @@ JoinedTimes join(const std::vector<StoredTimes>& parts,
                                     paths[b].string(), variable, what));
     };
     if (parts.size() == 1) return {parts[0], {{0, parts[0].values.size()}}};
-    if (std::ranges::all_of(parts, &StoredTimes::counted)) return count(parts);
+    if (std::ranges::all_of(parts, &StoredTimes::counted)) return count(parts, paths);
 
     std::vector<Part> sorted;
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -31,7 +31,7 @@ struct Segment {
 
 struct JoinedTimes {
     StoredTimes times;
-    std::vector<Segment> segments;  // by time; in the order given when steps are only counted
+    std::vector<Segment> segments;  // by time; in the order given when the files have none
 };
 
 // REQUIRES: parts not empty, as long as paths. Throws FileError, naming two files, when the units

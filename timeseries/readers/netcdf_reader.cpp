@@ -29,6 +29,7 @@ class NetcdfReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 
  private:
     NetcdfFile& open(std::size_t index);
@@ -150,6 +151,15 @@ Block blockOf(const FileVariable& variable, std::size_t step) {
         stride *= block.count[i];
     }
     return block;
+}
+
+std::optional<StepSpan> NetcdfReader::stepsOf(std::size_t variable, std::size_t file) const {
+    std::size_t first = 0;
+    for (const Segment& segment : segments_[variable]) {
+        if (segment.file == file) return StepSpan{first, segment.count};
+        first += segment.count;
+    }
+    return std::nullopt;  // what has no time is read of the first file
 }
 
 Field NetcdfReader::read(std::size_t variable, std::size_t step) {

@@ -1,0 +1,213 @@
+#include "timeseries/readers/sequence_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <list>
+
+#include "timeseries/series_files.h"
+
+namespace timeseries {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::size_t kMostOpen = 3;  // a series may have more files than handles
+
+// The axis of a file that has no times.
+bool counted(const TimeAxis& axis) { return axis.name == "step"; }
+
+class SequenceReader final : public Reader {
+ public:
+    SequenceReader(std::span<const Path> paths, OpenOne openOne)
+        : paths_(paths.begin(), paths.end()), openOne_(std::move(openOne)) {
+        const auto first = openOne_(paths_[0]);
+        format_ = first->format();
+        variables_.assign(first->variables().begin(), first->variables().end());
+        axes_.resize(variables_.size());
+        for (std::size_t v = 0; v < variables_.size(); ++v) axes_[v].push_back(variables_[v].time);
+        for (std::size_t f = 1; f < paths_.size(); ++f) add(f, *openOne_(paths_[f]));
+        for (std::size_t v = 0; v < variables_.size(); ++v) joinTimes(v);
+        axes_.clear();
+    }
+
+    std::string format() const override { return format_; }
+    std::span<const Path> files() const override { return paths_; }
+    std::span<const Variable> variables() const override { return variables_; }
+    Field read(std::size_t variable, std::size_t step) override;
+    std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override {
+        const auto& begins = begins_[variable];
+        return StepSpan{begins[file], begins[file + 1] - begins[file]};
+    }
+
+ private:
+    using Axes = std::vector<std::shared_ptr<const TimeAxis>>;  // [file]
+
+    struct Open {
+        std::size_t file;
+        std::unique_ptr<Reader> reader;
+    };
+
+    void add(std::size_t file, const Reader& reader);
+    const Variable& expectSame(const Variable& expected, std::size_t file,
+                               const Reader& reader) const;
+    void joinTimes(std::size_t v);
+    std::string ownTimesFail(std::size_t v) const;
+    TimeAxis ownTimes(std::size_t v) const;
+    Reader& open(std::size_t file);
+    [[noreturn]] void differ(std::size_t a, std::size_t b, const std::string& what) const {
+        throw FileError(fmt::format("{} and {}: {}", paths_[a].string(), paths_[b].string(), what));
+    }
+
+    const std::vector<Path> paths_;
+    const OpenOne openOne_;
+    std::string format_;
+    std::vector<Variable> variables_;               // the first file's, with the times of all
+    std::vector<Axes> axes_;                        // [variable], while opening
+    std::vector<std::vector<std::size_t>> begins_;  // [variable][file]: its first step, and the end
+    std::list<Open> open_;                          // the last used first
+};
+
+const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t file,
+                                           const Reader& reader) const {
+    const auto found = std::ranges::find(reader.variables(), expected.name, &Variable::name);
+    if (found == reader.variables().end())
+        differ(
+            0, file,
+            fmt::format("expected the same variables, but the second has no '{}'", expected.name));
+    const std::string place = fmt::format("variable '{}': expected the same ", expected.name);
+    if (found->type != expected.type)
+        differ(0, file,
+               fmt::format("{}type, found {} and {}", place, typeName(expected.type),
+                           typeName(found->type)));
+    if (found->units != expected.units)
+        differ(
+            0, file,
+            fmt::format("{}units, found \"{}\" and \"{}\"", place, expected.units, found->units));
+    if (*found->grid != *expected.grid) {
+        const auto a = expected.grid->size(), b = found->grid->size();
+        differ(0, file,
+               a == b ? fmt::format("{}grid, but their {} x {} x {} points lie elsewhere", place,
+                                    a[0], a[1], a[2])
+                      : fmt::format("{}grid, found {} x {} x {} and {} x {} x {} points", place,
+                                    a[0], a[1], a[2], b[0], b[1], b[2]));
+    }
+    return *found;
+}
+
+void SequenceReader::add(std::size_t file, const Reader& reader) {
+    for (std::size_t v = 0; v < variables_.size(); ++v)
+        axes_[v].push_back(expectSame(variables_[v], file, reader).time);
+    for (const Variable& other : reader.variables()) {
+        if (std::ranges::find(variables_, other.name, &Variable::name) != variables_.end())
+            continue;
+        const std::string note =
+            fmt::format("'{}' is not in the first file: it is left out", other.name);
+        auto& notes = variables_.front().notes;
+        if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+    }
+}
+
+// "" when the files' own times are those of the series.
+std::string SequenceReader::ownTimesFail(std::size_t v) const {
+    const Axes& axes = axes_[v];
+    const auto name = [&](std::size_t f) { return paths_[f].filename().string(); };
+    const bool several =
+        std::ranges::any_of(axes, [](const auto& axis) { return axis->points.size() > 1; });
+    for (std::size_t f = 0; f < axes.size(); ++f)
+        if (counted(*axes[f])) return fmt::format("{} has none", name(f));
+    for (std::size_t f = 1; f < axes.size(); ++f)
+        if (axes[f]->units != axes[0]->units || axes[f]->calendar != axes[0]->calendar)
+            return fmt::format("those of {} are in \"{}\", those of {} in \"{}\"", name(0),
+                               axes[0]->units, name(f), axes[f]->units);
+    for (std::size_t f = 1; f < axes.size(); ++f) {
+        const double before = std::ranges::max(axes[f - 1]->points, {}, &TimePoint::value).value;
+        const double after = std::ranges::min(axes[f]->points, {}, &TimePoint::value).value;
+        if (before < after) continue;
+        if (several)
+            differ(f - 1, f,
+                   fmt::format("variable '{}': expected times that ascend, found {} before {}",
+                               variables_[v].name, before, after));
+        return before == after ? fmt::format("{} and {} both have {}", name(f - 1), name(f), before)
+                               : fmt::format("they do not ascend: {} has {}, {} has {}",
+                                             name(f - 1), before, name(f), after);
+    }
+    return "";
+}
+
+TimeAxis SequenceReader::ownTimes(std::size_t v) const {
+    TimeAxis axis = *axes_[v][0];
+    axis.points.clear();
+    for (const auto& each : axes_[v])
+        axis.points.insert(axis.points.end(), each->points.begin(), each->points.end());
+    return axis;
+}
+
+void SequenceReader::joinTimes(std::size_t v) {
+    Variable& variable = variables_[v];
+    std::vector<std::size_t> begins{0};
+    bool single = true;
+    for (const auto& axis : axes_[v]) {
+        begins.push_back(begins.back() + axis->points.size());
+        single = single && axis->points.size() == 1;
+    }
+    TimeAxis time{"step", "", "", {}};
+    if (const std::string why = ownTimesFail(v); why.empty()) {
+        time = ownTimes(v);
+    } else {
+        const auto numbers = single ? ascendingNumbers(paths_) : std::nullopt;
+        if (numbers) time.name = "number";
+        for (std::size_t i = 0; i < begins.back(); ++i)
+            time.points.push_back({numbers ? (*numbers)[i] : static_cast<double>(i), ""});
+        if (!std::ranges::all_of(axes_[v], [](const auto& axis) { return counted(*axis); }))
+            variable.notes.push_back(
+                fmt::format("the files' own times are not used, steps are {}: {}",
+                            numbers ? "numbered as the files are" : "counted", why));
+    }
+    begins_.push_back(std::move(begins));
+    variable.time = std::make_shared<TimeAxis>(std::move(time));
+    for (std::size_t other = 0; other < v; ++other)
+        if (axes_[other] == axes_[v]) variable.time = variables_[other].time;
+}
+
+Reader& SequenceReader::open(std::size_t file) {
+    const auto found = std::ranges::find(open_, file, &Open::file);
+    if (found != open_.end()) {
+        open_.splice(open_.begin(), open_, found);
+        return *open_.front().reader;
+    }
+    if (open_.size() == kMostOpen) open_.pop_back();
+    auto reader = openOne_(paths_[file]);
+    // It may have been written anew since the series was opened.
+    for (std::size_t v = 0; v < variables_.size(); ++v) {
+        const std::size_t then = begins_[v][file + 1] - begins_[v][file];
+        const std::size_t now = expectSame(variables_[v], file, *reader).time->points.size();
+        if (now != then)
+            throw FileError(
+                fmt::format("{}: expected {} steps as when the series was opened, "
+                            "found {}",
+                            paths_[file].string(), then, now));
+    }
+    open_.push_front({file, std::move(reader)});
+    return *open_.front().reader;
+}
+
+Field SequenceReader::read(std::size_t variable, std::size_t step) {
+    const auto& begins = begins_[variable];
+    const auto file =
+        static_cast<std::size_t>(std::ranges::upper_bound(begins, step) - begins.begin() - 1);
+    Reader& reader = open(file);
+    const auto all = reader.variables();
+    const auto found = std::ranges::find(all, variables_[variable].name, &Variable::name);
+    Field field = reader.read(static_cast<std::size_t>(found - all.begin()), step - begins[file]);
+    field.grid = variables_[variable].grid;
+    return field;
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> openSequence(std::span<const Path> paths, OpenOne openOne) {
+    return std::make_unique<SequenceReader>(paths, std::move(openOne));
+}
+
+}  // namespace timeseries

@@ -1,0 +1,483 @@
+#include "timeseries/series_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glob.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "timeseries/reader.h"
+
+namespace timeseries {
+namespace {
+
+using Path = std::filesystem::path;
+using Paths = std::vector<Path>;
+
+constexpr std::size_t kMostTold = 8;  // numbers, files or gaps, in one sentence
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+// A file's name cut at its runs of digits: texts[0] digits[0] texts[1] ... texts.back() extension.
+struct Name {
+    std::vector<std::string> texts{""}, digits;
+    std::string extension;
+};
+
+Name cut(const Path& path) {
+    const std::string whole = path.filename().string();
+    Name name;
+    name.extension = path.extension().string();
+    // "plt.0041": the number stands where an extension would.
+    if (name.extension.size() > 1 &&
+        std::all_of(name.extension.begin() + 1, name.extension.end(), isDigit))
+        name.extension.clear();
+    bool inDigits = false;
+    for (const char c : std::string_view(whole).substr(0, whole.size() - name.extension.size())) {
+        if (isDigit(c)) {
+            if (!inDigits) name.digits.emplace_back();
+            name.digits.back() += c;
+        } else {
+            if (inDigits) name.texts.emplace_back();
+            name.texts.back() += c;
+        }
+        inDigits = isDigit(c);
+    }
+    if (inDigits) name.texts.emplace_back();
+    return name;
+}
+
+std::string withoutZeros(const std::string& digits) {
+    const std::size_t first = digits.find_first_not_of('0');
+    return first == std::string::npos ? "0" : digits.substr(first);
+}
+
+// Of any length: simulations number their steps with more digits than an integer has.
+bool numberLess(const std::string& a, const std::string& b) {
+    const std::string x = withoutZeros(a), y = withoutZeros(b);
+    return x.size() != y.size() ? x.size() < y.size() : x < y;
+}
+
+bool nameLess(const Path& a, const Path& b) {
+    const Name x = cut(a), y = cut(b);
+    for (std::size_t i = 0; i < std::min(x.texts.size(), y.texts.size()); ++i) {
+        if (x.texts[i] != y.texts[i]) return x.texts[i] < y.texts[i];
+        if (i >= x.digits.size() || i >= y.digits.size()) break;
+        if (numberLess(x.digits[i], y.digits[i])) return true;
+        if (numberLess(y.digits[i], x.digits[i])) return false;
+    }
+    return a.filename() < b.filename();
+}
+
+// The one number in which two names differ; none when they differ elsewhere, or not at all.
+std::optional<std::size_t> onlyDifference(const Name& a, const Name& b) {
+    if (a.texts != b.texts || a.extension != b.extension) return std::nullopt;
+    std::optional<std::size_t> at;
+    for (std::size_t i = 0; i < a.digits.size(); ++i) {
+        if (a.digits[i] == b.digits[i]) continue;
+        if (at) return std::nullopt;
+        at = i;
+    }
+    return at;
+}
+
+// Files of one folder whose names differ in one number, ascending by it.
+struct Numbered {
+    Paths files;
+    std::vector<std::string> numbers;  // without leading zeros
+};
+
+// In "t_0.25" and "t_0.5" the last digits may be a fraction or a count: their orders differ.
+bool ambiguous(const Name& name, std::size_t at, std::span<const std::string> numbers) {
+    return at > 0 && name.texts[at] == "." &&
+           std::ranges::any_of(numbers, [&](const std::string& digits) {
+               return digits.size() != numbers.front().size();
+           });
+}
+
+Numbered byNumber(Paths files, std::size_t at) {
+    struct Member {
+        Path file;
+        std::string digits;
+    };
+    std::vector<Member> members;
+    for (Path& file : files) {
+        std::string digits = cut(file).digits[at];
+        members.push_back({std::move(file), std::move(digits)});
+    }
+    std::ranges::stable_sort(members, [](const Member& a, const Member& b) {
+        return numberLess(a.digits, b.digits) ||
+               (!numberLess(b.digits, a.digits) && a.file < b.file);
+    });
+    Numbered series;
+    for (Member& member : members) {
+        series.files.push_back(std::move(member.file));
+        series.numbers.push_back(withoutZeros(member.digits));
+    }
+    return series;
+}
+
+// None when they are no numbered series.
+std::optional<Numbered> numbered(std::span<const Path> paths) {
+    if (paths.size() < 2) return std::nullopt;
+    const Name first = cut(paths.front());
+    std::optional<std::size_t> at;
+    for (const Path& path : paths) {
+        if (path.parent_path() != paths.front().parent_path()) return std::nullopt;
+        if (path.filename() == paths.front().filename()) continue;
+        const auto difference = onlyDifference(first, cut(path));
+        if (!difference || (at && at != difference)) return std::nullopt;
+        at = difference;
+    }
+    if (!at) return std::nullopt;
+    std::vector<std::string> digits;
+    for (const Path& path : paths) digits.push_back(cut(path).digits[*at]);
+    if (ambiguous(first, *at, digits)) return std::nullopt;
+    return byNumber({paths.begin(), paths.end()}, *at);
+}
+
+// Null beyond 18 digits.
+std::optional<std::vector<std::int64_t>> integers(const std::vector<std::string>& numbers) {
+    std::vector<std::int64_t> values;
+    for (const std::string& number : numbers) {
+        if (number.size() > 18) return std::nullopt;
+        values.push_back(std::stoll(number));
+    }
+    return values;
+}
+
+std::string missingText(const std::vector<std::int64_t>& values, std::int64_t every) {
+    std::string text;
+    std::size_t told = 0;
+    std::int64_t missing = 0, untold = 0;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        const std::int64_t gap = (values[i] - values[i - 1]) / every - 1;
+        if (gap <= 0) continue;
+        missing += gap;
+        if (told++ >= kMostTold) {
+            untold += gap;
+            continue;
+        }
+        const std::int64_t from = values[i - 1] + every, to = values[i] - every;
+        text += (text.empty() ? "" : ", ") + (gap == 1   ? fmt::format("{}", from)
+                                              : gap == 2 ? fmt::format("{}, {}", from, to)
+                                                         : fmt::format("{} to {}", from, to));
+    }
+    if (untold > 0) text += fmt::format(" and {} more", untold);
+    return missing == 1 ? fmt::format("number {} is missing", text)
+                        : fmt::format("{} numbers are missing: {}", missing, text);
+}
+
+std::string namesText(const Paths& files) {
+    return fmt::format("{} files {} to {}", files.size(), files.front().filename().string(),
+                       files.back().filename().string());
+}
+
+void describe(const Numbered& series, ExpandedSeries& into) {
+    const auto& numbers = series.numbers;
+    bool twice = false;
+    for (std::size_t i = 1, told = 0; i < numbers.size(); ++i) {
+        if (numbers[i] != numbers[i - 1]) continue;
+        twice = true;
+        if (told++ < kMostTold)
+            into.notes.push_back(fmt::format("number {} stands twice: {} and {}", numbers[i],
+                                             series.files[i - 1].filename().string(),
+                                             series.files[i].filename().string()));
+    }
+    std::string shape;
+    if (auto values = integers(numbers)) {
+        values->erase(std::unique(values->begin(), values->end()), values->end());
+        std::int64_t least = 0, common = 0;
+        for (std::size_t i = 1; i < values->size(); ++i) {
+            const std::int64_t step = (*values)[i] - (*values)[i - 1];
+            least = i == 1 ? step : std::min(least, step);
+            common = std::gcd(common, step);
+        }
+        const bool uneven = least != common;
+        const bool gaps = !uneven && common > 0 &&
+                          (values->back() - values->front()) / common + 1 > std::ssize(*values);
+        if (values->size() == 2 && !twice) {
+            shape = fmt::format("numbers {} and {}", numbers.front(), numbers.back());
+        } else if (uneven && values->size() <= kMostTold) {
+            shape = fmt::format("numbers {}: uneven", fmt::join(*values, ", "));
+        } else {
+            shape = fmt::format("numbers {} to {}", numbers.front(), numbers.back());
+            if (uneven) shape += ": uneven";
+            if (!uneven && common > 1) shape += fmt::format(" every {}", common);
+            if (gaps) shape += ", with gaps";
+        }
+        if (gaps) into.notes.push_back(missingText(*values, common));
+    } else {
+        shape = fmt::format("numbers {} to {}", numbers.front(), numbers.back());
+    }
+    into.recognised = fmt::format("{}, {}", namesText(series.files), shape);
+}
+
+// The ordinary files of a folder, hidden ones left out. None when there are too many.
+std::optional<Paths> filesIn(const Path& folder) {
+    Paths files;
+    std::size_t seen = 0;
+    std::error_code error;
+    const Path where = folder.empty() ? Path(".") : folder;
+    for (std::filesystem::directory_iterator entry(where, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (++seen > kMaxSeriesFiles) return std::nullopt;
+        std::error_code ignored;
+        if (entry->path().filename().string().starts_with('.') || !entry->is_regular_file(ignored))
+            continue;
+        files.push_back(folder / entry->path().filename());
+    }
+    if (error)
+        throw FileError(fmt::format("{}: expected a folder that can be listed, but {}",
+                                    where.string(), error.message()));
+    return files;
+}
+
+// Files named alike that are no part of the series.
+void tellOthers(Paths others, ExpandedSeries& into) {
+    if (others.empty()) return;
+    std::ranges::sort(others, nameLess);
+    const std::string first = others.front().filename().string();
+    into.notes.push_back(
+        others.size() == 1
+            ? fmt::format("{} is not taken: it differs in another number, or in several", first)
+            : fmt::format("{} files {} to {} are not taken: they differ in another number, or in "
+                          "several; a folder or a pattern opens them together",
+                          others.size(), first, others.back().filename().string()));
+}
+
+ExpandedSeries member(const Path& file) {
+    ExpandedSeries alone{{file}, {}, "", {}};
+    const Name name = cut(file);
+    if (name.digits.empty() || name.extension == ".pvd") return alone;
+    std::optional<Paths> listed;
+    try {
+        listed = filesIn(file.parent_path());
+    } catch (const FileError&) {
+        alone.notes.push_back("only this file is opened: its folder cannot be listed");
+        return alone;
+    }
+    if (!listed) {
+        alone.notes.push_back(
+            fmt::format("only this file is opened: its folder holds more than {} "
+                        "files",
+                        kMaxSeriesFiles));
+        return alone;
+    }
+    std::map<std::size_t, Paths> siblings;  // by the number in which they differ
+    Paths further;                          // in several numbers
+    for (const Path& other : *listed) {
+        const Name its = cut(other);
+        if (its.texts != name.texts || its.extension != name.extension || its.digits == name.digits)
+            continue;
+        if (const auto at = onlyDifference(name, its))
+            siblings[*at].push_back(other);
+        else
+            further.push_back(other);
+    }
+
+    // The last number that takes another value: a_1 and a_01 alone are no series.
+    const auto varies = std::find_if(siblings.rbegin(), siblings.rend(), [&](const auto& each) {
+        return std::ranges::any_of(each.second, [&](const Path& other) {
+            return withoutZeros(cut(other).digits[each.first]) !=
+                   withoutZeros(name.digits[each.first]);
+        });
+    });
+    if (varies == siblings.rend()) {
+        for (const auto& [at, files] : siblings)
+            alone.notes.push_back(
+                fmt::format("number {} stands twice: {} and {}; only the file "
+                            "named is opened",
+                            withoutZeros(name.digits[at]), file.filename().string(),
+                            files.front().filename().string()));
+        tellOthers(std::move(further), alone);
+        return alone;
+    }
+    const std::size_t at = varies->first;
+    Paths files = varies->second;
+    files.push_back(file);
+    std::vector<std::string> digits;
+    for (const Path& each : files) digits.push_back(cut(each).digits[at]);
+    if (ambiguous(name, at, digits)) {
+        alone.notes.push_back(fmt::format(
+            "only this file is opened: the numbers of {} and {} may be decimal or whole; name the "
+            "files in their order",
+            file.filename().string(), files.front().filename().string()));
+        return alone;
+    }
+    const Numbered series = byNumber(std::move(files), at);
+    ExpandedSeries result;
+    describe(series, result);
+    for (const auto& [number, others] : siblings)
+        if (number != at) further.insert(further.end(), others.begin(), others.end());
+    tellOthers(std::move(further), result);
+    result.files = series.files;
+    result.here =
+        static_cast<std::size_t>(std::ranges::find(series.files, file) - series.files.begin());
+    return result;
+}
+
+// Files that were named or found together.
+ExpandedSeries together(Paths files, std::string_view order) {
+    const auto isCollection = [](const Path& file) { return file.extension() == ".pvd"; };
+    const auto collection = std::ranges::find_if(files, isCollection);
+    if (collection != files.end() && !std::ranges::all_of(files, isCollection))
+        throw FileError(fmt::format("{}: expected it alone, for it lists the files of its series",
+                                    collection->string()));
+    ExpandedSeries result;
+    if (const auto series = numbered(files)) {
+        describe(*series, result);
+        result.files = series->files;
+        return result;
+    }
+    if (files.size() > 1) result.recognised = fmt::format("{}, {}", namesText(files), order);
+    result.files = std::move(files);
+    return result;
+}
+
+// "a_#_#": the name's texts, whatever its numbers.
+std::string shapeOf(const Path& file) {
+    const Name name = cut(file);
+    return fmt::format("{}{}", fmt::join(name.texts, "*"), name.extension);
+}
+
+std::string candidate(const Paths& files) {
+    const std::string name = files.front().filename().string();
+    if (files.size() == 1) return name;
+    const std::string shape = shapeOf(files.front());
+    const bool alike =
+        std::ranges::all_of(files, [&](const Path& file) { return shapeOf(file) == shape; });
+    return fmt::format("{} ({} files)", alike ? shape : "*" + cut(files.front()).extension,
+                       files.size());
+}
+
+[[noreturn]] void refuseCandidates(const Path& folder, const std::vector<Paths>& candidates) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(candidates.size(), kMostTold); ++i)
+        text += (text.empty() ? "" : ", ") + candidate(candidates[i]);
+    if (candidates.size() > kMostTold)
+        text += fmt::format(" and {} more", candidates.size() - kMostTold);
+    throw FileError(
+        fmt::format("{}: expected a folder that holds one series, found {}; name one "
+                    "of them",
+                    folder.string(), text));
+}
+
+ExpandedSeries folder(const Path& folder) {
+    std::optional<Paths> listed = filesIn(folder);
+    if (!listed)
+        throw FileError(fmt::format("{}: expected a folder of at most {} files, found more",
+                                    folder.string(), kMaxSeriesFiles));
+    std::ranges::sort(*listed, nameLess);
+    std::map<std::string, Paths> byExtension;
+    for (const Path& file : *listed) byExtension[cut(file).extension].push_back(file);
+    if (byExtension.empty())
+        throw FileError(fmt::format(
+            "{}: expected a folder that holds a series, found no files in it", folder.string()));
+
+    std::vector<Paths> candidates;
+    for (auto& [extension, files] : byExtension) candidates.push_back(std::move(files));
+    if (candidates.size() > 1) {  // beside a readme, beside the raw data of detached headers
+        std::vector<Paths> readable;
+        for (const Paths& files : candidates)
+            if (isReadable(files.front())) readable.push_back(files);
+        if (!readable.empty()) candidates = std::move(readable);
+        // A collection lists the others, with their times.
+        for (const Paths& files : candidates)
+            if (files.size() == 1 && files.front().extension() == ".pvd") {
+                candidates = {Paths(files)};
+                break;
+            }
+    }
+    if (candidates.size() > 1) refuseCandidates(folder, candidates);
+    Paths files = candidates.front();
+    if (numbered(files)) return together(std::move(files), "");
+
+    // Several numbered series of one extension are no series together.
+    std::map<std::string, Paths> byShape;
+    for (const Path& file : files) byShape[shapeOf(file)].push_back(file);
+    const bool series =
+        std::ranges::any_of(byShape, [](const auto& shape) { return shape.second.size() > 1; });
+    if (byShape.size() > 1 && series) {
+        candidates.clear();
+        for (auto& [shape, each] : byShape) candidates.push_back(std::move(each));
+        refuseCandidates(folder, candidates);
+    }
+    ExpandedSeries result = together(std::move(files), "in the order of their names");
+    if (result.files.size() == 1)
+        result.recognised =
+            fmt::format("{}, the only file to open here", result.files.front().filename().string());
+    return result;
+}
+
+bool isPattern(const Path& path) {
+    std::error_code ignored;
+    return path.string().find_first_of("*?[") != std::string::npos &&
+           !std::filesystem::exists(path, ignored);
+}
+
+Paths matches(const Path& pattern) {
+    glob_t found{};
+    const int code = glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
+    const std::unique_ptr<glob_t, void (*)(glob_t*)> release(&found, globfree);
+    if (code != 0 && code != GLOB_NOMATCH)
+        throw FileError(
+            fmt::format("{}: expected a pattern whose folders can be listed", pattern.string()));
+    if (found.gl_pathc > kMaxSeriesFiles)
+        throw FileError(fmt::format("{}: expected a pattern of at most {} files, found {}",
+                                    pattern.string(), kMaxSeriesFiles, found.gl_pathc));
+    Paths files;
+    for (std::size_t i = 0; i < found.gl_pathc; ++i) {
+        std::error_code ignored;
+        if (!std::filesystem::is_directory(found.gl_pathv[i], ignored))
+            files.emplace_back(found.gl_pathv[i]);
+    }
+    if (files.empty())
+        throw FileError(fmt::format("{}: no file has such a name", pattern.string()));
+    std::ranges::sort(files, [](const Path& a, const Path& b) {
+        return a.parent_path() == b.parent_path() ? nameLess(a, b)
+                                                  : a.parent_path() < b.parent_path();
+    });
+    return files;
+}
+
+}  // namespace
+
+ExpandedSeries expandSeries(std::span<const Path> named) {
+    if (named.size() == 1) {
+        const Path& one = named.front();
+        if (isPattern(one)) return together(matches(one), "in the order of their names");
+        std::error_code ignored;
+        if (std::filesystem::is_directory(one, ignored)) return folder(one);
+        if (std::filesystem::is_regular_file(one, ignored)) return member(one);
+        return {{one}, {}, "", {}};
+    }
+    Paths files;
+    for (const Path& path : named) {
+        if (isPattern(path)) {
+            const Paths found = matches(path);
+            files.insert(files.end(), found.begin(), found.end());
+        } else {
+            files.push_back(path);
+        }
+    }
+    return together(std::move(files), "in the order given");
+}
+
+std::optional<std::vector<double>> ascendingNumbers(std::span<const Path> paths) {
+    const auto series = numbered(paths);
+    if (!series || !std::ranges::equal(series->files, paths)) return std::nullopt;
+    std::vector<double> values;
+    for (const std::string& number : series->numbers) {
+        if (number.size() > 300) return std::nullopt;
+        values.push_back(std::stod(number));
+        if (values.size() > 1 && !(values[values.size() - 2] < values.back())) return std::nullopt;
+    }
+    return values;
+}
+
+}  // namespace timeseries
