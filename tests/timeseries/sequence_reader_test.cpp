@@ -22,7 +22,7 @@ using Path = std::filesystem::path;
 // What a fake file holds. Step t of variable v is filled with first + t + 100 v.
 struct Content {
     std::vector<std::string> variables{"v"};
-    TimeAxis time{"step", "", "", {{0, ""}}};
+    TimeAxis time{"step", "", "", {{0, ""}}, true};
     std::string units = "K";
     ValueType type = ValueType::F32;
     std::vector<double> x{0, 1};

@@ -90,6 +90,7 @@ JoinedTimes count(const std::vector<StoredTimes>& parts,
     if (!std::ranges::all_of(parts, &StoredTimes::single)) return joined;
     if (const auto numbers = ascendingNumbers(paths)) {
         joined.times.name = "number";
+        joined.times.counted = false;
         joined.times.values.assign(numbers->begin(), numbers->end());
     }
     return joined;

@@ -14,9 +14,6 @@ using Path = std::filesystem::path;
 
 constexpr std::size_t kMostOpen = 3;  // a series may have more files than handles
 
-// The axis of a file that has no times.
-bool counted(const TimeAxis& axis) { return axis.name == "step"; }
-
 class SequenceReader final : public Reader {
  public:
     SequenceReader(std::span<const Path> paths, OpenOne openOne)
@@ -115,7 +112,7 @@ std::string SequenceReader::ownTimesFail(std::size_t v) const {
     const bool several =
         std::ranges::any_of(axes, [](const auto& axis) { return axis->points.size() > 1; });
     for (std::size_t f = 0; f < axes.size(); ++f)
-        if (counted(*axes[f])) return fmt::format("{} has none", name(f));
+        if (axes[f]->counted) return fmt::format("{} has none", name(f));
     for (std::size_t f = 1; f < axes.size(); ++f)
         if (axes[f]->units != axes[0]->units || axes[f]->calendar != axes[0]->calendar)
             return fmt::format("those of {} are in \"{}\", those of {} in \"{}\"", name(0),
@@ -151,15 +148,18 @@ void SequenceReader::joinTimes(std::size_t v) {
         begins.push_back(begins.back() + axis->points.size());
         single = single && axis->points.size() == 1;
     }
-    TimeAxis time{"step", "", "", {}};
+    TimeAxis time{"step", "", "", {}, true};
     if (const std::string why = ownTimesFail(v); why.empty()) {
         time = ownTimes(v);
     } else {
         const auto numbers = single ? ascendingNumbers(paths_) : std::nullopt;
-        if (numbers) time.name = "number";
+        if (numbers) {
+            time.name = "number";
+            time.counted = false;
+        }
         for (std::size_t i = 0; i < begins.back(); ++i)
             time.points.push_back({numbers ? (*numbers)[i] : static_cast<double>(i), ""});
-        if (!std::ranges::all_of(axes_[v], [](const auto& axis) { return counted(*axis); }))
+        if (!std::ranges::all_of(axes_[v], [](const auto& axis) { return axis->counted; }))
             variable.notes.push_back(
                 fmt::format("the files' own times are not used, steps are {}: {}",
                             numbers ? "numbered as the files are" : "counted", why));
