@@ -125,7 +125,8 @@ Axis spacedAxis(const NrrdAxis& axis, const std::string& name, std::vector<std::
     std::vector<double> coordinates = spaced(first, spacing, axis.size);
     if (spacing == 0 || !placesPoints(coordinates)) {
         notes.push_back(
-            fmt::format("{} is placed by index: its spacing is {}", index.name, spacing));
+            fmt::format("{} is placed by index: a spacing of {} does not tell its samples apart",
+                        index.name, spacing));
         return index;
     }
     return {index.name, axis.units, std::move(coordinates), false};

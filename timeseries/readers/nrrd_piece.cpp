@@ -137,9 +137,13 @@ std::size_t NrrdStream::Piece::next(char* out, std::size_t bytes) {
 void NrrdStream::Piece::expectNext(char* out, std::size_t bytes) {
     if (next(out, bytes) < bytes)
         fail(fmt::format("expected {} bytes of values, found {}", bytes_, position_));
-    // The checksum stands behind the last value and is looked at when more is asked for.
-    char beyond = 0;
-    if (position_ == bytes_ && (gzip_ || bzip2_)) next(&beyond, 1);
+    if (position_ < bytes_ || !(gzip_ || bzip2_)) return;
+    // The checksum stands behind the last value and is looked at when more is asked for. What is
+    // more than a little is not of a damaged last byte, but of values that the header does not
+    // declare.
+    std::array<char, 4096> beyond;
+    for (int i = 0; i < 16 && next(beyond.data(), beyond.size()) > 0; ++i) continue;
+    position_ = bytes_;
 }
 
 }  // namespace timeseries
