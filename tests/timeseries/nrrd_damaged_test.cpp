@@ -98,6 +98,8 @@ TEST_F(DamagedNrrd, WhatHeadersGetWrongIsNamed) {
     EXPECT_THAT(toldOf("encoding: zrl\n"), HasSubstr("field 'encoding': expected raw, gzip"));
     EXPECT_THAT(toldOf("encoding: gzip\n"), HasSubstr("values: expected gzip data"));
     EXPECT_THAT(toldOf("encoding: bzip2\n"), HasSubstr("values: expected bzip2 data"));
+    EXPECT_THAT(toldOf("labels: \"a\" \"b\" \"c\n"), HasSubstr("'labels': expected quotation"));
+    EXPECT_THAT(toldOf("units: a b\n"), HasSubstr("header: expected"));
     EXPECT_THAT(toldOf("byte skip: -2\n"), HasSubstr("field 'byte skip'"));
     EXPECT_THAT(toldOf("byte skip: 9000000000000000000\n"), HasSubstr("values: expected"));
     EXPECT_THAT(toldOf("line skip: 4000000000\n"), HasSubstr("lines to skip"));

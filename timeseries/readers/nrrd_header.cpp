@@ -53,6 +53,18 @@ void checkSizes(const NrrdHeader& header, std::string_view list) {
     }
 }
 
+// teem 1.12 loses memory over a quotation that does not end.
+void checkQuotes(const NrrdHeader& header, const std::string& field, std::string_view text) {
+    bool open = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\\' && open)
+            ++i;
+        else if (text[i] == '"')
+            open = !open;
+    }
+    if (open) header.fail(fmt::format("field '{}'", field), "expected quotation marks in pairs");
+}
+
 void takeLine(std::string_view line, NrrdHeader& header, HeaderText& text) {
     // "name: description"; "key:=value" is teem's.
     const auto colon = line.find(": ");
@@ -65,6 +77,8 @@ void takeLine(std::string_view line, NrrdHeader& header, HeaderText& text) {
         return;
     }
     if (name == "sizes") checkSizes(header, line.substr(colon + 2));
+    if (name == "labels" || name == "units" || name == "space units")
+        checkQuotes(header, name, line.substr(colon + 2));
     if (name == "encoding") {
         const std::string encoding = lower(trim(line.substr(colon + 2)));
         if (encoding == "hex" || encoding == "zrl")
