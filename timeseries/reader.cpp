@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "timeseries/readers/netcdf_reader.h"
+#include "timeseries/readers/nrrd_reader.h"
 #include "timeseries/readers/sequence_reader.h"
 
 namespace timeseries {
@@ -48,6 +49,8 @@ const std::array kFormats = {
                       start.starts_with("CDF\5"sv) || start.starts_with("\x89HDF\r\n\x1a\n"sv);
            },
            openNetcdf, true},
+    Format{"an NRRD file, which begins with NRRD0",
+           [](std::string_view start) { return start.starts_with("NRRD0"sv); }, openNrrd},
 };
 
 const Format& recognise(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 // The whole path of `isochron count` against percentages that other software (numpy) counted.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -18,14 +19,18 @@ struct Row {
     std::vector<std::string> percents;  // two decimals, a step each
 };
 
-std::vector<Row> netcdfRows() {
+bool ofFormat(const std::string& file, const std::vector<std::string>& extensions) {
+    return std::ranges::any_of(extensions, [&](const std::string& e) { return file.ends_with(e); });
+}
+
+std::vector<Row> rowsOf(const std::vector<std::string>& extensions) {
     std::ifstream in(support::sharedData("ranges.csv"));
     std::vector<Row> rows;
     for (std::string line; std::getline(in, line);) {
         std::istringstream cut(line);
         std::vector<std::string> cells;
         for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
-        if (cells.size() != 8 || !cells[0].ends_with(".nc")) continue;
+        if (cells.size() != 8 || !ofFormat(cells[0], extensions)) continue;
         Row row{cells[0], cells[1], cells[2], cells[3], {}};
         std::istringstream percents(cells[7]);
         for (std::string one; percents >> one;) row.percents.push_back(one);
@@ -34,17 +39,15 @@ std::vector<Row> netcdfRows() {
     return rows;
 }
 
-TEST(RangesCsv, CountAgreesInEveryStepOfEveryNetcdfRow) {
-    if (!std::filesystem::exists(support::sharedData("ranges.csv")))
-        GTEST_SKIP() << "no real data at " << support::sharedData("ranges.csv");
-    const std::vector<Row> rows = netcdfRows();
-    EXPECT_GE(rows.size(), 19u);
+void expectAgreement(const std::vector<Row>& rows) {
     std::set<std::pair<std::string, std::string>> done;
     for (const Row& row : rows) {
         // Each step is built once for all rows of its file.
         if (!done.insert({row.file, row.variable}).second) continue;
         const std::filesystem::path file = support::sharedData(row.file);
-        Dataset dataset = openDataset(std::span(&file, 1), row.variable);
+        // Formats of one variable: the list has their unit or nothing for a name.
+        const bool named = row.file.ends_with(".nc");
+        Dataset dataset = openDataset(std::span(&file, 1), named ? row.variable : "");
         for (std::size_t step = 0; step < dataset.stepCount(); ++step) {
             const auto sorted =
                 timeseries::SortedStep::build(dataset.reader->read(dataset.variable, step));
@@ -61,6 +64,26 @@ TEST(RangesCsv, CountAgreesInEveryStepOfEveryNetcdfRow) {
             }
         }
     }
+}
+
+class RangesCsv : public testing::Test {
+ protected:
+    void SetUp() override {
+        if (!std::filesystem::exists(support::sharedData("ranges.csv")))
+            GTEST_SKIP() << "no real data at " << support::sharedData("ranges.csv");
+    }
+};
+
+TEST_F(RangesCsv, CountAgreesInEveryStepOfEveryNetcdfRow) {
+    const std::vector<Row> rows = rowsOf({".nc"});
+    EXPECT_GE(rows.size(), 19u);
+    expectAgreement(rows);
+}
+
+TEST_F(RangesCsv, CountAgreesInEveryStepOfEveryNrrdRow) {
+    const std::vector<Row> rows = rowsOf({".nrrd", ".nhdr"});
+    EXPECT_GE(rows.size(), 7u);
+    expectAgreement(rows);
 }
 
 }  // namespace

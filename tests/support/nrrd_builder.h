@@ -1,0 +1,88 @@
+// NRRD files for tests, written by hand: a header's lines, then bytes.
+#pragma once
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/files.h"
+#include "timeseries/reader.h"
+
+namespace support {
+
+template <typename T>
+std::string bytesOf(const std::vector<T>& values, std::endian order = std::endian::little) {
+    std::string bytes(values.size() * sizeof(T), '\0');
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    if (order != std::endian::native)
+        for (std::size_t i = 0; i < bytes.size(); i += sizeof(T))
+            std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i),
+                         bytes.begin() + static_cast<std::ptrdiff_t>(i + sizeof(T)));
+    return bytes;
+}
+
+inline std::string gzipped(const std::string& bytes) {
+    z_stream stream{};
+    deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+    std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())) + 64, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    deflate(&stream, Z_FINISH);
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+// "NRRD0004", the lines, a blank line, the bytes.
+inline std::string nrrd(const std::string& lines, const std::string& bytes) {
+    return "NRRD0004\n" + lines + "\n" + bytes;
+}
+
+// 0, 1, 2, ...
+template <typename T>
+std::vector<T> ramp(std::size_t count) {
+    std::vector<T> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<T>(i);
+    return values;
+}
+
+inline std::unique_ptr<timeseries::Reader> openOne(const std::filesystem::path& path) {
+    return timeseries::openReader(std::span(&path, 1));
+}
+
+// Opens a file of these bytes.
+inline std::unique_ptr<timeseries::Reader> openBytes(const std::string& bytes) {
+    const std::filesystem::path path = test_support::freshFolder() / "file.nrrd";
+    test_support::writeBytes(path, bytes);
+    return openOne(path);
+}
+
+template <typename T>
+std::vector<T> valuesOf(timeseries::Reader& reader, std::size_t step = 0) {
+    return std::get<std::vector<T>>(reader.read(0, step).values);
+}
+
+// What the file is refused with, behind its path; "" when it is read whole.
+inline std::string refusal(const std::filesystem::path& path) {
+    try {
+        const auto reader = openOne(path);
+        for (std::size_t t = 0; t < reader->variables()[0].time->points.size(); ++t)
+            reader->read(0, t);
+    } catch (const timeseries::FileError& error) {
+        const std::string text = error.what(), begin = path.string() + ": ";
+        EXPECT_TRUE(text.starts_with(begin)) << text;
+        EXPECT_NE(text.find("expected"), std::string::npos) << text;
+        EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+        return text.substr(std::min(begin.size(), text.size()));
+    }
+    return "";
+}
+
+}  // namespace support

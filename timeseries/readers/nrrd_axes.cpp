@@ -1,0 +1,290 @@
+#include "timeseries/readers/nrrd_axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "timeseries/readers/netcdf_header.h"
+#include "timeseries/units.h"
+
+namespace timeseries {
+namespace {
+
+constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 32;  // SortedStep's indices
+constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;    // an axis costs 8 bytes a point
+constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 20;
+// Fewer than these along the first of four axes that tell nothing are more often the components of
+// a value than points.
+constexpr std::uint64_t kMaxComponents = 4;
+// Directions that lie along an axis but for rounding; of their length.
+constexpr double kAlignment = 1e-6;
+
+std::string place(std::size_t i) { return fmt::format("axis {}", i + 1); }
+
+// By what the axis says of itself; not by its kind.
+bool looksLikeTime(const NrrdAxis& axis) {
+    const std::string label = lower(axis.label);
+    return label == "t" || label == "time" || sameDimension(axis.units, "s");
+}
+
+// How far a direction reaches into space without time, and into time.
+std::size_t spatialDimension(const NrrdHeader& header) {
+    return header.spaceDimension - (header.timeInSpace ? 1 : 0);
+}
+
+bool alongTime(const NrrdHeader& header, const NrrdAxis& axis) {
+    if (!header.timeInSpace || !axis.direction) return false;
+    const std::size_t n = spatialDimension(header);
+    return std::all_of(axis.direction->begin(), axis.direction->begin() + n,
+                       [](double v) { return v == 0; }) &&
+           (*axis.direction)[n] != 0;
+}
+
+// The time axis among four that do not say which it is: the one without direction when the others
+// have one, the one that looks like it, else the slowest.
+std::size_t timeOfFour(const NrrdHeader& header, const std::vector<std::size_t>& axes,
+                       std::vector<std::string>& notes) {
+    const auto undirected = [&](std::size_t i) { return !header.axes[i].direction; };
+    const auto only = [&](auto test) -> std::optional<std::size_t> {
+        if (std::ranges::count_if(axes, test) != 1) return std::nullopt;
+        return *std::ranges::find_if(axes, test);
+    };
+    std::optional<std::size_t> time;
+    if (header.spaceDimension > 0) time = only(undirected);
+    if (!time) time = only([&](std::size_t i) { return looksLikeTime(header.axes[i]); });
+    const NrrdAxis& first = header.axes[axes[0]];
+    const bool components =
+        first.kind == NrrdKind::Unknown && first.size <= kMaxComponents && !looksLikeTime(first) &&
+        std::all_of(axes.begin() + 1, axes.end(),
+                    [&](std::size_t i) { return header.axes[i].size > kMaxComponents; });
+    if (components && (!time || *time == axes[0]))
+        header.fail(place(axes[0]),
+                    fmt::format("expected a kind that tells whether its {} samples are the "
+                                "components of a value or points, found none",
+                                first.size));
+    if (time) return *time;
+    notes.push_back(
+        fmt::format("{} is taken for time: no axis says that it is", place(axes.back())));
+    return axes.back();
+}
+
+std::optional<std::size_t> onlyOfKind(const NrrdHeader& header,
+                                      const std::vector<std::size_t>& axes, NrrdKind kind) {
+    std::optional<std::size_t> found;
+    for (const std::size_t i : axes) {
+        if (header.axes[i].kind != kind) continue;
+        if (found)
+            header.fail(place(i),
+                        fmt::format("expected one axis of time, found also {}", place(*found)));
+        found = i;
+    }
+    return found;
+}
+
+std::vector<double> counted(std::uint64_t length) {
+    std::vector<double> index(length);
+    for (std::uint64_t i = 0; i < length; ++i) index[i] = static_cast<double>(i);
+    return index;
+}
+
+bool placesPoints(const std::vector<double>& c) {
+    const bool ascending = c.back() > c.front();
+    for (std::size_t i = 0; i < c.size(); ++i)
+        if (!std::isfinite(c[i]) || (i > 0 && !(ascending ? c[i] > c[i - 1] : c[i] < c[i - 1])))
+            return false;
+    return true;
+}
+
+std::vector<double> spaced(double first, double spacing, std::uint64_t count) {
+    std::vector<double> c(count);
+    for (std::uint64_t i = 0; i < count; ++i) c[i] = first + spacing * static_cast<double>(i);
+    return c;
+}
+
+Axis indexAxis(const NrrdAxis& axis, const std::string& name) {
+    return {axis.label.empty() ? name : axis.label, "index", counted(axis.size), false};
+}
+
+// By spacing and minimum; cell-centred unless the file says otherwise, as teem takes it
+// (nrrdDefaultCenter): then a minimum is the border of the first cell.
+Axis spacedAxis(const NrrdAxis& axis, const std::string& name, std::vector<std::string>& notes) {
+    Axis index = indexAxis(axis, name);
+    const bool cell = axis.cell.value_or(true);
+    double spacing = axis.spacing;
+    if (std::isnan(spacing) && !std::isnan(axis.min) && !std::isnan(axis.max)) {
+        const std::uint64_t gaps = cell ? axis.size : axis.size - 1;
+        spacing = gaps == 0 ? 1 : (axis.max - axis.min) / static_cast<double>(gaps);
+    }
+    if (std::isnan(spacing)) {
+        if (axis.size > 1)
+            notes.push_back(index.name + " is placed by index: the file has no spacing for it");
+        return index;
+    }
+    const double first = std::isnan(axis.min) ? 0 : axis.min + (cell ? spacing / 2 : 0);
+    std::vector<double> coordinates = spaced(first, spacing, axis.size);
+    if (spacing == 0 || !placesPoints(coordinates)) {
+        notes.push_back(
+            fmt::format("{} is placed by index: a spacing of {} does not tell its samples apart",
+                        index.name, spacing));
+        return index;
+    }
+    return {index.name, axis.units, std::move(coordinates), false};
+}
+
+// Which coordinate of space each axis runs along; nothing when one runs along none or two along
+// the same.
+std::optional<std::vector<std::size_t>> aligned(const NrrdHeader& header, const NrrdRoles& roles) {
+    const std::size_t n = spatialDimension(header);
+    std::vector<std::size_t> along;
+    for (const std::size_t i : roles.space) {
+        const auto& v = *header.axes[i].direction;
+        const auto longer = [](double a, double b) { return std::abs(a) < std::abs(b); };
+        const auto most = std::max_element(v.begin(), v.begin() + n, longer);
+        const auto component = static_cast<std::size_t>(most - v.begin());
+        for (std::size_t c = 0; c < header.spaceDimension; ++c)
+            if (c != component && !(std::abs(v[c]) <= kAlignment * std::abs(*most)))
+                return std::nullopt;
+        if (*most == 0 || !std::isfinite(*most) || component >= 3 ||
+            std::ranges::find(along, component) != along.end())
+            return std::nullopt;
+        along.push_back(component);
+    }
+    return along;
+}
+
+// Names of the coordinates of space: what grows along them, where the space says.
+std::string coordinateName(const NrrdHeader& header, std::size_t component) {
+    static constexpr std::array kLetters{"x", "y", "z"};
+    std::vector<std::string> parts;
+    std::string text = header.space;
+    std::ranges::replace(text, '-', ' ');
+    parts = words(text);
+    const bool anatomical =
+        parts.size() >= 3 && (parts[0] == "left" || parts[0] == "right") && parts[2] == "superior";
+    return anatomical ? parts[component] : kLetters[component];
+}
+
+Axis directedAxis(const NrrdHeader& header, std::size_t i, std::size_t component,
+                  std::vector<std::string>& notes) {
+    const NrrdAxis& axis = header.axes[i];
+    const std::string name = axis.label.empty() ? coordinateName(header, component) : axis.label;
+    const double first = header.origin ? (*header.origin)[component] : 0;
+    std::vector<double> coordinates = spaced(first, (*axis.direction)[component], axis.size);
+    if (!placesPoints(coordinates)) {
+        notes.push_back(name + " is placed by index: its samples lie too close to tell apart");
+        return indexAxis(axis, name);
+    }
+    return {name, header.spaceUnits[component], std::move(coordinates), false};
+}
+
+NrrdLayout layoutOf(const NrrdHeader& header, const NrrdRoles& roles) {
+    NrrdLayout layout;
+    for (std::size_t i = 0; i < header.axes.size(); ++i) {
+        if (i == roles.time)
+            layout.steps = header.axes[i].size;
+        else
+            (roles.time && i > *roles.time ? layout.outer : layout.inner) *= header.axes[i].size;
+    }
+    for (std::size_t i = 0; i < roles.space.size(); ++i)
+        layout.size[i] = header.axes[roles.space[i]].size;
+    return layout;
+}
+
+void checkSizes(const NrrdHeader& header, const NrrdRoles& roles, const NrrdLayout& layout) {
+    for (const std::size_t i : roles.space)
+        if (header.axes[i].size > kMaxAxis)
+            header.fail(place(i), fmt::format("expected at most 2^24 points along an axis, found "
+                                              "{}",
+                                              header.axes[i].size));
+    if (layout.steps > kMaxSteps)
+        header.fail(place(*roles.time),
+                    fmt::format("expected at most 2^20 steps, found {}", layout.steps));
+    if (const std::uint64_t points = header.pointCount() / layout.steps; points > kMaxPoints)
+        header.fail("field 'sizes'",
+                    fmt::format("expected at most 2^32 points a step, found {}", points));
+}
+
+}  // namespace
+
+NrrdRoles rolesOf(const NrrdHeader& header, std::vector<std::string>& notes) {
+    std::vector<std::size_t> axes;  // of more than one sample, or of time
+    for (std::size_t i = 0; i < header.axes.size(); ++i) {
+        const NrrdAxis& axis = header.axes[i];
+        if (axis.kind == NrrdKind::Components && axis.size > 1)
+            header.fail(place(i), fmt::format("expected one number a point, found {} ({})",
+                                              axis.size, axis.kindName));
+        if (axis.kind != NrrdKind::Components) axes.push_back(i);
+    }
+    NrrdRoles roles;
+    roles.time = onlyOfKind(header, axes, NrrdKind::Time);
+    if (!roles.time) roles.time = onlyOfKind(header, axes, NrrdKind::List);
+    if (!roles.time)
+        for (const std::size_t i : axes)
+            if (alongTime(header, header.axes[i])) roles.time = i;
+    std::size_t room = roles.time ? 4 : 3;
+    // Axes of one sample give way, the slowest first.
+    if (axes.size() > 4)
+        for (std::size_t k = axes.size(); k-- > 0 && axes.size() > room;)
+            if (header.axes[axes[k]].size == 1 && axes[k] != roles.time)
+                axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(k));
+    if (axes.size() == 4 && !roles.time) roles.time = timeOfFour(header, axes, notes);
+    room = roles.time ? 4 : 3;
+    if (axes.size() > room)
+        header.fail("field 'dimension'",
+                    fmt::format("expected three axes of space and one of time at most, found {} "
+                                "axes",
+                                axes.size()));
+    for (const std::size_t i : axes)
+        if (i != roles.time) roles.space.push_back(i);
+    return roles;
+}
+
+NrrdPlacing placingOf(const NrrdHeader& header, const NrrdRoles& roles,
+                      std::vector<std::string>& notes) {
+    static constexpr std::array kLetters{"x", "y", "z"};
+    NrrdPlacing placing;
+    placing.layout = layoutOf(header, roles);
+    checkSizes(header, roles, placing.layout);
+
+    std::vector<std::size_t> to(roles.space.size());  // which axis of the grid each becomes
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = i;
+    const bool directed =
+        !roles.space.empty() && std::ranges::all_of(roles.space, [&](std::size_t i) {
+            return header.axes[i].direction.has_value();
+        });
+    const auto along = directed ? aligned(header, roles) : std::nullopt;
+    if (directed && !along)
+        notes.push_back(
+            "drawn in index space: its space directions are not along the axes of "
+            "space");
+    if (along && header.leftHanded)
+        notes.push_back("drawn mirrored: its space, " + header.space + ", is left-handed");
+    if (along) to = *along;
+
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        placing.axes[axis] = {kLetters[axis], "index", {0.0}, false};
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        const NrrdAxis& source = header.axes[roles.space[i]];
+        if (along)
+            placing.axes[to[i]] = directedAxis(header, roles.space[i], to[i], notes);
+        else if (directed)
+            placing.axes[i] = indexAxis(source, kLetters[i]);
+        else
+            placing.axes[i] = spacedAxis(source, kLetters[i], notes);
+    }
+    std::uint64_t stride = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < to.size(); ++i)
+            if (to[i] == axis) placing.layout.stride[i] = stride;
+        stride *= placing.axes[axis].coordinates.size();
+    }
+    // Axes of one point move nothing.
+    std::uint64_t inFile = 1;
+    for (std::size_t i = 0; i < to.size(); inFile *= placing.layout.size[i++])
+        if (placing.layout.size[i] > 1 && placing.layout.stride[i] != inFile)
+            placing.layout.turned = true;
+    return placing;
+}
+
+}  // namespace timeseries

@@ -1,0 +1,42 @@
+// Which axis of an NRRD file is time, where its points lie, and where they stand in the file.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "timeseries/grid.h"
+#include "timeseries/readers/nrrd_header.h"
+
+namespace timeseries {
+
+// Positions in NrrdHeader::axes.
+struct NrrdRoles {
+    std::optional<std::size_t> time;
+    std::vector<std::size_t> space;  // at most 3, fastest first
+};
+
+// Throws FileError when points are no scalars, or there are more axes than can be told apart.
+NrrdRoles rolesOf(const NrrdHeader& header, std::vector<std::string>& notes);
+
+// Where the points of a step lie in the file: value number ((outer * steps) + step) * inner + i
+// holds point (outer * inner + i) of the step, counted along the space axes of the file.
+struct NrrdLayout {
+    std::uint64_t inner = 1, steps = 1, outer = 1;
+    std::array<std::uint64_t, 3> size{1, 1, 1};  // along the space axes of the file, fastest first
+    std::array<std::uint64_t, 3> stride{1, 1, 1};  // of each in a Field
+    bool turned = false;                           // the strides differ from the file's order
+};
+
+struct NrrdPlacing {
+    std::array<Axis, 3> axes;
+    NrrdLayout layout;
+};
+
+// By space directions along the axes of space, else by spacings and minimums, else counted.
+// Throws FileError.
+NrrdPlacing placingOf(const NrrdHeader& header, const NrrdRoles& roles,
+                      std::vector<std::string>& notes);
+
+}  // namespace timeseries

@@ -1,0 +1,313 @@
+#include "timeseries/readers/nrrd_header.h"
+
+#include <fmt/format.h>
+#include <teem/nrrd.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <mutex>
+
+#include "timeseries/reader.h"
+#include "timeseries/readers/netcdf_header.h"
+
+namespace timeseries {
+namespace {
+
+// Slicer writes whole XML texts into key/value pairs; more than this is no header.
+constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 24;
+constexpr std::size_t kMaxLines = std::size_t{1} << 20;
+
+// teem and its error texts (biff) are global.
+std::mutex& libraryMutex() {
+    static std::mutex one;
+    return one;
+}
+
+std::string_view trim(std::string_view text) {
+    constexpr std::string_view kBlank = " \t\r";
+    const auto first = text.find_first_not_of(kBlank);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+// The header as teem reads it, without the lines taken out here.
+struct HeaderText {
+    std::string forTeem;
+    std::size_t lines = 0;
+    bool ended = false;  // by a blank line
+};
+
+// "0", "-3", "x" -> what is wrong with it, for sizes; teem reads the first two as huge or zero.
+void checkSizes(const NrrdHeader& header, std::string_view list) {
+    for (const std::string& word : words(list)) {
+        std::uint64_t size = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), size);
+        if (error != std::errc() || end != word.data() + word.size() || size == 0)
+            header.fail("field 'sizes'",
+                        fmt::format("expected whole numbers from 1 to 2^64 - 1, found '{}'",
+                                    word.substr(0, 40)));
+    }
+}
+
+// teem 1.12 loses memory over a quotation that does not end.
+void checkQuotes(const NrrdHeader& header, const std::string& field, std::string_view text) {
+    bool open = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\\' && open)
+            ++i;
+        else if (text[i] == '"')
+            open = !open;
+    }
+    if (open) header.fail(fmt::format("field '{}'", field), "expected quotation marks in pairs");
+}
+
+void takeLine(std::string_view line, NrrdHeader& header, HeaderText& text) {
+    // "name: description"; "key:=value" is teem's.
+    const auto colon = line.find(": ");
+    const auto pair = line.find(":=");
+    const bool field = colon != std::string_view::npos && colon < pair && line[0] != '#';
+    const std::string name = field ? lower(trim(line.substr(0, colon))) : "";
+    if (name == "data file" || name == "datafile") {
+        if (header.dataFile) header.fail("field 'data file'", "expected it once");
+        header.dataFile = std::string(trim(line.substr(colon + 2)));
+        return;
+    }
+    if (name == "sizes") checkSizes(header, line.substr(colon + 2));
+    if (name == "labels" || name == "units" || name == "space units")
+        checkQuotes(header, name, line.substr(colon + 2));
+    if (name == "encoding") {
+        const std::string encoding = lower(trim(line.substr(colon + 2)));
+        if (encoding == "hex" || encoding == "zrl")
+            header.fail("field 'encoding'",
+                        fmt::format("expected raw, gzip, bzip2 or text, found {}", encoding));
+    }
+    text.forTeem += line;
+    text.forTeem += '\n';
+}
+
+// Up to the first blank line, or to the end of the file.
+HeaderText scan(NrrdHeader& header) {
+    std::ifstream file(header.path, std::ios::binary);
+    if (!file.is_open()) header.fail("", "expected a file that can be read");
+    HeaderText text;
+    bool list = false;
+    std::string chunk(1 << 16, '\0'), line;
+    std::uint64_t consumed = 0;
+    const auto finishLine = [&] {
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (line.find('\0') != std::string::npos)
+            header.fail(fmt::format("line {}", text.lines + 1), "expected text, found binary data");
+        if (++text.lines > kMaxLines)
+            header.fail("header", fmt::format("expected at most {} lines", kMaxLines));
+        if (line.empty()) {
+            text.ended = true;
+        } else if (list) {
+            header.dataFileList.emplace_back(trim(line));
+        } else {
+            takeLine(line, header, text);
+            list = header.dataFile && (header.dataFile->starts_with("LIST") ||
+                                       header.dataFile->starts_with("SKIPLIST"));
+        }
+        line.clear();
+    };
+    while (!text.ended && file) {
+        file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+        const auto got = static_cast<std::size_t>(file.gcount());
+        for (std::size_t i = 0; i < got && !text.ended; ++i) {
+            ++consumed;
+            if (chunk[i] == '\n')
+                finishLine();
+            else
+                line += chunk[i];
+        }
+        if (consumed > kMaxHeaderBytes)
+            header.fail("header", fmt::format("expected it to end within {} bytes, by a blank line",
+                                              kMaxHeaderBytes));
+    }
+    if (file.bad()) header.fail("", "expected a file that can be read");
+    if (!text.ended && !line.empty()) finishLine();
+    header.headerBytes = consumed;
+    return text;
+}
+
+// The innermost message of teem, without the names of its functions.
+std::string folded(std::string message) {
+    while (!message.empty() && message.back() == '\n') message.pop_back();
+    const auto lastLine = message.rfind('\n');
+    if (lastLine != std::string::npos) message.erase(0, lastLine + 1);
+    if (message.starts_with('[')) message.erase(0, message.find(' ') + 1);
+    const auto colon = message.find(": ");
+    if (message.starts_with("_nrrd") || message.starts_with("nrrd"))
+        if (colon != std::string::npos) message.erase(0, colon + 2);
+    return message.substr(0, 200);
+}
+
+ValueType valueType(const NrrdHeader& header, int type) {
+    switch (type) {
+        case nrrdTypeChar:
+            return ValueType::I8;
+        case nrrdTypeUChar:
+            return ValueType::U8;
+        case nrrdTypeShort:
+            return ValueType::I16;
+        case nrrdTypeUShort:
+            return ValueType::U16;
+        case nrrdTypeInt:
+            return ValueType::I32;
+        case nrrdTypeUInt:
+            return ValueType::U32;
+        case nrrdTypeLLong:
+            return ValueType::I64;
+        case nrrdTypeULLong:
+            return ValueType::U64;
+        case nrrdTypeFloat:
+            return ValueType::F32;
+        case nrrdTypeDouble:
+            return ValueType::F64;
+        default:
+            header.fail("field 'type'", "expected numbers, found blocks of bytes");
+    }
+}
+
+NrrdEncoding encodingOf(const NrrdHeader& header, const ::NrrdEncoding* encoding) {
+    if (encoding == nrrdEncodingRaw) return NrrdEncoding::Raw;
+    if (encoding == nrrdEncodingGzip) return NrrdEncoding::Gzip;
+    if (encoding == nrrdEncodingBzip2) return NrrdEncoding::Bzip2;
+    if (encoding == nrrdEncodingAscii) return NrrdEncoding::Ascii;
+    header.fail("field 'encoding'",
+                fmt::format("expected raw, gzip, bzip2 or text, found {}", encoding->name));
+}
+
+NrrdKind kindOf(const NrrdAxisInfo& axis) {
+    switch (axis.kind) {
+        case nrrdKindUnknown:
+            return NrrdKind::Unknown;
+        case nrrdKindDomain:
+        case nrrdKindSpace:
+            return NrrdKind::Space;
+        case nrrdKindTime:
+            return NrrdKind::Time;
+        case nrrdKindList:
+            return NrrdKind::List;
+        default:
+            return NrrdKind::Components;
+    }
+}
+
+std::string textOf(const char* text) { return text ? text : ""; }
+
+void takeAxis(const NrrdAxisInfo& from, std::size_t spaceDimension, NrrdAxis& axis) {
+    axis.size = from.size;
+    axis.spacing = from.spacing;
+    axis.min = from.min;
+    axis.max = from.max;
+    if (from.center == nrrdCenterCell) axis.cell = true;
+    if (from.center == nrrdCenterNode) axis.cell = false;
+    axis.kind = kindOf(from);
+    if (from.kind != nrrdKindUnknown) axis.kindName = airEnumStr(nrrdKind, from.kind);
+    axis.label = textOf(from.label);
+    axis.units = textOf(from.units);
+    if (spaceDimension == 0 || std::isnan(from.spaceDirection[0])) return;
+    axis.direction.emplace();
+    for (std::size_t i = 0; i < spaceDimension; ++i) (*axis.direction)[i] = from.spaceDirection[i];
+}
+
+void takeSpace(const Nrrd& nrrd, NrrdHeader& header) {
+    header.spaceDimension = std::min<std::size_t>(nrrd.spaceDim, 4);
+    if (nrrd.spaceDim > 4)
+        header.fail("field 'space dimension'",
+                    fmt::format("expected at most 4, found {}", nrrd.spaceDim));
+    if (nrrd.space != nrrdSpaceUnknown) header.space = airEnumStr(nrrdSpace, nrrd.space);
+    header.timeInSpace = header.space.ends_with("time");
+    header.leftHanded = nrrd.space == nrrdSpaceLeftAnteriorSuperior ||
+                        nrrd.space == nrrdSpaceLeftAnteriorSuperiorTime ||
+                        nrrd.space == nrrdSpace3DLeftHanded ||
+                        nrrd.space == nrrdSpace3DLeftHandedTime;
+    bool origin = header.spaceDimension > 0;
+    for (std::size_t i = 0; i < header.spaceDimension; ++i) {
+        header.spaceUnits[i] = textOf(nrrd.spaceUnits[i]);
+        origin = origin && std::isfinite(nrrd.spaceOrigin[i]);
+    }
+    if (!origin) return;
+    header.origin.emplace();
+    std::copy_n(nrrd.spaceOrigin, header.spaceDimension, header.origin->begin());
+}
+
+void take(const Nrrd& nrrd, const NrrdIoState& io, NrrdHeader& header) {
+    header.type = valueType(header, nrrd.type);
+    header.encoding = encodingOf(header, io.encoding);
+    const bool little = std::endian::native == std::endian::little;
+    header.swapped = header.valueBytes() > 1 && header.encoding != NrrdEncoding::Ascii &&
+                     io.endian == (little ? airEndianBig : airEndianLittle);
+    takeSpace(nrrd, header);
+    header.axes.resize(nrrd.dim);
+    for (std::size_t i = 0; i < nrrd.dim; ++i)
+        takeAxis(nrrd.axis[i], header.spaceDimension, header.axes[i]);
+    header.content = textOf(nrrd.content);
+    header.sampleUnits = textOf(nrrd.sampleUnits);
+    for (unsigned i = 0; i < nrrdKeyValueSize(&nrrd); ++i)
+        header.keyValues.emplace_back(textOf(nrrd.kvp[2 * i]), textOf(nrrd.kvp[2 * i + 1]));
+    header.lineSkip = io.lineSkip;
+    header.byteSkip = io.byteSkip;
+}
+
+void parse(const std::string& text, NrrdHeader& header) {
+    const std::lock_guard lock(libraryMutex());
+    const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), nrrdNuke);
+    const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> io(nrrdIoStateNew(),
+                                                                     nrrdIoStateNix);
+    nrrdIoStateSet(io.get(), nrrdIoStateSkipData, AIR_TRUE);
+    if (nrrdStringRead(nrrd.get(), text.c_str(), io.get())) {
+        const std::unique_ptr<char, decltype(&std::free)> message(biffGetDone(NRRD), std::free);
+        header.fail("header", fmt::format("expected a whole NRRD header, but the library says: {}",
+                                          folded(textOf(message.get()))));
+    }
+    take(*nrrd, *io, header);
+}
+
+}  // namespace
+
+std::uint64_t NrrdHeader::pointCount() const {
+    std::uint64_t count = 1;
+    for (const NrrdAxis& axis : axes)
+        if (__builtin_mul_overflow(count, axis.size, &count))
+            fail("field 'sizes'", "expected at most 2^64 - 1 values");
+    return count;
+}
+
+std::size_t NrrdHeader::valueBytes() const {
+    constexpr std::array<std::size_t, 10> kBytes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+    return kBytes[static_cast<std::size_t>(type)];
+}
+
+std::string_view NrrdHeader::keyValue(std::string_view key) const {
+    for (const auto& [name, value] : keyValues)
+        if (name == key) return value;
+    return "";
+}
+
+void NrrdHeader::fail(std::string_view place, std::string_view what) const {
+    std::string sentence = fmt::format("{}{}{}", place, place.empty() ? "" : ": ", what);
+    for (char& c : sentence)
+        if (c >= '\0' && c < ' ') c = ' ';
+    throw FileError(path.string() + ": " + sentence);
+}
+
+NrrdHeader readNrrdHeader(const std::filesystem::path& path) {
+    NrrdHeader header;
+    header.path = path;
+    const HeaderText text = scan(header);
+    header.magic = text.forTeem.substr(0, text.forTeem.find('\n'));
+    if (!header.magic.starts_with("NRRD") || header.magic.size() > 16)
+        header.fail("line 1", "expected NRRD and a version, as in NRRD0004");
+    parse(text.forTeem, header);
+    if (!header.dataFile && !text.ended)
+        header.fail("header", "expected a blank line that ends it, or the field 'data file'");
+    return header;
+}
+
+}  // namespace timeseries
