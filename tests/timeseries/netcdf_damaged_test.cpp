@@ -142,7 +142,7 @@ TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
 TEST(DamagedNetcdf, OtherFormatsAreToldApart) {
     using namespace std::string_literals;
     for (const std::string& bytes :
-         {"NRRD0004\n"s, "CDF"s, "CDF\3aaaaaaaa"s, "CDF\4aaaaaaaa"s, "\x89HDG\r\n\x1a\n"s,
+         {"NRRX0004\n"s, "CDF"s, "CDF\3aaaaaaaa"s, "CDF\4aaaaaaaa"s, "\x89HDG\r\n\x1a\n"s,
           "\x89HDF\r\n\x1a"s, std::string(100, '\0')}) {
         const Path path = write("other.bin", bytes);
         EXPECT_THAT(refusal({path}),
