@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 
@@ -16,6 +17,9 @@ std::uint64_t unpackedPerByte(std::string_view compressor) {
     if (compressor == "vtkLZ4DataCompressor") return 256;
     return compressor == "vtkLZMADataCompressor" ? 8000 : 1100;
 }
+
+// A block that is larger than the values themselves.
+constexpr std::uint64_t kMaxBlock = std::uint64_t{1} << 28;
 
 // The bytes of one array where they lie, decoded where they are base64.
 class Source {
@@ -103,15 +107,16 @@ struct Check {
         if (!source.number(encoding, blocks) || !source.number(encoding, blockBytes) ||
             !source.number(encoding, lastBytes))
             fail("expected values, but the file ends");
-        const bool one = blocks > 0 && blockBytes > 0;
-        // None of these products overflows: the first two are held against the file's size first.
-        if (bytes > 0 && (!one || blocks > available || blockBytes > bytes + lastBytes ||
-                          blocks > bytes / blockBytes + 1 || lastBytes > blockBytes ||
-                          (lastBytes == 0 ? blocks * blockBytes
-                                          : (blocks - 1) * blockBytes + lastBytes) != bytes))
+        // The last block may be a part, also when it is the only one.
+        const std::uint64_t full = blocks - (lastBytes != 0 ? 1 : 0);
+        const bool possible = blocks > 0 && blocks <= available &&
+                              blockBytes <= std::max(bytes, kMaxBlock) &&
+                              lastBytes <= blockBytes &&
+                              (full == 0 || blockBytes <= bytes / full) &&
+                              full * blockBytes + lastBytes == bytes;
+        if (!possible)
             fail(fmt::format("expected {} bytes of values, found {} blocks of {} and {}", bytes,
                              blocks, blockBytes, lastBytes));
-        if (bytes == 0) return;
         std::uint64_t packed = 0;
         for (std::uint64_t i = 0; i < blocks; ++i) {
             std::uint64_t size = 0;

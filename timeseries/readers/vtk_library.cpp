@@ -6,6 +6,7 @@
 #include <vtkDataArraySelection.h>
 #include <vtkDataSet.h>
 #include <vtkFieldData.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -35,14 +36,17 @@ class FirstError final : public vtkOutputWindow {
     void DisplayErrorText(const char* text) override {
         if (first_.empty()) first_ = text;
     }
+    // "Error reading ascii data" is among these.
+    void DisplayGenericWarningText(const char* text) override { DisplayErrorText(text); }
     void DisplayWarningText(const char*) override {}
-    void DisplayGenericWarningText(const char*) override {}
     void DisplayDebugText(const char*) override {}
 
     // Without VTK's source file, line and object; "" when there was none.
     std::string sentence() const {
-        const std::size_t object = first_.find("): ");
-        std::string text = object == first_.npos ? first_ : first_.substr(object + 3);
+        std::string text = first_;
+        if (const std::size_t line = text.find('\n'); line != text.npos) text.erase(0, line + 1);
+        if (const std::size_t object = text.find("): "); object != text.npos)
+            text.erase(0, object + 3);
         while (!text.empty() && (text.back() == '\n' || text.back() == ' ' || text.back() == '.'))
             text.pop_back();
         return text;
@@ -61,6 +65,7 @@ auto withVtk(const VtkHeader& header, std::string_view place, Read read) {
     const vtkSmartPointer<vtkOutputWindow> usual = vtkOutputWindow::GetInstance();
     const vtkNew<FirstError> errors;
     vtkOutputWindow::SetInstance(errors);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // or all is printed there too
     struct Restore {
         vtkOutputWindow* window;
         ~Restore() { vtkOutputWindow::SetInstance(window); }
