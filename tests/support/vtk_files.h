@@ -74,9 +74,10 @@ inline std::string imageText(const Image& image) {
 
 inline std::filesystem::path write(const std::string& name, const std::string& bytes) {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const std::filesystem::path path =
-        std::filesystem::path(testing::TempDir()) /
-        (std::string(test->test_suite_name()) + "_" + test->name() + "_" + name);
+    std::string flatName =
+        std::string(test->test_suite_name()) + "_" + test->name() + "_" + name;
+    std::ranges::replace(flatName, '/', '_');  // of typed tests
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / flatName;
     test_support::writeBytes(path, bytes);
     return path;
 }

@@ -91,7 +91,7 @@ TEST(DamagedVtk, FilesCutAnywhereAreRefusedOrWhole) {
 TEST(DamagedVtk, FilesWithWrongBytesAreReadOrRefused) {
     std::mt19937 random(7);
     for (const auto& [name, whole] : samples()) {
-        for (int i = 0; i < 1500; ++i) {
+        for (int i = 0; i < 500; ++i) {
             std::string bytes = whole;
             for (int n = 0; n < 1 + i % 3; ++n) {
                 const std::size_t at = 4 + random() % (bytes.size() - 4);
@@ -139,7 +139,7 @@ TEST(DamagedVtk, PackedBlocksThatLieAreRefused) {
         std::string text = imageText(
             {.points = "<DataArray type=\"Float64\" Name=\"v\" format=\"appended\" offset=\"0\"/>",
              .appended = support::rawBytes(header) + std::string(40, 'x')});
-        text.insert(text.find("version="), "compressor=\"vtkZLibDataCompressor\" ");
+        text.insert(text.find("byte_order="), "compressor=\"vtkZLibDataCompressor\" ");
         return text;
     };
     EXPECT_THAT(refusal(packed({0xFFFFFFFF, 8, 0, 4})), HasSubstr("blocks of 8 and 0"));

@@ -27,9 +27,7 @@ struct VtkArray {
     VtkPlace place{};
     ValueType type{};
     std::size_t components = 1;
-    // Of legacy files: the field's name when the keyword is Field.
-    VtkKeyword keyword{};
-    std::string fieldName;
+    VtkKeyword keyword{};  // of legacy files
 };
 
 struct VtkTime {
@@ -48,6 +46,7 @@ struct VtkHeader {
     std::vector<VtkArray> arrays;                                // those that can be drawn
     std::vector<std::string> passedOver;                         // the others, each with the reason
     std::array<bool, 2> ghosts{};                                // by VtkPlace: has vtkGhostType
+    bool fieldOutside = false;  // a legacy file's FIELD that is neither of points nor of cells
     // Of rectilinear grids; of an XML file VTK reads them later.
     std::array<std::vector<double>, 3> coordinates;
     std::optional<VtkTime> time;

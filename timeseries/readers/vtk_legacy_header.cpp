@@ -38,14 +38,13 @@ class LegacyHeader {
     void readCoordinates(std::size_t axis);
     void readAttribute(const std::string& word);
     void readField();
-    void readFieldArray(const std::string& field);
+    void readFieldArray();
     void beginAttributes(VtkPlace place);
     void skipLookupTable();
     const VtkType* readType();
     std::array<double, 3> three(std::string_view what);
     // The values come next.
-    void add(std::string name, const VtkType* type, std::uint64_t components, VtkKeyword keyword,
-             const std::string& field);
+    void add(std::string name, const VtkType* type, std::uint64_t components, VtkKeyword keyword);
 
     VtkText text_;
     VtkHeader header_;
@@ -147,7 +146,7 @@ void LegacyHeader::beginAttributes(VtkPlace place) {
 }
 
 void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t components,
-                       VtkKeyword keyword, const std::string& field) {
+                       VtkKeyword keyword) {
     if (components < 1 || components > kMaxComponents)
         text_.fail(fmt::format("expected 1 to {} components, found {}", kMaxComponents,
                                components));
@@ -160,7 +159,7 @@ void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t comp
             header_.ghosts[static_cast<std::size_t>(*place_)] = true;
         else
             header_.arrays.push_back(
-                {std::move(name), *place_, type->type, components, keyword, field});
+                {std::move(name), *place_, type->type, components, keyword});
         return;
     }
     header_.passedOver.push_back(fmt::format("'{}' has the type {}", name, typeName_));
@@ -191,7 +190,7 @@ void LegacyHeader::readAttribute(const std::string& word) {
         const std::uint64_t components = text_.count("a number of components");
         // Bytes, or numbers from 0 to 1 in text.
         return add(std::move(name), vtkLegacyType("unsigned_char"), components,
-                   VtkKeyword::Scalars, "");
+                   VtkKeyword::Scalars);
     }
     std::uint64_t components = 3;
     VtkKeyword keyword = VtkKeyword::Ids;
@@ -220,17 +219,18 @@ void LegacyHeader::readAttribute(const std::string& word) {
             text_.fail(fmt::format("expected LOOKUP_TABLE, found \"{}\"", next));
         text_.name();
     }
-    add(std::move(name), type, components, keyword, "");
+    add(std::move(name), type, components, keyword);
 }
 
 void LegacyHeader::readField() {
-    const std::string name = text_.name();
+    text_.name();
+    header_.fieldOutside |= !place_;
     const std::uint64_t arrays = text_.count("a number of arrays");
     if (arrays > kMaxArrays) text_.fail(fmt::format("expected fewer arrays, found {}", arrays));
-    for (std::uint64_t i = 0; i < arrays; ++i) readFieldArray(name);
+    for (std::uint64_t i = 0; i < arrays; ++i) readFieldArray();
 }
 
-void LegacyHeader::readFieldArray(const std::string& field) {
+void LegacyHeader::readFieldArray() {
     std::string name = text_.word();
     if (name == "METADATA") {  // of the array before
         text_.skipParagraph();
@@ -246,7 +246,7 @@ void LegacyHeader::readFieldArray(const std::string& field) {
         text_.fail(fmt::format("expected at most {} components, found {}", kMaxComponents,
                                components));
     if (place_ && tuples == header_.count(*place_))
-        return add(std::move(name), type, components, VtkKeyword::Field, field);
+        return add(std::move(name), type, components, VtkKeyword::Field);
 
     const std::uint64_t values = tuples * components;
     if (place_)
@@ -256,6 +256,8 @@ void LegacyHeader::readFieldArray(const std::string& field) {
     if (!type && typeName_ == "bit") return text_.skipBytesOrWords((values + 7) / 8, values);
     if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
     const auto time = place_ || values != 1 ? std::nullopt : vtkTimeName(name);
+    // VTK 9.1 crashes on words among these that are no numbers of the type.
+    if (!place_ && !text_.binary() && !time) return text_.checkNumbers(*type, values);
     const auto number = text_.values(*type, values, time ? 1 : 0);
     if (time && std::isfinite(number[0]) && (!header_.time || *time == "time"))
         header_.time = VtkTime{*time, number[0]};

@@ -106,8 +106,7 @@ vtkSmartPointer<vtkDataSet> readXml(const VtkHeader& header, const VtkArray* wan
 // Of each keyword only the array of the name set is kept; the first when none is set.
 void select(vtkDataReader& reader, const VtkArray& wanted) {
     const auto name = [&](VtkKeyword keyword) {
-        const bool scalarsOrGhosts = keyword == wanted.keyword;
-        return scalarsOrGhosts ? wanted.name.c_str() : "\x1f";  // no array is called so
+        return keyword == wanted.keyword ? wanted.name.c_str() : "\x1f";  // no array is called so
     };
     reader.SetScalarsName(name(VtkKeyword::Scalars));
     reader.SetVectorsName(name(VtkKeyword::Vectors));
@@ -121,7 +120,8 @@ vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray& 
     const vtkNew<Reader> reader;
     reader->SetFileName(header.path.c_str());
     const bool ghosts = header.ghosts[static_cast<std::size_t>(wanted.place)];
-    if (ghosts || wanted.keyword == VtkKeyword::Field)
+    // VTK 9.1 crashes on a field outside the attributes that it is not to keep.
+    if (ghosts || header.fieldOutside || wanted.keyword == VtkKeyword::Field)
         reader->ReadAllFieldsOn();
     else
         reader->SetFieldDataName("\x1f");

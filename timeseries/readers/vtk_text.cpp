@@ -199,6 +199,20 @@ std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, st
     return found;
 }
 
+void VtkText::checkNumbers(const VtkType& type, std::uint64_t count) {
+    const bool real = type.type == ValueType::F32 || type.type == ValueType::F64;
+    // One bit less than unsigned types hold, so that the test is the same for all.
+    const double limit = type.type == ValueType::F64   ? 1.7e308
+                         : type.type == ValueType::F32 ? 3.4e38
+                                                       : std::exp2(static_cast<double>(8 * type.bytes - 1));
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const double value = number("a value");
+        const bool whole = value == std::trunc(value) && value < limit;
+        if (real ? std::abs(value) > limit : !whole || value < -limit)
+            fail(fmt::format("expected a value of the type, found {}", value));
+    }
+}
+
 // A line each, or each after its length: two bits tell how long the length is, in 6, 14, 30 or 62
 // bits (vtkDataReader::ReadArray).
 void VtkText::skipStrings(std::uint64_t count) {

@@ -39,6 +39,8 @@ class VtkText {
     // Values in the file's own form, after the rest of the line when they are binary. The first
     // `kept` of them are returned. Throws FileError when there are fewer.
     std::vector<double> values(const VtkType& type, std::uint64_t count, std::uint64_t kept = 0);
+    // Of text: as many numbers of the type.
+    void checkNumbers(const VtkType& type, std::uint64_t count);
     void skipBytesOrWords(std::uint64_t bytes, std::uint64_t words);
     void skipStrings(std::uint64_t count);
 

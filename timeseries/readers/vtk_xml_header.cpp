@@ -84,7 +84,7 @@ std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& elemen
                 "expected one time step in a file, found an array of one of several");
     checkVtkValues(context.header.path, context.file, context.encoding, element, where,
                    tuples * components, type->bytes);
-    return VtkArray{std::move(name), place, type->type, components, {}, ""};
+    return VtkArray{std::move(name), place, type->type, components, {}};
 }
 
 // The arrays of one piece at points or at cells, by name.
