@@ -37,8 +37,8 @@ std::string bigEndianBytes(const std::vector<T>& values) {
 // A block of appended raw values: its length, then the values.
 template <typename T>
 std::string appendedBlock(const std::vector<T>& values) {
-    return rawBytes(std::vector<std::uint32_t>{
-               static_cast<std::uint32_t>(values.size() * sizeof(T))}) +
+    return rawBytes(
+               std::vector<std::uint32_t>{static_cast<std::uint32_t>(values.size() * sizeof(T))}) +
            rawBytes(values);
 }
 
@@ -74,8 +74,7 @@ inline std::string imageText(const Image& image) {
 
 inline std::filesystem::path write(const std::string& name, const std::string& bytes) {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string flatName =
-        std::string(test->test_suite_name()) + "_" + test->name() + "_" + name;
+    std::string flatName = std::string(test->test_suite_name()) + "_" + test->name() + "_" + name;
     std::ranges::replace(flatName, '/', '_');  // of typed tests
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / flatName;
     test_support::writeBytes(path, bytes);

@@ -1,9 +1,10 @@
-// VTK files that are cut, damaged or lie about their size: one sentence, in bounded time and memory.
+// VTK files that are cut, damaged or lie about their size: one sentence, in bounded time and
+// memory.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <random>
 
@@ -59,8 +60,7 @@ std::map<std::string, std::string> samples() {
     for (const double v : twelve()) numbers += fmt::format("{}\n", v);
     return {
         {"text.vti", imageText({.points = dataArray("Float64", "v", twelve())})},
-        {"raw.vti",
-         imageText({.points = appended, .appended = support::appendedBlock(twelve())})},
+        {"raw.vti", imageText({.points = appended, .appended = support::appendedBlock(twelve())})},
         {"ascii.vtk", "# vtk DataFile Version 4.2\ntitle\nASCII\n" + start + numbers},
         {"binary.vtk", "# vtk DataFile Version 4.2\ntitle\nBINARY\n" + start +
                            support::bigEndianBytes(twelve()) + "\n"},
@@ -170,9 +170,9 @@ TEST(DamagedVtk, HostileXmlIsRefused) {
 TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
     const std::string points = dataArray("Float64", "v", twelve());
     for (const std::string wrong : {"nan 1 1", "1 inf 1", "1 1", "1 1 1 1", "1 1 x"}) {
-        EXPECT_THAT(refusal(imageText({.attributes = "Spacing=\"" + wrong + "\"",
-                                       .points = points})),
-                    HasSubstr("Spacing: expected 3 finite numbers"))
+        EXPECT_THAT(
+            refusal(imageText({.attributes = "Spacing=\"" + wrong + "\"", .points = points})),
+            HasSubstr("Spacing: expected 3 finite numbers"))
             << wrong;
         EXPECT_THAT(refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
                             "DIMENSIONS 2 1 1\nSPACING " +

@@ -65,11 +65,10 @@ std::vector<std::string> namesOf(const Reader& reader) {
 }
 
 TEST(VtkImage, PointsAndCellsAreVariablesOnTheirOwnGrids) {
-    const auto reader = openText(imageText({.points = dataArray("Float32", "p", upTo<float>(12)) +
-                                                      dataArray("Int16", "both",
-                                                                upTo<std::int16_t>(12)),
-                                            .cells = dataArray("UInt8", "both",
-                                                               std::vector<std::uint8_t>{7, 9})}));
+    const auto reader =
+        openText(imageText({.points = dataArray("Float32", "p", upTo<float>(12)) +
+                                      dataArray("Int16", "both", upTo<std::int16_t>(12)),
+                            .cells = dataArray("UInt8", "both", std::vector<std::uint8_t>{7, 9})}));
     EXPECT_EQ(reader->format(), "VTK image data (XML)");
     EXPECT_THAT(namesOf(*reader), ElementsAre("p", "both (points)", "both (cells)"));
     const auto& axes = variableOf(*reader, "p").grid->axes();
@@ -89,15 +88,15 @@ TEST(VtkImage, PointsAndCellsAreVariablesOnTheirOwnGrids) {
 
 template <typename T>
 class VtkTypes : public testing::Test {};
-using AllTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t,
-                                std::uint32_t, std::int32_t, std::uint64_t, std::int64_t, float,
-                                double>;
+using AllTypes =
+    testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                   std::int32_t, std::uint64_t, std::int64_t, float, double>;
 TYPED_TEST_SUITE(VtkTypes, AllTypes);
 
 constexpr std::array kXmlNames{"UInt8", "Int8",   "UInt16", "Int16",   "UInt32",
                                "Int32", "UInt64", "Int64",  "Float32", "Float64"};
-constexpr std::array kLegacyNames{"unsigned_char", "char",          "unsigned_short", "short",
-                                  "unsigned_int",  "int",           "vtktypeuint64",  "vtktypeint64",
+constexpr std::array kLegacyNames{"unsigned_char", "char",  "unsigned_short", "short",
+                                  "unsigned_int",  "int",   "vtktypeuint64",  "vtktypeint64",
                                   "float",         "double"};
 
 // Each type's extremes, and neighbours that a double would not tell apart.
@@ -234,9 +233,10 @@ TEST(VtkImage, RightAnglesTurnTheValuesAndOtherRotationsAreToldOf) {
 }
 
 TEST(VtkImage, FlatImagesAreOneLayerAndExtentsNeedNotBeginAt0) {
-    const auto reader = openText(imageText({.extent = "-1 1 5 6 3 3",
-                                            .points = dataArray("UInt8", "p", upTo<std::uint8_t>(6)),
-                                            .cells = dataArray("UInt8", "c", upTo<std::uint8_t>(2))}));
+    const auto reader =
+        openText(imageText({.extent = "-1 1 5 6 3 3",
+                            .points = dataArray("UInt8", "p", upTo<std::uint8_t>(6)),
+                            .cells = dataArray("UInt8", "c", upTo<std::uint8_t>(2))}));
     const auto& axes = reader->variables()[0].grid->axes();
     EXPECT_THAT(axes[0].coordinates, ElementsAre(9, 10, 11));
     EXPECT_THAT(axes[1].coordinates, ElementsAre(30, 32));
@@ -247,8 +247,9 @@ TEST(VtkImage, FlatImagesAreOneLayerAndExtentsNeedNotBeginAt0) {
 }
 
 TEST(VtkImage, SpacingsOf0AreToldOf) {
-    const auto reader = openText(imageText({.attributes = "Spacing=\"0 1 1\"",
-                                            .points = dataArray("UInt8", "p", upTo<std::uint8_t>(12))}));
+    const auto reader =
+        openText(imageText({.attributes = "Spacing=\"0 1 1\"",
+                            .points = dataArray("UInt8", "p", upTo<std::uint8_t>(12))}));
     EXPECT_THAT(reader->variables()[0].notes,
                 ElementsAre("x is placed by index: its spacing is 0"));
 }
@@ -320,9 +321,8 @@ TEST(VtkLegacy, RectilinearGridsWithFieldsAndTimeInTextAndInBytes) {
     for (const std::string& text : {ascii, binary}) {
         const auto reader = openText(text);
         EXPECT_EQ(reader->format(), "VTK rectilinear grid (legacy)");
-        EXPECT_THAT(namesOf(*reader),
-                    ElementsAre("c", "V magnitude", "V[0]", "V[1]", "V[2]", "a b",
-                                "other magnitude", "other[0]", "other[1]"));
+        EXPECT_THAT(namesOf(*reader), ElementsAre("c", "V magnitude", "V[0]", "V[1]", "V[2]", "a b",
+                                                  "other magnitude", "other[0]", "other[1]"));
         EXPECT_EQ(reader->variables()[0].time->name, "time");
         EXPECT_EQ(reader->variables()[0].time->points[0].value, 2.5);
         EXPECT_THAT(reader->variables()[1].grid->axes()[0].coordinates, ElementsAre(1, 2, 4));
@@ -345,8 +345,8 @@ TEST(VtkLegacy, OldHeadersNameTheSpacingAspectRatio) {
 }
 
 Path collection(const std::string& sets) {
-    return support::write("all.pvd", "<VTKFile type=\"Collection\"><Collection>" + sets +
-                                         "</Collection></VTKFile>");
+    return support::write(
+        "all.pvd", "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>");
 }
 
 std::string member(const std::string& time, const Path& file, const std::string& more = "") {
@@ -360,8 +360,8 @@ TEST(VtkCollection, TimesAreRealAndMembersAreReadOneByOne) {
         files.push_back(support::write(
             fmt::format("{}.vti", i),
             imageText({.points = dataArray("Int32", "p", std::vector<int>(12, i))})));
-    const auto reader = open(collection(member("1.5", files[1]) + member("0.1", files[0]) +
-                                        member("1e3", files[2])));
+    const auto reader = open(
+        collection(member("1.5", files[1]) + member("0.1", files[0]) + member("1e3", files[2])));
     EXPECT_EQ(reader->format(), "VTK collection of image data (XML)");
     const auto& points = reader->variables()[0].time->points;
     ASSERT_EQ(points.size(), 3u);
@@ -386,9 +386,9 @@ TEST(VtkCollection, WhatDiffersIsTold) {
                 HasSubstr("'p': expected int32 of 1 components"));
     EXPECT_THAT(refusal(collection(member("0", good) + member("0", finer))),
                 HasSubstr("expected times that differ, found 0 twice"));
-    EXPECT_THAT(refusal(collection(member("0", good, "part=\"0\"") +
-                                   member("0", finer, "part=\"1\""))),
-                HasSubstr("expected one part a time step, found 2 parts"));
+    EXPECT_THAT(
+        refusal(collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
+        HasSubstr("expected one part a time step, found 2 parts"));
     EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected 1 finite numbers"));
     EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
     const Path gap = collection(member("0", good) + member("1", "none.vti"));

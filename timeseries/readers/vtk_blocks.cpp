@@ -110,8 +110,7 @@ struct Check {
         // The last block may be a part, also when it is the only one.
         const std::uint64_t full = blocks - (lastBytes != 0 ? 1 : 0);
         const bool possible = blocks > 0 && blocks <= available &&
-                              blockBytes <= std::max(bytes, kMaxBlock) &&
-                              lastBytes <= blockBytes &&
+                              blockBytes <= std::max(bytes, kMaxBlock) && lastBytes <= blockBytes &&
                               (full == 0 || blockBytes <= bytes / full) &&
                               full * blockBytes + lastBytes == bytes;
         if (!possible)
@@ -140,8 +139,7 @@ struct Check {
 
 VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& root) {
     VtkEncoding encoding;
-    const auto choice = [&](std::string_view name, std::string_view usual,
-                            std::string_view other) {
+    const auto choice = [&](std::string_view name, std::string_view usual, std::string_view other) {
         const std::string_view value = root.has(name) ? root.attribute(name) : usual;
         if (value != usual && value != other)
             failVtk(path, "VTKFile",
@@ -183,8 +181,8 @@ void checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
         check.available = file.bytes - at;
         check.base64 = file.appendedEncoding == "base64";
     } else if (format != "binary") {
-        check.fail(fmt::format("expected the format ascii, binary or appended, found \"{}\"",
-                               format));
+        check.fail(
+            fmt::format("expected the format ascii, binary or appended, found \"{}\"", format));
     }
     if (check.bytes == 0) return;
     Source source(path, at, check.base64);

@@ -72,8 +72,7 @@ void LegacyHeader::readSection(const std::string& word) {
     if (word == "dataset") return readDataset();
     if (word == "field") return readField();
     if (word == "metadata") return text_.skipParagraph();
-    if (header_.format.empty())
-        text_.fail(fmt::format("expected DATASET, found \"{}\"", word));
+    if (header_.format.empty()) text_.fail(fmt::format("expected DATASET, found \"{}\"", word));
     if (word == "dimensions") return readDimensions();
     if (!place_ && header_.kind == VtkKind::LegacyPoints) {
         if (word == "origin") return void(header_.origin = three("an origin"));
@@ -100,9 +99,10 @@ void LegacyHeader::readDataset() {
         header_.kind = VtkKind::LegacyRectilinear;
         header_.format = "VTK rectilinear grid (legacy)";
     } else {
-        text_.fail(fmt::format("expected DATASET STRUCTURED_POINTS or RECTILINEAR_GRID, found "
-                               "\"{}\"",
-                               kind));
+        text_.fail(
+            fmt::format("expected DATASET STRUCTURED_POINTS or RECTILINEAR_GRID, found "
+                        "\"{}\"",
+                        kind));
     }
 }
 
@@ -148,8 +148,8 @@ void LegacyHeader::beginAttributes(VtkPlace place) {
 void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t components,
                        VtkKeyword keyword) {
     if (components < 1 || components > kMaxComponents)
-        text_.fail(fmt::format("expected 1 to {} components, found {}", kMaxComponents,
-                               components));
+        text_.fail(
+            fmt::format("expected 1 to {} components, found {}", kMaxComponents, components));
     const std::uint64_t values = header_.count(*place_) * components;
     if (names_.size() >= kMaxArrays || !names_.emplace(*place_, name).second)
         text_.fail(fmt::format("expected names that differ, found '{}' again", name));
@@ -158,8 +158,7 @@ void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t comp
         if (isVtkGhostName(name))
             header_.ghosts[static_cast<std::size_t>(*place_)] = true;
         else
-            header_.arrays.push_back(
-                {std::move(name), *place_, type->type, components, keyword});
+            header_.arrays.push_back({std::move(name), *place_, type->type, components, keyword});
         return;
     }
     header_.passedOver.push_back(fmt::format("'{}' has the type {}", name, typeName_));
@@ -179,10 +178,9 @@ void LegacyHeader::skipLookupTable() {
 
 void LegacyHeader::readAttribute(const std::string& word) {
     if (word == "lookup_table") return skipLookupTable();
-    static constexpr std::array kKnown{"scalars",         "color_scalars", "vectors",
-                                       "normals",         "tensors",       "tensors6",
-                                       "texture_coordinates", "global_ids", "pedigree_ids",
-                                       "edge_flags"};
+    static constexpr std::array kKnown{
+        "scalars",  "color_scalars",       "vectors",    "normals",      "tensors",
+        "tensors6", "texture_coordinates", "global_ids", "pedigree_ids", "edge_flags"};
     if (std::ranges::find(kKnown, word) == kKnown.end())
         text_.fail(fmt::format("expected an attribute such as SCALARS, found \"{}\"", word));
     std::string name = text_.name();
@@ -243,14 +241,13 @@ void LegacyHeader::readFieldArray() {
     const std::uint64_t tuples = text_.count("a number of tuples");
     const VtkType* type = readType();
     if (components > kMaxComponents)
-        text_.fail(fmt::format("expected at most {} components, found {}", kMaxComponents,
-                               components));
+        text_.fail(
+            fmt::format("expected at most {} components, found {}", kMaxComponents, components));
     if (place_ && tuples == header_.count(*place_))
         return add(std::move(name), type, components, VtkKeyword::Field);
 
     const std::uint64_t values = tuples * components;
-    if (place_)
-        header_.passedOver.push_back(fmt::format("'{}' has {} tuples", name, tuples));
+    if (place_) header_.passedOver.push_back(fmt::format("'{}' has {} tuples", name, tuples));
     if (!type && (typeName_ == "string" || typeName_ == "utf8_string"))
         return text_.skipStrings(values);
     if (!type && typeName_ == "bit") return text_.skipBytesOrWords((values + 7) / 8, values);

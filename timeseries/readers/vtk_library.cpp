@@ -125,8 +125,7 @@ vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray& 
         reader->ReadAllFieldsOn();
     else
         reader->SetFieldDataName("\x1f");
-    if (ghosts)
-        reader->ReadAllScalarsOn();
+    if (ghosts) reader->ReadAllScalarsOn();
     select(*reader, wanted);
     reader->Update();
     return reader->GetOutput();
@@ -135,20 +134,31 @@ vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray& 
 std::optional<ValueType> valueTypeOf(int vtkType) {
     switch (vtkType) {
         case VTK_CHAR:
-        case VTK_SIGNED_CHAR: return ValueType::I8;
-        case VTK_UNSIGNED_CHAR: return ValueType::U8;
-        case VTK_SHORT: return ValueType::I16;
-        case VTK_UNSIGNED_SHORT: return ValueType::U16;
-        case VTK_INT: return ValueType::I32;
-        case VTK_UNSIGNED_INT: return ValueType::U32;
+        case VTK_SIGNED_CHAR:
+            return ValueType::I8;
+        case VTK_UNSIGNED_CHAR:
+            return ValueType::U8;
+        case VTK_SHORT:
+            return ValueType::I16;
+        case VTK_UNSIGNED_SHORT:
+            return ValueType::U16;
+        case VTK_INT:
+            return ValueType::I32;
+        case VTK_UNSIGNED_INT:
+            return ValueType::U32;
         case VTK_LONG:
         case VTK_LONG_LONG:
-        case VTK_ID_TYPE: return ValueType::I64;
+        case VTK_ID_TYPE:
+            return ValueType::I64;
         case VTK_UNSIGNED_LONG:
-        case VTK_UNSIGNED_LONG_LONG: return ValueType::U64;
-        case VTK_FLOAT: return ValueType::F32;
-        case VTK_DOUBLE: return ValueType::F64;
-        default: return std::nullopt;
+        case VTK_UNSIGNED_LONG_LONG:
+            return ValueType::U64;
+        case VTK_FLOAT:
+            return ValueType::F32;
+        case VTK_DOUBLE:
+            return ValueType::F64;
+        default:
+            return std::nullopt;
     }
 }
 static_assert(sizeof(long) == 8 && sizeof(vtkIdType) == 8);
@@ -162,7 +172,9 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
     vtkSmartPointer<vtkDataSet> output;
     switch (header.kind) {
         case VtkKind::XmlImage:
-        case VtkKind::XmlRectilinear: output = readXml(header, &wanted); break;
+        case VtkKind::XmlRectilinear:
+            output = readXml(header, &wanted);
+            break;
         case VtkKind::LegacyPoints:
             output = readLegacy<vtkStructuredPointsReader>(header, wanted);
             break;
@@ -265,21 +277,30 @@ void fill(vtkDataArray& stored, const VtkArray& array, VtkPart part, const VtkLa
                           field.values.emplace<std::vector<T>>());
         } else {
             using Result = std::conditional_t<std::is_same_v<T, float>, float, double>;
-            magnitudes(from, array.components, layout,
-                       field.values.emplace<std::vector<Result>>());
+            magnitudes(from, array.components, layout, field.values.emplace<std::vector<Result>>());
         }
     };
     switch (array.type) {
-        case ValueType::U8: return typed(std::uint8_t{});
-        case ValueType::I8: return typed(std::int8_t{});
-        case ValueType::U16: return typed(std::uint16_t{});
-        case ValueType::I16: return typed(std::int16_t{});
-        case ValueType::U32: return typed(std::uint32_t{});
-        case ValueType::I32: return typed(std::int32_t{});
-        case ValueType::U64: return typed(std::uint64_t{});
-        case ValueType::I64: return typed(std::int64_t{});
-        case ValueType::F32: return typed(float{});
-        case ValueType::F64: return typed(double{});
+        case ValueType::U8:
+            return typed(std::uint8_t{});
+        case ValueType::I8:
+            return typed(std::int8_t{});
+        case ValueType::U16:
+            return typed(std::uint16_t{});
+        case ValueType::I16:
+            return typed(std::int16_t{});
+        case ValueType::U32:
+            return typed(std::uint32_t{});
+        case ValueType::I32:
+            return typed(std::int32_t{});
+        case ValueType::U64:
+            return typed(std::uint64_t{});
+        case ValueType::I64:
+            return typed(std::int64_t{});
+        case ValueType::F32:
+            return typed(float{});
+        case ValueType::F64:
+            return typed(double{});
     }
 }
 
@@ -297,8 +318,7 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
     VtkFrame frame;
     if (!output) failVtk(header.path, "", "expected a grid, but VTK reads none");
     if (auto* grid = vtkRectilinearGrid::SafeDownCast(output))
-        frame.coordinates = {numbersOf(grid->GetXCoordinates()),
-                             numbersOf(grid->GetYCoordinates()),
+        frame.coordinates = {numbersOf(grid->GetXCoordinates()), numbersOf(grid->GetYCoordinates()),
                              numbersOf(grid->GetZCoordinates())};
     vtkFieldData* data = output->GetFieldData();
     for (int i = 0; data && i < data->GetNumberOfArrays(); ++i) {

@@ -29,10 +29,10 @@ VtkHeader headerOf(const Path& path) {
     if (header.kind == VtkKind::XmlRectilinear)
         for (std::size_t i = 0; i < 3; ++i)
             if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])
-                failVtk(path, "Coordinates",
-                        fmt::format("expected {} along {}, found {}",
-                                    header.size(VtkPlace::Points)[i], "xyz"[i],
-                                    header.coordinates[i].size()));
+                failVtk(
+                    path, "Coordinates",
+                    fmt::format("expected {} along {}, found {}", header.size(VtkPlace::Points)[i],
+                                "xyz"[i], header.coordinates[i].size()));
     return header;
 }
 
@@ -182,8 +182,7 @@ Field VtkReader::read(std::size_t variable, std::size_t step) {
                             array.components, members_[0].path.filename().string()));
     const VtkGrid& grid = *frame_.grids[static_cast<std::size_t>(array.place)];
     if (*grid.grid != *variables_[variable].grid)
-        failVtk(header.path, "",
-                "expected the grid of " + members_[0].path.filename().string());
+        failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());
     Field field;
     field.grid = variables_[variable].grid;
     readVtkArray(header, *found, part, grid.layout, field);

@@ -25,17 +25,27 @@ static_assert(std::endian::native == std::endian::little);
 
 double decode(const VtkType& type, const unsigned char* bytes) {
     switch (type.type) {
-        case ValueType::U8: return *bytes;
-        case ValueType::I8: return static_cast<std::int8_t>(*bytes);
-        case ValueType::U16: return bigEndian<std::uint16_t>(bytes);
-        case ValueType::I16: return bigEndian<std::int16_t>(bytes);
-        case ValueType::U32: return bigEndian<std::uint32_t>(bytes);
-        case ValueType::I32: return bigEndian<std::int32_t>(bytes);
-        case ValueType::U64: return bigEndian<std::uint64_t>(bytes);
+        case ValueType::U8:
+            return *bytes;
+        case ValueType::I8:
+            return static_cast<std::int8_t>(*bytes);
+        case ValueType::U16:
+            return bigEndian<std::uint16_t>(bytes);
+        case ValueType::I16:
+            return bigEndian<std::int16_t>(bytes);
+        case ValueType::U32:
+            return bigEndian<std::uint32_t>(bytes);
+        case ValueType::I32:
+            return bigEndian<std::int32_t>(bytes);
+        case ValueType::U64:
+            return bigEndian<std::uint64_t>(bytes);
         case ValueType::I64:
-            return type.bytes == 4 ? bigEndian<std::int32_t>(bytes) : bigEndian<std::int64_t>(bytes);
-        case ValueType::F32: return bigEndian<float>(bytes);
-        case ValueType::F64: return bigEndian<double>(bytes);
+            return type.bytes == 4 ? bigEndian<std::int32_t>(bytes)
+                                   : bigEndian<std::int64_t>(bytes);
+        case ValueType::F32:
+            return bigEndian<float>(bytes);
+        case ValueType::F64:
+            return bigEndian<double>(bytes);
     }
     return 0;
 }
@@ -202,9 +212,10 @@ std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, st
 void VtkText::checkNumbers(const VtkType& type, std::uint64_t count) {
     const bool real = type.type == ValueType::F32 || type.type == ValueType::F64;
     // One bit less than unsigned types hold, so that the test is the same for all.
-    const double limit = type.type == ValueType::F64   ? 1.7e308
-                         : type.type == ValueType::F32 ? 3.4e38
-                                                       : std::exp2(static_cast<double>(8 * type.bytes - 1));
+    const double limit = type.type == ValueType::F64 ? 1.7e308
+                         : type.type == ValueType::F32
+                             ? 3.4e38
+                             : std::exp2(static_cast<double>(8 * type.bytes - 1));
     for (std::uint64_t i = 0; i < count; ++i) {
         const double value = number("a value");
         const bool whole = value == std::trunc(value) && value < limit;

@@ -85,7 +85,8 @@ void text(void* user, const XML_Char* characters, int length) {
     for (int i = 0; i < length; ++i) {
         const bool word = !blank(characters[i]);
         if (word && element.characters++ == 0)
-            element.textAt = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parsing.parser) + i);
+            element.textAt =
+                static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parsing.parser) + i);
         element.words += word && !inWord;
         inWord = word;
     }

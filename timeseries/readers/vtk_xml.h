@@ -26,9 +26,9 @@ struct XmlElement {
 
 struct XmlFile {
     XmlElement root;
-    std::uint64_t bytes = 0;        // of the file
-    std::uint64_t appendedAt = 0;   // the byte after the '_'; 0 when nothing is appended
-    std::string appendedEncoding;   // "raw" or "base64"
+    std::uint64_t bytes = 0;       // of the file
+    std::uint64_t appendedAt = 0;  // the byte after the '_'; 0 when nothing is appended
+    std::string appendedEncoding;  // "raw" or "base64"
 };
 
 // Throws FileError when it is no well-formed XML, declares a document type (whose entities could

@@ -65,15 +65,15 @@ std::string nameOf(const XmlElement& array, std::size_t index) {
 }
 
 // One array of PointData or CellData, its values checked; nothing when it cannot be drawn.
-std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& element,
-                                std::string name, VtkPlace place, std::uint64_t tuples) {
+std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& element, std::string name,
+                                VtkPlace place, std::uint64_t tuples) {
     const std::string where = fmt::format("{} '{}'", placeOf(element), name);
     const std::uint64_t components = wholeNumber(context, element, "NumberOfComponents", 1);
     const VtkType* type = vtkXmlType(element.attribute("type"));
     if (element.name != "DataArray" || !type) {
-        context.header.passedOver.push_back(fmt::format(
-            "'{}' has the type {}", name,
-            element.name == "DataArray" ? element.attribute("type") : element.name));
+        context.header.passedOver.push_back(
+            fmt::format("'{}' has the type {}", name,
+                        element.name == "DataArray" ? element.attribute("type") : element.name));
         return std::nullopt;
     }
     if (components < 1 || components > kMaxComponents)
@@ -178,9 +178,9 @@ void addPieces(const Context& context, const XmlElement& grid) {
 
 const XmlElement& rootOf(const std::filesystem::path& path, const XmlFile& file) {
     if (file.root.name != "VTKFile")
-        failVtk(path, "",
-                fmt::format("expected a VTK file, whose root is VTKFile, found {}",
-                            file.root.name));
+        failVtk(
+            path, "",
+            fmt::format("expected a VTK file, whose root is VTKFile, found {}", file.root.name));
     return file.root;
 }
 
@@ -247,8 +247,8 @@ std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path) {
         if (name.empty()) failVtk(path, placeOf(*set), "expected the name of a file");
         VtkMember member{path.parent_path() / name, std::nullopt};
         if (set->has("timestep"))
-            member.time = vtkNumbers(header, placeOf(*set) + " timestep",
-                                     set->attribute("timestep"), 1)[0];
+            member.time =
+                vtkNumbers(header, placeOf(*set) + " timestep", set->attribute("timestep"), 1)[0];
         parts.emplace(set->attribute("group"), set->attribute("part"));
         members.push_back(std::move(member));
     }
