@@ -170,7 +170,7 @@ void VtkReader::open(std::size_t step) {
 
 Field VtkReader::read(std::size_t variable, std::size_t step) {
     open(step);
-    const auto& [array, part] = sources_[variable];
+    const VtkArray& array = sources_[variable].array;
     const VtkHeader& header = frame_.header;
     const auto found = std::ranges::find_if(header.arrays, [&](const VtkArray& other) {
         return other.name == array.name && other.place == array.place;
@@ -185,7 +185,7 @@ Field VtkReader::read(std::size_t variable, std::size_t step) {
         failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());
     Field field;
     field.grid = variables_[variable].grid;
-    readVtkArray(header, *found, part, grid.layout, field);
+    readVtkArray(header, *found, sources_[variable].part, grid.layout, field);
     return field;
 }
 
