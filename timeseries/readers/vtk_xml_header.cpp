@@ -167,7 +167,7 @@ void addPieces(const Context& context, const XmlElement& grid) {
             failVtk(header.path, placeOf(*piece), "expected the arrays of the first piece");
     }
     std::ranges::sort(header.passedOver);
-    header.passedOver.erase(std::ranges::unique(header.passedOver).begin(),
+    header.passedOver.erase(std::unique(header.passedOver.begin(), header.passedOver.end()),
                             header.passedOver.end());
     std::erase_if(header.arrays, [&](const VtkArray& array) {
         if (!isVtkGhostName(array.name)) return false;
