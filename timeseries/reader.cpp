@@ -9,14 +9,17 @@
 #include "timeseries/readers/netcdf_reader.h"
 #include "timeseries/readers/nrrd_reader.h"
 #include "timeseries/readers/sequence_reader.h"
+#ifdef ISOCHRON_VTK
+#include "timeseries/readers/vtk_reader.h"
+#endif
 
 namespace timeseries {
 namespace {
 
 using namespace std::string_view_literals;
 
-// The longest beginning that any format is told by.
-constexpr std::size_t kMagicBytes = 64;
+// The longest beginning that any format is told by: comments may stand before an XML file's root.
+constexpr std::size_t kMagicBytes = 1024;
 
 std::string beginning(const std::filesystem::path& path) {
     const auto fail = [&](std::string_view what) {
@@ -42,6 +45,14 @@ struct Format {
     bool joins = false;  // open() makes several files one series; else it is given one at a time
 };
 
+#ifndef ISOCHRON_VTK
+std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths) {
+    throw FileError(
+        fmt::format("{}: expected a build that reads VTK files, which `./run --with-vtk {}` makes",
+                    paths[0].string(), paths[0].string()));
+}
+#endif
+
 const std::array kFormats = {
     Format{"a NetCDF file, which begins with CDF (classic) or \\x89HDF (NetCDF-4)",
            [](std::string_view start) {
@@ -51,6 +62,13 @@ const std::array kFormats = {
            openNetcdf, true},
     Format{"an NRRD file, which begins with NRRD0",
            [](std::string_view start) { return start.starts_with("NRRD0"sv); }, openNrrd},
+    Format{"a VTK file, which begins with \"# vtk DataFile\" or has the root <VTKFile",
+           [](std::string_view start) {
+               return start.starts_with("# vtk DataFile"sv) ||
+                      (start.find("<VTKFile"sv) != start.npos &&
+                       start.find_first_not_of("\xEF\xBB\xBF \t\r\n"sv) == start.find('<'));
+           },
+           openVtk},
 };
 
 const Format& recognise(const std::filesystem::path& path) {

@@ -227,11 +227,5 @@ TEST_F(DamagedNrrdFiles, TooLongAFileIsToldNotRefused) {
                 testing::Contains(HasSubstr("6 bytes behind the values")));
 }
 
-TEST_F(DamagedNrrdFiles, SeveralPathsAreNoSeriesYet) {
-    ASSERT_EQ(toldOfFile("v.raw"), "");
-    const std::vector<std::filesystem::path> twice(2, folder / "head/file.nhdr");
-    EXPECT_THROW(openReader(twice), FileError);
-}
-
 }  // namespace
 }  // namespace timeseries

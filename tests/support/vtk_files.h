@@ -1,0 +1,84 @@
+// Small VTK files for tests, written by hand.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/files.h"
+
+namespace support {
+
+// The values' bytes, in this machine's order.
+template <typename T>
+std::string rawBytes(const std::vector<T>& values) {
+    std::string bytes(values.size() * sizeof(T), '\0');
+    if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+
+template <typename T>
+std::string bigEndianBytes(const std::vector<T>& values) {
+    std::string bytes;
+    for (const T& value : values) {
+        std::string one = rawBytes(std::vector<T>{value});
+        std::ranges::reverse(one);
+        bytes += one;
+    }
+    return bytes;
+}
+
+// A block of appended raw values: its length, then the values.
+template <typename T>
+std::string appendedBlock(const std::vector<T>& values) {
+    return rawBytes(
+               std::vector<std::uint32_t>{static_cast<std::uint32_t>(values.size() * sizeof(T))}) +
+           rawBytes(values);
+}
+
+template <typename T>
+std::string dataArray(const std::string& type, const std::string& name,
+                      const std::vector<T>& values, std::size_t components = 1) {
+    std::string text = fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", type,
+        name, components);
+    for (const T& value : values) text += fmt::format("{} ", +value);
+    return text + "\n</DataArray>\n";
+}
+
+struct Image {
+    std::string extent = "0 2 0 1 0 1";
+    std::string attributes = "Origin=\"10 20 30\" Spacing=\"1 2 3\"";
+    std::string points = {}, cells = {}, field = {}, appended = {};
+};
+
+inline std::string imageText(const Image& image) {
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n<ImageData WholeExtent=\"{0}\" {1}>\n{2}"
+        "<Piece Extent=\"{0}\">\n<PointData>\n{3}</PointData>\n<CellData>\n{4}</CellData>\n"
+        "</Piece>\n</ImageData>\n{5}</VTKFile>\n",
+        image.extent, image.attributes,
+        image.field.empty() ? "" : "<FieldData>\n" + image.field + "</FieldData>\n", image.points,
+        image.cells,
+        image.appended.empty()
+            ? ""
+            : "<AppendedData encoding=\"raw\">\n_" + image.appended + "\n</AppendedData>\n");
+}
+
+inline std::filesystem::path write(const std::string& name, const std::string& bytes) {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string flatName = std::string(test->test_suite_name()) + "_" + test->name() + "_" + name;
+    std::ranges::replace(flatName, '/', '_');  // of typed tests
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / flatName;
+    test_support::writeBytes(path, bytes);
+    return path;
+}
+
+}  // namespace support

@@ -1,0 +1,203 @@
+// VTK files that are cut, damaged or lie about their size: one sentence, in bounded time and
+// memory.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numeric>
+#include <optional>
+#include <random>
+
+#include "tests/support/vtk_files.h"
+#include "timeseries/reader.h"
+
+namespace timeseries {
+namespace {
+
+using support::dataArray;
+using support::Image;
+using support::imageText;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Path = std::filesystem::path;
+
+// Everything a file holds; nothing when it is refused, by one sentence.
+std::optional<std::vector<Values>> contents(const Path& path, std::string* why = nullptr) {
+    try {
+        const auto reader = openReader(std::span(&path, 1));
+        std::vector<Values> all;
+        for (std::size_t v = 0; v < reader->variables().size(); ++v)
+            all.push_back(reader->read(v, 0).values);
+        return all;
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), StartsWith(path.string() + ": "));
+        EXPECT_THAT(error.what(), HasSubstr("expected"));
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        if (why) *why = error.what();
+        return std::nullopt;
+    }
+}
+
+std::string refusal(const std::string& text) {
+    std::string why;
+    contents(support::write("refused", text), &why);
+    return why;
+}
+
+std::vector<double> twelve() {
+    std::vector<double> values(12);
+    std::iota(values.begin(), values.end(), 0.25);
+    return values;
+}
+
+std::map<std::string, std::string> samples() {
+    const std::string appended =
+        "<DataArray type=\"Float64\" Name=\"v\" format=\"appended\" offset=\"0\"/>";
+    const std::string start =
+        "DATASET STRUCTURED_POINTS\nDIMENSIONS 3 2 2\nSPACING 1 2 3\nORIGIN 10 20 30\n"
+        "POINT_DATA 12\nSCALARS v double 1\nLOOKUP_TABLE default\n";
+    std::string numbers;
+    for (const double v : twelve()) numbers += fmt::format("{}\n", v);
+    return {
+        {"text.vti", imageText({.points = dataArray("Float64", "v", twelve())})},
+        {"raw.vti", imageText({.points = appended, .appended = support::appendedBlock(twelve())})},
+        {"ascii.vtk", "# vtk DataFile Version 4.2\ntitle\nASCII\n" + start + numbers},
+        {"binary.vtk", "# vtk DataFile Version 4.2\ntitle\nBINARY\n" + start +
+                           support::bigEndianBytes(twelve()) + "\n"},
+    };
+}
+
+TEST(DamagedVtk, FilesCutAnywhereAreRefusedOrWhole) {
+    for (const auto& [name, whole] : samples()) {
+        const auto expected = contents(support::write(name, whole));
+        ASSERT_TRUE(expected) << name;
+        const Path path = support::write("cut", whole);
+        std::size_t read = 0;
+        for (std::size_t length = whole.size() - 1; length > 0; --length) {
+            std::filesystem::resize_file(path, length);
+            const auto found = contents(path);
+            if (!found) continue;
+            // The last digits of text may be lost unseen.
+            if (name != "ascii.vtk") {
+                EXPECT_EQ(*found, *expected) << name << " cut at " << length;
+            }
+            ++read;
+        }
+        // Of the closing tags and blanks after the last value.
+        EXPECT_LE(read, 30u) << name;
+    }
+}
+
+TEST(DamagedVtk, FilesWithWrongBytesAreReadOrRefused) {
+    std::mt19937 random(7);
+    for (const auto& [name, whole] : samples()) {
+        for (int i = 0; i < 500; ++i) {
+            std::string bytes = whole;
+            for (int n = 0; n < 1 + i % 3; ++n) {
+                const std::size_t at = 4 + random() % (bytes.size() - 4);
+                bytes[at] = static_cast<char>(random() % 2 ? '0' + random() % 10 : random());
+            }
+            contents(support::write("flipped", bytes));
+        }
+    }
+}
+
+TEST(DamagedVtk, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
+    const auto sized = [](const std::string& extent, const std::string& array) {
+        return imageText({.extent = extent, .points = array});
+    };
+    const std::string appended =
+        "<DataArray type=\"Float64\" Name=\"v\" format=\"appended\" offset=\"0\"/>";
+    EXPECT_THAT(refusal(sized("0 999 0 999 0 999", dataArray("Float64", "v", twelve()))),
+                HasSubstr("expected 1000000000 values, found 12"));
+    EXPECT_THAT(refusal(sized("0 999 0 999 0 999", appended)),
+                HasSubstr("expected appended values, but the file ends before"));
+    EXPECT_THAT(refusal(sized("0 2147483647 0 1 0 1", appended)),
+                HasSubstr("expected at least one point along each axis"));
+    EXPECT_THAT(refusal(sized("0 99999 0 99999 0 99999", appended)),
+                HasSubstr("expected at most 2^32 points"));
+    EXPECT_THAT(refusal(sized("0 99999999999999999999 0 1 0 1", appended)),
+                HasSubstr("expected 32-bit integers"));
+    EXPECT_THAT(refusal(sized("5 2 0 1 0 1", appended)), HasSubstr("found the indices 5 to 2"));
+    EXPECT_THAT(refusal(sized("0 1 0 1", appended)), HasSubstr("expected 6 finite numbers"));
+    const std::string start = "# vtk DataFile Version 4.2\nt\nBINARY\nDATASET STRUCTURED_POINTS\n";
+    const std::string rest = "SCALARS v double 1\nLOOKUP_TABLE default\nabc";
+    EXPECT_THAT(refusal(start + "DIMENSIONS 1000 1000 1000\nPOINT_DATA 1000000000\n" + rest),
+                HasSubstr("expected 8000000000 bytes of values, but the file ends after 3"));
+    EXPECT_THAT(refusal(start + "DIMENSIONS 100000 100000 100000\nPOINT_DATA 1\n" + rest),
+                HasSubstr("expected at most 2^32 points"));
+    EXPECT_THAT(refusal(start + "DIMENSIONS 0 1 1\nPOINT_DATA 1\n" + rest),
+                HasSubstr("expected at least one point"));
+    EXPECT_THAT(refusal(start + "DIMENSIONS -1 1 1\nPOINT_DATA 1\n" + rest),
+                HasSubstr("a whole number, found \"-1\""));
+    EXPECT_THAT(refusal(start + "DIMENSIONS 2 2 2\nPOINT_DATA 9\n" + rest),
+                HasSubstr("expected 8 points, found 9"));
+}
+
+TEST(DamagedVtk, PackedBlocksThatLieAreRefused) {
+    const auto packed = [](const std::vector<std::uint32_t>& header) {
+        std::string text = imageText(
+            {.points = "<DataArray type=\"Float64\" Name=\"v\" format=\"appended\" offset=\"0\"/>",
+             .appended = support::rawBytes(header) + std::string(40, 'x')});
+        text.insert(text.find("byte_order="), "compressor=\"vtkZLibDataCompressor\" ");
+        return text;
+    };
+    EXPECT_THAT(refusal(packed({0xFFFFFFFF, 8, 0, 4})), HasSubstr("blocks of 8 and 0"));
+    EXPECT_THAT(refusal(packed({1, 96, 0, 0xFFFFFFF0})), HasSubstr("the file ends before"));
+    EXPECT_THAT(refusal(packed({1, 96, 0, 0})), HasSubstr("which 0 bytes cannot hold"));
+    EXPECT_THAT(refusal(packed({1, 100, 97, 9})), HasSubstr("expected 96 bytes of values"));
+    EXPECT_THAT(refusal(packed({1, 96, 0, 30})), HasSubstr("'v'"));  // no zlib stream
+}
+
+TEST(DamagedVtk, HostileXmlIsRefused) {
+    std::string laughs = "<!DOCTYPE V [<!ENTITY a \"ha\">";
+    for (char c = 'b'; c < 'z'; ++c)
+        laughs += fmt::format("<!ENTITY {} \"&{};&{};&{};&{};\">", c, char(c - 1), char(c - 1),
+                              char(c - 1), char(c - 1));
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>" + laughs + "]><VTKFile type=\"&y;\"/>"),
+                HasSubstr("expected no document type declaration"));
+    std::string deep = "<VTKFile type=\"ImageData\">";
+    for (int i = 0; i < 100000; ++i) deep += "<a>";
+    EXPECT_THAT(refusal(deep), HasSubstr("nested elements"));
+    std::string many = "<VTKFile type=\"ImageData\">";
+    for (int i = 0; i < 300000; ++i) many += "<a/>";
+    EXPECT_THAT(refusal(many + "</VTKFile>"), HasSubstr("elements"));
+    EXPECT_THAT(refusal("<VTKFile>"), HasSubstr("expected well-formed XML"));
+    EXPECT_THAT(refusal("<VTKFile/>"), HasSubstr("expected the type ImageData"));
+    EXPECT_THAT(refusal("<VTKFile type=\"ImageData\"/>"), HasSubstr("expected one ImageData"));
+}
+
+TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
+    const std::string points = dataArray("Float64", "v", twelve());
+    for (const std::string wrong : {"nan 1 1", "1 inf 1", "1 1", "1 1 1 1", "1 1 x"}) {
+        EXPECT_THAT(
+            refusal(imageText({.attributes = "Spacing=\"" + wrong + "\"", .points = points})),
+            HasSubstr("Spacing: expected 3 finite numbers"))
+            << wrong;
+        EXPECT_THAT(refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                            "DIMENSIONS 2 1 1\nSPACING " +
+                            wrong + "\nPOINT_DATA 2\nSCALARS v int\nLOOKUP_TABLE d\n1 2\n"),
+                    testing::AnyOf(HasSubstr("a finite number, found"), HasSubstr("found \"1\"")))
+            << wrong;
+    }
+}
+
+TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {
+    EXPECT_THAT(refusal(imageText({})), HasSubstr("expected an array of numbers, found none"));
+    EXPECT_THAT(refusal(imageText({.points = "<DataArray type=\"String\" Name=\"s\" "
+                                             "format=\"ascii\">0</DataArray>"})),
+                HasSubstr("found none; 's' has the type String"));
+    const std::string v = dataArray("Float64", "v", twelve());
+    EXPECT_THAT(refusal(imageText({.points = v + v})), HasSubstr("found 'v' again"));
+    EXPECT_THAT(refusal(imageText({.points = dataArray("Float64", "v", twelve(), 0)})),
+                HasSubstr("expected 1 to 1024 components, found 0"));
+    for (const std::string kind : {"UnstructuredGrid", "PolyData", "PImageData"})
+        EXPECT_THAT(refusal("<VTKFile type=\"" + kind + "\"><" + kind + "/></VTKFile>"),
+                    HasSubstr("found \"" + kind + "\""));
+    EXPECT_THAT(refusal("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
+                HasSubstr("STRUCTURED_POINTS or RECTILINEAR_GRID, found \"polydata\""));
+    EXPECT_THAT(refusal("# vtk DataFile Version 9.0\nt\nASCII\n"), HasSubstr("expected a version"));
+}
+
+}  // namespace
+}  // namespace timeseries

@@ -1,0 +1,195 @@
+#include "timeseries/readers/vtk_blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+
+#include "timeseries/readers/vtk_header.h"
+
+namespace timeseries {
+namespace {
+
+// The most that a byte can unpack to: deflate's limit is 1032 (RFC 1951: two bits for 258 bytes),
+// LZ4's 255 (one length byte); LZMA states none, and 8000 is meant to be beyond what it reaches.
+std::uint64_t unpackedPerByte(std::string_view compressor) {
+    if (compressor == "vtkLZ4DataCompressor") return 256;
+    return compressor == "vtkLZMADataCompressor" ? 8000 : 1100;
+}
+
+// A block that is larger than the values themselves.
+constexpr std::uint64_t kMaxBlock = std::uint64_t{1} << 28;
+
+// The bytes of one array where they lie, decoded where they are base64.
+class Source {
+ public:
+    Source(const std::filesystem::path& path, std::uint64_t at, bool base64)
+        : file_(path, std::ios::binary), base64_(base64) {
+        file_.seekg(static_cast<std::streamoff>(at));
+    }
+
+    // False at the end of the file, of the text, or of the characters that mean something.
+    bool get(unsigned char& byte) {
+        if (!base64_) {
+            char c = 0;
+            if (!file_.get(c)) return false;
+            byte = static_cast<unsigned char>(c);
+            return true;
+        }
+        while (bits_ < 8) {
+            char c = 0;
+            if (!file_.get(c)) return false;
+            if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+            const int digit = digitOf(c);
+            if (digit < 0) return false;
+            held_ = (held_ << 6 | static_cast<unsigned>(digit)) & 0xFFFF;
+            bits_ += 6;
+        }
+        bits_ -= 8;
+        byte = static_cast<unsigned char>(held_ >> bits_);
+        return true;
+    }
+
+    bool number(const VtkEncoding& encoding, std::uint64_t& value) {
+        value = 0;
+        for (std::size_t i = 0; i < encoding.headerBytes; ++i) {
+            unsigned char byte = 0;
+            if (!get(byte)) return false;
+            if (encoding.bigEndian)
+                value = value << 8 | byte;
+            else
+                value |= static_cast<std::uint64_t>(byte) << (8 * i);
+        }
+        return true;
+    }
+
+ private:
+    static int digitOf(char c) {
+        if (c >= 'A' && c <= 'Z') return c - 'A';
+        if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+        if (c >= '0' && c <= '9') return c - '0' + 52;
+        return c == '+' ? 62 : c == '/' ? 63 : -1;
+    }
+
+    std::ifstream file_;
+    bool base64_;
+    unsigned held_ = 0;
+    int bits_ = 0;
+};
+
+// How many characters stand for so many bytes.
+std::uint64_t characters(bool base64, std::uint64_t bytes) {
+    return base64 ? (bytes + 2) / 3 * 4 : bytes;
+}
+
+struct Check {
+    const std::filesystem::path& path;
+    const VtkEncoding& encoding;
+    std::string_view place;
+    bool base64;
+    std::uint64_t available;  // characters from the array's first on
+    std::uint64_t bytes;      // of the values, unpacked
+
+    [[noreturn]] void fail(const std::string& what) const { failVtk(path, place, what); }
+
+    void plain(Source& source) const {
+        std::uint64_t declared = 0;
+        if (!source.number(encoding, declared)) fail("expected values, but the file ends");
+        if (declared != bytes)
+            fail(fmt::format("expected {} bytes of values, found {}", bytes, declared));
+        if (bytes > available || characters(base64, encoding.headerBytes + bytes) > available)
+            fail(fmt::format("expected {} bytes of values, but the file ends before", bytes));
+    }
+
+    void compressed(Source& source) const {
+        std::uint64_t blocks = 0, blockBytes = 0, lastBytes = 0;
+        if (!source.number(encoding, blocks) || !source.number(encoding, blockBytes) ||
+            !source.number(encoding, lastBytes))
+            fail("expected values, but the file ends");
+        // The last block may be a part, also when it is the only one.
+        const std::uint64_t full = blocks - (lastBytes != 0 ? 1 : 0);
+        const bool possible = blocks > 0 && blocks <= available &&
+                              blockBytes <= std::max(bytes, kMaxBlock) && lastBytes <= blockBytes &&
+                              (full == 0 || blockBytes <= bytes / full) &&
+                              full * blockBytes + lastBytes == bytes;
+        if (!possible)
+            fail(fmt::format("expected {} bytes of values, found {} blocks of {} and {}", bytes,
+                             blocks, blockBytes, lastBytes));
+        std::uint64_t packed = 0;
+        for (std::uint64_t i = 0; i < blocks; ++i) {
+            std::uint64_t size = 0;
+            if (!source.number(encoding, size)) fail("expected values, but the file ends");
+            const bool last = i + 1 == blocks && lastBytes != 0;
+            const std::uint64_t unpacked = last ? lastBytes : blockBytes;
+            if (size > available || (packed += size) > available)
+                fail("expected packed values, but the file ends before");
+            if (unpacked > size * unpackedPerByte(encoding.compressor))
+                fail(fmt::format("expected a block of {} bytes, which {} bytes cannot hold",
+                                 unpacked, size));
+        }
+        // The sizes and the values are encoded apart.
+        if (characters(base64, (3 + blocks) * encoding.headerBytes) + characters(base64, packed) >
+            available)
+            fail("expected packed values, but the file ends before");
+    }
+};
+
+}  // namespace
+
+VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& root) {
+    VtkEncoding encoding;
+    const auto choice = [&](std::string_view name, std::string_view usual, std::string_view other) {
+        const std::string_view value = root.has(name) ? root.attribute(name) : usual;
+        if (value != usual && value != other)
+            failVtk(path, "VTKFile",
+                    fmt::format("expected {} {} or {}, found \"{}\"", name, usual, other, value));
+        return value == other;
+    };
+    encoding.bigEndian = choice("byte_order", "LittleEndian", "BigEndian");
+    encoding.headerBytes = choice("header_type", "UInt32", "UInt64") ? 8 : 4;
+    encoding.compressor = root.attribute("compressor");
+    if (!encoding.compressor.empty() && encoding.compressor != "vtkZLibDataCompressor" &&
+        encoding.compressor != "vtkLZ4DataCompressor" &&
+        encoding.compressor != "vtkLZMADataCompressor")
+        failVtk(path, "VTKFile",
+                fmt::format("expected a compressor of zlib, LZ4 or LZMA, found \"{}\"",
+                            encoding.compressor));
+    return encoding;
+}
+
+void checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
+                    const VtkEncoding& encoding, const XmlElement& array, std::string_view place,
+                    std::uint64_t values, std::size_t valueBytes) {
+    const std::string_view format = array.has("format") ? array.attribute("format") : "ascii";
+    Check check{path, encoding, place, true, array.characters, values * valueBytes};
+    if (format == "ascii") {
+        if (array.words != values)
+            check.fail(fmt::format("expected {} values, found {}", values, array.words));
+        return;
+    }
+    std::uint64_t at = array.textAt;
+    if (format == "appended") {
+        const std::string_view text = array.attribute("offset");
+        std::uint64_t offset = 0;
+        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), offset);
+        if (text.empty() || error != std::errc() || stop != text.data() + text.size())
+            check.fail(fmt::format("expected an offset, found \"{}\"", text));
+        if (file.appendedAt == 0 || offset >= file.bytes - file.appendedAt)
+            check.fail("expected appended values, but the file ends before");
+        at = file.appendedAt + offset;
+        check.available = file.bytes - at;
+        check.base64 = file.appendedEncoding == "base64";
+    } else if (format != "binary") {
+        check.fail(
+            fmt::format("expected the format ascii, binary or appended, found \"{}\"", format));
+    }
+    if (check.bytes == 0) return;
+    Source source(path, at, check.base64);
+    if (encoding.compressor.empty())
+        check.plain(source);
+    else
+        check.compressed(source);
+}
+
+}  // namespace timeseries

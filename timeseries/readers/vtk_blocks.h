@@ -1,0 +1,29 @@
+// Whether the values that a DataArray of an XML file declares can be in the file: VTK allocates
+// what a header says before it looks for the bytes. Layout: "VTK File Formats", Kitware, "XML file
+// formats", and vtkXMLDataParser.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "timeseries/readers/vtk_xml.h"
+
+namespace timeseries {
+
+struct VtkEncoding {
+    bool bigEndian = false;
+    std::size_t headerBytes = 4;  // of each number before the values
+    std::string compressor;       // "" for none
+};
+
+// From the attributes of the root. Throws FileError.
+VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& root);
+
+// Throws FileError unless the file holds `values` values of `valueBytes` bytes for the DataArray.
+void checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
+                    const VtkEncoding& encoding, const XmlElement& array, std::string_view place,
+                    std::uint64_t values, std::size_t valueBytes);
+
+}  // namespace timeseries

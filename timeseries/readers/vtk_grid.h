@@ -1,0 +1,23 @@
+// The grid that a VTK header means, and where the points of that grid lie among the file's tuples.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "timeseries/grid.h"
+#include "timeseries/readers/vtk_library.h"
+
+namespace timeseries {
+
+struct VtkGrid {
+    std::shared_ptr<const Grid> grid;
+    VtkLayout layout;
+    std::vector<std::string> notes;
+};
+
+// Of cell data, the grid of the cells' centres. REQUIRES: coordinates as many as points when the
+// header is that of a rectilinear grid.
+VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place);
+
+}  // namespace timeseries

@@ -1,0 +1,92 @@
+// What a VTK file declares, checked against its own size before VTK is asked for a value: plain
+// data, told by our own look at the XML header or at the lines of a legacy file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "timeseries/field.h"
+#include "timeseries/reader.h"
+
+namespace timeseries {
+
+enum class VtkKind { XmlImage, XmlRectilinear, LegacyPoints, LegacyRectilinear };
+
+enum class VtkPlace { Points, Cells };
+
+// How a legacy file introduces an array, by which VTK's reader selects it.
+enum class VtkKeyword { Scalars, Vectors, Normals, TextureCoordinates, Tensors, Ids, Field };
+
+struct VtkArray {
+    std::string name;
+    VtkPlace place{};
+    ValueType type{};
+    std::size_t components = 1;
+    VtkKeyword keyword{};  // of legacy files
+};
+
+struct VtkTime {
+    std::string name;  // "time", or "TimeStep" when steps are numbered
+    double value = 0;
+};
+
+struct VtkHeader {
+    std::filesystem::path path;
+    VtkKind kind{};
+    std::string format;  // "VTK image data (XML)"
+    // The first and last index of the points along x, y and z.
+    std::array<std::array<std::int64_t, 2>, 3> extent{};
+    std::array<double, 3> origin{0, 0, 0}, spacing{1, 1, 1};
+    std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
+    std::vector<VtkArray> arrays;                                // those that can be drawn
+    std::vector<std::string> passedOver;                         // the others, each with the reason
+    std::array<bool, 2> ghosts{};                                // by VtkPlace: has vtkGhostType
+    bool fieldOutside = false;  // a legacy file's FIELD that is neither of points nor of cells
+    // Of rectilinear grids; of an XML file VTK reads them later.
+    std::array<std::vector<double>, 3> coordinates;
+    std::optional<VtkTime> time;
+
+    std::array<std::uint64_t, 3> size(VtkPlace place) const;
+    std::uint64_t count(VtkPlace place) const;
+};
+
+// One member of a .pvd collection.
+struct VtkMember {
+    std::filesystem::path path;
+    std::optional<double> time;
+};
+
+// The sentence "path: place: what".
+[[noreturn]] void failVtk(const std::filesystem::path& path, std::string_view place,
+                          std::string_view what);
+
+// Each throws FileError when sizes are absurd or exceed the file's.
+VtkHeader readVtkLegacyHeader(const std::filesystem::path& path);
+VtkHeader readVtkXmlHeader(const std::filesystem::path& path);
+bool isVtkCollection(const std::filesystem::path& path);
+// In the order of their times. Throws FileError.
+std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path);
+
+// Shared by the two kinds of header.
+struct VtkType {
+    std::string_view xml, legacy;
+    ValueType type;
+    std::size_t bytes;  // of a value in the file
+};
+const VtkType* vtkXmlType(std::string_view name);
+const VtkType* vtkLegacyType(std::string_view lowerCase);
+bool isVtkGhostName(std::string_view name);
+// Throws FileError when there are too many points, none, or too many along an axis.
+void checkVtkExtent(const VtkHeader& header, std::string_view place);
+// The name under which a field data array of one number tells the time; nothing when it does not.
+std::optional<std::string> vtkTimeName(std::string_view arrayName);
+// Whitespace-separated numbers, all finite; throws FileError.
+std::vector<double> vtkNumbers(const VtkHeader& header, std::string_view place,
+                               std::string_view text, std::size_t count);
+
+}  // namespace timeseries

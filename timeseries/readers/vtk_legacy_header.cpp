@@ -1,0 +1,269 @@
+// The header of a legacy VTK file: its lines, with the values skipped ("VTK File Formats", Kitware,
+// "Simple legacy formats", and vtkDataReader).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "timeseries/readers/vtk_text.h"
+
+namespace timeseries {
+namespace {
+
+constexpr std::uint64_t kMaxComponents = 1024;
+constexpr std::uint64_t kMaxArrays = 1 << 16;
+
+class LegacyHeader {
+ public:
+    explicit LegacyHeader(const std::filesystem::path& path) : text_(path) { header_.path = path; }
+
+    VtkHeader read() {
+        readStart();
+        for (std::string word = text_.lowerWord(); !word.empty(); word = text_.lowerWord())
+            readSection(word);
+        if (!sized_) text_.fail("expected DIMENSIONS, but the file ends");
+        if (header_.kind == VtkKind::LegacyRectilinear)
+            for (std::size_t i = 0; i < 3; ++i)
+                if (header_.coordinates[i].size() != header_.size(VtkPlace::Points)[i])
+                    text_.fail(fmt::format("expected {}_COORDINATES, but the file ends", "XYZ"[i]));
+        return std::move(header_);
+    }
+
+ private:
+    void readStart();
+    void readSection(const std::string& word);
+    void readDataset();
+    void readDimensions();
+    void readCoordinates(std::size_t axis);
+    void readAttribute(const std::string& word);
+    void readField();
+    void readFieldArray();
+    void beginAttributes(VtkPlace place);
+    void skipLookupTable();
+    const VtkType* readType();
+    std::array<double, 3> three(std::string_view what);
+    // The values come next.
+    void add(std::string name, const VtkType* type, std::uint64_t components, VtkKeyword keyword);
+
+    VtkText text_;
+    VtkHeader header_;
+    bool sized_ = false;
+    std::optional<VtkPlace> place_;  // once POINT_DATA or CELL_DATA has come
+    std::set<std::pair<VtkPlace, std::string>> names_;
+    std::string typeName_;
+};
+
+void LegacyHeader::readStart() {
+    const std::string magic = text_.line();
+    if (!magic.starts_with("# vtk DataFile Version "))
+        text_.fail("expected \"# vtk DataFile Version\" and a number");
+    const std::string_view version = std::string_view(magic).substr(23);
+    if (version.empty() || version[0] < '1' || version[0] > '5')
+        text_.fail(fmt::format("expected a version from 1.0 to 5.1, found \"{}\"", version));
+    text_.line();  // the title
+    const std::string coding = text_.lowerWord();
+    if (coding != "ascii" && coding != "binary")
+        text_.fail(fmt::format("expected ASCII or BINARY, found \"{}\"", coding));
+    text_.setBinary(coding == "binary");
+}
+
+void LegacyHeader::readSection(const std::string& word) {
+    if (word == "dataset") return readDataset();
+    if (word == "field") return readField();
+    if (word == "metadata") return text_.skipParagraph();
+    if (header_.format.empty()) text_.fail(fmt::format("expected DATASET, found \"{}\"", word));
+    if (word == "dimensions") return readDimensions();
+    if (!place_ && header_.kind == VtkKind::LegacyPoints) {
+        if (word == "origin") return void(header_.origin = three("an origin"));
+        if (word == "spacing" || word == "aspect_ratio")
+            return void(header_.spacing = three("a spacing"));
+    }
+    if (!sized_) text_.fail(fmt::format("expected DIMENSIONS, found \"{}\"", word));
+    if (!place_ && header_.kind == VtkKind::LegacyRectilinear && word.ends_with("_coordinates") &&
+        word.size() == 13 && word[0] >= 'x' && word[0] <= 'z')
+        return readCoordinates(static_cast<std::size_t>(word[0] - 'x'));
+    if (word == "point_data") return beginAttributes(VtkPlace::Points);
+    if (word == "cell_data") return beginAttributes(VtkPlace::Cells);
+    if (!place_) text_.fail(fmt::format("expected POINT_DATA or CELL_DATA, found \"{}\"", word));
+    readAttribute(word);
+}
+
+void LegacyHeader::readDataset() {
+    const std::string kind = text_.lowerWord();
+    if (!header_.format.empty()) text_.fail("expected one DATASET, found another");
+    if (kind == "structured_points") {
+        header_.kind = VtkKind::LegacyPoints;
+        header_.format = "VTK structured points (legacy)";
+    } else if (kind == "rectilinear_grid") {
+        header_.kind = VtkKind::LegacyRectilinear;
+        header_.format = "VTK rectilinear grid (legacy)";
+    } else {
+        text_.fail(
+            fmt::format("expected DATASET STRUCTURED_POINTS or RECTILINEAR_GRID, found "
+                        "\"{}\"",
+                        kind));
+    }
+}
+
+void LegacyHeader::readDimensions() {
+    if (sized_) text_.fail("expected one DIMENSIONS, found another");
+    for (auto& [first, last] : header_.extent) {
+        first = 0;
+        last = static_cast<std::int64_t>(text_.count("a number of points")) - 1;
+    }
+    checkVtkExtent(header_, text_.place());
+    sized_ = true;
+}
+
+std::array<double, 3> LegacyHeader::three(std::string_view what) {
+    std::array<double, 3> numbers{};
+    for (double& number : numbers) number = text_.number(what);
+    return numbers;
+}
+
+const VtkType* LegacyHeader::readType() {
+    typeName_ = text_.lowerWord();
+    return vtkLegacyType(typeName_);
+}
+
+void LegacyHeader::readCoordinates(std::size_t axis) {
+    const std::uint64_t count = text_.count("a number of coordinates");
+    if (count != header_.size(VtkPlace::Points)[axis])
+        text_.fail(fmt::format("expected {} coordinates, found {}",
+                               header_.size(VtkPlace::Points)[axis], count));
+    const VtkType* type = readType();
+    if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
+    header_.coordinates[axis] = text_.values(*type, count, count);
+}
+
+void LegacyHeader::beginAttributes(VtkPlace place) {
+    const std::uint64_t count = text_.count("a number of points or cells");
+    if (count != header_.count(place))
+        text_.fail(fmt::format("expected {} {}, found {}", header_.count(place),
+                               place == VtkPlace::Points ? "points" : "cells", count));
+    place_ = place;
+}
+
+void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t components,
+                       VtkKeyword keyword) {
+    if (components < 1 || components > kMaxComponents)
+        text_.fail(
+            fmt::format("expected 1 to {} components, found {}", kMaxComponents, components));
+    const std::uint64_t values = header_.count(*place_) * components;
+    if (names_.size() >= kMaxArrays || !names_.emplace(*place_, name).second)
+        text_.fail(fmt::format("expected names that differ, found '{}' again", name));
+    if (type) {
+        text_.values(*type, values);
+        if (isVtkGhostName(name))
+            header_.ghosts[static_cast<std::size_t>(*place_)] = true;
+        else
+            header_.arrays.push_back({std::move(name), *place_, type->type, components, keyword});
+        return;
+    }
+    header_.passedOver.push_back(fmt::format("'{}' has the type {}", name, typeName_));
+    if (typeName_ == "bit")
+        text_.skipBytesOrWords((values + 7) / 8, values);
+    else if (typeName_ == "string" || typeName_ == "utf8_string")
+        text_.skipStrings(values);
+    else
+        text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
+}
+
+void LegacyHeader::skipLookupTable() {
+    text_.name();
+    const std::uint64_t colors = text_.count("a number of colours");
+    text_.skipBytesOrWords(colors * 4, colors * 4);
+}
+
+void LegacyHeader::readAttribute(const std::string& word) {
+    if (word == "lookup_table") return skipLookupTable();
+    static constexpr std::array kKnown{
+        "scalars",  "color_scalars",       "vectors",    "normals",      "tensors",
+        "tensors6", "texture_coordinates", "global_ids", "pedigree_ids", "edge_flags"};
+    if (std::ranges::find(kKnown, word) == kKnown.end())
+        text_.fail(fmt::format("expected an attribute such as SCALARS, found \"{}\"", word));
+    std::string name = text_.name();
+    if (word == "color_scalars") {
+        const std::uint64_t components = text_.count("a number of components");
+        // Bytes, or numbers from 0 to 1 in text.
+        return add(std::move(name), vtkLegacyType("unsigned_char"), components,
+                   VtkKeyword::Scalars);
+    }
+    std::uint64_t components = 3;
+    VtkKeyword keyword = VtkKeyword::Ids;
+    if (word == "texture_coordinates") {
+        components = text_.count("a number of components");
+        keyword = VtkKeyword::TextureCoordinates;
+    }
+    const VtkType* type = readType();
+    if (word == "vectors") keyword = VtkKeyword::Vectors;
+    if (word == "normals") keyword = VtkKeyword::Normals;
+    if (word == "tensors" || word == "tensors6") keyword = VtkKeyword::Tensors;
+    if (word.starts_with("tensors")) components = word == "tensors" ? 9 : 6;
+    if (word.ends_with("_ids") || word == "edge_flags") components = 1;
+    if (word == "scalars") {
+        keyword = VtkKeyword::Scalars;
+        components = 1;
+        std::string next = text_.lowerWord();
+        if (next != "lookup_table") {
+            if (next.size() > 4 || next.find_first_not_of("0123456789") != next.npos ||
+                next.empty())
+                text_.fail(fmt::format("expected LOOKUP_TABLE, found \"{}\"", next));
+            components = std::stoul(next);
+            next = text_.lowerWord();
+        }
+        if (next != "lookup_table")
+            text_.fail(fmt::format("expected LOOKUP_TABLE, found \"{}\"", next));
+        text_.name();
+    }
+    add(std::move(name), type, components, keyword);
+}
+
+void LegacyHeader::readField() {
+    text_.name();
+    header_.fieldOutside |= !place_;
+    const std::uint64_t arrays = text_.count("a number of arrays");
+    if (arrays > kMaxArrays) text_.fail(fmt::format("expected fewer arrays, found {}", arrays));
+    for (std::uint64_t i = 0; i < arrays; ++i) readFieldArray();
+}
+
+void LegacyHeader::readFieldArray() {
+    std::string name = text_.word();
+    if (name == "METADATA") {  // of the array before
+        text_.skipParagraph();
+        name = text_.word();
+    }
+    if (name.empty()) text_.fail("expected the name of an array, but the file ends");
+    if (name == "NULL_ARRAY") return;
+    name = decodedVtkName(name);
+    const std::uint64_t components = text_.count("a number of components");
+    const std::uint64_t tuples = text_.count("a number of tuples");
+    const VtkType* type = readType();
+    if (components > kMaxComponents)
+        text_.fail(
+            fmt::format("expected at most {} components, found {}", kMaxComponents, components));
+    if (place_ && tuples == header_.count(*place_))
+        return add(std::move(name), type, components, VtkKeyword::Field);
+
+    const std::uint64_t values = tuples * components;
+    if (place_) header_.passedOver.push_back(fmt::format("'{}' has {} tuples", name, tuples));
+    if (!type && (typeName_ == "string" || typeName_ == "utf8_string"))
+        return text_.skipStrings(values);
+    if (!type && typeName_ == "bit") return text_.skipBytesOrWords((values + 7) / 8, values);
+    if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
+    const auto time = place_ || values != 1 ? std::nullopt : vtkTimeName(name);
+    // VTK 9.1 crashes on words among these that are no numbers of the type.
+    if (!place_ && !text_.binary() && !time) return text_.checkNumbers(*type, values);
+    const auto number = text_.values(*type, values, time ? 1 : 0);
+    if (time && std::isfinite(number[0]) && (!header_.time || *time == "time"))
+        header_.time = VtkTime{*time, number[0]};
+}
+
+}  // namespace
+
+VtkHeader readVtkLegacyHeader(const std::filesystem::path& path) {
+    return LegacyHeader(path).read();
+}
+
+}  // namespace timeseries

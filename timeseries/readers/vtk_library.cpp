@@ -1,0 +1,351 @@
+#include "timeseries/readers/vtk_library.h"
+
+#include <fmt/format.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDataSet.h>
+#include <vtkFieldData.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkRectilinearGridReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredPoints.h>
+#include <vtkStructuredPointsReader.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLRectilinearGridReader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace timeseries {
+namespace {
+
+// Keeps the first error in place of printing it.
+class FirstError final : public vtkOutputWindow {
+ public:
+    static FirstError* New();
+    vtkTypeMacro(FirstError, vtkOutputWindow);
+
+    void DisplayText(const char*) override {}
+    void DisplayErrorText(const char* text) override {
+        if (first_.empty()) first_ = text;
+    }
+    // "Error reading ascii data" is among these.
+    void DisplayGenericWarningText(const char* text) override { DisplayErrorText(text); }
+    void DisplayWarningText(const char*) override {}
+    void DisplayDebugText(const char*) override {}
+
+    // Without VTK's source file, line and object; "" when there was none.
+    std::string sentence() const {
+        std::string text = first_;
+        if (const std::size_t line = text.find('\n'); line != text.npos) text.erase(0, line + 1);
+        if (const std::size_t object = text.find("): "); object != text.npos)
+            text.erase(0, object + 3);
+        while (!text.empty() && (text.back() == '\n' || text.back() == ' ' || text.back() == '.'))
+            text.pop_back();
+        return text;
+    }
+
+ private:
+    std::string first_;
+};
+vtkStandardNewMacro(FirstError);
+
+// Calls `read` with VTK to itself; what goes wrong in VTK becomes a FileError.
+template <typename Read>
+auto withVtk(const VtkHeader& header, std::string_view place, Read read) {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    const vtkSmartPointer<vtkOutputWindow> usual = vtkOutputWindow::GetInstance();
+    const vtkNew<FirstError> errors;
+    vtkOutputWindow::SetInstance(errors);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // or all is printed there too
+    struct Restore {
+        vtkOutputWindow* window;
+        ~Restore() { vtkOutputWindow::SetInstance(window); }
+    } const restore{usual};
+    try {
+        auto result = read();
+        if (const std::string why = errors->sentence(); !why.empty())
+            failVtk(header.path, place, "expected values that VTK can read, but: " + why);
+        return result;
+    } catch (const std::bad_alloc&) {
+        failVtk(header.path, place, "expected values that fit in memory");
+    }
+}
+
+vtkSmartPointer<vtkDataSet> readXml(const VtkHeader& header, const VtkArray* wanted) {
+    vtkSmartPointer<vtkXMLReader> reader;
+    if (header.kind == VtkKind::XmlImage)
+        reader = vtkSmartPointer<vtkXMLImageDataReader>::New();
+    else
+        reader = vtkSmartPointer<vtkXMLRectilinearGridReader>::New();
+    reader->SetFileName(header.path.c_str());
+    reader->UpdateInformation();
+    for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
+        vtkDataArraySelection* selection = place == VtkPlace::Points
+                                               ? reader->GetPointDataArraySelection()
+                                               : reader->GetCellDataArraySelection();
+        selection->DisableAllArrays();
+        if (!wanted || wanted->place != place) continue;
+        selection->EnableArray(wanted->name.c_str());
+        for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
+            if (isVtkGhostName(selection->GetArrayName(i)))
+                selection->EnableArray(selection->GetArrayName(i));
+    }
+    reader->Update();
+    return reader->GetOutputAsDataSet();
+}
+
+// Of each keyword only the array of the name set is kept; the first when none is set.
+void select(vtkDataReader& reader, const VtkArray& wanted) {
+    const auto name = [&](VtkKeyword keyword) {
+        return keyword == wanted.keyword ? wanted.name.c_str() : "\x1f";  // no array is called so
+    };
+    reader.SetScalarsName(name(VtkKeyword::Scalars));
+    reader.SetVectorsName(name(VtkKeyword::Vectors));
+    reader.SetNormalsName(name(VtkKeyword::Normals));
+    reader.SetTCoordsName(name(VtkKeyword::TextureCoordinates));
+    reader.SetTensorsName(name(VtkKeyword::Tensors));
+}
+
+template <typename Reader>
+vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray& wanted) {
+    const vtkNew<Reader> reader;
+    reader->SetFileName(header.path.c_str());
+    const bool ghosts = header.ghosts[static_cast<std::size_t>(wanted.place)];
+    // VTK 9.1 crashes on a field outside the attributes that it is not to keep.
+    if (ghosts || header.fieldOutside || wanted.keyword == VtkKeyword::Field)
+        reader->ReadAllFieldsOn();
+    else
+        reader->SetFieldDataName("\x1f");
+    if (ghosts) reader->ReadAllScalarsOn();
+    select(*reader, wanted);
+    reader->Update();
+    return reader->GetOutput();
+}
+
+std::optional<ValueType> valueTypeOf(int vtkType) {
+    switch (vtkType) {
+        case VTK_CHAR:
+        case VTK_SIGNED_CHAR:
+            return ValueType::I8;
+        case VTK_UNSIGNED_CHAR:
+            return ValueType::U8;
+        case VTK_SHORT:
+            return ValueType::I16;
+        case VTK_UNSIGNED_SHORT:
+            return ValueType::U16;
+        case VTK_INT:
+            return ValueType::I32;
+        case VTK_UNSIGNED_INT:
+            return ValueType::U32;
+        case VTK_LONG:
+        case VTK_LONG_LONG:
+        case VTK_ID_TYPE:
+            return ValueType::I64;
+        case VTK_UNSIGNED_LONG:
+        case VTK_UNSIGNED_LONG_LONG:
+            return ValueType::U64;
+        case VTK_FLOAT:
+            return ValueType::F32;
+        case VTK_DOUBLE:
+            return ValueType::F64;
+        default:
+            return std::nullopt;
+    }
+}
+static_assert(sizeof(long) == 8 && sizeof(vtkIdType) == 8);
+
+struct Arrays {
+    vtkSmartPointer<vtkDataArray> values, ghosts;
+};
+
+// Only the arrays outlive the reader and its output.
+Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
+    vtkSmartPointer<vtkDataSet> output;
+    switch (header.kind) {
+        case VtkKind::XmlImage:
+        case VtkKind::XmlRectilinear:
+            output = readXml(header, &wanted);
+            break;
+        case VtkKind::LegacyPoints:
+            output = readLegacy<vtkStructuredPointsReader>(header, wanted);
+            break;
+        case VtkKind::LegacyRectilinear:
+            output = readLegacy<vtkRectilinearGridReader>(header, wanted);
+            break;
+    }
+    if (!output) return {};
+    vtkDataSetAttributes* data = wanted.place == VtkPlace::Points
+                                     ? static_cast<vtkDataSetAttributes*>(output->GetPointData())
+                                     : output->GetCellData();
+    Arrays arrays{data->GetArray(wanted.name.c_str()), data->GetArray("vtkGhostType")};
+    if (!arrays.ghosts) arrays.ghosts = data->GetArray("vtkGhostLevels");
+    return arrays;
+}
+
+// Calls visit(tuple) for each point of the grid, x fastest.
+template <typename Visit>
+void forEachTuple(const VtkLayout& layout, Visit visit) {
+    const auto& [nx, ny, nz] = layout.size;
+    for (std::size_t z = 0; z < nz; ++z)
+        for (std::size_t y = 0; y < ny; ++y)
+            for (std::size_t x = 0; x < nx; ++x)
+                visit(x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]);
+}
+
+template <typename T>
+void copyComponent(const T* from, std::size_t components, std::size_t component,
+                   const VtkLayout& layout, std::vector<T>& to) {
+    to.resize(layout.size[0] * layout.size[1] * layout.size[2]);
+    const bool asStored = components == 1 && layout.stride[0] == 1 &&
+                          layout.stride[1] == layout.size[0] &&
+                          layout.stride[2] == layout.size[0] * layout.size[1];
+    if (asStored) {
+        std::copy_n(from, to.size(), to.begin());
+        return;
+    }
+    auto next = to.begin();
+    forEachTuple(layout,
+                 [&](std::size_t tuple) { *next++ = from[tuple * components + component]; });
+}
+
+template <typename T, typename Result>
+void magnitudes(const T* from, std::size_t components, const VtkLayout& layout,
+                std::vector<Result>& to) {
+    to.resize(layout.size[0] * layout.size[1] * layout.size[2]);
+    auto next = to.begin();
+    forEachTuple(layout, [&](std::size_t tuple) {
+        double largest = 0, sum = 0;
+        const T* vector = from + tuple * components;
+        bool nan = false;
+        for (std::size_t i = 0; i < components; ++i) {
+            const double size = std::abs(static_cast<double>(vector[i]));
+            largest = std::max(largest, size);
+            nan |= size != size;
+        }
+        // Scaled, so that no square overflows or vanishes.
+        if (largest > 0 && std::isfinite(largest))
+            for (std::size_t i = 0; i < components; ++i) {
+                const double part = static_cast<double>(vector[i]) / largest;
+                sum += part * part;
+            }
+        else
+            sum = 1;
+        *next++ = static_cast<Result>(nan ? std::nan("") : largest * std::sqrt(sum));
+    });
+}
+
+// Duplicate and hidden points; duplicate, refined and hidden cells (vtkDataSetAttributes). A level
+// above 0 is how files before VTK 6.3 told of duplicates.
+unsigned missingBits(VtkPlace place, bool levels) {
+    if (levels) return 0xFF;
+    return place == VtkPlace::Points
+               ? vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT
+               : vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
+                     vtkDataSetAttributes::HIDDENCELL;
+}
+
+void mark(vtkDataArray& ghosts, VtkPlace place, const VtkLayout& layout,
+          std::vector<bool>& missing) {
+    const bool levels = std::string_view(ghosts.GetName()) == "vtkGhostLevels";
+    const unsigned bits = missingBits(place, levels);
+    missing.reserve(layout.size[0] * layout.size[1] * layout.size[2]);
+    bool any = false;
+    forEachTuple(layout, [&](std::size_t tuple) {
+        const auto flags = static_cast<unsigned>(
+            std::clamp(ghosts.GetComponent(static_cast<vtkIdType>(tuple), 0), 0.0, 255.0));
+        missing.push_back((flags & bits) != 0);
+        any |= missing.back();
+    });
+    if (!any) missing = {};
+}
+
+void fill(vtkDataArray& stored, const VtkArray& array, VtkPart part, const VtkLayout& layout,
+          Field& field) {
+    const auto typed = [&]<typename T>(T) {
+        const T* from = static_cast<const T*>(stored.GetVoidPointer(0));
+        if (part.kind == VtkPart::Kind::Component) {
+            copyComponent(from, array.components, part.component, layout,
+                          field.values.emplace<std::vector<T>>());
+        } else {
+            using Result = std::conditional_t<std::is_same_v<T, float>, float, double>;
+            magnitudes(from, array.components, layout, field.values.emplace<std::vector<Result>>());
+        }
+    };
+    switch (array.type) {
+        case ValueType::U8:
+            return typed(std::uint8_t{});
+        case ValueType::I8:
+            return typed(std::int8_t{});
+        case ValueType::U16:
+            return typed(std::uint16_t{});
+        case ValueType::I16:
+            return typed(std::int16_t{});
+        case ValueType::U32:
+            return typed(std::uint32_t{});
+        case ValueType::I32:
+            return typed(std::int32_t{});
+        case ValueType::U64:
+            return typed(std::uint64_t{});
+        case ValueType::I64:
+            return typed(std::int64_t{});
+        case ValueType::F32:
+            return typed(float{});
+        case ValueType::F64:
+            return typed(double{});
+    }
+}
+
+std::vector<double> numbersOf(vtkDataArray* array) {
+    std::vector<double> numbers;
+    for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+        numbers.push_back(array->GetComponent(i, 0));
+    return numbers;
+}
+
+}  // namespace
+
+VtkFrame readVtkFrame(const VtkHeader& header) {
+    const auto output = withVtk(header, "", [&] { return readXml(header, nullptr); });
+    VtkFrame frame;
+    if (!output) failVtk(header.path, "", "expected a grid, but VTK reads none");
+    if (auto* grid = vtkRectilinearGrid::SafeDownCast(output))
+        frame.coordinates = {numbersOf(grid->GetXCoordinates()), numbersOf(grid->GetYCoordinates()),
+                             numbersOf(grid->GetZCoordinates())};
+    vtkFieldData* data = output->GetFieldData();
+    for (int i = 0; data && i < data->GetNumberOfArrays(); ++i) {
+        vtkDataArray* array = data->GetArray(i);
+        if (!array || !array->GetName() || array->GetNumberOfValues() != 1) continue;
+        const auto name = vtkTimeName(array->GetName());
+        const double value = array->GetComponent(0, 0);
+        if (name && std::isfinite(value) && (!frame.time || *name == "time"))
+            frame.time = VtkTime{*name, value};
+    }
+    return frame;
+}
+
+void readVtkArray(const VtkHeader& header, const VtkArray& array, VtkPart part,
+                  const VtkLayout& layout, Field& field) {
+    const std::string place = fmt::format("'{}'", array.name);
+    const Arrays arrays = withVtk(header, place, [&] { return readArrays(header, array); });
+    const auto count = static_cast<vtkIdType>(header.count(array.place));
+    if (!arrays.values || arrays.values->GetNumberOfTuples() != count ||
+        static_cast<std::size_t>(arrays.values->GetNumberOfComponents()) != array.components ||
+        valueTypeOf(arrays.values->GetDataType()) != array.type ||
+        (arrays.ghosts && arrays.ghosts->GetNumberOfTuples() != count))
+        failVtk(header.path, place,
+                fmt::format("expected {} {} of {} values, but VTK reads something else", count,
+                            typeName(array.type), array.components));
+    fill(*arrays.values, array, part, layout, field);
+    if (arrays.ghosts) mark(*arrays.ghosts, array.place, layout, field.missing);
+}
+
+}  // namespace timeseries

@@ -1,0 +1,209 @@
+#include "timeseries/readers/vtk_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "timeseries/readers/vtk_grid.h"
+#include "timeseries/readers/vtk_library.h"
+
+namespace timeseries {
+namespace {
+
+using Path = std::filesystem::path;
+
+bool legacy(const Path& path) {
+    std::string start(5, '\0');
+    std::ifstream(path, std::ios::binary).read(start.data(), 5);
+    return start == "# vtk";
+}
+
+// The header, with the coordinates of a rectilinear grid.
+VtkHeader headerOf(const Path& path) {
+    if (legacy(path)) return readVtkLegacyHeader(path);
+    VtkHeader header = readVtkXmlHeader(path);
+    VtkFrame frame = readVtkFrame(header);
+    header.coordinates = std::move(frame.coordinates);
+    header.time = frame.time;
+    if (header.kind == VtkKind::XmlRectilinear)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])
+                failVtk(
+                    path, "Coordinates",
+                    fmt::format("expected {} along {}, found {}", header.size(VtkPlace::Points)[i],
+                                "xyz"[i], header.coordinates[i].size()));
+    return header;
+}
+
+// One step: a file, whose contents other than values are known.
+struct Frame {
+    VtkHeader header;
+    std::array<std::optional<VtkGrid>, 2> grids;  // by VtkPlace, where there is an array
+};
+
+Frame frameOf(const Path& path) {
+    Frame frame{headerOf(path), {}};
+    for (const VtkArray& array : frame.header.arrays) {
+        auto& grid = frame.grids[static_cast<std::size_t>(array.place)];
+        if (!grid) grid = vtkGridOf(frame.header, array.place);
+    }
+    return frame;
+}
+
+class VtkReader final : public Reader {
+ public:
+    VtkReader(const Path& path, std::vector<VtkMember> members, bool collection)
+        : files_{path}, members_(std::move(members)), frame_(frameOf(members_[0].path)) {
+        const VtkHeader& header = frame_.header;
+        if (header.arrays.empty()) {
+            std::string why;
+            for (const std::string& each : header.passedOver) why += "; " + each;
+            failVtk(header.path, "", "expected an array of numbers, found none" + why);
+        }
+        format_ = header.format;
+        if (collection) format_ = "VTK collection of " + format_.substr(4);
+        addTime();
+        for (std::size_t i = 0; i < header.arrays.size(); ++i) addVariables(i);
+    }
+
+    std::string format() const override { return format_; }
+    std::span<const Path> files() const override { return files_; }
+    std::span<const Variable> variables() const override { return variables_; }
+    Field read(std::size_t variable, std::size_t step) override;
+
+ private:
+    struct Source {
+        VtkArray array;
+        VtkPart part;
+    };
+
+    void addTime();
+    void addVariables(std::size_t index);
+    void add(const VtkArray& array, const std::string& name, ValueType type,
+             const std::string& storedAs, VtkPart part);
+    void open(std::size_t step);
+
+    std::vector<Path> files_;
+    std::string format_;
+    std::vector<VtkMember> members_;  // [step]
+    Frame frame_;                     // of openStep_
+    std::size_t openStep_ = 0;
+    std::shared_ptr<const TimeAxis> time_;
+    std::vector<std::string> notes_;  // of all variables
+    std::vector<Variable> variables_;
+    std::vector<Source> sources_;  // [variable]
+};
+
+void VtkReader::addTime() {
+    auto axis = std::make_shared<TimeAxis>();
+    axis->name = "step";
+    if (members_[0].time) {
+        axis->name = "time";
+    } else if (members_.size() == 1 && frame_.header.time) {
+        axis->name = frame_.header.time->name;
+        members_[0].time = frame_.header.time->value;
+    }
+    axis->counted = !members_[0].time;
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        axis->points.push_back({members_[i].time.value_or(static_cast<double>(i)), ""});
+    time_ = std::move(axis);
+
+    std::vector<std::string> absent;
+    for (const VtkMember& member : members_) {
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(member.path, error))
+            absent.push_back(member.path.filename().string());
+    }
+    if (!absent.empty())
+        notes_.push_back(fmt::format("{} of {} files are missing, the first {}", absent.size(),
+                                     members_.size(), absent[0]));
+}
+
+void VtkReader::addVariables(std::size_t index) {
+    const VtkArray& array = frame_.header.arrays[index];
+    const auto& all = frame_.header.arrays;
+    const bool both = std::ranges::any_of(
+        all, [&](const VtkArray& o) { return o.name == array.name && o.place != array.place; });
+    std::string name = array.name;
+    if (both) name += array.place == VtkPlace::Points ? " (points)" : " (cells)";
+    const std::string type(typeName(array.type));
+    const std::string where = array.place == VtkPlace::Points ? "" : ", at cells";
+    if (array.components == 1) return add(array, name, array.type, type + where, {});
+
+    const std::string stored = fmt::format("{}, {} components{}", type, array.components, where);
+    if (array.components <= 3) {
+        const bool single = array.type == ValueType::F32;
+        add(array, name + " magnitude", single ? ValueType::F32 : ValueType::F64,
+            fmt::format("{}; magnitude in {}", stored, single ? "float32" : "float64"),
+            {VtkPart::Kind::Magnitude, 0});
+    }
+    for (std::size_t i = 0; i < array.components; ++i)
+        add(array, fmt::format("{}[{}]", name, i), array.type, stored,
+            {VtkPart::Kind::Component, i});
+}
+
+void VtkReader::add(const VtkArray& array, const std::string& name, ValueType type,
+                    const std::string& storedAs, VtkPart part) {
+    const std::size_t place = static_cast<std::size_t>(array.place);
+    Variable variable;
+    variable.name = name;
+    variable.type = type;
+    variable.storedAs = storedAs;
+    if (frame_.header.ghosts[place]) variable.missing = "ghost and blanked, by vtkGhostType";
+    variable.grid = frame_.grids[place]->grid;
+    variable.time = time_;
+    variable.notes = frame_.grids[place]->notes;
+    variable.notes.insert(variable.notes.end(), notes_.begin(), notes_.end());
+    variables_.push_back(std::move(variable));
+    sources_.push_back({array, part});
+}
+
+void VtkReader::open(std::size_t step) {
+    if (step == openStep_) return;
+    const Path& path = members_[step].path;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        failVtk(path, "", "expected a file, but there is none");
+    frame_ = frameOf(path);
+    openStep_ = step;
+}
+
+Field VtkReader::read(std::size_t variable, std::size_t step) {
+    open(step);
+    const VtkArray& array = sources_[variable].array;
+    const VtkHeader& header = frame_.header;
+    const auto found = std::ranges::find_if(header.arrays, [&](const VtkArray& other) {
+        return other.name == array.name && other.place == array.place;
+    });
+    if (found == header.arrays.end() || found->type != array.type ||
+        found->components != array.components)
+        failVtk(header.path, fmt::format("'{}'", array.name),
+                fmt::format("expected {} of {} components, as in {}", typeName(array.type),
+                            array.components, members_[0].path.filename().string()));
+    const VtkGrid& grid = *frame_.grids[static_cast<std::size_t>(array.place)];
+    if (*grid.grid != *variables_[variable].grid)
+        failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());
+    Field field;
+    field.grid = variables_[variable].grid;
+    readVtkArray(header, *found, sources_[variable].part, grid.layout, field);
+    return field;
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
+    if (paths.size() > 1)
+        throw FileError(fmt::format("{}: expected one VTK file, or a collection (.pvd) of several",
+                                    paths[1].string()));
+    const Path& path = paths[0];
+    if (legacy(path) || !isVtkCollection(path))
+        return std::make_unique<VtkReader>(path, std::vector{VtkMember{path, std::nullopt}}, false);
+    std::vector<VtkMember> members = readVtkCollection(path);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(members[0].path, error))
+        failVtk(members[0].path, "", "expected a file, but there is none");
+    return std::make_unique<VtkReader>(path, std::move(members), true);
+}
+
+}  // namespace timeseries

@@ -1,0 +1,16 @@
+// VTK files of points on a grid, by VTK's own readers: XML image data (.vti) and rectilinear grids
+// (.vtr), legacy structured points and rectilinear grids (.vtk), and collections of them (.pvd).
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "timeseries/reader.h"
+
+namespace timeseries {
+
+// One file, or one collection. REQUIRES: paths not empty. Throws FileError.
+std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths);
+
+}  // namespace timeseries

@@ -1,0 +1,250 @@
+#include "timeseries/readers/vtk_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace timeseries {
+namespace {
+
+constexpr std::size_t kMaxWord = 255;  // of VTK's reader
+
+bool blank(int c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+template <typename T>
+double bigEndian(const unsigned char* bytes) {
+    std::array<unsigned char, sizeof(T)> native;
+    std::reverse_copy(bytes, bytes + sizeof(T), native.begin());
+    return static_cast<double>(std::bit_cast<T>(native));
+}
+static_assert(std::endian::native == std::endian::little);
+
+double decode(const VtkType& type, const unsigned char* bytes) {
+    switch (type.type) {
+        case ValueType::U8:
+            return *bytes;
+        case ValueType::I8:
+            return static_cast<std::int8_t>(*bytes);
+        case ValueType::U16:
+            return bigEndian<std::uint16_t>(bytes);
+        case ValueType::I16:
+            return bigEndian<std::int16_t>(bytes);
+        case ValueType::U32:
+            return bigEndian<std::uint32_t>(bytes);
+        case ValueType::I32:
+            return bigEndian<std::int32_t>(bytes);
+        case ValueType::U64:
+            return bigEndian<std::uint64_t>(bytes);
+        case ValueType::I64:
+            return type.bytes == 4 ? bigEndian<std::int32_t>(bytes)
+                                   : bigEndian<std::int64_t>(bytes);
+        case ValueType::F32:
+            return bigEndian<float>(bytes);
+        case ValueType::F64:
+            return bigEndian<double>(bytes);
+    }
+    return 0;
+}
+
+int hexDigit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+}  // namespace
+
+VtkText::VtkText(const std::filesystem::path& path)
+    : path_(path), bytes_(std::filesystem::file_size(path)), file_(path, std::ios::binary) {
+    if (!file_) fail("expected a file that can be read");
+}
+
+std::string VtkText::place() const { return fmt::format("line {}", line_); }
+
+void VtkText::fail(std::string_view what) const { failVtk(path_, place(), what); }
+
+int VtkText::next() {
+    const int c = file_.rdbuf()->sbumpc();
+    if (c == '\n') ++line_;
+    return c;
+}
+
+std::string VtkText::line() {
+    std::string text;
+    for (int c = next(); c != '\n'; c = next()) {
+        if (c < 0) fail("expected another line, but the file ends");
+        if (text.size() == kMaxWord) fail("expected at most 255 characters in a line");
+        text += static_cast<char>(c);
+    }
+    if (text.ends_with('\r')) text.pop_back();
+    return text;
+}
+
+std::string VtkText::word() {
+    int c = file_.rdbuf()->sgetc();
+    while (blank(c)) {
+        next();
+        c = file_.rdbuf()->sgetc();
+    }
+    std::string text;
+    for (; c >= 0 && !blank(c); c = file_.rdbuf()->sgetc()) {
+        if (text.size() == kMaxWord) fail("expected at most 255 characters in a word");
+        text += static_cast<char>(next());
+    }
+    return text;
+}
+
+std::string VtkText::lowerWord() {
+    std::string text = word();
+    std::ranges::transform(text, text.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return text;
+}
+
+std::string decodedVtkName(std::string_view text) {
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 &&
+            hexDigit(text[i + 2]) >= 0) {
+            decoded += static_cast<char>(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2]));
+            i += 2;
+        } else {
+            decoded += text[i];
+        }
+    }
+    return decoded;
+}
+
+std::string VtkText::name() {
+    const std::string text = word();
+    if (text.empty()) fail("expected a name, but the file ends");
+    return decodedVtkName(text);
+}
+
+std::uint64_t VtkText::count(std::string_view what) {
+    const std::string text = word();
+    std::uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // As many as VTK's int holds.
+    if (text.empty() || error != std::errc() || stop != text.data() + text.size() ||
+        value > 2147483647)
+        fail(fmt::format("expected {}, a whole number, found \"{}\"", what, text));
+    return value;
+}
+
+double VtkText::number(std::string_view what) {
+    const std::string text = word();
+    double value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (text.empty() || error != std::errc() || stop != text.data() + text.size() ||
+        !std::isfinite(value))
+        fail(fmt::format("expected {}, a finite number, found \"{}\"", what, text));
+    return value;
+}
+
+void VtkText::skipParagraph() {
+    while (next() != '\n')
+        if (file_.rdbuf()->sgetc() < 0) return;
+    for (std::size_t length = 1; length > 0;) {
+        length = 0;
+        for (int c = next(); c != '\n'; c = next()) {
+            if (c < 0) return;
+            length += !blank(c);
+        }
+    }
+}
+
+void VtkText::skipBytesOrWords(std::uint64_t bytes, std::uint64_t words) {
+    if (binary_) {
+        for (int c = next(); c != '\n'; c = next())
+            if (c < 0) fail("expected values, but the file ends");
+        const auto at = static_cast<std::uint64_t>(file_.tellg());
+        if (bytes > bytes_ - at)
+            fail(fmt::format("expected {} bytes of values, but the file ends after {}", bytes,
+                             bytes_ - at));
+        file_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
+        return;
+    }
+    // A value takes a character and a blank.
+    if (words > bytes_) fail(fmt::format("expected {} values, but the file is too small", words));
+    std::uint64_t found = 0;
+    int c = file_.rdbuf()->sgetc();
+    while (found < words) {
+        while (blank(c)) next(), c = file_.rdbuf()->sgetc();
+        if (c < 0) fail(fmt::format("expected {} values, found {}", words, found));
+        while (c >= 0 && !blank(c)) c = file_.rdbuf()->snextc();
+        ++found;
+    }
+}
+
+std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, std::uint64_t kept) {
+    if (kept == 0) {
+        skipBytesOrWords(count * type.bytes, count);
+        return {};
+    }
+    std::vector<double> found;
+    if (!binary_) {
+        while (found.size() < kept) found.push_back(number("a value"));
+        skipBytesOrWords(0, count - kept);
+        return found;
+    }
+    skipBytesOrWords(0, 0);
+    const auto at = static_cast<std::uint64_t>(file_.tellg());
+    if (count * type.bytes > bytes_ - at)
+        fail(fmt::format("expected {} bytes of values, but the file ends after {}",
+                         count * type.bytes, bytes_ - at));
+    std::array<char, 8> bytes{};
+    while (found.size() < kept) {
+        file_.read(bytes.data(), static_cast<std::streamsize>(type.bytes));
+        std::array<unsigned char, 8> raw{};
+        std::memcpy(raw.data(), bytes.data(), raw.size());
+        found.push_back(decode(type, raw.data()));
+    }
+    file_.seekg(static_cast<std::streamoff>(at + count * type.bytes));
+    return found;
+}
+
+void VtkText::checkNumbers(const VtkType& type, std::uint64_t count) {
+    const bool real = type.type == ValueType::F32 || type.type == ValueType::F64;
+    // One bit less than unsigned types hold, so that the test is the same for all.
+    const double limit = type.type == ValueType::F64 ? 1.7e308
+                         : type.type == ValueType::F32
+                             ? 3.4e38
+                             : std::exp2(static_cast<double>(8 * type.bytes - 1));
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const double value = number("a value");
+        const bool whole = value == std::trunc(value) && value < limit;
+        if (real ? std::abs(value) > limit : !whole || value < -limit)
+            fail(fmt::format("expected a value of the type, found {}", value));
+    }
+}
+
+// A line each, or each after its length: two bits tell how long the length is, in 6, 14, 30 or 62
+// bits (vtkDataReader::ReadArray).
+void VtkText::skipStrings(std::uint64_t count) {
+    while (next() != '\n')
+        if (file_.rdbuf()->sgetc() < 0) fail("expected text, but the file ends");
+    for (std::uint64_t i = 0; i < count; ++i) {
+        int c = next();
+        if (!binary_) {
+            while (c >= 0 && c != '\n') c = next();
+            if (c < 0) fail("expected another line of text, but the file ends");
+            continue;
+        }
+        if (c < 0) fail("expected text, but the file ends");
+        const unsigned form = static_cast<unsigned>(c) >> 6;
+        std::uint64_t length = static_cast<unsigned>(c) & 63;
+        for (unsigned more = form == 3 ? 0 : form == 2 ? 1 : form == 1 ? 3 : 7; more > 0; --more)
+            length = length << 8 | static_cast<unsigned char>(next());
+        const auto at = static_cast<std::uint64_t>(file_.tellg());
+        if (length > bytes_ - at) fail("expected text, but the file ends");
+        file_.seekg(static_cast<std::streamoff>(length), std::ios::cur);
+    }
+}
+
+}  // namespace timeseries

@@ -1,0 +1,59 @@
+// The words, lines and blocks of values of a legacy VTK file, read in order and held against the
+// file's size.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "timeseries/readers/vtk_header.h"
+
+namespace timeseries {
+
+// In a legacy file's names, %20 stands for a blank, and so on.
+std::string decodedVtkName(std::string_view text);
+
+class VtkText {
+ public:
+    explicit VtkText(const std::filesystem::path& path);
+
+    void setBinary(bool binary) { binary_ = binary; }
+    bool binary() const { return binary_; }
+    const std::filesystem::path& path() const { return path_; }
+
+    // "line 3" (the lines of binary values are not counted).
+    std::string place() const;
+    // The rest of the line, without its end. Throws FileError past the end of the file, and when it
+    // has more than 255 characters, which VTK would read as two lines.
+    std::string line();
+    std::string word();  // "" at the end of the file
+    std::string lowerWord();
+    std::string name();  // a decoded word
+    std::uint64_t count(std::string_view what);
+    double number(std::string_view what);
+    // Up to a blank line or the end of the file.
+    void skipParagraph();
+    // Values in the file's own form, after the rest of the line when they are binary. The first
+    // `kept` of them are returned. Throws FileError when there are fewer.
+    std::vector<double> values(const VtkType& type, std::uint64_t count, std::uint64_t kept = 0);
+    // Of text: as many numbers of the type.
+    void checkNumbers(const VtkType& type, std::uint64_t count);
+    void skipBytesOrWords(std::uint64_t bytes, std::uint64_t words);
+    void skipStrings(std::uint64_t count);
+
+    [[noreturn]] void fail(std::string_view what) const;
+
+ private:
+    int next();  // -1 at the end
+
+    std::filesystem::path path_;
+    std::uint64_t bytes_ = 0;
+    std::ifstream file_;
+    std::uint64_t line_ = 1;
+    bool binary_ = false;
+};
+
+}  // namespace timeseries

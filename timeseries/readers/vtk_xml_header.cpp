@@ -1,0 +1,272 @@
+// The headers of VTK XML files, and collections (.pvd).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "timeseries/readers/vtk_blocks.h"
+#include "timeseries/readers/vtk_header.h"
+#include "timeseries/readers/vtk_xml.h"
+
+namespace timeseries {
+namespace {
+
+constexpr std::uint64_t kMaxComponents = 1024;
+
+struct Context {
+    const XmlFile& file;
+    VtkEncoding encoding;
+    VtkHeader& header;
+};
+
+std::vector<const XmlElement*> named(const XmlElement& parent, std::string_view name) {
+    std::vector<const XmlElement*> found;
+    for (const XmlElement& child : parent.children)
+        if (child.name == name) found.push_back(&child);
+    return found;
+}
+
+std::string placeOf(const XmlElement& element) {
+    return fmt::format("line {}, {}", element.line, element.name);
+}
+
+std::array<std::array<std::int64_t, 2>, 3> extentOf(const VtkHeader& header,
+                                                    const XmlElement& element,
+                                                    std::string_view attribute) {
+    const std::string place = fmt::format("{} {}", placeOf(element), attribute);
+    const auto numbers = vtkNumbers(header, place, element.attribute(attribute), 6);
+    std::array<std::array<std::int64_t, 2>, 3> extent{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (numbers[i] != static_cast<double>(static_cast<std::int32_t>(
+                              std::clamp(numbers[i], -2147483648.0, 2147483647.0))))
+            failVtk(header.path, place,
+                    fmt::format("expected 32-bit integers, found \"{}\"",
+                                element.attribute(attribute)));
+        extent[i / 2][i % 2] = static_cast<std::int64_t>(numbers[i]);
+    }
+    return extent;
+}
+
+std::uint64_t wholeNumber(const Context& context, const XmlElement& element,
+                          std::string_view attribute, std::uint64_t absent) {
+    if (!element.has(attribute)) return absent;
+    const std::string place = fmt::format("{} {}", placeOf(element), attribute);
+    const double number = vtkNumbers(context.header, place, element.attribute(attribute), 1)[0];
+    if (number < 0 || number > 1e15 || number != static_cast<double>(static_cast<long>(number)))
+        failVtk(context.header.path, place, fmt::format("expected a count, found {}", number));
+    return static_cast<std::uint64_t>(number);
+}
+
+// The name that VTK gives an array without one.
+std::string nameOf(const XmlElement& array, std::size_t index) {
+    return array.has("Name") ? std::string(array.attribute("Name"))
+                             : fmt::format("Array {}", index);
+}
+
+// One array of PointData or CellData, its values checked; nothing when it cannot be drawn.
+std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& element, std::string name,
+                                VtkPlace place, std::uint64_t tuples) {
+    const std::string where = fmt::format("{} '{}'", placeOf(element), name);
+    const std::uint64_t components = wholeNumber(context, element, "NumberOfComponents", 1);
+    const VtkType* type = vtkXmlType(element.attribute("type"));
+    if (element.name != "DataArray" || !type) {
+        context.header.passedOver.push_back(
+            fmt::format("'{}' has the type {}", name,
+                        element.name == "DataArray" ? element.attribute("type") : element.name));
+        return std::nullopt;
+    }
+    if (components < 1 || components > kMaxComponents)
+        failVtk(context.header.path, where,
+                fmt::format("expected 1 to {} components, found {}", kMaxComponents, components));
+    if (element.has("TimeStep"))
+        failVtk(context.header.path, where,
+                "expected one time step in a file, found an array of one of several");
+    checkVtkValues(context.header.path, context.file, context.encoding, element, where,
+                   tuples * components, type->bytes);
+    return VtkArray{std::move(name), place, type->type, components, {}};
+}
+
+// The arrays of one piece at points or at cells, by name.
+std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, VtkPlace place,
+                               std::uint64_t tuples) {
+    const std::string_view group = place == VtkPlace::Points ? "PointData" : "CellData";
+    const auto groups = named(piece, group);
+    if (groups.size() > 1)
+        failVtk(context.header.path, placeOf(*groups[1]), "expected one in a piece");
+    std::vector<VtkArray> arrays;
+    std::set<std::string> names;
+    for (std::size_t i = 0; !groups.empty() && i < groups[0]->children.size(); ++i) {
+        const XmlElement& element = groups[0]->children[i];
+        std::string name = nameOf(element, i);
+        if (!names.insert(name).second)
+            failVtk(context.header.path, placeOf(element),
+                    fmt::format("expected names that differ, found '{}' again", name));
+        if (auto array = arrayOf(context, element, std::move(name), place, tuples))
+            arrays.push_back(std::move(*array));
+    }
+    return arrays;
+}
+
+void checkCoordinates(const Context& context, const XmlElement& piece, const VtkHeader& shape) {
+    const auto groups = named(piece, "Coordinates");
+    if (groups.size() != 1 || groups[0]->children.size() != 3)
+        failVtk(context.header.path, placeOf(piece),
+                "expected Coordinates of three arrays, x, y and z");
+    const auto size = shape.size(VtkPlace::Points);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const XmlElement& array = groups[0]->children[i];
+        const VtkType* type = vtkXmlType(array.attribute("type"));
+        if (array.name != "DataArray" || !type ||
+            wholeNumber(context, array, "NumberOfComponents", 1) != 1)
+            failVtk(context.header.path, placeOf(array), "expected a DataArray of numbers");
+        checkVtkValues(context.header.path, context.file, context.encoding, array, placeOf(array),
+                       size[i], type->bytes);
+    }
+}
+
+void checkFieldData(const Context& context, const XmlElement& grid) {
+    for (const XmlElement* field : named(grid, "FieldData"))
+        for (const XmlElement& array : field->children) {
+            const VtkType* type = vtkXmlType(array.attribute("type"));
+            if (array.name != "DataArray" || !type) continue;
+            const std::uint64_t tuples = wholeNumber(context, array, "NumberOfTuples", 0);
+            const std::uint64_t components = wholeNumber(context, array, "NumberOfComponents", 1);
+            if (components < 1 || components > kMaxComponents)
+                failVtk(context.header.path, placeOf(array), "expected fewer components");
+            checkVtkValues(context.header.path, context.file, context.encoding, array,
+                           placeOf(array), tuples * components, type->bytes);
+        }
+}
+
+void addPieces(const Context& context, const XmlElement& grid) {
+    VtkHeader& header = context.header;
+    const auto pieces = named(grid, "Piece");
+    if (pieces.empty()) failVtk(header.path, placeOf(grid), "expected a Piece, found none");
+    for (const XmlElement* piece : pieces) {
+        VtkHeader shape;
+        shape.path = header.path;
+        shape.extent = extentOf(header, *piece, "Extent");
+        checkVtkExtent(shape, placeOf(*piece));
+        for (std::size_t i = 0; i < 3; ++i)
+            if (shape.extent[i][0] < header.extent[i][0] ||
+                shape.extent[i][1] > header.extent[i][1])
+                failVtk(header.path, placeOf(*piece), "expected an Extent inside WholeExtent");
+        if (header.kind == VtkKind::XmlRectilinear) checkCoordinates(context, *piece, shape);
+        std::vector<VtkArray> arrays;
+        for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
+            for (VtkArray& array : arraysOf(context, *piece, place, shape.count(place)))
+                arrays.push_back(std::move(array));
+        const auto same = [](const VtkArray& a, const VtkArray& b) {
+            return a.name == b.name && a.place == b.place && a.type == b.type &&
+                   a.components == b.components;
+        };
+        if (piece == pieces.front())
+            header.arrays = std::move(arrays);
+        else if (!std::ranges::equal(arrays, header.arrays, same))
+            failVtk(header.path, placeOf(*piece), "expected the arrays of the first piece");
+    }
+    std::ranges::sort(header.passedOver);
+    header.passedOver.erase(std::unique(header.passedOver.begin(), header.passedOver.end()),
+                            header.passedOver.end());
+    std::erase_if(header.arrays, [&](const VtkArray& array) {
+        if (!isVtkGhostName(array.name)) return false;
+        header.ghosts[static_cast<std::size_t>(array.place)] = true;
+        return true;
+    });
+}
+
+const XmlElement& rootOf(const std::filesystem::path& path, const XmlFile& file) {
+    if (file.root.name != "VTKFile")
+        failVtk(
+            path, "",
+            fmt::format("expected a VTK file, whose root is VTKFile, found {}", file.root.name));
+    return file.root;
+}
+
+bool before(const VtkMember& a, const VtkMember& b) {
+    return a.time.value_or(0) < b.time.value_or(0);
+}
+
+}  // namespace
+
+VtkHeader readVtkXmlHeader(const std::filesystem::path& path) {
+    const XmlFile file = readXml(path);
+    const XmlElement& root = rootOf(path, file);
+    const std::string_view type = root.attribute("type");
+    VtkHeader header;
+    header.path = path;
+    if (type != "ImageData" && type != "RectilinearGrid")
+        failVtk(path, "VTKFile",
+                fmt::format("expected the type ImageData, RectilinearGrid or Collection, found "
+                            "\"{}\"",
+                            type));
+    header.kind = type == "ImageData" ? VtkKind::XmlImage : VtkKind::XmlRectilinear;
+    header.format = type == "ImageData" ? "VTK image data (XML)" : "VTK rectilinear grid (XML)";
+    const auto grids = named(root, type);
+    if (grids.size() != 1)
+        failVtk(path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));
+    const XmlElement& grid = *grids[0];
+    header.extent = extentOf(header, grid, "WholeExtent");
+    checkVtkExtent(header, placeOf(grid) + " WholeExtent");
+    if (grid.has("TimeValues"))
+        failVtk(path, placeOf(grid), "expected one time step in a file, found TimeValues");
+
+    const auto take = [&](std::string_view name, auto& numbers) {
+        if (!grid.has(name)) return;
+        const auto found = vtkNumbers(header, fmt::format("{} {}", placeOf(grid), name),
+                                      grid.attribute(name), numbers.size());
+        std::ranges::copy(found, numbers.begin());
+    };
+    if (header.kind == VtkKind::XmlImage) {
+        take("Origin", header.origin);
+        take("Spacing", header.spacing);
+        take("Direction", header.direction);
+    }
+    const Context context{file, vtkEncodingOf(path, root), header};
+    checkFieldData(context, grid);
+    addPieces(context, grid);
+    return header;
+}
+
+bool isVtkCollection(const std::filesystem::path& path) {
+    const XmlFile file = readXml(path);
+    return rootOf(path, file).attribute("type") == "Collection";
+}
+
+std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path) {
+    const XmlFile file = readXml(path);
+    const auto collections = named(rootOf(path, file), "Collection");
+    if (collections.size() != 1) failVtk(path, "VTKFile", "expected one Collection");
+    VtkHeader header;
+    header.path = path;
+    std::vector<VtkMember> members;
+    std::set<std::pair<std::string, std::string>> parts;
+    for (const XmlElement* set : named(*collections[0], "DataSet")) {
+        const std::string_view name = set->attribute("file");
+        if (name.empty()) failVtk(path, placeOf(*set), "expected the name of a file");
+        VtkMember member{path.parent_path() / name, std::nullopt};
+        if (set->has("timestep"))
+            member.time =
+                vtkNumbers(header, placeOf(*set) + " timestep", set->attribute("timestep"), 1)[0];
+        parts.emplace(set->attribute("group"), set->attribute("part"));
+        members.push_back(std::move(member));
+    }
+    if (members.empty()) failVtk(path, "Collection", "expected a DataSet, found none");
+    if (parts.size() > 1)
+        failVtk(path, "Collection",
+                fmt::format("expected one part a time step, found {} parts", parts.size()));
+    const auto timed = std::ranges::count_if(members, [](const auto& m) { return !!m.time; });
+    if (timed != 0 && static_cast<std::size_t>(timed) != members.size())
+        failVtk(path, "Collection", "expected a timestep of each DataSet or of none");
+    std::ranges::stable_sort(members, before);
+    for (std::size_t i = 1; timed && i < members.size(); ++i)
+        if (!before(members[i - 1], members[i]))
+            failVtk(path, "Collection",
+                    fmt::format("expected times that differ, found {} twice ({} and {})",
+                                *members[i].time, members[i - 1].path.string(),
+                                members[i].path.string()));
+    return members;
+}
+
+}  // namespace timeseries
