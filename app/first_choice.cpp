@@ -16,7 +16,6 @@ using timeseries::RangeSet;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShare = 0.10;    // of the points, to be selected
-constexpr double kDarkEnd = 0.3;   // of the map's span, left out at its dark end
 constexpr double kTwoSided = 0.4;  // the shorter reach over the longer, from where both count
 
 std::vector<double> finiteSorted(const Quantiles& sampled) {

@@ -17,6 +17,9 @@ using Quantiles = std::vector<std::vector<double>>;
 // A constant field selects everything; no points, nothing but the whole range.
 LayerChoice firstChoice(const Quantiles& sampled);
 
+// The share of a range by which a map that was not asked for begins below it.
+constexpr double kDarkEnd = 0.3;
+
 // Opacity at which a lump of so many cells, as thick as wide, is seen through but plainly there:
 // an optical depth of about 4 through its middle.
 double opacityFor(std::uint64_t selectedPoints);

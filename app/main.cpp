@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "timeseries/sorted_step.h"
 
 namespace {
 
@@ -29,6 +30,10 @@ int main(int argc, char** argv) {
         // A full disk behind a redirection shows only now.
         if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
         return code;
+    } catch (const timeseries::OutsideKeptError& error) {
+        fmt::print(stderr, "isochron: {}\n",
+                   error.what());  // --range and --keep contradict each other
+        return 2;
     } catch (const std::exception& error) {
         fmt::print(stderr, "isochron: {}\n", error.what());
         return 1;

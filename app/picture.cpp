@@ -72,7 +72,9 @@ bool infinite(const RangeSet& ranges) {
 void style(LayerChoice& layer, const Extent& ends, std::size_t place, std::size_t count) {
     if (!layer.color) {
         if (count == 1) {
-            layer.color = MapChoice{};
+            // Nobody asked for exact ends: the map's dark end lies below the range, where it would
+            // not be seen on the dark ground.
+            layer.color = MapChoice{{}, ends.lo - kDarkEnd * (ends.hi - ends.lo), ends.hi};
         } else {
             layer.color = kLayerColors[place] / 255.0;
         }

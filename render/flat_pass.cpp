@@ -23,15 +23,27 @@ void FlatPass::draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size,
     array.attach({1, vertices, 4, GL_FLOAT, kStride, offsetof(FlatVertex, color)});
     array.attach({2, vertices, 2, GL_FLOAT, kStride, offsetof(FlatVertex, texel)});
     array.attach({3, vertices, 2, GL_FLOAT, kStride, offsetof(FlatVertex, edge)});
-    gl::begin({.framebuffer = framebuffer,
-               .size = size,
-               .blend = gl::Blend::Premultiplied,
-               .depth = depth});
-    glUseProgram(program_.id());
-    glUniform2f(0, static_cast<float>(size.x), static_cast<float>(size.y));
-    glBindTextureUnit(0, atlas_.id());
-    glBindVertexArray(array.id());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.triangles().size()));
+    const auto drawn = [&](gl::DepthTest test, bool colorWrite, float leastCoverage) {
+        gl::begin({.framebuffer = framebuffer,
+                   .size = size,
+                   .blend = gl::Blend::Premultiplied,
+                   .depth = test,
+                   .colorWrite = colorWrite});
+        glUseProgram(program_.id());
+        glUniform2f(0, static_cast<float>(size.x), static_cast<float>(size.y));
+        glUniform1f(1, leastCoverage);
+        glBindTextureUnit(0, atlas_.id());
+        glBindVertexArray(array.id());
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.triangles().size()));
+    };
+    if (depth != gl::DepthTest::TestAndWrite) {
+        drawn(depth, true, 0);
+        return;
+    }
+    // Colour with soft edges; depth only where more than half of a pixel is covered, or the soft
+    // edges would cut what lies just behind them.
+    drawn(gl::DepthTest::Test, true, 0);
+    drawn(gl::DepthTest::TestAndWrite, false, 0.5f);
 }
 
 }  // namespace render

@@ -21,7 +21,8 @@ void begin(const Pass& pass) {
     glDisable(GL_DITHER);
     glEnable(GL_PROGRAM_POINT_SIZE);
     glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, GL_LOWER_LEFT);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    const GLboolean color = pass.colorWrite ? GL_TRUE : GL_FALSE;
+    glColorMask(color, color, color, color);
     enable(GL_FRAMEBUFFER_SRGB, pass.srgbWrite);
     enable(GL_BLEND, pass.blend != Blend::None);
     glBlendEquation(GL_FUNC_ADD);

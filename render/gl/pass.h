@@ -20,6 +20,7 @@ struct Pass {
     std::optional<float> clearDepth = {};
     Blend blend = Blend::None;
     DepthTest depth = DepthTest::None;
+    bool colorWrite = true;
     bool srgbWrite = false;
 };
 

@@ -53,7 +53,7 @@ TEST(WithCommas, GroupsByThree) {
 
 // Two variables of 3 steps on 2 x 2 x 2 points.
 std::filesystem::path twoVariables() {
-    support::NetcdfBuilder file("two.nc");
+    tests::NetcdfBuilder file("two.nc");
     const auto t = file.coordinate("time", 3, "s"), z = file.coordinate("z", 2, "m"),
                y = file.coordinate("y", 2, "m"), x = file.coordinate("x", 2, "m");
     const int first =
@@ -71,7 +71,7 @@ std::filesystem::path twoVariables() {
 // v(time, 2, 2) in a file of exactly this name, in the test's folder.
 std::filesystem::path timed(const std::filesystem::path& folder, const std::string& name,
                             const std::vector<double>& times, std::size_t nx = 2) {
-    support::NetcdfBuilder file(name);
+    tests::NetcdfBuilder file(name);
     const auto t = file.coordinate("time", times.size(), "s");
     const int y = file.dimension("y", 2), x = file.dimension("x", nx);
     file.variable("v", NC_FLOAT, {t.dimension, y, x});
@@ -107,7 +107,7 @@ TEST(Dataset, AnUnknownVariableIsToldWithThoseThereAre) {
 }
 
 TEST(Dataset, AMemberOpensItsSeriesAtItsOwnSteps) {
-    const auto folder = test_support::freshFolder();
+    const auto folder = tests::freshFolder();
     // By their times the files follow each other backwards.
     const auto last = timed(folder, "a_1.nc", {7, 8, 9}), first = timed(folder, "a_2.nc", {1}),
                middle = timed(folder, "a_3.nc", {4, 5});
@@ -122,7 +122,7 @@ TEST(Dataset, AMemberOpensItsSeriesAtItsOwnSteps) {
 }
 
 TEST(Dataset, SiblingsThatCannotBeJoinedAreLeftOutAndTold) {
-    const auto folder = test_support::freshFolder();
+    const auto folder = tests::freshFolder();
     const auto named = timed(folder, "a_1.nc", {1, 2, 3});
     timed(folder, "a_2.nc", {3, 4});
     const Dataset overlap = open(named, "");
@@ -140,9 +140,9 @@ TEST(Dataset, SiblingsThatCannotBeJoinedAreLeftOutAndTold) {
 }
 
 TEST(Dataset, AnUnreadableMemberIsNamed) {
-    const auto folder = test_support::freshFolder();
+    const auto folder = tests::freshFolder();
     const auto good = timed(folder, "a_1.nc", {1}), bad = folder / "a_2.nc";
-    test_support::writeBytes(bad, "no data");
+    tests::writeBytes(bad, "no data");
     EXPECT_THAT(open(good, "").series.notes, testing::ElementsAre(HasSubstr(bad.string())));
     try {
         open(bad, "");

@@ -343,7 +343,7 @@ TEST(Options, TheOutputsEndingDecidesTheFormat) {
 
 class OptionsWithSession : public testing::Test {
  protected:
-    OptionsWithSession() : file_(test_support::freshFolder() / "s.json") {
+    OptionsWithSession() : file_(tests::freshFolder() / "s.json") {
         saved_.files = {file_.parent_path() / "saved.nc"};
         saved_.variable = "T";
         saved_.steps = StepChoice{4, 4};
@@ -361,7 +361,7 @@ class OptionsWithSession : public testing::Test {
         saved_.view = {1, 2, 3.0};
         saved_.stereo = {Stereo::TopBottom, 0.2, 5.0};
         saved_.size = {64, 48};
-        test_support::writeBytes(file_, toJson(saved_, file_.parent_path()).dump());
+        tests::writeBytes(file_, toJson(saved_, file_.parent_path()).dump());
     }
     Explorer with(std::vector<std::string> more) {
         more.insert(more.begin(), {"render", "--session", file_.string(), "-o", "o.exr"});
@@ -413,7 +413,7 @@ TEST_F(OptionsWithSession, AFileThatCannotBeReadIsNoWrongArgument) {
     // Exit code 1, as for any file: main catches it.
     EXPECT_THROW(parsed({"render", "--session", "/none.json", "-o", "o.png"}),
                  timeseries::FileError);
-    test_support::writeBytes(file_, "{");
+    tests::writeBytes(file_, "{");
     EXPECT_THROW(with({}), timeseries::FileError);
 }
 

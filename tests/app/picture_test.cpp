@@ -144,10 +144,20 @@ TEST_F(PictureOfARamp, WhatWasChosenIsNotResolvedAway) {
 }
 
 TEST_F(PictureOfARamp, UnboundedEndsOfAMapAreTheDatas) {
-    const Explorer r = resolved(withRanges({"min:max"}), steps_);
+    Explorer asked = withRanges({"min:max"});
+    asked.layers[0].color = MapChoice{};
+    const Explorer r = resolved(asked, steps_);
     const auto& map = std::get<MapChoice>(*r.layers[0].color);
     EXPECT_EQ(map.lo, 0);
     EXPECT_EQ(map.hi, 999);
+}
+
+TEST_F(PictureOfARamp, AMapThatNobodyAskedForBeginsBelowTheRange) {
+    // Its dark end would not be seen on the dark ground.
+    const Explorer r = resolved(withRanges({"100:200"}), steps_);
+    const auto& map = std::get<MapChoice>(*r.layers[0].color);
+    EXPECT_LT(*map.lo, 100);
+    EXPECT_EQ(map.hi, 200);
 }
 
 TEST_F(PictureOfARamp, SeveralLayersHaveDifferentPlainColors) {

@@ -24,7 +24,7 @@ bool ofFormat(const std::string& file, const std::vector<std::string>& extension
 }
 
 std::vector<Row> rowsOf(const std::vector<std::string>& extensions) {
-    std::ifstream in(support::sharedData("ranges.csv"));
+    std::ifstream in(tests::sharedData("ranges.csv"));
     std::vector<Row> rows;
     for (std::string line; std::getline(in, line);) {
         std::istringstream cut(line);
@@ -44,7 +44,7 @@ void expectAgreement(const std::vector<Row>& rows) {
     for (const Row& row : rows) {
         // Each step is built once for all rows of its file.
         if (!done.insert({row.file, row.variable}).second) continue;
-        const std::filesystem::path file = support::sharedData(row.file);
+        const std::filesystem::path file = tests::sharedData(row.file);
         // Formats of one variable: the list has their unit or nothing for a name.
         const bool named = row.file.ends_with(".nc");
         Dataset dataset = openDataset(std::span(&file, 1), named ? row.variable : "");
@@ -69,8 +69,8 @@ void expectAgreement(const std::vector<Row>& rows) {
 class RangesCsv : public testing::Test {
  protected:
     void SetUp() override {
-        if (!std::filesystem::exists(support::sharedData("ranges.csv")))
-            GTEST_SKIP() << "no real data at " << support::sharedData("ranges.csv");
+        if (!std::filesystem::exists(tests::sharedData("ranges.csv")))
+            GTEST_SKIP() << "no real data at " << tests::sharedData("ranges.csv");
     }
 };
 

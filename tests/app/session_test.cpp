@@ -307,8 +307,8 @@ TEST(Session, MoreLayersThanAreDrawnAreRefused) {
 
 // The text of a session file that cannot be used.
 std::string refusal(const std::string& bytes) {
-    const fs::path file = test_support::freshFolder() / "session.json";
-    test_support::writeBytes(file, bytes);
+    const fs::path file = tests::freshFolder() / "session.json";
+    tests::writeBytes(file, bytes);
     try {
         readSession(file);
     } catch (const timeseries::FileError& error) {
@@ -352,8 +352,8 @@ TEST(Session, DeepNestingIsRefusedNotOverflowing) {
 }
 
 TEST(Session, OfEqualKeysOneCountsAndNothingBreaks) {
-    const fs::path file = test_support::freshFolder() / "session.json";
-    test_support::writeBytes(file, R"({"isochron":1,"variable":"a","variable":"b"})");
+    const fs::path file = tests::freshFolder() / "session.json";
+    tests::writeBytes(file, R"({"isochron":1,"variable":"a","variable":"b"})");
     const std::string variable = readSession(file).variable;
     EXPECT_TRUE(variable == "a" || variable == "b");
 }
@@ -366,13 +366,13 @@ TEST(Session, EveryCutOfAFileIsRefused) {
 }
 
 TEST(Session, ASingleChangedByteNeverCrashes) {
-    const fs::path file = test_support::freshFolder() / "session.json";
+    const fs::path file = tests::freshFolder() / "session.json";
     std::mt19937 random(9);
     RandomExplorer next(6);
     for (int i = 0; i < 1500; ++i) {
         std::string bytes = toJson(next(), "/").dump();
         bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
-        test_support::writeBytes(file, bytes);
+        tests::writeBytes(file, bytes);
         try {
             const Explorer e = readSession(file);
             EXPECT_TRUE(fromJson(toJson(e, "/"), "/") == fromJson(toJson(e, "/"), "/"));
@@ -383,7 +383,7 @@ TEST(Session, ASingleChangedByteNeverCrashes) {
 }
 
 TEST(Session, AMissingFileAndAFolderAreNamed) {
-    const fs::path folder = test_support::freshFolder();
+    const fs::path folder = tests::freshFolder();
     for (const fs::path& file : {folder / "none.json", folder}) {
         try {
             readSession(file);

@@ -14,12 +14,12 @@
 namespace render {
 namespace {
 
-using test_support::freshFolder;
-using test_support::readBytes;
-using test_support::writeBytes;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
+using tests::freshFolder;
+using tests::readBytes;
+using tests::writeBytes;
 
 std::vector<float> noise(std::size_t count, unsigned seed) {
     std::mt19937 random(seed);

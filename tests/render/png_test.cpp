@@ -13,10 +13,10 @@
 namespace render {
 namespace {
 
-using test_support::freshFolder;
-using test_support::readBytes;
-using test_support::writeBytes;
 using testing::HasSubstr;
+using tests::freshFolder;
+using tests::readBytes;
+using tests::writeBytes;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();

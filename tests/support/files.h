@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-namespace test_support {
+namespace tests {
 
 // This process's folder under TempDir, removed when it ends: tests run side by side, builds too.
 class ProcessFolder {
@@ -58,4 +58,4 @@ inline void writeBytes(const std::filesystem::path& file, const std::string& byt
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
-}  // namespace test_support
+}  // namespace tests

@@ -12,7 +12,7 @@
 
 #include "tests/support/files.h"
 
-namespace support {
+namespace tests {
 
 template <typename T>
 constexpr nc_type ncType() {
@@ -33,7 +33,7 @@ class NetcdfBuilder {
  public:
     // In the test's own folder.
     explicit NetcdfBuilder(const std::string& name, int mode = NC_NETCDF4) {
-        path_ = test_support::testFolder() / name;
+        path_ = tests::testFolder() / name;
         check(nc_create(path_.c_str(), mode | NC_CLOBBER, &id_));
     }
     ~NetcdfBuilder() {
@@ -107,4 +107,4 @@ class NetcdfBuilder {
     bool ended_ = false;
 };
 
-}  // namespace support
+}  // namespace tests

@@ -13,7 +13,7 @@
 #include "tests/support/files.h"
 #include "timeseries/reader.h"
 
-namespace support {
+namespace tests {
 
 template <typename T>
 std::string bytesOf(const std::vector<T>& values, std::endian order = std::endian::little) {
@@ -59,8 +59,8 @@ inline std::unique_ptr<timeseries::Reader> openOne(const std::filesystem::path& 
 
 // Opens a file of these bytes.
 inline std::unique_ptr<timeseries::Reader> openBytes(const std::string& bytes) {
-    const std::filesystem::path path = test_support::freshFolder() / "file.nrrd";
-    test_support::writeBytes(path, bytes);
+    const std::filesystem::path path = tests::freshFolder() / "file.nrrd";
+    tests::writeBytes(path, bytes);
     return openOne(path);
 }
 
@@ -85,4 +85,4 @@ inline std::string refusal(const std::filesystem::path& path) {
     return "";
 }
 
-}  // namespace support
+}  // namespace tests

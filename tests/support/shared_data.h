@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace support {
+namespace tests {
 
 inline std::filesystem::path sharedData(const std::filesystem::path& name) {
     const char* shared = std::getenv("ISOCHRON_SHARED");
@@ -13,4 +13,4 @@ inline std::filesystem::path sharedData(const std::filesystem::path& name) {
     return root / "datasets" / name;
 }
 
-}  // namespace support
+}  // namespace tests

@@ -13,7 +13,7 @@
 
 #include "tests/support/files.h"
 
-namespace support {
+namespace tests {
 
 // The values' bytes, in this machine's order.
 template <typename T>
@@ -77,8 +77,8 @@ inline std::filesystem::path write(const std::string& name, const std::string& b
     std::string flatName = std::string(test->test_suite_name()) + "_" + test->name() + "_" + name;
     std::ranges::replace(flatName, '/', '_');  // of typed tests
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / flatName;
-    test_support::writeBytes(path, bytes);
+    tests::writeBytes(path, bytes);
     return path;
 }
 
-}  // namespace support
+}  // namespace tests

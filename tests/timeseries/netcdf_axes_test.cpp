@@ -12,10 +12,10 @@
 namespace timeseries {
 namespace {
 
-using support::NetcdfBuilder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using tests::NetcdfBuilder;
 using Path = std::filesystem::path;
 
 std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }

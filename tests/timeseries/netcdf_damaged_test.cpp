@@ -15,9 +15,9 @@
 namespace timeseries {
 namespace {
 
-using support::NetcdfBuilder;
 using testing::HasSubstr;
 using testing::StartsWith;
+using tests::NetcdfBuilder;
 using Path = std::filesystem::path;
 
 std::string bytesOf(const Path& path) {
@@ -26,7 +26,7 @@ std::string bytesOf(const Path& path) {
 }
 
 Path write(const std::string& name, const std::string& bytes) {
-    const Path path = test_support::testFolder() / name;
+    const Path path = tests::testFolder() / name;
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
 }
@@ -112,7 +112,7 @@ TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
     std::mt19937 random(5);
     for (const int mode : {0, NC_CDF5}) {
         const std::string whole = bytesOf(sample(mode));
-        const Path path = test_support::testFolder() / "flipped.nc";
+        const Path path = tests::testFolder() / "flipped.nc";
         for (int i = 0; i < 1000; ++i) {
             std::string bytes = whole;
             for (int n = 0; n < 1 + i % 3; ++n)
@@ -125,9 +125,9 @@ TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
 
 TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
     EXPECT_EQ(refusal({}), "expected a file to open, but none is named");
-    const Path missing = test_support::testFolder() / "there_is_none.nc";
+    const Path missing = tests::testFolder() / "there_is_none.nc";
     EXPECT_EQ(refusal({missing}), missing.string() + ": expected a file, but there is none");
-    const Path folder = test_support::testFolder();
+    const Path folder = tests::testFolder();
     EXPECT_EQ(refusal({folder}), folder.string() + ": expected a file, but it is a folder");
     EXPECT_THAT(refusal({"/dev/null"}), HasSubstr("expected an ordinary file"));
     const Path empty = write("empty.nc", "");

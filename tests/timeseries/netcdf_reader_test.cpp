@@ -17,10 +17,10 @@
 namespace timeseries {
 namespace {
 
-using support::ncType;
-using support::NetcdfBuilder;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::ncType;
+using tests::NetcdfBuilder;
 using Path = std::filesystem::path;
 
 std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }

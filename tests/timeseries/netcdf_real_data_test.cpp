@@ -20,7 +20,7 @@ struct Row {
 };
 
 std::vector<Row> netcdfRows() {
-    std::ifstream in(support::sharedData("ranges.csv"));
+    std::ifstream in(tests::sharedData("ranges.csv"));
     std::vector<Row> rows;
     for (std::string line; std::getline(in, line);) {
         std::vector<std::string> cells;
@@ -42,7 +42,7 @@ std::size_t indexOf(const Reader& reader, const std::string& name) {
 }
 
 std::unique_ptr<Reader> openShared(const std::string& name) {
-    const std::filesystem::path path = support::sharedData(name);
+    const std::filesystem::path path = tests::sharedData(name);
     return openReader(std::span(&path, 1));
 }
 
@@ -68,8 +68,8 @@ std::string percentInside(const Field& field, double lo, double hi) {
 class RealNetcdf : public testing::Test {
  protected:
     void SetUp() override {
-        if (!std::filesystem::exists(support::sharedData("ranges.csv")))
-            GTEST_SKIP() << "no real data at " << support::sharedData("ranges.csv");
+        if (!std::filesystem::exists(tests::sharedData("ranges.csv")))
+            GTEST_SKIP() << "no real data at " << tests::sharedData("ranges.csv");
     }
 };
 

@@ -12,11 +12,11 @@
 namespace timeseries {
 namespace {
 
-using namespace support;
-using test_support::freshFolder;
-using test_support::readBytes;
-using test_support::writeBytes;
+using namespace tests;
 using testing::HasSubstr;
+using tests::freshFolder;
+using tests::readBytes;
+using tests::writeBytes;
 
 class DamagedNrrd : public testing::Test {
  protected:

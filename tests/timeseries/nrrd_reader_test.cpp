@@ -11,11 +11,11 @@
 namespace timeseries {
 namespace {
 
-using namespace support;
-using test_support::freshFolder;
-using test_support::writeBytes;
+using namespace tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::freshFolder;
+using tests::writeBytes;
 
 // Values that a wrong type or byte order would change: the ends of the type's range among them.
 template <typename T>

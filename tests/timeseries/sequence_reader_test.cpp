@@ -229,10 +229,10 @@ TEST_F(Sequence, AFileThatChangedIsToldWhenItIsRead) {
 
 // NetCDF files joined by their numbers, for they have no times.
 TEST(NetcdfNumbered, FilesWithoutTimeAreNumberedAsTheirNamesAre) {
-    const Path folder = test_support::freshFolder();
+    const Path folder = tests::freshFolder();
     std::vector<Path> paths;
     for (const char* name : {"a_1.nc", "a_41.nc", "a_82.nc"}) {
-        support::NetcdfBuilder file(name);
+        tests::NetcdfBuilder file(name);
         const int y = file.dimension("y", 2), x = file.dimension("x", 2);
         const int v = file.variable("v", NC_FLOAT, {y, x});
         file.write(v, std::vector<float>(4, 1));

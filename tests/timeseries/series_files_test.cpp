@@ -9,12 +9,12 @@
 namespace timeseries {
 namespace {
 
-using test_support::freshFolder;
-using test_support::writeBytes;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Optional;
+using tests::freshFolder;
+using tests::writeBytes;
 using Path = std::filesystem::path;
 
 // Empty files of these names, in the folder of the test.

@@ -14,11 +14,11 @@
 namespace timeseries {
 namespace {
 
-using support::dataArray;
-using support::Image;
-using support::imageText;
 using testing::HasSubstr;
 using testing::StartsWith;
+using tests::dataArray;
+using tests::Image;
+using tests::imageText;
 using Path = std::filesystem::path;
 
 // Everything a file holds; nothing when it is refused, by one sentence.
@@ -40,7 +40,7 @@ std::optional<std::vector<Values>> contents(const Path& path, std::string* why =
 
 std::string refusal(const std::string& text) {
     std::string why;
-    contents(support::write("refused", text), &why);
+    contents(tests::write("refused", text), &why);
     return why;
 }
 
@@ -60,18 +60,18 @@ std::map<std::string, std::string> samples() {
     for (const double v : twelve()) numbers += fmt::format("{}\n", v);
     return {
         {"text.vti", imageText({.points = dataArray("Float64", "v", twelve())})},
-        {"raw.vti", imageText({.points = appended, .appended = support::appendedBlock(twelve())})},
+        {"raw.vti", imageText({.points = appended, .appended = tests::appendedBlock(twelve())})},
         {"ascii.vtk", "# vtk DataFile Version 4.2\ntitle\nASCII\n" + start + numbers},
         {"binary.vtk", "# vtk DataFile Version 4.2\ntitle\nBINARY\n" + start +
-                           support::bigEndianBytes(twelve()) + "\n"},
+                           tests::bigEndianBytes(twelve()) + "\n"},
     };
 }
 
 TEST(DamagedVtk, FilesCutAnywhereAreRefusedOrWhole) {
     for (const auto& [name, whole] : samples()) {
-        const auto expected = contents(support::write(name, whole));
+        const auto expected = contents(tests::write(name, whole));
         ASSERT_TRUE(expected) << name;
-        const Path path = support::write("cut", whole);
+        const Path path = tests::write("cut", whole);
         std::size_t read = 0;
         for (std::size_t length = whole.size() - 1; length > 0; --length) {
             std::filesystem::resize_file(path, length);
@@ -97,7 +97,7 @@ TEST(DamagedVtk, FilesWithWrongBytesAreReadOrRefused) {
                 const std::size_t at = 4 + random() % (bytes.size() - 4);
                 bytes[at] = static_cast<char>(random() % 2 ? '0' + random() % 10 : random());
             }
-            contents(support::write("flipped", bytes));
+            contents(tests::write("flipped", bytes));
         }
     }
 }
@@ -138,7 +138,7 @@ TEST(DamagedVtk, PackedBlocksThatLieAreRefused) {
     const auto packed = [](const std::vector<std::uint32_t>& header) {
         std::string text = imageText(
             {.points = "<DataArray type=\"Float64\" Name=\"v\" format=\"appended\" offset=\"0\"/>",
-             .appended = support::rawBytes(header) + std::string(40, 'x')});
+             .appended = tests::rawBytes(header) + std::string(40, 'x')});
         text.insert(text.find("byte_order="), "compressor=\"vtkZLibDataCompressor\" ");
         return text;
     };

@@ -12,18 +12,18 @@
 namespace timeseries {
 namespace {
 
-using support::bigEndianBytes;
-using support::dataArray;
-using support::Image;
-using support::imageText;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::bigEndianBytes;
+using tests::dataArray;
+using tests::Image;
+using tests::imageText;
 using Path = std::filesystem::path;
 
 std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
 
 std::unique_ptr<Reader> openText(const std::string& text) {
-    return open(support::write("file", text));
+    return open(tests::write("file", text));
 }
 
 std::string refusal(const Path& path, std::size_t step = 0) {
@@ -119,7 +119,7 @@ TYPED_TEST(VtkTypes, AreExactInTextAndInBytes) {
     const auto raw = openText(imageText(
         {.points = fmt::format(
              "<DataArray type=\"{}\" Name=\"v\" format=\"appended\" offset=\"0   \"/>", name),
-         .appended = support::appendedBlock(values)}));
+         .appended = tests::appendedBlock(values)}));
     EXPECT_EQ(valuesOf<TypeParam>(*raw, "v"), values);
 
     const std::string start =
@@ -345,7 +345,7 @@ TEST(VtkLegacy, OldHeadersNameTheSpacingAspectRatio) {
 }
 
 Path collection(const std::string& sets) {
-    return support::write(
+    return tests::write(
         "all.pvd", "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>");
 }
 
@@ -357,9 +357,9 @@ std::string member(const std::string& time, const Path& file, const std::string&
 TEST(VtkCollection, TimesAreRealAndMembersAreReadOneByOne) {
     std::vector<Path> files;
     for (int i = 0; i < 3; ++i)
-        files.push_back(support::write(
-            fmt::format("{}.vti", i),
-            imageText({.points = dataArray("Int32", "p", std::vector<int>(12, i))})));
+        files.push_back(
+            tests::write(fmt::format("{}.vti", i),
+                         imageText({.points = dataArray("Int32", "p", std::vector<int>(12, i))})));
     const auto reader = open(
         collection(member("1.5", files[1]) + member("0.1", files[0]) + member("1e3", files[2])));
     EXPECT_EQ(reader->format(), "VTK collection of image data (XML)");
@@ -373,12 +373,12 @@ TEST(VtkCollection, TimesAreRealAndMembersAreReadOneByOne) {
 }
 
 TEST(VtkCollection, WhatDiffersIsTold) {
-    const Path good = support::write(
+    const Path good = tests::write(
         "a.vti", imageText({.points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
-    const Path finer = support::write(
+    const Path finer = tests::write(
         "b.vti", imageText({.attributes = "Spacing=\"1 1 1\"",
                             .points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
-    const Path other = support::write(
+    const Path other = tests::write(
         "c.vti", imageText({.points = dataArray("Int16", "p", std::vector<int>(12, 1))}));
     EXPECT_THAT(refusal(collection(member("0", good) + member("1", finer)), 1),
                 HasSubstr("expected the grid of"));

@@ -13,13 +13,13 @@ namespace {
 class RealVtk : public testing::Test {
  protected:
     void SetUp() override {
-        if (!std::filesystem::exists(support::sharedData("ranges.csv")))
-            GTEST_SKIP() << "no real data at " << support::sharedData("ranges.csv");
+        if (!std::filesystem::exists(tests::sharedData("ranges.csv")))
+            GTEST_SKIP() << "no real data at " << tests::sharedData("ranges.csv");
     }
 };
 
 std::unique_ptr<Reader> openShared(const std::string& name) {
-    const std::filesystem::path path = support::sharedData(name);
+    const std::filesystem::path path = tests::sharedData(name);
     return openReader(std::span(&path, 1));
 }
 
