@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 data=${1:-}
 picture() {
     local file=$1 out=app/gallery/$2; shift 2
-    if [[ -f $file ]]; then ./run render "$file" -o "$out" "$@"; else echo "skipped: $out needs $file"; fi
+    if [[ -f $file ]]; then ./run --with-vtk render "$file" -o "$out" "$@"; else echo "skipped: $out needs $file"; fi
 }
 
 picture datasets/pool_fire_T.nc pool_fire.png --size 1000x750 --step 14 --order depth \
@@ -26,3 +26,9 @@ picture "$data/viscous_fingers_demo.nc" viscous_fingers_stereo.png --step 12 --o
     --view 25,12 --size 700x700 --range 25~5 --colormap cividis --opacity 0.1 --stereo side-by-side
 picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --order depth --view 0,50 \
     --range 0.95:max --colormap viridis --opacity 0.35 --scale 1,1,0.0004
+
+# First looks: nothing is asked for, the program chooses.
+for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr; do
+    name=$(basename "${first%.*}")
+    picture "$data/$first" "first_$name.png" --size 600x450
+done
