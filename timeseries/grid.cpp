@@ -2,25 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace timeseries {
 namespace {
-
-void check(const Axis& axis) {
-    const auto& c = axis.coordinates;
-    if (c.empty()) throw std::invalid_argument(fmt::format("axis {} has no points", axis.name));
-    for (std::size_t i = 0; i < c.size(); ++i) {
-        if (!std::isfinite(c[i]))
-            throw std::invalid_argument(
-                fmt::format("axis {} has a coordinate that is not finite at {}", axis.name, i));
-        if (i >= 1 && !(c.back() > c.front() ? c[i] > c[i - 1] : c[i] < c[i - 1]))
-            throw std::invalid_argument(
-                fmt::format("axis {} is not strictly monotonic at {}", axis.name, i));
-    }
-}
 
 double meanStep(const Axis& axis) {
     const auto& c = axis.coordinates;
@@ -28,6 +17,22 @@ double meanStep(const Axis& axis) {
 }
 
 }  // namespace
+
+std::vector<double> indexCoordinates(std::uint64_t length) {
+    std::vector<double> index(length);
+    std::iota(index.begin(), index.end(), 0.0);
+    return index;
+}
+
+std::string flawOf(const std::vector<double>& c) {
+    if (!std::ranges::all_of(c, [](double v) { return std::isfinite(v); }))
+        return "its coordinates are not all finite";
+    const bool ascending = c.back() > c.front();
+    for (std::size_t i = 1; i < c.size(); ++i)
+        if (ascending ? !(c[i] > c[i - 1]) : !(c[i] < c[i - 1]))
+            return "its coordinates are not strictly monotonic";
+    return "";
+}
 
 bool Axis::uniform() const {
     if (coordinates.size() < 3) return true;
@@ -50,7 +55,10 @@ double Axis::width(std::size_t i) const {
 Grid::Grid(std::array<Axis, 3> axes) : axes_(std::move(axes)) {
     std::uint64_t count = 1;
     for (const Axis& axis : axes_) {
-        check(axis);
+        if (axis.coordinates.empty())
+            throw std::invalid_argument(fmt::format("axis {} has no points", axis.name));
+        if (const std::string flaw = flawOf(axis.coordinates); !flaw.empty())
+            throw std::invalid_argument(fmt::format("axis {}: {}", axis.name, flaw));
         const std::uint64_t n = axis.coordinates.size();
         if (count > (std::uint64_t{1} << 63) / n)
             throw std::invalid_argument("the grid has more than 2^63 points");

@@ -26,6 +26,11 @@ struct Axis {
     friend bool operator==(const Axis&, const Axis&) = default;
 };
 
+// 0, 1, 2, ...: the coordinates of an axis that is counted, not measured (units "index").
+std::vector<double> indexCoordinates(std::uint64_t length);
+// What keeps coordinates from placing points, in words; "" when nothing does. REQUIRES: not empty.
+std::string flawOf(const std::vector<double>& coordinates);
+
 // Uniform and rectilinear grids. Points are numbered x fastest: index = x + nx (y + ny z).
 // Curvilinear and scattered grids come behind the same position() and cell().
 class Grid {

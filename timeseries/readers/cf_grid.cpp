@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "timeseries/readers/cf_packing.h"
 #include "timeseries/units.h"
@@ -14,23 +13,6 @@ namespace {
 
 // A step of 2^32 points needs no longer axis, and an axis costs 8 bytes a point.
 constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
-
-std::vector<double> counted(std::uint64_t length) {
-    std::vector<double> index(length);
-    std::iota(index.begin(), index.end(), 0.0);
-    return index;
-}
-
-// What keeps coordinates from placing points; "" when nothing does.
-std::string flaw(const std::vector<double>& c) {
-    if (!std::ranges::all_of(c, [](double v) { return std::isfinite(v); }))
-        return "its coordinates are not all finite";
-    const bool ascending = c.back() > c.front();
-    for (std::size_t i = 1; i < c.size(); ++i)
-        if (ascending ? !(c[i] > c[i - 1]) : !(c[i] < c[i - 1]))
-            return "its coordinates are not strictly monotonic";
-    return "";
-}
 
 std::vector<double> coordinatesOf(const NetcdfFile& file, const NcVariable& coordinate) {
     const Packing packing = packingOf(coordinate, [&](const std::string& what) {
@@ -87,14 +69,14 @@ Axis axisOf(const NetcdfFile& file, const NcVariable& variable, std::size_t posi
     const NcVariable* coordinate = coordinateOf(file.header(), variable, position);
     if (!coordinate) {
         notes.push_back(dimension.name + " is placed by index: the file has no coordinates for it");
-        return {dimension.name, "index", counted(dimension.length), false};
+        return {dimension.name, "index", indexCoordinates(dimension.length), false};
     }
     Axis axis{std::string(coordinate->baseName()), coordinate->text("units"),
               coordinatesOf(file, *coordinate), pointsDown(*coordinate)};
-    if (const std::string why = flaw(axis.coordinates); !why.empty()) {
+    if (const std::string why = flawOf(axis.coordinates); !why.empty()) {
         notes.push_back(axis.name + " is placed by index: " + why);
         axis.units = "index";
-        axis.coordinates = counted(dimension.length);
+        axis.coordinates = indexCoordinates(dimension.length);
     }
     return axis;
 }
@@ -150,7 +132,7 @@ std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, c
                       fmt::format("expected at most 2^24 points along an axis, found {}",
                                   dimension.length));
         if (i < 2 && !twoD.empty())
-            axes[i] = {dimension.name, "index", counted(dimension.length), false};
+            axes[i] = {dimension.name, "index", indexCoordinates(dimension.length), false};
         else
             axes[i] = axisOf(file, variable, *positions[i], notes);
     }

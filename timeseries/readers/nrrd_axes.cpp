@@ -82,20 +82,6 @@ std::optional<std::size_t> onlyOfKind(const NrrdHeader& header,
     return found;
 }
 
-std::vector<double> counted(std::uint64_t length) {
-    std::vector<double> index(length);
-    for (std::uint64_t i = 0; i < length; ++i) index[i] = static_cast<double>(i);
-    return index;
-}
-
-bool placesPoints(const std::vector<double>& c) {
-    const bool ascending = c.back() > c.front();
-    for (std::size_t i = 0; i < c.size(); ++i)
-        if (!std::isfinite(c[i]) || (i > 0 && !(ascending ? c[i] > c[i - 1] : c[i] < c[i - 1])))
-            return false;
-    return true;
-}
-
 std::vector<double> spaced(double first, double spacing, std::uint64_t count) {
     std::vector<double> c(count);
     for (std::uint64_t i = 0; i < count; ++i) c[i] = first + spacing * static_cast<double>(i);
@@ -103,7 +89,7 @@ std::vector<double> spaced(double first, double spacing, std::uint64_t count) {
 }
 
 Axis indexAxis(const NrrdAxis& axis, const std::string& name) {
-    return {axis.label.empty() ? name : axis.label, "index", counted(axis.size), false};
+    return {axis.label.empty() ? name : axis.label, "index", indexCoordinates(axis.size), false};
 }
 
 // By spacing and minimum; cell-centred unless the file says otherwise, as teem takes it
@@ -123,7 +109,7 @@ Axis spacedAxis(const NrrdAxis& axis, const std::string& name, std::vector<std::
     }
     const double first = std::isnan(axis.min) ? 0 : axis.min + (cell ? spacing / 2 : 0);
     std::vector<double> coordinates = spaced(first, spacing, axis.size);
-    if (spacing == 0 || !placesPoints(coordinates)) {
+    if (spacing == 0 || !flawOf(coordinates).empty()) {
         notes.push_back(
             fmt::format("{} is placed by index: a spacing of {} does not tell its samples apart",
                         index.name, spacing));
@@ -171,7 +157,7 @@ Axis directedAxis(const NrrdHeader& header, std::size_t i, std::size_t component
     const std::string name = axis.label.empty() ? coordinateName(header, component) : axis.label;
     const double first = header.origin ? (*header.origin)[component] : 0;
     std::vector<double> coordinates = spaced(first, (*axis.direction)[component], axis.size);
-    if (!placesPoints(coordinates)) {
+    if (!flawOf(coordinates).empty()) {
         notes.push_back(name + " is placed by index: its samples lie too close to tell apart");
         return indexAxis(axis, name);
     }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace timeseries {
 namespace {
@@ -40,23 +39,6 @@ std::optional<Turn> turnOf(const std::array<double, 9>& direction) {
     return turn;
 }
 
-std::vector<double> counted(std::uint64_t length) {
-    std::vector<double> index(length);
-    std::iota(index.begin(), index.end(), 0.0);
-    return index;
-}
-
-// What keeps coordinates from placing points; "" when nothing does.
-std::string flaw(const std::vector<double>& c) {
-    if (!std::ranges::all_of(c, [](double v) { return std::isfinite(v); }))
-        return "its coordinates are not all finite";
-    const bool ascending = c.back() > c.front();
-    for (std::size_t i = 1; i < c.size(); ++i)
-        if (ascending ? !(c[i] > c[i - 1]) : !(c[i] < c[i - 1]))
-            return "its coordinates are not strictly monotonic";
-    return "";
-}
-
 std::vector<double> centres(const std::vector<double>& points) {
     if (points.size() < 2) return points;
     std::vector<double> between;
@@ -82,13 +64,13 @@ VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
         const std::size_t w = axesTurn.world[i];
         std::vector<double> coordinates = header.coordinates[i];
         if (image) {
-            coordinates = counted(points[i]);
+            coordinates = indexCoordinates(points[i]);
             for (double& c : coordinates)
                 c = header.origin[w] + axesTurn.sign[i] * header.spacing[i] *
                                            (c + static_cast<double>(header.extent[i][0]));
         }
         if (place == VtkPlace::Cells) coordinates = centres(coordinates);
-        std::string why = turn ? flaw(coordinates) : "";
+        std::string why = turn ? flawOf(coordinates) : "";
         if (!why.empty()) {
             if (image && header.spacing[i] == 0) why = "its spacing is 0";
             result.notes.push_back(fmt::format("{} is placed by index: {}", kNames[w], why));
@@ -96,7 +78,7 @@ VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
         if (turn && why.empty())
             axes[w] = {kNames[w], "", std::move(coordinates), false};
         else
-            axes[w] = {kNames[w], "index", counted(size[i]), false};
+            axes[w] = {kNames[w], "index", indexCoordinates(size[i]), false};
         result.layout.size[w] = size[i];
         result.layout.stride[w] = stride;
         stride *= size[i];
