@@ -1,5 +1,7 @@
 #include "render/cpu_splatter.h"
 
+#include <cassert>
+
 #include "render/footprint.h"
 
 namespace render {
@@ -89,6 +91,8 @@ void deposit(Channels channels, const Painter& paint, Real weight, Real* pixel) 
 template <typename Real>
 void splat(const Scene& scene, const DrawList& list, const View& view,
            std::span<const float> opaqueDepth, Accumulator<Real>& into) {
+    assert(scene.layers.size() <= into.channels.size() || into.channels[0] == Channels::Over ||
+           into.channels[0] == Channels::Count);
     const PixelRays rays = pixelRays(view);
     const glm::dmat4& clip = view.clipFromView;
     const glm::uvec3 n = scene.lattice.size();

@@ -30,7 +30,9 @@ Scene noiseScene(const timeseries::SortedStep& step, const Lattice& lattice, con
 
 std::vector<double> truth(const Scene& scene, const View& view, Channels channels,
                           std::span<const float> opaqueDepth = {}) {
-    Accumulator<double> sums(view.size, {channels});
+    // Of the first layer, as GlTest::plane, where every layer has its own.
+    const bool alone = channels == Channels::Over || channels == Channels::Count;
+    Accumulator<double> sums(view.size, std::vector(alone ? 1 : scene.layers.size(), channels));
     splat(scene, orderExactly(scene, tests::kMidEye), view, opaqueDepth, sums);
     return sums.planes[0];
 }
