@@ -105,6 +105,7 @@ GlSplatter::GlSplatter()
     std::array<GLfloat, 2> range{};
     glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
     largestPoint_ = range[1];
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largestViewport_.x);
 }
 
 GlSplatter::~GlSplatter() = default;
@@ -145,7 +146,8 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
                             static_cast<GLsizei>(row.size()), 1, GL_RGBA, GL_FLOAT, row.data());
     }
     layers_.write(0, sizeof block, &block);
-    if (byValue) step.needValues(scene.step, scale);
+    // A sorted list brings its own values.
+    if (byValue && std::holds_alternative<Runs>(list)) step.needValues(scene.step, scale);
     return std::make_unique<GpuList>(scene, list, step, scale);
 }
 
@@ -155,8 +157,11 @@ void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, 
     const PixelRays rays = pixelRays(view);
     const double reach = farthestReach(list.scene(), view, rays);
     // A point sprite whose centre leaves the clip volume vanishes whole, so the viewport is wider
-    // than the picture by the farthest reach; sprites also have a largest size.
-    const bool quads = !(2 * reach + 2 <= static_cast<double>(largestPoint_));
+    // than the picture by the farthest reach; sprites also have a largest size, as has a viewport.
+    const double sides = 2 * (reach + 2);
+    const bool quads =
+        !(sides <= static_cast<double>(largestPoint_) &&
+          view.size.x + sides <= largestViewport_.x && view.size.y + sides <= largestViewport_.y);
     const int guard = quads ? 0 : static_cast<int>(std::ceil(reach)) + 1;
     const SplatViewBlock block = viewBlock(list.scene(), view, rays, guard);
     view_.write(0, sizeof block, &block);

@@ -79,7 +79,8 @@ class GlSplatter {
     std::map<Variant, gl::Program> programs_;  // compiled when first drawn with
     gl::Buffer view_, layers_;
     gl::Texture colorMaps_;
-    float largestPoint_ = 1;  // side in pixels
+    float largestPoint_ = 1;         // side in pixels
+    glm::ivec2 largestViewport_{0};  // a larger one is cut without a word
     Counts counts_;
 };
 

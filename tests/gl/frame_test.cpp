@@ -41,6 +41,7 @@ class Frame : public testing::Test {
 };
 
 TEST_F(Frame, TwoEyesAreOneListOrderedAndUploadedOnce) {
+    // Selecting is over before: a Scene holds runs, and nothing that draws it knows a range.
     for (const Order order : {Order::None, Order::BackToFront}) {
         scene_.order = order;
         const auto before = renderer_.counts();

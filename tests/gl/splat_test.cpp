@@ -1,6 +1,8 @@
 // The GL splatter against the truth: the same model in double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -88,6 +90,22 @@ TEST_F(GlSplat, ASplatSlidingOutOfThePictureNeverVanishesWhole) {
         view.viewFromWorld[3].x = x;
         EXPECT_LE(error(*this, scene, view, Channels::Weight), kTarget) << "moved by " << x;
     }
+}
+
+TEST_F(GlSplat, PicturesAsWideAsTheDriverAllowsAreTheTruths) {
+    // There is no room left for a viewport wider than the picture.
+    std::array<GLint, 2> largest{};
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, largest.data());
+    GLint texture = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+    const auto step = tests::noise(cube(7));  // odd: a plane of points is seen edge on
+    const Lattice lattice(step.grid());
+    Scene scene = noiseScene(step, lattice, "0:1");
+    scene.footprint.size = 0.02;  // small enough for point sprites
+    const View view = lookFrom({0, -3, 0}, {std::min(largest[0], texture), 8}, 0.4 / 2048);
+    const auto drawn = plane(scene, view, Channels::Weight);
+    EXPECT_GT(*std::ranges::max_element(drawn), 0) << "or nothing was compared";
+    EXPECT_LE(error(*this, scene, view, Channels::Weight), kTarget) << largest[0] << ' ' << texture;
 }
 
 TEST_F(GlSplat, SizesFarAboveAndBelowAPixelAreTheTruths) {
