@@ -1,15 +1,16 @@
 // Draws what an Exploration shows, for any number of eyes, so that frames keep their pace: steps go
-// to the GPU in slices, and above a budget of splats a subset stands for all until the picture rests.
-// Desktop and headset share it; a headless render needs neither slices nor subsets.
+// to the GPU in slices, and above a budget of splats a subset stands for all until the picture
+// rests. Desktop and headset share it; a headless render needs neither slices nor subsets.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
+#include <vector>
 
 #include "app/exploration.h"
 #include "app/picture.h"
@@ -18,19 +19,19 @@
 namespace app {
 
 struct CanvasLimits {
-    std::uint64_t splats = 1'000'000;                // in one frame, all layers; see FramePace
+    std::uint64_t splats = 1'000'000;                     // in one frame, all layers; see FramePace
     std::uint64_t uploadBytes = std::uint64_t{16} << 20;  // in one frame
 };
 
 // What one draw() drew, as the overlay tells it.
 struct CanvasReport {
-    std::size_t step = 0;                     // the step on the screen
-    std::uint64_t drawn = 0, selected = 0;    // splats, of all layers
-    std::uint32_t stride = 1;                 // every so many-th point stands for its neighbours
-    bool whole = true;                        // nothing is missing: all points, all uploaded
-    double uploaded = 1;                      // share of the step asked for that is on the GPU
-    std::uint64_t gpuBytes = 0;               // of steps held there
-    std::chrono::nanoseconds gpuTime{0};      // of an earlier frame, by timer query; 0 if unknown
+    std::size_t step = 0;                   // the step on the screen
+    std::uint64_t drawn = 0, selected = 0;  // splats, of all layers
+    std::uint32_t stride = 1;               // every so many-th point stands for its neighbours
+    bool whole = true;                      // nothing is missing: all points, all uploaded
+    double uploaded = 1;                    // share of the step asked for that is on the GPU
+    std::uint64_t gpuBytes = 0;             // of steps held there
+    std::chrono::nanoseconds gpuTime{0};    // of an earlier frame, by timer query; 0 if unknown
 };
 
 // Needs a current GL context, from construction to destruction.

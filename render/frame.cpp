@@ -4,7 +4,6 @@
 
 #include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
-#include "render/gl_list.h"
 #include "render/shader_sources.h"
 
 namespace render {
@@ -103,7 +102,7 @@ const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
     const std::string define =
         over ? "#define OVER\n" : fmt::format("#define LAYERS {}\n", variant);
     return resolve_
-        .emplace(variant, gl::Program("resolve", shaders::resolve_vert, shaders::resolve_frag,
+        .emplace(variant, gl::Program("resolve", shaders::viewport_vert, shaders::resolve_frag,
                                       define.c_str()))
         .first->second;
 }

@@ -9,7 +9,7 @@
 
 #include "render/axes.h"
 #include "render/flat_pass.h"
-#include "render/gl_splatter.h"
+#include "render/gl_list.h"
 #include "render/image.h"
 #include "render/legend.h"
 #include "render/targets.h"
