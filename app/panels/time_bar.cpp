@@ -124,17 +124,14 @@ void speedField(Desk& desk, TextField& field, const Rect& at, const Dataset& dat
 
 }  // namespace
 
-void setPoint(Desk& desk, Point point, std::size_t step, std::string_view gesture) {
-    edit(desk, gesture, [&](Explorer& e) {
-        timeseries::CursorSettings& time = e.play.time;
-        if (point == Point::In) {
-            time.first = step;
-            time.last = std::max(time.last, step);
-        } else {
-            time.last = step;
-            time.first = std::min(time.first, step);
-        }
-    });
+void setPoint(timeseries::CursorSettings& time, Point point, std::size_t step) {
+    if (point == Point::In) {
+        time.first = step;
+        time.last = std::max(time.last, step);
+    } else {
+        time.last = step;
+        time.first = std::min(time.first, step);
+    }
 }
 
 void TimeBar::draw(Desk& desk, const Rect& at) {
@@ -173,8 +170,10 @@ void TimeBar::rail(Desk& desk, const Rect& at) {
     if (p.pressed) grip_ = onIn ? Grip::In : onOut ? Grip::Out : Grip::Cursor;
     if (p.held) {
         if (grip_ == Grip::Cursor && time && step != time->step()) exploration.seek(step);
-        if (grip_ == Grip::In) setPoint(desk, Point::In, step, "in point");
-        if (grip_ == Grip::Out) setPoint(desk, Point::Out, step, "out point");
+        if (grip_ == Grip::In || grip_ == Grip::Out)
+            edit(desk, "in and out points", [&](Explorer& e) {
+                setPoint(e.play.time, grip_ == Grip::In ? Point::In : Point::Out, step);
+            });
     }
     if (p.released) grip_ = Grip::None;
 

@@ -20,6 +20,6 @@ class TimeBar {
 
 // Sets the in or the out point to a step; the other gives way where they would cross.
 enum class Point { In, Out };
-void setPoint(Desk& desk, Point point, std::size_t step, std::string_view gesture = {});
+void setPoint(timeseries::CursorSettings& time, Point point, std::size_t step);
 
 }  // namespace app::panels
