@@ -206,6 +206,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
                     {}};
     if (e.clip) picture.scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
+        if (!layer.visible) return;
         render::Layer drawn{step.select(ranges), rangeStyle(layer)};
         std::uint64_t selected = 0;
         for (const timeseries::Run& run : drawn.runs) selected += run.count;
@@ -222,9 +223,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
         }
         picture.scene.layers.push_back(std::move(drawn));
     };
-    if (e.sweep) {
-        add(sweptRanges(e, step, tick), e.sweepLayer);
-    }
+    if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
 
     picture.legend.title = about.longName.empty() ? about.name : about.longName;

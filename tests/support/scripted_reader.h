@@ -57,7 +57,8 @@ class Script {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return ended_ >= count; });
     }
-    // A front end's wake and wait: whatever came since the last wait ends it at once.
+    // A front end's wake and wait: whatever came since the last wait, the beginning of a read too,
+    // ends it at once.
     void wake() {
         const std::lock_guard lock(mutex_);
         ++woken_;
@@ -72,6 +73,7 @@ class Script {
     void read(std::size_t step) {
         std::unique_lock lock(mutex_);
         begun_.push_back(step);
+        ++woken_;
         changed_.notify_all();
         changed_.wait(lock, [&] { return !held_ || free_.erase(step) > 0; });
         for (const auto& [failing, why] : failures_)
