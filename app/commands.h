@@ -11,4 +11,7 @@ int count(const CountOptions& options);
 // Draws without a window and writes files.
 int renderHeadless(const RenderOptions& options);
 
+// Opens a window.
+int view(const ViewOptions& options);
+
 }  // namespace app

@@ -33,6 +33,10 @@ struct RenderOptions {
     std::string device = "any";
 };
 
+struct ViewOptions {
+    Explorer explorer;
+};
+
 // Nothing to run: help was asked for (0), or the arguments are wrong (2). The text goes to stdout
 // or stderr accordingly.
 struct Exit {

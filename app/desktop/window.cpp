@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdlib>
+#include <glm/common.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace app::desktop {
 namespace {

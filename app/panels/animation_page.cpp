@@ -48,7 +48,8 @@ void toggleSweep(Desk& desk) {
         const Extent extent = seen(*series);
         const double width = extent.hi - extent.lo, resolution = width > 0 ? width / 1000 : 1;
         timeseries::SweepSettings sweep;
-        sweep.animation = timeseries::RangeSet({{{extent.lo, false}, {extent.hi, false}}});
+        sweep.animation = timeseries::RangeSet(
+            std::vector{timeseries::Range{{extent.lo, false}, {extent.hi, false}}});
         sweep.delta = roundedTo(0.04 * width, resolution);
         MapChoice map{.map = {}, .lo = extent.lo, .hi = extent.hi};
         e.sweepLayer = {.ranges = {}, .color = map, .opacity = 0.3, .visible = true};

@@ -27,9 +27,9 @@ class Instrument {
         std::size_t layer = 0, range = 0;
         glm::vec2 pressedAt{0};
         double valueAt = 0;  // where it was pressed
-        timeseries::RangeSet ranges;  // as they were then
+        timeseries::RangeSet ranges = {};  // as they were then
         bool newLayer = false;
-        std::pair<double, double> values;
+        std::pair<double, double> values = {};
     };
     struct Frame;  // what one draw() works out before it draws
 

@@ -6,7 +6,6 @@
 #include "app/panels/help.h"
 #include "app/panels/quality_page.h"
 #include "app/view_edits.h"
-#include "render/view.h"
 
 namespace app::panels {
 namespace {

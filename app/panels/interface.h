@@ -17,6 +17,7 @@
 #include "app/panels/start_screen.h"
 #include "app/panels/time_bar.h"
 #include "app/panels/view_page.h"
+#include "render/view.h"
 
 namespace app::panels {
 

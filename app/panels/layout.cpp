@@ -1,5 +1,8 @@
 #include "app/panels/layout.h"
 
+#include <cmath>
+#include <glm/common.hpp>
+
 namespace app::panels {
 namespace {
 

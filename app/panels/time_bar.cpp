@@ -30,7 +30,8 @@ void now(Desk& desk, const Rect& at, const Dataset& dataset, std::size_t step) {
          fitting(*desk.theme.strong, timeText(*dataset.about.time, step), width), kText, 0,
          desk.theme.strong);
     text(desk.theme, {at.min.x, at.centre().y + 10 * s},
-         fmt::format("step {} of {}", step + 1, dataset.stepCount()), kDim, 0, desk.theme.small);
+         fmt::format("{}of 0–{}", dataset.about.time->counted ? "" : fmt::format("step {} ", step),
+                     dataset.stepCount() - 1), kDim, 0, desk.theme.small);
 }
 
 // A cell a step, or a cell a few pixels where steps are narrower: each tells its least ready step.
@@ -192,8 +193,7 @@ void TimeBar::rail(Desk& desk, const Rect& at) {
         list.AddCircleFilled({x, bar.min.y - 8 * s}, 4.5f * s, kText, 20);
     }
     if (p.hovered && !p.held && shown)
-        tip(desk.theme, fmt::format("{}  ·  step {}  ·  {}",
-                                    timeText(*shown->dataset.about.time, step), step + 1,
+        tip(desk.theme, fmt::format("{}  ·  {}", timeText(*shown->dataset.about.time, step),
                                     stateText(series, step)));
     if (p.hovered && (onIn || onOut)) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }

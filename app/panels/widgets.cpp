@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "timeseries/number.h"
 
