@@ -549,8 +549,8 @@ TEST(Exploration, UpcomingStepsAreReadInPlayingOrder) {
 }
 
 TEST(Exploration, WhereLoadingIsSlowerThanPlayTheStepPassedLastIsShown) {
-    // A budget of one step: nothing else is there.
-    Desk desk({{"a", {}}}, 1);
+    // A budget of one step: nothing that play comes to is there. It does not come round.
+    Desk desk({{"a", {.steps = 100}}}, 1);
     desk.open("a");
     desk.untilAllSeen();
     desk.script->hold();
@@ -596,6 +596,95 @@ TEST(Exploration, AStepThatFailsIsToldOnceAndPassedOver) {
     }
     EXPECT_EQ(seen.size(), 9u);
     EXPECT_THAT(desk.errors(), ElementsAre("a: step 7 is cut off"));
+}
+
+// Commands in any order, readers that come when they come: what is shown always fits itself.
+TEST(Exploration, WhateverIsDoneWhatIsShownIsWholeAndCounted) {
+    const std::map<std::string, World> worlds{
+        {"a", {}}, {"b", {.steps = 3, .edge = 3}}, {"c", {.variables = {"P"}, .steps = 25}}};
+    const std::vector<const char*> ranges{"1:20", "[10,30),40:max", "min:12", "1005:1020", "7"};
+    std::mt19937 random(11);
+    Desk desk(worlds, 2000);  // bytes: a few steps
+    Exploration& x = desk.exploration;
+    desk.open("a");
+    const auto edited = [&] {
+        Explorer e = x.explorer();
+        switch (random() % 7) {
+            case 0:
+                e.layers.assign(1 + random() % 3, layer(ranges[random() % 5]));
+                break;
+            case 1:
+                e.layers.resize(random() % 3);
+                break;
+            case 2:
+                e.view.azimuthDegrees = static_cast<double>(random() % 360);
+                break;
+            case 3:
+                e.variable = random() % 2 ? "T" : "P";
+                break;
+            case 4:
+                e.sweep = timeseries::SweepSettings{.animation = RangeSet::parse("min:max"),
+                                                    .delta = 5,
+                                                    .timerSteps = 1 + random() % 50};
+                break;
+            case 5:
+                e.sweep.reset();
+                break;
+            case 6:
+                e.keep = random() % 2 ? std::optional(RangeSet::parse("2:1030")) : std::nullopt;
+        }
+        return e;
+    };
+    for (int command = 0; command < 3000; ++command) {
+        switch (random() % 14) {
+            case 0:
+            case 1:
+            case 2:
+            case 3:
+                x.edit(edited(), random() % 2 ? "drag" : "");
+                break;
+            case 4:
+            case 5:
+                x.undo();
+                break;
+            case 6:
+                x.redo();
+                break;
+            case 7:
+                x.seek(random() % 30);
+                break;
+            case 8:
+                x.stepBy(static_cast<int>(random() % 5) - 2);
+                break;
+            case 9:
+                x.togglePlay();
+                break;
+            case 10:
+                x.seekTick(random() % 60);
+                break;
+            case 11:
+                desk.startOpening(std::array{"a", "b", "c", "gone"}[random() % 4]);
+                break;
+            case 12:
+                if (random() % 4 == 0) desk.untilOpened();
+                break;
+            case 13:
+                if (random() % 4 == 0) x.cancelOpening();
+                break;
+        }
+        x.advance(std::chrono::milliseconds(random() % 200));
+        const Shown shown = *x.shown();
+        ASSERT_FALSE(needsSamples(shown.explorer)) << command;
+        ASSERT_EQ(shown.explorer.variable, shown.dataset.about.name) << command;
+        ASSERT_EQ(shown.explorer.files.front(), shown.dataset.name) << command;
+        ASSERT_LT(desk.asked(), shown.dataset.stepCount()) << command;
+        ASSERT_EQ(*x.counts(), bruteForce(worlds.at(shown.dataset.name), shown)) << command;
+        ASSERT_EQ(shown.explorer.sweep.has_value(), x.playback().sweep.has_value()) << command;
+        ASSERT_LE(x.messages().size(), 100u);
+    }
+    if (x.playback().playing) x.togglePlay();
+    desk.untilOpened();
+    desk.untilShown(desk.asked());
 }
 
 TEST(Exploration, EveryStepIsSeenThoughOnlyOneFitsTheBudget) {
