@@ -36,9 +36,9 @@ std::vector<std::uint64_t> histogram(const timeseries::SortedStep& step, double 
             std::vector<std::uint64_t> counts(bins);
             auto from = values.begin();
             for (std::size_t i = 0; i <= bins; ++i) {
-                const auto to = std::lower_bound(
-                    from, values.end(), edge(lo, hi, bins, i),
-                    [](auto v, double e) { return static_cast<double>(v) < e; });
+                const auto to =
+                    std::lower_bound(from, values.end(), edge(lo, hi, bins, i),
+                                     [](auto v, double e) { return static_cast<double>(v) < e; });
                 if (i > 0) counts[i - 1] = static_cast<std::uint64_t>(to - from);
                 from = to;
             }

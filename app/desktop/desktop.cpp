@@ -163,10 +163,9 @@ void Desktop::copyCommandLine() {
 
 // A picture is as large as the place that it has; with two eyes, each has half of it.
 void Desktop::fitPicture() {
-    const panels::Rect place =
-        panels::layoutOf(glm::vec2(window_.framebufferSize()), gui_.theme().scale,
-                         interface_.choices().sideWidth)
-            .picture;
+    const panels::Rect place = panels::layoutOf(glm::vec2(window_.framebufferSize()),
+                                                gui_.theme().scale, interface_.choices().sideWidth)
+                                   .picture;
     glm::ivec2 size(place.size());
     const Stereo mode = exploration_.explorer().stereo.mode;
     if (mode == Stereo::TopBottom)
@@ -192,24 +191,25 @@ void Desktop::drawPicture() {
     if (!current) changed_ = Clock::now();
     const bool resting = Clock::now() - changed_ >= kRest && !exploration_.playback().playing;
     const glm::ivec2 eyeSize = shown->explorer.size;
-    const glm::ivec2 stacked = !isTwoEyed(shown->explorer)                       ? glm::ivec2(1, 1)
-                               : shown->explorer.stereo.mode == Stereo::TopBottom ? glm::ivec2(1, 2)
-                                                                                  : glm::ivec2(2, 1);
+    const glm::ivec2 stacked = !isTwoEyed(shown->explorer) ? glm::ivec2(1, 1)
+                               : shown->explorer.stereo.mode == Stereo::TopBottom
+                                   ? glm::ivec2(1, 2)
+                                   : glm::ivec2(2, 1);
     if (!current || (!report_.whole && (resting || report_.uploaded < 1))) {
         const glm::ivec2 whole = eyeSize * stacked;
         if (!kept_ || kept_->size() != whole) kept_.emplace(whole);
         pace_.setTarget(interface_.choices().frameBudget);
         const std::vector<render::View> eyes = canvas_.eyesOf(*shown);
         const Clock::time_point begin = Clock::now();
-        report_ = canvas_.draw(*shown, eyes, {.splats = pace_.budget()}, !resting,
-                               [&](std::size_t eye, const render::Targets& light) {
-                                   // The first eye is the left, or the upper one.
-                                   const int i = static_cast<int>(eye);
-                                   const glm::ivec2 at(
-                                       i * (stacked.x - 1) * eyeSize.x,
-                                       (stacked.y - 1 - i * (stacked.y - 1)) * eyeSize.y);
-                                   present_.draw(light, kept_->framebuffer(), at);
-                               });
+        report_ =
+            canvas_.draw(*shown, eyes, {.splats = pace_.budget()}, !resting,
+                         [&](std::size_t eye, const render::Targets& light) {
+                             // The first eye is the left, or the upper one.
+                             const int i = static_cast<int>(eye);
+                             const glm::ivec2 at(i * (stacked.x - 1) * eyeSize.x,
+                                                 (stacked.y - 1 - i * (stacked.y - 1)) * eyeSize.y);
+                             present_.draw(light, kept_->framebuffer(), at);
+                         });
         const std::chrono::nanoseconds took =
             report_.gpuTime.count() > 0 ? report_.gpuTime : Clock::now() - begin;
         if (report_.drawn > 0) pace_.took(report_.drawn, took);
@@ -225,9 +225,9 @@ void Desktop::drawPicture() {
         eye_ = isTwoEyed(shown->explorer) ? std::nullopt : std::optional(eyes.front());
         restless_ = std::max(restless_, 1);
     }
-    const panels::Rect place = panels::layoutOf(glm::vec2(window), gui_.theme().scale,
-                                                interface_.choices().sideWidth)
-                                   .picture;
+    const panels::Rect place =
+        panels::layoutOf(glm::vec2(window), gui_.theme().scale, interface_.choices().sideWidth)
+            .picture;
     const int bottom = window.y - static_cast<int>(place.max.y);
     kept_->show(window, {0, bottom}, kGroundColor);
 }
@@ -236,10 +236,10 @@ void Desktop::title() {
     const auto shown = exploration_.shown();
     if (!shown) return window_.setTitle("isochron");
     const PointCounts* counts = exploration_.counts();
-    window_.setTitle(fmt::format(
-        "{} · {} · {} · {} points", fs::path(shown->dataset.name).filename().string(),
-        shown->dataset.about.name, timeText(*shown->dataset.about.time, shown->step),
-        withCommas(counts != nullptr ? counts->selected : 0)));
+    window_.setTitle(
+        fmt::format("{} · {} · {} · {} points", fs::path(shown->dataset.name).filename().string(),
+                    shown->dataset.about.name, timeText(*shown->dataset.about.time, shown->step),
+                    withCommas(counts != nullptr ? counts->selected : 0)));
 }
 
 void Desktop::sleep() {

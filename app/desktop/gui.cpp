@@ -49,12 +49,18 @@ void mapKeys(ImGuiIO& io) {
 
 Cursor cursorOf(ImGuiMouseCursor cursor) {
     switch (cursor) {
-        case ImGuiMouseCursor_TextInput: return Cursor::Text;
-        case ImGuiMouseCursor_ResizeEW: return Cursor::LeftRight;
-        case ImGuiMouseCursor_ResizeNS: return Cursor::UpDown;
-        case ImGuiMouseCursor_Hand: return Cursor::Hand;
-        case ImGuiMouseCursor_ResizeAll: return Cursor::Cross;
-        default: return Cursor::Arrow;
+        case ImGuiMouseCursor_TextInput:
+            return Cursor::Text;
+        case ImGuiMouseCursor_ResizeEW:
+            return Cursor::LeftRight;
+        case ImGuiMouseCursor_ResizeNS:
+            return Cursor::UpDown;
+        case ImGuiMouseCursor_Hand:
+            return Cursor::Hand;
+        case ImGuiMouseCursor_ResizeAll:
+            return Cursor::Cross;
+        default:
+            return Cursor::Arrow;
     }
 }
 

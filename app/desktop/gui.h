@@ -1,6 +1,6 @@
-// Dear ImGui in a window: its context, its renderer, and events handed to it so that each is seen. A
-// frame of ImGui knows only the last state of a button; a press and a release that come during one
-// slow frame would be lost. So a frame takes only events that do not hide each other.
+// Dear ImGui in a window: its context, its renderer, and events handed to it so that each is seen.
+// A frame of ImGui knows only the last state of a button; a press and a release that come during
+// one slow frame would be lost. So a frame takes only events that do not hide each other.
 #pragma once
 
 #include <imgui.h>

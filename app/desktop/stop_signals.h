@@ -1,4 +1,5 @@
-// SIGTERM, SIGINT and SIGHUP as an orderly end: what a signal handler may not do is done by a thread.
+// SIGTERM, SIGINT and SIGHUP as an orderly end: what a signal handler may not do is done by a
+// thread.
 #pragma once
 
 #include <functional>

@@ -118,7 +118,8 @@ void Window::State::listen() {
     });
     const auto draw = [](GLFWwindow* w) { of(w).needsDrawing = true; };
     glfwSetWindowRefreshCallback(window, draw);
-    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).needsDrawing = true; });
+    glfwSetFramebufferSizeCallback(window,
+                                   [](GLFWwindow* w, int, int) { of(w).needsDrawing = true; });
     glfwSetWindowContentScaleCallback(
         window, [](GLFWwindow* w, float, float) { of(w).needsDrawing = true; });
     listenToKeys();

@@ -102,8 +102,8 @@ void AnimationPage::time(Desk& desk, Form& form) {
         });
     const Rect stride = part(speed, 2, 3, s);
     text(desk.theme, {stride.min.x - 12 * s, stride.centre().y}, "every", kDim, 1);
-    if (const auto value = numberField(desk.theme, stride_, "##stride", stride,
-                                       static_cast<double>(now.stride)))
+    if (const auto value =
+            numberField(desk.theme, stride_, "##stride", stride, static_cast<double>(now.stride)))
         change([&](auto& t) {
             t.stride = static_cast<std::size_t>(std::clamp(std::round(*value), 1.0, 1e9));
         });
@@ -127,14 +127,17 @@ void AnimationPage::sweep(Desk& desk, Form& form) {
     const timeseries::SweepSettings now = *desk.exploration.explorer().sweep;
     const Theme& theme = desk.theme;
     const float s = theme.scale;
-    if (const auto entered = range_.draw(theme, "##range", form.row("From, to"), now.animation.text()))
-        editSweep(desk, [&](auto& sweep) { sweep.animation = timeseries::RangeSet::parse(*entered); });
+    if (const auto entered =
+            range_.draw(theme, "##range", form.row("From, to"), now.animation.text()))
+        editSweep(desk,
+                  [&](auto& sweep) { sweep.animation = timeseries::RangeSet::parse(*entered); });
     const Rect window = form.row("Delta ±");
     if (const auto value = numberField(theme, delta_, "##delta", part(window, 0, 2, s), now.delta))
         editSweep(desk, [&](auto& sweep) { sweep.delta = *value; });
     if (const auto path = segmented(theme, "path", part(window, 1, 2, s), kPaths,
                                     static_cast<std::size_t>(now.path)))
-        editSweep(desk, [&](auto& sweep) { sweep.path = static_cast<timeseries::SweepPath>(*path); });
+        editSweep(desk,
+                  [&](auto& sweep) { sweep.path = static_cast<timeseries::SweepPath>(*path); });
     const auto whole = [&](TextField& field, const char* id, const Rect& at, std::int64_t& value) {
         const auto entered = numberField(theme, field, id, at, static_cast<double>(value));
         if (!entered) return false;
@@ -147,11 +150,10 @@ void AnimationPage::sweep(Desk& desk, Form& form) {
         editSweep(desk, [&](auto& sweep) { sweep.timerSteps = timerSteps; });
     const Rect by = part(timer, 2, 3, s);
     text(theme, {by.min.x - 12 * s, by.centre().y}, "step", kDim, 1);
-    if (whole(step_, "##step", by, step))
-        editSweep(desk, [&](auto& sweep) { sweep.step = step; });
+    if (whole(step_, "##step", by, step)) editSweep(desk, [&](auto& sweep) { sweep.step = step; });
     const Rect frequency = form.row("Cycles / s");
-    if (const auto value = numberField(theme, frequency_, "##frequency", part(frequency, 0, 3, s),
-                                       now.frequency))
+    if (const auto value =
+            numberField(theme, frequency_, "##frequency", part(frequency, 0, 3, s), now.frequency))
         editSweep(desk, [&](auto& sweep) { sweep.frequency = *value; });
 }
 

@@ -1,5 +1,5 @@
-// What the panels share: the exploration that they show and change, how the interface looks, and what
-// only the front end can do.
+// What the panels share: the exploration that they show and change, how the interface looks, and
+// what only the front end can do.
 #pragma once
 
 #include <array>

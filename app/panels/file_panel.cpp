@@ -24,18 +24,24 @@ bool isFolder(const fs::path& path) {
 
 const char* titleOf(FilePanel::For what) {
     switch (what) {
-        case FilePanel::For::Open: return "Open a file, a folder or a session";
-        case FilePanel::For::Save: return "Save the session as";
-        case FilePanel::For::Export: return "Export the animation as (.png or .exr, numbered)";
+        case FilePanel::For::Open:
+            return "Open a file, a folder or a session";
+        case FilePanel::For::Save:
+            return "Save the session as";
+        case FilePanel::For::Export:
+            return "Export the animation as (.png or .exr, numbered)";
     }
     return "";
 }
 
 const char* actionOf(FilePanel::For what) {
     switch (what) {
-        case FilePanel::For::Open: return "Open";
-        case FilePanel::For::Save: return "Save";
-        case FilePanel::For::Export: return "Export";
+        case FilePanel::For::Open:
+            return "Open";
+        case FilePanel::For::Save:
+            return "Save";
+        case FilePanel::For::Export:
+            return "Export";
     }
     return "";
 }
@@ -97,33 +103,35 @@ void FilePanel::draw(Desk& desk) {
     drawn.AddRect(im(at.min), im(at.max), kLine, 8 * s);
     const float left = at.min.x + 20 * s, right = at.max.x - 20 * s;
     text(theme, {left, at.min.y + 26 * s}, titleOf(*for_), kText, 0, theme.strong);
-    text(theme, {left, at.min.y + 50 * s},
-         fitting(*theme.small, folder_.string(), right - left), kDim, 0, theme.small);
+    text(theme, {left, at.min.y + 50 * s}, fitting(*theme.small, folder_.string(), right - left),
+         kDim, 0, theme.small);
 
     ImGui::SetCursorScreenPos({left, at.min.y + 64 * s});
     ImGui::SetNextItemWidth(right - left);
     if (focus_) ImGui::SetKeyboardFocusHere();
     focus_ = false;
-    const bool entered =
-        ImGui::InputTextWithHint("##path", "type a path, or choose below", &typed_,
-                                 ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered = ImGui::InputTextWithHint("##path", "type a path, or choose below", &typed_,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
     drawList(desk, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
 
     const float y = at.max.y - 46 * s;
     if (*for_ == For::Open) {
         constexpr std::array kFilter = {"Readable", "All files"};
-        if (const auto filter = segmented(theme, "filter", {{left, y}, {left + 180 * s, y + 30 * s}},
-                                          kFilter, all_ ? 1 : 0)) {
+        if (const auto filter =
+                segmented(theme, "filter", {{left, y}, {left + 180 * s, y + 30 * s}}, kFilter,
+                          all_ ? 1 : 0)) {
             all_ = *filter == 1;
             list(folder_);
         }
     } else if (!warnedOf_.empty() && warnedOf_ == meant(typed_, folder_).string()) {
         text(theme, {left, y + 15 * s}, "It exists: again to replace it", kError);
     }
-    if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}}, "Cancel"))
+    if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}},
+                   "Cancel"))
         close();
-    const bool pressed = for_ && textButton(theme, "Do", {{right - 100 * s, y}, {right, y + 30 * s}},
-                                            actionOf(*for_), true);
+    const bool pressed =
+        for_ &&
+        textButton(theme, "Do", {{right - 100 * s, y}, {right, y + 30 * s}}, actionOf(*for_), true);
     if (for_ && (entered || pressed)) {
         const fs::path path = meant(typed_, folder_);
         if (entered && isFolder(path)) {
@@ -153,7 +161,8 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
         ImDrawList& list = *ImGui::GetWindowDrawList();
         if (p.hovered || lit)
             list.AddRectFilled(im(r.min), im(r.max), lit ? faded(kAccent, 0.16f) : kField, 4 * s);
-        drawIcon(list, icon, {r.min.x + 16 * s, r.centre().y}, s, icon == Icon::Folder ? kAccent : kDim);
+        drawIcon(list, icon, {r.min.x + 16 * s, r.centre().y}, s,
+                 icon == Icon::Folder ? kAccent : kDim);
         text(desk.theme, {r.min.x + 34 * s, r.centre().y},
              fitting(*desk.theme.text, name, r.size().x - 44 * s));
         return p;
@@ -170,7 +179,8 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
         if (p.clicked && !entry.isFolder) typed_ = name;
         if (p.doubled && !entry.isFolder) open = entry.path;
     }
-    if (!contents_.why.empty()) text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, contents_.why, kError);
+    if (!contents_.why.empty())
+        text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, contents_.why, kError);
     if (listing_) text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, "…", kDim);
     ImGui::SetCursorScreenPos({origin.x, y});
     ImGui::Dummy({1, 4 * s});

@@ -5,7 +5,9 @@
 namespace app::panels {
 
 Form::Form(const Theme& theme, const char* id, const Rect& at)
-    : theme_(theme), left_(at.min.x + kMargin * theme.scale), right_(at.max.x - kMargin * theme.scale) {
+    : theme_(theme),
+      left_(at.min.x + kMargin * theme.scale),
+      right_(at.max.x - kMargin * theme.scale) {
     ImGui::SetCursorScreenPos(im(at.min));
     ImGui::BeginChild(id, im(at.size()));
     origin_ = vec(ImGui::GetCursorScreenPos());

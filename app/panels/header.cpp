@@ -11,12 +11,14 @@ namespace {
 std::string titleOf(const timeseries::Variable& v) {
     std::string out = v.name;
     if (!v.longName.empty() && v.longName != v.name) out += ", " + v.longName;
-    if (const std::string unit = render::shownUnit(v.units); !unit.empty()) out += " (" + unit + ")";
+    if (const std::string unit = render::shownUnit(v.units); !unit.empty())
+        out += " (" + unit + ")";
     return out;
 }
 
 void menu(Desk& desk, std::span<const std::filesystem::path> recent) {
-    const auto item = [&](const char* label, const char* keys, Command command, bool enabled = true) {
+    const auto item = [&](const char* label, const char* keys, Command command,
+                          bool enabled = true) {
         if (ImGui::MenuItem(label, keys, false, enabled)) desk.requests.commands.push_back(command);
     };
     const bool open = desk.exploration.shown().has_value();
@@ -67,7 +69,8 @@ void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::pat
     const std::string name = shown ? std::filesystem::path(shown->dataset.name).filename().string()
                                    : std::string("isochron");
     text(desk.theme, {left, button.centre().y},
-         fitting(*desk.theme.strong, name, button.min.x - left - 8 * s), kText, 0, desk.theme.strong);
+         fitting(*desk.theme.strong, name, button.min.x - left - 8 * s), kText, 0,
+         desk.theme.strong);
     if (iconButton(desk.theme, "##menu", button, Icon::Menu, "Menu")) ImGui::OpenPopup("menu");
     ImGui::SetNextWindowPos({right, button.max.y + 4 * s}, ImGuiCond_Always, {1, 0});
     if (ImGui::BeginPopup("menu")) {

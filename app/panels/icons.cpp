@@ -25,9 +25,7 @@ class Pen {
     void triangle(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
         list_.AddTriangleFilled(at(a), at(b), at(c), color_);
     }
-    void bar(glm::vec2 lo, glm::vec2 hi) {
-        list_.AddRectFilled(at(lo), at(hi), color_, scale_);
-    }
+    void bar(glm::vec2 lo, glm::vec2 hi) { list_.AddRectFilled(at(lo), at(hi), color_, scale_); }
     void dot(glm::vec2 centre, float radius) {
         list_.AddCircleFilled(at(centre), radius * scale_, color_);
     }
@@ -95,17 +93,25 @@ void fit(Pen& pen) {
 void drawIcon(ImDrawList& list, Icon icon, glm::vec2 centre, float scale, ImU32 color) {
     Pen pen(list, centre, scale, color);
     switch (icon) {
-        case Icon::Play: return pen.triangle({-4.5f, -7}, {7, 0}, {-4.5f, 7});
+        case Icon::Play:
+            return pen.triangle({-4.5f, -7}, {7, 0}, {-4.5f, 7});
         case Icon::Pause:
             pen.bar({-5, -6.5f}, {-1.6f, 6.5f});
             return pen.bar({1.6f, -6.5f}, {5, 6.5f});
-        case Icon::StepBack: return step(pen, -1);
-        case Icon::StepForward: return step(pen, 1);
-        case Icon::Once: return once(pen);
-        case Icon::Loop: return loop(pen);
-        case Icon::PingPong: return pingPong(pen);
-        case Icon::Eye: return eye(pen, true);
-        case Icon::EyeClosed: return eye(pen, false);
+        case Icon::StepBack:
+            return step(pen, -1);
+        case Icon::StepForward:
+            return step(pen, 1);
+        case Icon::Once:
+            return once(pen);
+        case Icon::Loop:
+            return loop(pen);
+        case Icon::PingPong:
+            return pingPong(pen);
+        case Icon::Eye:
+            return eye(pen, true);
+        case Icon::EyeClosed:
+            return eye(pen, false);
         case Icon::Remove:
             pen.line({{-4, -4}, {4, 4}});
             return pen.line({{-4, 4}, {4, -4}});
@@ -115,16 +121,17 @@ void drawIcon(ImDrawList& list, Icon icon, glm::vec2 centre, float scale, ImU32 
         case Icon::Menu:
             for (const float x : {-5.0f, 0.0f, 5.0f}) pen.dot({x, 0}, 1.5f);
             return;
-        case Icon::Fit: return fit(pen);
+        case Icon::Fit:
+            return fit(pen);
         case Icon::Folder:
-            return pen.line({{-6.5f, -4.5f}, {-2, -4.5f}, {-0.5f, -2.5f}, {6.5f, -2.5f},
-                             {6.5f, 5}, {-6.5f, 5}},
-                            true);
+            return pen.line(
+                {{-6.5f, -4.5f}, {-2, -4.5f}, {-0.5f, -2.5f}, {6.5f, -2.5f}, {6.5f, 5}, {-6.5f, 5}},
+                true);
         case Icon::File:
-            return pen.line({{-4.5f, -6.5f}, {1.5f, -6.5f}, {4.5f, -3.5f}, {4.5f, 6.5f},
-                             {-4.5f, 6.5f}},
-                            true);
-        case Icon::Down: return pen.line({{-3.5f, -1.8f}, {0, 1.8f}, {3.5f, -1.8f}});
+            return pen.line(
+                {{-4.5f, -6.5f}, {1.5f, -6.5f}, {4.5f, -3.5f}, {4.5f, 6.5f}, {-4.5f, 6.5f}}, true);
+        case Icon::Down:
+            return pen.line({{-3.5f, -1.8f}, {0, 1.8f}, {3.5f, -1.8f}});
     }
 }
 

@@ -6,8 +6,22 @@
 namespace app::panels {
 
 enum class Icon {
-    Play, Pause, StepBack, StepForward, Once, Loop, PingPong,
-    Eye, EyeClosed, Remove, Add, Menu, Fit, Folder, File, Down
+    Play,
+    Pause,
+    StepBack,
+    StepForward,
+    Once,
+    Loop,
+    PingPong,
+    Eye,
+    EyeClosed,
+    Remove,
+    Add,
+    Menu,
+    Fit,
+    Folder,
+    File,
+    Down
 };
 
 // Fills about 16 x 16 units of the design around `centre`.

@@ -39,7 +39,8 @@ std::pair<double, double> allValues(const Exploration& exploration) {
         take(summary->quantiles.back());
     }
     if (lo > hi) return {0, 1};
-    const double room = hi > lo ? 0.5 * (0.04 * hi - 0.04 * lo) : std::max(0.5, 1e-3 * std::abs(lo));
+    const double room =
+        hi > lo ? 0.5 * (0.04 * hi - 0.04 * lo) : std::max(0.5, 1e-3 * std::abs(lo));
     return {lo - room, hi + room};
 }
 
@@ -105,8 +106,7 @@ void Instrument::draw(Desk& desk, const Rect& at) {
         countedStep_.reset();
     }
     const timeseries::Series& series = *desk.exploration.series();
-    const InstrumentLayout parts =
-        instrumentLayout(at, desk.theme.scale, series.stepCount() > 1);
+    const InstrumentLayout parts = instrumentLayout(at, desk.theme.scale, series.stepCount() > 1);
     const auto [lo, hi] = values(desk);
     const Frame f{.desk = desk,
                   .shown = *shown,
@@ -123,7 +123,9 @@ void Instrument::draw(Desk& desk, const Rect& at) {
     const bool panning = p.hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
     if (p.pressed) grab_ = gripAt(f, mouse);
     if (panning)
-        grab_ = {.grip = Grip::Pan, .pressedAt = mouse, .valueAt = f.axis.valueAt(mouse.y),
+        grab_ = {.grip = Grip::Pan,
+                 .pressedAt = mouse,
+                 .valueAt = f.axis.valueAt(mouse.y),
                  .values = {lo, hi}};
     if (p.held || (grab_.grip == Grip::Pan && ImGui::IsMouseDown(ImGuiMouseButton_Middle)))
         drag(f, mouse);
@@ -141,17 +143,18 @@ void Instrument::draw(Desk& desk, const Rect& at) {
     drawAxis(f);
     if (f.hasMap()) drawTime(f);
     if (p.hovered && !p.held)
-        f.list.AddLine({f.across().min.x, mouse.y}, {f.across().max.x, mouse.y}, faded(kText, 0.25f));
-    if (hovered.grip == Grip::Lo || hovered.grip == Grip::Hi ||
-        hovered.grip == Grip::AnimationLo || hovered.grip == Grip::AnimationHi)
+        f.list.AddLine({f.across().min.x, mouse.y}, {f.across().max.x, mouse.y},
+                       faded(kText, 0.25f));
+    if (hovered.grip == Grip::Lo || hovered.grip == Grip::Hi || hovered.grip == Grip::AnimationLo ||
+        hovered.grip == Grip::AnimationHi)
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
     else if (hovered.grip == Grip::Scrub)
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
 void Instrument::refresh(const Frame& f) {
-    const auto bins = static_cast<std::size_t>(
-        std::max(1.0f, f.at.histogram.size().y / (kBinPixels * f.s)));
+    const auto bins =
+        static_cast<std::size_t>(std::max(1.0f, f.at.histogram.size().y / (kBinPixels * f.s)));
     const bool sameAxis = axis_.lo == f.axis.lo && axis_.hi == f.axis.hi;
     axis_ = f.axis;
     if (!sameAxis || counts_.size() != bins || countedStep_.lock() != f.shown.sorted) {
@@ -180,7 +183,8 @@ void Instrument::refresh(const Frame& f) {
 
 Instrument::Grab Instrument::gripAt(const Frame& f, glm::vec2 mouse) const {
     const float reach = 5 * f.s;
-    Grab grab{.pressedAt = mouse, .valueAt = f.axis.valueAt(mouse.y),
+    Grab grab{.pressedAt = mouse,
+              .valueAt = f.axis.valueAt(mouse.y),
               .newLayer = ImGui::GetIO().KeyShift};
     const auto& playback = f.desk.exploration.playback();
     if (playback.sweep && f.at.axis.holds(mouse)) {
@@ -200,7 +204,8 @@ Instrument::Grab Instrument::gripAt(const Frame& f, glm::vec2 mouse) const {
         std::abs(mouse.x - f.steps.centre(time->step())) < reach)
         return grab.grip = Grip::Scrub, grab;
 
-    // The selected layer first, then the others from the last, which lies on top; ends before bands.
+    // The selected layer first, then the others from the last, which lies on top; ends before
+    // bands.
     const std::vector<LayerChoice>& layers = f.explorer().layers;
     std::vector<std::size_t> order;
     if (f.desk.choices.layer < layers.size()) order.push_back(f.desk.choices.layer);
@@ -243,7 +248,8 @@ void Instrument::drag(const Frame& f, glm::vec2 mouse) {
         });
     };
     switch (grab_.grip) {
-        case Grip::None: return;
+        case Grip::None:
+            return;
         case Grip::Lo:
         case Grip::Hi:
             desk.choices.layer = grab_.layer;
@@ -253,9 +259,9 @@ void Instrument::drag(const Frame& f, glm::vec2 mouse) {
         case Grip::Band:
             desk.choices.layer = grab_.layer;
             if (moved.y < 1) return;
-            return setRanges(withMoved(grab_.ranges, grab_.range,
-                                       roundedTo(f.axis.valueAt(mouse.y) - grab_.valueAt,
-                                                 f.axis.perPixel())));
+            return setRanges(
+                withMoved(grab_.ranges, grab_.range,
+                          roundedTo(f.axis.valueAt(mouse.y) - grab_.valueAt, f.axis.perPixel())));
         case Grip::Background:
             if (f.hasMap() && grab_.pressedAt.x >= f.at.map.min.x && moved.y < 4 * f.s) {
                 desk.exploration.seek(f.steps.stepAt(mouse.x));
@@ -269,9 +275,12 @@ void Instrument::drag(const Frame& f, glm::vec2 mouse) {
             const Range range = closed(from, value);
             return setRanges(grab_.newLayer ? RangeSet({range}) : with(grab_.ranges, range));
         }
-        case Grip::Scrub: return desk.exploration.seek(f.steps.stepAt(mouse.x));
-        case Grip::AnimationLo: return setAnimation(0, End::Lo);
-        case Grip::AnimationHi: return setAnimation(grab_.ranges.ranges().size() - 1, End::Hi);
+        case Grip::Scrub:
+            return desk.exploration.seek(f.steps.stepAt(mouse.x));
+        case Grip::AnimationLo:
+            return setAnimation(0, End::Lo);
+        case Grip::AnimationHi:
+            return setAnimation(grab_.ranges.ranges().size() - 1, End::Hi);
         case Grip::Window:
             if (const auto& sweep = desk.exploration.playback().sweep)
                 desk.exploration.seekTick(nearestTick(*sweep, f.axis.valueAt(mouse.y)));
@@ -306,7 +315,8 @@ void Instrument::dragNew(const Frame& f, double value) {
 void Instrument::zoom(const Frame& f, glm::vec2 mouse) {
     const float wheel = ImGui::GetIO().MouseWheel;
     if (wheel != 0) {
-        const double at = f.axis.valueAt(mouse.y), factor = std::pow(0.85, static_cast<double>(wheel));
+        const double at = f.axis.valueAt(mouse.y),
+                     factor = std::pow(0.85, static_cast<double>(wheel));
         const auto [least, most] = allValues(f.desk.exploration);
         const double lo = at + (f.axis.lo - at) * factor, hi = at + (f.axis.hi - at) * factor;
         if (hi - lo >= most - least)
@@ -323,17 +333,18 @@ std::string Instrument::hoverText(const Frame& f, glm::vec2 mouse) const {
     const double value = f.axis.valueAt(mouse.y);
     const std::string number = f.withUnit(valueText(value, f.axis.perPixel()));
     if (counts_.empty()) return number;
-    const auto bin = static_cast<std::size_t>(std::clamp(
-        (f.at.histogram.max.y - mouse.y) / f.at.histogram.size().y, 0.0f, 0.9999f) *
+    const auto bin = static_cast<std::size_t>(
+        std::clamp((f.at.histogram.max.y - mouse.y) / f.at.histogram.size().y, 0.0f, 0.9999f) *
         static_cast<float>(counts_.size()));
     if (f.hasMap() && mouse.x >= f.at.map.min.x) {
         const std::size_t step = f.steps.stepAt(mouse.x);
         const std::string when = timeText(*f.shown.dataset.about.time, step);
-        const Column& column = columns_[std::min(columns_.size() - 1,
-                                                 step * columns_.size() / f.steps.steps)];
+        const Column& column =
+            columns_[std::min(columns_.size() - 1, step * columns_.size() / f.steps.steps)];
         if (column.summary == nullptr) return fmt::format("{}   {}   not yet seen", when, number);
-        return fmt::format("{}   {}   ≈ {}", when, number,
-                           withCommas(static_cast<std::uint64_t>(std::llround(column.counts[bin]))));
+        return fmt::format(
+            "{}   {}   ≈ {}", when, number,
+            withCommas(static_cast<std::uint64_t>(std::llround(column.counts[bin]))));
     }
     return fmt::format("{}   {} points", number, withCommas(counts_[bin]));
 }
@@ -344,8 +355,9 @@ void Instrument::drawTitle(const Frame& f) {
     const float y = at.centre().y;
     text(f.desk.theme, {at.min.x, y}, "Values", kText, 0, f.desk.theme.strong);
     const float left = at.max.x - 100 * f.s;
-    if (const auto chosen = segmented(f.desk.theme, "counts", {{left, y - 11 * f.s}, {at.max.x, y + 11 * f.s}},
-                                      kCounts, linear_ ? 1 : 0))
+    if (const auto chosen =
+            segmented(f.desk.theme, "counts", {{left, y - 11 * f.s}, {at.max.x, y + 11 * f.s}},
+                      kCounts, linear_ ? 1 : 0))
         linear_ = *chosen == 1;
     text(f.desk.theme, {left - 12 * f.s, y},
          fitting(*f.desk.theme.small, readout_, left - at.min.x - 74 * f.s), kDim, 1,
@@ -399,11 +411,10 @@ void Instrument::drawMap(const Frame& f) {
             const int here = level(counts[i]);
             while (next < counts.size() && level(counts[next]) == here) ++next;
             if (here > 0)
-                f.list.AddRectFilled(
-                    {strip.min.x, at.max.y - height * static_cast<float>(next)},
-                    {strip.max.x, at.max.y - height * static_cast<float>(i)},
-                    mixed(kGround, rgb(0xb9c7d6),
-                          0.08f + 0.92f * static_cast<float>(here) / kLevels));
+                f.list.AddRectFilled({strip.min.x, at.max.y - height * static_cast<float>(next)},
+                                     {strip.max.x, at.max.y - height * static_cast<float>(i)},
+                                     mixed(kGround, rgb(0xb9c7d6),
+                                           0.08f + 0.92f * static_cast<float>(here) / kLevels));
             i = next;
         }
     }
@@ -423,16 +434,15 @@ void Instrument::drawBands(const Frame& f, const Grab& hovered) {
                         top = std::max(f.axis.y(hi), across.min.y - f.s);
             if (bottom < across.min.y || top > across.max.y) continue;
             const bool here = hovered.layer == l && hovered.range == i;
-            const float alpha = (selected ? 0.30f : 0.20f) +
-                                (here && hovered.grip == Grip::Band ? 0.10f : 0.0f);
+            const float alpha =
+                (selected ? 0.30f : 0.20f) + (here && hovered.grip == Grip::Band ? 0.10f : 0.0f);
             const ImU32 low = colorAt(layers[l], f.axis.valueAt(bottom), alpha),
                         high = colorAt(layers[l], f.axis.valueAt(top), alpha);
             f.list.AddRectFilledMultiColor({across.min.x, top}, {across.max.x, bottom}, high, high,
                                            low, low);
             for (const bool upper : {false, true}) {
                 const float y = upper ? top : bottom;
-                const bool grabbed =
-                    here && hovered.grip == (upper ? Grip::Hi : Grip::Lo);
+                const bool grabbed = here && hovered.grip == (upper ? Grip::Hi : Grip::Lo);
                 const ImU32 line = grabbed ? kText : colorAt(layers[l], upper ? hi : lo, 0.95f);
                 f.list.AddRectFilled({across.min.x, y - (grabbed ? 1.5f : 0.75f) * f.s},
                                      {across.max.x, y + (grabbed ? 1.5f : 0.75f) * f.s}, line);
@@ -465,16 +475,18 @@ void Instrument::drawSweep(const Frame& f) {
     if (const auto& sweep = f.desk.exploration.playback().sweep) {
         const float x = f.at.axis.min.x + 4 * f.s;
         for (const Range& range : sweep->settings().animation.ranges()) {
-            const float lo = f.axis.y(toDouble(range.lo.value)), hi = f.axis.y(toDouble(range.hi.value));
+            const float lo = f.axis.y(toDouble(range.lo.value)),
+                        hi = f.axis.y(toDouble(range.hi.value));
             f.list.AddRectFilled({x - f.s, hi}, {x + f.s, lo}, kAccent);
             for (const float y : {lo, hi})
                 f.list.AddRectFilled({x - 4 * f.s, y - f.s}, {x + 4 * f.s, y + f.s}, kAccent);
         }
         const Range window = sweep->window();
-        const float lo = f.axis.y(toDouble(window.lo.value)), hi = f.axis.y(toDouble(window.hi.value));
+        const float lo = f.axis.y(toDouble(window.lo.value)),
+                    hi = f.axis.y(toDouble(window.hi.value));
         f.list.AddRectFilled({across.min.x, hi}, {across.max.x, lo}, faded(kAccent, 0.16f));
-        f.list.AddRect({across.min.x, hi - f.s}, {across.max.x, lo + f.s}, faded(kAccent, 0.9f), 0, 0,
-                       f.s);
+        f.list.AddRect({across.min.x, hi - f.s}, {across.max.x, lo + f.s}, faded(kAccent, 0.9f), 0,
+                       0, f.s);
         const float y = f.axis.y(sweep->contour());
         f.list.AddTriangleFilled({x + 8 * f.s, y - 4 * f.s}, {x + 8 * f.s, y + 4 * f.s},
                                  {x + 2 * f.s, y}, kAccent);
@@ -494,7 +506,8 @@ void Instrument::drawAxis(const Frame& f) {
     }
     const std::string unit = render::shownUnit(f.shown.dataset.about.units);
     text(f.desk.theme, {at.centre().x, f.at.times.centre().y},
-         fitting(*f.desk.theme.small, unit, at.size().x + 20 * f.s), kFaint, 0.5f, f.desk.theme.small);
+         fitting(*f.desk.theme.small, unit, at.size().x + 20 * f.s), kFaint, 0.5f,
+         f.desk.theme.small);
 }
 
 void Instrument::drawTime(const Frame& f) {
@@ -516,7 +529,8 @@ void Instrument::drawTime(const Frame& f) {
     const std::size_t last = f.steps.steps - 1;
     const float half = 0.48f * f.at.times.size().x, y = f.at.times.centre().y;
     ImFont& font = *f.desk.theme.small;
-    text(f.desk.theme, {f.at.times.min.x, y}, fitting(font, timeText(axis, 0), half), kFaint, 0, &font);
+    text(f.desk.theme, {f.at.times.min.x, y}, fitting(font, timeText(axis, 0), half), kFaint, 0,
+         &font);
     text(f.desk.theme, {f.at.times.max.x, y}, fitting(font, timeText(axis, last), half), kFaint, 1,
          &font);
 }

@@ -21,12 +21,24 @@ class Instrument {
     std::pair<double, double> values(const Desk& desk) const;
 
  private:
-    enum class Grip { None, Lo, Hi, Band, Background, NewRange, Scrub, AnimationLo, AnimationHi, Window, Pan };
+    enum class Grip {
+        None,
+        Lo,
+        Hi,
+        Band,
+        Background,
+        NewRange,
+        Scrub,
+        AnimationLo,
+        AnimationHi,
+        Window,
+        Pan
+    };
     struct Grab {
         Grip grip = Grip::None;
         std::size_t layer = 0, range = 0;
         glm::vec2 pressedAt{0};
-        double valueAt = 0;  // where it was pressed
+        double valueAt = 0;                // where it was pressed
         timeseries::RangeSet ranges = {};  // as they were then
         bool newLayer = false;
         std::pair<double, double> values = {};

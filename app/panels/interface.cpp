@@ -12,12 +12,18 @@ namespace {
 
 Side sideOf(Command command) {
     switch (command) {
-        case Command::Back: return Side::Back;
-        case Command::Left: return Side::Left;
-        case Command::Right: return Side::Right;
-        case Command::Top: return Side::Top;
-        case Command::Bottom: return Side::Bottom;
-        default: return Side::Front;
+        case Command::Back:
+            return Side::Back;
+        case Command::Left:
+            return Side::Left;
+        case Command::Right:
+            return Side::Right;
+        case Command::Top:
+            return Side::Top;
+        case Command::Bottom:
+            return Side::Bottom;
+        default:
+            return Side::Front;
     }
 }
 
@@ -88,10 +94,18 @@ void Interface::drawSide(Desk& desk, const Surroundings& around) {
         instrument_.draw(desk, parts.instrument);
         drawTabs(desk, parts.tabs);
         switch (choices_.page) {
-            case Page::Animation: animation_.draw(desk, parts.page); break;
-            case Page::View: view_.draw(desk, parts.page); break;
-            case Page::Quality: drawQualityPage(desk, parts.page); break;
-            case Page::Probe: probe_.draw(desk, parts.page); break;
+            case Page::Animation:
+                animation_.draw(desk, parts.page);
+                break;
+            case Page::View:
+                view_.draw(desk, parts.page);
+                break;
+            case Page::Quality:
+                drawQualityPage(desk, parts.page);
+                break;
+            case Page::Probe:
+                probe_.draw(desk, parts.page);
+                break;
         }
     }
     drawEdge(desk);
@@ -110,8 +124,11 @@ void Interface::drawTabs(Desk& desk, const Rect& at) {
         const Rect cell{{left, at.min.y}, {left + width, at.max.y}};
         const bool now = static_cast<std::size_t>(choices_.page) == i;
         const Pressing p = area(kPages[i], cell);
-        text(desk.theme, cell.centre(), kPages[i], now ? kText : p.hovered ? kText : kDim, 0.5f,
-             now ? desk.theme.strong : desk.theme.text);
+        text(desk.theme, cell.centre(), kPages[i],
+             now         ? kText
+             : p.hovered ? kText
+                         : kDim,
+             0.5f, now ? desk.theme.strong : desk.theme.text);
         if (now)
             ImGui::GetWindowDrawList()->AddRectFilled({cell.min.x + 14 * s, cell.max.y - 2 * s},
                                                       {cell.max.x - 14 * s, cell.max.y}, kAccent);
@@ -129,8 +146,7 @@ void Interface::drawEdge(Desk& desk) {
         ImGui::GetWindowDrawList()->AddRectFilled(im(side.min), {side.min.x + 2 * s, side.max.y},
                                                   faded(kAccent, p.held ? 1.0f : 0.6f));
     }
-    if (p.held)
-        choices_.sideWidth = (desk.layout.window.max.x - ImGui::GetIO().MousePos.x) / s;
+    if (p.held) choices_.sideWidth = (desk.layout.window.max.x - ImGui::GetIO().MousePos.x) / s;
 }
 
 void Interface::drawMarks(Desk& desk, const render::View& eye) const {
@@ -153,34 +169,53 @@ bool Interface::obey(Exploration& exploration, Command command) {
     const auto& time = exploration.playback().time;
     const std::size_t step = time ? time->step() : 0;
     switch (command) {
-        case Command::Help: return help_ = !help_, true;
-        case Command::Close: return close(exploration);
-        case Command::Open: return files_.ask(FilePanel::For::Open, {}), true;
+        case Command::Help:
+            return help_ = !help_, true;
+        case Command::Close:
+            return close(exploration);
+        case Command::Open:
+            return files_.ask(FilePanel::For::Open, {}), true;
         case Command::Undo:
             if (exploration.canUndo()) exploration.undo();
             return true;
         case Command::Redo:
             if (exploration.canRedo()) exploration.redo();
             return true;
-        default: break;
+        default:
+            break;
     }
     if (!exploration.shown()) return true;
     switch (command) {
-        case Command::TogglePlay: return exploration.togglePlay(), true;
-        case Command::StepForward: return exploration.stepBy(1), true;
-        case Command::StepBackward: return exploration.stepBy(-1), true;
-        case Command::FirstStep: return exploration.seek(0), true;
-        case Command::LastStep: return exploration.seek(exploration.series()->stepCount() - 1), true;
-        case Command::InPoint: setPoint(e.play.time, Point::In, step); break;
-        case Command::OutPoint: setPoint(e.play.time, Point::Out, step); break;
-        case Command::NextEnding: e.play.time.ending = next(e.play.time.ending); break;
-        case Command::Fit: e.view = fitted(e.view); break;
+        case Command::TogglePlay:
+            return exploration.togglePlay(), true;
+        case Command::StepForward:
+            return exploration.stepBy(1), true;
+        case Command::StepBackward:
+            return exploration.stepBy(-1), true;
+        case Command::FirstStep:
+            return exploration.seek(0), true;
+        case Command::LastStep:
+            return exploration.seek(exploration.series()->stepCount() - 1), true;
+        case Command::InPoint:
+            setPoint(e.play.time, Point::In, step);
+            break;
+        case Command::OutPoint:
+            setPoint(e.play.time, Point::Out, step);
+            break;
+        case Command::NextEnding:
+            e.play.time.ending = next(e.play.time.ending);
+            break;
+        case Command::Fit:
+            e.view = fitted(e.view);
+            break;
         case Command::Front:
         case Command::Back:
         case Command::Left:
         case Command::Right:
         case Command::Top:
-        case Command::Bottom: e.view = lookedFrom(e.view, sideOf(command)); break;
+        case Command::Bottom:
+            e.view = lookedFrom(e.view, sideOf(command));
+            break;
         case Command::Projection:
             e.view.projection = e.view.projection == Projection::Perspective
                                     ? Projection::Orthographic
@@ -195,7 +230,8 @@ bool Interface::obey(Exploration& exploration, Command command) {
         case Command::Export:
             files_.ask(FilePanel::For::Export, suggested(exploration, ".png"));
             return true;
-        default: return false;
+        default:
+            return false;
     }
     exploration.edit(std::move(e));
     return true;

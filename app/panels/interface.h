@@ -26,9 +26,9 @@ struct Surroundings {
     glm::vec2 window{0};  // pixels
     const Theme& theme;
     StartOffers offers;
-    glm::dvec3 boxHalf{0.577};                 // of the lattice drawn
-    std::optional<render::View> eye;           // of the picture, where probes are marked
-    std::optional<float> exported;             // share of an export that is done, while one runs
+    glm::dvec3 boxHalf{0.577};        // of the lattice drawn
+    std::optional<render::View> eye;  // of the picture, where probes are marked
+    std::optional<float> exported;    // share of an export that is done, while one runs
     std::chrono::nanoseconds dt{0};
     Performance performance;
 };
@@ -41,7 +41,9 @@ class Interface {
     void draw(Exploration& exploration, const Surroundings& around, Requests& requests);
     // What a key or a menu asked for. True when it was done here; else the front end does it.
     bool obey(Exploration& exploration, Command command);
-    void takeReading(const std::optional<Reading>& reading, bool ruler) { probe_.take(reading, ruler); }
+    void takeReading(const std::optional<Reading>& reading, bool ruler) {
+        probe_.take(reading, ruler);
+    }
 
     Choices& choices() { return choices_; }
     // Until the interface changes by itself.

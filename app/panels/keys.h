@@ -1,4 +1,5 @@
-// All keys and what they do: one table that the window obeys, the help shows and the README repeats.
+// All keys and what they do: one table that the window obeys, the help shows and the README
+// repeats.
 #pragma once
 
 #include <optional>
@@ -8,14 +9,45 @@
 namespace app::panels {
 
 enum class Command {
-    TogglePlay, StepForward, StepBackward, FirstStep, LastStep, InPoint, OutPoint, NextEnding,
-    Fit, Front, Back, Left, Right, Top, Bottom, Projection, StereoPreview,
-    Undo, Redo, Open, Save, Screenshot, CopyCommandLine, Export, Help, Close
+    TogglePlay,
+    StepForward,
+    StepBackward,
+    FirstStep,
+    LastStep,
+    InPoint,
+    OutPoint,
+    NextEnding,
+    Fit,
+    Front,
+    Back,
+    Left,
+    Right,
+    Top,
+    Bottom,
+    Projection,
+    StereoPreview,
+    Undo,
+    Redo,
+    Open,
+    Save,
+    Screenshot,
+    CopyCommandLine,
+    Export,
+    Help,
+    Close
 };
 
-// Printing keys are their capital's or own ASCII code; the others are GLFW's numbers, which input.cpp
-// holds against GLFW's.
-enum class Key : int { Space = 32, Escape = 256, Right = 262, Left = 263, Home = 268, End = 269, F12 = 301 };
+// Printing keys are their capital's or own ASCII code; the others are GLFW's numbers, which
+// input.cpp holds against GLFW's.
+enum class Key : int {
+    Space = 32,
+    Escape = 256,
+    Right = 262,
+    Left = 263,
+    Home = 268,
+    End = 269,
+    F12 = 301
+};
 constexpr Key key(char c) { return static_cast<Key>(c); }
 
 struct Binding {

@@ -75,9 +75,13 @@ bool editMap(const Theme& theme, LayerChoice& layer, float width) {
         const Pressing p = area(std::string(name).c_str(), r);
         const render::ColorMap map = *render::colorMapNamed(name);
         const bool now = chosen != nullptr && chosen->map == map;
-        drawMap(*ImGui::GetWindowDrawList(), {r.min + glm::vec2(84 * s, 3 * s), r.max - glm::vec2(0, 3 * s)}, map);
-        text(theme, {r.min.x, r.centre().y}, name, now ? kAccent : p.hovered ? kText : kDim, 0,
-             theme.small);
+        drawMap(*ImGui::GetWindowDrawList(),
+                {r.min + glm::vec2(84 * s, 3 * s), r.max - glm::vec2(0, 3 * s)}, map);
+        text(theme, {r.min.x, r.centre().y}, name,
+             now         ? kAccent
+             : p.hovered ? kText
+                         : kDim,
+             0, theme.small);
         if (p.clicked && !now) {
             MapChoice next = chosen != nullptr ? *chosen : MapChoice{};
             next.map = map;

@@ -121,16 +121,16 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
     }
     const Pressing pressing = area("##swatch", at.swatch);
     drawSwatch(list, at.swatch, layer, s);
-    if (pressing.hovered)
-        list.AddRect(im(at.swatch.min), im(at.swatch.max), kText, 4 * s, 0, s);
+    if (pressing.hovered) list.AddRect(im(at.swatch.min), im(at.swatch.max), kText, 4 * s, 0, s);
     if (pressing.clicked) ImGui::OpenPopup("color");
     colorPopup(desk, row);
 
     if (swept)
         text(desk.theme, {at.text.min.x + 8 * s, at.text.centre().y},
-             fmt::format("swept  {}", timeseries::RangeSet({desk.exploration.playback().sweep
-                                              ? desk.exploration.playback().sweep->window()
-                                              : timeseries::Range{}})
+             fmt::format("swept  {}",
+                         timeseries::RangeSet({desk.exploration.playback().sweep
+                                                   ? desk.exploration.playback().sweep->window()
+                                                   : timeseries::Range{}})
                              .text()),
              kAccent);
     else
@@ -140,9 +140,8 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
         edit(desk, {}, [&](Explorer& next) { layerOf(next, row).visible = !layer.visible; });
     amountText(desk, at.amount, row);
     opacitySlider(desk, at.opacity, row);
-    if (!swept && ImGui::IsMouseClicked(0) &&
-        at.row.holds(vec(ImGui::GetIO().MousePos)) && ImGui::IsWindowHovered(
-            ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+    if (!swept && ImGui::IsMouseClicked(0) && at.row.holds(vec(ImGui::GetIO().MousePos)) &&
+        ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
         desk.choices.layer = index;
     if (iconButton(desk.theme, "##remove", at.remove, Icon::Remove, "Remove")) remove(desk, row);
 }

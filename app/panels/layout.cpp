@@ -68,8 +68,7 @@ InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasM
                 right = instrument.max.x - kMargin * s;
     const float top = instrument.min.y + 34 * s, bottom = instrument.max.y - 26 * s;
     const float gutter = 52 * s;
-    const float bars =
-        hasMap ? 0.36f * (right - left - gutter) : right - left - gutter;
+    const float bars = hasMap ? 0.36f * (right - left - gutter) : right - left - gutter;
     const float axis = left + bars, map = axis + gutter;
     InstrumentLayout out;
     out.title = crisp(box(left, instrument.min.y + 6 * s, right, top - 4 * s));
@@ -95,8 +94,7 @@ TimeBarLayout timeBarLayout(const Rect& timeBar, float scale) {
     out.now = crisp(box(now, middle - 20 * s, now + width, middle + 20 * s));
     out.speed = crisp(box(right - 92 * s, middle - 14 * s, right, middle + 14 * s));
     out.ending = crisp(box(right - 128 * s, middle - 14 * s, right - 100 * s, middle + 14 * s));
-    out.rail = crisp(
-        box(now + width + 12 * s, middle - 16 * s, right - 144 * s, middle + 16 * s));
+    out.rail = crisp(box(now + width + 12 * s, middle - 16 * s, right - 144 * s, middle + 16 * s));
     return out;
 }
 

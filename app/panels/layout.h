@@ -1,6 +1,6 @@
 // Where things are in the window, as pure functions of its size: panels draw there, and tests press
-// there. Pixels of the framebuffer, y down, (0, 0) the upper left corner. `scale` is pixels per unit
-// of the design: the monitor's content scale, or the user's own.
+// there. Pixels of the framebuffer, y down, (0, 0) the upper left corner. `scale` is pixels per
+// unit of the design: the monitor's content scale, or the user's own.
 #pragma once
 
 #include <algorithm>

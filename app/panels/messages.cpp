@@ -23,8 +23,8 @@ float card(const Desk& desk, const Exploration::Message& message, float bottom, 
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.min), im(at.max), faded(kField, 0.97f), 6 * s);
     list.AddRect(im(at.min), im(at.max), kLine, 6 * s);
-    list.AddRectFilled(im(at.min), {at.min.x + 4 * s, at.max.y},
-                       message.isError ? kError : kAccent, 6 * s, ImDrawFlags_RoundCornersLeft);
+    list.AddRectFilled(im(at.min), {at.min.x + 4 * s, at.max.y}, message.isError ? kError : kAccent,
+                       6 * s, ImDrawFlags_RoundCornersLeft);
     list.AddText(&font, font.FontSize, {left + 16 * s, at.min.y + 11 * s}, kText, begin, end, wrap);
     const Rect close{{right - 34 * s, at.min.y + 6 * s}, {right - 8 * s, at.min.y + 32 * s}};
     closed = iconButton(desk.theme, fmt::format("##close{}", message.number).c_str(), close,
@@ -58,7 +58,8 @@ void Messages::draw(Desk& desk, std::chrono::nanoseconds dt) {
 std::optional<std::chrono::nanoseconds> Messages::untilNextGoes() const {
     std::optional<std::chrono::nanoseconds> least;
     for (const auto& [number, shown] : shownFor_)
-        least = std::min(least.value_or(kStay), std::max(kStay - shown, std::chrono::nanoseconds(0)));
+        least =
+            std::min(least.value_or(kStay), std::max(kStay - shown, std::chrono::nanoseconds(0)));
     return least;
 }
 

@@ -61,17 +61,21 @@ void PictureArea::handle(Desk& desk, const glm::dvec3& boxHalf) {
     const Looking looking{boxHalf, exploration.explorer().size};
     const glm::dvec2 cursor = vec(io.MousePos) - at.min;
     if (ImGui::IsItemActivated())
-        grip_ = io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? Grip::Move : Grip::Turn;
+        grip_ =
+            io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? Grip::Move : Grip::Turn;
     if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-        const glm::dvec2 by(static_cast<double>(io.MouseDelta.x), static_cast<double>(io.MouseDelta.y));
+        const glm::dvec2 by(static_cast<double>(io.MouseDelta.x),
+                            static_cast<double>(io.MouseDelta.y));
         edit(desk, "camera", [&](Explorer& e) {
-            e.view = grip_ == Grip::Turn ? orbited(e.view, by, looking) : panned(e.view, by, looking);
+            e.view =
+                grip_ == Grip::Turn ? orbited(e.view, by, looking) : panned(e.view, by, looking);
         });
     }
     if (!ImGui::IsItemHovered()) return;
     if (io.MouseWheel != 0)
         edit(desk, "zoom", [&](Explorer& e) {
-            e.view = zoomed(e.view, std::pow(0.88, static_cast<double>(io.MouseWheel)), cursor, looking);
+            e.view =
+                zoomed(e.view, std::pow(0.88, static_cast<double>(io.MouseWheel)), cursor, looking);
         });
     if (ImGui::IsMouseDoubleClicked(0)) {
         desk.requests.probe = glm::vec2(cursor);
@@ -88,9 +92,10 @@ void drawPictureOverlay(Desk& desk) {
         const std::string what = fitting(*desk.theme.text, "Opening " + *opening,
                                          desk.layout.picture.size().x - 140 * s);
         const Rect at = pill(desk, y, what, kText, 84 * s);
-        if (textButton(desk.theme, "Cancel##opening",
-                       {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}},
-                       "Cancel"))
+        if (textButton(
+                desk.theme, "Cancel##opening",
+                {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}},
+                "Cancel"))
             exploration.cancelOpening();
         y += 40 * s;
     }
@@ -103,12 +108,12 @@ void drawPictureOverlay(Desk& desk) {
     lines.push_back(p.whole ? fmt::format("{} points drawn", withCommas(p.drawn))
                             : fmt::format("{} of {} points drawn", withCommas(p.drawn),
                                           withCommas(p.selected)));
-    lines.push_back(fmt::format("{} selected  ·  {}{}", withCommas(counts->selected),
-                                counts->kept == counts->total
-                                    ? std::string()
-                                    : withCommas(counts->kept) + " kept  ·  ",
-                                withCommas(counts->total) + " in all"));
-    std::string last = fmt::format("{:.1f} of {:.0f} ms", milliseconds(p.frame), milliseconds(p.budget));
+    lines.push_back(fmt::format(
+        "{} selected  ·  {}{}", withCommas(counts->selected),
+        counts->kept == counts->total ? std::string() : withCommas(counts->kept) + " kept  ·  ",
+        withCommas(counts->total) + " in all"));
+    std::string last =
+        fmt::format("{:.1f} of {:.0f} ms", milliseconds(p.frame), milliseconds(p.budget));
     if (const timeseries::Series* series = exploration.series())
         last += fmt::format("  ·  {} memory  ·  {} GPU", bytesText(series->bytes()),
                             bytesText(p.gpuBytes));

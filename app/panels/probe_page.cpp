@@ -19,13 +19,15 @@ void line(const Theme& theme, Form& form, std::string_view label, std::string_vi
 }
 
 // Along each axis, and as one length where all axes have one unit.
-void ruler(Desk& desk, Form& form, const Reading& a, const Reading& b, const timeseries::Grid& grid) {
+void ruler(Desk& desk, Form& form, const Reading& a, const Reading& b,
+           const timeseries::Grid& grid) {
     const glm::dvec3 apart = b.position - a.position;
     const auto& axes = grid.axes();
     for (int i = 0; i < 3; ++i) {
         const timeseries::Axis& axis = axes[static_cast<std::size_t>(i)];
         if (axis.coordinates.size() > 1)
-            line(desk.theme, form, "Δ " + axis.name, withUnit(fmt::format("{:.6g}", apart[i]), axis.units));
+            line(desk.theme, form, "Δ " + axis.name,
+                 withUnit(fmt::format("{:.6g}", apart[i]), axis.units));
     }
     if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
         line(desk.theme, form, "Distance",
@@ -48,8 +50,9 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     if (!shown) return;
     Form form(desk.theme, "##probe", at);
     if (!first_) {
-        form.note("Double click on the picture reads the point that is seen there. Shift and double "
-                  "click then measures to another.");
+        form.note(
+            "Double click on the picture reads the point that is seen there. Shift and double "
+            "click then measures to another.");
         return;
     }
     const timeseries::Grid& grid = shown->sorted->grid();

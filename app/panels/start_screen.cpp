@@ -6,7 +6,8 @@ namespace app::panels {
 namespace {
 
 // A line that opens something; returns whether it was pressed.
-bool offer(const Theme& theme, const Rect& at, Icon icon, std::string_view what, std::string_view where) {
+bool offer(const Theme& theme, const Rect& at, Icon icon, std::string_view what,
+           std::string_view where) {
     const float s = theme.scale;
     const Pressing p = area(std::string(what).append(where).c_str(), at);
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -33,7 +34,8 @@ void drawStartScreen(Desk& desk, const StartOffers& offers) {
     float y = std::max(picture.min.y + 40 * s, picture.centre().y - 0.5f * height);
     text(theme, {left, y}, "isochron", kText, 0, theme.title);
     y += 34 * s;
-    text(theme, {left, y}, "Drop a file, a folder or a member of a series here, or open one:", kDim);
+    text(theme, {left, y},
+         "Drop a file, a folder or a member of a series here, or open one:", kDim);
     y += 26 * s;
     const auto next = [&] {
         const Rect at{{left, y}, {left + width, y + 40 * s}};

@@ -34,9 +34,9 @@ ImFont* addFont(render::FontWeight weight, float pixels) {
     config.OversampleH = 2;
     config.PixelSnapH = false;
     const auto file = render::fontFile(weight);
-    return ImGui::GetIO().Fonts->AddFontFromMemoryTTF(
-        const_cast<std::byte*>(file.data()), static_cast<int>(file.size()), std::round(pixels),
-        &config, kGlyphs.data());
+    return ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<std::byte*>(file.data()),
+                                                      static_cast<int>(file.size()),
+                                                      std::round(pixels), &config, kGlyphs.data());
 }
 
 ImVec4 color(ImU32 c) { return ImGui::ColorConvertU32ToFloat4(c); }

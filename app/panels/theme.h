@@ -1,5 +1,5 @@
-// How the interface looks: colours, fonts, spacing. The picture is what is bright; all else is dark,
-// quiet and neutral, with one accent for what is active. Pure ImGui.
+// How the interface looks: colours, fonts, spacing. The picture is what is bright; all else is
+// dark, quiet and neutral, with one accent for what is active. Pure ImGui.
 #pragma once
 
 #include <imgui.h>
@@ -23,8 +23,8 @@ constexpr ImU32 kGround = rgb(0x0d1117), kPanel = rgb(0x131920), kField = rgb(0x
                 kDim = rgb(0x8b97a5), kFaint = rgb(0x586472), kAccent = rgb(0x4fc3b0),
                 kError = rgb(0xf2796b), kClear = rgb(0, 0);
 
-ImU32 faded(ImU32 color, float alpha);           // alpha times `alpha`
-ImU32 mixed(ImU32 a, ImU32 b, float t);          // sRGB components; opaque
+ImU32 faded(ImU32 color, float alpha);   // alpha times `alpha`
+ImU32 mixed(ImU32 a, ImU32 b, float t);  // sRGB components; opaque
 ImU32 fromSrgb(const glm::dvec3& srgb, float alpha = 1);
 
 inline ImVec2 im(glm::vec2 v) { return {v.x, v.y}; }

@@ -31,7 +31,8 @@ void now(Desk& desk, const Rect& at, const Dataset& dataset, std::size_t step) {
          desk.theme.strong);
     text(desk.theme, {at.min.x, at.centre().y + 10 * s},
          fmt::format("{}of 0–{}", dataset.about.time->counted ? "" : fmt::format("step {} ", step),
-                     dataset.stepCount() - 1), kDim, 0, desk.theme.small);
+                     dataset.stepCount() - 1),
+         kDim, 0, desk.theme.small);
 }
 
 // A cell a step, or a cell a few pixels where steps are narrower: each tells its least ready step.
@@ -66,8 +67,9 @@ void cells(const timeseries::Series& series, const StepAxis& axis, const Rect& a
                 hatch(list, cell, scale, faded(kAccent, 0.5f));
                 break;
             case SlotState::Empty:
-                list.AddRectFilled(im(cell.min), im(cell.max),
-                                   faded(series.summary(i) != nullptr ? kRaised : kField, strength));
+                list.AddRectFilled(
+                    im(cell.min), im(cell.max),
+                    faded(series.summary(i) != nullptr ? kRaised : kField, strength));
                 if (series.summary(i) == nullptr) hatch(list, cell, scale, kLine);
         }
         i = next;
@@ -76,10 +78,14 @@ void cells(const timeseries::Series& series, const StepAxis& axis, const Rect& a
 
 std::string stateText(const timeseries::Series& series, std::size_t step) {
     switch (series.state(step)) {
-        case SlotState::Loaded: return "in memory";
-        case SlotState::Loading: return "loading";
-        case SlotState::Failed: return series.why(step);
-        case SlotState::Empty: return series.summary(step) != nullptr ? "seen" : "not yet seen";
+        case SlotState::Loaded:
+            return "in memory";
+        case SlotState::Loading:
+            return "loading";
+        case SlotState::Failed:
+            return series.why(step);
+        case SlotState::Empty:
+            return series.summary(step) != nullptr ? "seen" : "not yet seen";
     }
     return {};
 }
@@ -117,7 +123,8 @@ void speedField(Desk& desk, TextField& field, const Rect& at, const Dataset& dat
             (even ? e.play.time.stepsPerSecond : e.play.time.timeUnitsPerSecond) =
                 std::max(0.0, *value);
         });
-    const std::string unit = dataset.about.time->units.substr(0, dataset.about.time->units.find(' '));
+    const std::string unit =
+        dataset.about.time->units.substr(0, dataset.about.time->units.find(' '));
     text(desk.theme, {box.max.x + 7 * s, at.centre().y},
          even ? "steps/s" : fitting(*desk.theme.small, unit + "/s", 42 * s), kDim, 0,
          desk.theme.small);

@@ -1,5 +1,5 @@
-// The bar along the bottom: play, step, where in time, what is loaded, in and out points, ending and
-// speed.
+// The bar along the bottom: play, step, where in time, what is loaded, in and out points, ending
+// and speed.
 #pragma once
 
 #include "app/panels/desk.h"

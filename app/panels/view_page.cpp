@@ -49,7 +49,9 @@ void ViewPage::draw(Desk& desk, const Rect& at) {
     if (const auto p = segmented(desk.theme, "projection", form.row("Projection"), kProjections,
                                  static_cast<std::size_t>(e.view.projection)))
         edit(desk, {}, [&](Explorer& next) { next.view.projection = static_cast<Projection>(*p); });
-    const std::size_t eyes = e.stereo.mode == Stereo::Off ? 0 : e.stereo.mode == Stereo::TopBottom ? 2 : 1;
+    const std::size_t eyes = e.stereo.mode == Stereo::Off         ? 0
+                             : e.stereo.mode == Stereo::TopBottom ? 2
+                                                                  : 1;
     if (const auto chosen = segmented(desk.theme, "eyes", form.row("Eyes"), kEyes, eyes))
         edit(desk, {}, [&](Explorer& next) {
             next.stereo.mode = *chosen == 0   ? Stereo::Off
@@ -76,7 +78,8 @@ void ViewPage::clip(Desk& desk, Form& form) {
         double lo = std::clamp((now.lo[i] - least) / width, 0.0, 1.0),
                hi = std::clamp((now.hi[i] - least) / width, 0.0, 1.0);
         const std::string unit = render::shownUnit(axis.units);
-        const Rect row = form.row(fmt::format("{}{}", axis.name, unit.empty() || unit == "index" ? "" : ", " + unit));
+        const Rect row = form.row(
+            fmt::format("{}{}", axis.name, unit.empty() || unit == "index" ? "" : ", " + unit));
         const Rect bar{row.min, {row.max.x - 116 * s, row.max.y}};
         ImGui::PushID(i);
         if (rangeSlider(desk.theme, "##clip", bar, lo, hi))
@@ -98,8 +101,8 @@ void ViewPage::clip(Desk& desk, Form& form) {
 void ViewPage::scale(Desk& desk, Form& form) {
     const auto& now = desk.exploration.explorer().scale;
     const std::string text = now ? fmt::format("{:g},{:g},{:g}", now->x, now->y, now->z) : "";
-    const auto entered =
-        scale_.draw(desk.theme, "##scale", form.row("Axes' scale"), text, "fitted; or x,y,z: 1,1,20");
+    const auto entered = scale_.draw(desk.theme, "##scale", form.row("Axes' scale"), text,
+                                     "fitted; or x,y,z: 1,1,20");
     if (!entered) return;
     try {
         edit(desk, {}, [&](Explorer& e) {

@@ -25,8 +25,7 @@ void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color, 
     ImFont& used = *(font != nullptr ? font : theme.text);
     const ImVec2 size = sizeOf(used, what);
     const glm::vec2 corner = glm::round(at - glm::vec2(align * size.x, 0.5f * size.y));
-    list().AddText(&used, used.FontSize, im(corner), color, what.data(),
-                   what.data() + what.size());
+    list().AddText(&used, used.FontSize, im(corner), color, what.data(), what.data() + what.size());
 }
 
 float widthOf(ImFont& font, std::string_view what) { return sizeOf(font, what).x; }
@@ -63,8 +62,7 @@ bool iconButton(const Theme& theme, const char* id, const Rect& at, Icon icon, c
     const Pressing p = area(id, at);
     if (p.hovered || p.held)
         list().AddRectFilled(im(at.min), im(at.max), p.held ? kLine : kRaised, 5 * theme.scale);
-    drawIcon(list(), icon, at.centre(), theme.scale,
-             lit ? kAccent : p.hovered ? kText : kDim);
+    drawIcon(list(), icon, at.centre(), theme.scale, lit ? kAccent : p.hovered ? kText : kDim);
     if (p.hovered && what != nullptr) tip(theme, what);
     return p.clicked;
 }
@@ -90,7 +88,10 @@ std::optional<std::size_t> segmented(const Theme& theme, const char* id, const R
         if (i == chosen)
             list().AddRectFilled(im(cell.min + glm::vec2(2 * s)), im(cell.max - glm::vec2(2 * s)),
                                  kRaised, 4 * s);
-        text(theme, cell.centre(), labels[i], i == chosen ? kAccent : p.hovered ? kText : kDim,
+        text(theme, cell.centre(), labels[i],
+             i == chosen ? kAccent
+             : p.hovered ? kText
+                         : kDim,
              0.5f, theme.small);
         if (p.clicked && i != chosen) picked = i;
     }
@@ -160,8 +161,8 @@ std::optional<std::string> TextField::draw(const Theme& theme, const char* id, c
     if (active_)
         list().AddRect(im(at.min), im(at.max), faded(kAccent, 0.8f), 4 * theme.scale, 0,
                        theme.scale);
-    const bool left = ImGui::IsItemDeactivated() && !ImGui::IsKeyPressed(
-                          ImGui::GetKeyIndex(ImGuiKey_Escape));
+    const bool left =
+        ImGui::IsItemDeactivated() && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     if ((entered || left) && typed_ != shown) return typed_;
     return std::nullopt;
 }

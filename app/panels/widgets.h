@@ -12,7 +12,8 @@
 
 namespace app::panels {
 
-// Text at a point; `align` 0 begins there, 0.5 is centred, 1 ends there. y is the middle of the line.
+// Text at a point; `align` 0 begins there, 0.5 is centred, 1 ends there. y is the middle of the
+// line.
 void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color = kText,
           float align = 0, ImFont* font = nullptr);
 // The text, cut in its middle with an ellipsis to what fits.
