@@ -14,6 +14,7 @@ struct Run {
     int operator()(const app::InfoOptions& options) const { return app::info(options); }
     int operator()(const app::CountOptions& options) const { return app::count(options); }
     int operator()(const app::RenderOptions& options) const { return app::renderHeadless(options); }
+    int operator()(const app::ViewOptions& options) const { return app::view(options); }
     int operator()(const app::Exit& exit) const {
         fmt::print(exit.code == 0 ? stdout : stderr, "{}{}\n",
                    exit.code == 0 ? "" : "isochron: ", exit.text);
