@@ -3,6 +3,7 @@
 // swept window, the animation's range and what was kept are drawn apart from them.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -50,12 +51,17 @@ class Instrument {
     void dragNew(const Frame& f, double value);
     void zoom(const Frame& f, glm::vec2 mouse);
     void drawTitle(const Frame& f);
-    void drawHistogram(const Frame& f);
-    void drawMap(const Frame& f);
-    void drawBands(const Frame& f, const Grab& hovered);
-    void drawSweep(const Frame& f);
-    void drawAxis(const Frame& f);
-    void drawTime(const Frame& f);
+    using ColorOfValue = std::function<ImU32(double value)>;
+    using Painter = std::function<void(const ColorOfValue&)>;
+    void drawInColors(const Frame& f, const Painter& paint) const;
+    void drawHistogram(const Frame& f) const;
+    void drawMap(const Frame& f) const;
+    void drawColumn(const Frame& f, const Rect& strip, const std::vector<double>& counts,
+                    double most, const ColorOfValue& color) const;
+    void drawBands(const Frame& f, const Grab& hovered) const;
+    void drawSweep(const Frame& f) const;
+    void drawAxis(const Frame& f) const;
+    void drawTime(const Frame& f) const;
     std::string hoverText(const Frame& f, glm::vec2 mouse) const;
     void refresh(const Frame& f);
 
@@ -73,7 +79,7 @@ class Instrument {
     std::vector<std::uint64_t> counts_;
     std::vector<Column> columns_;
     ValueAxis axis_;
-    std::string of_;  // file and variable
+    std::string of_;  // file, variable and what is kept of it
 };
 
 }  // namespace app::panels

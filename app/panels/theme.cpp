@@ -96,9 +96,9 @@ Theme makeTheme(float scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
     Theme theme{.scale = scale};
-    theme.text = addFont(render::FontWeight::Regular, 15 * scale);
-    theme.strong = addFont(render::FontWeight::SemiBold, 15 * scale);
-    theme.small = addFont(render::FontWeight::Regular, 13 * scale);
+    theme.text = addFont(render::FontWeight::Regular, 16 * scale);
+    theme.strong = addFont(render::FontWeight::SemiBold, 16 * scale);
+    theme.small = addFont(render::FontWeight::Regular, 14 * scale);
     theme.title = addFont(render::FontWeight::SemiBold, 22 * scale);
     atlas.Build();
     for (ImFont* font : atlas.Fonts) equaliseDigits(*font);
