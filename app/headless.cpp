@@ -124,7 +124,7 @@ void drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
             {picture.scene, step->grid(), picture.legend, kBackground}, *onGpu, views,
             {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
         write(frame.file, e.stereo.mode, std::move(eyePictures),
-              {{"isochronSession", jsonText(toJson(alone, frame.file.parent_path()), -1)}});
+              {{kSessionKey, jsonText(toJson(alone, frame.file.parent_path()), -1)}});
     }
 }
 
