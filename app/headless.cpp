@@ -125,6 +125,9 @@ void drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
             {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
         write(frame.file, e.stereo.mode, std::move(eyePictures),
               {{kSessionKey, jsonText(toJson(alone, frame.file.parent_path()), -1)}});
+        if (!options.progress) continue;
+        fmt::print("picture {} of {}\n", i + 1, frames.size());
+        std::fflush(stdout);  // a pipe is not flushed by itself
     }
 }
 
