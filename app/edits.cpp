@@ -19,7 +19,7 @@ using timeseries::SortedStep;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The double nearest to a number that is not less; and the nearest that is greater, if any.
+// The double nearest to a number that is not less, not greater, greater, less.
 double atLeast(const Number& number) {
     const double d = timeseries::toDouble(number);
     return timeseries::compare(d, number) < 0 ? std::nextafter(d, kInfinity) : d;
