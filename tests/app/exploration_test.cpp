@@ -623,9 +623,10 @@ TEST(Exploration, WhateverIsDoneWhatIsShownIsWholeAndCounted) {
                 e.variable = random() % 2 ? "T" : "P";
                 break;
             case 4:
-                e.sweep = timeseries::SweepSettings{.animation = RangeSet::parse("min:max"),
-                                                    .delta = 5,
-                                                    .timerSteps = 1 + random() % 50};
+                e.sweep = timeseries::SweepSettings{
+                    .animation = RangeSet::parse("min:max"),
+                    .delta = 5,
+                    .timerSteps = 1 + static_cast<std::int64_t>(random() % 50)};
                 break;
             case 5:
                 e.sweep.reset();
