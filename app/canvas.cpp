@@ -50,6 +50,15 @@ Picture pictureOf(const Screen& screen) {
                        screen.held->lattice, screen.explorer.play.tick);
 }
 
+// Which layer of the explorer is the scene's k-th: hidden ones are not in the scene, and the swept
+// window comes first.
+std::optional<std::size_t> layerOf(const Explorer& e, std::size_t k) {
+    if (e.sweep && e.sweepLayer.visible && k-- == 0) return std::nullopt;
+    std::size_t layer = 0;
+    while (!e.layers[layer].visible || k-- > 0) ++layer;
+    return layer;
+}
+
 // Whether choices made for one step suit another: of the same variable, with the same values kept.
 bool sameData(const Explorer& a, const Explorer& b) {
     return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
@@ -149,6 +158,7 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
     const auto size = step.grid().size();
     const std::uint64_t i = picked->gridIndex;
     return Probe{*picked,
+                 layerOf(state_->screen->explorer, picked->layer),
                  step.value(picked->point),
                  step.grid().position(i),
                  {i % size[0], i / size[0] % size[1], i / size[0] / size[1]}};

@@ -1,4 +1,5 @@
-// What a user does to the camera with a mouse, as functions of plain values.
+// What a user does to the camera with a mouse, as functions of plain values. A view without a
+// distance gets the one that it has, so that nothing changes its size under the hand.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,9 +16,9 @@ struct Looking {
 };
 
 // Dragged by so many pixels: half the picture's shorter side turns by 90 degrees. Elevation stays
-// within +-90; the box follows the hand.
+// within +-90, azimuth in (-180, 180]; the box follows the hand.
 ViewChoice orbited(ViewChoice view, glm::dvec2 pixels, const Looking& at);
-// The target moves in the plane of the picture so that its point stays under the cursor.
+// The target moves in the plane of the picture: what its plane shows under the cursor goes with it.
 ViewChoice panned(ViewChoice view, glm::dvec2 pixels, const Looking& at);
 // Distance times `factor`; what the target's plane shows under the cursor stays there. Distances
 // stay within what --view takes.
