@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <cmath>
 
-#include "app/command_line.h"
 #include "app/desktop/probe.h"
-#include "app/json_text.h"
-#include "app/session.h"
 #include "render/gl/debug_output.h"
 
 namespace app::desktop {
@@ -35,14 +31,6 @@ Explorer drawnOf(Explorer e) {
 
 bool isTwoEyed(const Explorer& e) { return e.stereo.mode != Stereo::Off; }
 
-// The first of NAME_0000.png, NAME_0001.png, ... that does not exist.
-fs::path numbered(const std::string& name) {
-    for (int i = 0;; ++i) {
-        fs::path file = fmt::format("{}_{:04}.png", name, i);
-        if (!fs::exists(file)) return file;
-    }
-}
-
 }  // namespace
 
 Desktop::Desktop(const ViewOptions& options)
@@ -50,12 +38,16 @@ Desktop::Desktop(const ViewOptions& options)
       gui_(window_, window_.contentScale()),
       exploration_({.wake = [] { Window::wake(); }}),
       interface_([] { Window::wake(); }),
+      errands_(exploration_, canvas_, window_),
       pace_(33'333'333ns),
       signals_([this] {
           stopped_ = true;
           Window::wake();
       }) {
     render::gl::recordErrors();
+    interface_.choices().scale = errands_.preferences().uiScale;
+    interface_.choices().frameBudget = std::chrono::nanoseconds(
+        std::llround(1e6 * errands_.preferences().frameMilliseconds));
     if (!options.explorer.files.empty()) exploration_.open(options.explorer);
 }
 
@@ -68,7 +60,8 @@ void Desktop::run() {
             exploration_.advance(dt);  // minimised: nothing is drawn
             continue;
         }
-        gui_.setScale(interface_.choices().scale.value_or(window_.contentScale()));
+        gui_.setScale(static_cast<float>(
+            interface_.choices().scale.value_or(static_cast<double>(window_.contentScale()))));
         interact(dt);
         exploration_.advance(dt);
         fitPicture();
@@ -77,7 +70,9 @@ void Desktop::run() {
         window_.swap();
         render::gl::throwOnError();
         title();
+        errands_.goOn(interface_.choices());
     }
+    errands_.finish();
 }
 
 // Every event is seen by a frame of its own where it must be; only the last is drawn.
@@ -91,10 +86,10 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
         requests.open = input.dropped;
         const panels::Surroundings around{.window = size,
                                           .theme = gui_.theme(),
-                                          .offers = {},
+                                          .offers = errands_.offers(),
                                           .boxHalf = boxHalf_,
                                           .eye = eye_,
-                                          .exported = std::nullopt,
+                                          .exporting = errands_.exporting(),
                                           .dt = first ? dt : 0ns,
                                           .performance = performance_};
         interface_.draw(exploration_, around, requests);
@@ -104,61 +99,19 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
 }
 
 void Desktop::serve(panels::Requests& requests) {
-    if (!requests.open.empty()) open(requests.open);
-    if (requests.save) save(*requests.save);
+    if (!requests.open.empty()) errands_.open(requests.open);
+    if (requests.save) errands_.save(*requests.save);
+    if (requests.exportTo) errands_.exportTo(*requests.exportTo);
+    if (requests.cancelExport) errands_.cancelExport();
     for (const panels::Command command : requests.commands) {
         if (interface_.obey(exploration_, command)) continue;
-        if (command == panels::Command::Screenshot) screenshot();
-        if (command == panels::Command::CopyCommandLine) copyCommandLine();
+        if (command == panels::Command::Screenshot) errands_.screenshot();
+        if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
     }
     if (requests.probe)
         if (const auto shown = exploration_.shown(); shown && eye_ && canvas_.lattice() != nullptr)
             interface_.takeReading(probe(*shown, *canvas_.lattice(), *eye_, *requests.probe),
                                    requests.ruler);
-}
-
-void Desktop::open(const std::vector<fs::path>& named) {
-    const std::string extension = named.front().extension().string();
-    if (extension != ".json" && extension != ".png" && extension != ".exr")
-        return exploration_.open(named);
-    try {
-        exploration_.open(readSession(named.front()));
-    } catch (const std::exception& error) {
-        exploration_.tell(error.what(), true);
-    }
-}
-
-void Desktop::save(const fs::path& file) {
-    try {
-        std::ofstream out(file);
-        out << jsonText(toJson(exploration_.explorer(), file.parent_path()), 2) << '\n';
-        out.close();
-        if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-        exploration_.tell("Saved " + file.string());
-    } catch (const std::exception& error) {
-        exploration_.tell(error.what(), true);
-    }
-}
-
-void Desktop::screenshot() {
-    const auto shown = exploration_.shown();
-    if (!shown) return;
-    try {
-        const fs::path file = numbered(fs::path(shown->dataset.name).stem().string());
-        canvas_.save(*shown, file);
-        exploration_.tell("Screenshot: " + fs::absolute(file).string());
-    } catch (const std::exception& error) {
-        exploration_.tell(error.what(), true);
-    }
-}
-
-void Desktop::copyCommandLine() {
-    const auto shown = exploration_.shown();
-    if (!shown) return;
-    std::vector<std::string> call =
-        renderArguments(shown->explorer, "picture.png", fs::current_path());
-    window_.setClipboard("isochron " + shellText(call));
-    exploration_.tell("Copied: the command line that makes this picture");
 }
 
 // A picture is as large as the place that it has; with two eyes, each has half of it.
@@ -250,6 +203,7 @@ void Desktop::sleep() {
     if (restless_ > 0 || !window_.events().empty()) within(0ns);
     if (const auto until = exploration_.untilNextChange()) within(*until);
     if (const auto until = interface_.untilNextChange()) within(*until);
+    if (errands_.exporting()) within(100ms);
     if (!report_.whole) within(report_.uploaded < 1 ? 0ns : std::chrono::nanoseconds(kRest));
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
     const Clock::time_point before = Clock::now();

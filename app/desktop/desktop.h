@@ -2,12 +2,13 @@
 // nothing moves.
 #pragma once
 
+#include <atomic>
 #include <chrono>
-#include <deque>
 #include <memory>
 #include <optional>
 
 #include "app/canvas.h"
+#include "app/desktop/errands.h"
 #include "app/desktop/gui.h"
 #include "app/desktop/stop_signals.h"
 #include "app/desktop/window.h"
@@ -32,10 +33,6 @@ class Desktop {
 
     void interact(std::chrono::nanoseconds dt);
     void serve(panels::Requests& requests);
-    void open(const std::vector<std::filesystem::path>& named);
-    void save(const std::filesystem::path& file);
-    void screenshot();
-    void copyCommandLine();
     void fitPicture();
     void drawPicture();
     void title();
@@ -48,6 +45,7 @@ class Desktop {
     Exploration exploration_;
     panels::Interface interface_;
     Canvas canvas_;
+    Errands errands_;
     render::Present present_;
     render::FramePace pace_;
     std::optional<render::KeptPicture> kept_;

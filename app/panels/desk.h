@@ -38,17 +38,12 @@ struct Performance {
     double uploaded = 1;  // share of the step asked for
 };
 
-struct ExportWish {
-    std::filesystem::path output;  // numbered by render
-    bool allSteps = true;          // of the in and out points; else the step shown
-};
-
 // What the user chose of the interface itself: no part of a picture, not undone.
 struct Choices {
     std::size_t layer = 0;  // the selected one
     Page page = Page::Animation;
     std::chrono::nanoseconds frameBudget{33'333'333};
-    std::optional<float> scale;  // of the interface; absent: the monitor's
+    std::optional<double> scale;  // of the interface; absent: the monitor's
     float sideWidth = kSideWidth;
 };
 
@@ -57,7 +52,7 @@ struct Requests {
     std::vector<Command> commands;
     std::vector<std::filesystem::path> open;
     std::optional<std::filesystem::path> save;
-    std::optional<ExportWish> exportTo;
+    std::optional<std::filesystem::path> exportTo;
     bool cancelExport = false;
     std::optional<glm::vec2> probe;  // where to read, in pixels of the picture, y down
     bool ruler = false;              // the reading asked for is another end of the ruler

@@ -77,7 +77,7 @@ void FilePanel::take(Desk& desk, const fs::path& path) {
     if (*for_ == For::Save)
         desk.requests.save = path;
     else
-        desk.requests.exportTo = ExportWish{.output = path};
+        desk.requests.exportTo = path;
     close();
 }
 

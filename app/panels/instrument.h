@@ -48,7 +48,7 @@ class Instrument {
 
     Grab gripAt(const Frame& f, glm::vec2 mouse) const;
     void drag(const Frame& f, glm::vec2 mouse);
-    void dragNew(const Frame& f, double value);
+    void dragNew(const Frame& f, glm::vec2 mouse);
     void zoom(const Frame& f, glm::vec2 mouse);
     void drawTitle(const Frame& f);
     using ColorOfValue = std::function<ImU32(double value)>;

@@ -123,7 +123,7 @@ void Instrument::drag(const Frame& f, glm::vec2 mouse) {
                 if (moved.x >= 4 * f.s) grab_.grip = Grip::Scrub;
                 return;
             }
-            if (moved.y >= 4 * f.s) dragNew(f, value);
+            if (moved.y >= 4 * f.s) dragNew(f, mouse);
             return;
         case Grip::NewRange: {
             const double from = roundedTo(grab_.valueAt, f.axis.perPixel());
@@ -148,9 +148,10 @@ void Instrument::drag(const Frame& f, glm::vec2 mouse) {
 }
 
 // From here on the drag makes a range: of the selected layer, or of a layer of its own.
-void Instrument::dragNew(const Frame& f, double value) {
+void Instrument::dragNew(const Frame& f, glm::vec2 mouse) {
     const std::vector<LayerChoice>& layers = f.explorer().layers;
-    const double from = roundedTo(grab_.valueAt, f.axis.perPixel());
+    const double from = roundedTo(grab_.valueAt, f.axis.perPixel()),
+                 value = roundedTo(f.axis.valueAt(mouse.y), f.axis.perPixel());
     grab_.grip = Grip::NewRange;
     const std::size_t swept = f.explorer().sweep ? 1 : 0;
     const bool full = layers.size() + swept >= render::kMaxLayers;
@@ -165,6 +166,7 @@ void Instrument::dragNew(const Frame& f, double value) {
         grab_.ranges = layers[grab_.layer].ranges;
     }
     f.desk.choices.layer = grab_.layer;
+    drag(f, mouse);
 }
 
 void Instrument::zoom(const Frame& f, glm::vec2 mouse) {

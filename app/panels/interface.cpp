@@ -73,7 +73,7 @@ void Interface::drawPicture(Desk& desk, const Surroundings& around) {
     } else if (!desk.exploration.opening()) {
         drawStartScreen(desk, around.offers);
     }
-    drawPictureOverlay(desk);
+    drawPictureOverlay(desk, around.exporting);
     messages_.draw(desk, around.dt);
     if (help_) drawHelp(desk);
     endRegion();

@@ -28,7 +28,7 @@ struct Surroundings {
     StartOffers offers;
     glm::dvec3 boxHalf{0.577};        // of the lattice drawn
     std::optional<render::View> eye;  // of the picture, where probes are marked
-    std::optional<float> exported;    // share of an export that is done, while one runs
+    std::optional<std::string> exporting;  // how far an export is, while one runs
     std::chrono::nanoseconds dt{0};
     Performance performance;
 };

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/choice_text.h"
+#include "app/layer_colors.h"
 #include "app/panels/widgets.h"
 #include "render/color.h"
 
@@ -18,39 +19,31 @@ ImU32 encoded(const glm::vec3& linear, float alpha = 1) {
                     alpha);
 }
 
-// Told apart by every eye (Okabe and Ito 2008, without black, and white).
-constexpr std::array kPalette = {0x56b4e9u, 0xe69f00u, 0x009e73u, 0xf0e442u,
-                                 0x0072b2u, 0xd55e00u, 0xcc79a7u, 0xffffffu};
-
-glm::dvec3 srgbOf(unsigned hex) {
-    return glm::dvec3((hex >> 16) & 255, (hex >> 8) & 255, hex & 255) / 255.0;
-}
-
 bool editConstant(const Theme& theme, LayerChoice& layer, float width) {
     const float s = theme.scale;
     bool changed = false;
     const glm::vec2 at = vec(ImGui::GetCursorScreenPos());
-    const float cell = width / kPalette.size();
-    for (std::size_t i = 0; i < kPalette.size(); ++i) {
+    const float cell = width / kLayerColors.size();
+    for (std::size_t i = 0; i < kLayerColors.size(); ++i) {
         const glm::vec2 corner = at + glm::vec2(cell * static_cast<float>(i), 0);
         const Rect r{corner, corner + glm::vec2(cell - 4 * s, 24 * s)};
-        const bool now = layer.color == std::variant<glm::dvec3, MapChoice>(srgbOf(kPalette[i]));
+        const bool now = layer.color == std::variant<glm::dvec3, MapChoice>(kLayerColors[i]);
         ImGui::PushID(static_cast<int>(i));
         const Pressing p = area("##palette", r);
         ImGui::PopID();
         ImDrawList& list = *ImGui::GetWindowDrawList();
-        list.AddRectFilled(im(r.min), im(r.max), rgb(kPalette[i]), 4 * s);
+        list.AddRectFilled(im(r.min), im(r.max), fromSrgb(kLayerColors[i]), 4 * s);
         if (p.hovered || now)
             list.AddRect(im(r.min - glm::vec2(2 * s)), im(r.max + glm::vec2(2 * s)),
                          now ? kText : kDim, 5 * s);
         if (p.clicked) {
-            layer.color = srgbOf(kPalette[i]);
+            layer.color = kLayerColors[i];
             changed = true;
         }
     }
     ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 34 * s)));
     const auto* constant = layer.color ? std::get_if<glm::dvec3>(&*layer.color) : nullptr;
-    const glm::dvec3 srgb = constant != nullptr ? *constant : srgbOf(kPalette[0]);
+    const glm::dvec3 srgb = constant != nullptr ? *constant : kLayerColors[0];
     std::array<float, 3> c = {static_cast<float>(srgb.x), static_cast<float>(srgb.y),
                               static_cast<float>(srgb.z)};
     ImGui::SetNextItemWidth(width - 4 * s);
@@ -155,7 +148,7 @@ bool editColor(const Theme& theme, LayerChoice& layer) {
         if (*kind == 1)
             layer.color = MapChoice{};
         else
-            layer.color = srgbOf(kPalette[0]);
+            layer.color = kLayerColors[0];
         changed = true;
     }
     ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 38 * s)));

@@ -47,6 +47,15 @@ Rect pill(const Desk& desk, float y, std::string_view what, ImU32 color, float r
     return at;
 }
 
+// The same with a button; returns whether that was pressed.
+bool cancelPill(const Desk& desk, float y, std::string_view what, const char* id) {
+    const float s = desk.theme.scale;
+    const Rect at = pill(desk, y, what, kText, 84 * s);
+    return textButton(
+        desk.theme, id,
+        {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}}, "Cancel");
+}
+
 }  // namespace
 
 void PictureArea::handle(Desk& desk, const glm::dvec3& boxHalf) {
@@ -84,19 +93,18 @@ void PictureArea::handle(Desk& desk, const glm::dvec3& boxHalf) {
     }
 }
 
-void drawPictureOverlay(Desk& desk) {
+void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting) {
     Exploration& exploration = desk.exploration;
     const float s = desk.theme.scale;
     float y = desk.layout.picture.min.y + 14 * s;
     if (const auto opening = exploration.opening()) {
         const std::string what = fitting(*desk.theme.text, "Opening " + *opening,
                                          desk.layout.picture.size().x - 140 * s);
-        const Rect at = pill(desk, y, what, kText, 84 * s);
-        if (textButton(
-                desk.theme, "Cancel##opening",
-                {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}},
-                "Cancel"))
-            exploration.cancelOpening();
+        if (cancelPill(desk, y, what, "##opening")) exploration.cancelOpening();
+        y += 40 * s;
+    }
+    if (exporting) {
+        if (cancelPill(desk, y, *exporting, "##exporting")) desk.requests.cancelExport = true;
         y += 40 * s;
     }
     if (const std::string waiting = exploration.waiting(); !waiting.empty())

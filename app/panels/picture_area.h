@@ -16,6 +16,6 @@ class PictureArea {
 };
 
 // What is opening, what is shown instead of what is asked for, and how fast frames come.
-void drawPictureOverlay(Desk& desk);
+void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting);
 
 }  // namespace app::panels

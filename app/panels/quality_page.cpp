@@ -32,7 +32,9 @@ void budget(Desk& desk, Form& form) {
     constexpr std::array<std::int64_t, 4> kPerSecond = {60, 30, 20, 10};
     std::size_t now = 0;
     for (std::size_t i = 0; i < kPerSecond.size(); ++i)
-        if (desk.choices.frameBudget.count() == 1'000'000'000 / kPerSecond[i]) now = i;
+        if (std::llround(1e9 / static_cast<double>(desk.choices.frameBudget.count())) ==
+            kPerSecond[i])
+            now = i;
     if (const auto rate = segmented(desk.theme, "rate", form.row("Frames / s"), kRates, now))
         desk.choices.frameBudget = std::chrono::nanoseconds(1'000'000'000 / kPerSecond[*rate]);
     form.note("While the picture moves, so many points are drawn as fit this pace; at rest, all.");
@@ -40,7 +42,7 @@ void budget(Desk& desk, Form& form) {
 
 void interfaceScale(Desk& desk, Form& form) {
     constexpr std::array kNames = {"Monitor's", "1", "1.25", "1.5", "2"};
-    constexpr std::array<float, 5> kScales = {0, 1, 1.25f, 1.5f, 2};
+    constexpr std::array<double, 5> kScales = {0, 1, 1.25, 1.5, 2};
     std::size_t now = 0;
     for (std::size_t i = 1; i < kScales.size(); ++i)
         if (desk.choices.scale == kScales[i]) now = i;

@@ -19,7 +19,7 @@ struct ShownSteps {
         explorer.files = {"noise.nc"};
         explorer.size = {200, 150};
         explorer.layers = {layer("0.1:0.4", app::MapChoice{{}, 0.1, 0.4}),
-                           layer("0.8:0.9", glm::dvec3(1, 0.5, 0))};
+                           layer("0.8:0.9", glm::dvec3(255, 128, 0) / 255.0)};
     }
     static app::LayerChoice layer(const char* ranges,
                                   std::variant<glm::dvec3, app::MapChoice> color) {
