@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/desktop/probe.h"
 #include "render/gl/debug_output.h"
 
 namespace app::desktop {
@@ -46,8 +45,8 @@ Desktop::Desktop(const ViewOptions& options)
       }) {
     render::gl::recordErrors();
     interface_.choices().scale = errands_.preferences().uiScale;
-    interface_.choices().frameBudget = std::chrono::nanoseconds(
-        std::llround(1e6 * errands_.preferences().frameMilliseconds));
+    interface_.choices().frameBudget =
+        std::chrono::nanoseconds(std::llround(1e6 * errands_.preferences().frameMilliseconds));
     if (!options.explorer.files.empty()) exploration_.open(options.explorer);
 }
 
@@ -62,8 +61,8 @@ void Desktop::run() {
         }
         gui_.setScale(static_cast<float>(
             interface_.choices().scale.value_or(static_cast<double>(window_.contentScale()))));
-        interact(dt);
         exploration_.advance(dt);
+        interact(dt);
         fitPicture();
         drawPicture();
         gui_.draw();
@@ -108,10 +107,20 @@ void Desktop::serve(panels::Requests& requests) {
         if (command == panels::Command::Screenshot) errands_.screenshot();
         if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
     }
-    if (requests.probe)
-        if (const auto shown = exploration_.shown(); shown && eye_ && canvas_.lattice() != nullptr)
-            interface_.takeReading(probe(*shown, *canvas_.lattice(), *eye_, *requests.probe),
-                                   requests.ruler);
+    if (requests.probe && eye_) interface_.takeReading(read(*requests.probe), requests.ruler);
+}
+
+// What is seen at a place of the picture, y down.
+std::optional<panels::Reading> Desktop::read(glm::vec2 at) const {
+    const glm::dvec2 window(static_cast<double>(at.x) + 0.5,
+                            static_cast<double>(eye_->size.y) - static_cast<double>(at.y) - 0.5);
+    const auto found = canvas_.probe(*eye_, window);
+    if (!found) return std::nullopt;
+    return panels::Reading{.index = found->index,
+                           .value = found->value,
+                           .position = found->coordinates,
+                           .world = found->picked.world,
+                           .step = report_.step};
 }
 
 // A picture is as large as the place that it has; with two eyes, each has half of it.
@@ -153,7 +162,6 @@ void Desktop::drawPicture() {
         if (!kept_ || kept_->size() != whole) kept_.emplace(whole);
         pace_.setTarget(interface_.choices().frameBudget);
         const std::vector<render::View> eyes = canvas_.eyesOf(*shown);
-        const Clock::time_point begin = Clock::now();
         report_ =
             canvas_.draw(*shown, eyes, {.splats = pace_.budget()}, !resting,
                          [&](std::size_t eye, const render::Targets& light) {
@@ -163,16 +171,18 @@ void Desktop::drawPicture() {
                                                  (stacked.y - 1 - i * (stacked.y - 1)) * eyeSize.y);
                              present_.draw(light, kept_->framebuffer(), at);
                          });
-        const std::chrono::nanoseconds took =
-            report_.gpuTime.count() > 0 ? report_.gpuTime : Clock::now() - begin;
-        if (report_.drawn > 0) pace_.took(report_.drawn, took);
-        performance_ = {.frame = took,
+        if (report_.gpuTime) {
+            pace_.took(report_.gpuSplats, *report_.gpuTime);
+            performance_.frame = *report_.gpuTime;
+        }
+        performance_ = {.frame = performance_.frame,
                         .budget = interface_.choices().frameBudget,
                         .drawn = report_.drawn,
                         .selected = report_.selected,
                         .gpuBytes = report_.gpuBytes,
                         .whole = report_.whole,
-                        .uploaded = report_.uploaded};
+                        .uploaded = report_.uploaded,
+                        .step = report_.step};
         drawn_ = Drawn{drawnOf(shown->explorer), shown->sorted};
         if (canvas_.lattice() != nullptr) boxHalf_ = canvas_.lattice()->boxHalf();
         eye_ = isTwoEyed(shown->explorer) ? std::nullopt : std::optional(eyes.front());
@@ -204,14 +214,14 @@ void Desktop::sleep() {
     if (const auto until = exploration_.untilNextChange()) within(*until);
     if (const auto until = interface_.untilNextChange()) within(*until);
     if (errands_.exporting()) within(100ms);
-    if (!report_.whole) within(report_.uploaded < 1 ? 0ns : std::chrono::nanoseconds(kRest));
+    if (drawn_ && !report_.whole)
+        within(report_.uploaded < 1 ? 0ns : std::chrono::nanoseconds(kRest));
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
     const Clock::time_point before = Clock::now();
     window_.wait(atMost);
     // Woken before the time was over: by an event or by what was loaded.
-    const bool woken = !window_.events().empty() || !atMost || Clock::now() - before < *atMost;
-    restless_ = woken ? 2 : std::max(0, restless_ - 1);
-    if (atMost == 0ns && window_.events().empty()) restless_ = std::max(0, restless_ - 1);
+    const bool woken = !atMost || (*atMost > 0ns && Clock::now() - before < *atMost);
+    restless_ = woken || !window_.events().empty() ? 2 : std::max(0, restless_ - 1);
 }
 
 }  // namespace app::desktop

@@ -33,6 +33,7 @@ class Desktop {
 
     void interact(std::chrono::nanoseconds dt);
     void serve(panels::Requests& requests);
+    std::optional<panels::Reading> read(glm::vec2 at) const;
     void fitPicture();
     void drawPicture();
     void title();

@@ -116,15 +116,16 @@ void Errands::cancelExport() {
 std::optional<std::string> Errands::exporting() const {
     if (!export_) return std::nullopt;
     if (export_->count() == 0) return "Exporting";
-    return fmt::format("Exporting picture {} of {}", std::min(export_->done() + 1, export_->count()),
-                       export_->count());
+    return fmt::format("Exporting picture {} of {}",
+                       std::min(export_->done() + 1, export_->count()), export_->count());
 }
 
 void Errands::goOn(const panels::Choices& choices) {
     if (export_) {
         export_->poll();
         switch (export_->state()) {
-            case ExportJob::State::Running: break;
+            case ExportJob::State::Running:
+                break;
             case ExportJob::State::Done:
                 exploration_.tell(fmt::format("Exported {} pictures", export_->done()));
                 export_.reset();
@@ -134,7 +135,8 @@ void Errands::goOn(const panels::Choices& choices) {
                 export_.reset();
                 break;
             case ExportJob::State::Cancelled:
-                exploration_.tell(fmt::format("Export cancelled after {} pictures", export_->done()));
+                exploration_.tell(
+                    fmt::format("Export cancelled after {} pictures", export_->done()));
                 export_.reset();
                 break;
         }

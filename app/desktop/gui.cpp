@@ -64,6 +64,13 @@ Cursor cursorOf(ImGuiMouseCursor cursor) {
     }
 }
 
+// Which commands a key that is held down gives again and again.
+bool repeats(panels::Command command) {
+    using panels::Command;
+    return command == Command::StepForward || command == Command::StepBackward ||
+           command == Command::Undo || command == Command::Redo;
+}
+
 // Hands events to ImGui until one would hide what an earlier one of this frame says.
 class Feed {
  public:
@@ -164,7 +171,7 @@ FrameInput Gui::beginFrame(std::chrono::nanoseconds dt) {
     for (const KeyChanged& e : feed.pressed) {
         if (io.WantTextInput || e.alt) continue;
         if (const auto command = panels::commandOf(Key{e.key}, e.ctrl, e.shift))
-            out.commands.push_back(*command);
+            if (!e.repeated || repeats(*command)) out.commands.push_back(*command);
     }
     return out;
 }

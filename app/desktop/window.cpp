@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <stdexcept>
-#include <utility>
 
 namespace app::desktop {
 namespace {
@@ -79,7 +78,6 @@ struct Window::State {
     Cursor cursor = Cursor::Arrow;
     std::string title;
     std::deque<Event> events;
-    bool needsDrawing = true;
 
     State(glm::ivec2 size, const std::string& name)
         : window(createWindow(size, name)), title(name) {
@@ -116,12 +114,6 @@ void Window::State::listen() {
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         of(w).events.push_back(Dropped{{paths, paths + count}});
     });
-    const auto draw = [](GLFWwindow* w) { of(w).needsDrawing = true; };
-    glfwSetWindowRefreshCallback(window, draw);
-    glfwSetFramebufferSizeCallback(window,
-                                   [](GLFWwindow* w, int, int) { of(w).needsDrawing = true; });
-    glfwSetWindowContentScaleCallback(
-        window, [](GLFWwindow* w, float, float) { of(w).needsDrawing = true; });
     listenToKeys();
 }
 
@@ -131,6 +123,7 @@ void Window::State::listenToKeys() {
         // By what is printed on the key, as the keyboard's layout has it, where GLFW knows.
         if (const char* name = glfwGetKeyName(key, 0); name != nullptr && name[1] == '\0') {
             if (name[0] >= 'a' && name[0] <= 'z') key = name[0] - 'a' + 'A';
+            if (name[0] == ',' || name[0] == '.') key = name[0];
         }
         of(w).events.push_back(KeyChanged{.key = key,
                                           .down = action != GLFW_RELEASE,
@@ -177,8 +170,6 @@ float Window::contentScale() const {
     glfwGetWindowContentScale(state_->window, &x, &y);
     return y;
 }
-
-bool Window::needsDrawing() { return std::exchange(state_->needsDrawing, false); }
 
 void Window::setTitle(const std::string& title) {
     if (title == state_->title) return;

@@ -66,7 +66,6 @@ class Window {
 
     glm::ivec2 framebufferSize() const;  // 0 while minimised
     float contentScale() const;
-    bool needsDrawing();  // exposed, resized or rescaled since the last call
 
     void setTitle(const std::string& title);
     void setCursor(Cursor cursor);

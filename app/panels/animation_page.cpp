@@ -80,39 +80,47 @@ void AnimationPage::draw(Desk& desk, const Rect& at) {
 }
 
 void AnimationPage::time(Desk& desk, Form& form) {
-    constexpr std::array kPaces = {"Even steps", "Real times"};
-    constexpr std::array kEndings = {"Once", "Loop", "There and back"};
+    constexpr std::array kPaces = {"Even", "Real times"};
+    constexpr std::array kEndings = {"Once", "Loop", "Ping-pong"};
     constexpr std::array kDirections = {"Forward", "Backward"};
+    const Theme& theme = desk.theme;
+    const float s = theme.scale;
     const timeseries::CursorSettings now = desk.exploration.explorer().play.time;
     const auto change = [&](const auto& set) {
         edit(desk, {}, [&](Explorer& e) { set(e.play.time); });
     };
-    if (const auto pace = segmented(desk.theme, "pace", form.row("Pace"), kPaces,
-                                    static_cast<std::size_t>(now.pace)))
-        change([&](auto& t) { t.pace = static_cast<timeseries::Pace>(*pace); });
-    const auto& time = desk.exploration.playback().time;
-    if (time && time->whyEven()) form.note(*time->whyEven());
+    // A choice, and a number with its meaning, in one row.
+    const auto split = [&](const Rect& row) {
+        return std::pair{Rect{row.min, {row.max.x - 118 * s, row.max.y}},
+                         Rect{{row.max.x - 56 * s, row.min.y}, row.max}};
+    };
+    const auto [pace, speed] = split(form.row("Pace"));
+    if (const auto chosen =
+            segmented(theme, "pace", pace, kPaces, static_cast<std::size_t>(now.pace)))
+        change([&](auto& t) { t.pace = static_cast<timeseries::Pace>(*chosen); });
     const bool even = now.pace == timeseries::Pace::Even;
-    const Rect speed = form.row(even ? "Steps / s" : "Units / s");
-    const float s = desk.theme.scale;
-    if (const auto value = numberField(desk.theme, speed_, "##speed", part(speed, 0, 3, s),
+    text(theme, {speed.min.x - 8 * s, speed.centre().y}, even ? "steps/s" : "units/s", kDim, 1,
+         theme.small);
+    if (const auto value = numberField(theme, speed_, "##speed", speed,
                                        even ? now.stepsPerSecond : now.timeUnitsPerSecond))
         change([&](auto& t) {
             (even ? t.stepsPerSecond : t.timeUnitsPerSecond) = std::max(0.0, *value);
         });
-    const Rect stride = part(speed, 2, 3, s);
-    text(desk.theme, {stride.min.x - 12 * s, stride.centre().y}, "every", kDim, 1);
+    const auto& time = desk.exploration.playback().time;
+    if (time && time->whyEven()) form.note(*time->whyEven());
+    const auto [way, stride] = split(form.row("Steps"));
+    if (const auto chosen =
+            segmented(theme, "way", way, kDirections, static_cast<std::size_t>(now.direction)))
+        change([&](auto& t) { t.direction = static_cast<timeseries::Direction>(*chosen); });
+    text(theme, {stride.min.x - 8 * s, stride.centre().y}, "every", kDim, 1, theme.small);
     if (const auto value =
-            numberField(desk.theme, stride_, "##stride", stride, static_cast<double>(now.stride)))
+            numberField(theme, stride_, "##stride", stride, static_cast<double>(now.stride)))
         change([&](auto& t) {
             t.stride = static_cast<std::size_t>(std::clamp(std::round(*value), 1.0, 1e9));
         });
-    if (const auto ending = segmented(desk.theme, "ending", form.row("At the end"), kEndings,
+    if (const auto ending = segmented(theme, "ending", form.row("At the end"), kEndings,
                                       static_cast<std::size_t>(now.ending)))
         change([&](auto& t) { t.ending = static_cast<timeseries::Ending>(*ending); });
-    if (const auto way = segmented(desk.theme, "way", form.row("Direction"), kDirections,
-                                   static_cast<std::size_t>(now.direction)))
-        change([&](auto& t) { t.direction = static_cast<timeseries::Direction>(*way); });
 }
 
 void AnimationPage::sweep(Desk& desk, Form& form) {

@@ -22,7 +22,6 @@ enum class Page { Animation, View, Quality, Probe };
 
 // What stands under the cursor, as the front end found it.
 struct Reading {
-    std::uint64_t gridIndex = 0;
     std::array<std::size_t, 3> index{};  // along x, y, z
     timeseries::Number value;
     glm::dvec3 position{0};  // grid coordinates
@@ -35,7 +34,8 @@ struct Performance {
     std::chrono::nanoseconds frame{0}, budget{0};
     std::uint64_t drawn = 0, selected = 0, gpuBytes = 0;
     bool whole = true;
-    double uploaded = 1;  // share of the step asked for
+    double uploaded = 1;   // share of the step shown that is on the GPU
+    std::size_t step = 0;  // on the screen
 };
 
 // What the user chose of the interface itself: no part of a picture, not undone.

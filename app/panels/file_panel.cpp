@@ -114,6 +114,9 @@ void FilePanel::draw(Desk& desk) {
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
     drawList(desk, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
 
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) close();
+    if (!for_) return endRegion();
+
     const float y = at.max.y - 46 * s;
     if (*for_ == For::Open) {
         constexpr std::array kFilter = {"Readable", "All files"};
@@ -123,7 +126,8 @@ void FilePanel::draw(Desk& desk) {
             all_ = *filter == 1;
             list(folder_);
         }
-    } else if (!warnedOf_.empty() && warnedOf_ == meant(typed_, folder_).string()) {
+    } else if (!warnedOf_.empty() &&
+               warnedOf_ == meant(typed_, folder_).lexically_normal().string()) {
         text(theme, {left, y + 15 * s}, "It exists: again to replace it", kError);
     }
     if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}},

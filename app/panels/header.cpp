@@ -51,7 +51,7 @@ void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
     if (p.clicked) ImGui::OpenPopup("variables");
     ImGui::SetNextWindowPos({at.min.x, at.max.y + 4 * s});
     ImGui::SetNextWindowSizeConstraints({at.size().x, 0}, {at.size().x, 400 * s});
-    if (!ImGui::BeginPopup("variables")) return;
+    if (!beginPopup("variables")) return;
     for (const timeseries::Variable& v : shown.dataset.variables) {
         const bool now = v.name == shown.dataset.about.name;
         if (ImGui::Selectable(titleOf(v).c_str(), now) && !now)
@@ -73,7 +73,7 @@ void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::pat
          desk.theme.strong);
     if (iconButton(desk.theme, "##menu", button, Icon::Menu, "Menu")) ImGui::OpenPopup("menu");
     ImGui::SetNextWindowPos({right, button.max.y + 4 * s}, ImGuiCond_Always, {1, 0});
-    if (ImGui::BeginPopup("menu")) {
+    if (beginPopup("menu")) {
         menu(desk, recent);
         ImGui::EndPopup();
     }

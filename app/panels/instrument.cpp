@@ -50,9 +50,9 @@ std::pair<double, double> Instrument::values(const Desk& desk) const {
 void Instrument::draw(Desk& desk, const Rect& at) {
     const auto shown = desk.exploration.shown();
     if (!shown) return;
-    const std::string of = fmt::format(
-        "{}\n{}\n{}", shown->dataset.name, shown->dataset.about.name,
-        shown->explorer.keep ? shown->explorer.keep->text() : std::string());
+    const std::string of =
+        fmt::format("{}\n{}\n{}", shown->dataset.name, shown->dataset.about.name,
+                    shown->explorer.keep ? shown->explorer.keep->text() : std::string());
     if (of != of_) {
         of_ = of;
         zoomed_.reset();

@@ -56,6 +56,7 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
               .performance = around.performance};
     const std::size_t layers = exploration.explorer().layers.size();
     choices_.layer = std::min(choices_.layer, layers == 0 ? 0 : layers - 1);
+    popup_ = files_.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     ImGui::PushFont(around.theme.text);
     drawPicture(desk, around);
     drawSide(desk, around);
@@ -237,11 +238,10 @@ bool Interface::obey(Exploration& exploration, Command command) {
     return true;
 }
 
-// What lies on top goes first.
+// What lies on top goes first. Popups and files close themselves.
 bool Interface::close(Exploration& exploration) {
-    if (files_.isOpen())
-        files_.close();
-    else if (help_)
+    if (popup_) return true;
+    if (help_)
         help_ = false;
     else if (!exploration.messages().empty())
         exploration.forgetMessage(exploration.messages().back().number);

@@ -26,8 +26,8 @@ struct Surroundings {
     glm::vec2 window{0};  // pixels
     const Theme& theme;
     StartOffers offers;
-    glm::dvec3 boxHalf{0.577};        // of the lattice drawn
-    std::optional<render::View> eye;  // of the picture, where probes are marked
+    glm::dvec3 boxHalf{0.577};             // of the lattice drawn
+    std::optional<render::View> eye;       // of the picture, where probes are marked
     std::optional<std::string> exporting;  // how far an export is, while one runs
     std::chrono::nanoseconds dt{0};
     Performance performance;
@@ -68,6 +68,7 @@ class Interface {
     Messages messages_;
     FilePanel files_;
     bool help_ = false;
+    bool popup_ = false;  // one, or the files, was open as the frame began
 };
 
 }  // namespace app::panels

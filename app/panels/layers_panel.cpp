@@ -23,6 +23,15 @@ std::string percent(std::uint64_t count, std::uint64_t of) {
     return fmt::format("{:.{}f} %", share, share >= 10 ? 1 : share >= 0.1 ? 2 : 4);
 }
 
+// Where the swept window stands, in as many digits as its width needs.
+std::string sweptText(const std::optional<timeseries::ValueSweep>& sweep) {
+    if (!sweep) return {};
+    const double delta = sweep->settings().delta, contour = sweep->contour();
+    const double resolution = delta > 0 ? delta / 100 : std::max(1e-6 * std::abs(contour), 1e-300);
+    return fmt::format("swept  {} ± {}", timeseries::toText(roundedTo(contour, resolution)),
+                       timeseries::toText(delta));
+}
+
 void remove(Desk& desk, std::size_t row) {
     edit(desk, {}, [&](Explorer& e) {
         if (isSwept(e, row))
@@ -40,7 +49,7 @@ void add(Desk& desk, const timeseries::SortedStep& step) {
 
 void colorPopup(Desk& desk, std::size_t row) {
     ImGui::SetNextWindowSize({292 * desk.theme.scale, 0});
-    if (!ImGui::BeginPopup("color")) return;
+    if (!beginPopup("color")) return;
     Explorer next = desk.exploration.explorer();
     if (editColor(desk.theme, layerOf(next, row)))
         desk.exploration.edit(std::move(next), fmt::format("color {}", row));
@@ -127,11 +136,8 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
 
     if (swept)
         text(desk.theme, {at.text.min.x + 8 * s, at.text.centre().y},
-             fmt::format("swept  {}",
-                         timeseries::RangeSet({desk.exploration.playback().sweep
-                                                   ? desk.exploration.playback().sweep->window()
-                                                   : timeseries::Range{}})
-                             .text()),
+             fitting(*desk.theme.text, sweptText(desk.exploration.playback().sweep),
+                     at.text.size().x - 8 * s),
              kAccent);
     else
         editText(desk, at, row);

@@ -27,6 +27,16 @@ std::string limitText(const Performance& p) {
     return "";
 }
 
+// A step may be in memory and not yet on the GPU.
+std::string waitingText(const Desk& desk) {
+    std::string waiting = desk.exploration.waiting();
+    const auto shown = desk.exploration.shown();
+    if (waiting.empty() && shown && desk.performance.uploaded < 1 &&
+        desk.performance.step != shown->step)
+        waiting = fmt::format("requested step {}, showing {}", shown->step, desk.performance.step);
+    return waiting;
+}
+
 // Lines of small text over the picture, the last at the bottom.
 void lowerLeft(const Desk& desk, std::span<const std::string> lines) {
     const float s = desk.theme.scale;
@@ -51,9 +61,9 @@ Rect pill(const Desk& desk, float y, std::string_view what, ImU32 color, float r
 bool cancelPill(const Desk& desk, float y, std::string_view what, const char* id) {
     const float s = desk.theme.scale;
     const Rect at = pill(desk, y, what, kText, 84 * s);
-    return textButton(
-        desk.theme, id,
-        {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}}, "Cancel");
+    return textButton(desk.theme, id,
+                      {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}},
+                      "Cancel");
 }
 
 }  // namespace
@@ -107,7 +117,7 @@ void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting)
         if (cancelPill(desk, y, *exporting, "##exporting")) desk.requests.cancelExport = true;
         y += 40 * s;
     }
-    if (const std::string waiting = exploration.waiting(); !waiting.empty())
+    if (const std::string waiting = waitingText(desk); !waiting.empty())
         pill(desk, y, waiting, kText);
     const PointCounts* counts = exploration.counts();
     if (counts == nullptr) return;

@@ -178,6 +178,12 @@ std::optional<double> numberField(const Theme& theme, TextField& field, const ch
     return value;
 }
 
+bool beginPopup(const char* id) {
+    if (!ImGui::BeginPopup(id)) return false;
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+    return true;
+}
+
 void tip(const Theme& theme, std::string_view what) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {9 * theme.scale, 6 * theme.scale});
     ImGui::PushFont(theme.small);

@@ -58,6 +58,8 @@ class TextField {
 std::optional<double> numberField(const Theme& theme, TextField& field, const char* id,
                                   const Rect& at, double shown);
 
+// ImGui's, closed by Escape too.
+bool beginPopup(const char* id);
 void tip(const Theme& theme, std::string_view what);
 // Horizontal hairline.
 void hairline(float x0, float x1, float y);
