@@ -249,6 +249,63 @@ TEST(Exploration, AnotherVariableHasAFirstChoiceOfItsOwnAndUndoComesBackAcrossIt
     EXPECT_EQ(desk.exploration.explorer(), other);
 }
 
+TEST(Exploration, ARedoOfNothingLeavesAnOpeningAloneAndUndoCancelsIt) {
+    Desk desk;
+    desk.open("a");
+    const Explorer before = desk.exploration.explorer();
+    EXPECT_FALSE(desk.exploration.canUndo());
+    desk.choose("P");
+    desk.exploration.redo();
+    EXPECT_TRUE(desk.exploration.opening());
+    EXPECT_TRUE(desk.exploration.canUndo());
+    desk.exploration.undo();
+    EXPECT_FALSE(desk.exploration.opening());
+    EXPECT_EQ(desk.exploration.explorer(), before);
+}
+
+TEST(Exploration, EditsMadeWhileAKeptRangeIsBuiltStay) {
+    Desk desk;
+    desk.open("a");
+    desk.exploration.seek(3);
+    desk.untilShown(3);
+    Explorer next = desk.exploration.explorer();
+    next.layers = {layer("10:20")};
+    next.keep = RangeSet::parse("5:30");
+    desk.exploration.edit(next);
+    EXPECT_EQ(desk.exploration.explorer().layers, next.layers);
+    Explorer meanwhile = desk.exploration.explorer();
+    meanwhile.layers = {layer("12:30")};
+    desk.exploration.edit(meanwhile);
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer().layers, meanwhile.layers);
+    EXPECT_EQ(desk.exploration.explorer().keep, next.keep);
+}
+
+TEST(Exploration, PlayGoesOnWithAnotherVariable) {
+    Desk desk;
+    desk.open("a");
+    desk.exploration.togglePlay();
+    desk.choose("P");
+    desk.untilOpened();
+    EXPECT_TRUE(desk.exploration.playback().playing);
+    desk.exploration.advance(100ms);
+    EXPECT_EQ(desk.asked(), 6u);
+    desk.open("gone");
+    EXPECT_TRUE(desk.exploration.playback().playing);
+}
+
+TEST(Exploration, UndoAcrossDataLeavesTheWindowsSizeAlone) {
+    Desk desk;
+    desk.open("a");
+    desk.choose("P");
+    desk.untilOpened();
+    desk.exploration.undo();
+    desk.exploration.resize({320, 200});
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer().variable, "T");
+    EXPECT_EQ(desk.exploration.explorer().size, glm::ivec2(320, 200));
+}
+
 TEST(Exploration, UndoTwiceGoesPastDataThatAreNotThereYet) {
     Desk desk;
     desk.open("a");
@@ -577,7 +634,8 @@ TEST(Exploration, AStepThatFailsIsToldOnceAndPassedOver) {
     desk.open("a");
     desk.until(
         [&] { return desk.exploration.series()->state(7) == timeseries::SlotState::Failed; });
-    desk.exploration.seek(7);  // tries again
+    EXPECT_THAT(desk.errors(), ElementsAre());  // nobody asked for it
+    desk.exploration.seek(7);                   // tries again
     desk.until(
         [&] { return desk.exploration.series()->state(7) == timeseries::SlotState::Failed; });
     EXPECT_EQ(desk.exploration.waiting(), "step 7 is not available, showing 5");
