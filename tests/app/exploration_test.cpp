@@ -194,6 +194,27 @@ TEST(Exploration, ABadFileLeavesWhatIsShownUntouchedAndSaysWhy) {
     EXPECT_THAT(desk.errors(), ElementsAre());
 }
 
+TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThere) {
+    Desk desk({{"a", {}}, {"b", {}}});
+    desk.open("a");
+    Explorer next = desk.exploration.explorer();
+    next.layers = {layer("3:4"), layer("5:6")};
+    next.sweep = timeseries::SweepSettings{.animation = RangeSet::parse("1:2")};
+    desk.exploration.edit(next);
+    desk.startOpening("b");
+    next = desk.exploration.explorer();
+    next.view.azimuthDegrees = 12;
+    next.order = render::Order::BackToFront;
+    desk.exploration.edit(next);
+    desk.untilOpened();
+    const Explorer& now = desk.exploration.explorer();
+    EXPECT_EQ(now.files.front(), "b");
+    EXPECT_EQ(now.view, next.view);
+    EXPECT_EQ(now.order, next.order);
+    EXPECT_EQ(now.layers.size(), 1u);
+    EXPECT_FALSE(now.sweep);
+}
+
 TEST(Exploration, AFileWithoutAStepThatCanBeReadIsRefused) {
     Desk desk({{"a", {}}, {"b", {.steps = 2}}});
     desk.open("a");
