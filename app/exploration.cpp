@@ -189,7 +189,8 @@ void Exploration::takeArrivals() {
     const timeseries::Series& series = open_->steps.series();
     if (series.state(asked) == SlotState::Failed && open_->toldFailed.insert(asked).second)
         tell(series.why(asked), true);
-    if (asked == open_->step) return;
+    if (asked == open_->step) return open_->passed.clear();
+    open_->passed.insert(asked);
     if (auto sorted = there(asked)) return show(asked, std::move(sorted));
     if (playback_.playing && playback_.timeMoves) {
         // Back along the way that was played, as far as what is shown.
@@ -202,12 +203,13 @@ void Exploration::takeArrivals() {
         }
         return;
     }
-    // By hand: nearer to the step asked for.
+    // By hand: what was passed on the way, where it is nearer to the step asked for.
     const auto distance = [&](std::size_t step) {
         return step > asked ? step - asked : asked - step;
     };
     for (LiveSteps::Arrival& arrival : arrivals)
-        if (arrival.sorted && distance(arrival.step) < distance(open_->step))
+        if (arrival.sorted && open_->passed.contains(arrival.step) &&
+            distance(arrival.step) < distance(open_->step))
             show(arrival.step, std::move(arrival.sorted));
 }
 

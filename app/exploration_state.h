@@ -26,6 +26,7 @@ struct Exploration::Open {
     std::size_t step = 0;  // shown
     std::shared_ptr<const timeseries::SortedStep> sorted;
     PointCounts counts;
+    std::set<std::size_t> passed;      // asked for since the step asked for was last there
     std::set<std::size_t> toldFailed;  // steps that were asked for, and whose failure was told
 };
 
