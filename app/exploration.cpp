@@ -3,185 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <stdexcept>
 #include <utility>
 
+#include "app/exploration_state.h"
 #include "app/followed_playback.h"
 #include "app/picture.h"
 
 namespace app {
 namespace {
 
-using timeseries::RangeSet;
 using timeseries::SlotState;
 using timeseries::SortedStep;
 
 constexpr std::size_t kAhead = 32;  // steps asked for before play comes to them
 constexpr std::size_t kMostMessages = 100;
 
-// Whether both are about the same sorted steps.
-bool sameData(const Explorer& a, const Explorer& b) {
-    return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
-}
-
-// How it is looked at, whatever the data are.
-void takeLook(Explorer& e, const Explorer& from) {
-    e.view = from.view;
-    e.stereo = from.stereo;
-    e.footprint = from.footprint;
-    e.order = from.order;
-    e.size = from.size;
-}
-
 }  // namespace
-
-struct Exploration::Open {
-    Open(Dataset opened, const Explorer& wish, const Settings& settings, const Wake& wake)
-        : dataset(std::move(opened)),
-          steps(dataset, wish.keep.value_or(RangeSet::everything()), settings.budgetBytes,
-                wake.callable()) {}
-
-    Dataset dataset;
-    LiveSteps steps;
-    std::size_t step = 0;  // shown
-    std::shared_ptr<const SortedStep> sorted;
-    PointCounts counts;
-};
-
-struct Exploration::Pending {
-    Explorer wish;
-    bool keepsLook = false;  // the look is the user's of the moment, not the wish's
-    int travel = 0;          // states of the history to go back (-) or forward; 0: a new one
-    std::optional<Opening> opening = {};
-    std::unique_ptr<Open> opened = {};  // nothing to show yet
-    std::size_t failedSteps = 0;        // of `opened`
-};
 
 Exploration::Exploration(Settings settings)
     : settings_(std::move(settings)), wake_(settings_.wake) {}
 
 Exploration::~Exploration() = default;
 
-// Opening.
-
-void Exploration::open(std::vector<std::filesystem::path> named) {
-    assert(!named.empty());
-    Explorer wish;
-    wish.files = std::move(named);
-    begin({.wish = std::move(wish), .keepsLook = true});
-}
-
-void Exploration::open(Explorer session) {
-    assert(!session.files.empty());
-    begin({.wish = std::move(session)});
-}
-
-void Exploration::begin(Pending wish) {
-    pending_ = std::make_unique<Pending>(std::move(wish));
-    pending_->opening.emplace(pending_->wish.files, pending_->wish.variable, settings_.openDataset,
-                              wake_.callable());
-}
-
-std::optional<std::string> Exploration::opening() const {
-    if (!pending_) return std::nullopt;
-    const Explorer& wish = pending_->wish;
-    if (open_ && wish.files == explorer().files && !wish.variable.empty()) return wish.variable;
-    const auto& first = wish.files.front();
-    return (first.has_filename() ? first.filename() : first).string();
-}
-
-void Exploration::cancelOpening() { pending_.reset(); }
-
-void Exploration::fail(std::string why) {
-    pending_.reset();
-    tell(std::move(why), true);
-}
-
-void Exploration::takeOpened() {
-    if (!pending_ || !pending_->opening) return;
-    auto result = pending_->opening->poll();
-    if (!result) return;
-    pending_->opening.reset();
-    if (auto* why = std::get_if<std::string>(&*result)) return fail(std::move(*why));
-    auto& dataset = std::get<Dataset>(*result);
-    Explorer& wish = pending_->wish;
-    wish.variable = dataset.about.name;
-    const std::size_t last = dataset.stepCount() - 1;
-    const StepChoice asked =
-        wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});
-    const std::size_t first = std::min(asked.first, last);
-    // Several steps are what is to be played.
-    timeseries::CursorSettings& play = wish.play.time;
-    if (asked.last != asked.first && play.first == 0 && play.last >= last) {
-        play.first = first;
-        play.last = asked.last.value_or(play.last);
-    }
-    wish.steps = StepChoice{first, first};
-    for (const std::string& note : dataset.series.notes) tell(note);
-    pending_->opened = std::make_unique<Open>(std::move(dataset), wish, settings_, wake_);
-    pending_->opened->steps.want({first});
-}
-
-// The wish comes true with any step that can be read: where the one asked for fails, LiveSteps goes
-// on to read the others.
-void Exploration::takeFirstStep() {
-    if (!pending_ || !pending_->opened) return;
-    for (LiveSteps::Arrival& arrival : pending_->opened->steps.poll()) {
-        if (arrival.sorted) return adopt(std::move(arrival));
-        const timeseries::Series& series = pending_->opened->steps.series();
-        if (++pending_->failedSteps == series.stepCount()) return fail(series.why(arrival.step));
-        if (pending_->failedSteps == 1) tell(series.why(arrival.step), true);
-    }
-}
-
-void Exploration::adopt(LiveSteps::Arrival first) {
-    Explorer next = pending_->wish;
-    if (pending_->keepsLook) takeLook(next, explorer());
-    Open& opened = *pending_->opened;
-    timeseries::Playback playback;
-    try {
-        if (needsSamples(next)) next = resolved(next, {{first.step, first.sorted}});
-        playback = playbackOf(next, *opened.dataset.about.time);
-        opened.counts = pointCounts(next, *first.sorted);
-    } catch (const std::invalid_argument& error) {
-        return fail(error.what());
-    }
-    opened.step = first.step;
-    opened.sorted = std::move(first.sorted);
-    if (!open_) {
-        history_ = History(next);
-    } else if (pending_->travel != 0) {
-        move(pending_->travel);
-        history_.replace(next);
-    } else {
-        history_.edit(next);
-        history_.endGesture();
-    }
-    playback_ = std::move(playback);
-    playedFrom_.reset();
-    open_ = std::move(pending_->opened);
-    pending_.reset();
-}
-
 // Editing.
 
 void Exploration::edit(Explorer next, std::string_view gesture) {
-    if (sameData(next, explorer())) {
-        if (pending_ && pending_->travel != 0) pending_.reset();
-        return change(std::move(next), gesture);
-    }
-    const Explorer& now = explorer();
-    if (next.files != now.files || next.variable != now.variable) {
-        if (next.layers == now.layers) next.layers.clear();
-        if (next.sweep == now.sweep) {
-            next.sweep.reset();
-            next.sweepLayer = {};
-        }
-        if (next.keep == now.keep) next.keep.reset();
-    }
-    if (next.files != now.files && next.clip == now.clip) next.clip.reset();
-    begin({.wish = std::move(next), .keepsLook = true});
+    if (!next.files.empty() && !sameData(next, explorer()))
+        return openEdited(std::move(next), gesture);
+    if (pending_ && pending_->travel != 0) pending_.reset();
+    change(std::move(next), gesture);
 }
 
 void Exploration::change(Explorer next, std::string_view gesture) {
@@ -209,6 +60,12 @@ void Exploration::resize(glm::ivec2 picture) {
     history_.replace(std::move(next));
 }
 
+bool Exploration::canUndo() const {
+    const bool opens = pending_ && pending_->travel == 0;
+    const bool played = playedFrom_ && explorer().steps != playedFrom_;
+    return history_.canUndo() || opens || played;
+}
+
 void Exploration::undo() {
     if (pending_ && pending_->travel == 0) return cancelOpening();
     if (playback_.playing) togglePlay();
@@ -229,6 +86,7 @@ void Exploration::travel(int by) {
     if (pending_) by += pending_->travel;
     const Explorer from = explorer();
     const int moved = move(by);
+    if (moved == 0 && pending_ && pending_->travel == 0) return;  // nothing to redo
     if (moved == 0 || !open_ || sameData(explorer(), from)) {
         pending_.reset();
         return arrive(from);
@@ -286,7 +144,10 @@ void Exploration::seek(std::size_t step) {
     Explorer next = explorer();
     step = std::min(step, open_->dataset.stepCount() - 1);
     next.steps = StepChoice{step, step};
-    if (open_->steps.series().state(step) == SlotState::Failed) open_->steps.retry(step);
+    if (open_->steps.series().state(step) == SlotState::Failed) {
+        open_->steps.retry(step);
+        open_->toldFailed.erase(step);
+    }
     edit(std::move(next), "seek");
 }
 
@@ -319,15 +180,17 @@ void Exploration::advance(std::chrono::nanoseconds dt) {
 
 void Exploration::takeArrivals() {
     std::vector<LiveSteps::Arrival> arrivals = open_->steps.poll();
-    for (const LiveSteps::Arrival& arrival : arrivals)
-        if (!arrival.sorted) tell(open_->steps.series().why(arrival.step), true);
     const auto there = [&](std::size_t step) -> std::shared_ptr<const SortedStep> {
         for (const LiveSteps::Arrival& arrival : arrivals)
             if (arrival.step == step && arrival.sorted) return arrival.sorted;
         return open_->steps.use(step);
     };
     const std::size_t asked = explorer().steps->first;
-    if (asked == open_->step) return;
+    const timeseries::Series& series = open_->steps.series();
+    if (series.state(asked) == SlotState::Failed && open_->toldFailed.insert(asked).second)
+        tell(series.why(asked), true);
+    if (asked == open_->step) return open_->passed.clear();
+    open_->passed.insert(asked);
     if (auto sorted = there(asked)) return show(asked, std::move(sorted));
     if (playback_.playing && playback_.timeMoves) {
         // Back along the way that was played, as far as what is shown.
@@ -340,12 +203,13 @@ void Exploration::takeArrivals() {
         }
         return;
     }
-    // By hand: nearer to the step asked for.
+    // By hand: what was passed on the way, where it is nearer to the step asked for.
     const auto distance = [&](std::size_t step) {
         return step > asked ? step - asked : asked - step;
     };
     for (LiveSteps::Arrival& arrival : arrivals)
-        if (arrival.sorted && distance(arrival.step) < distance(open_->step))
+        if (arrival.sorted && open_->passed.contains(arrival.step) &&
+            distance(arrival.step) < distance(open_->step))
             show(arrival.step, std::move(arrival.sorted));
 }
 

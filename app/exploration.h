@@ -69,7 +69,7 @@ class Exploration {
     void edit(Explorer next, std::string_view gesture = {});
     void endGesture() { history_.endGesture(); }
     void resize(glm::ivec2 picture);  // not the user's choice: no step of undo
-    bool canUndo() const { return history_.canUndo(); }
+    bool canUndo() const;
     bool canRedo() const { return history_.canRedo(); }
     // While playing, undo() pauses and goes back to where play began. While an edit's data are
     // being opened, it cancels that. An edit while undone data are being opened cancels the undo.
@@ -85,6 +85,7 @@ class Exploration {
     void stepBy(int steps);       // over shown steps, as TimeCursor::stepForward()
     void seekTick(std::int64_t tick);
 
+    // A step that cannot be read is told once, when it is asked for; series() knows all of them.
     // Once a frame: moves what plays by dt, takes in what was loaded, asks for what is wanted next.
     // Where loading is slower than play, the step passed last of those that are there is shown.
     void advance(std::chrono::nanoseconds dt);
@@ -116,11 +117,15 @@ class Exploration {
     struct Open;     // a dataset, its steps and which is shown
     struct Pending;  // a wish for other data, on its way
 
+    // exploration_opening.cpp
+    void openEdited(Explorer next, std::string_view gesture);
     void begin(Pending wish);
     void fail(std::string why);
     void takeOpened();
     void takeFirstStep();
+    Explorer restOf(const Pending& pending) const;
     void adopt(LiveSteps::Arrival first);
+    // exploration.cpp
     void change(Explorer next, std::string_view gesture);
     void travel(int by);
     int move(int by);

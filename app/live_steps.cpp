@@ -14,7 +14,10 @@ LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::ui
                                                        kept, std::move(wake))) {}
 
 LiveSteps::~LiveSteps() {
-    std::thread([loader = std::move(loader_)]() mutable { loader.reset(); }).detach();
+    // Freeing gigabytes of steps takes long enough to be seen, too.
+    std::thread([loader = std::move(loader_), steps = std::move(series_)]() mutable {
+        loader.reset();
+    }).detach();
 }
 
 void LiveSteps::want(std::vector<std::size_t> mostUrgentFirst) {
