@@ -1,6 +1,7 @@
 #include "app/canvas.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "app/camera.h"
@@ -33,6 +34,14 @@ std::uint32_t strideFor(std::uint64_t points, std::uint64_t limit, const glm::uv
         if (std::gcd(s, grid.x) == 1 && std::gcd(s, grid.y) == 1)
             return static_cast<std::uint32_t>(std::min<std::uint64_t>(s, render::kMaxStride));
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(least, render::kMaxStride));
+}
+
+// A splat of a subset fills the place of the points that it stands for: at equal cost that is
+// nearer to the whole than more, smaller splats (tests/bench/canvas_bench.cpp). Points keep their
+// pixels.
+render::Footprint footprintFor(render::Footprint footprint, std::uint32_t stride) {
+    if (footprint.kernel != render::Kernel::Point) footprint.size *= std::cbrt(stride);
+    return footprint;
 }
 
 // What is drawn: a step that is wholly on the GPU, and the choices it is drawn with.
@@ -123,6 +132,7 @@ CanvasReport Canvas::draw(
     if (moving)
         picture.scene.stride =
             strideFor(report.selected * eyes.size(), limits.splats, screen->held->lattice.size());
+    picture.scene.footprint = footprintFor(screen->explorer.footprint, picture.scene.stride);
     report.stride = screen->stride = picture.scene.stride;
     report.drawn = drawnSplats(picture.scene);
     report.whole = report.stride == 1 && report.uploaded == 1;
@@ -152,6 +162,8 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
     if (!state_->screen) return std::nullopt;
     Picture picture = pictureOf(*state_->screen);
     picture.scene.stride = state_->screen->stride;
+    picture.scene.footprint =
+        footprintFor(state_->screen->explorer.footprint, picture.scene.stride);
     const auto picked = render::pick(picture.scene, eye, window);
     if (!picked) return std::nullopt;
     const timeseries::SortedStep& step = *state_->screen->sorted;

@@ -1,8 +1,12 @@
 // What a window's frame costs: drawn whole and as a subset, with its axes and legend; a pick.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+
 #include "app/canvas.h"
 #include "render/gl/headless_context.h"
+#include "render/gl/pass.h"
+#include "render/image_compare.h"
 #include "render/pick.h"
 #include "render/present.h"
 #include "tests/support/shown_steps.h"
@@ -61,6 +65,70 @@ BENCHMARK(BM_CanvasFrame)
     ->Args({100'000, 1, 1})
     ->Args({1'000'000, 1, 1})
     ->Args({1'000'000, 1, 0})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+// Light onto a window, alone.
+void BM_Present(benchmark::State& state) {
+    const render::gl::HeadlessContext context;
+    const render::Present present;
+    const render::Targets light(kSize);
+    render::gl::begin({.framebuffer = light.lightFramebuffer(),
+                       .size = kSize,
+                       .clearColor = glm::vec4(0.2f, 0.4f, 0.1f, 1)});
+    const render::gl::Texture window(GL_RGBA8, kSize);
+    const GLuint id = window.id();
+    const render::gl::Framebuffer framebuffer(std::span(&id, 1));
+    for (auto _ : state) {
+        present.draw(light, framebuffer.id());
+        glFinish();
+    }
+}
+BENCHMARK(BM_Present)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// A subset of waves' shells, a million points, against the whole: relative L2 of the light. The
+// splats keep their size, or grow with what they stand for.
+void BM_Subset(benchmark::State& state) {
+    const auto stride = static_cast<std::uint32_t>(state.range(0));
+    const auto step = tests::stepOf(tests::cube(200), [](std::size_t i) {
+        const glm::dvec3 at = glm::dvec3(i % 200, i / 200 % 200, i / 40000) / 25.0;
+        return std::sin(at.x) * std::cos(at.y) + std::sin(at.y) * std::cos(at.z) +
+               std::sin(at.z) * std::cos(at.x);
+    });
+    const render::Lattice lattice(step.grid());
+    render::Scene scene{.step = step,
+                        .lattice = lattice,
+                        .layers = {{step.select(timeseries::RangeSet::parse("0.5:0.75")),
+                                    {render::Constant{{1, 0.5, 0.1}}, 0.2}}},
+                        .footprint = {},
+                        .order = render::Order::None,
+                        .clip = {}};
+    const render::gl::HeadlessContext context;
+    render::FrameRenderer renderer;
+    render::GpuStep onGpu(step, lattice);
+    const std::array views{tests::lookFrom({1, -5, 1}, kSize, 0.25)};
+    const auto light = [&] {
+        const auto drawn =
+            renderer.render({scene, step.grid(), {}, glm::dvec3(0)}, onGpu, views)[0].image;
+        std::vector<float> rgb;
+        for (const glm::vec4& p : drawn.pixels) rgb.insert(rgb.end(), {p.r, p.g, p.b});
+        return rgb;
+    };
+    const auto whole = light();
+    const auto count = render::pointCount(scene.layers[0]);
+    scene.stride = stride;
+    if (state.range(1) != 0) scene.footprint.size = std::cbrt(stride);
+    const render::FrameContent content{scene, step.grid(), {}, glm::dvec3(0)};
+    for (auto _ : state) {
+        renderer.drawEye(renderer.prepare(content, onGpu, views), views[0]);
+        glFinish();
+    }
+    state.counters["error"] = render::compareScalars(light(), whole).relativeL2;
+    state.counters["points"] = static_cast<double>(count);
+}
+BENCHMARK(BM_Subset)
+    ->ArgNames({"stride", "grown"})
+    ->ArgsProduct({{1, 3, 7, 21, 63}, {0, 1}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
