@@ -40,9 +40,9 @@ std::string offeredContext() {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     GLFWwindow* plain = glfwCreateWindow(64, 64, "isochron", nullptr, nullptr);
-    if (plain == nullptr) return lastError();
+    if (plain == nullptr) return "none: " + lastError();
     const std::string offered =
-        fmt::format("it gives {}.{}", glfwGetWindowAttrib(plain, GLFW_CONTEXT_VERSION_MAJOR),
+        fmt::format("{}.{}", glfwGetWindowAttrib(plain, GLFW_CONTEXT_VERSION_MAJOR),
                     glfwGetWindowAttrib(plain, GLFW_CONTEXT_VERSION_MINOR));
     glfwDestroyWindow(plain);
     return offered;
@@ -60,8 +60,9 @@ GLFWwindow* createWindow(glm::ivec2 size, const std::string& title) {
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "isochron");
     GLFWwindow* window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
     if (window == nullptr)
-        throw std::runtime_error(fmt::format("this display has no OpenGL 4.5 core context: {}; {}",
-                                             offeredContext(), kHeadlessWay));
+        throw std::runtime_error(
+            fmt::format("a window needs OpenGL 4.5 and this display gives {}; {}", offeredContext(),
+                        kHeadlessWay));
     return window;
 }
 

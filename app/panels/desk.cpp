@@ -2,7 +2,7 @@
 
 namespace app::panels {
 
-void beginRegion(const char* id, const Rect& at, ImU32 background) {
+void beginRegion(const char* id, const Rect& at, ImU32 background, Depth depth) {
     ImGui::SetNextWindowPos(im(at.min));
     ImGui::SetNextWindowSize(im(glm::max(at.size(), glm::vec2(1))));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, background);
@@ -12,7 +12,7 @@ void beginRegion(const char* id, const Rect& at, ImU32 background) {
     ImGui::Begin(id, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+                     (depth == Depth::Fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus : 0));
 }
 
 void endRegion() {

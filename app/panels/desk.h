@@ -76,7 +76,9 @@ void edit(Desk& desk, std::string_view gesture, const Change& change) {
 }
 
 // Begins a window of ImGui that is nothing but a rectangle to draw in.
-void beginRegion(const char* id, const Rect& at, ImU32 background);
+// One that is not fixed among the others comes to the front when it is focused.
+enum class Depth { Fixed, Front };
+void beginRegion(const char* id, const Rect& at, ImU32 background, Depth depth = Depth::Fixed);
 void endRegion();
 
 }  // namespace app::panels

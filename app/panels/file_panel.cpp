@@ -95,7 +95,7 @@ void FilePanel::draw(Desk& desk) {
     const glm::vec2 half = 0.5f * glm::min(glm::vec2(640, 520) * s, window.size() - 24 * s);
     const Rect at{glm::floor(window.centre() - half), glm::floor(window.centre() + half)};
     ImGui::SetNextWindowFocus();
-    beginRegion("##files", window, faded(kGround, 0.6f));
+    beginRegion("##files", window, faded(kGround, 0.6f), Depth::Front);
     area("##behind", window);
     ImGui::SetItemAllowOverlap();
     ImDrawList& drawn = *ImGui::GetWindowDrawList();

@@ -221,10 +221,14 @@ void Instrument::drawTime(const Frame& f) const {
     const std::size_t last = f.steps.steps - 1;
     const float half = 0.48f * f.at.times.size().x, y = f.at.times.centre().y;
     ImFont& font = *f.desk.theme.small;
-    text(f.desk.theme, {f.at.times.min.x, y}, fitting(font, timeText(axis, 0), half), kFaint, 0,
-         &font);
-    text(f.desk.theme, {f.at.times.max.x, y}, fitting(font, timeText(axis, last), half), kFaint, 1,
-         &font);
+    // The day alone where day and hour do not fit.
+    const auto shortened = [&](std::size_t step) {
+        const std::string whole = timeText(axis, step);
+        const bool dated = !axis.points[step].date.empty() && widthOf(font, whole) > half;
+        return fitting(font, dated ? whole.substr(0, whole.find(' ')) : whole, half);
+    };
+    text(f.desk.theme, {f.at.times.min.x, y}, shortened(0), kFaint, 0, &font);
+    text(f.desk.theme, {f.at.times.max.x, y}, shortened(last), kFaint, 1, &font);
 }
 
 }  // namespace app::panels

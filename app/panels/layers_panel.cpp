@@ -47,7 +47,8 @@ void add(Desk& desk, const timeseries::SortedStep& step) {
     });
 }
 
-void colorPopup(Desk& desk, std::size_t row) {
+void colorPopup(Desk& desk, const Rect& swatch, std::size_t row) {
+    ImGui::SetNextWindowPos({swatch.min.x, swatch.max.y + 4 * desk.theme.scale});
     ImGui::SetNextWindowSize({292 * desk.theme.scale, 0});
     if (!beginPopup("color")) return;
     Explorer next = desk.exploration.explorer();
@@ -132,7 +133,7 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
     drawSwatch(list, at.swatch, layer, s);
     if (pressing.hovered) list.AddRect(im(at.swatch.min), im(at.swatch.max), kText, 4 * s, 0, s);
     if (pressing.clicked) ImGui::OpenPopup("color");
-    colorPopup(desk, row);
+    colorPopup(desk, at.swatch, row);
 
     if (swept)
         text(desk.theme, {at.text.min.x + 8 * s, at.text.centre().y},

@@ -41,7 +41,7 @@ void Messages::draw(Desk& desk, std::chrono::nanoseconds dt) {
                             [&](const auto& m) { return m.number == entry.first; });
     });
     const float s = desk.theme.scale;
-    float bottom = desk.layout.picture.max.y - kMargin * s;
+    float bottom = desk.layout.picture.max.y - 76 * s;  // above the frame's figures
     for (std::size_t i = messages.size(); i-- > 0;) {
         bool closed = false;
         bottom = card(desk, messages[i], bottom, closed) - 8 * s;

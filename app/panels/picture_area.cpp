@@ -37,12 +37,13 @@ std::string waitingText(const Desk& desk) {
     return waiting;
 }
 
-// Lines of small text over the picture, the last at the bottom.
-void lowerLeft(const Desk& desk, std::span<const std::string> lines) {
+// Lines of small text over the picture, the last at the bottom. On the right: the picture's own
+// notes stand on the left.
+void lowerRight(const Desk& desk, std::span<const std::string> lines) {
     const float s = desk.theme.scale;
-    glm::vec2 at(desk.layout.picture.min.x + kMargin * s, desk.layout.picture.max.y - 16 * s);
+    glm::vec2 at(desk.layout.picture.max.x - kMargin * s, desk.layout.picture.max.y - 16 * s);
     for (std::size_t i = lines.size(); i-- > 0; at.y -= 18 * s)
-        text(desk.theme, at, lines[i], i + 1 == lines.size() ? kFaint : kDim, 0, desk.theme.small);
+        text(desk.theme, at, lines[i], i + 1 == lines.size() ? kFaint : kDim, 1, desk.theme.small);
 }
 
 // A rounded label at the picture's top; returns where it is.
@@ -137,7 +138,7 @@ void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting)
                             bytesText(p.gpuBytes));
     if (const std::string limit = limitText(p); !limit.empty()) last += "  ·  " + limit;
     lines.push_back(last);
-    lowerLeft(desk, lines);
+    lowerRight(desk, lines);
 }
 
 }  // namespace app::panels

@@ -13,6 +13,13 @@ std::string withUnit(const std::string& number, const std::string& unit) {
     return shown.empty() || shown == "index" ? number : number + " " + shown;
 }
 
+// As few digits as tell the value among those of its own type.
+std::string valueText(const timeseries::Number& value, timeseries::ValueType type) {
+    if (type == timeseries::ValueType::F32)
+        return fmt::format("{}", static_cast<float>(timeseries::toDouble(value)));
+    return timeseries::toText(value);
+}
+
 void line(const Theme& theme, Form& form, std::string_view label, std::string_view what) {
     const Rect row = form.row(label);
     text(theme, {row.min.x, row.centre().y}, fitting(*theme.text, what, row.size().x));
@@ -58,7 +65,7 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     const timeseries::Grid& grid = shown->sorted->grid();
     const Reading& r = second_ ? *second_ : *first_;
     line(desk.theme, form, shown->dataset.about.name,
-         withUnit(timeseries::toText(r.value), shown->dataset.about.units));
+         withUnit(valueText(r.value, shown->sorted->type()), shown->dataset.about.units));
     for (int i = 0; i < 3; ++i) {
         const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(i)];
         line(desk.theme, form, axis.name,

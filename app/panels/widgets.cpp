@@ -179,7 +179,12 @@ std::optional<double> numberField(const Theme& theme, TextField& field, const ch
 }
 
 bool beginPopup(const char* id) {
-    if (!ImGui::BeginPopup(id)) return false;
+    // The regions' own windows have no padding.
+    const float unit = ImGui::GetFontSize();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.75f * unit, 0.65f * unit});
+    const bool open = ImGui::BeginPopup(id);
+    ImGui::PopStyleVar();
+    if (!open) return false;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
     return true;
 }
