@@ -157,7 +157,7 @@ void LayersPanel::editText(Desk& desk, const LayerRowLayout& at, std::size_t row
     const Explorer& e = desk.exploration.explorer();
     Explorer now = e;
     const auto entered = texts_[row].draw(desk.theme, "##ranges", at.text,
-                                          layerOf(now, row).ranges.text(), "600:1600, top 1 %");
+                                          layerOf(now, row).ranges.text(), "600:1600 or top 1 %");
     if (!entered) return;
     const auto shown = desk.exploration.shown();
     if (!shown) return;
