@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <limits>
 #include <stdexcept>
 
 namespace app::desktop {
@@ -63,6 +64,7 @@ GLFWwindow* createWindow(glm::ivec2 size, const std::string& title) {
         throw std::runtime_error(
             fmt::format("a window needs OpenGL 4.5 and this display gives {}; {}", offeredContext(),
                         kHeadlessWay));
+    glfwSetWindowSizeLimits(window, 640, 420, GLFW_DONT_CARE, GLFW_DONT_CARE);
     return window;
 }
 
@@ -102,6 +104,13 @@ void Window::State::listen() {
         glfwGetFramebufferSize(w, &pixels.x, &pixels.y);
         const glm::vec2 ratio = glm::vec2(pixels) / glm::vec2(glm::max(size, glm::ivec2(1)));
         of(w).events.push_back(MouseMoved{glm::vec2(x, y) * ratio});
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+        // A drag goes on outside.
+        if (entered == GLFW_TRUE || glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
+            glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS)
+            return;
+        of(w).events.push_back(MouseMoved{glm::vec2(-std::numeric_limits<float>::max())});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
         if (button < 3) of(w).events.push_back(MouseButton{button, action == GLFW_PRESS});

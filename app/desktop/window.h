@@ -16,7 +16,7 @@ struct GLFWwindow;
 
 namespace app::desktop {
 
-// Positions are framebuffer pixels, y down.
+// Positions are framebuffer pixels, y down; far away (-FLT_MAX) once the mouse has left.
 struct MouseMoved {
     glm::vec2 at;
 };

@@ -82,12 +82,6 @@ void step(Pen& pen, float way) {
     pen.bar({x - 1, -5.5f}, {x + 1, 5.5f});
 }
 
-void fit(Pen& pen) {
-    for (const float x : {-1.0f, 1.0f})
-        for (const float y : {-1.0f, 1.0f})
-            pen.line({{6 * x, 2.5f * y}, {6 * x, 6 * y}, {2.5f * x, 6 * y}});
-}
-
 }  // namespace
 
 void drawIcon(ImDrawList& list, Icon icon, glm::vec2 centre, float scale, ImU32 color) {
@@ -121,8 +115,6 @@ void drawIcon(ImDrawList& list, Icon icon, glm::vec2 centre, float scale, ImU32 
         case Icon::Menu:
             for (const float x : {-5.0f, 0.0f, 5.0f}) pen.dot({x, 0}, 1.5f);
             return;
-        case Icon::Fit:
-            return fit(pen);
         case Icon::Folder:
             return pen.line(
                 {{-6.5f, -4.5f}, {-2, -4.5f}, {-0.5f, -2.5f}, {6.5f, -2.5f}, {6.5f, 5}, {-6.5f, 5}},

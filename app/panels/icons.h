@@ -18,7 +18,6 @@ enum class Icon {
     Remove,
     Add,
     Menu,
-    Fit,
     Folder,
     File,
     Down

@@ -88,7 +88,7 @@ struct StepAxis {
     }
     float centre(std::size_t step) const { return 0.5f * (cell(step) + cell(step + 1)); }
     std::size_t stepAt(float x) const {
-        const float t = std::clamp((x - left) / (right - left), 0.0f, 1.0f);
+        const float t = std::clamp((x - left) / std::max(1.0f, right - left), 0.0f, 1.0f);
         return std::min(steps - 1, static_cast<std::size_t>(t * static_cast<float>(steps)));
     }
 };
