@@ -65,9 +65,8 @@ void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
 void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::path> recent) {
     const float s = desk.theme.scale, left = at.min.x + kMargin * s, right = at.max.x - kMargin * s;
     const Rect button{{right - 28 * s, at.min.y + 12 * s}, {right, at.min.y + 40 * s}};
-    const auto shown = desk.exploration.shown();
-    const std::string name = shown ? std::filesystem::path(shown->dataset.name).filename().string()
-                                   : std::string("isochron");
+    const Shown shown = *desk.exploration.shown();
+    const std::string name = std::filesystem::path(shown.dataset.name).filename().string();
     text(desk.theme, {left, button.centre().y},
          fitting(*desk.theme.strong, name, button.min.x - left - 8 * s), kText, 0,
          desk.theme.strong);
@@ -77,8 +76,7 @@ void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::pat
         menu(desk, recent);
         ImGui::EndPopup();
     }
-    if (shown)
-        variableChoice(desk, {{left, at.min.y + 48 * s}, {right, at.min.y + 78 * s}}, *shown);
+    variableChoice(desk, {{left, at.min.y + 48 * s}, {right, at.min.y + 78 * s}}, shown);
 }
 
 }  // namespace app::panels

@@ -7,6 +7,7 @@
 
 namespace app::panels {
 
+// REQUIRES: something is shown.
 void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::path> recent);
 
 }  // namespace app::panels

@@ -58,9 +58,13 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
     choices_.layer = std::min(choices_.layer, layers == 0 ? 0 : layers - 1);
     popup_ = files_.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     ImGui::PushFont(around.theme.text);
+    const bool started = exploration.shown().has_value();
+    if (!started) desk.layout.picture = desk.layout.window;
     drawPicture(desk, around);
-    drawSide(desk, around);
-    timeBar_.draw(desk, desk.layout.timeBar);
+    if (started) {
+        drawSide(desk, around);
+        timeBar_.draw(desk, desk.layout.timeBar);
+    }
     files_.draw(desk);
     ImGui::PopFont();
     if (ImGui::IsMouseReleased(0) || ImGui::IsMouseReleased(2)) exploration.endGesture();
@@ -88,26 +92,24 @@ void Interface::drawSide(Desk& desk, const Surroundings& around) {
     const SideLayout parts =
         sideLayout(desk.layout, LayersPanel::rows(desk.exploration.explorer()));
     drawHeader(desk, parts.header, around.offers.recent);
-    if (desk.exploration.shown()) {
-        hairline(side.min.x, side.max.x, parts.layers.min.y);
-        layers_.draw(desk, parts.layers);
-        hairline(side.min.x, side.max.x, parts.instrument.min.y);
-        instrument_.draw(desk, parts.instrument);
-        drawTabs(desk, parts.tabs);
-        switch (choices_.page) {
-            case Page::Animation:
-                animation_.draw(desk, parts.page);
-                break;
-            case Page::View:
-                view_.draw(desk, parts.page);
-                break;
-            case Page::Quality:
-                drawQualityPage(desk, parts.page);
-                break;
-            case Page::Probe:
-                probe_.draw(desk, parts.page);
-                break;
-        }
+    hairline(side.min.x, side.max.x, parts.layers.min.y);
+    layers_.draw(desk, parts.layers);
+    hairline(side.min.x, side.max.x, parts.instrument.min.y);
+    instrument_.draw(desk, parts.instrument);
+    drawTabs(desk, parts.tabs);
+    switch (choices_.page) {
+        case Page::Animation:
+            animation_.draw(desk, parts.page);
+            break;
+        case Page::View:
+            view_.draw(desk, parts.page);
+            break;
+        case Page::Quality:
+            drawQualityPage(desk, parts.page);
+            break;
+        case Page::Probe:
+            probe_.draw(desk, parts.page);
+            break;
     }
     drawEdge(desk);
     endRegion();

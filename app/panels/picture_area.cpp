@@ -42,6 +42,13 @@ std::string waitingText(const Desk& desk) {
 void lowerRight(const Desk& desk, std::span<const std::string> lines) {
     const float s = desk.theme.scale;
     glm::vec2 at(desk.layout.picture.max.x - kMargin * s, desk.layout.picture.max.y - 16 * s);
+    float widest = 0;
+    for (const std::string& line : lines)
+        widest = std::max(widest, widthOf(*desk.theme.small, line));
+    // Axes may run below.
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {at.x - widest - 8 * s, at.y - (18 * static_cast<float>(lines.size()) - 8) * s},
+        {at.x + 8 * s, at.y + 12 * s}, faded(kGround, 0.75f), 4 * s);
     for (std::size_t i = lines.size(); i-- > 0; at.y -= 18 * s)
         text(desk.theme, at, lines[i], i + 1 == lines.size() ? kFaint : kDim, 1, desk.theme.small);
 }
