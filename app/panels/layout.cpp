@@ -25,7 +25,7 @@ Layout layoutOf(glm::vec2 window, float scale, float sideWidth) {
 }
 
 SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
-    constexpr float kHeader = 90, kLeastInstrument = 184, kInstrument = 290, kLeastPage = 168,
+    constexpr float kHeader = 90, kLeastInstrument = 212, kInstrument = 290, kLeastPage = 140,
                     kPage = 316, kLeastRows = 2.1f;
     const float s = layout.scale;
     const Rect& side = layout.side;
