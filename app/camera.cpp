@@ -16,13 +16,14 @@ constexpr double kBoxShare = 0.80;
 
 // From where all corners are inside the share, and none is so near that the near plane cuts it, as
 // the tip of a needle seen end on. A single point is seen from 4 away.
-double fittingDistance(const glm::dmat3& axes, const glm::dvec3& boxHalf, const glm::dvec2& slope) {
+double fittingDistance(const glm::dmat3& axes, const glm::dmat3& boxHalfEdges,
+                       const glm::dvec2& slope) {
     constexpr double kNearestCorner = 0.3;
-    if (boxHalf == glm::dvec3(0)) return 4;
+    if (boxHalfEdges == glm::dmat3(0)) return 4;
     double distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const glm::dvec3 at = glm::transpose(axes) * (sign * boxHalf);
+        const glm::dvec3 at = glm::transpose(axes) * (boxHalfEdges * sign);
         distance = std::max({distance, at.z + kNearestCorner,
                              at.z + std::abs(at.x) / (slope.x * kBoxShare),
                              at.z + std::abs(at.y) / (slope.y * kBoxShare)});
@@ -33,7 +34,7 @@ double fittingDistance(const glm::dmat3& axes, const glm::dvec3& boxHalf, const 
 }  // namespace
 
 std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stereo,
-                               const glm::dvec3& boxHalf, glm::ivec2 size) {
+                               const glm::dmat3& boxHalfEdges, glm::ivec2 size) {
     const double azimuth = glm::radians(view.azimuthDegrees);
     const double elevation = glm::radians(view.elevationDegrees);
     // Right comes from the azimuth alone, so that looking straight down is no special case.
@@ -46,7 +47,7 @@ std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stere
     const double shorter = std::min(size.x, size.y);
     const glm::dvec2 slope = tangent * glm::dvec2(size) / shorter;
     const double distance =
-        view.distance.value_or(fittingDistance(glm::dmat3(right, up, back), boxHalf, slope));
+        view.distance.value_or(fittingDistance(glm::dmat3(right, up, back), boxHalfEdges, slope));
     const double near = distance / 200, far = distance + 10;
     const auto eye = [&](double sideways, double convergence) {
         const double shift = -sideways / convergence;

@@ -116,7 +116,7 @@ void drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
             lattice.emplace(step->grid(), e.scale);
             onGpu.emplace(*step, *lattice);
         }
-        const auto views = eyes(e.view, e.stereo, lattice->boxHalf(), e.size);
+        const auto views = eyes(e.view, e.stereo, lattice->boxHalfEdges(), e.size);
         const Picture picture = makePicture(e, about, frame.step, *step, *lattice, frame.tick);
         const Explorer alone = onlyThis(e, frame.step, *step, frame.tick);
         auto eyePictures = renderer.render(
