@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "tests/support/nrrd_builder.h"
@@ -199,15 +200,84 @@ TEST(Nrrd, AxesWithoutSpacingAreCountedAndSaySo) {
                     "z is placed by index: a spacing of 1 does not tell its samples apart"));
 }
 
-TEST(Nrrd, RotatedAndShearedGridsAreDrawnInIndexSpace) {
-    for (const char* directions : {"(0.8,0.6,0) (-0.6,0.8,0) (0,0,1)", "(1,0,0) (1,1,0) (0,0,1)",
-                                   "(1,0,0) (2,0,0) (0,0,1)", "(0,0,0) (0,1,0) (0,0,1)"}) {
-        const auto reader =
-            openBytes(slab(fmt::format("space: RAS\nspace directions: {}\n", directions)));
+// The place of every sample as the format defines it: origin + i d0 + j d1 + k d2.
+void expectPlaces(const Grid& grid, const glm::dvec3& origin, const glm::dmat3& steps) {
+    const auto n = grid.size();
+    for (std::uint64_t index = 0; index < grid.count(); ++index) {
+        const glm::dvec3 ijk(index % n[0], index / n[0] % n[1], index / n[0] / n[1]);
+        EXPECT_LT(glm::distance(grid.position(index), origin + steps * ijk), 1e-9) << index;
+        EXPECT_LT(glm::distance(grid.cell(index)[0], steps[0]), 1e-9) << index;
+    }
+}
+
+TEST(Nrrd, RotatedAndShearedGridsLieWhereTheirDirectionsSay) {
+    struct Case {
+        const char* directions;
+        glm::dmat3 steps;
+    };
+    for (const Case& c :
+         {Case{"(1.6,1.2,0) (-0.6,0.8,0) (0,0,3)", {{1.6, 1.2, 0}, {-0.6, 0.8, 0}, {0, 0, 3}}},
+          Case{"(1,0,0) (1,1,0) (0,0,-2)", {{1, 0, 0}, {1, 1, 0}, {0, 0, -2}}},
+          Case{"(0,0.5,0.5) (1,0,0) (0,2,-1)", {{0, 0.5, 0.5}, {1, 0, 0}, {0, 2, -1}}}}) {
+        const auto reader = openBytes(
+            slab(fmt::format("space: RAS\nspace origin: (-10,20,1e6)\nspace units: \"mm\" \"mm\" "
+                             "\"mm\"\nspace directions: {}\n",
+                             c.directions)));
+        EXPECT_EQ(valuesOf<std::uint8_t>(*reader), ramp<std::uint8_t>(24));
+        const Grid& grid = *reader->variables()[0].grid;
+        expectPlaces(grid, {-10, 20, 1e6}, c.steps);
+        EXPECT_EQ(grid.axes()[0].name, "i");
+        EXPECT_EQ(grid.axes()[2].units, "mm");
+        EXPECT_EQ(grid.axes()[0].coordinates[0], 0) << "lengths from the first sample";
+        EXPECT_THAT(grid.frame().names, ElementsAre("right", "anterior", "superior"));
+        EXPECT_TRUE(reader->variables()[0].notes.empty());
+    }
+}
+
+TEST(Nrrd, DirectionsThatPlaceNothingAreDrawnInIndexSpace) {
+    for (const char* space :
+         {"space directions: (1,0,0) (2,0,0) (0,0,1)", "space directions: (0,0,0) (0,1,0) (0,0,1)",
+          "space directions: (1,0,0) (0,1,0) (1,1,1e-9)",
+          "space directions: (1e300,1e300,0) (0,1,0) (0,1e308,1e308)",
+          "space directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\nspace units: \"m\" \"mm\" \"m\""}) {
+        const auto reader = openBytes(slab(fmt::format("space: RAS\n{}\n", space)));
         EXPECT_EQ(valuesOf<std::uint8_t>(*reader), ramp<std::uint8_t>(24));
         EXPECT_EQ(coordinates(*reader, 1), (std::vector<double>{0, 1, 2}));
-        EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("index space")));
+        EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("index space"))) << space;
     }
+}
+
+TEST(Nrrd, ObliquePlanesAndRowsStandInSpace) {
+    const auto plane =
+        openBytes(nrrd("type: uchar\ndimension: 2\nsizes: 2 3\nencoding: raw\nspace: RAS\n"
+                       "space directions: (0.6,0,0.8) (0,2,0)\nspace origin: (1,2,3)\n",
+                       "abcdef"));
+    const Grid& grid = *plane->variables()[0].grid;
+    EXPECT_LT(glm::distance(grid.position(5), {1.6, 6, 3.8}), 1e-12);
+    EXPECT_NEAR(glm::length(grid.cell(0)[2]), 1, 1e-12) << "as thick as its smallest step";
+    EXPECT_NEAR(glm::dot(grid.cell(0)[2], grid.cell(0)[0]), 0, 1e-12) << "and upright";
+    const auto row =
+        openBytes(nrrd("type: uchar\ndimension: 1\nsizes: 6\nencoding: raw\n"
+                       "space: RAS\nspace directions: (1,1,1)\n",
+                       "abcdef"));
+    EXPECT_LT(glm::distance(row->variables()[0].grid->position(5), {5, 5, 5}), 1e-12);
+}
+
+TEST(Nrrd, ObliqueStepsOfASeriesShareTheirPlaces) {
+    // Time in space, as the fourth coordinate, and as the first axis.
+    const auto reader =
+        openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
+                       "space directions: (0,0,0,5) (0.6,0.8,0,0) (-0.8,0.6,0,0) (0,0,1,0)\n",
+                       bytesOf(ramp<std::uint8_t>(12))));
+    EXPECT_EQ(reader->variables()[0].time->points.size(), 2u);
+    expectPlaces(*reader->variables()[0].grid, {}, {{0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}});
+    EXPECT_EQ(valuesOf<std::uint8_t>(*reader, 1), (std::vector<std::uint8_t>{1, 3, 5, 7, 9, 11}));
+    // A direction that leans into time has no place in space.
+    const auto leaning =
+        openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
+                       "space directions: (0,0,0,5) (0.6,0.8,0,1) (-0.8,0.6,0,0) (0,0,1,0)\n",
+                       bytesOf(ramp<std::uint8_t>(12))));
+    EXPECT_THAT(leaning->variables()[0].notes, ElementsAre(HasSubstr("index space")));
 }
 
 TEST(Nrrd, LeftHandedSpacesSayThatThePictureIsMirrored) {
@@ -217,6 +287,10 @@ TEST(Nrrd, LeftHandedSpacesSayThatThePictureIsMirrored) {
     EXPECT_EQ(reader->variables()[0].grid->axes()[1].name, "anterior");
     EXPECT_EQ(reader->variables()[0].grid->axes()[1].units, "mm");
     EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("mirrored")));
+    const auto oblique =
+        openBytes(slab("space: LAS\nspace directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\n"));
+    EXPECT_THAT(oblique->variables()[0].notes, ElementsAre(HasSubstr("mirrored")));
+    expectPlaces(*oblique->variables()[0].grid, {}, {{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, 1}});
 }
 
 TEST(Nrrd, PlanesAndRowsAreOneLayer) {

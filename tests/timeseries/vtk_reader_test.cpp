@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numeric>
 
@@ -205,7 +207,7 @@ TEST(VtkImage, FieldDataOfOneNumberTellsTheTime) {
     EXPECT_EQ(time(field("Other", "30")).name, "step");
 }
 
-TEST(VtkImage, RightAnglesTurnTheValuesAndOtherRotationsAreToldOf) {
+TEST(VtkImage, RightAnglesTurnTheValuesAndOtherDirectionsTheGrid) {
     const std::string points = dataArray("Float32", "p", upTo<float>(12));
     const auto turned = [&](const std::string& direction) {
         return openText(imageText(
@@ -224,12 +226,44 @@ TEST(VtkImage, RightAnglesTurnTheValuesAndOtherRotationsAreToldOf) {
             for (std::size_t x = 0; x < 2; ++x)
                 EXPECT_EQ(values[x + 2 * (y + 3 * z)], static_cast<float>(y + 3 * (x + 2 * z)));
 
-    const auto oblique = turned("0.6 -0.8 0 0.8 0.6 0 0 0 1");
-    EXPECT_THAT(oblique->variables()[0].notes,
-                ElementsAre("drawn in index space: the axes are rotated (0.6 -0.8 0 0.8 0.6 0 0 0 "
-                            "1)"));
-    EXPECT_EQ(oblique->variables()[0].grid->axes()[0].units, "index");
-    EXPECT_EQ(valuesOf<float>(*oblique, "p"), upTo<float>(12));
+    // As VTK multiplies: origin + direction (spacing * ijk), the matrix row by row; also sheared,
+    // mirrored, and with columns of other lengths.
+    for (const glm::dmat3& rows : {glm::dmat3{{0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1}},
+                                   glm::dmat3{{1, 0.5, 0}, {0, 1, 0}, {0, -0.2, -1}},
+                                   glm::dmat3{{2, 0, 0}, {0, 1, 3}, {0, 0, 1}}}) {
+        const auto oblique =
+            turned(fmt::format("{} {} {} {} {} {} {} {} {}", rows[0].x, rows[0].y, rows[0].z,
+                               rows[1].x, rows[1].y, rows[1].z, rows[2].x, rows[2].y, rows[2].z));
+        const Grid& placed = *oblique->variables()[0].grid;
+        for (std::uint64_t p = 0; p < 12; ++p) {
+            const glm::dvec3 ijk(p % 3, p / 3 % 2, p / 6);
+            const glm::dvec3 expected =
+                glm::dvec3(10, 20, 30) + glm::transpose(rows) * (glm::dvec3(1, 2, 3) * ijk);
+            EXPECT_LT(glm::distance(placed.position(p), expected), 1e-12) << p;
+        }
+        EXPECT_EQ(placed.axes()[0].name, "i");
+        EXPECT_TRUE(oblique->variables()[0].notes.empty());
+        EXPECT_EQ(valuesOf<float>(*oblique, "p"), upTo<float>(12));
+    }
+    for (const char* flawed : {"1 1 0 0 0 0 0 0 1", "0 0 0 0 0 0 0 0 0"}) {
+        const auto flat = turned(flawed);
+        EXPECT_THAT(flat->variables()[0].notes, ElementsAre(HasSubstr("drawn in index space")));
+        EXPECT_EQ(flat->variables()[0].grid->axes()[0].units, "index");
+        EXPECT_EQ(valuesOf<float>(*flat, "p"), upTo<float>(12));
+    }
+}
+
+TEST(VtkImage, ObliqueCellDataLieAtTheCellsCentres) {
+    const auto reader = openText(imageText(
+        {.extent = "2 4 0 1 0 1",
+         .attributes =
+             "Origin=\"10 20 30\" Spacing=\"1 2 3\" Direction=\"0.6 -0.8 0 0.8 0.6 0 0 0 1\"",
+         .cells = dataArray("UInt8", "c", upTo<std::uint8_t>(2))}));
+    // The second cell's centre is 3.5, 0.5, 0.5 indices from the origin, which is of index 0.
+    const glm::dvec3 along(3.5, 1, 1.5);
+    const glm::dvec3 expected(10 + 0.6 * along.x - 0.8 * along.y,
+                              20 + 0.8 * along.x + 0.6 * along.y, 30 + along.z);
+    EXPECT_LT(glm::distance(reader->variables()[0].grid->position(1), expected), 1e-12);
 }
 
 TEST(VtkImage, FlatImagesAreOneLayerAndExtentsNeedNotBeginAt0) {
