@@ -13,6 +13,7 @@
 #include "render/color_map.h"
 #include "render/scene.h"
 #include "timeseries/range_set.h"
+#include "timeseries/time_cursor.h"
 #include "timeseries/value_sweep.h"
 
 namespace app {
@@ -29,6 +30,7 @@ struct LayerChoice {
     // sRGB components as written, #rrggbb / 255; or a map. Absent: chosen by place (see styled()).
     std::optional<std::variant<glm::dvec3, MapChoice>> color;
     std::optional<double> opacity;  // of one unit length of fully selected points, [0, 1]
+    bool visible = true;            // a hidden layer is neither drawn nor counted in totals
     friend bool operator==(const LayerChoice&, const LayerChoice&) = default;
 };
 
@@ -44,10 +46,17 @@ struct ClipBox {
     friend bool operator==(const ClipBox&, const ClipBox&) = default;
 };
 
-// The eye looks at the centre of the box. Azimuth 0 stands at -y (x to the right), 90 at +x.
+// Orthographic is drawn as a perspective from very far (see camera.h): one path of projection.
+enum class Projection { Perspective, Orthographic };
+
+// The eye looks at `target`. Azimuth 0 stands at -y (x to the right), 90 at +x.
 struct ViewChoice {
     double azimuthDegrees = 30, elevationDegrees = 20;
-    std::optional<double> distance;  // in half diagonals of the box; absent: all of it is seen
+    // In half diagonals of the box; absent: all of it is seen. Orthographic, it is the distance at
+    // which a perspective shows the target as large.
+    std::optional<double> distance;
+    glm::dvec3 target{0};  // world: half diagonals of the box from its centre
+    Projection projection = Projection::Perspective;
     friend bool operator==(const ViewChoice&, const ViewChoice&) = default;
 };
 
@@ -58,6 +67,15 @@ struct StereoChoice {
     // In half diagonals of the box. Absent: a thirtieth of the distance, and the box's centre.
     std::optional<double> eyeDistance, convergence;
     friend bool operator==(const StereoChoice&, const StereoChoice&) = default;
+};
+
+// How time and the swept window play, and where the window stands. Pictures do not depend on it,
+// but for `tick` where one picture of a sweep is shown.
+struct PlayChoice {
+    timeseries::CursorSettings time;  // in and out points, stride, ending, direction, pace
+    bool timeMoves = true, sweepMoves = true;
+    std::int64_t tick = 0;  // of the sweep
+    friend bool operator==(const PlayChoice&, const PlayChoice&) = default;
 };
 
 struct Explorer {
@@ -76,6 +94,7 @@ struct Explorer {
     ViewChoice view;
     StereoChoice stereo;
     glm::ivec2 size{1200, 900};
+    PlayChoice play;
 
     friend bool operator==(const Explorer&, const Explorer&) = default;
 };

@@ -1,20 +1,14 @@
 // `isochron render`: steps in, picture files out; no window.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "app/camera.h"
 #include "app/choice_text.h"
 #include "app/commands.h"
 #include "app/dataset.h"
-#include "app/json_text.h"
 #include "app/picture.h"
 #include "app/picture_files.h"
 #include "app/progress.h"
-#include "app/session.h"
 #include "app/step_source.h"
-#include "render/color.h"
-#include "render/frame.h"
+#include "app/still.h"
 #include "render/gl/headless_context.h"
 
 namespace app {
@@ -22,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using timeseries::SortedStep;
-
-const glm::dvec3 kBackground = render::linearFromSrgb(glm::dvec3(13, 17, 23) / 255.0);
 
 struct FrameAt {
     std::size_t step;
@@ -116,14 +108,9 @@ void drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
             lattice.emplace(step->grid(), e.scale);
             onGpu.emplace(*step, *lattice);
         }
-        const auto views = eyes(e.view, e.stereo, lattice->boxHalfEdges(), e.size);
-        const Picture picture = makePicture(e, about, frame.step, *step, *lattice, frame.tick);
-        const Explorer alone = onlyThis(e, frame.step, *step, frame.tick);
-        auto eyePictures = renderer.render(
-            {picture.scene, step->grid(), picture.legend, kBackground}, *onGpu, views,
-            {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount});
-        write(frame.file, e.stereo.mode, std::move(eyePictures),
-              {{"isochronSession", jsonText(toJson(alone, frame.file.parent_path()), -1)}});
+        writeStill({e, about, frame.step, *step, *lattice, frame.tick}, renderer, *onGpu,
+                   {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount},
+                   frame.file);
     }
 }
 

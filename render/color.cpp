@@ -1,7 +1,6 @@
 #include "render/color.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace render {
@@ -20,19 +19,23 @@ glm::dvec3 linearFromSrgb(glm::dvec3 encoded) {
     return {linearFromSrgb(encoded.r), linearFromSrgb(encoded.g), linearFromSrgb(encoded.b)};
 }
 
+const std::array<double, 255>& srgb8Steps() {
+    static const auto steps = [] {
+        std::array<double, 255> bounds{};
+        for (std::size_t step = 0; step < bounds.size(); ++step)
+            bounds[step] = linearFromSrgb((static_cast<double>(step) + 0.5) / 255);
+        return bounds;
+    }();
+    return steps;
+}
+
 std::uint8_t srgb8FromLinear(double linear) {
     // The encoding is monotone, so the nearest step is found among the light values where the
     // rounding changes: 8 comparisons in place of a pow.
-    static const auto roundsUpFrom = [] {
-        std::array<double, 255> bounds{};
-        for (std::size_t step = 0; step < bounds.size(); ++step) {
-            bounds[step] = linearFromSrgb((static_cast<double>(step) + 0.5) / 255);
-        }
-        return bounds;
-    }();
     if (std::isnan(linear)) return 0;
-    const auto above = std::upper_bound(roundsUpFrom.begin(), roundsUpFrom.end(), linear);
-    return static_cast<std::uint8_t>(above - roundsUpFrom.begin());
+    const auto& steps = srgb8Steps();
+    return static_cast<std::uint8_t>(std::upper_bound(steps.begin(), steps.end(), linear) -
+                                     steps.begin());
 }
 
 }  // namespace render

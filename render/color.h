@@ -2,6 +2,7 @@
 // inside render/; only the last write to an 8-bit picture encodes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 
@@ -11,6 +12,8 @@ double srgbFromLinear(double linear);  // [0, 1] each; not clamped outside
 double linearFromSrgb(double encoded);
 glm::dvec3 linearFromSrgb(glm::dvec3 encoded);
 
+// The light from which each of the 256 encoded steps but the first is the nearest.
+const std::array<double, 255>& srgb8Steps();
 // The nearest of the 256 encoded steps; clamped, NaN is 0.
 std::uint8_t srgb8FromLinear(double linear);
 

@@ -33,18 +33,8 @@ void forEachPixel(const Splat<Real>& s, glm::ivec2 size, const LatticeView& view
         for (int x = x0; x < x1; ++x) {
             const Vec2 at =
                 Vec2(static_cast<Real>(x) + Real(0.5), static_cast<Real>(y) + Real(0.5)) - axis;
-            const Vec2 slope = at / focal;
-            const Real ray2 = 1 + glm::dot(slope, slope);
-            if (kernel == Kernel::Point) {
-                visit(x, y, s.weight * rayUnit * std::sqrt(ray2));
-                continue;
-            }
-            const Vec2 offset = at - s.centre;
-            const Real d = s.denominator(offset);
-            const Real q = s.numerator(offset) / d;
-            if (q >= 1) continue;
-            const Real u = (1 - q) * (1 - q);
-            visit(x, y, s.weight * rayUnit * std::sqrt(ray2 / d) * u * u);
+            const auto weight = weightOn<Real>(s, kernel, at - s.centre, at / focal, rayUnit);
+            if (weight) visit(x, y, *weight);
         }
     }
 }
@@ -96,12 +86,15 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     const LatticeView latticeView(scene.lattice, view);
     const glm::dmat4& clip = view.clipFromView;
     const glm::uvec3 n = scene.lattice.size();
+    std::vector<double> perSplat;
+    for (const Layer& layer : scene.layers) perSplat.push_back(pointsPerSplat(layer, scene.stride));
     const auto draw = [&](std::size_t layer, std::uint64_t point) {
         const std::uint32_t i = scene.step.gridIndex()[point];
         if (!scene.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y})) return;
-        const auto s = splatAt<Real>(latticeView, scene.lattice.position(i), scene.lattice.cell(i),
+        auto s = splatAt<Real>(latticeView, scene.lattice.position(i), scene.lattice.cell(i),
                                      scene.footprint);
         if (!s.visible) return;
+        s.weight *= static_cast<Real>(perSplat[layer]);
         const double windowDepth =
             (clip[3][2] - clip[2][2] * static_cast<double>(s.depth)) / static_cast<double>(s.depth);
         if (windowDepth > 1) return;  // beyond the far plane
@@ -126,7 +119,8 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     }
     for (std::size_t layer = 0; layer < scene.layers.size(); ++layer)
         for (const timeseries::Run& run : scene.layers[layer].runs)
-            for (std::uint64_t p = run.first; p < run.first + run.count; ++p) draw(layer, p);
+            for (std::uint64_t p = run.first; p < run.first + run.count; p += scene.stride)
+                draw(layer, p);
 }
 
 template void splat(const Scene&, const DrawList&, const View&, std::span<const float>,

@@ -21,7 +21,7 @@ Distances distances(const Scene& scene, const glm::dvec3& midEye) {
     const glm::dmat3& worldFromAxes = scene.lattice.worldFromAxes();
     for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
         for (const timeseries::Run& run : scene.layers[layer].runs) {
-            for (std::uint64_t p = run.first; p < run.first + run.count; ++p) {
+            for (std::uint64_t p = run.first; p < run.first + run.count; p += scene.stride) {
                 const std::uint32_t i = index[p];
                 const glm::uvec3 ijk(i % n.x, i / n.x % n.y, i / n.x / n.y);
                 if (!scene.clip.holds(ijk)) continue;
@@ -80,16 +80,6 @@ DrawList orderExactly(const Scene& scene, const glm::dvec3& midEye) {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return d.away[a] > d.away[b]; });
     return permuted(d.list, order);
-}
-
-std::vector<Channels> channelsFor(const Scene& scene) {
-    if (scene.order == Order::BackToFront) return {Channels::Over};
-    std::vector<Channels> channels;
-    for (const Layer& layer : scene.layers)
-        channels.push_back(std::holds_alternative<Constant>(layer.style.color)
-                               ? Channels::Weight
-                               : Channels::WeightedColor);
-    return channels;
 }
 
 }  // namespace render

@@ -22,6 +22,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
+#include <optional>
 
 #include "render/scene.h"
 #include "render/view.h"
@@ -55,6 +56,21 @@ struct Splat {
         return n.x * o.x * o.x + n.y * o.x * o.y + n.z * o.y * o.y;
     }
 };
+
+// W on the ray of a pixel, `offset` pixels from the splat's centre and of this x / -z and y / -z;
+// none beside the footprint. Of a point splat, on any pixel of its square. `rayUnit` is the length
+// of the ray of the view axis.
+template <typename Real>
+std::optional<Real> weightOn(const Splat<Real>& s, Kernel kernel, const glm::vec<2, Real>& offset,
+                             const glm::vec<2, Real>& slope, Real rayUnit) {
+    const Real ray2 = 1 + glm::dot(slope, slope);
+    if (kernel == Kernel::Point) return s.weight * rayUnit * std::sqrt(ray2);
+    const Real d = s.denominator(offset);
+    const Real q = s.numerator(offset) / d;
+    if (q >= 1) return std::nullopt;
+    const Real u = (1 - q) * (1 - q);
+    return s.weight * rayUnit * std::sqrt(ray2 / d) * u * u;
+}
 
 // Half the side of the square about a sphere's projected centre that holds its outline, on the
 // plane at unit depth: the outline reaches farthest outward, from angle theta to theta + phi.

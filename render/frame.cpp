@@ -4,7 +4,6 @@
 
 #include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
-#include "render/gl_list.h"
 #include "render/shader_sources.h"
 
 namespace render {
@@ -22,7 +21,7 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 FrameRenderer::FrameRenderer() : font_(fontFor({64, 64})) {}
 
-FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, GpuStep& step,
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
                                                std::span<const View> eyes) {
     const glm::ivec2 size = eyes.front().size;
     if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
@@ -53,6 +52,7 @@ void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
+    step.upload(content.scene.step, neededScale(content.scene));
     const Prepared frame = prepare(content, step, eyes);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
@@ -90,7 +90,7 @@ void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
     flat_->draw(axes.labels, into, view.size, gl::DepthTest::None);
 }
 
-void FrameRenderer::drawSplats(const GpuList& list, const View& view) {
+void FrameRenderer::drawSplats(GpuList& list, const View& view) {
     const std::vector<Channels> channels = channelsFor(list.scene());
     for (std::size_t i = 0; i < channels.size(); ++i)
         splatter_.draw(list, view, channels[i], i, targets_->clearedPlane(i, channels[i]));
@@ -103,7 +103,7 @@ const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
     const std::string define =
         over ? "#define OVER\n" : fmt::format("#define LAYERS {}\n", variant);
     return resolve_
-        .emplace(variant, gl::Program("resolve", shaders::resolve_vert, shaders::resolve_frag,
+        .emplace(variant, gl::Program("resolve", shaders::viewport_vert, shaders::resolve_frag,
                                       define.c_str()))
         .first->second;
 }
@@ -120,7 +120,7 @@ void FrameRenderer::resolve(const Scene& scene, glm::ivec2 size) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view) {
+std::vector<float> FrameRenderer::opticalDepth(GpuList& list, const View& view) {
     std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
     const auto& layers = list.scene().layers;
     for (std::size_t k = 0; k < layers.size(); ++k) {

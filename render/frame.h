@@ -9,7 +9,7 @@
 
 #include "render/axes.h"
 #include "render/flat_pass.h"
-#include "render/gl_splatter.h"
+#include "render/gl_list.h"
 #include "render/image.h"
 #include "render/legend.h"
 #include "render/targets.h"
@@ -38,19 +38,21 @@ class FrameRenderer {
  public:
     FrameRenderer();
 
-    // Draws each eye and reads it back. `step` holds the scene's step. Order is taken from the
-    // point midway between the eyes. REQUIRES: at least one eye, all of one size. Throws
+    // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
+    // picture does not depend on what was drawn before. Order is taken from the point midway
+    // between the eyes. REQUIRES: at least one eye, all of one size. Throws
     // std::runtime_error on a GL error.
     std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
-    // The same in its parts, for front ends that show the light instead of reading it.
+    // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
+    // step that is ready for the scene.
     struct Prepared {
         const FrameContent& content;
         std::unique_ptr<GpuList> list;
         glm::dvec3 midEye;
     };
-    Prepared prepare(const FrameContent& content, GpuStep& step, std::span<const View> eyes);
+    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
     void drawEye(const Prepared& frame, const View& eye);  // its light is then in targets()
     const Targets& targets() const { return *targets_; }
 
@@ -61,10 +63,10 @@ class FrameRenderer {
 
  private:
     void drawOpaque(const FrameContent& content, const View& view, const AxesMeshes& axes);
-    void drawSplats(const GpuList& list, const View& view);
+    void drawSplats(GpuList& list, const View& view);
     void resolve(const Scene& scene, glm::ivec2 size);
     const gl::Program& resolveProgram(const Scene& scene);
-    std::vector<float> opticalDepth(const GpuList& list, const View& view);
+    std::vector<float> opticalDepth(GpuList& list, const View& view);
 
     Font font_;
     glm::ivec2 fontFor_{0};  // the picture size whose label styles font_ holds

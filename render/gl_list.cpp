@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -36,6 +37,17 @@ std::vector<glm::vec2> axisTable(const Lattice& lattice) {
     return table;
 }
 
+// Values from the first-th point on, as many as `into` takes.
+void scaled(const timeseries::SortedStep& step, std::uint64_t first, const ValueScale& scale,
+            std::vector<float>& into) {
+    std::visit(
+        [&](const auto& values) {
+            for (std::size_t i = 0; i < into.size(); ++i)
+                into[i] = scale(static_cast<double>(values[first + i]));
+        },
+        step.values());
+}
+
 constexpr std::uint64_t kMostDrawable = std::numeric_limits<GLint>::max();
 
 const timeseries::SortedStep& drawable(const timeseries::SortedStep& step) {
@@ -66,22 +78,75 @@ float ValueScale::operator()(double value) const {
     return static_cast<float>(std::clamp((0.5 * value - 0.5 * lo) / halfWidth, -kMost, kMost));
 }
 
+bool ValueScale::serves(const ValueScale& wanted) const {
+    // A float's error of 2^-24 grows by how far the two are apart and how much they differ in
+    // width, in widths of the wanted one.
+    constexpr double kMostWidths = 1024;
+    if (!(wanted.halfWidth > 0)) return true;
+    return halfWidth > 0 &&
+           halfWidth / wanted.halfWidth + std::abs(0.5 * lo - 0.5 * wanted.lo) / wanted.halfWidth <=
+               kMostWidths;
+}
+
 GpuStep::GpuStep(const timeseries::SortedStep& step, const Lattice& lattice)
-    : gridIndex_(drawable(step).gridIndex()),
+    : count_(drawable(step).size()),
+      gridIndex_(count_ * sizeof(std::uint32_t)),
       axisPoints_(std::span<const glm::vec2>(axisTable(lattice))),
       axisTexture_(GL_RG32F, axisPoints_) {}
 
-void GpuStep::needValues(const timeseries::SortedStep& step, const ValueScale& scale) {
-    if (values_ && scale == scale_) return;
-    std::vector<float> values(step.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = scale(timeseries::toDouble(step.value(i)));
-    values_.emplace(std::span<const float>(values));
-    scale_ = scale;
+void GpuStep::place(const Lattice& lattice) {
+    const std::vector<glm::vec2> table = axisTable(lattice);
+    axisPoints_.write(0, table.size() * sizeof table[0], table.data());
 }
 
-std::size_t GpuStep::bytes() const {
-    return gridIndex_.bytes() + axisPoints_.bytes() + (values_ ? values_->bytes() : 0);
+void GpuStep::upload(const timeseries::SortedStep& step, const std::optional<ValueScale>& scale,
+                     std::uint64_t bytes) {
+    std::uint64_t left = bytes / sizeof(float);  // points and values have one size
+    const std::uint64_t points = std::min(left, count_ - points_);
+    gridIndex_.write(points_ * sizeof(std::uint32_t), points * sizeof(std::uint32_t),
+                     step.gridIndex().data() + points_);
+    points_ += points;
+    left -= points;
+    if (!scale || (values_ && values_->scale == *scale)) {
+        coming_.reset();
+        return;
+    }
+    if (!coming_ || coming_->scale != *scale)
+        coming_.emplace(ScaledValues{gl::Buffer(count_ * sizeof(float)), *scale});
+    constexpr std::uint64_t kChunk = std::uint64_t{1} << 16;
+    std::vector<float> chunk;
+    for (; left > 0 && coming_->count < count_; left -= chunk.size()) {
+        chunk.resize(std::min({left, kChunk, count_ - coming_->count}));
+        scaled(step, coming_->count, *scale, chunk);
+        coming_->buffer.write(coming_->count * sizeof(float), chunk.size() * sizeof(float),
+                              chunk.data());
+        coming_->count += chunk.size();
+    }
+    if (coming_->count < count_) return;
+    values_.emplace(std::move(*coming_));
+    coming_.reset();
+}
+
+std::uint64_t GpuStep::missingBytes(const std::optional<ValueScale>& scale) const {
+    std::uint64_t missing = count_ - points_;
+    if (scale && !(values_ && values_->scale == *scale))
+        missing += count_ - (coming_ && coming_->scale == *scale ? coming_->count : 0);
+    return missing * sizeof(float);
+}
+
+std::uint64_t GpuStep::bytes() const {
+    std::uint64_t bytes = gridIndex_.bytes() + axisPoints_.bytes();
+    for (const auto& values : {std::cref(values_), std::cref(coming_)})
+        if (values.get()) bytes += values.get()->buffer.bytes();
+    return bytes;
+}
+
+std::optional<ValueScale> neededScale(const Scene& scene) {
+    const auto byValue = [](const Layer& layer) {
+        return std::holds_alternative<ByValue>(layer.style.color);
+    };
+    if (scene.order != Order::None || std::ranges::none_of(scene.layers, byValue)) return {};
+    return ValueScale::of(scene.layers);
 }
 
 GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
@@ -91,14 +156,6 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
         const std::vector<SortedPoint> points = gathered(scene, *sorted, scale);
         sorted_.emplace(std::span<const SortedPoint>(points));
         sortedCount_ = static_cast<GLsizei>(points.size());
-    } else {
-        for (const Layer& layer : scene.layers) {
-            LayerRuns& runs = runs_.emplace_back();
-            for (const timeseries::Run& run : layer.runs) {
-                runs.first.push_back(static_cast<GLint>(run.first));
-                runs.count.push_back(static_cast<GLsizei>(run.count));
-            }
-        }
     }
     for (const GLuint divisor : {0u, 1u}) {
         gl::VertexArray& array = divisor == 0 ? points_ : quads_;
@@ -115,29 +172,36 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
     }
 }
 
-void GpuList::draw(bool quads, std::optional<std::size_t> layer) const {
+void GpuList::drawSorted(bool quads) const {
+    if (quads)
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, sortedCount_);
+    else
+        glDrawArrays(GL_POINTS, 0, sortedCount_);
+}
+
+void GpuList::drawRun(const timeseries::Run& run, bool quads) {
+    // The run's first point becomes the arrays' first, its stride theirs.
+    gl::VertexArray& array = quads ? quads_ : points_;
+    const std::size_t first = run.first * sizeof(std::uint32_t);
+    const auto stride = static_cast<GLsizei>(scene_.stride * sizeof(std::uint32_t));
+    array.move(0, step_.gridIndex(), first, stride);
+    if (step_.values() != nullptr) array.move(1, *step_.values(), first, stride);
+    const auto count = static_cast<GLsizei>((run.count + scene_.stride - 1) / scene_.stride);
+    if (quads)
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    else
+        glDrawArrays(GL_POINTS, 0, count);
+}
+
+void GpuList::draw(bool quads, std::optional<std::size_t> layer) {
     glBindVertexArray((quads ? quads_ : points_).id());
-    if (sorted_) {
-        if (quads)
-            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, sortedCount_);
-        else
-            glDrawArrays(GL_POINTS, 0, sortedCount_);
-        return;
-    }
-    for (std::size_t k = 0; k < runs_.size(); ++k) {
+    if (sorted_) return drawSorted(quads);
+    for (std::size_t k = 0; k < scene_.layers.size(); ++k) {
         if (layer && *layer != k) continue;
-        const LayerRuns& runs = runs_[k];
         // Attributes without an array: one value for all.
         glVertexAttribI4ui(2, static_cast<GLuint>(k), 0, 0, 1);
         if (step_.values() == nullptr) glVertexAttrib1f(1, 0);
-        if (!quads) {
-            glMultiDrawArrays(GL_POINTS, runs.first.data(), runs.count.data(),
-                              static_cast<GLsizei>(runs.first.size()));
-            continue;
-        }
-        for (std::size_t r = 0; r < runs.first.size(); ++r)
-            glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, runs.count[r],
-                                              static_cast<GLuint>(runs.first[r]));
+        for (const timeseries::Run& run : scene_.layers[k].runs) drawRun(run, quads);
     }
 }
 

@@ -10,6 +10,7 @@ namespace render {
 
 class GpuList {
  public:
+    // Both must outlive the list. REQUIRES: a step that is ready for the scene.
     GpuList(const Scene& scene, const DrawList& list, const GpuStep& step, const ValueScale& scale);
 
     const Scene& scene() const { return scene_; }
@@ -18,17 +19,15 @@ class GpuList {
 
     // Issues the draw calls of one layer, or of all; program and state are set. A Sorted list is
     // always drawn whole.
-    void draw(bool quads, std::optional<std::size_t> layer) const;
+    void draw(bool quads, std::optional<std::size_t> layer);
 
  private:
-    struct LayerRuns {
-        std::vector<GLint> first;
-        std::vector<GLsizei> count;
-    };
+    void drawSorted(bool quads) const;
+    void drawRun(const timeseries::Run& run, bool quads);
+
     const Scene& scene_;
     const GpuStep& step_;
     bool cubes_;
-    std::vector<LayerRuns> runs_;       // per layer; empty for a sorted list
     std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first
     GLsizei sortedCount_ = 0;
     gl::VertexArray points_, quads_;  // per vertex and per instance

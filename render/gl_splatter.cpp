@@ -89,8 +89,7 @@ const char* define(Channels channels) {
     return "";
 }
 
-// Position in the map = x s + y of a value s on the scale: affine, in double. REQUIRES: no map is
-// narrower than the scale.
+// Position in the map = x s + y of a value s on the scale: affine, in double.
 glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
     const double halfWidth = map.halfWidth();
     if (!(halfWidth > 0)) return {0, 0.5};
@@ -128,35 +127,35 @@ const gl::Program& GlSplatter::program(const Variant& variant) {
 }
 
 std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& list,
-                                            GpuStep& step) {
+                                            const GpuStep& step) {
     ++counts_.uploads;
     LayerBlock block{};
-    const ValueScale scale = ValueScale::of(scene.layers);
-    bool byValue = false;
+    // A sorted list brings its own values.
+    const bool own = std::holds_alternative<Sorted>(list) || step.values() == nullptr;
+    const ValueScale scale = own ? ValueScale::of(scene.layers) : step.valueScale();
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
         const RangeStyle& style = scene.layers[k].style;
         const double tau = opticalDepthPerWeight(style.opacity);
         if (const auto* constant = std::get_if<Constant>(&style.color)) {
             block.style[k] = glm::vec4(glm::dvec4(constant->linearRgb, tau));
+            block.map[k].w = static_cast<float>(pointsPerSplat(scene.layers[k], scene.stride));
             continue;
         }
-        byValue = true;
         const auto& map = std::get<ByValue>(style.color);
         const auto entries = map.map.entries();
         block.style[k] = glm::vec4(0, 0, 0, tau);
-        block.map[k] = glm::vec4(positionOnScale(map, scale), entries.size(), 0);
+        block.map[k] = glm::vec4(positionOnScale(map, scale), entries.size(),
+                                 pointsPerSplat(scene.layers[k], scene.stride));
         std::vector<glm::vec4> row;
         for (const glm::vec3& color : entries) row.emplace_back(color, 1.0f);
         glTextureSubImage2D(colorMaps_.id(), 0, 0, static_cast<GLint>(k),
                             static_cast<GLsizei>(row.size()), 1, GL_RGBA, GL_FLOAT, row.data());
     }
     layers_.write(0, sizeof block, &block);
-    // A sorted list brings its own values.
-    if (byValue && std::holds_alternative<Runs>(list)) step.needValues(scene.step, scale);
     return std::make_unique<GpuList>(scene, list, step, scale);
 }
 
-void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
+void GlSplatter::draw(GpuList& list, const View& view, Channels channels, std::size_t layer,
                       GLuint framebuffer) {
     ++counts_.draws;
     const LatticeView seen(list.scene().lattice, view);

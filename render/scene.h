@@ -47,6 +47,13 @@ struct Layer {
     RangeStyle style;
 };
 constexpr std::size_t kMaxLayers = 8;
+// What every GL takes as the distance of two vertices, 2048 bytes, in points of 4.
+constexpr std::uint32_t kMaxStride = 512;
+
+std::uint64_t pointCount(const Layer& layer);
+std::uint64_t splatCount(const Layer& layer, std::uint32_t stride);  // drawn of them
+// The exact share: a layer's mass is the same at every stride.
+double pointsPerSplat(const Layer& layer, std::uint32_t stride);
 
 enum class Kernel {
     Point,   // a square of `size` pixels, rounded to whole ones
@@ -67,6 +74,9 @@ struct Scene {
     Footprint footprint;
     Order order = Order::None;
     IndexBox clip;
+    // Of each run every stride-th point is drawn, from the first on, and stands for its neighbours
+    // in value: less to draw, for the same mass. At most kMaxStride.
+    std::uint32_t stride = 1;
 };
 
 // The draw list: the runs as they lie, or one list of all layers' points, farthest first.

@@ -20,6 +20,8 @@ class Targets {
     glm::ivec2 size() const { return size_; }
     // RGBA32F, linear, premultiplied; with the opaque scene's depth.
     GLuint lightFramebuffer() const { return light_.id(); }
+    // May be wider than size(): the picture is its lower left part.
+    const gl::Texture& light() const { return color_; }
 
     // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
     // opaque scene's.

@@ -77,6 +77,19 @@ Framebuffer::Framebuffer(std::span<const GLuint> colors, GLuint depth)
             fmt::format("the GL driver cannot draw into this framebuffer (status {:#x})", status));
 }
 
+namespace {
+
+GLuint createdQuery(GLenum target) {
+    GLuint id = 0;
+    glCreateQueries(target, 1, &id);
+    return id;
+}
+
+}  // namespace
+
+Query::Query(GLenum target)
+    : Object(createdQuery(target), [](GLuint id) { glDeleteQueries(1, &id); }) {}
+
 VertexArray::VertexArray()
     : Object(created([](GLsizei n, GLuint* id) { glCreateVertexArrays(n, id); }),
              [](GLuint id) { glDeleteVertexArrays(1, &id); }) {}
@@ -92,6 +105,10 @@ void VertexArray::attach(const Attribute& a) {
     }
     glVertexArrayAttribBinding(id(), a.location, a.location);
     glVertexArrayBindingDivisor(id(), a.location, a.divisor);
+}
+
+void VertexArray::move(GLuint location, const Buffer& buffer, std::size_t offset, GLsizei stride) {
+    glVertexArrayVertexBuffer(id(), location, buffer.id(), static_cast<GLintptr>(offset), stride);
 }
 
 namespace {

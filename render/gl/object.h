@@ -65,6 +65,11 @@ class Framebuffer : public Object {
     explicit Framebuffer(std::span<const GLuint> colors, GLuint depth = 0);
 };
 
+class Query : public Object {
+ public:
+    explicit Query(GLenum target);
+};
+
 class VertexArray : public Object {
  public:
     VertexArray();
@@ -79,6 +84,8 @@ class VertexArray : public Object {
         bool normalized = false;  // unsigned bytes as [0, 1] floats
     };
     void attach(const Attribute& attribute);
+    // An attached attribute reads from here on.
+    void move(GLuint location, const Buffer& buffer, std::size_t offset, GLsizei stride);
 };
 
 // Vertex and fragment shader, linked. Throws std::runtime_error with the driver's log.

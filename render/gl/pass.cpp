@@ -9,9 +9,9 @@ void enable(GLenum what, bool on) { (on ? glEnable : glDisable)(what); }
 
 void begin(const Pass& pass) {
     glBindFramebuffer(GL_FRAMEBUFFER, pass.framebuffer);
-    glViewport(-pass.guard, -pass.guard, pass.size.x + 2 * pass.guard,
+    glViewport(pass.at.x - pass.guard, pass.at.y - pass.guard, pass.size.x + 2 * pass.guard,
                pass.size.y + 2 * pass.guard);
-    glScissor(0, 0, pass.size.x, pass.size.y);
+    glScissor(pass.at.x, pass.at.y, pass.size.x, pass.size.y);
     glEnable(GL_SCISSOR_TEST);
     // Window y upwards, clip depth [0, 1]: as View states.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

@@ -15,6 +15,7 @@ enum class DepthTest { None, Test, TestAndWrite };
 struct Pass {
     GLuint framebuffer = 0;
     glm::ivec2 size{0};  // drawn pixels: the scissor
+    glm::ivec2 at{0};    // their lower left corner
     int guard = 0;       // the viewport reaches this far beyond them on every side
     std::optional<glm::vec4> clearColor = {};  // every colour attachment
     std::optional<float> clearDepth = {};

@@ -21,7 +21,7 @@ layout(std140, binding = 0) uniform SplatView {
 // C++ mirror: LayerBlock.
 layout(std140, binding = 1) uniform Layers {
     vec4 style[8];  // constant linear colour; w: optical depth per weight
-    vec4 map[8];    // position in the map = x v + y of the value v on that scale; z: by value: the map's entries, else 0
+    vec4 map[8];    // position in the map = x v + y of the value v on that scale; z: by value: the map's entries, else 0; w: points that a splat stands for
 } layers;
 
 layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: position along it, cell width
@@ -99,9 +99,9 @@ void main() {
     const vec3 C = view.rayAxis.xyz + centre.x * X + centre.y * Y;
     const float t = clamp(depth / near - 1.0, 0.0, 1.0);
     const float fade = t * t * (3.0 - 2.0 * t);
-    const float mass = cell.x * cell.y * cell.z * view.kernel.z * fade;
-
     const uint l = min(layer, 7u);
+    const float mass = cell.x * cell.y * cell.z * view.kernel.z * fade * layers.map[l].w;
+
 #if defined(WEIGHTED_COLOR) || defined(OVER)
     color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value + layers.map[l].y)
                                   : layers.style[l].rgb;

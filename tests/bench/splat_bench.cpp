@@ -48,6 +48,7 @@ void drawAndResolve(benchmark::State& state, Order order, bool byValue) {
     world.scene.order = order;
     if (byValue) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
     GpuStep onGpu(world.step, world.lattice);
+    onGpu.upload(world.step, neededScale(world.scene));
     FrameRenderer renderer;
     const std::array views{world.view};
     const FrameContent content{world.scene, world.step.grid(), {}, glm::dvec3(0)};
@@ -92,6 +93,7 @@ void BM_ErrorAgainstTruth(benchmark::State& state) {
 
     const gl::HeadlessContext context;
     GpuStep onGpu(step, lattice);
+    onGpu.upload(step, ValueScale::of(scene.layers));
     GlSplatter splatter;
     Targets targets(view.size);
     gl::begin({.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});

@@ -78,6 +78,28 @@ TEST(Truth, ASingleSplatsTotalIsItsCellsVolume) {
     }
 }
 
+TEST(Truth, ASubsetHasTheMassOfTheWhole) {
+    // Far away every point weighs the same.
+    const View view = tests::lookFrom({0, -400, 0}, {65, 65}, 0.005);
+    World world(tests::noise(tests::cube(12)), RangeSet::parse("0.1:0.2,0.5:0.83"));
+    const double whole = massDrawn(weights(world, view), view, 400);
+    for (const std::uint32_t stride : {1u, 2u, 3u, 10u, 100u, kMaxStride}) {
+        world.scene.stride = stride;
+        EXPECT_NEAR(massDrawn(weights(world, view), view, 400), whole, 1e-2 * whole) << stride;
+    }
+    // Ordered, the list holds the subset: of each run from its first on.
+    world.scene.order = Order::BackToFront;
+    world.scene.stride = 10;
+    auto listed = std::get<Sorted>(order(world.scene, {0, -3, 0})).point;
+    std::ranges::sort(listed);
+    std::vector<std::uint32_t> expected;
+    for (const auto& run : world.scene.layers[0].runs)
+        for (std::uint64_t i = 0; i < run.count; i += 10)
+            expected.push_back(static_cast<std::uint32_t>(run.first + i));
+    EXPECT_EQ(listed, expected);
+    EXPECT_EQ(expected.size(), splatCount(world.scene.layers[0], 10));
+}
+
 TEST(Truth, TheTotalStaysWhenTheSplatIsSmallerThanAPixel) {
     // From far away the cell is a tenth of a pixel; its position between the pixels must not show.
     for (const double shift : {0.0, 0.2, 0.37, 0.5}) {

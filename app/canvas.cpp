@@ -1,0 +1,164 @@
+#include "app/canvas.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "app/camera.h"
+#include "app/gpu_steps.h"
+#include "app/still.h"
+#include "render/gl/gpu_timer.h"
+
+namespace app {
+namespace {
+
+std::uint64_t selectedPoints(const std::vector<render::Layer>& layers) {
+    std::uint64_t sum = 0;
+    for (const render::Layer& layer : layers) sum += render::pointCount(layer);
+    return sum;
+}
+
+std::uint64_t drawnSplats(const render::Scene& scene) {
+    std::uint64_t sum = 0;
+    for (const render::Layer& layer : scene.layers) sum += render::splatCount(layer, scene.stride);
+    return sum;
+}
+
+// The least stride that keeps to the limit. Points of equal value stand in grid order, where a
+// stride that divides a row would take whole planes and leave others out: one a little greater that
+// divides neither rows nor columns is preferred.
+std::uint32_t strideFor(std::uint64_t points, std::uint64_t limit, const glm::uvec3& grid) {
+    const std::uint64_t least = (points + limit - 1) / std::max<std::uint64_t>(limit, 1);
+    if (least <= 1) return 1;
+    for (std::uint64_t s = least; s <= least + least / 2; ++s)
+        if (std::gcd(s, grid.x) == 1 && std::gcd(s, grid.y) == 1)
+            return static_cast<std::uint32_t>(std::min<std::uint64_t>(s, render::kMaxStride));
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(least, render::kMaxStride));
+}
+
+// What is drawn: a step that is wholly on the GPU, and the choices it is drawn with.
+struct Screen {
+    std::shared_ptr<const timeseries::SortedStep> sorted;
+    GpuSteps::Held* held;
+    Explorer explorer;
+    timeseries::Variable about;
+    std::size_t step;
+    std::uint32_t stride = 1;  // of the last draw
+};
+
+Picture pictureOf(const Screen& screen) {
+    return makePicture(screen.explorer, screen.about, screen.step, *screen.sorted,
+                       screen.held->lattice, screen.explorer.play.tick);
+}
+
+// Whether choices made for one step suit another: of the same variable, with the same values kept.
+bool sameData(const Explorer& a, const Explorer& b) {
+    return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
+}
+
+}  // namespace
+
+struct Canvas::State {
+    render::FrameRenderer renderer;
+    render::gl::GpuTimer timer;
+    GpuSteps steps;
+    std::optional<Screen> screen;
+
+    // Uploads a slice of what is shown and, once it is whole, puts it on the screen. Returns the
+    // step shown.
+    GpuSteps::Held& bring(const Shown& shown, std::uint64_t uploadBytes, CanvasReport& report);
+};
+
+GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadBytes,
+                                     CanvasReport& report) {
+    GpuSteps::Held& held = steps.use(shown.sorted, shown.explorer.scale);
+    Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
+    const Picture picture = pictureOf(next);
+    std::optional<render::ValueScale> scale = render::neededScale(picture.scene);
+    const bool byValue = scale.has_value();
+    if (byValue && held.onGpu.values() != nullptr && held.onGpu.valueScale().serves(*scale))
+        scale = held.onGpu.valueScale();
+    held.onGpu.upload(*shown.sorted, scale, uploadBytes);
+    const std::uint64_t missing = held.onGpu.missingBytes(scale);
+    const std::uint64_t all = shown.sorted->size() * (byValue ? 2 : 1) * sizeof(float);
+    if (missing > 0) report.uploaded = 1 - static_cast<double>(missing) / static_cast<double>(all);
+    if (held.onGpu.ready(byValue)) {
+        screen.emplace(std::move(next));
+    } else if (screen && sameData(screen->explorer, shown.explorer) &&
+               screen->held->onGpu.ready(byValue)) {
+        screen->explorer = shown.explorer;
+        screen->held->stretch(shown.explorer.scale);
+    }
+    return held;
+}
+
+Canvas::Canvas() : state_(std::make_unique<State>()) {}
+Canvas::~Canvas() = default;
+
+CanvasReport Canvas::draw(
+    const Shown& shown, std::span<const render::View> eyes, const CanvasLimits& limits, bool moving,
+    const std::function<void(std::size_t eye, const render::Targets&)>& show) {
+    CanvasReport report;
+    const GpuSteps::Held& coming = state_->bring(shown, limits.uploadBytes, report);
+    auto& screen = state_->screen;
+    state_->steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
+    report.gpuBytes = state_->steps.bytes();
+    if (const auto timed = state_->timer.poll()) {
+        report.gpuTime = timed->took;
+        report.gpuSplats = timed->label;
+    }
+    if (!screen) return report;
+
+    Picture picture = pictureOf(*screen);
+    report.step = screen->step;
+    report.selected = selectedPoints(picture.scene.layers);
+    if (moving)
+        picture.scene.stride =
+            strideFor(report.selected * eyes.size(), limits.splats, screen->held->lattice.size());
+    report.stride = screen->stride = picture.scene.stride;
+    report.drawn = drawnSplats(picture.scene);
+    report.whole = report.stride == 1 && report.uploaded == 1;
+
+    state_->timer.begin();
+    const render::FrameContent content{picture.scene, screen->sorted->grid(), picture.legend,
+                                       kBackground};
+    const auto frame = state_->renderer.prepare(content, screen->held->onGpu, eyes);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        state_->renderer.drawEye(frame, eyes[i]);
+        show(i, state_->renderer.targets());
+    }
+    state_->timer.end(report.drawn * eyes.size());
+    return report;
+}
+
+std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
+    const Explorer& e = shown.explorer;
+    return eyes(e.view, e.stereo, render::Lattice(shown.sorted->grid(), e.scale).boxHalfEdges(), e.size);
+}
+
+const render::Lattice* Canvas::lattice() const {
+    return state_->screen ? &state_->screen->held->lattice : nullptr;
+}
+
+std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& window) const {
+    if (!state_->screen) return std::nullopt;
+    Picture picture = pictureOf(*state_->screen);
+    picture.scene.stride = state_->screen->stride;
+    const auto picked = render::pick(picture.scene, eye, window);
+    if (!picked) return std::nullopt;
+    const timeseries::SortedStep& step = *state_->screen->sorted;
+    const auto size = step.grid().size();
+    const std::uint64_t i = picked->gridIndex;
+    return Probe{*picked,
+                 step.value(picked->point),
+                 step.grid().position(i),
+                 {i % size[0], i / size[0] % size[1], i / size[0] / size[1]}};
+}
+
+void Canvas::save(const Shown& shown, const std::filesystem::path& file) {
+    GpuSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
+    writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, held.lattice,
+                shown.explorer.play.tick},
+               state_->renderer, held.onGpu, {}, file);
+}
+
+}  // namespace app

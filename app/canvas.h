@@ -1,0 +1,83 @@
+// Draws what an Exploration shows, for any number of eyes, so that frames keep their pace: steps go
+// to the GPU in slices, and above a budget of splats a subset stands for all until the picture
+// rests. Desktop and headset share it; a headless render needs neither slices nor subsets.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/exploration.h"
+#include "app/picture.h"
+#include "render/frame.h"
+#include "render/pick.h"
+
+namespace app {
+
+struct CanvasLimits {
+    std::uint64_t splats = 1'000'000;  // in one frame, all layers and eyes; see FramePace
+    std::uint64_t uploadBytes = std::uint64_t{16} << 20;  // in one frame
+    // Of steps on the GPU that are not drawn, so that scrubbing back and forth is instant.
+    std::uint64_t cacheBytes = std::uint64_t{1} << 30;
+};
+
+// What one draw() drew, as the overlay tells it.
+struct CanvasReport {
+    std::size_t step = 0;                   // the step on the screen
+    std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
+    std::uint32_t stride = 1;               // every so many-th point stands for its neighbours
+    bool whole = false;                     // nothing is missing: all points, all uploaded
+    double uploaded = 1;                    // share of the step asked for that is on the GPU
+    std::uint64_t gpuBytes = 0;             // of steps held there
+    // Of an earlier frame, by timer query, and the splats of all its eyes: what FramePace learns
+    // from. None in most frames of a GPU that is behind.
+    std::optional<std::chrono::nanoseconds> gpuTime;
+    std::uint64_t gpuSplats = 0;
+};
+
+// A point of the step on the screen, in the file's own terms.
+struct Probe {
+    render::Picked picked;
+    timeseries::Number value;
+    glm::dvec3 coordinates;            // the grid's, in its units
+    std::array<std::size_t, 3> index;  // along x, y, z
+};
+
+// Needs a current GL context, from construction to destruction.
+class Canvas {
+ public:
+    Canvas();
+    ~Canvas();
+
+    // Draws the eyes one after the other and hands each one's light (render::Targets) to `show`
+    // before the next is drawn. Order is taken and uploaded once. A step that is not wholly on the
+    // GPU is not drawn: the one before stays, and the report says so. Nothing is drawn, and `show`
+    // is not called, before the first step is there. `moving`: the picture is expected to change
+    // again at once, so the limits hold; else all points are drawn. Never waits for the GPU.
+    // REQUIRES: at least one eye, all of one size.
+    CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
+                      const CanvasLimits& limits, bool moving,
+                      const std::function<void(std::size_t eye, const render::Targets&)>& show);
+
+    // The eyes of the shown explorer on a picture of its size (camera.h).
+    std::vector<render::View> eyesOf(const Shown& shown) const;
+    // Of the step on the screen; null before the first.
+    const render::Lattice* lattice() const;
+    // What an eye sees at a window position (pixels, y up), of what was drawn last; see pick.h.
+    std::optional<Probe> probe(const render::View& eye, const glm::dvec2& window) const;
+    // The picture as files have it: drawn whole and read back, with the session embedded. The step
+    // shown, also when it is not on the screen yet. Throws ImageError.
+    void save(const Shown& shown, const std::filesystem::path& file);
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace app

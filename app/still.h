@@ -1,0 +1,31 @@
+// A picture of one step as files have it: drawn whole, read back, written with its session. The
+// headless command and a window's save are this one path, so that their pictures are the same.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "app/dataset.h"
+#include "app/explorer.h"
+#include "render/frame.h"
+
+namespace app {
+
+// Of every picture; linear.
+extern const glm::dvec3 kBackground;
+
+struct Still {
+    const Explorer& explorer;  // resolved
+    const timeseries::Variable& about;
+    std::size_t stepIndex;
+    const timeseries::SortedStep& step;
+    const render::Lattice& lattice;  // of the explorer's scale
+    std::int64_t tick;               // of the explorer's sweep, if it has one
+};
+
+// By the file's ending; two files where the stereo mode makes two. `onGpu` holds the step. Throws
+// ImageError; std::runtime_error on a GL error.
+void writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
+                const render::Extras& extras, const std::filesystem::path& file);
+
+}  // namespace app

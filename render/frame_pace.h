@@ -1,0 +1,40 @@
+// How many splats a frame may hold to keep a frame time: learnt from the frames before. Pure; a
+// value.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+
+namespace render {
+
+// Models a frame's time as fixed + splats * perSplat: a line through the last eight frames, from
+// medians (Theil 1950, Sen 1968), so that a single late frame changes nothing and a lasting change
+// is followed within ten frames.
+class FramePace {
+ public:
+    explicit FramePace(std::chrono::nanoseconds target);
+
+    void setTarget(std::chrono::nanoseconds target);
+    // A frame of `splats` splats (all eyes together) took so long.
+    void took(std::uint64_t splats, std::chrono::nanoseconds time);
+    // The most for the target, from kFewest to kMost; with hysteresis: it changes only by 10 % or
+    // more. kFirst before the first frame.
+    std::uint64_t budget() const { return budget_; }
+
+    static constexpr std::uint64_t kFewest = 20'000, kFirst = 100'000,
+                                   kMost = std::uint64_t{1} << 31;
+
+ private:
+    struct Frame {
+        double splats, ns;
+    };
+    void fit();
+    void follow();
+
+    double targetNs_, fixedNs_ = 0, perSplatNs_ = 0;
+    std::uint64_t budget_ = kFirst;
+    std::deque<Frame> recent_;
+};
+
+}  // namespace render

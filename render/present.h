@@ -1,0 +1,28 @@
+// Light onto a display: what an eye's targets hold, into a window's framebuffer or a texture.
+#pragma once
+
+#include "render/gl/object.h"
+#include "render/targets.h"
+
+namespace render {
+
+// Who encodes linear light as sRGB: the shader, to the very bytes that a PNG has, or GL, where the
+// framebuffer's format is an sRGB one (a headset's swapchain).
+enum class Encoding { Shader, Framebuffer };
+
+class Present {
+ public:
+    Present();
+    // Replaces the pixels of `framebuffer` from `at` (its lower left corner) to at + light.size().
+    // Alpha becomes 1: the light's ground is opaque.
+    void draw(const Targets& light, GLuint framebuffer, glm::ivec2 at = {0, 0},
+              Encoding encoding = Encoding::Shader) const;
+
+ private:
+    gl::Program encode_, copy_;
+    gl::Buffer steps_;
+    gl::BufferTexture stepsTexture_;
+    gl::VertexArray noVertices_;
+};
+
+}  // namespace render

@@ -1,0 +1,259 @@
+// What a window draws: the same pictures as files, in time.
+#include "app/canvas.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/camera.h"
+#include "app/picture_files.h"
+#include "app/session.h"
+#include "app/still.h"
+#include "render/exr.h"
+#include "render/gl/debug_output.h"
+#include "render/gl/headless_context.h"
+#include "render/image_compare.h"
+#include "render/png.h"
+#include "tests/support/files.h"
+#include "tests/support/shown_steps.h"
+
+namespace app {
+namespace {
+
+using render::Image;
+using timeseries::RangeSet;
+
+class CanvasOfNoise : public testing::Test {
+ protected:
+    std::vector<Image> draw(const Shown& shown, const CanvasLimits& limits = {},
+                            bool moving = false) {
+        std::vector<Image> eyes;
+        const auto views = canvas_.eyesOf(shown);
+        report_ = canvas_.draw(shown, views, limits, moving,
+                               [&](std::size_t eye, const render::Targets& light) {
+                                   EXPECT_EQ(eye, eyes.size());
+                                   eyes.push_back(light.readLight());
+                               });
+        render::gl::throwOnError();
+        return eyes;
+    }
+    // As `isochron render` makes it: a renderer and a step on the GPU that have seen nothing else.
+    void drawApart(const Shown& shown, const std::filesystem::path& file) {
+        render::FrameRenderer renderer;
+        const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
+        render::GpuStep onGpu(*shown.sorted, lattice);
+        writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice, 0},
+                   renderer, onGpu, {}, file);
+    }
+
+    render::gl::HeadlessContext context_;
+    tests::ShownSteps world_{20};
+    Canvas canvas_;
+    CanvasReport report_;
+    const std::uint64_t stepBytes_ = world_.steps[0]->size() * 8;  // points and values
+};
+
+TEST_F(CanvasOfNoise, AtRestAllPointsAreDrawnForEveryEye) {
+    for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
+        world_.explorer.order = order;
+        for (const Stereo stereo : {Stereo::Off, Stereo::SideBySide}) {
+            world_.explorer.stereo.mode = stereo;
+            const auto eyes = draw(world_.shown(), {.splats = 100});
+            ASSERT_EQ(eyes.size(), stereo == Stereo::Off ? 1u : 2u);
+            if (eyes.size() == 2) {
+                EXPECT_NE(eyes[0], eyes[1]);
+            }
+            const auto& step = *world_.steps[0];
+            EXPECT_EQ(report_.selected, step.count(RangeSet::parse("0.1:0.4")) +
+                                            step.count(RangeSet::parse("0.8:0.9")));
+            EXPECT_EQ(report_.drawn, report_.selected);
+            EXPECT_EQ(report_.stride, 1u);
+            EXPECT_TRUE(report_.whole);
+        }
+    }
+}
+
+TEST_F(CanvasOfNoise, WhatIsDrawnIsWhatIsSaved) {
+    const Image drawn = draw(world_.shown())[0];
+    const auto file = tests::freshFolder() / "saved.exr";
+    canvas_.save(world_.shown(), file);
+    EXPECT_EQ(render::readExr(file).views[0].image, drawn);
+}
+
+TEST_F(CanvasOfNoise, MovingKeepsToTheLimitOfAllEyesAndRestsWhole) {
+    for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
+        world_.explorer.order = order;
+        for (const Stereo stereo : {Stereo::Off, Stereo::SideBySide}) {
+            world_.explorer.stereo.mode = stereo;
+            const CanvasLimits limits{.splats = 1000};
+            const Image moving = draw(world_.shown(), limits, true)[0];
+            const std::uint64_t eyes = stereo == Stereo::Off ? 1 : 2;
+            // Each of the two runs may end with one more.
+            EXPECT_LE(report_.drawn * eyes, limits.splats + 2 * eyes);
+            EXPECT_GE(report_.drawn * eyes, limits.splats / 3);
+            EXPECT_FALSE(report_.whole);
+            const Image resting = draw(world_.shown(), limits, false)[0];
+            EXPECT_TRUE(report_.whole);
+            EXPECT_NE(moving, resting);
+            double light = 0, whole = 0;
+            for (std::size_t i = 0; i < moving.pixels.size(); ++i) {
+                light += static_cast<double>(moving.pixels[i].g);
+                whole += static_cast<double>(resting.pixels[i].g);
+            }
+            EXPECT_NEAR(light, whole, 0.1 * whole) << "a subset is as bright";
+        }
+    }
+}
+
+TEST_F(CanvasOfNoise, MovingBelowTheLimitDrawsAll) {
+    const Image resting = draw(world_.shown())[0];
+    EXPECT_EQ(draw(world_.shown(), {.splats = report_.selected}, true)[0], resting);
+    EXPECT_EQ(report_.stride, 1u);
+    EXPECT_TRUE(report_.whole);
+}
+
+TEST_F(CanvasOfNoise, AStepComesInSlicesAndTheOneBeforeStays) {
+    const CanvasLimits limits{.uploadBytes = stepBytes_ / 4 + 4};
+    const auto comes = [&](std::size_t step) {
+        std::vector<std::vector<Image>> frames;
+        for (int i = 0; i < 4; ++i) {
+            frames.push_back(draw(world_.shown(step), limits));
+            EXPECT_NEAR(report_.uploaded, std::min(1.0, 0.25 * (i + 1)), 0.01) << step << ' ' << i;
+            EXPECT_EQ(report_.whole, i == 3);
+        }
+        return frames;
+    };
+    const auto first = comes(0);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(first[i].empty()) << "nothing is there yet";
+    ASSERT_EQ(first[3].size(), 1u);
+    EXPECT_EQ(report_.step, 0u);
+    const auto second = comes(1);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(second[i], first[3]) << "the step before";
+    EXPECT_NE(second[3], first[3]);
+    EXPECT_EQ(report_.step, 1u);
+    // Back again: it is still there.
+    EXPECT_EQ(draw(world_.shown(0), limits), first[3]);
+    EXPECT_TRUE(report_.whole);
+    EXPECT_EQ(report_.gpuBytes / stepBytes_, 2u);
+}
+
+TEST_F(CanvasOfNoise, ChoicesShowAtOnceWhileAStepComes) {
+    draw(world_.shown(0));
+    world_.explorer.layers[1].color = glm::dvec3(0, 0, 1);
+    const CanvasLimits slice{.uploadBytes = 64};
+    const Image coming = draw(world_.shown(1), slice)[0];
+    EXPECT_EQ(report_.step, 0u);
+    EXPECT_EQ(coming, draw(world_.shown(0))[0]) << "the step before, in its new colour";
+}
+
+TEST_F(CanvasOfNoise, AnotherDatasetIsNotDrawnWithChoicesThatAreNotItsOwn) {
+    const Image before = draw(world_.shown(0))[0];
+    tests::ShownSteps other(12);
+    other.explorer.files = {"other.nc"};
+    other.explorer.layers = {tests::ShownSteps::layer("0:1", glm::dvec3(1))};
+    EXPECT_EQ(draw(other.shown(0), {.uploadBytes = 64})[0], before);
+    EXPECT_FALSE(report_.whole);
+    EXPECT_NE(draw(other.shown(0))[0], before);
+    EXPECT_TRUE(report_.whole);
+}
+
+TEST_F(CanvasOfNoise, StepsThatAreNotDrawnAreFreedBeyondTheBudget) {
+    tests::ShownSteps many(20, 6);
+    const CanvasLimits two{.cacheBytes = 2 * stepBytes_ + stepBytes_ / 2};
+    for (std::size_t i = 0; i < 6; ++i) draw(many.shown(i), two);
+    EXPECT_EQ(report_.gpuBytes / stepBytes_, 3u) << "the one drawn and two more";
+    // The reader's copies go: nobody can ask for these again.
+    const auto last = many.shown(5);
+    for (std::size_t i = 0; i < 5; ++i) many.steps[i].reset();
+    draw(last, two);
+    EXPECT_EQ(report_.gpuBytes / stepBytes_, 1u);
+}
+
+TEST_F(CanvasOfNoise, OtherProportionsMoveThePointsWithoutUploadingThem) {
+    draw(world_.shown());
+    world_.explorer.scale = glm::dvec3(1, 1, 3);
+    const Image stretched = draw(world_.shown(), {.uploadBytes = 0})[0];
+    EXPECT_TRUE(report_.whole);
+    Canvas apart;
+    std::optional<Image> expected;
+    apart.draw(world_.shown(), apart.eyesOf(world_.shown()), {}, false,
+               [&](std::size_t, const render::Targets& light) { expected = light.readLight(); });
+    EXPECT_EQ(stretched, *expected);
+}
+
+TEST_F(CanvasOfNoise, AMapThatMovesALittleUploadsNothing) {
+    draw(world_.shown());
+    auto& map = std::get<MapChoice>(*world_.explorer.layers[0].color);
+    map.lo = 0.2;
+    map.hi = 0.3;
+    const Image drawn = draw(world_.shown(), {.uploadBytes = 0})[0];
+    EXPECT_TRUE(report_.whole);
+    const auto file = tests::freshFolder() / "saved.exr";
+    canvas_.save(world_.shown(), file);
+    EXPECT_LE(render::comparePictures(drawn, render::readExr(file).views[0].image).maxAbsolute,
+              1e-4);
+}
+
+TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
+    EXPECT_FALSE(canvas_.probe(canvas_.eyesOf(world_.shown())[0], {100, 75}));
+    draw(world_.shown());
+    const auto view = canvas_.eyesOf(world_.shown())[0];
+    const auto probe = canvas_.probe(view, {100, 75});
+    ASSERT_TRUE(probe);
+    const auto& step = *world_.steps[0];
+    const std::uint64_t i = probe->index[0] + 20 * (probe->index[1] + 20 * probe->index[2]);
+    EXPECT_EQ(step.gridIndex()[probe->picked.point], i);
+    EXPECT_EQ(probe->value, step.value(probe->picked.point));
+    EXPECT_EQ(probe->coordinates, step.grid().position(i));
+    EXPECT_EQ(probe->picked.world, canvas_.lattice()->position(i));
+    const double value = timeseries::toDouble(probe->value);
+    EXPECT_TRUE((0.1 <= value && value <= 0.4) || (0.8 <= value && value <= 0.9)) << value;
+}
+
+TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
+    bool timed = false;
+    for (int i = 0; i < 50 && !timed; ++i) {
+        draw(world_.shown());
+        timed = report_.gpuTime.has_value();
+    }
+    ASSERT_TRUE(timed);
+    EXPECT_GT(report_.gpuTime->count(), 0);
+    EXPECT_EQ(report_.gpuSplats, report_.drawn);
+}
+
+// Saving from a window that has drawn other things before, against a render that has not.
+class CanvasSaves : public CanvasOfNoise,
+                    public testing::WithParamInterface<std::pair<Stereo, const char*>> {};
+
+TEST_P(CanvasSaves, TheBytesThatItsSessionIsRenderedTo) {
+    const auto& [stereo, ending] = GetParam();
+    draw(world_.shown(1), {.splats = 500}, true);
+    world_.explorer.stereo.mode = stereo;
+    std::get<MapChoice>(*world_.explorer.layers[0].color).hi = 0.35;
+    draw(world_.shown(0), {.splats = 500}, true);
+    const auto folder = tests::freshFolder();
+    const auto saved = folder / ("saved" + std::string(ending));
+    canvas_.save(world_.shown(0), saved);
+    const auto files = filesOf(saved, stereo);
+    // What it carries draws it again, byte for byte.
+    const std::string session = files[0].extension() == ".png"
+                                    ? render::readPng(files[0]).metadata.at("isochronSession")
+                                    : render::readExr(files[0]).metadata.at("isochronSession");
+    world_.explorer = fromJson(nlohmann::json::parse(session), folder);
+    EXPECT_EQ(world_.explorer.steps, (StepChoice{0, 0}));
+    const auto apart = folder / ("apart" + std::string(ending));
+    drawApart(world_.shown(0), apart);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        EXPECT_EQ(tests::readBytes(files[i]), tests::readBytes(filesOf(apart, stereo)[i])) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    AllFiles, CanvasSaves,
+    testing::Values(std::pair(Stereo::Off, ".png"), std::pair(Stereo::Off, ".exr"),
+                    std::pair(Stereo::SideBySide, ".png"), std::pair(Stereo::SideBySide, ".exr"),
+                    std::pair(Stereo::TopBottom, ".png"), std::pair(Stereo::TopBottom, ".exr"),
+                    std::pair(Stereo::LeftRight, ".png"), std::pair(Stereo::LeftRight, ".exr"),
+                    std::pair(Stereo::MultiView, ".exr")));
+
+}  // namespace
+}  // namespace app

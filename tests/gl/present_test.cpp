@@ -1,0 +1,130 @@
+// What a display gets of a picture is what a PNG file has of it.
+#include "render/present.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "render/color.h"
+#include "render/gl/debug_output.h"
+#include "render/gl/headless_context.h"
+#include "render/png.h"
+#include "tests/support/files.h"
+
+namespace render {
+namespace {
+
+class Presented : public testing::Test {
+ protected:
+    static constexpr glm::ivec2 kWindow{320, 300};
+
+    // Into a window of RGBA 9, 9, 9, 9; rows from the top.
+    std::vector<glm::u8vec4> window(const Image& picture, glm::ivec2 at, Encoding encoding) {
+        const Targets targets(picture.size);
+        std::vector<glm::vec4> rows;  // GL's order
+        for (int y = picture.size.y - 1; y >= 0; --y)
+            for (int x = 0; x < picture.size.x; ++x) rows.push_back(picture.at(x, y));
+        glTextureSubImage2D(targets.light().id(), 0, 0, 0, picture.size.x, picture.size.y, GL_RGBA,
+                            GL_FLOAT, rows.data());
+        const gl::Texture shown(encoding == Encoding::Shader ? GL_RGBA8 : GL_SRGB8_ALPHA8, kWindow);
+        const glm::u8vec4 nine(9);
+        glClearTexImage(shown.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, &nine);
+        const GLuint id = shown.id();
+        const gl::Framebuffer framebuffer(std::span(&id, 1));
+        present_.draw(targets, framebuffer.id(), at, encoding);
+        std::vector<glm::u8vec4> upwards(std::size_t(kWindow.x) * kWindow.y), read;
+        glGetTextureImage(id, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                          static_cast<GLsizei>(upwards.size() * sizeof upwards[0]), upwards.data());
+        gl::throwOnError();
+        for (int y = kWindow.y - 1; y >= 0; --y)
+            read.insert(read.end(), upwards.begin() + y * kWindow.x,
+                        upwards.begin() + (y + 1) * kWindow.x);
+        return read;
+    }
+
+    gl::HeadlessContext context_;
+    Present present_;
+};
+
+// Every step, the floats on both sides of each border, and what no light should be.
+Image trickyLight() {
+    Image image({256, 256}, glm::vec4(0, 0, 0, 1));
+    std::vector<float> light{-1,
+                             0,
+                             1,
+                             2,
+                             std::numeric_limits<float>::infinity(),
+                             std::numeric_limits<float>::quiet_NaN()};
+    for (const double border : srgb8Steps()) {
+        float at = std::nextafter(static_cast<float>(border), -1.0f);
+        for (int i = 0; i < 4; ++i, at = std::nextafter(at, 2.0f)) light.push_back(at);
+    }
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const auto ramp = static_cast<float>(i) / 65535.0f;
+        image.pixels[i] = {i < light.size() ? light[i] : ramp, ramp * ramp, 1 - ramp, 1};
+    }
+    return image;
+}
+
+TEST_F(Presented, BytesAreThoseOfAPng) {
+    const Image light = trickyLight();
+    const auto file = tests::freshFolder() / "light.png";
+    writePng(file, light);
+    const Image decoded = readPng(file).image;
+    const auto shown = window(light, {0, kWindow.y - 256}, Encoding::Shader);
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x) {
+            const glm::u8vec4 pixel = shown[std::size_t(y) * kWindow.x + x];
+            for (int c = 0; c < 3; ++c)
+                ASSERT_EQ(pixel[c], srgb8FromLinear(decoded.at(x, y)[c]))
+                    << x << ' ' << y << ' ' << c;
+            ASSERT_EQ(pixel.a, 255);
+        }
+}
+
+TEST_F(Presented, LightThatIsNotQuiteOpaqueIsOffByOneByteAtMost) {
+    // Blending leaves the ground's alpha an ulp or two below 1; a PNG divides by it in double, the
+    // shader in float: on a border of two steps they may differ.
+    Image light = trickyLight();
+    for (glm::vec4& pixel : light.pixels) pixel.a = 1 - 1.2e-7f;
+    const auto file = tests::freshFolder() / "light.png";
+    writePng(file, light);
+    const Image decoded = readPng(file).image;
+    const auto shown = window(light, {0, kWindow.y - 256}, Encoding::Shader);
+    int differing = 0;
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const int by = shown[std::size_t(y) * kWindow.x + x][c] -
+                               int{srgb8FromLinear(decoded.at(x, y)[c])};
+                ASSERT_LE(std::abs(by), 1) << x << ' ' << y << ' ' << c;
+                differing += by != 0;
+            }
+    // Of the 1020 floats beside borders, those within the two ulps.
+    EXPECT_LE(differing, 1020);
+}
+
+TEST_F(Presented, OnlyItsRectangleIsDrawn) {
+    const glm::ivec2 at{40, 20}, size{100, 50};
+    const auto shown = window(Image(size, glm::vec4(1)), at, Encoding::Shader);
+    for (int y = 0; y < kWindow.y; ++y)
+        for (int x = 0; x < kWindow.x; ++x) {
+            const int up = kWindow.y - 1 - y;
+            const bool inside = x >= at.x && x < at.x + size.x && up >= at.y && up < at.y + size.y;
+            ASSERT_EQ(shown[std::size_t(y) * kWindow.x + x], glm::u8vec4(inside ? 255 : 9))
+                << x << ' ' << y;
+        }
+}
+
+TEST_F(Presented, AnSrgbFramebufferEncodesTheSame) {
+    // GL allows an encoding to be off by 0.6 of a step (4.5 core, 17.3.9 leaves it to the driver).
+    const Image light = trickyLight();
+    const auto byShader = window(light, {0, 0}, Encoding::Shader);
+    const auto byFramebuffer = window(light, {0, 0}, Encoding::Framebuffer);
+    for (std::size_t i = 6; i < byShader.size(); ++i)  // what is no light is left out
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(byFramebuffer[i][c], byShader[i][c], 1) << i;
+}
+
+}  // namespace
+}  // namespace render

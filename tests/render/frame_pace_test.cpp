@@ -1,0 +1,125 @@
+#include "render/frame_pace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace render {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kTarget = 16ms;
+
+// A machine whose frames take fixed + splats * perSplat, to within `noise` of that.
+struct Machine {
+    double fixedNs, perSplatNs, noise = 0;
+    std::mt19937 random{5};
+
+    double exactly(std::uint64_t splats) const {
+        return fixedNs + perSplatNs * static_cast<double>(splats);
+    }
+    nanoseconds frame(std::uint64_t splats) {
+        std::uniform_real_distribution<double> off(-noise, noise);
+        return nanoseconds(std::llround(exactly(splats) * (1 + off(random))));
+    }
+    // What the budget would be, were the machine known.
+    double ideal() const {
+        return std::max((1e6 * 16 - fixedNs) / perSplatNs, double{FramePace::kFewest});
+    }
+};
+
+TEST(FramePace, FramesTakeTheirTargetWithinTenFramesOnAnyMachine) {
+    for (const double fixed : {0.0, 1e6, 4e6, 8e6, 12e6})
+        for (const double perSplat : {1.0, 5.0, 50.0, 200.0})
+            for (const double noise : {0.0, 0.05}) {
+                Machine machine{fixed, perSplat, noise};
+                if (machine.ideal() <= FramePace::kFewest) continue;
+                FramePace pace(kTarget);
+                for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+                for (int i = 0; i < 20; ++i) {
+                    EXPECT_NEAR(machine.exactly(pace.budget()), 16e6, 0.2 * 16e6)
+                        << fixed << ' ' << perSplat << ' ' << noise << " frame " << 10 + i;
+                    pace.took(pace.budget(), machine.frame(pace.budget()));
+                }
+            }
+}
+
+TEST(FramePace, AMachineThatCannotKeepTheTargetDrawsTheFewest) {
+    for (Machine machine : {Machine{0, 5000}, Machine{30e6, 1}, Machine{1e10, 1e6}}) {
+        FramePace pace(kTarget);
+        for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+        EXPECT_EQ(pace.budget(), FramePace::kFewest);
+    }
+}
+
+TEST(FramePace, ASingleLateFrameChangesNothing) {
+    Machine machine{2e6, 100};
+    FramePace pace(kTarget);
+    for (int i = 0; i < 20; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+    const std::uint64_t settled = pace.budget();
+    pace.took(settled, 900ms);
+    EXPECT_EQ(pace.budget(), settled);
+    for (int i = 0; i < 5; ++i) {
+        pace.took(settled, machine.frame(settled));
+        EXPECT_EQ(pace.budget(), settled);
+    }
+}
+
+TEST(FramePace, ALastingChangeIsFollowedInTenFrames) {
+    FramePace pace(kTarget);
+    for (const double perSplat : {20.0, 200.0, 10.0}) {
+        Machine machine{1e6, perSplat};
+        for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+        EXPECT_NEAR(machine.exactly(pace.budget()), 16e6, 0.2 * 16e6) << perSplat;
+    }
+}
+
+TEST(FramePace, SmallChangesDoNotMoveTheBudget) {
+    Machine machine{1e6, 100, 0.03};
+    FramePace pace(kTarget);
+    for (int i = 0; i < 20; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+    const std::uint64_t settled = pace.budget();
+    for (int i = 0; i < 200; ++i) {
+        pace.took(settled, machine.frame(settled));
+        ASSERT_EQ(pace.budget(), settled) << "frame " << i;
+    }
+}
+
+TEST(FramePace, AnotherTargetCountsAtOnce) {
+    Machine machine{0, 100};
+    FramePace pace(kTarget);
+    for (int i = 0; i < 20; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+    pace.setTarget(2 * kTarget);
+    EXPECT_NEAR(machine.exactly(pace.budget()), 32e6, 0.2 * 32e6);
+    pace.setTarget(kTarget / 2);
+    EXPECT_NEAR(machine.exactly(pace.budget()), 8e6, 0.2 * 8e6);
+}
+
+TEST(FramePace, FramesWithoutSplatsOrWithoutTimeLeaveABudget) {
+    FramePace empty(kTarget);
+    for (int i = 0; i < 100; ++i) empty.took(0, 1ms);
+    EXPECT_GE(empty.budget(), FramePace::kFewest);
+    EXPECT_LE(empty.budget(), FramePace::kMost);
+    FramePace instant(kTarget);
+    for (int i = 0; i < 100; ++i) instant.took(instant.budget(), 0ns);
+    EXPECT_GT(instant.budget(), 10 * FramePace::kFirst);
+    EXPECT_LE(instant.budget(), FramePace::kMost);
+    // And a machine that turns out to be slow is still followed.
+    Machine machine{1e6, 100};
+    for (int i = 0; i < 40; ++i) instant.took(instant.budget(), machine.frame(instant.budget()));
+    EXPECT_NEAR(machine.exactly(instant.budget()), 16e6, 0.2 * 16e6);
+    FramePace none(0ns);
+    none.took(1000, 1ms);
+    EXPECT_EQ(none.budget(), FramePace::kFewest);
+}
+
+TEST(FramePace, BeforeTheFirstFrameThereIsABudget) {
+    EXPECT_EQ(FramePace(kTarget).budget(), FramePace::kFirst);
+}
+
+}  // namespace
+}  // namespace render
