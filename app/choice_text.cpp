@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -79,6 +80,13 @@ constexpr std::array<std::pair<std::string_view, render::Kernel>, 2> kKernels = 
     {{"kernel", render::Kernel::Quartic}, {"point", render::Kernel::Point}}};
 constexpr std::array<std::pair<std::string_view, render::Order>, 2> kOrders = {
     {{"none", render::Order::None}, {"depth", render::Order::BackToFront}}};
+
+constexpr std::array<std::pair<std::string_view, Projection>, 2> kProjections = {
+    {{"perspective", Projection::Perspective}, {"orthographic", Projection::Orthographic}}};
+constexpr std::array<std::pair<std::string_view, timeseries::Ending>, 3> kEndings = {
+    {{"once", timeseries::Ending::Once},
+     {"loop", timeseries::Ending::Loop},
+     {"ping-pong", timeseries::Ending::PingPong}}};
 
 }  // namespace
 
@@ -159,6 +167,16 @@ ViewChoice parseView(std::string_view text) {
     return view;
 }
 
+glm::dvec3 parseTarget(std::string_view text) {
+    const auto n = numbers(text);
+    const auto isNear = [](double x) { return std::abs(x) <= kFarthest; };
+    if (!n || n->size() != 3 || !std::ranges::all_of(*n, isNear))
+        throw ChoiceError(
+            fmt::format("target '{}' is not x,y,z in half diagonals of the box, each from {} to {}",
+                        text, -kFarthest, kFarthest));
+    return {(*n)[0], (*n)[1], (*n)[2]};
+}
+
 glm::ivec2 parseSize(std::string_view text) {
     const auto parts = split(text, 'x');
     const auto width = numberIn<int>(parts.front()), height = numberIn<int>(parts.back());
@@ -176,6 +194,48 @@ render::ColorMap parseColorMap(std::string_view name) {
                                   fmt::join(render::colorMapNames(), ", ")));
 }
 
+MapChoice parseMap(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    MapChoice map{parseColorMap(text.substr(0, equals)), {}, {}};
+    if (equals == std::string_view::npos) return map;
+    const auto ends = split(text.substr(equals + 1), ':');
+    const auto read = [&](std::string_view end, std::optional<double>& into) {
+        if (!end.empty()) into = parseNumber("an end of colormap", end);
+    };
+    if (ends.size() != 2)
+        throw ChoiceError(fmt::format("colormap '{}' is not of the form NAME or NAME=LO:HI", text));
+    read(ends[0], map.lo);
+    read(ends[1], map.hi);
+    return map;
+}
+
+std::string mapText(const MapChoice& map) {
+    const auto end = [](const std::optional<double>& value) {
+        return value ? fmt::format("{}", *value) : std::string();
+    };
+    if (!map.lo && !map.hi) return std::string(map.map.name());
+    return fmt::format("{}={}:{}", map.map.name(), end(map.lo), end(map.hi));
+}
+
+double parseNumber(std::string_view what, std::string_view text) {
+    const auto number = numberIn<double>(text);
+    if (!number || !std::isfinite(*number))
+        throw ChoiceError(fmt::format("{} '{}' is not a finite number", what, text));
+    return *number;
+}
+
+Projection parseProjection(std::string_view name) {
+    return named<Projection>("projection", name, kProjections);
+}
+std::string_view projectionName(Projection projection) {
+    return nameOf<Projection>(projection, kProjections);
+}
+timeseries::Ending parseEnding(std::string_view name) {
+    return named<timeseries::Ending>("ending", name, kEndings);
+}
+std::string_view endingName(timeseries::Ending ending) {
+    return nameOf<timeseries::Ending>(ending, kEndings);
+}
 Stereo parseStereo(std::string_view name) { return named<Stereo>("stereo", name, kStereo); }
 std::string_view stereoName(Stereo stereo) { return nameOf<Stereo>(stereo, kStereo); }
 render::Kernel parseKernel(std::string_view name) {

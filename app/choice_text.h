@@ -28,9 +28,21 @@ ViewChoice parseView(std::string_view text);   // "30,20" or "30,20,4.5"
 // What an eye's distance may be, to the centre and to zero parallax, in half diagonals: beyond, the
 // box has no depth left.
 inline constexpr double kNearest = 1e-6, kFarthest = 1e6;
-glm::ivec2 parseSize(std::string_view text);  // "1200x900"
+glm::dvec3 parseTarget(std::string_view text);  // "0.1,0,-0.2", each within +-kFarthest
+glm::ivec2 parseSize(std::string_view text);    // "1200x900"
 render::ColorMap parseColorMap(std::string_view name);
 
+// "viridis", or with the values of its ends, "viridis=300:1600", either of which may be left out.
+MapChoice parseMap(std::string_view text);
+std::string mapText(const MapChoice& map);
+
+// One finite number, read as the nearest double. `what` names it in the error.
+double parseNumber(std::string_view what, std::string_view text);
+
+Projection parseProjection(std::string_view name);  // perspective orthographic
+std::string_view projectionName(Projection projection);
+timeseries::Ending parseEnding(std::string_view name);  // once loop ping-pong
+std::string_view endingName(timeseries::Ending ending);
 Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multiview left-right
 std::string_view stereoName(Stereo stereo);
 render::Kernel parseKernel(std::string_view name);  // kernel point

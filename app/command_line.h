@@ -9,10 +9,11 @@
 
 namespace app {
 
-// Arguments of `isochron render` for a resolved explorer, without the program's name; paths as
-// they are relative to `folder`. parse() of them gives an equal Explorer, but for what pictures do
-// not depend on: hidden layers are left out, `play` is not told.
-std::vector<std::string> renderArguments(const Explorer& explorer, const std::filesystem::path& output,
+// `isochron render` and its arguments for a resolved explorer, without the program's name; paths as
+// they are from `folder`. parse() of them gives an equal Explorer but for `play`, which pictures do
+// not depend on. REQUIRES: a resolved explorer in which every layer has a range.
+std::vector<std::string> renderArguments(const Explorer& explorer,
+                                         const std::filesystem::path& output,
                                          const std::filesystem::path& folder);
 
 // One line for a POSIX shell: quoted where needed.

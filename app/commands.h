@@ -10,5 +10,7 @@ int info(const InfoOptions& options);
 int count(const CountOptions& options);
 // Draws without a window and writes files.
 int renderHeadless(const RenderOptions& options);
+// Opens a window; returns when it is closed.
+int view(const ViewOptions& options);
 
 }  // namespace app

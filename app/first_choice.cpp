@@ -1,11 +1,10 @@
 #include "app/first_choice.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
+
+#include "app/decimals.h"
 
 namespace app {
 namespace {
@@ -40,14 +39,6 @@ double background(const std::vector<double>& sorted) {
 double quantile(const std::vector<double>& sorted, double fraction) {
     return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) +
                                            0.5)];
-}
-
-// To so many decimals (negative: to tens, hundreds, ...): through decimal text, so that 23.7 is the
-// double nearest to 23.7 and is printed so.
-double toDecimals(double value, int decimals) {
-    if (decimals >= 0) return std::stod(fmt::format("{:.{}f}", value, decimals));
-    const double unit = std::pow(10, -decimals);
-    return std::round(value / unit) * unit;
 }
 
 // Rounded towards `middle`, so that what lies beyond the value stays selected: to three significant

@@ -63,6 +63,7 @@ Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
 
 void tellStyle(const Explorer& e, const timeseries::Variable& about) {
     const auto tell = [&](const timeseries::RangeSet& ranges, const LayerChoice& layer) {
+        if (!layer.visible) return;
         std::string color;
         if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
             color = colorText(*rgb);

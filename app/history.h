@@ -36,7 +36,9 @@ class History {
     void redo();
 
  private:
-    std::deque<Explorer> states_;
+    void goTo(std::size_t at);
+
+    std::deque<Explorer> states_;  // at most kSteps before at_
     std::size_t at_ = 0;
     std::string gesture_;
 };

@@ -8,12 +8,19 @@
 #include "app/commands.h"
 #include "timeseries/sorted_step.h"
 
+namespace app {
+
+int view(const ViewOptions&) { throw std::runtime_error("there is no window yet"); }
+
+}  // namespace app
+
 namespace {
 
 struct Run {
     int operator()(const app::InfoOptions& options) const { return app::info(options); }
     int operator()(const app::CountOptions& options) const { return app::count(options); }
     int operator()(const app::RenderOptions& options) const { return app::renderHeadless(options); }
+    int operator()(const app::ViewOptions& options) const { return app::view(options); }
     int operator()(const app::Exit& exit) const {
         fmt::print(exit.code == 0 ? stdout : stderr, "{}{}\n",
                    exit.code == 0 ? "" : "isochron: ", exit.text);

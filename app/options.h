@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct RenderOptions {
     std::string device = "any";
 };
 
+// A window on these choices; without files, on nothing yet.
+struct ViewOptions {
+    Explorer explorer;
+};
+
 // Nothing to run: help was asked for (0), or the arguments are wrong (2). The text goes to stdout
 // or stderr accordingly.
 struct Exit {
@@ -40,7 +46,10 @@ struct Exit {
     std::string text;
 };
 
-using Command = std::variant<InfoOptions, CountOptions, RenderOptions, Exit>;
+using Command = std::variant<InfoOptions, CountOptions, RenderOptions, ViewOptions, Exit>;
+
+// Whether a first argument is a command's name, and not a file's.
+bool isCommand(std::string_view argument);
 
 // `arguments`: without the program's name. Throws timeseries::FileError when a session file cannot
 // be read.

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "app/choice_text.h"
 #include "app/first_choice.h"
+#include "app/layer_colors.h"
 #include "render/color.h"
 #include "render/ticks.h"
 
@@ -20,12 +20,6 @@ using timeseries::RangeSet;
 using timeseries::SortedStep;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Distinguishable with any colour vision (Okabe and Ito 2008), by place among several layers.
-constexpr std::array<glm::dvec3, render::kMaxLayers> kLayerColors = {
-    glm::dvec3(230, 159, 0),   glm::dvec3(86, 180, 233), glm::dvec3(0, 158, 115),
-    glm::dvec3(240, 228, 66),  glm::dvec3(0, 114, 178),  glm::dvec3(213, 94, 0),
-    glm::dvec3(204, 121, 167), glm::dvec3(200, 200, 200)};
 
 Quantiles quantilesOf(const Steps& sampled) {
     constexpr std::size_t kQuantiles = 1025;
@@ -76,7 +70,7 @@ void style(LayerChoice& layer, const Extent& ends, std::size_t place, std::size_
             // not be seen on the dark ground.
             layer.color = MapChoice{{}, ends.lo - kDarkEnd * (ends.hi - ends.lo), ends.hi};
         } else {
-            layer.color = kLayerColors[place] / 255.0;
+            layer.color = kLayerColors[place];
         }
     }
     if (auto* map = std::get_if<MapChoice>(&*layer.color)) {
@@ -207,6 +201,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
                     {}};
     if (e.clip) picture.scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
+        if (!layer.visible) return;
         render::Layer drawn{step.select(ranges), rangeStyle(layer)};
         std::uint64_t selected = 0;
         for (const timeseries::Run& run : drawn.runs) selected += run.count;
@@ -223,9 +218,7 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
         }
         picture.scene.layers.push_back(std::move(drawn));
     };
-    if (e.sweep) {
-        add(sweptRanges(e, step, tick), e.sweepLayer);
-    }
+    if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
 
     picture.legend.title = about.longName.empty() ? about.name : about.longName;

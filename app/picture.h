@@ -17,7 +17,8 @@ using Steps = std::map<std::size_t, std::shared_ptr<const timeseries::SortedStep
 // Whether something is left to choose from the data: a range, a colour map's ends, an opacity, an
 // unbounded sweep.
 bool needsSamples(const Explorer& explorer);
-// The choices with nothing left open, from a few steps of the series. A resolved Explorer draws the
+// The choices with nothing left open, hidden layers' too (showing one later changes no other's
+// colour), from a few steps of the series. A resolved Explorer draws the
 // same picture again whatever is sampled. Throws std::invalid_argument (one sentence) when an
 // unbounded sweep does not reach the data.
 Explorer resolved(const Explorer& explorer, const Steps& sampled);
@@ -31,8 +32,9 @@ Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex,
 std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& units);
 
 // One step as the explorer wants it drawn. REQUIRES: a resolved explorer; `tick` of its sweep, if
-// it has one. `step` and `lattice` must outlive the scene. Throws OutsideKeptError when a layer
-// asks for values that were dropped.
+// it has one. Hidden layers are neither in the scene nor in the legend. `step` and `lattice` must
+// outlive the scene. Throws OutsideKeptError when a visible layer asks for values that were
+// dropped.
 struct Picture {
     render::Scene scene;
     render::Legend legend;

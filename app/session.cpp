@@ -4,14 +4,15 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "app/choice_text.h"
+#include "app/json_object.h"
+#include "app/paths.h"
+#include "render/exr.h"
+#include "render/png.h"
 #include "timeseries/reader.h"
 
 namespace app {
@@ -23,68 +24,6 @@ using timeseries::RangeSet;
 
 constexpr int kVersion = 1;
 
-// One JSON object being read: every key must be asked for, and be of the type asked for.
-class Object {
- public:
-    Object(const json& object, std::string where) : object_(object), where_(std::move(where)) {
-        if (!object.is_object()) throw ChoiceError(fmt::format("{} is not a JSON object", where_));
-    }
-    // Calls use(value) when the key is there.
-    template <typename T, typename Use>
-    void read(const char* key, const Use& use) {
-        known_.insert(key);
-        const auto found = object_.find(key);
-        if (found == object_.end()) return;
-        if (!is<T>(*found))
-            throw ChoiceError(fmt::format("{}.{} is not {}", where_, key, expected<T>()));
-        try {
-            // No copy of what is read further on: copies of deep nesting overflow the stack.
-            if constexpr (std::is_same_v<T, json>)
-                use(*found);
-            else
-                use(found->get<T>());
-        } catch (const std::invalid_argument& error) {
-            throw ChoiceError(fmt::format("{}.{}: {}", where_, key, error.what()));
-        }
-    }
-    std::string place(const char* key) const { return fmt::format("{}.{}", where_, key); }
-    void refuseOthers() const {
-        for (const auto& [key, value] : object_.items())
-            if (!known_.contains(key))
-                throw ChoiceError(fmt::format("{} has an unknown key '{}'", where_, key));
-    }
-
- private:
-    // Stricter than nlohmann's conversions, which take true for 1 and 2.7 for 2.
-    template <typename T>
-    static bool is(const json& value) {
-        if constexpr (std::is_same_v<T, std::string>) return value.is_string();
-        if constexpr (std::is_same_v<T, bool>) return value.is_boolean();
-        if constexpr (std::is_same_v<T, double>) return value.is_number();
-        if constexpr (std::is_same_v<T, std::int64_t>)
-            return value.is_number_integer() &&
-                   (!value.is_number_unsigned() ||
-                    value.get<std::uint64_t>() <= std::numeric_limits<std::int64_t>::max());
-        if constexpr (std::is_same_v<T, std::vector<std::string>>)
-            return value.is_array() && std::ranges::all_of(value, is<std::string>);
-        if constexpr (std::is_same_v<T, std::vector<double>>)
-            return value.is_array() && std::ranges::all_of(value, is<double>);
-        return true;
-    }
-    template <typename T>
-    static const char* expected() {
-        if constexpr (std::is_same_v<T, std::string>) return "a text";
-        if constexpr (std::is_same_v<T, bool>) return "true or false";
-        if constexpr (std::is_same_v<T, std::int64_t>) return "a whole number";
-        if constexpr (std::is_same_v<T, double>) return "a number";
-        if constexpr (std::is_same_v<T, std::vector<double>>) return "a list of numbers";
-        return "a list of texts";
-    }
-    const json& object_;
-    std::string where_;
-    std::set<std::string> known_;
-};
-
 double within(double value, const char* what, double lo, double hi) {
     if (!(value >= lo && value <= hi))
         throw ChoiceError(fmt::format("{} {} is not a number from {} to {}", what, value, lo, hi));
@@ -92,6 +31,7 @@ double within(double value, const char* what, double lo, double hi) {
 }
 
 void writeStyle(json& out, const LayerChoice& layer) {
+    if (!layer.visible) out["visible"] = false;
     if (layer.opacity) out["opacity"] = *layer.opacity;
     if (!layer.color) return;
     if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
@@ -104,7 +44,7 @@ void writeStyle(json& out, const LayerChoice& layer) {
     if (map.hi) out["mapHigh"] = *map.hi;
 }
 
-LayerChoice readStyle(Object& object) {
+LayerChoice readStyle(JsonObject& object) {
     LayerChoice layer;
     object.read<std::string>("color", [&](const std::string& c) { layer.color = parseColor(c); });
     object.read<std::string>("colormap", [&](const std::string& m) {
@@ -123,6 +63,7 @@ LayerChoice readStyle(Object& object) {
         if (!(a >= 0 && a <= 1)) throw ChoiceError("is not between 0 and 1");
         layer.opacity = a;
     });
+    object.read<bool>("visible", [&](bool b) { layer.visible = b; });
     return layer;
 }
 
@@ -136,7 +77,7 @@ json sweepJson(const Explorer& explorer) {
 }
 
 void readSweep(const json& value, const std::string& where, Explorer& explorer) {
-    Object object(value, where);
+    JsonObject object(value, where);
     timeseries::SweepSettings s;
     s.path = timeseries::SweepPath::Loop;
     object.read<std::string>("animation",
@@ -158,17 +99,118 @@ void readSweep(const json& value, const std::string& where, Explorer& explorer) 
     explorer.sweep = s;
 }
 
+json viewJson(const ViewChoice& view) {
+    json out{{"azimuth", view.azimuthDegrees}, {"elevation", view.elevationDegrees}};
+    if (view.distance) out["distance"] = *view.distance;
+    if (view.target != glm::dvec3(0)) out["target"] = {view.target.x, view.target.y, view.target.z};
+    if (view.projection != Projection::Perspective)
+        out["projection"] = projectionName(view.projection);
+    return out;
+}
+
+ViewChoice readView(const json& value, const std::string& where) {
+    JsonObject object(value, where);
+    ViewChoice view;
+    object.read<double>("azimuth", [&](double d) { view.azimuthDegrees = d; });
+    object.read<double>("elevation", [&](double d) { view.elevationDegrees = d; });
+    object.read<double>(
+        "distance", [&](double d) { view.distance = within(d, "distance", kNearest, kFarthest); });
+    object.read<std::vector<double>>("target", [&](const std::vector<double>& t) {
+        view.target = parseTarget(fmt::format("{}", fmt::join(t, ",")));
+    });
+    object.read<std::string>("projection",
+                             [&](const std::string& p) { view.projection = parseProjection(p); });
+    object.refuseOthers();
+    return view;
+}
+
+// Only what differs from a play that nobody has touched; nothing at all, if so.
+json playJson(const PlayChoice& play) {
+    json out = json::object();
+    const auto put = [&out](const char* key, const auto& value, const auto& untouched) {
+        if (value != untouched) out[key] = value;
+    };
+    const PlayChoice untouched;
+    const timeseries::CursorSettings &time = play.time, &plain = untouched.time;
+    put("first", time.first, plain.first);
+    put("last", time.last, plain.last);
+    put("stride", time.stride, plain.stride);
+    put("ending", endingName(time.ending), endingName(plain.ending));
+    put("backward", time.direction == timeseries::Direction::Backward, false);
+    put("realTimes", time.pace == timeseries::Pace::RealTimes, false);
+    put("stepsPerSecond", time.stepsPerSecond, plain.stepsPerSecond);
+    put("timeUnitsPerSecond", time.timeUnitsPerSecond, plain.timeUnitsPerSecond);
+    put("timeMoves", play.timeMoves, untouched.timeMoves);
+    put("sweepMoves", play.sweepMoves, untouched.sweepMoves);
+    put("tick", play.tick, untouched.tick);
+    return out;
+}
+
+PlayChoice readPlay(const json& value, const std::string& where) {
+    JsonObject object(value, where);
+    PlayChoice play;
+    timeseries::CursorSettings& time = play.time;
+    const auto count = [&](const char* key, std::int64_t least, auto& into) {
+        object.read<std::int64_t>(key, [&, least](std::int64_t n) {
+            if (n < least) throw ChoiceError(fmt::format("{} is less than {}", n, least));
+            into = static_cast<std::decay_t<decltype(into)>>(n);
+        });
+    };
+    const auto speed = [&](const char* key, double& into) {
+        object.read<double>(key, [&](double d) {
+            into = within(d, "speed", 0, std::numeric_limits<double>::max());
+        });
+    };
+    count("first", 0, time.first);
+    count("last", 0, time.last);
+    if (time.first > time.last)
+        throw ChoiceError(
+            fmt::format("the first step {} lies after the last {}", time.first, time.last));
+    count("stride", 1, time.stride);
+    object.read<std::string>("ending",
+                             [&](const std::string& name) { time.ending = parseEnding(name); });
+    object.read<bool>("backward", [&](bool b) {
+        time.direction = b ? timeseries::Direction::Backward : timeseries::Direction::Forward;
+    });
+    object.read<bool>("realTimes", [&](bool b) {
+        time.pace = b ? timeseries::Pace::RealTimes : timeseries::Pace::Even;
+    });
+    speed("stepsPerSecond", time.stepsPerSecond);
+    speed("timeUnitsPerSecond", time.timeUnitsPerSecond);
+    object.read<bool>("timeMoves", [&](bool b) { play.timeMoves = b; });
+    object.read<bool>("sweepMoves", [&](bool b) { play.sweepMoves = b; });
+    count("tick", 0, play.tick);
+    object.refuseOthers();
+    return play;
+}
+
+json stereoJson(const StereoChoice& stereo) {
+    json out{{"mode", stereoName(stereo.mode)}};
+    if (stereo.eyeDistance) out["eyeDistance"] = *stereo.eyeDistance;
+    if (stereo.convergence) out["convergence"] = *stereo.convergence;
+    return out;
+}
+
+StereoChoice readStereo(const json& value, const std::string& where) {
+    JsonObject object(value, where);
+    StereoChoice stereo;
+    object.read<std::string>("mode", [&](const std::string& m) { stereo.mode = parseStereo(m); });
+    object.read<double>("eyeDistance", [&](double d) {
+        stereo.eyeDistance = within(d, "eye distance", 0, kFarthest);
+    });
+    object.read<double>("convergence", [&](double d) {
+        stereo.convergence = within(d, "convergence", kNearest, kFarthest);
+    });
+    object.refuseOthers();
+    return stereo;
+}
+
 }  // namespace
 
 json toJson(const Explorer& e, const std::filesystem::path& folder) {
     json out{{"isochron", kVersion}};
-    const auto normal = [](const std::filesystem::path& path) {
-        return std::filesystem::absolute(path.empty() ? "." : path).lexically_normal();
-    };
-    for (const auto& file : e.files) {
-        const auto near = normal(file).lexically_relative(normal(folder));
-        out["files"].push_back((near.empty() ? file : near).generic_string());
-    }
+    for (const auto& file : e.files)
+        out["files"].push_back(relativeTo(folder, file).generic_string());
     if (!e.variable.empty()) out["variable"] = e.variable;
     if (e.steps) out["steps"] = stepsText(*e.steps);
     if (e.keep) out["keep"] = e.keep->text();
@@ -184,18 +226,16 @@ json toJson(const Explorer& e, const std::filesystem::path& folder) {
     out["order"] = orderName(e.order);
     if (e.clip) out["clip"] = clipText(*e.clip);
     if (e.scale) out["scale"] = {e.scale->x, e.scale->y, e.scale->z};
-    out["view"] = {{"azimuth", e.view.azimuthDegrees}, {"elevation", e.view.elevationDegrees}};
-    if (e.view.distance) out["view"]["distance"] = *e.view.distance;
-    out["stereo"] = {{"mode", stereoName(e.stereo.mode)}};
-    if (e.stereo.eyeDistance) out["stereo"]["eyeDistance"] = *e.stereo.eyeDistance;
-    if (e.stereo.convergence) out["stereo"]["convergence"] = *e.stereo.convergence;
+    out["view"] = viewJson(e.view);
+    out["stereo"] = stereoJson(e.stereo);
     out["size"] = fmt::format("{}x{}", e.size.x, e.size.y);
+    if (json play = playJson(e.play); !play.empty()) out["play"] = std::move(play);
     return out;
 }
 
 Explorer fromJson(const json& value, const std::filesystem::path& folder) {
     Explorer e;
-    Object object(value, "session");
+    JsonObject object(value, "session");
     std::int64_t version = 0;
     object.read<std::int64_t>("isochron", [&](std::int64_t v) { version = v; });
     if (version != kVersion)
@@ -210,7 +250,7 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
     object.read<json>("layers", [&](const json& layers) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
         for (std::size_t i = 0; i < layers.size(); ++i) {
-            Object each(layers[i], fmt::format("session.layers[{}]", i));
+            JsonObject each(layers[i], fmt::format("session.layers[{}]", i));
             LayerChoice layer = readStyle(each);
             each.read<std::string>(
                 "range", [&](const std::string& r) { layer.ranges = RangeSet::parse(r); });
@@ -231,44 +271,51 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
     object.read<std::vector<double>>("scale", [&](const std::vector<double>& s) {
         e.scale = parseScale(fmt::format("{}", fmt::join(s, ",")));
     });
-    object.read<json>("view", [&](const json& v) {
-        Object view(v, object.place("view"));
-        view.read<double>("azimuth", [&](double d) { e.view.azimuthDegrees = d; });
-        view.read<double>("elevation", [&](double d) { e.view.elevationDegrees = d; });
-        view.read<double>("distance", [&](double d) {
-            e.view.distance = within(d, "distance", kNearest, kFarthest);
-        });
-        view.refuseOthers();
-    });
-    object.read<json>("stereo", [&](const json& v) {
-        Object stereo(v, object.place("stereo"));
-        stereo.read<std::string>("mode",
-                                 [&](const std::string& m) { e.stereo.mode = parseStereo(m); });
-        stereo.read<double>("eyeDistance", [&](double d) {
-            e.stereo.eyeDistance = within(d, "eye distance", 0, kFarthest);
-        });
-        stereo.read<double>("convergence", [&](double d) {
-            e.stereo.convergence = within(d, "convergence", kNearest, kFarthest);
-        });
-        stereo.refuseOthers();
-    });
+    object.read<json>("view", [&](const json& v) { e.view = readView(v, object.place("view")); });
+    object.read<json>("stereo",
+                      [&](const json& v) { e.stereo = readStereo(v, object.place("stereo")); });
+    object.read<json>("play", [&](const json& p) { e.play = readPlay(p, object.place("play")); });
     object.read<std::string>("size", [&](const std::string& s) { e.size = parseSize(s); });
     object.refuseOthers();
     return e;
 }
 
-Explorer readSession(const std::filesystem::path& file) {
+namespace {
+
+// The session that a picture carries; none where the file is no picture.
+std::optional<std::string> embedded(const std::filesystem::path& file) {
+    const auto ending = file.extension();
+    if (ending != ".png" && ending != ".exr") return std::nullopt;
+    const render::Metadata texts =
+        ending == ".png" ? render::readPng(file).metadata : render::readExr(file).metadata;
+    const auto found = texts.find(kSessionKey);
+    if (found == texts.end())
+        throw FileError(
+            fmt::format("{}: the picture carries no session ({})", file.string(), kSessionKey));
+    return found->second;
+}
+
+json jsonOf(const std::filesystem::path& file) {
+    if (const auto text = embedded(file)) return json::parse(*text);
     std::ifstream in(file);
     if (!in || std::filesystem::is_directory(file))
         throw FileError(fmt::format("{}: the session file cannot be opened", file.string()));
+    return json::parse(in);
+}
+
+}  // namespace
+
+Explorer readSession(const std::filesystem::path& file) {
     try {
-        return fromJson(json::parse(in), file.parent_path());
+        return fromJson(jsonOf(file), file.parent_path());
     } catch (const json::parse_error& error) {
         throw FileError(fmt::format("{}: not JSON at byte {}", file.string(), error.byte));
     } catch (const json::out_of_range&) {
         throw FileError(fmt::format("{}: holds a number beyond all doubles", file.string()));
     } catch (const ChoiceError& error) {
         throw FileError(fmt::format("{}: {}", file.string(), error.what()));
+    } catch (const render::ImageError& error) {
+        throw FileError(error.what());
     }
 }
 

@@ -15,7 +15,11 @@ nlohmann::json toJson(const Explorer& explorer, const std::filesystem::path& fol
 // key and what was expected there.
 Explorer fromJson(const nlohmann::json& json, const std::filesystem::path& folder);
 
-// Throws timeseries::FileError naming the file and, where it is JSON, the key.
+// Under which name a picture carries its session, as JSON text.
+inline constexpr const char* kSessionKey = "isochronSession";
+
+// A session file, or a picture (.png, .exr) that carries its session; paths are relative to its
+// folder. Throws timeseries::FileError naming the file and, where it is JSON, the key.
 Explorer readSession(const std::filesystem::path& file);
 
 }  // namespace app

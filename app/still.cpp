@@ -23,7 +23,7 @@ void writeStill(const Still& still, render::FrameRenderer& renderer, render::Gpu
     auto eyePictures = renderer.render(
         {picture.scene, still.step.grid(), picture.legend, kBackground}, onGpu, views, extras);
     write(file, e.stereo.mode, std::move(eyePictures),
-          {{"isochronSession", jsonText(toJson(alone, file.parent_path()), -1)}});
+          {{kSessionKey, jsonText(toJson(alone, file.parent_path()), -1)}});
 }
 
 }  // namespace app

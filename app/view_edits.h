@@ -1,6 +1,8 @@
-// What a user does to the camera with a mouse, as functions of plain values.
+// What a user does to the camera with a mouse, as functions of plain values. A view without a
+// distance gets the one that it has, so that nothing changes its size under the hand.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
 #include "app/explorer.h"
@@ -10,14 +12,14 @@ namespace app {
 // A picture as it is looked at: window positions below are its pixels, y down, (0, 0) the upper
 // left corner.
 struct Looking {
-    glm::dvec3 boxHalf;  // Lattice::boxHalf()
+    glm::dmat3 boxHalfEdges;  // Lattice::boxHalfEdges()
     glm::ivec2 size;
 };
 
 // Dragged by so many pixels: half the picture's shorter side turns by 90 degrees. Elevation stays
-// within +-90; the box follows the hand.
+// within +-90, azimuth in (-180, 180]; the box follows the hand.
 ViewChoice orbited(ViewChoice view, glm::dvec2 pixels, const Looking& at);
-// The target moves in the plane of the picture so that its point stays under the cursor.
+// The target moves in the plane of the picture: what its plane shows under the cursor goes with it.
 ViewChoice panned(ViewChoice view, glm::dvec2 pixels, const Looking& at);
 // Distance times `factor`; what the target's plane shows under the cursor stays there. Distances
 // stay within what --view takes.

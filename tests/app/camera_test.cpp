@@ -195,6 +195,122 @@ TEST(Camera, AnEyeInsideTheBoxSeesWhatIsBeforeItAndBehindItToTheFarSide) {
     EXPECT_GE(centre.z, 0);
 }
 
+TEST(Camera, TheTargetIsInTheMiddleAtItsDistance) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> turn(-360, 360), tilt(-90, 90), at(-2, 2), far(0.1, 20);
+    for (int i = 0; i < 300; ++i) {
+        ViewChoice view{turn(random), tilt(random), far(random)};
+        view.target = {at(random), at(random), at(random)};
+        const Projected p = project(eyes(view, {}, kCube, {300, 200})[0], view.target);
+        EXPECT_NEAR(p.window.x, 150, 1e-9);
+        EXPECT_NEAR(p.window.y, 100, 1e-9);
+        EXPECT_NEAR(p.depth, *view.distance, 1e-12 * 20);
+        view.projection = Projection::Orthographic;
+        const Projected q = project(eyes(view, {}, kCube, {300, 200})[0], view.target);
+        EXPECT_NEAR(q.window.x, 150, 1e-6);
+        EXPECT_NEAR(q.window.y, 100, 1e-6);
+    }
+}
+
+TEST(Camera, WithoutADistanceAllIsSeenWhateverTheTargetAndTheProjection) {
+    std::mt19937 random(29);
+    std::uniform_real_distribution<double> turn(-360, 360), tilt(-90, 90), at(-3, 3);
+    for (int i = 0; i < 1000; ++i) {
+        ViewChoice view{turn(random), tilt(random), {}};
+        if (i % 2 == 0) view.target = {at(random), at(random), at(random)};
+        view.projection = i % 3 == 0 ? Projection::Perspective : Projection::Orthographic;
+        const dvec3 half = randomBox(random);
+        for (const View& eye : eyes(view, {}, half, {400, 300}))
+            for (const dvec3& corner : corners(half))
+                expectInside(eye, corner, "case " + std::to_string(i));
+        if (HasFailure()) return;
+    }
+}
+
+// Where an orthographic picture has a world point, by what such a picture is: along the camera's
+// axes, at the scale that a perspective has at the target.
+glm::dvec2 orthographicWindow(const ViewChoice& view, const dvec3& half, ivec2 size,
+                              const dvec3& world) {
+    const Stand stand = standOf(view, half, size);
+    const dvec3 inView = glm::transpose(stand.axes) * (world - view.target);
+    return 0.5 * glm::dvec2(size) * (1.0 + glm::dvec2(inView) / (stand.distance * stand.slope));
+}
+
+TEST(Camera, OrthographicIsWithinItsBoundOfParallelProjection) {
+    std::mt19937 random(41);
+    std::uniform_real_distribution<double> turn(-360, 360), tilt(-90, 90), at(-1, 1), log(-3, 6);
+    double worst = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const ivec2 size(640, 480);
+        ViewChoice view{turn(random), tilt(random), std::pow(10, log(random))};
+        view.target = {at(random), at(random), at(random)};
+        view.projection = Projection::Orthographic;
+        const dvec3 half = randomBox(random);
+        const View eye = eyes(view, {}, half, size)[0];
+        for (const dvec3& corner : corners(half)) {
+            const Projected drawn = project(eye, corner);
+            const glm::dvec2 expected = orthographicWindow(view, half, size, corner);
+            const double off = glm::length(drawn.window - expected);
+            const double fromMiddle = glm::length(expected - 0.5 * glm::dvec2(size));
+            EXPECT_LE(off, fromMiddle / (kFarEye - 1) + 1e-9) << "case " << i;
+            worst = std::max(worst, off / (fromMiddle + 1e-9));
+            const glm::dvec4 clip = eye.clipFromView * eye.viewFromWorld * glm::dvec4(corner, 1);
+            EXPECT_GE(clip.z, 0);
+            EXPECT_LE(clip.z, clip.w);
+            // Splats fade between the near plane and twice as far.
+            EXPECT_GE(drawn.depth, 2 * render::pixelRays(eye).near);
+        }
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(worst, 0.5 / kFarEye) << "the bound says something";
+}
+
+TEST(Camera, OrthographicHasThePerspectivesSizeAtTheTarget) {
+    for (const double distance : {0.01, 1.0, 5.0, 1e5}) {
+        ViewChoice view{25, 40, distance};
+        const dvec3 beside = standOf(view, kCube, {640, 480}).axes[0] * (0.01 * distance);
+        const auto shown = [&] { return project(eyes(view, {}, kCube, {640, 480})[0], beside); };
+        const glm::dvec2 perspective = shown().window;
+        view.projection = Projection::Orthographic;
+        EXPECT_NEAR(shown().window.x, perspective.x, 1e-6);
+        EXPECT_NEAR(shown().window.y, perspective.y, 1e-6);
+    }
+}
+
+TEST(Camera, ThePixelsDepthTellsApartAThousandthInAFloat) {
+    // The depth buffer is float: what lies 1/500 half diagonal behind is behind there too.
+    ViewChoice view;
+    view.projection = Projection::Orthographic;
+    const View eye = eyes(view, {}, kCube, {640, 480})[0];
+    const auto windowDepth = [&](double behind) {
+        const dvec3 axis = render::pixelRays(eye).axis;
+        const glm::dvec4 clip = eye.clipFromView * eye.viewFromWorld * glm::dvec4(behind * axis, 1);
+        return static_cast<float>(clip.z / clip.w);
+    };
+    for (double at = -1; at < 1; at += 0.01) EXPECT_LT(windowDepth(at), windowDepth(at + 0.002));
+}
+
+TEST(Camera, OrthographicEyesSeeDepthAsPerspectiveOnes) {
+    // Parallax for a small depth beyond the plane of none, in pixels: the projections agree to
+    // first order.
+    for (const double converge : {3.0, 5.0}) {
+        ViewChoice view{30, 20, 5.0};
+        const StereoChoice stereo{Stereo::LeftRight, 0.2, converge};
+        const Stand stand = standOf(view, kCube, {640, 480});
+        const auto parallax = [&](double depth) {
+            const auto both = eyes(view, stereo, kCube, {640, 480});
+            const dvec3 world = (stand.distance - depth) * stand.axes[2];
+            return project(both[1], world).window.x - project(both[0], world).window.x;
+        };
+        for (const double behind : {-0.01, 0.0, 0.01}) {
+            view.projection = Projection::Perspective;
+            const double expected = parallax(converge + behind);
+            view.projection = Projection::Orthographic;
+            EXPECT_NEAR(parallax(converge + behind), expected, 0.01 * std::abs(expected) + 1e-6);
+        }
+    }
+}
+
 TEST(Camera, ASinglePointIsInTheMiddle) {
     const View view = eyes({}, {}, dmat3(0), {64, 32})[0];
     const Projected p = project(view, dvec3(0));

@@ -356,6 +356,54 @@ TEST_F(PictureOfARamp, AStyleAloneLeavesTheRangeToTheFirstChoice) {
     EXPECT_EQ(b.layers[0].opacity, 0.5);
 }
 
+TEST_F(PictureOfARamp, HiddenLayersAreNeitherDrawnNorInTheLegend) {
+    std::mt19937 random(31);
+    for (int i = 0; i < 50; ++i) {
+        Explorer e = withRanges({"0:9", "100:199", "500:max"});
+        e.sweep.emplace();
+        e.sweep->animation = RangeSet::parse("300:400");
+        e.sweep->delta = 5;
+        e = resolved(e, steps_);
+        const std::int64_t tick = static_cast<std::int64_t>(random() % 256);
+        const Picture whole = pictureOf(e, tick);
+        e.sweepLayer.visible = random() % 2 == 0;
+        for (LayerChoice& layer : e.layers) layer.visible = random() % 2 == 0;
+        EXPECT_FALSE(needsSamples(e));
+        // With its window a layer like the others, it is the same picture.
+        for (const Explorer& same : {e, onlyThis(e, 1, *step_, tick)}) {
+            const Picture picture = pictureOf(same, tick);
+            std::size_t shown = 0;
+            for (std::size_t k = 0; k < whole.scene.layers.size(); ++k) {
+                if (!(k == 0 ? e.sweepLayer : e.layers[k - 1]).visible) continue;
+                ASSERT_LT(shown, picture.scene.layers.size());
+                EXPECT_EQ(picture.scene.layers[shown].runs, whole.scene.layers[k].runs);
+                EXPECT_EQ(picture.legend.layers[shown].range, whole.legend.layers[k].range);
+                ++shown;
+            }
+            EXPECT_EQ(picture.scene.layers.size(), shown);
+            EXPECT_EQ(picture.legend.layers.size(), shown);
+        }
+    }
+}
+
+TEST_F(PictureOfARamp, WhatIsHiddenMayLieOutsideWhatWasKept) {
+    step_ = ramp(0, RangeSet::parse("500:max"));
+    Explorer e = withRanges({"400:600", "700:800"});
+    e.layers[0].visible = false;
+    EXPECT_EQ(pictureOf(e).scene.layers.size(), 1u);
+}
+
+TEST_F(PictureOfARamp, HidingALayerChangesNoColour) {
+    Explorer e = withRanges({"0:9", "100:199"});
+    const Explorer shown = resolved(e, steps_);
+    e.layers[0].visible = false;
+    const Explorer hidden = resolved(e, steps_);
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_EQ(hidden.layers[k].color, shown.layers[k].color);
+        EXPECT_EQ(hidden.layers[k].opacity, shown.layers[k].opacity);
+    }
+}
+
 TEST_F(PictureOfARamp, TheFirstChoiceIsInsideWhatWasKept) {
     for (const char* kept : {"0:100", "950:max", "3", "(10,20)", "5000:6000"}) {
         Explorer e;

@@ -10,7 +10,10 @@
 #include <random>
 
 #include "app/choice_text.h"
+#include "render/exr.h"
+#include "render/png.h"
 #include "tests/support/files.h"
+#include "tests/support/random_explorer.h"
 #include "timeseries/reader.h"
 
 namespace app {
@@ -18,121 +21,10 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-using timeseries::Bound;
+using tests::RandomExplorer;
 using timeseries::RangeSet;
 
 namespace fs = std::filesystem;
-
-// Explorers with every choice made or left open by chance.
-class RandomExplorer {
- public:
-    explicit RandomExplorer(unsigned seed) : random_(seed) {}
-
-    Explorer operator()() {
-        Explorer e;
-        for (std::size_t i = 0; i <= random_() % 3; ++i) e.files.push_back(pick(kFiles));
-        if (maybe()) e.variable = pick(kNames);
-        if (maybe()) {
-            e.steps = StepChoice{random_() % 40, {}};
-            if (maybe()) e.steps->last = e.steps->first + random_() % 4;
-        }
-        if (maybe()) e.keep = ranges();
-        if (maybe()) {
-            e.sweep.emplace();
-            e.sweep->animation = ranges();
-            e.sweep->delta = std::abs(number());
-            e.sweep->timerSteps = 1 + static_cast<std::int64_t>(random_() % 1000);
-            e.sweep->step = 1 + static_cast<std::int64_t>(random_() % 9);
-            e.sweep->frequency = unit();
-            e.sweep->path = maybe() ? timeseries::SweepPath::Loop : timeseries::SweepPath::Swing;
-            e.sweepLayer = styled({});
-        }
-        const std::size_t most = render::kMaxLayers - (e.sweep ? 1 : 0);
-        for (std::size_t i = random_() % (most + 1); i > 0; --i)
-            e.layers.push_back(styled(random_() % 5 == 0 ? RangeSet() : ranges()));
-        e.footprint = {maybe() ? render::Kernel::Point : render::Kernel::Quartic,
-                       0.001 + 5 * unit()};
-        e.order = maybe() ? render::Order::None : render::Order::BackToFront;
-        if (maybe()) e.clip = clip();
-        if (maybe()) e.scale = glm::dvec3(0.1 + unit(), 1e-9 + unit(), 1 + 1e9 * unit());
-        e.view = {720 * unit() - 360, 180 * unit() - 90, {}};
-        if (maybe()) e.view.distance = 0.01 + 9 * unit();
-        e.stereo.mode = static_cast<Stereo>(random_() % 5);
-        if (maybe()) e.stereo.eyeDistance = maybe() ? 0 : unit();
-        if (maybe()) e.stereo.convergence = 0.01 + unit();
-        e.size = {pixels(), pixels()};
-        return e;
-    }
-
- private:
-    static constexpr const char* kFiles[] = {"/data/run/fire.nc", "/data/run/b/c d.nc",
-                                             "/other/é 世界.nc", "/data/x.nc", "/data/run/'q'.nc"};
-    static constexpr const char* kNames[] = {"T", "air temperature", "θ", "a\"b\\c\n", "0"};
-
-    template <typename T, std::size_t N>
-    T pick(const T (&from)[N]) {
-        return from[random_() % N];
-    }
-    int pixels() { return 1 + static_cast<int>(random_() % 16384); }
-    bool maybe() { return random_() % 2 == 0; }
-    double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
-    double number() {
-        const double awkward[] = {0,       -0.0, 1.0 / 3, 1e300,  -1e300, 5e-324,
-                                  600,     0.1,  -2.5,    1e-300, 1e20,   9007199254740993.0,
-                                  1e15 + 1};
-        return random_() % 3 == 0 ? awkward[random_() % std::size(awkward)]
-                                  : std::ldexp(unit() - 0.5, static_cast<int>(random_() % 80) - 40);
-    }
-    timeseries::Number exact() {
-        if (random_() % 4 == 0) return (std::int64_t{1} << 60) + static_cast<int>(random_() % 9);
-        if (random_() % 8 == 0) return std::numeric_limits<std::uint64_t>::max() - random_() % 9;
-        return number();
-    }
-    RangeSet ranges() {
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
-        for (;;) {
-            std::vector<timeseries::Range> some(1 + random_() % 3);
-            for (auto& range : some) {
-                range = {{exact(), maybe()}, {exact(), maybe()}};
-                if (timeseries::compare(range.lo.value, range.hi.value) > 0)
-                    std::swap(range.lo, range.hi);
-                if (random_() % 6 == 0) range.lo = {-kInfinity, random_() % 4 == 0};
-                if (random_() % 6 == 0) range.hi = {kInfinity, random_() % 4 == 0};
-            }
-            if (RangeSet set(some); !set.empty()) return set;
-        }
-    }
-    LayerChoice styled(RangeSet set) {
-        LayerChoice layer{std::move(set), {}, {}};
-        if (maybe()) layer.opacity = unit();
-        switch (random_() % 3) {
-            case 0:
-                layer.color = glm::dvec3(random_() % 256, random_() % 256, random_() % 256) / 255.0;
-                break;
-            case 1: {
-                MapChoice map{
-                    *render::colorMapNamed(render::colorMapNames()[random_() % 4]), {}, {}};
-                if (maybe()) map.lo = number();
-                if (maybe()) map.hi = number();
-                layer.color = map;
-                break;
-            }
-            default:
-                break;
-        }
-        return layer;
-    }
-    ClipBox clip() {
-        ClipBox box{};
-        for (int a = 0; a < 3; ++a) {
-            const double x = number(), y = number();
-            box.lo[a] = maybe() ? std::min(x, y) : -std::numeric_limits<double>::infinity();
-            box.hi[a] = maybe() ? std::max(x, y) : std::numeric_limits<double>::infinity();
-        }
-        return box;
-    }
-    std::mt19937_64 random_;
-};
 
 TEST(Session, EveryExplorerComesBackAsItWas) {
     RandomExplorer next(20);
@@ -150,6 +42,19 @@ TEST(Session, EveryExplorerComesBackAsItWas) {
 
 TEST(Session, AnExplorerWithNothingChosenComesBack) {
     EXPECT_TRUE(fromJson(toJson({}, "/a"), "/a") == Explorer{});
+}
+
+TEST(Session, WhatNobodyTouchedIsNotWritten) {
+    const json plain = toJson({}, "/a");
+    EXPECT_FALSE(plain.contains("play"));
+    EXPECT_FALSE(plain["view"].contains("target"));
+    EXPECT_FALSE(plain["view"].contains("projection"));
+    Explorer e;
+    e.layers = {{RangeSet::parse("0:1"), {}, {}}, {RangeSet::parse("0:1"), {}, {}, false}};
+    e.play.tick = 3;
+    EXPECT_EQ(toJson(e, "/a")["play"], json({{"tick", 3}}));
+    EXPECT_FALSE(toJson(e, "/a")["layers"][0].contains("visible"));
+    EXPECT_EQ(toJson(e, "/a")["layers"][1]["visible"], false);
 }
 
 TEST(Session, PathsAreRelativeToTheSessionsFolder) {
@@ -202,6 +107,7 @@ TEST(Session, UnknownKeysAreNamedWhereverTheyStand) {
     expectRefused({{"isochron", 1}, {"sweep", {{"animation", "0:1"}, {"steps", 3}}}}, "'steps'");
     expectRefused({{"isochron", 1}, {"view", {{"roll", 3}}}}, "'roll'");
     expectRefused({{"isochron", 1}, {"stereo", {{"distance", 3}}}}, "'distance'");
+    expectRefused({{"isochron", 1}, {"play", {{"speed", 3}}}}, "'speed'");
     expectRefused({{"isochron", 1}, {"", 0}}, "''");
 }
 
@@ -232,7 +138,7 @@ TEST(Session, WrongTypesAreNamedByKey) {
     const std::map<std::string, std::set<int>> fits = {
         {"files", {5}}, {"variable", {4}}, {"steps", {}},         {"keep", {}},  {"layers", {5}},
         {"sweep", {}},  {"splat", {}},     {"splatSize", {2, 3}}, {"order", {}}, {"clip", {}},
-        {"scale", {}},  {"view", {7}},     {"stereo", {7}},       {"size", {}}};
+        {"scale", {}},  {"view", {7}},     {"stereo", {7}},       {"size", {}},  {"play", {7}}};
     for (const auto& [key, taken] : fits)
         for (int i = 0; i < static_cast<int>(std::size(wrong)); ++i) {
             const json session = {{"isochron", 1}, {key, wrong[i]}};
@@ -243,7 +149,24 @@ TEST(Session, WrongTypesAreNamedByKey) {
             }
         }
     const std::map<std::string, std::map<std::string, std::set<int>>> fitsInside = {
-        {"view", {{"azimuth", {2, 3}}, {"elevation", {2, 3}}, {"distance", {2, 3}}}},
+        {"view",
+         {{"azimuth", {2, 3}},
+          {"elevation", {2, 3}},
+          {"distance", {2, 3}},
+          {"target", {}},
+          {"projection", {}}}},
+        {"play",
+         {{"first", {2}},
+          {"last", {2}},
+          {"stride", {2}},
+          {"ending", {}},
+          {"backward", {1}},
+          {"realTimes", {1}},
+          {"stepsPerSecond", {2, 3}},
+          {"timeUnitsPerSecond", {2, 3}},
+          {"timeMoves", {1}},
+          {"sweepMoves", {1}},
+          {"tick", {2}}}},
         {"stereo", {{"mode", {}}, {"eyeDistance", {2, 3}}, {"convergence", {2, 3}}}},
         {"sweep",
          {{"animation", {}},
@@ -254,7 +177,8 @@ TEST(Session, WrongTypesAreNamedByKey) {
           {"swing", {1}},
           {"color", {}},
           {"colormap", {}},
-          {"opacity", {}}}}};
+          {"opacity", {}},
+          {"visible", {1}}}}};
     for (const auto& [outer, keys] : fitsInside)
         for (const auto& [key, taken] : keys)
             for (int i = 0; i < static_cast<int>(std::size(wrong)); ++i) {
@@ -286,6 +210,13 @@ TEST(Session, ValuesOutOfBoundsAreRefused) {
     expectRefused(with("splatSize", 1e4), "size");
     expectRefused(with("stereo", {{"convergence", 0}}), "convergence");
     expectRefused(with("stereo", {{"eyeDistance", -0.1}}), "eye");
+    for (const json& target : {json{1, 2}, json{1, 2, 3, 4}, json{1e7, 0, 0}})
+        expectRefused(with("view", {{"target", target}}), "session.view.target");
+    expectRefused(with("view", {{"projection", "isometric"}}), "session.view.projection");
+    for (const json& play :
+         {json{{"first", -1}}, json{{"first", 3}, {"last", 2}}, json{{"stride", 0}},
+          json{{"ending", "never"}}, json{{"stepsPerSecond", -1}}, json{{"tick", -1}}})
+        expectRefused(with("play", play), "session.play");
     for (const json& layer :
          {json{{"range", ""}}, json{{"range", "2:1"}}, json{{"range", "0:1"}, {"opacity", 1.01}},
           json{{"range", "0:1"}, {"opacity", -0.01}}, json{{"range", "0:1"}, {"mapLow", 1}},
@@ -380,6 +311,50 @@ TEST(Session, ASingleChangedByteNeverCrashes) {
             EXPECT_THAT(error.what(), HasSubstr(file.string()));
         }
     }
+}
+
+TEST(Session, APictureGivesBackTheSessionThatItCarries) {
+    const fs::path folder = tests::freshFolder();
+    RandomExplorer next(44);
+    for (int i = 0; i < 30; ++i) {
+        const Explorer e = next();
+        const render::Metadata texts{{kSessionKey, toJson(e, folder).dump()}};
+        const render::Image image({3, 2}, glm::vec4(0.5f));
+        render::writePng(folder / "a.png", image, texts);
+        EXPECT_TRUE(readSession(folder / "a.png") == e);
+        const std::array views{render::ExrView{"", image}};
+        render::writeExr(folder / "a.exr", views, texts);
+        EXPECT_TRUE(readSession(folder / "a.exr") == e);
+    }
+}
+
+TEST(Session, PicturesWithoutASessionAreRefusedByName) {
+    const fs::path folder = tests::freshFolder();
+    const auto refusal = [&](const char* name) {
+        try {
+            readSession(folder / name);
+        } catch (const timeseries::FileError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const render::Image image({3, 2});
+    const std::array views{render::ExrView{"", image}};
+    render::writePng(folder / "bare.png", image);
+    render::writeExr(folder / "bare.exr", views);
+    render::writePng(folder / "odd.png", image, {{kSessionKey, "{\"isochron\":1,\"colour\":2}"}});
+    render::writePng(folder / "cut.png", image, {{kSessionKey, "{"}});
+    tests::writeBytes(folder / "text.png", "no picture");
+    tests::writeBytes(folder / "text.exr", "no picture");
+    for (const char* name : {"bare.png", "bare.exr", "odd.png", "cut.png", "text.png", "text.exr",
+                             "none.png", "none.exr"}) {
+        EXPECT_THAT(refusal(name), HasSubstr((folder / name).string()));
+        EXPECT_EQ(refusal(name).find('\n'), std::string::npos);
+    }
+    EXPECT_THAT(refusal("bare.png"), HasSubstr("carries no session"));
+    EXPECT_THAT(refusal("bare.exr"), HasSubstr("carries no session"));
+    EXPECT_THAT(refusal("odd.png"), HasSubstr("'colour'"));
+    EXPECT_THAT(refusal("cut.png"), HasSubstr("not JSON at byte"));
 }
 
 TEST(Session, AMissingFileAndAFolderAreNamed) {

@@ -1,0 +1,122 @@
+#include "app/command_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <random>
+
+#include "app/options.h"
+#include "tests/support/random_explorer.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Explorer parsedBack(const std::vector<std::string>& arguments) {
+    std::vector<const char*> pointers;
+    for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
+    const Command command = parse(pointers);
+    if (const auto* exit = std::get_if<Exit>(&command)) throw std::runtime_error(exit->text);
+    return std::get<RenderOptions>(command).explorer;
+}
+
+// What resolved() leaves: nothing open.
+Explorer closed(Explorer e) {
+    const auto close = [](LayerChoice& layer) {
+        if (!layer.color) layer.color = glm::dvec3(1, 0.2, 0);
+        if (auto* map = std::get_if<MapChoice>(&*layer.color)) {
+            map->lo = map->lo.value_or(-1.0 / 3);
+            map->hi = map->hi.value_or(1e20);
+        }
+        if (!layer.opacity) layer.opacity = 0.1;
+    };
+    close(e.sweepLayer);
+    std::erase_if(e.layers, [](const LayerChoice& layer) { return layer.ranges.empty(); });
+    if (e.layers.empty() && !e.sweep)
+        e.layers.push_back({timeseries::RangeSet::parse("0:1"), {}, {}});
+    for (LayerChoice& layer : e.layers) close(layer);
+    if (!e.sweep) e.sweepLayer = {};
+    return e;
+}
+
+TEST(CommandLine, GivesBackTheSameExplorer) {
+    tests::RandomExplorer next(86);
+    for (int i = 0; i < 1000; ++i) {
+        Explorer e = closed(next());
+        for (const char* folder : {"/data/run", "/elsewhere/deep"}) {
+            const auto arguments = renderArguments(e, "/out/a.exr", folder);
+            Explorer back = parsedBack(arguments);
+            for (fs::path& file : back.files) file = (folder / file).lexically_normal();
+            Explorer expected = e;
+            expected.play = {};
+            ASSERT_TRUE(back == expected) << "case " << i << ": " << shellText(arguments) << '\n'
+                                          << shellText(renderArguments(back, "/out/a.exr", folder));
+        }
+    }
+}
+
+TEST(CommandLine, FilesAreNeverTakenForOptionsOrCommands) {
+    for (const char* name : {"-a.nc", "--json", "info", "count", "render", "view", "a=b",
+                             "[a,b].nc", "a b", "é 世界"}) {
+        Explorer e = closed({});
+        e.files = {fs::path("/data") / name};
+        const auto back = parsedBack(renderArguments(e, "/data/-o.png", "/data"));
+        ASSERT_EQ(back.files.size(), 1u) << name;
+        EXPECT_EQ(("/data" / back.files[0]).lexically_normal(), e.files[0]);
+    }
+}
+
+TEST(CommandLine, SaysNothingThatGoesWithoutSaying) {
+    Explorer e;
+    e.files = {"/data/fire.nc"};
+    e.variable = "T";
+    e.steps = StepChoice{12, 12};
+    e.layers = {{timeseries::RangeSet::parse("600:max"), glm::dvec3(1, 0, 0), 0.25}};
+    EXPECT_EQ(shellText(renderArguments(e, "/data/out/fire.png", "/data")),
+              "render fire.nc --variable=T --step=12 --range=600:max '--color=#ff0000' "
+              "--opacity=0.25 --view=30,20 --size=1200x900 --output=out/fire.png");
+}
+
+// What the shell hands to a program that is called so.
+std::vector<std::string> throughTheShell(const std::string& line) {
+    const std::string command = "printf '%s\\0' " + line;
+    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+    std::string all;
+    std::array<char, 4096> some{};
+    while (const std::size_t count = std::fread(some.data(), 1, some.size(), pipe.get()))
+        all.append(some.data(), count);
+    std::vector<std::string> arguments;
+    for (std::size_t at = 0; at < all.size();) {
+        arguments.emplace_back(all.c_str() + at);
+        at += arguments.back().size() + 1;
+    }
+    return arguments;
+}
+
+TEST(ShellText, TheShellReadsEveryArgumentAsItIs) {
+    std::mt19937 random(15);
+    const std::string special = " '\"\\$`!*?[](){}<>|&;#~\n\t=%";
+    for (int i = 0; i < 60; ++i) {
+        std::vector<std::string> arguments(1 + random() % 8);
+        for (std::string& argument : arguments)
+            for (std::size_t n = random() % 12; n > 0; --n)
+                argument += random() % 2 == 0 ? special[random() % special.size()]
+                                              : static_cast<char>(1 + random() % 255);
+        EXPECT_EQ(throughTheShell(shellText(arguments)), arguments) << shellText(arguments);
+    }
+}
+
+TEST(ShellText, OfACallIsThatCall) {
+    tests::RandomExplorer next(4);
+    for (int i = 0; i < 20; ++i) {
+        const auto arguments = renderArguments(closed(next()), "/out/a b.exr", "/data");
+        EXPECT_EQ(throughTheShell(shellText(arguments)), arguments);
+    }
+}
+
+}  // namespace
+}  // namespace app

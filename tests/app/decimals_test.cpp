@@ -1,0 +1,64 @@
+#include "app/decimals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <sstream>
+#include <string>
+
+namespace app {
+namespace {
+
+// The exponent in shortest scientific text: of 0.00025, which is 25e-5, it is -5; 120 is 12e1.
+int lastDigit(double value) {
+    if (value == 0) return 1000;
+    std::string text;
+    for (int digits = 0; digits < 20; ++digits) {
+        std::ostringstream out;
+        out.precision(digits);
+        out << std::scientific << value;
+        text = out.str();
+        if (std::stod(text) == value) return std::stoi(text.substr(text.find('e') + 1)) - digits;
+    }
+    return -1000;
+}
+
+TEST(Decimals, RoundsToTheNearestAndPrintsAsSuch) {
+    EXPECT_EQ(toDecimals(23.7421, 1), 23.7);
+    EXPECT_EQ(toDecimals(-0.05, 3), -0.05);
+    EXPECT_EQ(toDecimals(1234567, -3), 1235e3);
+    EXPECT_EQ(toDecimals(1.26e25, -24), 1.3e25);
+    EXPECT_EQ(toDecimals(-4, -1), 0);
+    const double most = std::numeric_limits<double>::max();
+    EXPECT_EQ(toDecimals(most, -308), most) << "rounded up it would be no double";
+}
+
+TEST(Decimals, RoundingTellsNeighboursApartWithTheFewestDigits) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> unit(-1, 1), log(-14, 14);
+    for (int i = 0; i < 5000; ++i) {
+        double resolution = std::pow(10, log(random));
+        // Powers of ten themselves, where logarithms are off by a rounding.
+        if (i % 3 == 0) resolution = std::stod("1e" + std::to_string(i % 29 - 14));
+        const double value = unit(random) * resolution * 1e5;
+        const double rounded = roundedTo(value, resolution);
+        EXPECT_LE(std::abs(rounded - value), 0.5001 * resolution) << value << ' ' << resolution;
+        EXPECT_NE(roundedTo(value + 1.0001 * resolution, resolution), rounded)
+            << value << ' ' << resolution;
+        // The unit is the largest power of ten that is no more than the resolution.
+        const double unitOfDigits = std::pow(10, lastDigit(rounded));
+        EXPECT_GE(unitOfDigits, 0.0999 * resolution) << value << ' ' << resolution;
+    }
+}
+
+TEST(Decimals, WhatCannotBeRoundedStays) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(roundedTo(infinity, 1), infinity);
+    EXPECT_EQ(roundedTo(3.25, infinity), 3.25);
+    EXPECT_EQ(roundedTo(5e-324, 5e-324), 5e-324);
+    EXPECT_EQ(roundedTo(1e300, 1e-300), 1e300);
+}
+
+}  // namespace
+}  // namespace app

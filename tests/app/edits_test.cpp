@@ -1,0 +1,202 @@
+#include "app/edits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "app/first_choice.h"
+#include "app/layer_colors.h"
+#include "tests/support/scenes.h"
+#include "tests/support/selection_oracle.h"
+
+namespace app {
+namespace {
+
+using timeseries::Range;
+using timeseries::RangeSet;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class RangeEdits : public testing::Test {
+ protected:
+    // Multiples of 1/4: sums of them are exact, and they often meet.
+    double number() { return 0.25 * static_cast<double>(static_cast<int>(random_() % 80) - 40); }
+    RangeSet ranges() {
+        for (;;) {
+            std::vector<Range> some(1 + random_() % 4);
+            for (Range& range : some) {
+                range = {{number(), random_() % 3 == 0}, {number(), random_() % 3 == 0}};
+                if (random_() % 5 == 0)  // typed as an integer that no double is
+                    range.hi.value = (std::int64_t{1} << 53) + 1;
+                if (timeseries::compare(range.lo.value, range.hi.value) > 0)
+                    std::swap(range.lo, range.hi);
+                if (random_() % 8 == 0) range.lo = {-kInfinity};
+                if (random_() % 8 == 0) range.hi = {kInfinity};
+            }
+            if (RangeSet set(some); !set.empty()) return set;
+        }
+    }
+    std::mt19937_64 random_{77};
+};
+
+bool sameBound(const timeseries::Bound& a, const timeseries::Bound& b) {
+    return a.open == b.open && a.value == b.value;
+}
+
+// All ranges but one, as they were.
+void expectOthersStay(const RangeSet& now, const RangeSet& before, std::size_t range) {
+    ASSERT_EQ(now.ranges().size(), before.ranges().size());
+    for (std::size_t i = 0; i < now.ranges().size(); ++i) {
+        if (i == range) continue;
+        EXPECT_TRUE(sameBound(now.ranges()[i].lo, before.ranges()[i].lo));
+        EXPECT_TRUE(sameBound(now.ranges()[i].hi, before.ranges()[i].hi));
+    }
+}
+
+TEST_F(RangeEdits, ADraggedEndHoldsWhatLiesBetweenItAndTheOther) {
+    // Against plain comparisons: a value is in the range now if it lies between the hand and the
+    // other end, and the hand has not passed a neighbour or that end.
+    for (int i = 0; i < 3000; ++i) {
+        const RangeSet before = ranges();
+        const std::size_t n = before.ranges().size(), k = random_() % n;
+        const End end = random_() % 2 == 0 ? End::Lo : End::Hi;
+        const double to = number();
+        const RangeSet now = withEnd(before, k, end, to);
+        SCOPED_TRACE(before.text() + " became " + now.text() + ", range " + std::to_string(k) +
+                     (end == End::Lo ? ", low to " : ", high to ") + std::to_string(to));
+        expectOthersStay(now, before, k);
+        if (HasFailure()) return;
+        const Range &old = before.ranges()[k], &changed = now.ranges()[k];
+        EXPECT_EQ(changed.lo.open, old.lo.open);
+        EXPECT_EQ(changed.hi.open, old.hi.open);
+        EXPECT_TRUE(end == End::Lo ? sameBound(changed.hi, old.hi) : sameBound(changed.lo, old.lo))
+            << "the other end stays";
+        // In eighths and halves between: none of them is a bound's neighbouring double.
+        for (double v = -11; v <= 11; v += 0.125) {
+            const bool isInOthers = [&] {
+                for (std::size_t j = 0; j < n; ++j)
+                    if (j != k && oracle::holds<double>(before.ranges()[j], v)) return true;
+                return false;
+            }();
+            const double limitLo =
+                k > 0 ? timeseries::toDouble(before.ranges()[k - 1].hi.value) : -kInfinity;
+            const double limitHi =
+                k + 1 < n ? timeseries::toDouble(before.ranges()[k + 1].lo.value) : kInfinity;
+            Range wished = old;
+            (end == End::Lo ? wished.lo : wished.hi).value = to;
+            const bool isWished =
+                oracle::holds<double>(wished, v) && v > limitLo && v < limitHi && !isInOthers;
+            const bool isPinched = timeseries::compare(wished.lo.value, wished.hi.value) >= 0;
+            if (isPinched || v == limitLo || v == limitHi) continue;
+            EXPECT_EQ(oracle::holds<double>(changed, v), isWished) << v;
+        }
+    }
+}
+
+TEST_F(RangeEdits, AnEndStopsAtTheOtherAndJustShortOfANeighbour) {
+    const RangeSet set = RangeSet::parse("0:1,2:3,[5,6)");
+    EXPECT_EQ(withEnd(set, 1, End::Lo, 10).text(), "0:1,3:3,[5,6)");
+    EXPECT_EQ(withEnd(set, 1, End::Hi, -10).text(), "0:1,2:2,[5,6)");
+    const auto next = [](double from, double to) { return std::nextafter(from, to); };
+    EXPECT_EQ(withEnd(set, 1, End::Lo, -10).ranges()[1].lo.value, timeseries::Number(next(1, 2)));
+    EXPECT_EQ(withEnd(set, 1, End::Hi, 10).ranges()[1].hi.value, timeseries::Number(next(5, 4)));
+    EXPECT_EQ(withEnd(set, 2, End::Lo, 9).ranges()[2].lo.value, timeseries::Number(next(6, 5)))
+        << "[6, 6) would hold nothing";
+    EXPECT_EQ(withEnd(RangeSet::parse("min:3"), 0, End::Lo, 1), RangeSet::parse("1:3"));
+    EXPECT_EQ(withEnd(RangeSet::parse("1:3"), 0, End::Hi, kInfinity), RangeSet::parse("1:max"));
+}
+
+TEST_F(RangeEdits, TypedIntegersStayAsTyped) {
+    const RangeSet set = RangeSet::parse("9007199254740993:9007199254740999");
+    const auto changed = withEnd(set, 0, End::Lo, 0);
+    EXPECT_EQ(changed.text(), "0:9007199254740999");
+    // 2^53 + 7 is no double: the end stops at the nearest below.
+    EXPECT_EQ(withEnd(set, 0, End::Lo, 1e300).ranges()[0].lo.value,
+              timeseries::Number(9007199254740998.0));
+}
+
+TEST_F(RangeEdits, AMovedRangeKeepsItsWidthAndItsPlaceAmongOthers) {
+    for (int i = 0; i < 3000; ++i) {
+        const RangeSet before = ranges();
+        const std::size_t n = before.ranges().size(), k = random_() % n;
+        const double by = number();
+        const RangeSet now = withMoved(before, k, by);
+        SCOPED_TRACE(before.text() + " became " + now.text() + ", range " + std::to_string(k) +
+                     " by " + std::to_string(by));
+        expectOthersStay(now, before, k);
+        if (HasFailure()) return;
+        const Range &old = before.ranges()[k], &moved = now.ranges()[k];
+        EXPECT_EQ(moved.lo.open, old.lo.open);
+        EXPECT_EQ(moved.hi.open, old.hi.open);
+        const double lo = timeseries::toDouble(old.lo.value),
+                     hi = timeseries::toDouble(old.hi.value);
+        const double nowLo = timeseries::toDouble(moved.lo.value);
+        const double nowHi = timeseries::toDouble(moved.hi.value);
+        if (std::isfinite(lo) && std::isfinite(hi)) {
+            EXPECT_NEAR(nowHi - nowLo, hi - lo, 1e-12 * (1 + std::abs(hi)));
+            // As far as asked, or up to the neighbour.
+            const double below =
+                k > 0 ? timeseries::toDouble(before.ranges()[k - 1].hi.value) : -1e300;
+            const double above =
+                k + 1 < n ? timeseries::toDouble(before.ranges()[k + 1].lo.value) : 1e300;
+            const double expected = std::clamp(by, below - lo, above - hi);
+            EXPECT_NEAR(nowLo - lo, expected, 1e-12 * (1 + std::abs(hi)));
+        } else {
+            EXPECT_EQ(std::isfinite(nowLo), std::isfinite(lo));
+            EXPECT_EQ(std::isfinite(nowHi), std::isfinite(hi));
+        }
+    }
+}
+
+TEST_F(RangeEdits, TakingAwayAndAddingAreWhatSetsDo) {
+    for (int i = 0; i < 500; ++i) {
+        const RangeSet before = ranges();
+        const std::size_t k = random_() % before.ranges().size();
+        const Range taken = before.ranges()[k];
+        const RangeSet rest = without(before, k);
+        EXPECT_EQ(rest.ranges().size(), before.ranges().size() - 1);
+        EXPECT_EQ(with(rest, taken), before);
+        const Range added{{number()}, {number()}};
+        for (double v = -11; v <= 11; v += 0.125)
+            EXPECT_EQ(oracle::holds<double>(with(before, added).ranges(), v),
+                      oracle::holds<double>(before.ranges(), v) || oracle::holds<double>(added, v));
+    }
+}
+
+TEST(AddLayer, TakesTheNextFreeColourAndAnOpacityForItsPoints) {
+    const auto step = tests::stepOf(tests::cube(10), [](std::size_t i) { return double(i); });
+    Explorer e;
+    e.layers = {{RangeSet::parse("0:1"), MapChoice{{}, 0.0, 1.0}, 0.5},
+                {RangeSet::parse("0:1"), kLayerColors[1], 0.5}};
+    const Explorer before = e;
+    EXPECT_EQ(addLayer(e, RangeSet::parse("100:199"), step), 2u);
+    ASSERT_EQ(e.layers.size(), 3u);
+    EXPECT_TRUE(e.layers[0] == before.layers[0]) << "coloured by value stays so";
+    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[2].color), kLayerColors[0]);
+    EXPECT_EQ(e.layers[2].opacity, opacityFor(100));
+    EXPECT_EQ(e.layers[2].ranges, RangeSet::parse("100:199"));
+    addLayer(e, RangeSet::parse("5"), step);
+    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[3].color), kLayerColors[2]);
+    e.sweep.emplace();
+    e.sweepLayer.color = kLayerColors[3];
+    addLayer(e, RangeSet::parse("5"), step);
+    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[4].color), kLayerColors[4]) << "the swept one has 3";
+    e.layers.erase(e.layers.begin() + 1);
+    addLayer(e, RangeSet::parse("5"), step);
+    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[4].color), kLayerColors[1]) << "free again";
+}
+
+TEST(AddLayer, CountsWhatOfItWasKept) {
+    const auto grid = tests::cube(10);
+    std::vector<float> values(1000);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
+    const auto step =
+        timeseries::SortedStep::build({grid, std::move(values), {}}, RangeSet::parse("500:max"));
+    Explorer e;
+    addLayer(e, RangeSet::parse("400:599"), step);
+    EXPECT_EQ(e.layers[0].opacity, opacityFor(100));
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,141 @@
+#include "app/history.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace app {
+namespace {
+
+// States that differ by what is undone (the variable's name) and by what is not.
+Explorer state(int n, std::int64_t tick = 0, int width = 100) {
+    Explorer e;
+    e.variable = std::to_string(n);
+    e.play.tick = tick;
+    e.size.x = width;
+    return e;
+}
+
+// The same said with two stacks.
+struct Model {
+    std::vector<Explorer> past, future;
+    Explorer now;
+    std::string gesture;
+
+    void edit(const Explorer& next, const std::string& by) {
+        if (next == now) return;
+        if (by.empty() || by != gesture) past.push_back(now);
+        gesture = by;
+        if (past.size() > History::kSteps) past.erase(past.begin());
+        future.clear();
+        now = next;
+    }
+    void go(std::vector<Explorer>& from, std::vector<Explorer>& to) {
+        to.push_back(now);
+        const Explorer before = now;
+        now = from.back();
+        now.size = before.size;
+        now.play.tick = before.play.tick;
+        from.pop_back();
+        gesture.clear();
+    }
+};
+
+TEST(History, IsTwoStacksForAnySequenceOfEdits) {
+    const char* const gestures[] = {"", "", "drag", "slider", "pan"};
+    std::mt19937 random(2);
+    for (int run = 0; run < 40; ++run) {
+        History history(state(0));
+        Model model{{}, {}, state(0), {}};
+        // Long runs of edits reach the limit, long runs of undo the beginning.
+        for (int i = 0; i < 1500; ++i) {
+            const auto kind = random() % 100;
+            const unsigned long edits = run % 2 == 0 ? 85 : 45;
+            if (kind < edits) {
+                const Explorer next = random() % 10 == 0
+                                          ? model.now
+                                          : state(static_cast<int>(random() % 50),
+                                                  model.now.play.tick, model.now.size.x);
+                const char* gesture = gestures[random() % 5];
+                history.edit(next, gesture);
+                model.edit(next, gesture);
+            } else if (kind < edits + 3) {
+                history.endGesture();
+                model.gesture.clear();
+            } else if (kind < edits + 6) {
+                model.now.play.tick = static_cast<std::int64_t>(random() % 256);
+                model.now.size.x = 1 + static_cast<int>(random() % 1000);
+                history.replace(model.now);
+            } else if (random() % 2 == 0 && history.canUndo()) {
+                history.undo();
+                model.go(model.past, model.future);
+            } else if (history.canRedo()) {
+                history.redo();
+                model.go(model.future, model.past);
+            }
+            ASSERT_TRUE(history.now() == model.now) << "run " << run << ", step " << i;
+            ASSERT_EQ(history.canUndo(), !model.past.empty()) << "run " << run << ", step " << i;
+            ASSERT_EQ(history.canRedo(), !model.future.empty()) << "run " << run << ", step " << i;
+        }
+        while (history.canUndo()) {
+            history.undo();
+            model.go(model.past, model.future);
+            ASSERT_TRUE(history.now() == model.now) << "run " << run;
+        }
+        EXPECT_TRUE(model.past.empty());
+    }
+}
+
+TEST(History, AGestureIsOneStep) {
+    History history(state(0));
+    for (int i = 1; i < 20; ++i) history.edit(state(i), "drag");
+    history.endGesture();
+    for (int i = 20; i < 40; ++i) history.edit(state(i), "drag");
+    history.undo();
+    EXPECT_TRUE(history.now() == state(19));
+    history.undo();
+    EXPECT_TRUE(history.now() == state(0));
+    EXPECT_FALSE(history.canUndo());
+    history.redo();
+    history.redo();
+    EXPECT_TRUE(history.now() == state(39));
+}
+
+TEST(History, AnEditAfterUndoForgetsWhatWasUndone) {
+    History history(state(0));
+    history.edit(state(1));
+    history.edit(state(2));
+    history.undo();
+    history.edit(state(1));  // nothing: it is that already
+    EXPECT_TRUE(history.canRedo());
+    history.edit(state(3));
+    EXPECT_FALSE(history.canRedo());
+    history.undo();
+    EXPECT_TRUE(history.now() == state(1));
+}
+
+TEST(History, SizeAndTickStayThroughUndoAndRedo) {
+    History history(state(0));
+    history.edit(state(1));
+    history.replace(state(1, 7, 640));
+    history.undo();
+    EXPECT_TRUE(history.now() == state(0, 7, 640));
+    history.replace(state(0, 9, 800));
+    EXPECT_TRUE(history.canRedo()) << "play forgets nothing";
+    history.redo();
+    EXPECT_TRUE(history.now() == state(1, 9, 800));
+}
+
+TEST(History, KeepsTheLastSteps) {
+    History history(state(0));
+    const int edits = static_cast<int>(History::kSteps) + 10;
+    for (int i = 1; i <= edits; ++i) history.edit(state(i));
+    int steps = 0;
+    for (; history.canUndo(); ++steps) history.undo();
+    EXPECT_EQ(steps, static_cast<int>(History::kSteps));
+    EXPECT_TRUE(history.now() == state(10));
+}
+
+}  // namespace
+}  // namespace app
