@@ -396,6 +396,9 @@ TEST(VtkCollection, WhatDiffersIsTold) {
                 ElementsAre("1 of 2 files are missing, the first none.vti"));
     EXPECT_THAT(refusal(gap, 1), HasSubstr("none.vti: expected a file, but there is none"));
     EXPECT_THAT(refusal(collection(member("0", "none.vti"))), HasSubstr("there is none"));
+    EXPECT_THAT(refusal(collection("<DataSet file=\"..\"/>")), HasSubstr("it is a folder"));
+    EXPECT_THAT(refusal(collection("<DataSet file=\"/dev/zero\"/>")),
+                HasSubstr("/dev/zero: expected an ordinary file"));
 }
 
 }  // namespace
