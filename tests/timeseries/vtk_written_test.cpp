@@ -184,6 +184,25 @@ TEST(VtkWritten, ImagesInEveryFormOfXmlAreRead) {
     expectWhatVtkWrites<vtkXMLImageDataWriter>(*image(), ".vti");
 }
 
+// The length stands before the values; the first digit is a quarter of it.
+TEST(VtkWritten, LengthsOfEveryDigitOfBase64AreRead) {
+    const auto path = tests::freshFolder() / "file.vti";
+    for (int bytes = 4; bytes < 256; bytes += 4) {
+        const vtkNew<vtkImageData> row;
+        row->SetDimensions(bytes, 1, 1);
+        row->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+        row->GetPointData()->GetScalars()->Fill(7);
+        const vtkNew<vtkXMLImageDataWriter> writer;
+        writer->SetFileName(path.c_str());
+        writer->SetInputData(row);
+        writer->SetDataModeToBinary();
+        writer->SetCompressorTypeToNone();
+        ASSERT_EQ(writer->Write(), 1);
+        EXPECT_EQ(openReader(std::span(&path, 1))->read(0, 0).grid->count(),
+                  static_cast<std::uint64_t>(bytes));
+    }
+}
+
 TEST(VtkWritten, RectilinearGridsInEveryFormOfXmlAreRead) {
     expectWhatVtkWrites<vtkXMLRectilinearGridWriter>(*rectilinear(), ".vtr");
 }
