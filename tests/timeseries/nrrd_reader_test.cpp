@@ -29,13 +29,11 @@ template <typename T>
 void expectExact(const std::string& type, ValueType expected) {
     const std::vector<T> values = telling<T>();
     for (const std::endian order : {std::endian::little, std::endian::big})
-        for (const bool gzip : {false, true}) {
-            const std::string bytes = bytesOf(values, order);
+        for (const char* encoding : {"raw", "gzip", "bzip2"}) {
             const auto reader = openBytes(
                 nrrd(fmt::format("type: {}\ndimension: 3\nsizes: 2 2 2\nendian: {}\nencoding: {}\n",
-                                 type, order == std::endian::little ? "little" : "big",
-                                 gzip ? "gzip" : "raw"),
-                     gzip ? gzipped(bytes) : bytes));
+                                 type, order == std::endian::little ? "little" : "big", encoding),
+                     encoded(encoding, bytesOf(values, order))));
             EXPECT_EQ(reader->variables()[0].type, expected) << type;
             EXPECT_EQ(valuesOf<T>(*reader), values) << type;
         }
@@ -46,7 +44,7 @@ void expectExact(const std::string& type, ValueType expected) {
     EXPECT_EQ(valuesOf<T>(*reader), values) << type << " as text";
 }
 
-TEST(Nrrd, EveryTypeInEitherByteOrderRawGzipAndTextIsExact) {
+TEST(Nrrd, EveryTypeInEitherByteOrderAndEveryEncodingIsExact) {
     expectExact<std::int8_t>("int8", ValueType::I8);
     expectExact<std::int8_t>("signed char", ValueType::I8);
     expectExact<std::uint8_t>("uchar", ValueType::U8);
@@ -100,14 +98,13 @@ TEST(Nrrd, TimeStandsOnAnyAxisAndDirectionsPutSpaceInOrder) {
         }
         // Each value is the place it has in the file.
         const auto stored = ramp<std::uint16_t>(5 * 3 * 4 * 6);
-        for (const bool gzip : {false, true}) {
-            const std::string bytes = bytesOf(stored);
+        for (const char* encoding : {"raw", "gzip", "bzip2"}) {
             const auto reader = openBytes(
                 nrrd(fmt::format("type: ushort\ndimension: 4\nspace dimension: 3\nsizes:{}\n"
                                  "space directions:{}\nkinds:{}\nspace origin: (1,10,100)\n"
                                  "endian: little\nencoding: {}\n",
-                                 sizes, directions, kinds, gzip ? "gzip" : "raw"),
-                     gzip ? gzipped(bytes) : bytes));
+                                 sizes, directions, kinds, encoding),
+                     encoded(encoding, bytesOf(stored))));
             const Variable& variable = reader->variables()[0];
             ASSERT_EQ(variable.time->points.size(), 6u);
             ASSERT_THAT(variable.grid->size(), ElementsAre(5, 3, 4)) << sizes;
@@ -130,7 +127,7 @@ TEST(Nrrd, StepsLargerThanTheBufferAreReadWhole) {
     // 70,001 values a row: neither a multiple of the buffer's bytes nor of what is turned at once.
     const auto stored = ramp<std::uint32_t>(70001 * 2 * 3);
     const std::string bytes = bytesOf(stored, std::endian::big);
-    for (const bool gzip : {false, true})
+    for (const char* encoding : {"raw", "gzip", "bzip2"})
         for (const char* directions :
              {"(1,0,0) (0,1,0) none", "(0,1,0) (1,0,0) none", "none (1,0,0) (0,0,1)"}) {
             const auto reader = openBytes(
@@ -138,8 +135,8 @@ TEST(Nrrd, StepsLargerThanTheBufferAreReadWhole) {
                                  "space directions: {}\nkinds: {}\nendian: big\nencoding: {}\n",
                                  directions,
                                  directions[0] == 'n' ? "time space space" : "space space time",
-                                 gzip ? "gzip" : "raw"),
-                     gzip ? gzipped(bytes) : bytes));
+                                 encoding),
+                     encoded(encoding, bytes)));
             const std::size_t step = 2;
             const auto values = valuesOf<std::uint32_t>(*reader, step);
             for (std::size_t i = 0; i < values.size(); ++i) {
@@ -436,6 +433,25 @@ TEST_F(DetachedNrrd, OneFileASliceRowOrSlab) {
     writeBytes(folder / "b", part(12, 12));
     EXPECT_EQ(open("encoding: raw\ndata file: LIST 3\na\nb\n"), "");
     expectRamp();
+}
+
+TEST_F(DetachedNrrd, FilesOutsideTheHeadersFolderAreFoundFromItOrByAnAbsolutePath) {
+    for (const char* each : {"header", "values/raw"})
+        std::filesystem::create_directories(folder / each);
+    for (std::size_t i = 0; i < 4; ++i)
+        writeBytes(folder / fmt::format("values/raw/s{}", i), part(6 * i, 6));
+    writeBytes(folder / "values/all", part(0, 24));
+    std::filesystem::create_symlink("../values/all", folder / "header/link");
+    const std::filesystem::path values = folder / "values";
+    folder /= "header";
+    for (const std::string& dataFile :
+         {std::string("../values/all"), (values / "all").string(), std::string("link"),
+          std::string("../values/raw/s%d 0 3 1"), (values / "raw/s%d 0 3 1").string(),
+          "LIST\n../values/raw/s0\n../values/raw/../raw/s1\n" + (values / "raw/s2").string() +
+              "\n../values/raw/s3"}) {
+        EXPECT_EQ(open("encoding: raw\ndata file: " + dataFile + "\n"), "") << dataFile;
+        expectRamp();
+    }
 }
 
 TEST_F(DetachedNrrd, APercentSignWithoutNumbersIsAName) {

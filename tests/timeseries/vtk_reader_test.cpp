@@ -15,26 +15,15 @@ namespace timeseries {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using tests::bigEndianBytes;
 using tests::dataArray;
 using tests::Image;
 using tests::imageText;
 using Path = std::filesystem::path;
 
-std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
-
 std::unique_ptr<Reader> openText(const std::string& text) {
-    return open(tests::write("file", text));
-}
-
-std::string refusal(const Path& path, std::size_t step = 0) {
-    try {
-        open(path)->read(0, step);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
+    const Path path = tests::write("file", text);
+    return openReader(std::span(&path, 1));
 }
 
 std::size_t indexOf(const Reader& reader, std::string_view name) {
@@ -376,60 +365,6 @@ TEST(VtkLegacy, OldHeadersNameTheSpacingAspectRatio) {
     EXPECT_THAT(reader->variables()[0].grid->axes()[0].coordinates, ElementsAre(1, 3));
     EXPECT_THAT(reader->variables()[0].grid->axes()[1].coordinates, ElementsAre(1, 4));
     EXPECT_THAT(valuesOf<std::uint8_t>(*reader, "s"), ElementsAre(1, 2, 3, 4));
-}
-
-Path collection(const std::string& sets) {
-    return tests::write(
-        "all.pvd", "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>");
-}
-
-std::string member(const std::string& time, const Path& file, const std::string& more = "") {
-    return "<DataSet timestep=\"" + time + "\" " + more + " file=\"" + file.filename().string() +
-           "\"/>";
-}
-
-TEST(VtkCollection, TimesAreRealAndMembersAreReadOneByOne) {
-    std::vector<Path> files;
-    for (int i = 0; i < 3; ++i)
-        files.push_back(
-            tests::write(fmt::format("{}.vti", i),
-                         imageText({.points = dataArray("Int32", "p", std::vector<int>(12, i))})));
-    const auto reader = open(
-        collection(member("1.5", files[1]) + member("0.1", files[0]) + member("1e3", files[2])));
-    EXPECT_EQ(reader->format(), "VTK collection of image data (XML)");
-    const auto& points = reader->variables()[0].time->points;
-    ASSERT_EQ(points.size(), 3u);
-    EXPECT_EQ(points[0].value, 0.1);
-    EXPECT_EQ(points[1].value, 1.5);
-    EXPECT_EQ(points[2].value, 1000);
-    for (const std::size_t step : {2u, 0u, 1u})
-        EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values)[3], step);
-}
-
-TEST(VtkCollection, WhatDiffersIsTold) {
-    const Path good = tests::write(
-        "a.vti", imageText({.points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
-    const Path finer = tests::write(
-        "b.vti", imageText({.attributes = "Spacing=\"1 1 1\"",
-                            .points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
-    const Path other = tests::write(
-        "c.vti", imageText({.points = dataArray("Int16", "p", std::vector<int>(12, 1))}));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("1", finer)), 1),
-                HasSubstr("expected the grid of"));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("1", other)), 1),
-                HasSubstr("'p': expected int32 of 1 components"));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("0", finer))),
-                HasSubstr("expected times that differ, found 0 twice"));
-    EXPECT_THAT(
-        refusal(collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
-        HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected 1 finite numbers"));
-    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
-    const Path gap = collection(member("0", good) + member("1", "none.vti"));
-    EXPECT_THAT(open(gap)->variables()[0].notes,
-                ElementsAre("1 of 2 files are missing, the first none.vti"));
-    EXPECT_THAT(refusal(gap, 1), HasSubstr("none.vti: expected a file, but there is none"));
-    EXPECT_THAT(refusal(collection(member("0", "none.vti"))), HasSubstr("there is none"));
 }
 
 }  // namespace
