@@ -219,7 +219,7 @@ TEST(Camera, WithoutADistanceAllIsSeenWhateverTheTargetAndTheProjection) {
         ViewChoice view{turn(random), tilt(random), {}};
         if (i % 2 == 0) view.target = {at(random), at(random), at(random)};
         view.projection = i % 3 == 0 ? Projection::Perspective : Projection::Orthographic;
-        const dvec3 half = randomBox(random);
+        const dmat3 half = randomBox(random);
         for (const View& eye : eyes(view, {}, half, {400, 300}))
             for (const dvec3& corner : corners(half))
                 expectInside(eye, corner, "case " + std::to_string(i));
@@ -229,7 +229,7 @@ TEST(Camera, WithoutADistanceAllIsSeenWhateverTheTargetAndTheProjection) {
 
 // Where an orthographic picture has a world point, by what such a picture is: along the camera's
 // axes, at the scale that a perspective has at the target.
-glm::dvec2 orthographicWindow(const ViewChoice& view, const dvec3& half, ivec2 size,
+glm::dvec2 orthographicWindow(const ViewChoice& view, const dmat3& half, ivec2 size,
                               const dvec3& world) {
     const Stand stand = standOf(view, half, size);
     const dvec3 inView = glm::transpose(stand.axes) * (world - view.target);
@@ -245,7 +245,7 @@ TEST(Camera, OrthographicIsWithinItsBoundOfParallelProjection) {
         ViewChoice view{turn(random), tilt(random), std::pow(10, log(random))};
         view.target = {at(random), at(random), at(random)};
         view.projection = Projection::Orthographic;
-        const dvec3 half = randomBox(random);
+        const dmat3 half = randomBox(random);
         const View eye = eyes(view, {}, half, size)[0];
         for (const dvec3& corner : corners(half)) {
             const Projected drawn = project(eye, corner);
