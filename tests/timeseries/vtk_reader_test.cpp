@@ -15,6 +15,7 @@ namespace timeseries {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using tests::bigEndianBytes;
 using tests::dataArray;
 using tests::Image;

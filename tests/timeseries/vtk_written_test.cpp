@@ -16,6 +16,9 @@
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLRectilinearGridWriter.h>
 
+#include <algorithm>
+#include <array>
+
 #include "tests/support/files.h"
 #include "timeseries/reader.h"
 
