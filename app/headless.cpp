@@ -112,6 +112,9 @@ void drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
         writeStill({e, about, frame.step, *step, *lattice, frame.tick}, renderer, *onGpu,
                    {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount},
                    frame.file);
+        if (!options.progress) continue;
+        fmt::print("picture {} of {}\n", i + 1, frames.size());
+        std::fflush(stdout);  // a pipe is not flushed by itself
     }
 }
 

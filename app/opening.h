@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,12 +14,16 @@
 
 namespace app {
 
-// Dropping it cancels: nothing waits for the thread, whose result is thrown away. (A library's call
-// cannot be interrupted; at the program's end such a thread is left to the system.)
+// As openDataset() (dataset.h) does it; a test has one of its own. Called from other threads.
+using OpenDataset =
+    std::function<Dataset(std::span<const std::filesystem::path>, const std::string& variable)>;
+
+// Dropping it cancels: nothing waits for the thread, whose result is thrown away. A library's call
+// cannot be interrupted, so the thread may still run when the program ends: see exploration.h.
 class Opening {
  public:
-    // `wake` is called from the other thread when the result is there; it must be thread-safe.
-    Opening(std::vector<std::filesystem::path> named, std::string variable,
+    // `wake` is called from the other thread when the result is there, also after this is gone.
+    Opening(std::vector<std::filesystem::path> named, std::string variable, OpenDataset open,
             std::function<void()> wake);
 
     const std::vector<std::filesystem::path>& named() const { return named_; }

@@ -54,12 +54,14 @@ CountOptions countOptions(const CLI::App& app, const CountText& text) {
 struct OutputText {
     std::vector<std::string> channels;
     std::string output, device = "any";
+    bool progress = false;
 };
 
 void addOutput(CLI::App& app, OutputText& into) {
     app.add_option("--channel", into.channels, "A further EXR channel: opticalDepth, splatCount")
         ->allow_extra_args(false)
         ->check(CLI::IsMember({"opticalDepth", "splatCount"}));
+    app.add_flag("--progress", into.progress, "Print 'picture I of N' after each picture");
     app.add_option("--device", into.device, "any (default), gpu or cpu")
         ->check(CLI::IsMember({"any", "gpu", "cpu"}));
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
@@ -91,6 +93,7 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
         (channel == "opticalDepth" ? options.opticalDepth : options.splatCount) = true;
     options.output = text.output;
     options.device = text.device;
+    options.progress = text.progress;
     checkOutput(options);
     return options;
 }

@@ -32,6 +32,7 @@ struct RenderOptions {
     std::filesystem::path output;
     bool opticalDepth = false, splatCount = false;  // further EXR channels
     std::string device = "any";
+    bool progress = false;  // "picture 3 of 31" on stdout after each
 };
 
 // A window on these choices; without files, on nothing yet.

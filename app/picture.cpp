@@ -90,11 +90,6 @@ render::RangeStyle rangeStyle(const LayerChoice& layer) {
     return out;
 }
 
-// The window reaches beyond the animation's ends; only what was kept can be shown.
-RangeSet sweptRanges(const Explorer& e, const SortedStep& step, std::int64_t tick) {
-    return step.keptPart(RangeSet(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)}));
-}
-
 }  // namespace
 
 bool needsSamples(const Explorer& e) {
@@ -147,6 +142,10 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
         if (!layer.opacity) layer.opacity = opacityFor(mostSelected(layer.ranges, sampled));
     }
     return e;
+}
+
+RangeSet sweptRanges(const Explorer& e, const SortedStep& step, std::int64_t tick) {
+    return step.keptPart(RangeSet(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)}));
 }
 
 Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, const SortedStep& step,

@@ -23,6 +23,12 @@ bool needsSamples(const Explorer& explorer);
 // unbounded sweep does not reach the data.
 Explorer resolved(const Explorer& explorer, const Steps& sampled);
 
+// The swept window where it stands at `tick`, as a layer's ranges: it reaches beyond the
+// animation's ends, and only what was kept can be shown. REQUIRES: a resolved explorer with a
+// sweep.
+timeseries::RangeSet sweptRanges(const Explorer& explorer, const timeseries::SortedStep& step,
+                                 std::int64_t tick);
+
 // The choices of one picture of a series: its step alone, and the swept window where it stands at
 // `tick` as a layer like the others. Draws the same pixels. REQUIRES: as makePicture.
 Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex,

@@ -23,11 +23,13 @@ std::size_t stepOf(const LoadResult& result) {
 
 }  // namespace
 
-StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept)
+StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
+                       std::function<void()> wake)
     : reader_(std::move(reader)),
       variable_(variable),
       stepCount_(reader_->variables()[variable].time->points.size()),
       kept_(std::move(kept)),
+      wake_(std::move(wake)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 StepLoader::~StepLoader() = default;  // jthread asks to stop, which ends its waits, and joins
@@ -92,6 +94,9 @@ void StepLoader::run(const std::stop_token& stop) {
         reading_.reset();
         results_.push_back(std::move(result));
         done_.notify_one();
+        lock.unlock();
+        wake_();
+        lock.lock();
     }
 }
 

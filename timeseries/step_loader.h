@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -37,8 +38,11 @@ using LoadResult = std::variant<Loaded, Failed>;
 // its result.
 class StepLoader {
  public:
-    // REQUIRES: variable < reader->variables().size().
-    StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept);
+    // REQUIRES: variable < reader->variables().size(). `wake` is called from the loader's thread
+    // after each result is there to be polled; it must not throw, nor call the loader.
+    StepLoader(
+        std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
+        std::function<void()> wake = [] {});
     ~StepLoader();
     StepLoader(const StepLoader&) = delete;
     StepLoader& operator=(const StepLoader&) = delete;
@@ -69,6 +73,7 @@ class StepLoader {
     const std::size_t variable_;
     const std::size_t stepCount_;
     const RangeSet kept_;
+    const std::function<void()> wake_;
 
     std::mutex mutex_;
     std::condition_variable_any work_;  // the loader waits: wishes, or room for results

@@ -1,0 +1,26 @@
+// How many points of a step are selected, told while a range is dragged.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/explorer.h"
+#include "timeseries/sorted_step.h"
+
+namespace app {
+
+// Hidden layers count in `layers` only.
+struct PointCounts {
+    std::vector<std::uint64_t> layers;  // in the order of Explorer::layers
+    std::uint64_t swept = 0;            // of the swept window
+    std::uint64_t selected = 0;         // in any visible layer or the swept window, each once
+    std::uint64_t kept = 0;
+    std::uint64_t total = 0;  // valid, before anything was dropped
+    friend bool operator==(const PointCounts&, const PointCounts&) = default;
+};
+
+// Microseconds: binary searches only. The window stands at explorer.play.tick. REQUIRES: a resolved
+// explorer. Throws OutsideKeptError when a layer asks for values that were dropped.
+PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& step);
+
+}  // namespace app

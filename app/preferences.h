@@ -1,0 +1,35 @@
+// What a user prefers in every session: no part of any picture.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+struct Preferences {
+    static constexpr std::size_t kRecent = 10;
+
+    std::vector<std::filesystem::path> recentFiles;  // absolute, newest first, at most kRecent
+    std::optional<double> uiScale;                   // in 0.5 .. 4; absent: the monitor's
+    double frameMilliseconds = 1000.0 / 60;          // to draw a frame in; 1 .. 1000
+    friend bool operator==(const Preferences&, const Preferences&) = default;
+};
+
+// The file comes first among the recent ones, once.
+void rememberFile(Preferences& preferences, const std::filesystem::path& file);
+
+// Where they are kept: preferences.json in configFolder() (user_files.h).
+std::filesystem::path preferencesFile();
+
+struct ReadPreferences {
+    Preferences preferences;
+    std::string problem;  // one sentence, when the file is damaged: the preferences are the usual
+};
+// A file that is not there is no problem. Recent files that are not there any more are left out.
+ReadPreferences readPreferences(const std::filesystem::path& file);
+// Throws std::runtime_error, one sentence.
+void writePreferences(const Preferences& preferences, const std::filesystem::path& file);
+
+}  // namespace app

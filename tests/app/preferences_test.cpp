@@ -1,0 +1,126 @@
+#include "app/preferences.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "app/user_files.h"
+#include "tests/support/files.h"
+
+namespace app {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Preferences, ReadAsTheyWereWritten) {
+    const auto folder = tests::freshFolder();
+    const auto file = folder / "made" / "preferences.json";
+    tests::writeBytes(folder / "a.nc", "");
+    Preferences preferences{.recentFiles = {}, .uiScale = 1.5, .frameMilliseconds = 25};
+    rememberFile(preferences, folder / "a.nc");
+    writePreferences(preferences, file);
+    const auto [read, problem] = readPreferences(file);
+    EXPECT_EQ(read, preferences);
+    EXPECT_EQ(problem, "");
+    EXPECT_EQ(readPreferences(folder / "gone.json").preferences, Preferences{});
+    EXPECT_EQ(readPreferences(folder / "gone.json").problem, "");
+}
+
+TEST(Preferences, RecentFilesAreTheTenNewestOnceEach) {
+    const auto folder = tests::freshFolder();
+    Preferences preferences;
+    for (int i = 0; i < 12; ++i) rememberFile(preferences, folder / fmt::format("{}", i));
+    rememberFile(preferences, folder / "x" / ".." / "5");
+    std::vector<std::string> names;
+    for (const auto& file : preferences.recentFiles) names.push_back(file.filename());
+    EXPECT_THAT(names, ElementsAre("5", "11", "10", "9", "8", "7", "6", "4", "3", "2"));
+}
+
+TEST(Preferences, RecentFilesThatAreGoneAreLeftOut) {
+    const auto folder = tests::freshFolder();
+    tests::writeBytes(folder / "here", "");
+    Preferences preferences;
+    rememberFile(preferences, folder / "here");
+    rememberFile(preferences, folder / "gone");
+    writePreferences(preferences, folder / "p.json");
+    EXPECT_THAT(readPreferences(folder / "p.json").preferences.recentFiles,
+                ElementsAre(folder / "here"));
+}
+
+TEST(Preferences, ADamagedFileIsToldAndTheUsualOnesHold) {
+    const auto file = tests::freshFolder() / "preferences.json";
+    for (const auto& [text, why] : std::vector<std::pair<std::string, std::string>>{
+             {"", "not JSON"},
+             {"{\"uiScale\": 2", "not JSON at byte"},
+             {"[]", "not a JSON object"},
+             {R"({"uiScale": "big"})", "uiScale is not a number from 0.5 to 4"},
+             {R"({"uiScale": 100})", "uiScale"},
+             {R"({"frameMilliseconds": 0})", "frameMilliseconds"},
+             {R"({"frameMilliseconds": 1e999})", "beyond all doubles"},
+             {R"({"recentFiles": "a.nc"})", "recentFiles is not a list of texts"},
+             {R"({"recentFiles": [1]})", "recentFiles"},
+             {std::string("\x00\xff", 2), "not JSON"}}) {
+        tests::writeBytes(file, text);
+        const auto [preferences, problem] = readPreferences(file);
+        EXPECT_EQ(preferences, Preferences{}) << text;
+        EXPECT_THAT(problem, HasSubstr(why)) << text;
+        EXPECT_THAT(problem, HasSubstr(file.string())) << text;
+    }
+}
+
+TEST(Preferences, AKeyOfALaterVersionIsNoDamage) {
+    const auto file = tests::freshFolder() / "preferences.json";
+    tests::writeBytes(file, R"({"uiScale": 2, "later": {}})");
+    EXPECT_EQ(readPreferences(file).problem, "");
+    EXPECT_EQ(readPreferences(file).preferences.uiScale, 2);
+}
+
+// The environment of one test.
+class Environment {
+ public:
+    Environment(const char* name, const char* value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        value == nullptr ? unsetenv(name) : setenv(name, value, 1);
+    }
+    ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+ private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+TEST(UserFiles, AreWhereTheEnvironmentSays) {
+    const Environment home("HOME", "/home/ann");
+    {
+        const Environment config("XDG_CONFIG_HOME", "/c"), state("XDG_STATE_HOME", "/s");
+        EXPECT_EQ(configFolder(), "/c/isochron");
+        EXPECT_EQ(stateFolder(), "/s/isochron");
+    }
+    {
+        // What is not absolute counts as unset.
+        const Environment config("XDG_CONFIG_HOME", "c"), state("XDG_STATE_HOME", "");
+        EXPECT_EQ(configFolder(), "/home/ann/.config/isochron");
+        EXPECT_EQ(stateFolder(), "/home/ann/.local/state/isochron");
+    }
+    const Environment config("XDG_CONFIG_HOME", nullptr), nowhere("HOME", nullptr);
+    EXPECT_EQ(configFolder(), "");
+}
+
+TEST(UserFiles, AWriteThatFailsLeavesWhatWasThere) {
+    const auto folder = tests::freshFolder();
+    std::filesystem::create_directories(folder / "a.json");  // in the way
+    EXPECT_THROW(writeWhole(folder / "a.json", "text"), std::runtime_error);
+    writeWhole(folder / "b.json", "first");
+    writeWhole(folder / "b.json", "second");
+    EXPECT_EQ(tests::readBytes(folder / "b.json"), "second");
+    std::size_t files = 0;
+    for ([[maybe_unused]] const auto& each : std::filesystem::directory_iterator(folder)) ++files;
+    EXPECT_EQ(files, 2u);  // no partial file stays
+}
+
+}  // namespace
+}  // namespace app

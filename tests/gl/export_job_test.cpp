@@ -1,0 +1,81 @@
+#include "app/export_job.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+
+#include "app/session.h"
+#include "tests/support/files.h"
+
+namespace app {
+namespace {
+
+using State = ExportJob::State;
+
+void pollToEnd(ExportJob& job) {
+    for (job.poll(); job.state() == State::Running; job.poll()) std::this_thread::yield();
+}
+
+Explorer fire() {
+    Explorer e;
+    e.files = {SOURCE_DIR "/datasets/pool_fire_T.nc"};
+    e.variable = "T";
+    e.steps = StepChoice{3, 5};
+    e.size = {64, 48};
+    return e;
+}
+
+std::set<std::string> namesIn(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    for (const auto& each : std::filesystem::directory_iterator(folder))
+        names.insert(each.path().filename());
+    return names;
+}
+
+TEST(ExportJobOfTheProgram, WritesNumberedPictures) {
+    const auto folder = tests::freshFolder();
+    ExportJob job(fire(), folder / "fire.png", PROGRAM);
+    pollToEnd(job);
+    ASSERT_EQ(job.state(), State::Done) << job.why();
+    EXPECT_EQ(job.done(), 3u);
+    EXPECT_EQ(job.count(), 3u);
+    EXPECT_THAT(namesIn(folder), testing::ElementsAre("fire_3.png", "fire_4.png", "fire_5.png"));
+    EXPECT_EQ(readSession(folder / "fire_4.png").steps, (StepChoice{4, 4}));
+}
+
+TEST(ExportJobOfTheProgram, HandsOnWhyItFailed) {
+    const auto folder = tests::freshFolder();
+    Explorer e = fire();
+    e.files = {folder / "gone.nc"};
+    ExportJob job(e, folder / "fire.exr", PROGRAM);
+    pollToEnd(job);
+    EXPECT_EQ(job.state(), State::Failed);
+    EXPECT_THAT(job.why(), testing::HasSubstr("gone.nc"));
+    EXPECT_THAT(namesIn(folder), testing::IsEmpty());
+}
+
+TEST(ExportJobOfTheProgram, LeavesWholePicturesOnlyWhenCancelled) {
+    const auto folder = tests::freshFolder();
+    Explorer e = fire();
+    e.sweep = timeseries::SweepSettings{
+        .animation = timeseries::RangeSet::parse("300:1600"), .delta = 50, .timerSteps = 100000};
+    ExportJob job(e, folder / "fire.png", PROGRAM);
+    for (job.poll(); job.done() < 2; job.poll()) {
+        ASSERT_EQ(job.state(), State::Running) << job.why();
+        std::this_thread::yield();
+    }
+    job.cancel();
+    pollToEnd(job);
+    EXPECT_EQ(job.state(), State::Cancelled);
+    EXPECT_EQ(job.count(), 100000u);
+    EXPECT_GE(namesIn(folder).size(), 2u);
+    for (const std::string& name : namesIn(folder)) {
+        EXPECT_THAT(name, testing::EndsWith(".png"));
+        EXPECT_NO_THROW(readSession(folder / name)) << name;
+    }
+}
+
+}  // namespace
+}  // namespace app
