@@ -1,6 +1,7 @@
 #include "app/canvas.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "app/camera.h"
@@ -35,6 +36,14 @@ std::uint32_t strideFor(std::uint64_t points, std::uint64_t limit, const glm::uv
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(least, render::kMaxStride));
 }
 
+// A splat of a subset fills the place of the points that it stands for: at equal cost that is
+// nearer to the whole than more, smaller splats (tests/bench/canvas_bench.cpp). Points keep their
+// pixels.
+render::Footprint footprintFor(render::Footprint footprint, std::uint32_t stride) {
+    if (footprint.kernel != render::Kernel::Point) footprint.size *= std::cbrt(stride);
+    return footprint;
+}
+
 // What is drawn: a step that is wholly on the GPU, and the choices it is drawn with.
 struct Screen {
     std::shared_ptr<const timeseries::SortedStep> sorted;
@@ -48,6 +57,15 @@ struct Screen {
 Picture pictureOf(const Screen& screen) {
     return makePicture(screen.explorer, screen.about, screen.step, *screen.sorted,
                        screen.held->lattice, screen.explorer.play.tick);
+}
+
+// Which layer of the explorer is the scene's k-th: hidden ones are not in the scene, and the swept
+// window comes first.
+std::optional<std::size_t> layerOf(const Explorer& e, std::size_t k) {
+    if (e.sweep && e.sweepLayer.visible && k-- == 0) return std::nullopt;
+    std::size_t layer = 0;
+    while (!e.layers[layer].visible || k-- > 0) ++layer;
+    return layer;
 }
 
 // Whether choices made for one step suit another: of the same variable, with the same values kept.
@@ -114,6 +132,7 @@ CanvasReport Canvas::draw(
     if (moving)
         picture.scene.stride =
             strideFor(report.selected * eyes.size(), limits.splats, screen->held->lattice.size());
+    picture.scene.footprint = footprintFor(screen->explorer.footprint, picture.scene.stride);
     report.stride = screen->stride = picture.scene.stride;
     report.drawn = drawnSplats(picture.scene);
     report.whole = report.stride == 1 && report.uploaded == 1;
@@ -143,12 +162,15 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
     if (!state_->screen) return std::nullopt;
     Picture picture = pictureOf(*state_->screen);
     picture.scene.stride = state_->screen->stride;
+    picture.scene.footprint =
+        footprintFor(state_->screen->explorer.footprint, picture.scene.stride);
     const auto picked = render::pick(picture.scene, eye, window);
     if (!picked) return std::nullopt;
     const timeseries::SortedStep& step = *state_->screen->sorted;
     const auto size = step.grid().size();
     const std::uint64_t i = picked->gridIndex;
     return Probe{*picked,
+                 layerOf(state_->screen->explorer, picked->layer),
                  step.value(picked->point),
                  step.grid().position(i),
                  {i % size[0], i / size[0] % size[1], i / size[0] / size[1]}};

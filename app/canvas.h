@@ -44,6 +44,7 @@ struct CanvasReport {
 // A point of the step on the screen, in the file's own terms.
 struct Probe {
     render::Picked picked;
+    std::optional<std::size_t> layer;  // of Explorer::layers; none: of the swept window
     timeseries::Number value;
     glm::dvec3 coordinates;            // the grid's, in its units
     std::array<std::size_t, 3> index;  // along x, y, z

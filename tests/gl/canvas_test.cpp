@@ -207,7 +207,25 @@ TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
     EXPECT_EQ(probe->coordinates, step.grid().position(i));
     EXPECT_EQ(probe->picked.world, canvas_.lattice()->position(i));
     const double value = timeseries::toDouble(probe->value);
-    EXPECT_TRUE((0.1 <= value && value <= 0.4) || (0.8 <= value && value <= 0.9)) << value;
+    ASSERT_TRUE(probe->layer);
+    EXPECT_TRUE(*probe->layer == 0 ? 0.1 <= value && value <= 0.4 : 0.8 <= value && value <= 0.9)
+        << *probe->layer << ' ' << value;
+    // A hidden layer is not seen, and the others keep their places.
+    world_.explorer.layers[0].visible = false;
+    draw(world_.shown());
+    const auto behind = canvas_.probe(view, {100, 75});
+    ASSERT_TRUE(behind);
+    EXPECT_EQ(behind->layer, 1u);
+    // The swept window is none of the layers.
+    world_.explorer.layers[1].visible = false;
+    world_.explorer.sweep.emplace();
+    world_.explorer.sweep->animation = RangeSet::parse("0.4:0.6");
+    world_.explorer.sweep->delta = 0.1;
+    world_.explorer.sweepLayer = tests::ShownSteps::layer("0:1", glm::dvec3(1));
+    draw(world_.shown());
+    const auto swept = canvas_.probe(view, {100, 75});
+    ASSERT_TRUE(swept);
+    EXPECT_FALSE(swept->layer);
 }
 
 TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
@@ -237,8 +255,8 @@ TEST_P(CanvasSaves, TheBytesThatItsSessionIsRenderedTo) {
     const auto files = filesOf(saved, stereo);
     // What it carries draws it again, byte for byte.
     const std::string session = files[0].extension() == ".png"
-                                    ? render::readPng(files[0]).metadata.at("isochronSession")
-                                    : render::readExr(files[0]).metadata.at("isochronSession");
+                                    ? render::readPng(files[0]).metadata.at(kSessionKey)
+                                    : render::readExr(files[0]).metadata.at(kSessionKey);
     world_.explorer = fromJson(nlohmann::json::parse(session), folder);
     EXPECT_EQ(world_.explorer.steps, (StepChoice{0, 0}));
     const auto apart = folder / ("apart" + std::string(ending));

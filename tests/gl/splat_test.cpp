@@ -292,23 +292,24 @@ TEST_F(GlSplat, OffsetOfTheCoordinatesDoesNotChangeABit) {
 
 TEST_F(GlSplat, ASubsetIsTheTruthsSubset) {
     // Two runs a layer; a third run shorter than the stride.
-    const auto step = tests::noise(cube(24));
+    const auto step = tests::noise(cube(16));
     const Lattice lattice(step.grid());
     Scene scene =
-        noiseScene(step, lattice, "0.1:0.2,0.3:0.45,0.5:0.5001", {ByValue{{}, 0.1, 0.5}, 0.3});
+        noiseScene(step, lattice, "0.1:0.2,0.3:0.45,0.5:0.501", {ByValue{{}, 0.1, 0.5}, 0.3});
     for (const std::uint32_t stride : {2u, 7u, kMaxStride}) {
         scene.stride = stride;
         for (const glm::dvec3 eye : {glm::dvec3(1, -3, 1), glm::dvec3(0.2, 0.1, 0.3)}) {
-            const View view = lookFrom(eye, {300, 300});
+            const View view = lookFrom(eye, {160, 160});
             scene.order = Order::None;
             for (const Channels channels : {Channels::Weight, Channels::WeightedColor})
                 EXPECT_LE(error(*this, scene, view, channels), kTarget) << stride << ' ' << eye.x;
             scene.order = Order::BackToFront;
-            EXPECT_LE(error(*this, scene, view, Channels::Over), 1e-4) << stride << ' ' << eye.x;
+            // Heavier splats: two that lie within one key of the order count for more.
+            EXPECT_LE(error(*this, scene, view, Channels::Over), 1e-3) << stride << ' ' << eye.x;
         }
         // A splat's border is within float rounding of some pixels' centres.
         scene.order = Order::None;
-        const View view = lookFrom({1, -3, 1}, {300, 300});
+        const View view = lookFrom({1, -3, 1}, {160, 160});
         EXPECT_LE(error(*this, scene, view, Channels::Count), 5e-3) << stride;
     }
 }

@@ -1,0 +1,162 @@
+// What a window's frame costs: drawn whole and as a subset, with its axes and legend; a pick.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "app/canvas.h"
+#include "render/gl/headless_context.h"
+#include "render/gl/pass.h"
+#include "render/image_compare.h"
+#include "render/pick.h"
+#include "render/present.h"
+#include "tests/support/shown_steps.h"
+
+namespace {
+
+constexpr glm::ivec2 kSize{1024, 1024};
+
+// 256^3 points of noise of which `count` are selected, by one colour.
+tests::ShownSteps world(std::uint64_t count) {
+    tests::ShownSteps shown(256, 1);
+    const double share = static_cast<double>(count) / (256.0 * 256 * 256);
+    shown.explorer.size = kSize;
+    shown.explorer.layers = {tests::ShownSteps::layer("0:1", glm::dvec3(1, 0.5, 0))};
+    shown.explorer.layers[0].ranges =
+        timeseries::RangeSet(std::vector{timeseries::Range{{0.4}, {0.4 + share}}});
+    return shown;
+}
+
+void BM_CanvasFrame(benchmark::State& state) {
+    const auto shown = world(static_cast<std::uint64_t>(state.range(0)));
+    auto explorer = shown.explorer;
+    explorer.order = state.range(1) != 0 ? render::Order::BackToFront : render::Order::None;
+    const app::Shown now{explorer, shown.dataset, 0, shown.steps[0]};
+    const render::gl::HeadlessContext context;
+    app::Canvas canvas;
+    const render::Present present;
+    const render::gl::Texture window(GL_RGBA8, kSize);
+    const GLuint id = window.id();
+    const render::gl::Framebuffer framebuffer(std::span(&id, 1));
+    const auto eyes = canvas.eyesOf(now);
+    const app::CanvasLimits limits{.splats = 100'000, .uploadBytes = ~std::uint64_t{0}};
+    app::CanvasReport report;
+    double gpu = 0, timed = 0;
+    for (auto _ : state) {
+        report = canvas.draw(now, eyes, limits, state.range(2) != 0,
+                             [&](std::size_t, const render::Targets& light) {
+                                 present.draw(light, framebuffer.id());
+                             });
+        glFinish();
+        if (report.gpuTime) {
+            gpu += static_cast<double>(report.gpuTime->count());
+            ++timed;
+        }
+    }
+    state.counters["drawn"] = static_cast<double>(report.drawn);
+    state.counters["queried_ms"] = gpu / 1e6 / std::max(timed, 1.0);
+    state.SetLabel(context.renderer());
+}
+BENCHMARK(BM_CanvasFrame)
+    ->ArgNames({"selected", "ordered", "moving"})
+    ->Args({0, 0, 0})
+    ->Args({100'000, 0, 1})
+    ->Args({1'000'000, 0, 1})
+    ->Args({1'000'000, 0, 0})
+    ->Args({100'000, 1, 1})
+    ->Args({1'000'000, 1, 1})
+    ->Args({1'000'000, 1, 0})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+// Light onto a window, alone.
+void BM_Present(benchmark::State& state) {
+    const render::gl::HeadlessContext context;
+    const render::Present present;
+    const render::Targets light(kSize);
+    render::gl::begin({.framebuffer = light.lightFramebuffer(),
+                       .size = kSize,
+                       .clearColor = glm::vec4(0.2f, 0.4f, 0.1f, 1)});
+    const render::gl::Texture window(GL_RGBA8, kSize);
+    const GLuint id = window.id();
+    const render::gl::Framebuffer framebuffer(std::span(&id, 1));
+    for (auto _ : state) {
+        present.draw(light, framebuffer.id());
+        glFinish();
+    }
+}
+BENCHMARK(BM_Present)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// A subset of waves' shells, a million points, against the whole: relative L2 of the light. The
+// splats keep their size, or grow with what they stand for.
+void BM_Subset(benchmark::State& state) {
+    const auto stride = static_cast<std::uint32_t>(state.range(0));
+    const auto step = tests::stepOf(tests::cube(200), [](std::size_t i) {
+        const glm::dvec3 at = glm::dvec3(i % 200, i / 200 % 200, i / 40000) / 25.0;
+        return std::sin(at.x) * std::cos(at.y) + std::sin(at.y) * std::cos(at.z) +
+               std::sin(at.z) * std::cos(at.x);
+    });
+    const render::Lattice lattice(step.grid());
+    render::Scene scene{.step = step,
+                        .lattice = lattice,
+                        .layers = {{step.select(timeseries::RangeSet::parse("0.5:0.75")),
+                                    {render::Constant{{1, 0.5, 0.1}}, 0.2}}},
+                        .footprint = {},
+                        .order = render::Order::None,
+                        .clip = {}};
+    const render::gl::HeadlessContext context;
+    render::FrameRenderer renderer;
+    render::GpuStep onGpu(step, lattice);
+    const std::array views{tests::lookFrom({1, -5, 1}, kSize, 0.25)};
+    const auto light = [&] {
+        const auto drawn =
+            renderer.render({scene, step.grid(), {}, glm::dvec3(0)}, onGpu, views)[0].image;
+        std::vector<float> rgb;
+        for (const glm::vec4& p : drawn.pixels) rgb.insert(rgb.end(), {p.r, p.g, p.b});
+        return rgb;
+    };
+    const auto whole = light();
+    const auto count = render::pointCount(scene.layers[0]);
+    scene.stride = stride;
+    if (state.range(1) != 0) scene.footprint.size = std::cbrt(stride);
+    const render::FrameContent content{scene, step.grid(), {}, glm::dvec3(0)};
+    for (auto _ : state) {
+        renderer.drawEye(renderer.prepare(content, onGpu, views), views[0]);
+        glFinish();
+    }
+    state.counters["error"] = render::compareScalars(light(), whole).relativeL2;
+    state.counters["points"] = static_cast<double>(count);
+}
+BENCHMARK(BM_Subset)
+    ->ArgNames({"stride", "grown"})
+    ->ArgsProduct({{1, 3, 7, 21, 63}, {0, 1}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+void BM_AxesAndLegend(benchmark::State& state) {
+    const auto shown = world(100'000);
+    const render::Lattice lattice(shown.steps[0]->grid());
+    const auto picture =
+        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], lattice);
+    const render::Font font(std::array{render::labelStyle(kSize), render::titleStyle(kSize)});
+    const auto view = tests::lookFrom({1, -3, 1}, kSize);
+    const glm::dvec3 eye = render::pixelRays(view).eye;
+    for (auto _ : state) {
+        const auto legend = render::legendMesh(picture.legend, font, kSize);
+        benchmark::DoNotOptimize(
+            render::axesMeshes(shown.steps[0]->grid(), lattice, view, eye, font, legend));
+    }
+}
+BENCHMARK(BM_AxesAndLegend)->Unit(benchmark::kMillisecond);
+
+void BM_Pick(benchmark::State& state) {
+    const auto shown = world(static_cast<std::uint64_t>(state.range(0)));
+    const render::Lattice lattice(shown.steps[0]->grid());
+    const auto picture =
+        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], lattice);
+    const auto view = tests::lookFrom({1, -3, 1}, kSize);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(render::pick(picture.scene, view, {512.5, 512.5}));
+}
+BENCHMARK(BM_Pick)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
