@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <random>
@@ -121,6 +122,26 @@ TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
             contents(path);
         }
     }
+}
+
+// HDF5 1.10 copies as many bytes as an object of its global heap claims to have. The heap ("HDF5
+// File Format Specification", III.E): 16 bytes, then objects, each an index in 2 bytes, 6 others,
+// its size in 8 and its bytes, padded to 8; index 0 is what is free.
+TEST(DamagedNetcdf, Netcdf4HeadersThatCrashHdf5AreReadOrRefused) {
+    const std::string whole = bytesOf(sample(NC_NETCDF4));
+    const std::size_t heap = whole.find("GCOL");
+    ASSERT_NE(heap, std::string::npos);
+    const Path path = tests::testFolder() / "heap.nc";
+    std::size_t objects = 0, size = 0;
+    for (std::size_t at = heap + 16; whole[at] != 0; at += 16 + (size + 7) / 8 * 8, ++objects) {
+        std::memcpy(&size, whole.data() + at + 8, 8);
+        ASSERT_LT(at + 16 + size, whole.size());
+        std::string bytes = whole;
+        bytes[at + 8 + 5] = 1;  // 2^40 more
+        tests::writeBytes(path, bytes);
+        contents(path);
+    }
+    EXPECT_GE(objects, 4u);  // one a dimension at least
 }
 
 TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {

@@ -49,7 +49,9 @@ class NetcdfReader final : public Reader {
 NetcdfFile& NetcdfReader::open(std::size_t index) {
     if (!file_ || openIndex_ != index) {
         file_.reset();
-        file_ = std::make_unique<NetcdfFile>(paths_[index]);
+        file_ = std::make_unique<NetcdfFile>(paths_[index], contents_[index].empty()
+                                                                ? NetcdfFile::Header::New
+                                                                : NetcdfFile::Header::Known);
         openIndex_ = index;
     }
     return *file_;

@@ -125,17 +125,26 @@ void checkCoordinates(const Context& context, const XmlElement& piece, const Vtk
     }
 }
 
+// VTK 9.1 makes every array of the field data, and crashes when it knows its type not.
 void checkFieldData(const Context& context, const XmlElement& grid) {
     for (const XmlElement* field : named(grid, "FieldData"))
         for (const XmlElement& array : field->children) {
-            const VtkType* type = vtkXmlType(array.attribute("type"));
-            if (array.name != "DataArray" || !type) continue;
+            const std::string_view name = array.attribute("type");
+            const VtkType* type = vtkXmlType(name);
+            if (!type && name != "String" && name != "Bit")
+                failVtk(context.header.path, placeOf(array),
+                        fmt::format("expected a type that VTK knows, found \"{}\"", name));
             const std::uint64_t tuples = wholeNumber(context, array, "NumberOfTuples", 0);
             const std::uint64_t components = wholeNumber(context, array, "NumberOfComponents", 1);
             if (components < 1 || components > kMaxComponents)
                 failVtk(context.header.path, placeOf(array), "expected fewer components");
-            checkVtkValues(context.header.path, context.file, context.encoding, array,
-                           placeOf(array), tuples * components, type->bytes);
+            if (type)
+                checkVtkValues(context.header.path, context.file, context.encoding, array,
+                               placeOf(array), tuples * components, type->bytes);
+            else if (tuples * components > context.file.bytes)
+                failVtk(context.header.path, placeOf(array),
+                        fmt::format("expected values within the file, found {} of them",
+                                    tuples * components));
         }
 }
 
