@@ -197,6 +197,12 @@ TEST(DamagedNetcdf, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
     EXPECT_THAT(refusal({steps.close()}), HasSubstr("steps, found 1099511627776"));
 }
 
+TEST(DamagedNetcdf, MoreVariablesThanNetcdfAllowsAreRefused) {
+    NetcdfBuilder file("many.nc", 0);
+    for (int i = 0; i < NC_MAX_VARS + 1; ++i) file.variable(fmt::format("v{}", i), NC_BYTE, {});
+    EXPECT_THAT(refusal({file.close()}), HasSubstr("expected at most 8192 variables, found 8193"));
+}
+
 TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {
     NetcdfBuilder file("a.nc");
     const int y = file.dimension("y", 64), x = file.dimension("x", 64);

@@ -231,6 +231,29 @@ TEST(DamagedVtk, ArraysThatTheFileLacksAreToldOf) {
                 HasSubstr("expected a Piece, found none"));
 }
 
+TEST(DamagedVtk, MoreArraysThanAnyUseNeedsAreRefused) {
+    const std::string legacy =
+        "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+        "DIMENSIONS 1 1 1\nPOINT_DATA 1\n";
+    std::string field = "FIELD f 4097\n", elements, wide = "FIELD f 65\n";
+    for (int i = 0; i < 4097; ++i) {
+        field += fmt::format("a{} 1 1 char\n1\n", i);
+        elements += dataArray("Int8", fmt::format("a{}", i), std::vector<int>{1});
+    }
+    std::string ones;
+    for (int i = 0; i < 1024; ++i) ones += "1 ";
+    for (int i = 0; i < 65; ++i) wide += fmt::format("w{} 1024 1 char\n{}\n", i, ones);
+    const std::string why = "expected at most 4096 arrays, found ";
+    EXPECT_THAT(refusal(legacy + field), HasSubstr(why));
+    EXPECT_THAT(refusal(imageText({.extent = "0 0 0 0 0 0", .points = elements})), HasSubstr(why));
+    EXPECT_THAT(refusal(imageText({.extent = "0 0 0 0 0 0",
+                                   .points = dataArray("Int8", "v", std::vector<int>{1}),
+                                   .field = elements})),
+                HasSubstr(why));
+    EXPECT_THAT(refusal(legacy + wide),
+                HasSubstr("'w64': expected at most 65536 components of all arrays"));
+}
+
 TEST(DamagedVtk, CollectionsThatLieAreRefused) {
     const auto collection = [](const std::string& sets) {
         return "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>";

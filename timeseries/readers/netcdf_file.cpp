@@ -20,6 +20,7 @@ namespace {
 constexpr int kMaxGroupDepth = 64;
 constexpr std::uint64_t kMaxStepPoints = std::uint64_t{1} << 32;  // SortedStep's indices
 constexpr std::size_t kMaxAttributeBytes = 1 << 20;
+constexpr std::size_t kMaxVariables = NC_MAX_VARS;  // each is looked for among the others
 constexpr std::chrono::seconds kMaxHeaderTime{10};  // that of 8000 variables takes one
 
 // Held during every call of the library. HDF5 prints its errors unless told not to, and keeps that
@@ -173,6 +174,9 @@ void NetcdfFile::readGroup(int group, const std::string& name, int depth) {
 
     check(nc_inq_varids(group, &count, nullptr), place, "its variables");
     ids.resize(static_cast<std::size_t>(count));
+    if (header_.variables.size() + ids.size() > kMaxVariables)
+        fail(place, fmt::format("expected at most {} variables, found {}", kMaxVariables,
+                                header_.variables.size() + ids.size()));
     check(nc_inq_varids(group, &count, ids.data()), place, "its variables");
     for (const int id : ids) readVariable(group, name, id);
 
