@@ -178,7 +178,7 @@ TEST(DamagedVtk, HostileXmlIsRefused) {
 }
 
 // VTK 9.1 crashes on the unknown ones, and makes as many strings as are declared.
-TEST(DamagedVtk, FieldDataOfAnUnknownTypeOrSizeAreRefused) {
+TEST(DamagedVtk, FieldDataOfUnknownTypeOrSizeIsRefused) {
     const auto with = [](const std::string& array) {
         return imageText({.points = dataArray("Float64", "v", twelve()), .field = array});
     };
