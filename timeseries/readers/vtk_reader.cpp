@@ -14,6 +14,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
+constexpr std::size_t kMaxVariables = std::size_t{1} << 16;
+
 bool legacy(const Path& path) {
     std::string start(5, '\0');
     std::ifstream(path, std::ios::binary).read(start.data(), 5);
@@ -130,6 +132,9 @@ void VtkReader::addVariables(std::size_t index) {
     const std::string where = array.place == VtkPlace::Points ? "" : ", at cells";
     if (array.components == 1) return add(array, name, array.type, type + where, {});
 
+    if (variables_.size() + array.components > kMaxVariables)
+        failVtk(frame_.header.path, fmt::format("'{}'", array.name),
+                fmt::format("expected at most {} components of all arrays", kMaxVariables));
     const std::string stored = fmt::format("{}, {} components{}", type, array.components, where);
     if (array.components <= 3) {
         const bool single = array.type == ValueType::F32;
