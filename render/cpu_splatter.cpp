@@ -92,7 +92,7 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
         const std::uint32_t i = scene.step.gridIndex()[point];
         if (!scene.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y})) return;
         auto s = splatAt<Real>(latticeView, scene.lattice.position(i), scene.lattice.cell(i),
-                                     scene.footprint);
+                               scene.footprint);
         if (!s.visible) return;
         s.weight *= static_cast<Real>(perSplat[layer]);
         const double windowDepth =

@@ -1,6 +1,6 @@
-// What keeps a path from being read as a file. Asked before anything is opened: opening a pipe waits
-// for its writer, a device may have no end. Names of files stand inside files (NRRD headers, VTK
-// collections), so that whoever wrote one chooses what is opened.
+// What keeps a path from being read as a file. Asked before anything is opened: opening a pipe
+// waits for its writer, a device may have no end. Names of files stand inside files (NRRD headers,
+// VTK collections), so that whoever wrote one chooses what is opened.
 #pragma once
 
 #include <filesystem>
