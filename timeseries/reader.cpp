@@ -45,7 +45,7 @@ struct Format {
 #ifndef ISOCHRON_VTK
 std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths) {
     throw FileError(fmt::format(
-        "{}: expected a build that reads VTK files, which `./run --with-vtk info {}` makes",
+        "{}: expected a build that reads VTK files, which `./run --with-vtk {}` makes",
         paths[0].string(), paths[0].string()));
 }
 #endif
