@@ -15,14 +15,14 @@ constexpr double kBoxShare = 0.80;
 
 // From where all corners are inside the share, and none is so near that the near plane cuts it, as
 // the tip of a needle seen end on. A single point is seen from 4 away.
-double fittingDistance(const ViewChoice& view, const glm::dmat3& axes, const glm::dvec3& boxHalf,
-                       const glm::dvec2& slope) {
+double fittingDistance(const ViewChoice& view, const glm::dmat3& axes,
+                       const glm::dmat3& boxHalfEdges, const glm::dvec2& slope) {
     constexpr double kNearestCorner = 0.3;
-    if (boxHalf == glm::dvec3(0) && view.target == glm::dvec3(0)) return 4;
+    if (boxHalfEdges == glm::dmat3(0) && view.target == glm::dvec3(0)) return 4;
     double distance = kNearestCorner;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const glm::dvec3 at = glm::transpose(axes) * (sign * boxHalf - view.target);
+        const glm::dvec3 at = glm::transpose(axes) * (boxHalfEdges * sign - view.target);
         const double nearer = view.projection == Projection::Orthographic ? 0 : at.z;
         distance = std::max({distance, nearer + kNearestCorner,
                              nearer + std::abs(at.x) / (slope.x * kBoxShare),
@@ -60,7 +60,7 @@ Camera orthographic(const ViewChoice& view, const Stand& stand) {
 
 }  // namespace
 
-Stand standOf(const ViewChoice& view, const glm::dvec3& boxHalf, glm::ivec2 size) {
+Stand standOf(const ViewChoice& view, const glm::dmat3& boxHalfEdges, glm::ivec2 size) {
     const double azimuth = glm::radians(view.azimuthDegrees);
     const double elevation = glm::radians(view.elevationDegrees);
     // Right comes from the azimuth alone, so that looking straight down is no special case.
@@ -70,12 +70,12 @@ Stand standOf(const ViewChoice& view, const glm::dvec3& boxHalf, glm::ivec2 size
     const glm::dmat3 axes(right, glm::cross(back, right), back);
     const double shorter = std::min(size.x, size.y);
     const glm::dvec2 slope = std::tan(kHalfAngle) * glm::dvec2(size) / shorter;
-    return {axes, view.distance.value_or(fittingDistance(view, axes, boxHalf, slope)), slope};
+    return {axes, view.distance.value_or(fittingDistance(view, axes, boxHalfEdges, slope)), slope};
 }
 
 std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stereo,
-                               const glm::dvec3& boxHalf, glm::ivec2 size) {
-    const Stand stand = standOf(view, boxHalf, size);
+                               const glm::dmat3& boxHalfEdges, glm::ivec2 size) {
+    const Stand stand = standOf(view, boxHalfEdges, size);
     const bool isFar = view.projection == Projection::Orthographic;
     const Camera camera = isFar ? orthographic(view, stand) : perspective(view, stand);
     const auto eye = [&](double sideways, double convergence) {

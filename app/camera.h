@@ -15,9 +15,9 @@ struct Stand {
     double distance;   // the view's own, or the one from which all of the box is seen
     glm::dvec2 slope;  // half the picture's width and height at the target, over `distance`
 };
-// Without a distance, the box with these half sides (centre at 0) fills the picture but for room
-// for labels.
-Stand standOf(const ViewChoice& view, const glm::dvec3& boxHalf, glm::ivec2 size);
+// Without a distance, the box with these half edges (columns, centre at 0) fills the picture but
+// for room for labels.
+Stand standOf(const ViewChoice& view, const glm::dmat3& boxHalfEdges, glm::ivec2 size);
 
 // One view, or left then right. The eyes look along parallel axes and their frusta meet at the
 // convergence distance (off-axis projection), so that nothing is sheared or keystoned.
@@ -29,6 +29,6 @@ Stand standOf(const ViewChoice& view, const glm::dvec3& boxHalf, glm::ivec2 size
 // 1600. Its eyes are as much farther apart, so that depth shows as it does in the perspective.
 inline constexpr double kFarEye = 1e4;
 std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stereo,
-                               const glm::dvec3& boxHalf, glm::ivec2 size);
+                               const glm::dmat3& boxHalfEdges, glm::ivec2 size);
 
 }  // namespace app

@@ -151,7 +151,8 @@ CanvasReport Canvas::draw(
 
 std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
     const Explorer& e = shown.explorer;
-    return eyes(e.view, e.stereo, render::Lattice(shown.sorted->grid(), e.scale).boxHalf(), e.size);
+    return eyes(e.view, e.stereo, render::Lattice(shown.sorted->grid(), e.scale).boxHalfEdges(),
+                e.size);
 }
 
 const render::Lattice* Canvas::lattice() const {

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
@@ -15,10 +17,27 @@ using nlohmann::ordered_json;
 using timeseries::Axis;
 using timeseries::Variable;
 
-const char* kindOf(const timeseries::Grid& grid) {
+std::string kindOf(const timeseries::Grid& grid) {
     for (const Axis& axis : grid.axes())
         if (axis.units == "index") return "index space";
-    return grid.uniform() ? "uniform" : "rectilinear";
+    const std::string spacing = grid.uniform() ? "uniform" : "rectilinear";
+    if (grid.frame().aligned()) return spacing;
+    constexpr double kRounding = 1e-4;  // directions written in few digits
+    const glm::dmat3& d = grid.frame().directions;
+    bool upright = true;
+    for (int a = 0; a < 3; ++a)
+        upright = upright && std::abs(glm::dot(d[a], d[(a + 1) % 3])) < kRounding;
+    return spacing + (upright ? ", rotated" : ", sheared");
+}
+
+ordered_json frameJson(const timeseries::Frame& frame) {
+    ordered_json out{{"names", frame.names},
+                     {"origin", {frame.origin.x, frame.origin.y, frame.origin.z}}};
+    for (int a = 0; a < 3; ++a) {
+        const glm::dvec3& d = frame.directions[a];
+        out["directions"].push_back({d.x, d.y, d.z});
+    }
+    return out;
 }
 
 ordered_json axisJson(const Axis& axis) {
@@ -42,6 +61,7 @@ ordered_json variableJson(const Variable& v) {
                      {"notes", v.notes}};
     out["grid"] = {{"kind", kindOf(*v.grid)}, {"points", v.grid->count()}};
     for (const Axis& axis : v.grid->axes()) out["grid"]["axes"].push_back(axisJson(axis));
+    if (!v.grid->frame().aligned()) out["grid"]["space"] = frameJson(v.grid->frame());
     out["time"] = {
         {"name", v.time->name}, {"units", v.time->units}, {"calendar", v.time->calendar}};
     for (const auto& point : v.time->points)
@@ -60,6 +80,15 @@ std::string axisText(const Axis& axis) {
                        axis.down ? ", downward" : "");
 }
 
+std::string frameText(const timeseries::Frame& frame) {
+    const auto place = [&](const glm::dvec3& p) {
+        return fmt::format("({:g}, {:g}, {:g})", p.x, p.y, p.z);
+    };
+    const glm::dmat3& d = frame.directions;
+    return fmt::format("in ({}): from {} along {}, {}, {}", fmt::join(frame.names, ", "),
+                       place(frame.origin), place(d[0]), place(d[1]), place(d[2]));
+}
+
 void print(const Variable& v) {
     fmt::print("\n{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
                v.units.empty() ? "" : " (" + v.units + ")");
@@ -70,6 +99,7 @@ void print(const Variable& v) {
     fmt::print("  grid     {}, {} x {} x {} = {} points\n", kindOf(*v.grid), n[0], n[1], n[2],
                withCommas(v.grid->count()));
     for (const Axis& axis : v.grid->axes()) fmt::print("           {}\n", axisText(axis));
+    if (!v.grid->frame().aligned()) fmt::print("           {}\n", frameText(v.grid->frame()));
     const std::size_t steps = v.time->points.size();
     if (steps == 1) {
         fmt::print("  time     1 step: {}\n", timeText(*v.time, 0));

@@ -16,7 +16,7 @@ const glm::dvec3 kBackground = render::linearFromSrgb(glm::dvec3(13, 17, 23) / 2
 void writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
                 const render::Extras& extras, const std::filesystem::path& file) {
     const Explorer& e = still.explorer;
-    const auto views = eyes(e.view, e.stereo, still.lattice.boxHalf(), e.size);
+    const auto views = eyes(e.view, e.stereo, still.lattice.boxHalfEdges(), e.size);
     const Picture picture =
         makePicture(e, still.about, still.stepIndex, still.step, still.lattice, still.tick);
     const Explorer alone = onlyThis(e, still.stepIndex, still.step, still.tick);

@@ -26,7 +26,7 @@ glm::dvec3 bounded(const glm::dvec3& target) { return glm::clamp(target, -kFarth
 }  // namespace
 
 ViewChoice orbited(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
-    view.distance = standOf(view, at.boxHalf, at.size).distance;
+    view.distance = standOf(view, at.boxHalfEdges, at.size).distance;
     const double degreesPerPixel = 180.0 / std::min(at.size.x, at.size.y);
     view.azimuthDegrees = wrapped(view.azimuthDegrees - pixels.x * degreesPerPixel);
     view.elevationDegrees =
@@ -35,7 +35,7 @@ ViewChoice orbited(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
 }
 
 ViewChoice panned(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
-    const Stand stand = standOf(view, at.boxHalf, at.size);
+    const Stand stand = standOf(view, at.boxHalfEdges, at.size);
     const glm::dvec2 by = onTarget(stand, at, pixels);
     view.distance = stand.distance;
     view.target = bounded(view.target - by.x * stand.axes[0] - by.y * stand.axes[1]);
@@ -43,7 +43,7 @@ ViewChoice panned(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
 }
 
 ViewChoice zoomed(ViewChoice view, double factor, glm::dvec2 cursor, const Looking& at) {
-    const Stand stand = standOf(view, at.boxHalf, at.size);
+    const Stand stand = standOf(view, at.boxHalfEdges, at.size);
     view.distance = std::clamp(stand.distance * factor, kNearest, kFarthest);
     const glm::dvec2 offset = onTarget(stand, at, cursor - 0.5 * glm::dvec2(at.size)) *
                               (1 - *view.distance / stand.distance);

@@ -2,6 +2,7 @@
 // distance gets the one that it has, so that nothing changes its size under the hand.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
 #include "app/explorer.h"
@@ -11,7 +12,7 @@ namespace app {
 // A picture as it is looked at: window positions below are its pixels, y down, (0, 0) the upper
 // left corner.
 struct Looking {
-    glm::dvec3 boxHalf;  // Lattice::boxHalf()
+    glm::dmat3 boxHalfEdges;  // Lattice::boxHalfEdges()
     glm::ivec2 size;
 };
 

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "render/box_edges.h"
 #include "render/color.h"
 #include "render/ticks.h"
 
@@ -34,96 +35,6 @@ glm::vec3 light(int red, int green, int blue) {
 const glm::vec3 kAxisEdge = light(134, 145, 162), kNearEdge = light(84, 94, 110),
                 kFarEdge = light(52, 59, 71), kNumber = light(170, 179, 193),
                 kTitle = light(230, 233, 239);
-
-// An edge of the box: along `axis`, at the sides (-1 or 1) of the two others; side[axis] is 0.
-struct Edge {
-    int axis;
-    glm::ivec3 side;
-    glm::dvec3 at(const glm::dvec3& half, double along) const {
-        glm::dvec3 p = half * glm::dvec3(side);
-        p[axis] = along * half[axis];
-        return p;
-    }
-};
-
-// A flat box has fewer edges: its two sides along a flat axis are one.
-std::vector<Edge> edges(const glm::dvec3& half) {
-    std::vector<Edge> found;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (half[axis] == 0) continue;
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        for (const int su : {-1, 1}) {
-            for (const int sv : {-1, 1}) {
-                if ((half[u] == 0 && su > 0) || (half[v] == 0 && sv > 0)) continue;
-                Edge edge{axis, glm::ivec3(0)};
-                edge.side[u] = su;
-                edge.side[v] = sv;
-                found.push_back(edge);
-            }
-        }
-    }
-    return found;
-}
-
-// How an edge lies for an eye: between two faces that show, on the outline, or behind.
-enum class Lies { Front, Outline, Behind };
-Lies lies(const Edge& edge, const glm::dvec3& half, const glm::dvec3& eye) {
-    int showing = 0;
-    for (int a = 0; a < 3; ++a) {
-        if (a == edge.axis) continue;
-        if (half[a] == 0) return Lies::Outline;  // of a sheet or a line
-        if (eye[a] * edge.side[a] > half[a]) ++showing;
-    }
-    return showing == 2 ? Lies::Front : showing == 1 ? Lies::Outline : Lies::Behind;
-}
-
-class Screen {
- public:
-    explicit Screen(const View& view)
-        : clipFromWorld_(view.clipFromView * view.viewFromWorld), size_(view.size) {}
-
-    // Picture pixels from the top left, window depth. REQUIRES: before the near plane.
-    glm::dvec3 pixel(const glm::dvec3& world) const {
-        const glm::dvec4 clip = clipFromWorld_ * glm::dvec4(world, 1);
-        const glm::dvec3 ndc = glm::dvec3(clip) / clip.w;
-        return {(0.5 + 0.5 * ndc.x) * size_.x, (0.5 - 0.5 * ndc.y) * size_.y, ndc.z};
-    }
-    // The part of a to b, as fractions, before the near plane; or in the picture as well.
-    enum class Cut { NearPlane, Picture };
-    std::optional<glm::dvec2> visible(const glm::dvec3& a, const glm::dvec3& b, Cut cut) const {
-        const glm::dvec4 from = clipFromWorld_ * glm::dvec4(a, 1);
-        const glm::dvec4 to = clipFromWorld_ * glm::dvec4(b, 1);
-        glm::dvec2 part(0, 1);
-        // A point is visible where each of these is positive.
-        const auto keep = [&](double atFrom, double atTo) {
-            if (atFrom < 0 && atTo < 0) part = {1, 0};
-            if (atFrom < 0 && atTo >= 0) part[0] = std::max(part[0], atFrom / (atFrom - atTo));
-            if (atFrom >= 0 && atTo < 0) part[1] = std::min(part[1], atFrom / (atFrom - atTo));
-        };
-        keep(from.z, to.z);
-        if (cut == Cut::Picture) {
-            for (int a2 = 0; a2 < 2; ++a2) {
-                keep(from.w - from[a2], to.w - to[a2]);
-                keep(from.w + from[a2], to.w + to[a2]);
-            }
-        }
-        if (part[0] >= part[1]) return std::nullopt;
-        return part;
-    }
-
- private:
-    glm::dmat4 clipFromWorld_;
-    glm::dvec2 size_;
-};
-
-// The view from the point midway between the eyes, through the middle of the picture.
-View middle(const View& view, const glm::dvec3& midEye) {
-    View mid = view;
-    mid.clipFromView[2][0] = mid.clipFromView[2][1] = 0;
-    const glm::dmat3 rotation(view.viewFromWorld);
-    mid.viewFromWorld[3] = glm::dvec4(-(rotation * midEye), 1);
-    return mid;
-}
 
 struct Rect {
     glm::dvec2 lo, hi;
@@ -191,8 +102,8 @@ glm::dvec3 tickAt(const Page& page, const Edge& edge, double coordinate) {
     glm::dvec3 p = edge.at(half, 0);
     glm::dvec3 onAxis(0);
     onAxis[edge.axis] = coordinate;
-    p[edge.axis] = std::clamp(page.lattice.worldFromGrid(onAxis)[edge.axis], -half[edge.axis],
-                              half[edge.axis]);
+    p[edge.axis] =
+        std::clamp(page.lattice.axesFromGrid(onAxis)[edge.axis], -half[edge.axis], half[edge.axis]);
     return p;
 }
 
@@ -386,8 +297,11 @@ void drawAxis(const Page& page, const Screen& screen, const ShownAxis& axis, Pla
 
 }  // namespace
 
-AxesMeshes axesMeshes(const timeseries::Grid& grid, const Lattice& lattice, const View& view,
-                      const glm::dvec3& midEye, const Font& font, const FlatMesh& legend) {
+AxesMeshes axesMeshes(const timeseries::Grid& grid, const Lattice& lattice, const View& viewOfWorld,
+                      const glm::dvec3& midEyeInWorld, const Font& font, const FlatMesh& legend) {
+    // In axis coordinates the box stands upright, however oblique it is in the world.
+    const View view = lattice.inAxes(viewOfWorld);
+    const glm::dvec3 midEye = glm::inverse(lattice.worldFromAxes()) * midEyeInWorld;
     const Page page{grid, lattice, font, labelStyle(view.size), glm::dvec2(view.size)};
     const glm::dvec3 half = lattice.boxHalf();
     const Screen screen(view);

@@ -9,26 +9,26 @@ namespace {
 
 // Calls visit(x, y, W) for every pixel of the view that the splat touches.
 template <typename Real, typename Visit>
-void forEachPixel(const Splat<Real>& s, const View& view, const PixelRays& rays, Kernel kernel,
+void forEachPixel(const Splat<Real>& s, glm::ivec2 size, const LatticeView& view, Kernel kernel,
                   const Visit& visit) {
     using Vec2 = glm::vec<2, Real>;
-    const Vec2 axis(rays.centre), focal(rays.focal);
-    const Real rayUnit = static_cast<Real>(glm::length(rays.axis));
+    const Vec2 axis(view.rays.centre), focal(view.rays.focal);
+    const Real rayUnit = static_cast<Real>(view.rayLength);
     // Pixels from..to-1 along an axis; pixel i has its centre at i + 0.5.
-    const auto span = [&](Real centre, int size) {
+    const auto span = [&](Real centre, int length) {
         Real from = std::ceil(centre - s.extent - Real(0.5));
         Real to = std::ceil(centre + s.extent - Real(0.5));
         if (kernel == Kernel::Point) {
             from = std::floor(centre - s.extent + Real(0.5));
             to = from + 2 * s.extent;
         }
-        const auto limit = static_cast<Real>(size);
+        const auto limit = static_cast<Real>(length);
         return std::pair(static_cast<int>(std::clamp<Real>(from, 0, limit)),
                          static_cast<int>(std::clamp<Real>(to, 0, limit)));
     };
     const Vec2 window = axis + s.centre;
-    const auto [x0, x1] = span(window.x, view.size.x);
-    const auto [y0, y1] = span(window.y, view.size.y);
+    const auto [x0, x1] = span(window.x, size.x);
+    const auto [y0, y1] = span(window.y, size.y);
     for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x) {
             const Vec2 at =
@@ -83,7 +83,7 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
            std::span<const float> opaqueDepth, Accumulator<Real>& into) {
     assert(scene.layers.size() <= into.channels.size() || into.channels[0] == Channels::Over ||
            into.channels[0] == Channels::Count);
-    const PixelRays rays = pixelRays(view);
+    const LatticeView latticeView(scene.lattice, view);
     const glm::dmat4& clip = view.clipFromView;
     const glm::uvec3 n = scene.lattice.size();
     std::vector<double> perSplat;
@@ -91,8 +91,8 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     const auto draw = [&](std::size_t layer, std::uint64_t point) {
         const std::uint32_t i = scene.step.gridIndex()[point];
         if (!scene.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y})) return;
-        auto s = splatAt<Real>(rays, view.viewFromWorld, scene.lattice.position(i),
-                               scene.lattice.cell(i), scene.lattice.unitLength(), scene.footprint);
+        auto s = splatAt<Real>(latticeView, scene.lattice.position(i), scene.lattice.cell(i),
+                               scene.footprint);
         if (!s.visible) return;
         s.weight *= static_cast<Real>(perSplat[layer]);
         const double windowDepth =
@@ -104,12 +104,13 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
         const Channels channels = into.channels[plane];
         const std::size_t floats = Accumulator<Real>::floatsPerPixel(channels);
         const Painter paint = painter(scene, scene.layers[layer], point);
-        forEachPixel<Real>(s, view, rays, scene.footprint.kernel, [&](int x, int y, Real weight) {
+        const auto visit = [&](int x, int y, Real weight) {
             const std::size_t pixel = std::size_t(y) * view.size.x + x;
             if (!opaqueDepth.empty() && windowDepth > static_cast<double>(opaqueDepth[pixel]))
                 return;
             deposit(channels, paint, weight, &into.planes[plane][pixel * floats]);
-        });
+        };
+        forEachPixel<Real>(s, view.size, latticeView, scene.footprint.kernel, visit);
     };
     if (const auto* sorted = std::get_if<Sorted>(&list)) {
         for (std::size_t i = 0; i < sorted->point.size(); ++i)

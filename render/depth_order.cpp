@@ -18,6 +18,7 @@ Distances distances(const Scene& scene, const glm::dvec3& midEye) {
     const auto index = scene.step.gridIndex();
     const glm::uvec3 n = scene.lattice.size();
     const auto& at = scene.lattice.positions();
+    const glm::dmat3& worldFromAxes = scene.lattice.worldFromAxes();
     for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
         for (const timeseries::Run& run : scene.layers[layer].runs) {
             for (std::uint64_t p = run.first; p < run.first + run.count; p += scene.stride) {
@@ -26,8 +27,8 @@ Distances distances(const Scene& scene, const glm::dvec3& midEye) {
                 if (!scene.clip.holds(ijk)) continue;
                 d.list.point.push_back(static_cast<std::uint32_t>(p));
                 d.list.layer.push_back(static_cast<std::uint8_t>(layer));
-                d.away.push_back(
-                    glm::distance(glm::dvec3(at[0][ijk.x], at[1][ijk.y], at[2][ijk.z]), midEye));
+                const glm::dvec3 along(at[0][ijk.x], at[1][ijk.y], at[2][ijk.z]);
+                d.away.push_back(glm::distance(worldFromAxes * along, midEye));
             }
         }
     }

@@ -2,19 +2,23 @@
 // splat.frag compute the same in float; here the arithmetic type is a parameter.
 //
 // A point stands for a cell of volume V. Its mass is spread over the ellipsoid with semi-axes a
-// along the world axes by the density C (1 - r^2)^3.5 of the kernel-space radius r, whose line
+// along the lattice's axes by the density C (1 - r^2)^3.5 of the kernel-space radius r, whose line
 // integrals are C' (1 - b^2)^4, b being the line's distance from the centre in kernel space
 // (Crawfis and Max 1993 draw such line integrals as textures). Total mass V gives, for a ray along
 // d,
 //   W = V / (l a1 a2 a3) * 5 / pi * (1 - b^2)^4 * |d| / |d / a|.
 // With c and d the rays of the centre and of the pixel at unit depth and z the centre's depth,
 //   b^2 = z^2 |c/a x (d - c)/a|^2 / |d/a|^2,
-// which cancels nowhere: d - c is linear in the offset of the pixel from the centre.
+// which cancels nowhere: d - c is linear in the offset of the pixel from the centre. Rays and
+// semi-axes are in axis coordinates (render/lattice.h), where the lattice may be oblique; V, l and
+// the |d| above the line are lengths in the world. V and a1 a2 a3 shrink alike when the axes lean
+// over, so that V / a1 a2 a3 needs the sides of the cell only.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
@@ -93,12 +97,38 @@ inline int pointSide(const Footprint& footprint) {
     return std::max(1, static_cast<int>(std::lround(footprint.size)));
 }
 
+// A view of a lattice's points.
+struct LatticeView {
+    LatticeView(const Lattice& lattice, const View& view)
+        : rays(pixelRays(lattice.inAxes(view))),
+          viewFromWorld(view.viewFromWorld),
+          rayLength(1 / glm::length(glm::dvec3(view.viewFromWorld[0]))),
+          pixelArea(rayLength * rayLength / (rays.focal.x * rays.focal.y)),
+          unitLength(lattice.unitLength()),
+          cellVolume(std::abs(glm::determinant(lattice.worldFromAxes()))),
+          lengthening(lattice.lengthening()),
+          smallestRadius(kSmallestRadiusPixels * rayLength /
+                         (std::min(rays.focal.x, rays.focal.y) * lengthening.least)) {}
+
+    PixelRays rays;  // in axis coordinates
+    glm::dmat4 viewFromWorld;
+    double rayLength;   // of rays.axis, in the world
+    double pixelArea;   // at unit depth, in the world
+    double unitLength;  // l
+    double cellVolume;  // of a cell whose sides are 1
+    Lattice::Lengthening lengthening;
+    // At unit depth, in axis coordinates: however the axes lean, no radius in the world is then
+    // smaller in pixels than it may be.
+    double smallestRadius;
+};
+
 template <typename Real>
-Splat<Real> splatAt(const PixelRays& rays, const glm::dmat4& viewFromWorld, const glm::dvec3& world,
-                    const glm::dvec3& cell, double unitLength, const Footprint& footprint) {
+Splat<Real> splatAt(const LatticeView& view, const glm::dvec3& world, const glm::dvec3& cell,
+                    const Footprint& footprint) {
     using Vec3 = glm::vec<3, Real>;
     Splat<Real> s;
-    const Vec3 inView = glm::vec<3, Real>(viewFromWorld * glm::dvec4(world, 1.0));
+    const PixelRays& rays = view.rays;
+    const Vec3 inView = glm::vec<3, Real>(view.viewFromWorld * glm::dvec4(world, 1.0));
     s.depth = -inView.z;
     const Real near = static_cast<Real>(rays.near);
     if (!(s.depth > near)) return s;
@@ -107,28 +137,28 @@ Splat<Real> splatAt(const PixelRays& rays, const glm::dmat4& viewFromWorld, cons
     s.centre = focal * glm::vec<2, Real>(inView) / s.depth;
     const Vec3 X(rays.perPixelX), Y(rays.perPixelY);
     const Vec3 C = Vec3(rays.axis) + s.centre.x * X + s.centre.y * Y;
-    const Real volume = static_cast<Real>(cell.x * cell.y * cell.z / unitLength);
+    const Real sides = static_cast<Real>(cell.x * cell.y * cell.z / view.unitLength);
     if (footprint.kernel == Kernel::Point) {
-        // The whole mass on `side`^2 pixels: each is z^2 |X x Y| wide, seen at the ray's slant.
+        // The whole mass on `side`^2 pixels, seen at the ray's slant.
         const Real side = static_cast<Real>(pointSide(footprint));
         s.extent = side / 2;
-        s.weight = volume * nearFade(s.depth, near) /
-                   (s.depth * s.depth * glm::length(X) * glm::length(Y) * side * side *
-                    glm::length(Vec3(rays.axis)));
+        s.weight =
+            sides * static_cast<Real>(view.cellVolume) * nearFade(s.depth, near) /
+            (s.depth * s.depth * static_cast<Real>(view.pixelArea * view.rayLength) * side * side);
         return s;
     }
-    const Real pixel = s.depth * std::max(glm::length(X), glm::length(Y));
     const Vec3 a = glm::max(Vec3(cell) * static_cast<Real>(footprint.size * kQuarticRadius),
-                            Vec3(pixel * static_cast<Real>(kSmallestRadiusPixels)));
+                            Vec3(s.depth * static_cast<Real>(view.smallestRadius)));
     const Vec3 c = C / a, x = X / a, y = Y / a;
     const Vec3 e = glm::cross(c, x), f = glm::cross(c, y);
     const Real perC2 = 1 / glm::dot(c, c);
     s.n = s.depth * s.depth * perC2 * Vec3(glm::dot(e, e), 2 * glm::dot(e, f), glm::dot(f, f));
     s.d = perC2 * Vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y));
     s.l = 2 * perC2 * glm::vec<2, Real>(glm::dot(c, x), glm::dot(c, y));
-    s.weight = static_cast<Real>(5 / std::numbers::pi) * volume / (a.x * a.y * a.z) *
+    s.weight = static_cast<Real>(5 / std::numbers::pi) * sides / (a.x * a.y * a.z) *
                std::sqrt(perC2) * nearFade(s.depth, near);
-    const Real largest = std::max({a.x, a.y, a.z}) / glm::length(Vec3(rays.axis));
+    const Real largest =
+        std::max({a.x, a.y, a.z}) * static_cast<Real>(view.lengthening.most / view.rayLength);
     const Real extent = sphereExtent(s.depth, largest, glm::length(s.centre / focal));
     s.extent =
         extent < 0 ? std::numeric_limits<Real>::infinity() : extent * std::max(focal.x, focal.y);

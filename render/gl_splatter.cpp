@@ -18,8 +18,8 @@ namespace {
 
 // GLSL mirror: SplatView in shaders/splat.vert.
 struct SplatViewBlock {
-    glm::mat4 viewFromWorld;
-    glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slope;
+    glm::mat4 viewFromAxes;
+    glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slopeAndLengths;
     glm::uvec4 lattice, clipLo, clipHi;
 };
 
@@ -30,40 +30,45 @@ struct LayerBlock {
 
 // How far, in pixels from its centre, any footprint of the scene reaches in this view; infinite
 // when the eye is among the points.
-double farthestReach(const Scene& scene, const View& view, const PixelRays& rays) {
+double farthestReach(const Scene& scene, const LatticeView& view) {
     if (scene.footprint.kernel == Kernel::Point) return pointSide(scene.footprint) / 2.0;
-    glm::dvec3 widest(0);
-    for (int a = 0; a < 3; ++a)
-        for (const double w : scene.lattice.widths()[a]) widest[a] = std::max(widest[a], w);
-    const double inView = 1 / glm::length(rays.axis);
+    double widest = 0;
+    for (const auto& widths : scene.lattice.widths())
+        widest = std::max(widest, *std::ranges::max_element(widths));
     double nearest = std::numeric_limits<double>::infinity(), steepest = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const glm::dvec4 p = view.viewFromWorld * glm::dvec4(sign * scene.lattice.boxHalf(), 1.0);
+        const glm::dvec3 at = scene.lattice.boxHalfEdges() * sign;
+        const glm::dvec4 p = view.viewFromWorld * glm::dvec4(at, 1.0);
         nearest = std::min(nearest, -p.z);
         if (-p.z > 0) steepest = std::max(steepest, glm::length(glm::dvec2(p)) / -p.z);
     }
-    if (!(nearest > rays.near)) return std::numeric_limits<double>::infinity();
-    const double focal = std::max(rays.focal.x, rays.focal.y);
-    const double cells =
-        scene.footprint.size * kQuarticRadius * std::max({widest.x, widest.y, widest.z}) * inView;
-    const double pixels = kSmallestRadiusPixels * nearest / std::min(rays.focal.x, rays.focal.y);
-    const double reach = sphereExtent(nearest, std::max(cells, pixels), steepest);
+    if (!(nearest > view.rays.near)) return std::numeric_limits<double>::infinity();
+    const double radius =
+        std::max(scene.footprint.size * kQuarticRadius * widest, nearest * view.smallestRadius) *
+        view.lengthening.most / view.rayLength;
+    const double reach = sphereExtent(nearest, radius, steepest);
+    const double focal = std::max(view.rays.focal.x, view.rays.focal.y);
     return reach < 0 ? std::numeric_limits<double>::infinity() : reach * focal;
 }
 
-SplatViewBlock viewBlock(const Scene& scene, const View& view, const PixelRays& rays, int guard) {
+SplatViewBlock viewBlock(const Scene& scene, const View& view, const LatticeView& seen, int guard) {
     SplatViewBlock b{};
     const glm::dmat4& clip = view.clipFromView;
-    b.viewFromWorld = glm::mat4(view.viewFromWorld);
-    b.rayAxis = glm::vec4(glm::dvec4(rays.axis, glm::length(rays.axis)));
+    const PixelRays& rays = seen.rays;
+    const Footprint& footprint = scene.footprint;
+    b.viewFromAxes = glm::mat4(scene.lattice.inAxes(view).viewFromWorld);
+    b.rayAxis = glm::vec4(glm::dvec4(rays.axis, seen.rayLength));
     b.perPixelX = glm::vec4(glm::dvec4(rays.perPixelX, rays.focal.x));
     b.perPixelY = glm::vec4(glm::dvec4(rays.perPixelY, rays.focal.y));
     b.window = {glm::vec2(rays.centre), glm::vec2(view.size)};
     b.depths = {rays.near, -clip[2][2], clip[3][2], guard};
-    b.kernel = {scene.footprint.size * kQuarticRadius, kSmallestRadiusPixels,
-                1 / scene.lattice.unitLength(), static_cast<float>(pointSide(scene.footprint))};
-    b.slope = glm::vec4(glm::dvec4(1.0 / (rays.focal * rays.focal), 0, 0));
+    // A point's mass is its cell's volume; a kernel's is that over the kernel's.
+    const double perSides = footprint.kernel == Kernel::Point ? seen.cellVolume : 1;
+    b.kernel = {footprint.size * kQuarticRadius, seen.smallestRadius, perSides / seen.unitLength,
+                static_cast<float>(pointSide(footprint))};
+    b.slopeAndLengths = glm::vec4(glm::dvec4(
+        1.0 / (rays.focal * rays.focal), seen.lengthening.most / seen.rayLength, seen.pixelArea));
     b.lattice = {scene.lattice.size(), 0};
     b.clipLo = {scene.clip.lo, 0};
     b.clipHi = {scene.clip.hi, 0};
@@ -153,8 +158,8 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
 void GlSplatter::draw(GpuList& list, const View& view, Channels channels, std::size_t layer,
                       GLuint framebuffer) {
     ++counts_.draws;
-    const PixelRays rays = pixelRays(view);
-    const double reach = farthestReach(list.scene(), view, rays);
+    const LatticeView seen(list.scene().lattice, view);
+    const double reach = farthestReach(list.scene(), seen);
     // A point sprite whose centre leaves the clip volume vanishes whole, so the viewport is wider
     // than the picture by the farthest reach; sprites also have a largest size, as has a viewport.
     const double sides = 2 * (reach + 2);
@@ -162,7 +167,7 @@ void GlSplatter::draw(GpuList& list, const View& view, Channels channels, std::s
         !(sides <= static_cast<double>(largestPoint_) &&
           view.size.x + sides <= largestViewport_.x && view.size.y + sides <= largestViewport_.y);
     const int guard = quads ? 0 : static_cast<int>(std::ceil(reach)) + 1;
-    const SplatViewBlock block = viewBlock(list.scene(), view, rays, guard);
+    const SplatViewBlock block = viewBlock(list.scene(), view, seen, guard);
     view_.write(0, sizeof block, &block);
     const gl::Program& with =
         program({channels, list.scene().footprint.kernel, quads, list.cubes()});

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "render/ticks.h"
@@ -48,20 +51,37 @@ std::array<Wide, 3> fittedStretch(const Grid& grid) {
     return stretch;
 }
 
+// How far the box's corners are from its centre, at most.
+Wide farthestCorner(const glm::dmat3& directions, const std::array<Wide, 3>& half) {
+    Wide farthest2 = 0;
+    for (int corner = 0; corner < 4; ++corner) {  // the other four lie opposite
+        Wide distance2 = 0;
+        for (int c = 0; c < 3; ++c) {
+            const Wide sum = half[0] * Wide{directions[0][c]} +
+                             (corner & 1 ? half[1] : -half[1]) * Wide{directions[1][c]} +
+                             (corner & 2 ? half[2] : -half[2]) * Wide{directions[2][c]};
+            distance2 += sum * sum;
+        }
+        farthest2 = std::max(farthest2, distance2);
+    }
+    return std::sqrt(farthest2);
+}
+
 double mean(const std::vector<double>& v) {
     return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
 }
 
 }  // namespace
 
-Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch) {
+Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch)
+    : worldFromAxes_(grid.frame().directions) {
     // Thinner boxes and cells could not be seen; their volumes would leave the GPU's floats.
     constexpr Wide kThinnestBox = 1e-9L, kThinnestCell = 1e-15L;
     const auto stretched =
         stretch ? std::array<Wide, 3>{stretch->x, stretch->y, stretch->z} : fittedStretch(grid);
     std::array<Wide, 3> half{};
     for (std::size_t a = 0; a < 3; ++a) half[a] = extent(grid.axes()[a]) / 2 * stretched[a];
-    Wide radius = std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    Wide radius = farthestCorner(worldFromAxes_, half);
     if (!(radius > 0)) radius = 1;
     double thinnest = 0;  // an axis of one point takes the smallest mean width of the others
     for (int a = 0; a < 3; ++a) {
@@ -85,7 +105,8 @@ Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch) {
     if (thinnest == 0) thinnest = 1;
     for (int a = 0; a < 3; ++a)
         if (widths_[a].size() == 1) widths_[a][0] = thinnest;
-    unitLength_ = std::cbrt(mean(widths_[0]) * mean(widths_[1]) * mean(widths_[2]));
+    unitLength_ = std::cbrt(mean(widths_[0]) * mean(widths_[1]) * mean(widths_[2]) *
+                            std::abs(glm::determinant(worldFromAxes_)));
 }
 
 glm::uvec3 Lattice::size() const {
@@ -100,14 +121,40 @@ glm::dvec3 Lattice::scale() const {
     return scale;
 }
 
-glm::dvec3 Lattice::worldFromGrid(const glm::dvec3& grid) const {
-    glm::dvec3 world;
+glm::dvec3 Lattice::axesFromGrid(const glm::dvec3& grid) const {
+    glm::dvec3 along;
     for (int a = 0; a < 3; ++a)
-        world[a] = static_cast<double>((Wide{grid[a]} - centre_[a]) * scale_[a]);
-    return world;
+        along[a] = static_cast<double>((Wide{grid[a]} - centre_[a]) * scale_[a]);
+    return along;
+}
+
+Lattice::Lengthening Lattice::lengthening() const {
+    // The squares are the eigenvalues of the columns' scalar products: 1 + t with
+    // t^3 - (p^2 + q^2 + r^2) t - 2 p q r = 0, whose three real roots are cosines (Viete).
+    const glm::dmat3& m = worldFromAxes_;
+    const double p = glm::dot(m[0], m[1]), q = glm::dot(m[0], m[2]), r = glm::dot(m[1], m[2]);
+    const double third = (p * p + q * q + r * r) / 3;
+    if (!(third > 0)) return {1, 1};
+    const double amplitude = 2 * std::sqrt(third);
+    const double cosine = std::clamp(p * q * r / (third * std::sqrt(third)), -1.0, 1.0);
+    const double angle = std::acos(cosine) / 3;  // [0, pi / 3]
+    const double least = amplitude * std::cos(angle + 2 * std::numbers::pi / 3);
+    return {std::sqrt(1 + least), std::sqrt(1 + amplitude * std::cos(angle))};
+}
+
+View Lattice::inAxes(const View& view) const {
+    return {view.clipFromView, view.viewFromWorld * glm::dmat4(worldFromAxes_), view.size};
+}
+
+glm::dmat3 Lattice::boxHalfEdges() const {
+    return {worldFromAxes_[0] * boxHalf_.x, worldFromAxes_[1] * boxHalf_.y,
+            worldFromAxes_[2] * boxHalf_.z};
 }
 
 bool Lattice::cubes() const {
+    const glm::dmat3 products = glm::transpose(worldFromAxes_) * worldFromAxes_;
+    for (int a = 0; a < 3; ++a)
+        if (std::abs(products[a][(a + 1) % 3]) > 1e-12) return false;
     for (const auto& widths : widths_)
         for (const double w : widths)
             if (std::abs(w - unitLength_) > 1e-12 * unitLength_) return false;
@@ -124,7 +171,8 @@ glm::uvec3 unravel(std::uint64_t index, const glm::uvec3& n) {
 
 glm::dvec3 Lattice::position(std::uint64_t index) const {
     const glm::uvec3 at = unravel(index, size());
-    return {positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]};
+    return worldFromAxes_ *
+           glm::dvec3(positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]);
 }
 
 glm::dvec3 Lattice::cell(std::uint64_t index) const {

@@ -3,46 +3,70 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "render/view.h"
 #include "timeseries/grid.h"
 
 namespace render {
 
-// World coordinates: z up, the centre of the grid's box at 0, and the box scaled so that its half
-// diagonal is 1. That keeps every coordinate near 1 whatever the grid's units and offsets are.
+// World coordinates: z up, the centre of the grid's box at 0, and the box scaled so that its
+// farthest corners are 1 away. That keeps every coordinate near 1 whatever the grid's units and
+// offsets are.
+//
+// Axis coordinates: world lengths along the grid's axes from the same centre. There every box and
+// cell is upright; worldFromAxes() turns and shears them to where they stand, and is the identity
+// for a grid whose axes are those of its space.
 class Lattice {
  public:
-    // `stretch` multiplies grid units of x, y, z before the uniform scaling. Without it axes of one
-    // unit keep their proportions, and axes of other units (or more than 20 times shorter) are
-    // fitted to half the length of the longest. Axes that count downwards are drawn downwards.
+    // `stretch` multiplies the grid's units, each along its axis, before the uniform scaling.
+    // Without it axes of one unit keep their proportions, and axes of other units (or more than 20
+    // times shorter) are fitted to half the length of the longest. Axes that count downwards are
+    // drawn downwards.
     explicit Lattice(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch = {});
 
     glm::uvec3 size() const;
+    // In the world.
     glm::dvec3 position(std::uint64_t index) const;
     // Lengths of the cell's sides, all > 0.
     glm::dvec3 cell(std::uint64_t index) const;
-    // Per axis, by index along it.
+    // Per axis, by index along it, in axis coordinates.
     const std::array<std::vector<double>, 3>& positions() const { return positions_; }
     const std::array<std::vector<double>, 3>& widths() const { return widths_; }
+
+    // Columns: the directions of the axes in the world, of length 1.
+    const glm::dmat3& worldFromAxes() const { return worldFromAxes_; }
+    // What a length in axis coordinates is in the world, at least and at most: the singular values
+    // of worldFromAxes().
+    struct Lengthening {
+        double least, most;
+    };
+    Lengthening lengthening() const;
+    // The view as it sees axis coordinates: no longer rigid when the axes are oblique.
+    View inAxes(const View& view) const;
 
     // The length l in which optical depth is counted: the cube root of the mean cell volume.
     double unitLength() const { return unitLength_; }
     // All cells are cubes of one size, to 1e-12.
     bool cubes() const;
-    // Corners of the points' box; half diagonal 1 (all zero for a single point).
+    // Half sides of the points' box, in axis coordinates; all zero for a single point.
     glm::dvec3 boxHalf() const { return boxHalf_; }
+    // The same in the world: columns from the centre of the box to the middles of its faces.
+    glm::dmat3 boxHalfEdges() const;
     // World length per grid unit along each axis, signed; their ratios are what a picture states.
     glm::dvec3 scale() const;
-    glm::dvec3 worldFromGrid(const glm::dvec3& grid) const;
+    // In axis coordinates, from the grid's coordinates along its axes.
+    glm::dvec3 axesFromGrid(const glm::dvec3& grid) const;
 
  private:
     std::array<std::vector<double>, 3> positions_, widths_;
     // Long doubles: products and squares of very large or small extents leave the doubles.
     std::array<long double, 3> scale_{}, centre_{};
+    glm::dmat3 worldFromAxes_{1.0};
     glm::dvec3 boxHalf_{0};
     double unitLength_ = 1;
 };
@@ -59,7 +83,8 @@ struct IndexBox {
                at.z <= hi.z;
     }
 };
-// The points inside closed ranges of grid coordinates.
+// The points inside closed ranges of the grid's coordinates along its axes: what `info` and the
+// labels of a picture tell, also of a rotated or sheared grid.
 IndexBox indexBox(const timeseries::Grid& grid, const glm::dvec3& lo, const glm::dvec3& hi);
 
 }  // namespace render

@@ -11,17 +11,24 @@ namespace {
 class Ray {
  public:
     Ray(const Scene& scene, const View& view, const glm::dvec2& window)
-        : scene_(scene), view_(view), rays_(pixelRays(view)), window_(window) {
+        : scene_(scene),
+          view_(view),
+          latticeView_(scene.lattice, view),
+          rays_(pixelRays(view)),
+          window_(window) {
         slope_ = (window - rays_.centre) / rays_.focal;
-        rayUnit_ = glm::length(rays_.axis);
+        double widest = 0;
         for (const auto& widths : scene.lattice.widths())
-            widest_ = std::max(widest_, *std::ranges::max_element(widths));
+            widest = std::max(widest, *std::ranges::max_element(widths));
         // A point splat reaches half its diagonal and half a pixel of rounding.
         const bool points = scene.footprint.kernel == Kernel::Point;
-        const double pixels = points ? pointSide(scene.footprint) + 1.0 : kSmallestRadiusPixels;
-        reachPerDepth_ = pixels * rayUnit_ * std::sqrt(1 + glm::dot(slope_, slope_)) /
-                         std::min(rays_.focal.x, rays_.focal.y);
-        if (!points) reach_ = scene.footprint.size * kQuarticRadius * widest_;
+        const double most = latticeView_.lengthening.most;
+        const double perDepth = points
+                                    ? (pointSide(scene.footprint) + 1.0) * glm::length(rays_.axis) /
+                                          std::min(rays_.focal.x, rays_.focal.y)
+                                    : latticeView_.smallestRadius * most;
+        reachPerDepth_ = perDepth * std::sqrt(1 + glm::dot(slope_, slope_));
+        if (!points) reach_ = scene.footprint.size * kQuarticRadius * widest * most;
     }
 
     struct Met {
@@ -32,13 +39,13 @@ class Ray {
         const glm::dvec3 world = scene_.lattice.position(gridIndex);
         if (!near(world) || !inClip(gridIndex)) return std::nullopt;
         const auto s =
-            splatAt<double>(rays_, view_.viewFromWorld, world, scene_.lattice.cell(gridIndex),
-                            scene_.lattice.unitLength(), scene_.footprint);
+            splatAt<double>(latticeView_, world, scene_.lattice.cell(gridIndex), scene_.footprint);
         const glm::dmat4& clip = view_.clipFromView;
         const bool beyond = clip[3][2] - clip[2][2] * s.depth > s.depth;  // the far plane
         if (!s.visible || beyond || !inSquare(s)) return std::nullopt;
-        const auto weight = weightOn<double>(s, scene_.footprint.kernel,
-                                             window_ - rays_.centre - s.centre, slope_, rayUnit_);
+        const auto weight =
+            weightOn<double>(s, scene_.footprint.kernel, window_ - rays_.centre - s.centre, slope_,
+                             latticeView_.rayLength);
         if (!weight) return std::nullopt;
         return Met{*weight, s.depth};
     }
@@ -48,7 +55,7 @@ class Ray {
         const glm::dvec3 away = world - rays_.eye;
         const glm::dvec3 along = rays_.axis + (window_.x - rays_.centre.x) * rays_.perPixelX +
                                  (window_.y - rays_.centre.y) * rays_.perPixelY;
-        const double depth = glm::dot(away, rays_.axis) / (rayUnit_ * rayUnit_);
+        const double depth = glm::dot(away, rays_.axis) / glm::dot(rays_.axis, rays_.axis);
         const glm::dvec3 across = glm::cross(away, along);
         const double reach = std::max(reach_, depth * reachPerDepth_);
         return depth > 0 && glm::dot(across, across) <= reach * reach * glm::dot(along, along);
@@ -69,9 +76,9 @@ class Ray {
 
     const Scene& scene_;
     const View& view_;
-    PixelRays rays_;
+    LatticeView latticeView_;
+    PixelRays rays_;  // in the world
     glm::dvec2 window_, slope_;
-    double rayUnit_, widest_ = 0;
     double reach_ = 0, reachPerDepth_;  // world lengths: the larger one counts
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -34,6 +36,31 @@ std::string flawOf(const std::vector<double>& c) {
     return "";
 }
 
+std::optional<std::array<int, 3>> alignedWith(const glm::dmat3& directions) {
+    constexpr double kRounding = 1e-6;
+    std::array<int, 3> along{};
+    std::array<bool, 3> taken{};
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int c = 0; c < 3; ++c)
+            if (std::abs(directions[axis][c]) > 1 - kRounding)
+                along[axis] = c;
+            else if (!(std::abs(directions[axis][c]) <= kRounding))
+                return std::nullopt;
+        taken[along[axis]] = true;
+    }
+    if (!taken[0] || !taken[1] || !taken[2]) return std::nullopt;
+    return along;
+}
+
+std::string flawOf(const glm::dmat3& directions) {
+    // Far flatter than any real cell; floats would no longer draw it.
+    constexpr double kFlattest = 1e-3;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(glm::length(directions[axis]) - 1) < 1e-9))
+            return "an axis has no direction";
+    return std::abs(glm::determinant(directions)) < kFlattest ? "its axes lie in one plane" : "";
+}
+
 bool Axis::uniform() const {
     if (coordinates.size() < 3) return true;
     const double step = meanStep(*this);
@@ -52,7 +79,10 @@ double Axis::width(std::size_t i) const {
     return 0.5 * coordinates[i + 1] - 0.5 * coordinates[i - 1];
 }
 
-Grid::Grid(std::array<Axis, 3> axes) : axes_(std::move(axes)) {
+Grid::Grid(std::array<Axis, 3> axes, Frame frame)
+    : axes_(std::move(axes)), frame_(std::move(frame)) {
+    if (const std::string flaw = flawOf(frame_.directions); !flaw.empty())
+        throw std::invalid_argument("directions: " + flaw);
     std::uint64_t count = 1;
     for (const Axis& axis : axes_) {
         if (axis.coordinates.empty())
@@ -89,7 +119,9 @@ std::array<std::size_t, 3> unravel(std::uint64_t index, const std::array<std::si
 
 glm::dvec3 Grid::position(std::uint64_t index) const {
     const auto at = unravel(index, size());
-    return {axes_[0].coordinates[at[0]], axes_[1].coordinates[at[1]], axes_[2].coordinates[at[2]]};
+    const glm::dvec3 along(axes_[0].coordinates[at[0]], axes_[1].coordinates[at[1]],
+                           axes_[2].coordinates[at[2]]);
+    return frame_.origin + frame_.directions * along;
 }
 
 glm::dmat3 Grid::cell(std::uint64_t index) const {
@@ -103,7 +135,7 @@ glm::dmat3 Grid::cell(std::uint64_t index) const {
         const double width = axes_[a].width(at[a]);
         steps[a][a] = axes_[a].coordinates.size() > 1 ? width : smallest;
     }
-    return steps;
+    return frame_.directions * steps;
 }
 
 }  // namespace timeseries

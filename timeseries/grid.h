@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,27 +27,47 @@ struct Axis {
     friend bool operator==(const Axis&, const Axis&) = default;
 };
 
+// How the axes lie in the file's space: coordinates c along them are the place origin + directions
+// c.
+struct Frame {
+    glm::dmat3 directions{1.0};  // columns: of length 1, along increasing coordinates
+    glm::dvec3 origin{0.0};
+    std::array<std::string, 3> names{"x", "y", "z"};  // of the coordinates of space
+
+    // Whether each axis runs along its own coordinate of space, which it then measures.
+    bool aligned() const { return directions == glm::dmat3(1.0); }
+    friend bool operator==(const Frame&, const Frame&) = default;
+};
+
+// For each axis the coordinate of space that it runs along, forwards or backwards, but for
+// rounding (1e-6); nothing when one runs along none or two along one.
+std::optional<std::array<int, 3>> alignedWith(const glm::dmat3& directions);
+// What keeps directions from placing points, in words; "" when nothing does.
+std::string flawOf(const glm::dmat3& directions);
+
 // 0, 1, 2, ...: the coordinates of an axis that is counted, not measured (units "index").
 std::vector<double> indexCoordinates(std::uint64_t length);
 // What keeps coordinates from placing points, in words; "" when nothing does. REQUIRES: not empty.
 std::string flawOf(const std::vector<double>& coordinates);
 
-// Uniform and rectilinear grids. Points are numbered x fastest: index = x + nx (y + ny z).
-// Curvilinear and scattered grids come behind the same position() and cell().
+// Uniform and rectilinear grids, also rotated and sheared ones. Points are numbered x fastest:
+// index = x + nx (y + ny z). Curvilinear and scattered grids come behind the same position() and
+// cell().
 class Grid {
  public:
-    // REQUIRES: each axis strictly monotonic and finite. Throws std::invalid_argument when an axis
-    // is empty, not finite, not strictly monotonic, or the point count passes 2^63.
-    explicit Grid(std::array<Axis, 3> axes);
+    // Throws std::invalid_argument when an axis is empty, not finite or not strictly monotonic, the
+    // directions are flawed, or the point count passes 2^63.
+    explicit Grid(std::array<Axis, 3> axes, Frame frame = {});
 
     const std::array<Axis, 3>& axes() const { return axes_; }
+    const Frame& frame() const { return frame_; }
     std::array<std::size_t, 3> size() const;
     std::uint64_t count() const;
     bool uniform() const;
 
-    // In the units of the axes.
+    // In the file's space, in the units of the axes.
     glm::dvec3 position(std::uint64_t index) const;
-    // Columns: the steps along x, y and z that the point stands for (index step -> grid units).
+    // Columns: the steps along the axes that the point stands for (index step -> the file's space).
     // Never singular: an axis of one point takes the smallest mean step of the others, else 1.
     glm::dmat3 cell(std::uint64_t index) const;
 
@@ -54,6 +75,7 @@ class Grid {
 
  private:
     std::array<Axis, 3> axes_;
+    Frame frame_;
 };
 
 }  // namespace timeseries

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "timeseries/ordinary_file.h"
 #include "timeseries/readers/netcdf_reader.h"
 #include "timeseries/readers/nrrd_reader.h"
 #include "timeseries/readers/sequence_reader.h"
@@ -25,11 +26,7 @@ std::string beginning(const std::filesystem::path& path) {
     const auto fail = [&](std::string_view what) {
         throw FileError(fmt::format("{}: {}", path.string(), what));
     };
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) fail("expected a file, but there is none");
-    if (std::filesystem::is_directory(status)) fail("expected a file, but it is a folder");
-    if (!std::filesystem::is_regular_file(status)) fail("expected an ordinary file");
+    if (const std::string flaw = flawOfFile(path); !flaw.empty()) fail(flaw);
     std::ifstream file(path, std::ios::binary);
     std::string start(kMagicBytes, '\0');
     file.read(start.data(), static_cast<std::streamsize>(kMagicBytes));

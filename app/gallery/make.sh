@@ -28,7 +28,8 @@ picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --or
     --range 0.95:max --colormap viridis --opacity 0.35 --scale 1,1,0.0004
 
 # First looks: nothing is asked for, the program chooses.
-for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr; do
+for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr \
+    neghip/neghip.nhdr aneurism_256_u8.vti viscous_fingers/vf_run01.pvd pool_fire_vti/fire.pvd; do
     name=$(basename "${first%.*}")
     picture "$data/$first" "first_$name.png" --size 600x450
 done

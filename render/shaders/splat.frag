@@ -3,8 +3,8 @@
 // Variants: WEIGHT, WEIGHTED_COLOR, OVER or COUNT (what is accumulated), KERNEL_POINT, CUBES.
 
 layout(std140, binding = 0) uniform SplatView {
-    mat4 viewFromWorld;
-    vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slope;
+    mat4 viewFromAxes;
+    vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slopeAndLengths;
     uvec4 lattice, clipLo, clipHi;
 } view;
 
@@ -31,7 +31,7 @@ float opacity(float x) {
 
 void main() {
     const vec2 at = gl_FragCoord.xy - view.window.xy;
-    const float ray2 = 1.0 + dot(at * at, view.slope.xy);
+    const float ray2 = 1.0 + dot(at * at, view.slopeAndLengths.xy);
 #ifdef KERNEL_POINT
     const float w = centreAndWeight.z * sqrt(ray2);
 #else

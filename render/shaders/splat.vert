@@ -1,18 +1,19 @@
 // One lattice point -> the screen square that holds its footprint, and the footprint's coefficients.
-// World space to window offsets from the view axis, in pixels; formulas: render/footprint.h.
+// Axis coordinates (render/lattice.h) to window offsets from the view axis, in pixels; formulas:
+// render/footprint.h.
 // Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT, CUBES (all cells are equal
 // cubes: |d / a| is |d| / a, and the form in d needs no coefficients).
 
 // C++ mirror: SplatViewBlock in render/gl_splatter.cpp.
 layout(std140, binding = 0) uniform SplatView {
-    mat4 viewFromWorld;
-    vec4 rayAxis;   // world ray of the view axis; w: its length
-    vec4 perPixelX; // world, per pixel; w: pixels per unit of x / -z
+    mat4 viewFromAxes;
+    vec4 rayAxis;   // ray of the view axis; w: its length in the world
+    vec4 perPixelX; // of rays, per pixel; w: pixels per unit of x / -z
     vec4 perPixelY; // w: pixels per unit of y / -z
     vec4 window;    // window position of the view axis, size in pixels
     vec4 depths;    // near; window depth = (y d + z) / d of view depth d: y, z; guard in pixels
-    vec4 kernel;    // radius in cells, smallest radius in pixels, 1 / unit length, point's side in pixels
-    vec4 slope;     // squares of x / -z and y / -z per pixel
+    vec4 kernel;    // radius in cells, smallest radius at unit depth, mass of a cell with sides 1, point's side in pixels
+    vec4 slopeAndLengths;  // squares of x / -z and y / -z per pixel; view length of an axis length, at most; a pixel's area at unit depth
     uvec4 lattice;  // points along x, y, z
     uvec4 clipLo, clipHi;  // inclusive index box
 } view;
@@ -23,7 +24,7 @@ layout(std140, binding = 1) uniform Layers {
     vec4 map[8];    // position in the map = x v + y of the value v on that scale; z: by value: the map's entries, else 0; w: points that a splat stands for
 } layers;
 
-layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: world position, cell width
+layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: position along it, cell width
 layout(binding = 1) uniform sampler2D colorMaps;       // a row a layer, linear colour
 
 layout(location = 0) in uint gridIndex;
@@ -81,7 +82,7 @@ void main() {
     const vec2 py = texelFetch(axisPoints, int(n.x + ijk.y)).xy;
     const vec2 pz = texelFetch(axisPoints, int(n.x + n.y + ijk.z)).xy;
     const vec3 cell = vec3(px.y, py.y, pz.y);
-    const vec3 inView = (view.viewFromWorld * vec4(px.x, py.x, pz.x, 1.0)).xyz;
+    const vec3 inView = (view.viewFromAxes * vec4(px.x, py.x, pz.x, 1.0)).xyz;
     const float depth = -inView.z;
     const float near = view.depths.x;
     const bool clipped = any(lessThan(ijk, view.clipLo.xyz)) || any(greaterThan(ijk, view.clipHi.xyz));
@@ -99,7 +100,7 @@ void main() {
     const float t = clamp(depth / near - 1.0, 0.0, 1.0);
     const float fade = t * t * (3.0 - 2.0 * t);
     const uint l = min(layer, 7u);
-    const float volume = cell.x * cell.y * cell.z * view.kernel.z * fade * layers.map[l].w;
+    const float mass = cell.x * cell.y * cell.z * view.kernel.z * fade * layers.map[l].w;
 
 #if defined(WEIGHTED_COLOR) || defined(OVER)
     color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value + layers.map[l].y)
@@ -108,8 +109,7 @@ void main() {
     const float depthPerWeight = layers.style[l].w;
 #ifdef KERNEL_POINT
     const float side = view.kernel.w;
-    centreAndWeight = vec4(centre, volume / (depth * depth * length(X) * length(Y) * side * side),
-                           depthPerWeight);
+    centreAndWeight = vec4(centre, mass / (depth * depth * view.slopeAndLengths.w * side * side), depthPerWeight);
     quadN = vec4(0.0);
     // On whole pixels: the rasteriser snaps positions to a fraction of a pixel, on borders wrongly.
     const vec2 first = floor(centre + view.window.xy - 0.5 * (side - 1.0));
@@ -120,16 +120,16 @@ void main() {
     place(middle, side, depth);
 #endif
 #else
-    const float pixel = depth * max(length(X), length(Y));
+    const float smallest = depth * view.kernel.y;
 #ifdef CUBES
-    const float a = max(cell.x * view.kernel.x, pixel * view.kernel.y);
+    const float a = max(cell.x * view.kernel.x, smallest);
     const vec3 e = cross(C, X), f = cross(C, Y);
     const float zOverA = depth / (a * view.rayAxis.w);
     quadN = vec4(zOverA * zOverA * vec3(dot(e, e), 2.0 * dot(e, f), dot(f, f)), 0.0);
-    centreAndWeight = vec4(centre, 1.5915494309189535 * volume / (a * a), depthPerWeight);
+    centreAndWeight = vec4(centre, 1.5915494309189535 * mass / (a * a), depthPerWeight);
     const float widest = a;
 #else
-    const vec3 a = max(cell * view.kernel.x, vec3(pixel * view.kernel.y));
+    const vec3 a = max(cell * view.kernel.x, vec3(smallest));
     const vec3 c = C / a, x = X / a, y = Y / a;
     const vec3 e = cross(c, x), f = cross(c, y);
     const float perC2 = 1.0 / dot(c, c);
@@ -137,12 +137,12 @@ void main() {
     quadN = vec4(depth * depth * perC2 * vec3(dot(e, e), 2.0 * dot(e, f), dot(f, f)), linear.x);
     quadD = vec4(perC2 * vec3(dot(x, x), 2.0 * dot(x, y), dot(y, y)), linear.y);
     // 5 / pi, and |ray| = |axis| sqrt(1 + slope^2) left to the fragment but for |axis|.
-    const float weight = 1.5915494309189535 * volume / (a.x * a.y * a.z) * sqrt(perC2) * view.rayAxis.w;
+    const float weight = 1.5915494309189535 * mass / (a.x * a.y * a.z) * sqrt(perC2) * view.rayAxis.w;
     centreAndWeight = vec4(centre, weight, depthPerWeight);
     const float widest = max(a.x, max(a.y, a.z));
 #endif
     const float onUnitPlane =
-        sphereExtent(depth, widest / view.rayAxis.w, length(centre / focal));
+        sphereExtent(depth, widest * view.slopeAndLengths.z, length(centre / focal));
     const float extent = onUnitPlane < 0.0 ? 1e9 : onUnitPlane * max(focal.x, focal.y);
 #ifdef QUADS
     place(centre, extent, depth);

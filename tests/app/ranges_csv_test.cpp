@@ -1,11 +1,14 @@
-// The whole path of `isochron count` against percentages that other software (numpy) counted.
+// The whole path of `isochron count` against percentages that other software (numpy) counted: every
+// row of ranges.csv, whatever the format of its file.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <fstream>
-#include <set>
+#include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "app/dataset.h"
 #include "tests/support/shared_data.h"
@@ -15,75 +18,107 @@ namespace app {
 namespace {
 
 struct Row {
-    std::string file, variable, lo, hi;
+    std::string variable;
+    timeseries::RangeSet ranges;
     std::vector<std::string> percents;  // two decimals, a step each
 };
 
-bool ofFormat(const std::string& file, const std::vector<std::string>& extensions) {
-    return std::ranges::any_of(extensions, [&](const std::string& e) { return file.ends_with(e); });
-}
+using Rows = std::map<std::string, std::vector<Row>>;  // by file
 
-std::vector<Row> rowsOf(const std::vector<std::string>& extensions) {
+Rows allRows() {
     std::ifstream in(tests::sharedData("ranges.csv"));
-    std::vector<Row> rows;
-    for (std::string line; std::getline(in, line);) {
+    std::string line;
+    std::getline(in, line);
+    EXPECT_TRUE(line.starts_with("file,variable,lo,hi,steps,min_pct,max_pct,pct_per_step")) << line;
+    Rows rows;
+    while (std::getline(in, line)) {
         std::istringstream cut(line);
-        std::vector<std::string> cells;
-        for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
-        if (cells.size() != 8 || !ofFormat(cells[0], extensions)) continue;
-        Row row{cells[0], cells[1], cells[2], cells[3], {}};
+        std::array<std::string, 8> cells;
+        for (std::string& cell : cells) std::getline(cut, cell, ',');
+        Row row{cells[1], timeseries::RangeSet::parse(cells[2] + ":" + cells[3]), {}};
         std::istringstream percents(cells[7]);
         for (std::string one; percents >> one;) row.percents.push_back(one);
-        rows.push_back(row);
+        EXPECT_EQ(std::to_string(row.percents.size()), cells[4]) << line;
+        rows[cells[0]].push_back(std::move(row));
     }
     return rows;
 }
 
-void expectAgreement(const std::vector<Row>& rows) {
-    std::set<std::pair<std::string, std::string>> done;
-    for (const Row& row : rows) {
-        // Each step is built once for all rows of its file.
-        if (!done.insert({row.file, row.variable}).second) continue;
-        const std::filesystem::path file = tests::sharedData(row.file);
-        // Formats of one variable: the list has their unit or nothing for a name.
-        const bool named = row.file.ends_with(".nc");
-        Dataset dataset = openDataset(std::span(&file, 1), named ? row.variable : "");
-        for (std::size_t step = 0; step < dataset.stepCount(); ++step) {
-            const auto sorted =
-                timeseries::SortedStep::build(dataset.reader->read(dataset.variable, step));
-            for (const Row& each : rows) {
-                if (each.file != row.file || each.variable != row.variable) continue;
-                ASSERT_EQ(each.percents.size(), dataset.stepCount()) << row.file;
-                const auto ranges = timeseries::RangeSet::parse(each.lo + ":" + each.hi);
-                const double percent = 100.0 * static_cast<double>(sorted.count(ranges)) /
+// Files of the list that are not read yet; whoever reads one takes it out of here.
+struct NotRead {
+    std::string_view file, refusal;
+};
+constexpr std::array kNotRead{
+    // Unstructured grids.
+    NotRead{"can.vtu", "found \"UnstructuredGrid\""},
+    NotRead{"dambreak_amr/dambreak.pvd", "found \"UnstructuredGrid\""},
+    NotRead{"disk_out_ref.ex2", "found a finite-element mesh"},
+    NotRead{"mug_transient.e", "found a finite-element mesh"},
+    // A curvilinear grid whose format has no reader for such.
+    NotRead{"bluntfin/bluntfin.vts", "found \"StructuredGrid\""},
+    // A uniform grid, but NIfTI.
+    NotRead{"fmri_filtered_func_64t.nii.gz", "expected a NetCDF file"},
+};
+
+std::string refusalOf(const std::filesystem::path& file) {
+    try {
+        openDataset(std::span(&file, 1), "");
+    } catch (const timeseries::FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// By the name that is selected by, or in full; the file's first where the list has no name.
+std::size_t indexOf(const Dataset& dataset, const std::string& name) {
+    if (name.empty()) return dataset.variable;
+    const auto variables = dataset.reader->variables();
+    const auto found = std::ranges::find_if(
+        variables, [&](const auto& v) { return v.name == name || v.longName == name; });
+    if (found == variables.end()) throw std::runtime_error(dataset.name + ": no variable " + name);
+    return static_cast<std::size_t>(found - variables.begin());
+}
+
+void expectAgreement(const std::filesystem::path& file, const std::vector<Row>& rows) {
+    const Dataset dataset = openDataset(std::span(&file, 1), "");
+    std::map<std::size_t, std::vector<const Row*>> byVariable;
+    for (const Row& row : rows) byVariable[indexOf(dataset, row.variable)].push_back(&row);
+    for (const auto& [variable, its] : byVariable) {
+        const std::size_t steps = dataset.reader->variables()[variable].time->points.size();
+        for (const Row* row : its) ASSERT_EQ(row->percents.size(), steps) << file;
+        for (std::size_t step = 0; step < steps; ++step) {
+            const auto sorted = timeseries::SortedStep::build(dataset.reader->read(variable, step));
+            for (const Row* row : its) {
+                const double percent = 100.0 * static_cast<double>(sorted.count(row->ranges)) /
                                        static_cast<double>(sorted.statistics().points);
                 // Half a unit of the last digit printed; the rest is for percents that lie on a
                 // tie.
-                EXPECT_NEAR(percent, std::stod(each.percents[step]), 0.005 + 1e-9)
-                    << row.file << ' ' << row.variable << ' ' << ranges.text() << " step " << step;
+                EXPECT_NEAR(percent, std::stod(row->percents[step]), 0.005 + 1e-9)
+                    << file << ' ' << row->variable << ' ' << row->ranges.text() << " step "
+                    << step;
             }
         }
     }
 }
 
-class RangesCsv : public testing::Test {
- protected:
-    void SetUp() override {
-        if (!std::filesystem::exists(tests::sharedData("ranges.csv")))
-            GTEST_SKIP() << "no real data at " << tests::sharedData("ranges.csv");
+TEST(RangesCsv, CountAgreesInEveryStepOfEveryRowThatIsRead) {
+    if (!std::filesystem::exists(tests::sharedData("ranges.csv")))
+        GTEST_SKIP() << "no real data at " << tests::sharedData("ranges.csv");
+    const Rows rows = allRows();
+    for (const NotRead& each : kNotRead)
+        EXPECT_TRUE(rows.contains(std::string(each.file))) << each.file;
+    for (const auto& [file, its] : rows) {
+        const std::string refusal = refusalOf(tests::sharedData(file));
+        // A build without VTK says of each VTK file that it has none.
+        if (refusal.find("--with-vtk") != refusal.npos) continue;
+        const auto notRead = std::ranges::find(kNotRead, file, &NotRead::file);
+        if (notRead != kNotRead.end())
+            EXPECT_THAT(refusal, testing::HasSubstr(notRead->refusal));
+        else if (refusal.empty())
+            expectAgreement(tests::sharedData(file), its);
+        else
+            ADD_FAILURE() << refusal;
     }
-};
-
-TEST_F(RangesCsv, CountAgreesInEveryStepOfEveryNetcdfRow) {
-    const std::vector<Row> rows = rowsOf({".nc"});
-    EXPECT_GE(rows.size(), 19u);
-    expectAgreement(rows);
-}
-
-TEST_F(RangesCsv, CountAgreesInEveryStepOfEveryNrrdRow) {
-    const std::vector<Row> rows = rowsOf({".nrrd", ".nhdr"});
-    EXPECT_GE(rows.size(), 7u);
-    expectAgreement(rows);
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
+// The half edges of a box whose sides are along x, y and z.
+glm::dmat3 upright(const dvec3& half) { return {{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}}; }
+
 class ViewEdits : public testing::Test {
  protected:
     double uniform(double lo, double hi) {
@@ -22,7 +25,7 @@ class ViewEdits : public testing::Test {
     }
     Looking randomLooking() {
         const dvec3 half(uniform(0.1, 1), uniform(0.1, 1), uniform(0.1, 1));
-        return {half / glm::length(half),
+        return {upright(half / glm::length(half)),
                 {static_cast<int>(uniform(100, 900)), static_cast<int>(uniform(100, 900))}};
     }
     ViewChoice randomView() {
@@ -40,13 +43,13 @@ class ViewEdits : public testing::Test {
 
 // Window positions with y down, as the edits have them.
 dvec2 windowOf(const ViewChoice& view, const Looking& at, const dvec3& world) {
-    const dvec2 up = render::project(eyes(view, {}, at.boxHalf, at.size)[0], world).window;
+    const dvec2 up = render::project(eyes(view, {}, at.boxHalfEdges, at.size)[0], world).window;
     return {up.x, at.size.y - up.y};
 }
 
 // The point of the target's plane that a pixel shows: where its ray meets the plane.
 dvec3 worldUnder(const ViewChoice& view, const Looking& at, dvec2 cursor) {
-    const auto rays = render::pixelRays(eyes(view, {}, at.boxHalf, at.size)[0]);
+    const auto rays = render::pixelRays(eyes(view, {}, at.boxHalfEdges, at.size)[0]);
     const dvec2 offset = dvec2(cursor.x, at.size.y - cursor.y) - rays.centre;
     const dvec3 ray = rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY;
     const double along = glm::dot(view.target - rays.eye, rays.axis) / glm::dot(ray, rays.axis);
@@ -69,7 +72,7 @@ TEST_F(ViewEdits, PanningKeepsThePointUnderTheCursor) {
         EXPECT_LE(glm::distance(now, cursor + by), tolerance(view, 2000)) << "case " << i;
         EXPECT_EQ(next.azimuthDegrees, view.azimuthDegrees);
         EXPECT_EQ(next.elevationDegrees, view.elevationDegrees);
-        EXPECT_EQ(*next.distance, standOf(view, at.boxHalf, at.size).distance);
+        EXPECT_EQ(*next.distance, standOf(view, at.boxHalfEdges, at.size).distance);
     }
 }
 
@@ -83,7 +86,7 @@ TEST_F(ViewEdits, ZoomingKeepsThePointUnderTheCursor) {
         const ViewChoice next = zoomed(view, factor, cursor, at);
         EXPECT_LE(glm::distance(windowOf(next, at, held), cursor), tolerance(view, 2000))
             << "case " << i;
-        const double before = standOf(view, at.boxHalf, at.size).distance;
+        const double before = standOf(view, at.boxHalfEdges, at.size).distance;
         EXPECT_NEAR(*next.distance, before * factor, 1e-12 * before * factor);
     }
 }
@@ -101,9 +104,9 @@ TEST_F(ViewEdits, ZoomingStaysWithinWhatADistanceMayBe) {
 
 TEST_F(ViewEdits, TheBoxFollowsTheHandThatTurnsIt) {
     // What is nearest to the eye moves the way of the hand; half the shorter side is a right angle.
-    const Looking at{dvec3(1) / std::sqrt(3.0), {800, 600}};
+    const Looking at{glm::dmat3(1 / std::sqrt(3.0)), {800, 600}};
     const ViewChoice view{20, 10, 5.0};
-    const dvec3 nearest = standOf(view, at.boxHalf, at.size).axes[2];
+    const dvec3 nearest = standOf(view, at.boxHalfEdges, at.size).axes[2];
     const dvec2 before = windowOf(view, at, nearest);
     EXPECT_GT(windowOf(orbited(view, {10, 0}, at), at, nearest).x, before.x + 5);
     EXPECT_LT(windowOf(orbited(view, {-10, 0}, at), at, nearest).x, before.x - 5);
@@ -127,7 +130,7 @@ TEST_F(ViewEdits, TurningKeepsAnglesInBoundsAndTheDistance) {
                               next.azimuthDegrees) /
                              360;
         EXPECT_NEAR(turns, std::round(turns), 1e-9);
-        EXPECT_EQ(*next.distance, standOf(view, at.boxHalf, at.size).distance);
+        EXPECT_EQ(*next.distance, standOf(view, at.boxHalfEdges, at.size).distance);
         EXPECT_EQ(next.target, view.target);
     }
 }
@@ -149,7 +152,7 @@ TEST_F(ViewEdits, SidesAreWhereTheyAreSaidToBe) {
                                            {Side::Top, {0, 0, 1}},    {Side::Bottom, {0, 0, -1}}};
     for (const auto& [side, towardsEye] : from) {
         const ViewChoice view = lookedFrom(randomView(), side);
-        const dvec3 back = standOf(view, dvec3(1), {100, 100}).axes[2];
+        const dvec3 back = standOf(view, glm::dmat3(1), {100, 100}).axes[2];
         EXPECT_LE(glm::distance(back, towardsEye), 1e-15);
     }
 }

@@ -11,21 +11,38 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "timeseries/reader.h"
 
 namespace fuzz {
 
-inline void readAll(const std::uint8_t* data, std::size_t size, const std::string& name) {
-    static const std::filesystem::path folder = [] {
-        auto own = std::filesystem::temp_directory_path() / ("fuzz." + std::to_string(getpid()));
-        std::filesystem::create_directories(own);
-        return own;
-    }();
-    const std::filesystem::path path = folder / name;
+// This process's own, removed when it ends as it should.
+inline const std::filesystem::path& folder() {
+    struct Own {
+        std::filesystem::path path =
+            std::filesystem::temp_directory_path() / ("fuzz." + std::to_string(getpid()));
+        Own() { std::filesystem::create_directories(path); }
+        ~Own() {
+            std::error_code ignored;
+            std::filesystem::remove_all(path, ignored);
+        }
+    };
+    static const Own own;
+    return own.path;
+}
+
+inline std::filesystem::path write(const std::string& name, std::string_view bytes) {
+    const std::filesystem::path path = folder() / name;
+    // Some file systems wait for the disk when a file is written over.
     std::filesystem::remove(path);
     std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return path;
+}
+
+inline void readAll(std::string_view bytes, const std::string& name) {
+    const std::filesystem::path path = write(name, bytes);
     try {
         const auto reader = timeseries::openReader(std::span(&path, 1));
         for (std::size_t v = 0; v < reader->variables().size(); ++v) {
@@ -42,6 +59,10 @@ inline void readAll(const std::uint8_t* data, std::size_t size, const std::strin
         // One sentence on one line, or it is a finding.
         if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
     }
+}
+
+inline std::string_view text(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
 }
 
 }  // namespace fuzz

@@ -20,7 +20,7 @@ class Orthographic : public tests::GlTest {
     Orthographic() { view_.projection = Projection::Orthographic; }
 
     std::vector<View> eyesOf(const StereoChoice& stereo = {}) const {
-        return eyes(view_, stereo, lattice_.boxHalf(), {320, 240});
+        return eyes(view_, stereo, lattice_.boxHalfEdges(), {320, 240});
     }
     std::vector<double> truth(const View& view, float wall = 1) const {
         render::Accumulator<double> sums(view.size, {Channels::Weight});

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
+#include <numeric>
 
 #include "render/cpu_splatter.h"
 #include "render/gl/pass.h"
@@ -67,6 +69,44 @@ TEST_F(GlSplat, UnequalAndUnevenCellsAreTheTruths) {
     const Scene scene = noiseScene(step, lattice, "0.2:0.4");
     for (const glm::dvec3 eye : {glm::dvec3(0, -3, 0.4), glm::dvec3(0.3, -0.2, 2.5)})
         EXPECT_LE(error(*this, scene, lookFrom(eye, {400, 300}), Channels::Weight), kTarget);
+}
+
+TEST_F(GlSplat, TurnedAndShearedCellsAreTheTruths) {
+    const std::array cubic{tests::axis(20), tests::axis(20), tests::axis(20)};
+    const std::array unequal{tests::axis(24, 5, -0.2), tests::axis(16, 0, 0.7),
+                             tests::axis(12, 0, 0.4)};
+    const glm::dmat3 mirrored = tests::leaning({-1, 0.2, 0}, {0.4, 1, 0.3}, {-0.5, 0.3, 1});
+    const glm::dmat3 flat = tests::leaning({1, 0, 0}, {1, 0.2, 0}, {0.3, 0.1, 1});
+    for (const timeseries::Grid& grid :
+         {timeseries::Grid(cubic, {tests::rotation(0.9)}), timeseries::Grid(cubic, {mirrored}),
+          timeseries::Grid(unequal, {tests::rotation(2.2)}), timeseries::Grid(unequal, {flat})}) {
+        const auto step = tests::noise(std::make_shared<timeseries::Grid>(grid));
+        const Lattice lattice(grid);
+        Scene scene = noiseScene(step, lattice, "0.2:0.4", {ByValue{{}, 0.2, 0.4}, 0.3});
+        const double volume = glm::determinant(lattice.worldFromAxes());
+        // Sprites, quads, and cells below a pixel.
+        for (const glm::dvec3& eye :
+             {glm::dvec3(0, -3, 0.4), glm::dvec3(0.3, -0.2, 0.1), glm::dvec3(200, -300, 150)}) {
+            const View view = lookFrom(eye, {200, 160}, glm::length(eye) > 10 ? 0.02 : 0.4);
+            EXPECT_LE(error(*this, scene, view, Channels::Weight), kTarget)
+                << volume << ' ' << eye.x;
+        }
+        const View view = lookFrom(tests::kMidEye, {200, 200});
+        scene.order = Order::BackToFront;
+        Accumulator<double> inThatOrder(view.size, {Channels::Over});
+        splat(scene, order(scene, tests::kMidEye), view, {}, inThatOrder);
+        EXPECT_LE(
+            compareScalars(plane(scene, view, Channels::Over), inThatOrder.planes[0]).relativeL2,
+            kTarget)
+            << volume;
+        scene.order = Order::None;
+        scene.footprint = {Kernel::Point, 3};
+        const auto drawn = plane(scene, view, Channels::Weight);
+        const auto expected = truth(scene, view, Channels::Weight);
+        const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
+        EXPECT_NEAR(std::accumulate(drawn.begin(), drawn.end(), 0.0), total, 1e-5 * total)
+            << volume;
+    }
 }
 
 TEST_F(GlSplat, AsymmetricAndWideFrustaAreTheTruths) {

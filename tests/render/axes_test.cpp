@@ -162,6 +162,10 @@ Grid ocean() {
                  axis("lat", "degrees_north", -89.5, 89.5, 90),
                  axis("depth", "m", 0, 1000, 19, true)});
 }
+// The fire's grid, leaning and mirrored.
+Grid sheared() {
+    return Grid(fire().axes(), {tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1})});
+}
 std::vector<Grid> worlds() {
     return {
         fire(),
@@ -173,7 +177,9 @@ std::vector<Grid> worlds() {
         Grid({axis("x", "m", 10000000, 10000000.004, 5), axis("y", "m", 0, 0.001, 5),
               axis("z", "", 0, 1e-3, 2)}),
         Grid({axis("x", "m", 0, 1e-30, 5), axis("y", "m", 0, 0, 1), axis("z", "m", 0, 0, 1)}),
-        Grid({axis("x", "m", 4, 4, 1), axis("y", "m", 0, 0, 1), axis("z", "m", 0, 0, 1)})};
+        Grid({axis("x", "m", 4, 4, 1), axis("y", "m", 0, 0, 1), axis("z", "m", 0, 0, 1)}),
+        sheared(),
+        Grid(ocean().axes(), {tests::rotation(2)})};
 }
 
 glm::dvec3 eyeAt(double azimuth, double elevation, double distance) {
@@ -221,19 +227,18 @@ std::vector<Segment> segments(const AxesMeshes& meshes) {
 
 TEST(ShownUnit, OneIsNoUnit) { EXPECT_EQ(shownUnit("1"), ""); }
 
-TEST(Axes, EdgesEndAtTheProjectedCornersAtTheirDepth) {
+void expectEdgesBetweenCorners(const Grid& grid) {
     for (const glm::dvec3& eye : {eyeAt(-60, 25, 3), eyeAt(130, -50, 2.5), eyeAt(5, 5, 4)}) {
-        const Drawn d(ocean(), eye, {640, 480});
+        const Drawn d(grid, eye, {640, 480});
         const auto drawn = segments(d.meshes);
         ASSERT_GE(drawn.size(), 12u);
-        const glm::dvec3 half = d.lattice.boxHalf();
         for (int axis = 0; axis < 3; ++axis) {
             for (int sides = 0; sides < 4; ++sides) {
-                glm::dvec3 from = half, to = half;
-                from[(axis + 1) % 3] = to[(axis + 1) % 3] *= sides & 1 ? 1 : -1;
-                from[(axis + 2) % 3] = to[(axis + 2) % 3] *= sides & 2 ? 1 : -1;
-                from[axis] = -half[axis];
-                const glm::dvec3 a = seen(d.view, from), b = seen(d.view, to);
+                glm::dvec3 from(-1), to(1);
+                from[(axis + 1) % 3] = to[(axis + 1) % 3] = sides & 1 ? 1 : -1;
+                from[(axis + 2) % 3] = to[(axis + 2) % 3] = sides & 2 ? 1 : -1;
+                const glm::dmat3 half = d.lattice.boxHalfEdges();
+                const glm::dvec3 a = seen(d.view, half * from), b = seen(d.view, half * to);
                 const auto is = [&](const Segment& s) {
                     const auto near = [](const glm::dvec3& p, const glm::dvec3& q) {
                         return glm::distance(glm::dvec2(p), glm::dvec2(q)) < 0.01 &&
@@ -246,6 +251,48 @@ TEST(Axes, EdgesEndAtTheProjectedCornersAtTheirDepth) {
             }
         }
     }
+}
+
+TEST(Axes, EdgesEndAtTheProjectedCornersAtTheirDepth) {
+    expectEdgesBetweenCorners(ocean());
+    expectEdgesBetweenCorners(sheared());
+}
+
+TEST(Axes, OfATurnedGridAreTheUprightOnesSeenByATurnedCamera) {
+    const glm::dmat3 turn = tests::rotation(0.8);
+    const Grid turned(ocean().axes(), {turn, {1, 2, 3}});
+    for (const glm::dvec3& eye : {eyeAt(-60, 25, 3), eyeAt(130, -50, 2.5)}) {
+        const Drawn upright(ocean(), eye, {640, 480});
+        View view = upright.view;
+        view.viewFromWorld *= glm::dmat4(glm::transpose(turn));
+        const AxesMeshes meshes =
+            axesMeshes(turned, Lattice(turned), view, turn * eye, upright.font);
+        const auto same = [](const FlatMesh& a, const FlatMesh& b) {
+            ASSERT_EQ(a.triangles().size(), b.triangles().size());
+            for (std::size_t i = 0; i < a.triangles().size(); ++i)
+                EXPECT_LT(glm::distance(a.triangles()[i].at, b.triangles()[i].at), 1e-3) << i;
+        };
+        same(meshes.behind, upright.meshes.behind);
+        same(meshes.before, upright.meshes.before);
+        same(meshes.labels, upright.meshes.labels);
+    }
+}
+
+TEST(Axes, NumbersOfAShearedGridStandBesideTheirPlaces) {
+    const Grid grid = sheared();
+    const Drawn d(grid, eyeAt(-60, 25, 3.5), {1024, 1024});
+    const double line = labelStyle({1024, 1024}).linePixels;
+    const auto label = d.label("0.2");  // of the z axis, which takes its place first
+    ASSERT_TRUE(label);
+    const glm::dvec2 middle(0.5f * (label->lo + label->hi));
+    double nearest = 1e9;
+    for (int sides = 0; sides < 4; ++sides) {
+        glm::dvec3 along(sides & 1 ? 1 : -1, sides & 2 ? 1 : -1, 0);
+        along.z = d.lattice.axesFromGrid({0, 0, 0.2}).z / d.lattice.boxHalf().z;
+        const glm::dvec3 place = seen(d.view, d.lattice.boxHalfEdges() * along);
+        nearest = std::min(nearest, glm::distance(glm::dvec2(place), middle));
+    }
+    EXPECT_LT(nearest, 2.5 * line);
 }
 
 TEST(Axes, OnlyEdgesBehindTheWholeBoxAreDrawnBeforeTheVolume) {
@@ -393,7 +440,7 @@ TEST(Axes, LabelsLieInThePictureOutsideTheBoxAndApart) {
         std::vector<glm::dvec2> corners;
         for (int c = 0; c < 8; ++c) {
             const glm::dvec3 signs(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
-            corners.emplace_back(seen(d.view, d.lattice.boxHalf() * signs));
+            corners.emplace_back(seen(d.view, d.lattice.boxHalfEdges() * signs));
         }
         const auto found = labels(d.meshes.labels, static_cast<float>(labelStyle(size).linePixels));
         labelCount += found.size();

@@ -135,6 +135,91 @@ TEST(Truth, ASlabOfUniformOpticalDepthIsItsThickness) {
     }
 }
 
+TEST(Truth, AShearedSlabIsAsDeepAsTheRaysPathThroughIt) {
+    // The same columns leaning: k is 30 degrees off the slab's normal, j 20 degrees off its own.
+    const glm::dmat3 lean =
+        tests::leaning({1, 0, 0}, {std::tan(0.35), 1, 0}, {0.5, 0, std::sqrt(0.75)});
+    const auto grid =
+        std::make_shared<Grid>(std::array{axis(40), axis(40), axis(8)}, timeseries::Frame{lean});
+    const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }));
+    const double cell = world.lattice.cell(0).x;
+    const double thickness = 8 * cell * std::sqrt(0.75) / world.lattice.unitLength();
+    for (const double tilt : {0.0, 0.3, 0.6}) {
+        for (const double turn : {0.0, 2.0, 4.0}) {
+            const glm::dvec3 from =
+                200.0 * glm::dvec3(std::cos(turn) * std::sin(tilt),
+                                   std::sin(turn) * std::sin(tilt) - 1e-9, std::cos(tilt));
+            const View view = tests::lookFrom(from, {48, 48}, 0.15 / 200);
+            const double path = thickness / std::cos(tilt);
+            for (const double w : weights(world, view))
+                EXPECT_NEAR(w, path, 0.005 * path) << "tilt " << tilt << " turn " << turn;
+        }
+    }
+}
+
+TEST(Truth, ShearedCellsKeepTheTotalFromEverySide) {
+    const auto grid = std::make_shared<Grid>(
+        std::array{axis(2), axis(2, 0, 2), axis(2, 0, 0.5)},
+        timeseries::Frame{tests::leaning({1, 0, 0.2}, {1.5, 1, 0}, {-0.6, 0.3, 1})});
+    for (const Footprint footprint : {Footprint{Kernel::Quartic, 1}, Footprint{Kernel::Point, 3}}) {
+        const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }),
+                          RangeSet::everything(), footprint);
+        // Each cell is l^3 large, 8 of them, counted in units of l.
+        const double volume = 8 * std::pow(world.lattice.unitLength(), 2);
+        // Near, and so far that a pixel is larger than a cell.
+        for (const double distance : {60.0, 2000.0})
+            for (const glm::dvec3& from :
+                 {glm::dvec3(0, -1, 0), glm::dvec3(0, -0.1, 1), glm::dvec3(1, -1, 0.5)}) {
+                const View view = tests::lookFrom(distance * glm::normalize(from), {201, 201},
+                                                  distance == 60 ? 0.08 : 0.2);
+                EXPECT_NEAR(massDrawn(weights(world, view), view, distance), volume, 5e-3 * volume)
+                    << from.x << ' ' << from.z << " from " << distance;
+            }
+    }
+}
+
+// The upright scene and the oblique one, whose camera has turned with the grid.
+void expectSamePicture(const Grid& upright, const Grid& turned, const glm::dmat3& turn) {
+    const auto value = [](std::size_t i) { return static_cast<double>(i * 7919 % 101); };
+    for (const Footprint footprint : {Footprint{Kernel::Quartic, 1}, Footprint{Kernel::Point, 2}}) {
+        const World a(tests::stepOf(std::make_shared<Grid>(upright), value),
+                      RangeSet::parse("20:60"), footprint);
+        const World b(tests::stepOf(std::make_shared<Grid>(turned), value),
+                      RangeSet::parse("20:60"), footprint);
+        for (const glm::dvec3& from : {glm::dvec3(0.3, -3, 1.1), glm::dvec3(0.1, -0.2, 0.15)}) {
+            const View view = tests::lookFrom(from, {90, 70});
+            View turnedView = view;
+            turnedView.viewFromWorld *= glm::dmat4(glm::transpose(turn));
+            const auto expected = weights(a, view), drawn = weights(b, turnedView);
+            EXPECT_GT(std::accumulate(expected.begin(), expected.end(), 0.0), 1);
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                ASSERT_NEAR(drawn[i], expected[i], 1e-11 * (1 + expected[i])) << i;
+        }
+        // Ordered from the same place, the points come in the same order.
+        Scene sortedA = a.scene, sortedB = b.scene;
+        sortedA.order = sortedB.order = Order::BackToFront;
+        const glm::dvec3 eye(0.31, -2.9, 0.97);
+        EXPECT_EQ(std::get<Sorted>(orderExactly(sortedB, turn * eye)).point,
+                  std::get<Sorted>(orderExactly(sortedA, eye)).point);
+    }
+}
+
+TEST(Truth, ATurnedGridSeenByATurnedCameraIsTheSamePicture) {
+    const std::array axes{axis(7), axis(6, 3, -0.8), axis(5, 0, 1.7)};
+    const glm::dmat3 turn = tests::rotation(1.1);
+    expectSamePicture(Grid(axes), Grid(axes, {turn, {5, 6, 7}}), turn);
+    const std::array cubic{axis(7), axis(6), axis(5)};
+    expectSamePicture(Grid(cubic), Grid(cubic, {turn}), turn);
+}
+
+TEST(Truth, AMirroredAxisIsADescendingOne) {
+    const std::array ascending{axis(7, 2), axis(6), axis(5)};
+    const std::array descending{axis(7, -2, -1), axis(6), axis(5)};
+    const glm::dmat3 turn = tests::rotation(0.4);
+    const glm::dmat3 mirror(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1));
+    expectSamePicture(Grid(descending), Grid(ascending, {turn * mirror}), turn);
+}
+
 TEST(Truth, AShellIsAsDeepAsTheChordsThroughIt) {
     // Radii 12 to 20 cells; a ray at r cells from the middle meets 2 (sqrt(400 - r^2) - sqrt(144 -
     // r^2)) of them. Which points are inside is decided point by point, so single rays are

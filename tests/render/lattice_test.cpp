@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <random>
 
 #include "tests/support/scenes.h"
 
@@ -101,6 +103,61 @@ TEST(Lattice, AStretchIsTakenAsGiven) {
     EXPECT_NEAR(lattice.boxHalf().z / lattice.boxHalf().x, 3, 1e-12);
 }
 
+std::array<Axis, 3> unequal() { return {axis(5), axis(4, 7, -0.5), axis(3, 0, 2)}; }
+
+TEST(Lattice, ATurnedGridIsTheUprightOneTurned) {
+    const glm::dmat3 turn = tests::rotation(0.7);
+    const Lattice upright{Grid(unequal())}, turned{Grid(unequal(), {turn, {1e6, 0, -3}})};
+    for (std::uint64_t i = 0; i < 60; ++i)
+        EXPECT_LT(glm::distance(turned.position(i), turn * upright.position(i)), 1e-12) << i;
+    EXPECT_NEAR(turned.unitLength(), upright.unitLength(), 1e-12);
+    EXPECT_TRUE(Lattice(Grid({axis(5), axis(4), axis(3)}, {turn})).cubes());
+    EXPECT_FALSE(turned.cubes());
+}
+
+TEST(Lattice, AShearedGridKeepsTheFilesProportions) {
+    const Grid grid(unequal(), {tests::leaning({1, 0, 0}, {1, 1, 0}, {0.5, -0.3, 1}), {1, 2, 3}});
+    const Lattice lattice(grid, glm::dvec3(1));
+    // One scale and one offset take the file's places to the world's.
+    const glm::dvec3 first = grid.position(0), last = grid.position(59);
+    const double scale =
+        glm::distance(lattice.position(0), lattice.position(59)) / glm::distance(first, last);
+    double farthest = 0, volume = 0;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+        const glm::dvec3 expected = scale * (grid.position(i) - 0.5 * (first + last));
+        EXPECT_LT(glm::distance(lattice.position(i), expected), 1e-12) << i;
+        farthest = std::max(farthest, glm::length(lattice.position(i)));
+        volume += std::pow(scale, 3) * std::abs(glm::determinant(grid.cell(i))) / 60;
+    }
+    EXPECT_NEAR(farthest, 1, 1e-12);
+    EXPECT_NEAR(lattice.unitLength(), std::cbrt(volume), 1e-12);
+    EXPECT_FALSE(Lattice(Grid({axis(5), axis(5), axis(5)}, grid.frame())).cubes());
+    const glm::dvec3 corner = lattice.boxHalfEdges() * glm::dvec3(-1, 1, -1);
+    EXPECT_LT(glm::distance(corner, lattice.position(0)), 1e-12) << "the second axis descends";
+}
+
+TEST(Lattice, LengtheningHoldsForEveryDirection) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> any;
+    const auto vector = [&] { return glm::dvec3(any(random), any(random), any(random)); };
+    for (int i = 0; i < 50; ++i) {
+        const glm::dmat3 m = tests::leaning(vector(), vector(), vector());
+        if (std::abs(glm::determinant(m)) < 1e-2) continue;
+        const auto bounds = Lattice(Grid({axis(2), axis(2), axis(2)}, {m})).lengthening();
+        // By power iteration: the longest image, and the longest of the inverse.
+        const auto longest = [&](const glm::dmat3& by) {
+            glm::dvec3 v(0.3, 0.5, 0.8);
+            for (int n = 0; n < 20000; ++n) v = glm::normalize(glm::transpose(by) * (by * v));
+            return glm::length(by * v);
+        };
+        EXPECT_NEAR(bounds.most, longest(m), 1e-6) << i;
+        EXPECT_NEAR(1 / bounds.least, longest(glm::inverse(m)), 1e-6 / bounds.least) << i;
+    }
+    const auto rigid = Lattice(Grid(unequal(), {tests::rotation(2)})).lengthening();
+    EXPECT_NEAR(rigid.least, 1, 1e-7);
+    EXPECT_NEAR(rigid.most, 1, 1e-7);
+}
+
 TEST(IndexBox, HoldsThePointsInsideClosedRangesOnly) {
     const Grid grid({axis(10), axis(10, 9, -1), axis(10)});
     const glm::dvec3 lo(2, 2.5, -100), hi(4, 5, 100);
@@ -111,6 +168,15 @@ TEST(IndexBox, HoldsThePointsInsideClosedRangesOnly) {
             glm::all(glm::lessThanEqual(lo, p)) && glm::all(glm::lessThanEqual(p, hi));
         EXPECT_EQ(box.holds({i % 10, i / 10 % 10, i / 100}), inside) << i;
     }
+}
+
+TEST(IndexBox, OfAnObliqueGridCountsAlongItsAxes) {
+    const std::array<Axis, 3> axes{axis(10), axis(10), axis(10)};
+    const glm::dvec3 lo(2, 3, 4), hi(5, 6, 7);
+    const IndexBox oblique = indexBox(Grid(axes, {tests::rotation(1), {50, 50, 50}}), lo, hi);
+    const IndexBox upright = indexBox(Grid(axes), lo, hi);
+    EXPECT_EQ(oblique.lo, upright.lo);
+    EXPECT_EQ(oblique.hi, upright.hi);
 }
 
 TEST(IndexBox, OutsideTheGridHoldsNothing) {

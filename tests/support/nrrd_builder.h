@@ -1,6 +1,7 @@
 // NRRD files for tests, written by hand: a header's lines, then bytes.
 #pragma once
 
+#include <bzlib.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -38,6 +39,21 @@ inline std::string gzipped(const std::string& bytes) {
     out.resize(stream.total_out);
     deflateEnd(&stream);
     return out;
+}
+
+inline std::string bzipped(const std::string& bytes) {
+    // The most it can take (bzlib's manual, 3.5.1).
+    auto size = static_cast<unsigned>(bytes.size() + bytes.size() / 100 + 601);
+    std::string out(size, '\0');
+    BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(bytes.data()),
+                             static_cast<unsigned>(bytes.size()), 9, 0, 0);
+    out.resize(size);
+    return out;
+}
+
+// In one of the encodings "raw", "gzip" and "bzip2".
+inline std::string encoded(const std::string& encoding, const std::string& bytes) {
+    return encoding == "gzip" ? gzipped(bytes) : encoding == "bzip2" ? bzipped(bytes) : bytes;
 }
 
 // "NRRD0004", the lines, a blank line, the bytes.

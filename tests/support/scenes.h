@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <random>
 
@@ -20,6 +21,16 @@ inline timeseries::Axis axis(std::size_t n, double first = 0, double step = 1) {
 
 inline std::shared_ptr<const timeseries::Grid> cube(std::size_t n) {
     return std::make_shared<timeseries::Grid>(std::array{axis(n), axis(n), axis(n)});
+}
+
+// Directions turned about no axis in particular.
+inline glm::dmat3 rotation(double angle) {
+    return glm::dmat3(glm::rotate(glm::dmat4(1.0), angle, glm::normalize(glm::dvec3(1, -2, 3))));
+}
+
+// Columns scaled to length 1: directions that lean over each other.
+inline glm::dmat3 leaning(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
+    return {glm::normalize(x), glm::normalize(y), glm::normalize(z)};
 }
 
 // Values f(i) by grid index.

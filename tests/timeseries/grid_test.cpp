@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <stdexcept>
@@ -154,6 +155,49 @@ TEST(Grid, ComparesByAxes) {
               Grid({counted(3), counted(2), counted(1)}));
     EXPECT_FALSE(Grid({counted(3), counted(2), counted(1)}) ==
                  Grid({counted(2), counted(3), counted(1)}));
+}
+
+TEST(Grid, ObliqueAxesPlaceEveryPointAndCell) {
+    // Sheared and mirrored; the coordinates along the axes are uneven, descending, and not from 0.
+    const glm::dvec3 i(0.6, 0, 0.8), j(0, -1, 0), k(-0.48, 0.6, 0.64), origin(100, -20, 3);
+    const std::array<Axis, 3> axes{axis({0, 1, 3}), axis({5, 3}), axis({0, 10, 40, 50})};
+    const Grid grid(axes, {{i, j, k}, origin});
+    EXPECT_LT(glm::determinant(grid.frame().directions), 0);
+    for (std::uint64_t index = 0; index < grid.count(); ++index) {
+        const std::uint64_t x = index % 3, y = index / 3 % 2, z = index / 6;
+        const glm::dvec3 expected = origin + axes[0].coordinates[x] * i +
+                                    axes[1].coordinates[y] * j + axes[2].coordinates[z] * k;
+        EXPECT_LT(glm::distance(grid.position(index), expected), 1e-12) << index;
+        const glm::dmat3 cell = grid.cell(index);
+        EXPECT_LT(glm::distance(cell[0], axes[0].width(x) * i), 1e-12) << index;
+        EXPECT_LT(glm::distance(cell[1], axes[1].width(y) * j), 1e-12) << index;
+        EXPECT_LT(glm::distance(cell[2], axes[2].width(z) * k), 1e-12) << index;
+    }
+    EXPECT_FALSE(grid == Grid(axes)) << "other places";
+}
+
+TEST(Grid, DirectionsThatPlaceNothingAreRefused) {
+    const std::array<Axis, 3> axes{axis({0, 1}), axis({0, 1}), axis({0, 1})};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), half(std::sqrt(0.5), std::sqrt(0.5), 0);
+    for (const glm::dmat3& flawed :
+         {glm::dmat3(x, y, half), glm::dmat3(x, x, z), glm::dmat3(x, y, glm::dvec3(0)),
+          glm::dmat3(x, y, 2.0 * z), glm::dmat3(x, glm::dvec3(nan), z)})
+        EXPECT_THROW(Grid(axes, {flawed}), std::invalid_argument);
+    EXPECT_NO_THROW(Grid(axes, {glm::dmat3(x, half, z)}));
+}
+
+TEST(AlignedWith, TellsWhichCoordinateEachAxisRunsAlong) {
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    using Along = std::array<int, 3>;
+    EXPECT_EQ(alignedWith(glm::dmat3(1.0)), (Along{0, 1, 2}));
+    EXPECT_EQ(alignedWith({y, -z, x}), (Along{1, 2, 0}));
+    EXPECT_EQ(alignedWith({glm::dvec3(1, 1e-7, 0), y, z}), (Along{0, 1, 2})) << "rounding";
+    EXPECT_FALSE(alignedWith({x, x, z}));
+    EXPECT_FALSE(alignedWith({x, y, glm::dvec3(0)}));
+    const double angle = 1e-4;
+    EXPECT_FALSE(alignedWith({glm::dvec3(std::cos(angle), std::sin(angle), 0),
+                              glm::dvec3(-std::sin(angle), std::cos(angle), 0), z}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <random>
@@ -123,6 +124,26 @@ TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
     }
 }
 
+// HDF5 1.10 copies as many bytes as an object of its global heap claims to have. The heap ("HDF5
+// File Format Specification", III.E): 16 bytes, then objects, each an index in 2 bytes, 6 others,
+// its size in 8 and its bytes, padded to 8; index 0 is what is free.
+TEST(DamagedNetcdf, Netcdf4HeadersThatCrashHdf5AreReadOrRefused) {
+    const std::string whole = bytesOf(sample(NC_NETCDF4));
+    const std::size_t heap = whole.find("GCOL");
+    ASSERT_NE(heap, std::string::npos);
+    const Path path = tests::testFolder() / "heap.nc";
+    std::size_t objects = 0, size = 0;
+    for (std::size_t at = heap + 16; whole[at] != 0; at += 16 + (size + 7) / 8 * 8, ++objects) {
+        std::memcpy(&size, whole.data() + at + 8, 8);
+        ASSERT_LT(at + 16 + size, whole.size());
+        std::string bytes = whole;
+        bytes[at + 8 + 5] = 1;  // 2^40 more
+        tests::writeBytes(path, bytes);
+        contents(path);
+    }
+    EXPECT_GE(objects, 4u);  // one a dimension at least
+}
+
 TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
     EXPECT_EQ(refusal({}), "expected a file to open, but none is named");
     const Path missing = tests::testFolder() / "there_is_none.nc";
@@ -174,6 +195,12 @@ TEST(DamagedNetcdf, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
               c = steps.dimension("x", 2);
     steps.variable("v", NC_BYTE, {t, d, c});
     EXPECT_THAT(refusal({steps.close()}), HasSubstr("steps, found 1099511627776"));
+}
+
+TEST(DamagedNetcdf, MoreVariablesThanNetcdfAllowsAreRefused) {
+    NetcdfBuilder file("many.nc", 0);
+    for (int i = 0; i < NC_MAX_VARS + 1; ++i) file.variable(fmt::format("v{}", i), NC_BYTE, {});
+    EXPECT_THAT(refusal({file.close()}), HasSubstr("expected at most 8192 variables, found 8193"));
 }
 
 TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {

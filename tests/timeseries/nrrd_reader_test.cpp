@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "tests/support/nrrd_builder.h"
@@ -28,13 +29,11 @@ template <typename T>
 void expectExact(const std::string& type, ValueType expected) {
     const std::vector<T> values = telling<T>();
     for (const std::endian order : {std::endian::little, std::endian::big})
-        for (const bool gzip : {false, true}) {
-            const std::string bytes = bytesOf(values, order);
+        for (const char* encoding : {"raw", "gzip", "bzip2"}) {
             const auto reader = openBytes(
                 nrrd(fmt::format("type: {}\ndimension: 3\nsizes: 2 2 2\nendian: {}\nencoding: {}\n",
-                                 type, order == std::endian::little ? "little" : "big",
-                                 gzip ? "gzip" : "raw"),
-                     gzip ? gzipped(bytes) : bytes));
+                                 type, order == std::endian::little ? "little" : "big", encoding),
+                     encoded(encoding, bytesOf(values, order))));
             EXPECT_EQ(reader->variables()[0].type, expected) << type;
             EXPECT_EQ(valuesOf<T>(*reader), values) << type;
         }
@@ -45,7 +44,7 @@ void expectExact(const std::string& type, ValueType expected) {
     EXPECT_EQ(valuesOf<T>(*reader), values) << type << " as text";
 }
 
-TEST(Nrrd, EveryTypeInEitherByteOrderRawGzipAndTextIsExact) {
+TEST(Nrrd, EveryTypeInEitherByteOrderAndEveryEncodingIsExact) {
     expectExact<std::int8_t>("int8", ValueType::I8);
     expectExact<std::int8_t>("signed char", ValueType::I8);
     expectExact<std::uint8_t>("uchar", ValueType::U8);
@@ -99,14 +98,13 @@ TEST(Nrrd, TimeStandsOnAnyAxisAndDirectionsPutSpaceInOrder) {
         }
         // Each value is the place it has in the file.
         const auto stored = ramp<std::uint16_t>(5 * 3 * 4 * 6);
-        for (const bool gzip : {false, true}) {
-            const std::string bytes = bytesOf(stored);
+        for (const char* encoding : {"raw", "gzip", "bzip2"}) {
             const auto reader = openBytes(
                 nrrd(fmt::format("type: ushort\ndimension: 4\nspace dimension: 3\nsizes:{}\n"
                                  "space directions:{}\nkinds:{}\nspace origin: (1,10,100)\n"
                                  "endian: little\nencoding: {}\n",
-                                 sizes, directions, kinds, gzip ? "gzip" : "raw"),
-                     gzip ? gzipped(bytes) : bytes));
+                                 sizes, directions, kinds, encoding),
+                     encoded(encoding, bytesOf(stored))));
             const Variable& variable = reader->variables()[0];
             ASSERT_EQ(variable.time->points.size(), 6u);
             ASSERT_THAT(variable.grid->size(), ElementsAre(5, 3, 4)) << sizes;
@@ -129,7 +127,7 @@ TEST(Nrrd, StepsLargerThanTheBufferAreReadWhole) {
     // 70,001 values a row: neither a multiple of the buffer's bytes nor of what is turned at once.
     const auto stored = ramp<std::uint32_t>(70001 * 2 * 3);
     const std::string bytes = bytesOf(stored, std::endian::big);
-    for (const bool gzip : {false, true})
+    for (const char* encoding : {"raw", "gzip", "bzip2"})
         for (const char* directions :
              {"(1,0,0) (0,1,0) none", "(0,1,0) (1,0,0) none", "none (1,0,0) (0,0,1)"}) {
             const auto reader = openBytes(
@@ -137,8 +135,8 @@ TEST(Nrrd, StepsLargerThanTheBufferAreReadWhole) {
                                  "space directions: {}\nkinds: {}\nendian: big\nencoding: {}\n",
                                  directions,
                                  directions[0] == 'n' ? "time space space" : "space space time",
-                                 gzip ? "gzip" : "raw"),
-                     gzip ? gzipped(bytes) : bytes));
+                                 encoding),
+                     encoded(encoding, bytes)));
             const std::size_t step = 2;
             const auto values = valuesOf<std::uint32_t>(*reader, step);
             for (std::size_t i = 0; i < values.size(); ++i) {
@@ -199,15 +197,84 @@ TEST(Nrrd, AxesWithoutSpacingAreCountedAndSaySo) {
                     "z is placed by index: a spacing of 1 does not tell its samples apart"));
 }
 
-TEST(Nrrd, RotatedAndShearedGridsAreDrawnInIndexSpace) {
-    for (const char* directions : {"(0.8,0.6,0) (-0.6,0.8,0) (0,0,1)", "(1,0,0) (1,1,0) (0,0,1)",
-                                   "(1,0,0) (2,0,0) (0,0,1)", "(0,0,0) (0,1,0) (0,0,1)"}) {
-        const auto reader =
-            openBytes(slab(fmt::format("space: RAS\nspace directions: {}\n", directions)));
+// The place of every sample as the format defines it: origin + i d0 + j d1 + k d2.
+void expectPlaces(const Grid& grid, const glm::dvec3& origin, const glm::dmat3& steps) {
+    const auto n = grid.size();
+    for (std::uint64_t index = 0; index < grid.count(); ++index) {
+        const glm::dvec3 ijk(index % n[0], index / n[0] % n[1], index / n[0] / n[1]);
+        EXPECT_LT(glm::distance(grid.position(index), origin + steps * ijk), 1e-9) << index;
+        EXPECT_LT(glm::distance(grid.cell(index)[0], steps[0]), 1e-9) << index;
+    }
+}
+
+TEST(Nrrd, RotatedAndShearedGridsLieWhereTheirDirectionsSay) {
+    struct Case {
+        const char* directions;
+        glm::dmat3 steps;
+    };
+    for (const Case& c :
+         {Case{"(1.6,1.2,0) (-0.6,0.8,0) (0,0,3)", {{1.6, 1.2, 0}, {-0.6, 0.8, 0}, {0, 0, 3}}},
+          Case{"(1,0,0) (1,1,0) (0,0,-2)", {{1, 0, 0}, {1, 1, 0}, {0, 0, -2}}},
+          Case{"(0,0.5,0.5) (1,0,0) (0,2,-1)", {{0, 0.5, 0.5}, {1, 0, 0}, {0, 2, -1}}}}) {
+        const auto reader = openBytes(
+            slab(fmt::format("space: RAS\nspace origin: (-10,20,1e6)\nspace units: \"mm\" \"mm\" "
+                             "\"mm\"\nspace directions: {}\n",
+                             c.directions)));
+        EXPECT_EQ(valuesOf<std::uint8_t>(*reader), ramp<std::uint8_t>(24));
+        const Grid& grid = *reader->variables()[0].grid;
+        expectPlaces(grid, {-10, 20, 1e6}, c.steps);
+        EXPECT_EQ(grid.axes()[0].name, "i");
+        EXPECT_EQ(grid.axes()[2].units, "mm");
+        EXPECT_EQ(grid.axes()[0].coordinates[0], 0) << "lengths from the first sample";
+        EXPECT_THAT(grid.frame().names, ElementsAre("right", "anterior", "superior"));
+        EXPECT_TRUE(reader->variables()[0].notes.empty());
+    }
+}
+
+TEST(Nrrd, DirectionsThatPlaceNothingAreDrawnInIndexSpace) {
+    for (const char* space :
+         {"space directions: (1,0,0) (2,0,0) (0,0,1)", "space directions: (0,0,0) (0,1,0) (0,0,1)",
+          "space directions: (1,0,0) (0,1,0) (1,1,1e-9)",
+          "space directions: (1e300,1e300,0) (0,1,0) (0,1e308,1e308)",
+          "space directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\nspace units: \"m\" \"mm\" \"m\""}) {
+        const auto reader = openBytes(slab(fmt::format("space: RAS\n{}\n", space)));
         EXPECT_EQ(valuesOf<std::uint8_t>(*reader), ramp<std::uint8_t>(24));
         EXPECT_EQ(coordinates(*reader, 1), (std::vector<double>{0, 1, 2}));
-        EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("index space")));
+        EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("index space"))) << space;
     }
+}
+
+TEST(Nrrd, ObliquePlanesAndRowsStandInSpace) {
+    const auto plane =
+        openBytes(nrrd("type: uchar\ndimension: 2\nsizes: 2 3\nencoding: raw\nspace: RAS\n"
+                       "space directions: (0.6,0,0.8) (0,2,0)\nspace origin: (1,2,3)\n",
+                       "abcdef"));
+    const Grid& grid = *plane->variables()[0].grid;
+    EXPECT_LT(glm::distance(grid.position(5), {1.6, 6, 3.8}), 1e-12);
+    EXPECT_NEAR(glm::length(grid.cell(0)[2]), 1, 1e-12) << "as thick as its smallest step";
+    EXPECT_NEAR(glm::dot(grid.cell(0)[2], grid.cell(0)[0]), 0, 1e-12) << "and upright";
+    const auto row =
+        openBytes(nrrd("type: uchar\ndimension: 1\nsizes: 6\nencoding: raw\n"
+                       "space: RAS\nspace directions: (1,1,1)\n",
+                       "abcdef"));
+    EXPECT_LT(glm::distance(row->variables()[0].grid->position(5), {5, 5, 5}), 1e-12);
+}
+
+TEST(Nrrd, ObliqueStepsOfASeriesShareTheirPlaces) {
+    // Time in space, as the fourth coordinate, and as the first axis.
+    const auto reader =
+        openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
+                       "space directions: (0,0,0,5) (0.6,0.8,0,0) (-0.8,0.6,0,0) (0,0,1,0)\n",
+                       bytesOf(ramp<std::uint8_t>(12))));
+    EXPECT_EQ(reader->variables()[0].time->points.size(), 2u);
+    expectPlaces(*reader->variables()[0].grid, {}, {{0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}});
+    EXPECT_EQ(valuesOf<std::uint8_t>(*reader, 1), (std::vector<std::uint8_t>{1, 3, 5, 7, 9, 11}));
+    // A direction that leans into time has no place in space.
+    const auto leaning =
+        openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
+                       "space directions: (0,0,0,5) (0.6,0.8,0,1) (-0.8,0.6,0,0) (0,0,1,0)\n",
+                       bytesOf(ramp<std::uint8_t>(12))));
+    EXPECT_THAT(leaning->variables()[0].notes, ElementsAre(HasSubstr("index space")));
 }
 
 TEST(Nrrd, LeftHandedSpacesSayThatThePictureIsMirrored) {
@@ -217,6 +284,10 @@ TEST(Nrrd, LeftHandedSpacesSayThatThePictureIsMirrored) {
     EXPECT_EQ(reader->variables()[0].grid->axes()[1].name, "anterior");
     EXPECT_EQ(reader->variables()[0].grid->axes()[1].units, "mm");
     EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("mirrored")));
+    const auto oblique =
+        openBytes(slab("space: LAS\nspace directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\n"));
+    EXPECT_THAT(oblique->variables()[0].notes, ElementsAre(HasSubstr("mirrored")));
+    expectPlaces(*oblique->variables()[0].grid, {}, {{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, 1}});
 }
 
 TEST(Nrrd, PlanesAndRowsAreOneLayer) {
@@ -362,6 +433,25 @@ TEST_F(DetachedNrrd, OneFileASliceRowOrSlab) {
     writeBytes(folder / "b", part(12, 12));
     EXPECT_EQ(open("encoding: raw\ndata file: LIST 3\na\nb\n"), "");
     expectRamp();
+}
+
+TEST_F(DetachedNrrd, FilesOutsideTheHeadersFolderAreFoundFromItOrByAnAbsolutePath) {
+    for (const char* each : {"header", "values/raw"})
+        std::filesystem::create_directories(folder / each);
+    for (std::size_t i = 0; i < 4; ++i)
+        writeBytes(folder / fmt::format("values/raw/s{}", i), part(6 * i, 6));
+    writeBytes(folder / "values/all", part(0, 24));
+    std::filesystem::create_symlink("../values/all", folder / "header/link");
+    const std::filesystem::path values = folder / "values";
+    folder /= "header";
+    for (const std::string& dataFile :
+         {std::string("../values/all"), (values / "all").string(), std::string("link"),
+          std::string("../values/raw/s%d 0 3 1"), (values / "raw/s%d 0 3 1").string(),
+          "LIST\n../values/raw/s0\n../values/raw/../raw/s1\n" + (values / "raw/s2").string() +
+              "\n../values/raw/s3"}) {
+        EXPECT_EQ(open("encoding: raw\ndata file: " + dataFile + "\n"), "") << dataFile;
+        expectRamp();
+    }
 }
 
 TEST_F(DetachedNrrd, APercentSignWithoutNumbersIsAName) {

@@ -159,12 +159,117 @@ TEST(DamagedVtk, HostileXmlIsRefused) {
     std::string deep = "<VTKFile type=\"ImageData\">";
     for (int i = 0; i < 100000; ++i) deep += "<a>";
     EXPECT_THAT(refusal(deep), HasSubstr("nested elements"));
+    // expat reads a tag or a comment again from its start with each piece of the file.
+    const std::string longText(std::size_t{2} << 20, '1');
+    EXPECT_THAT(refusal(imageText({.attributes = "Spacing=\"" + longText + "\""})),
+                HasSubstr("expected at most 1 MiB in a tag or a comment"));
+    EXPECT_THAT(refusal("<VTKFile><!--" + longText + "--></VTKFile>"),
+                HasSubstr("expected at most 1 MiB in a tag or a comment"));
+    const std::string shortText(std::size_t{1} << 19, ' ');
+    EXPECT_EQ(refusal(imageText({.attributes = "Spacing=\"1 1 1" + shortText + "\"",
+                                 .points = dataArray("Float64", "v", twelve())})),
+              "");
     std::string many = "<VTKFile type=\"ImageData\">";
     for (int i = 0; i < 300000; ++i) many += "<a/>";
     EXPECT_THAT(refusal(many + "</VTKFile>"), HasSubstr("elements"));
     EXPECT_THAT(refusal("<VTKFile>"), HasSubstr("expected well-formed XML"));
     EXPECT_THAT(refusal("<VTKFile/>"), HasSubstr("expected the type ImageData"));
     EXPECT_THAT(refusal("<VTKFile type=\"ImageData\"/>"), HasSubstr("expected one ImageData"));
+}
+
+// VTK 9.1 crashes on the unknown ones, and makes as many strings as are declared.
+TEST(DamagedVtk, FieldDataOfUnknownTypeOrSizeIsRefused) {
+    const auto with = [](const std::string& array) {
+        return imageText({.points = dataArray("Float64", "v", twelve()), .field = array});
+    };
+    for (const std::string type : {"Float", "float64", ""})
+        EXPECT_THAT(refusal(with(dataArray(type, "TimeValue", std::vector{2.5}))),
+                    HasSubstr("expected a type that VTK knows, found \"" + type + "\""));
+    EXPECT_EQ(refusal(with("<Array type=\"String\" Name=\"s\" NumberOfTuples=\"1\" "
+                           "format=\"ascii\">72 105 0</Array>")),
+              "");
+    EXPECT_THAT(refusal(with("<Array type=\"String\" Name=\"s\" NumberOfTuples=\"1000000000\" "
+                             "format=\"ascii\">72 105 0</Array>")),
+                HasSubstr("expected values within the file, found 1000000000"));
+}
+
+TEST(DamagedVtk, ArraysThatTheFileLacksAreToldOf) {
+    const auto array = [](const std::string& attributes) {
+        return imageText({.points = "<DataArray type=\"Float64\" Name=\"v\" " + attributes + "/>"});
+    };
+    EXPECT_THAT(refusal(array("format=\"ascii\"")), HasSubstr("expected 12 values, found 0"));
+    EXPECT_THAT(refusal(array("format=\"binary\"")), HasSubstr("but the file ends"));
+    EXPECT_THAT(refusal(array("format=\"appended\"")), HasSubstr("expected an offset, found \"\""));
+    EXPECT_THAT(refusal(array("format=\"appended\" offset=\"-1\"")), HasSubstr("found \"-1\""));
+    EXPECT_THAT(refusal(array("format=\"appended\" offset=\"0\"")),
+                HasSubstr("expected appended values, but the file ends before"));
+    EXPECT_THAT(refusal(array("format=\"hex\"")), HasSubstr("found \"hex\""));
+    EXPECT_THAT(refusal(array("NumberOfComponents=\"nan\"")),
+                HasSubstr("NumberOfComponents: expected 1 finite numbers"));
+    EXPECT_THAT(refusal(array("NumberOfComponents=\"-3\"")), HasSubstr("expected a count"));
+
+    const std::string start = "<VTKFile type=\"RectilinearGrid\"><RectilinearGrid WholeExtent=\"";
+    const auto rectilinear = [&](const std::string& extent, const std::string& coordinates) {
+        return start + extent + "\"><Piece Extent=\"" + extent + "\"><PointData>" +
+               dataArray("Int8", "v", std::vector<int>{1, 2}) + "</PointData>" + coordinates +
+               "</Piece></RectilinearGrid></VTKFile>";
+    };
+    const std::string two = dataArray("Float32", "", std::vector{0.f, 1.f}),
+                      one = dataArray("Float32", "", std::vector{0.f});
+    const std::string missing = "expected Coordinates of three arrays, x, y and z";
+    EXPECT_EQ(
+        refusal(rectilinear("0 1 0 0 0 0", "<Coordinates>" + two + one + one + "</Coordinates>")),
+        "");
+    EXPECT_THAT(refusal(rectilinear("0 1 0 0 0 0", "")), HasSubstr(missing));
+    EXPECT_THAT(refusal(rectilinear("0 1 0 0 0 0", "<Coordinates/>")), HasSubstr(missing));
+    EXPECT_THAT(refusal(rectilinear("0 1 0 0 0 0", "<Coordinates>" + two + one + "</Coordinates>")),
+                HasSubstr(missing));
+    EXPECT_THAT(
+        refusal(rectilinear("0 1 0 0 0 0", "<Coordinates>" + one + one + one + "</Coordinates>")),
+        HasSubstr("expected 2 values, found 1"));
+    EXPECT_THAT(refusal(start + "0 1 0 0 0 0\"/></VTKFile>"),
+                HasSubstr("expected a Piece, found none"));
+}
+
+TEST(DamagedVtk, MoreArraysThanAnyUseNeedsAreRefused) {
+    const std::string legacy =
+        "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+        "DIMENSIONS 1 1 1\nPOINT_DATA 1\n";
+    std::string field = "FIELD f 4097\n", elements, wide = "FIELD f 65\n";
+    for (int i = 0; i < 4097; ++i) {
+        field += fmt::format("a{} 1 1 char\n1\n", i);
+        elements += dataArray("Int8", fmt::format("a{}", i), std::vector<int>{1});
+    }
+    std::string ones;
+    for (int i = 0; i < 1024; ++i) ones += "1 ";
+    for (int i = 0; i < 65; ++i) wide += fmt::format("w{} 1024 1 char\n{}\n", i, ones);
+    const std::string why = "expected at most 4096 arrays, found ";
+    EXPECT_THAT(refusal(legacy + field), HasSubstr(why));
+    EXPECT_THAT(refusal(imageText({.extent = "0 0 0 0 0 0", .points = elements})), HasSubstr(why));
+    EXPECT_THAT(refusal(imageText({.extent = "0 0 0 0 0 0",
+                                   .points = dataArray("Int8", "v", std::vector<int>{1}),
+                                   .field = elements})),
+                HasSubstr(why));
+    EXPECT_THAT(refusal(legacy + wide),
+                HasSubstr("'w64': expected at most 65536 components of all arrays"));
+}
+
+TEST(DamagedVtk, CollectionsThatLieAreRefused) {
+    const auto collection = [](const std::string& sets) {
+        return "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>";
+    };
+    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
+    EXPECT_THAT(refusal(collection("<DataSet/>")), HasSubstr("expected the name of a file"));
+    EXPECT_THAT(refusal(collection("<DataSet timestep=\"nan\" file=\"a.vti\"/>")),
+                HasSubstr("timestep: expected 1 finite numbers"));
+    EXPECT_THAT(refusal("<VTKFile type=\"Collection\"/>"), HasSubstr("expected one Collection"));
+    // Of itself.
+    const Path path = tests::write(
+        "loop.pvd",
+        collection("<DataSet file=\"DamagedVtk_CollectionsThatLieAreRefused_loop.pvd\"/>"));
+    std::string why;
+    EXPECT_FALSE(contents(path, &why));
+    EXPECT_THAT(why, HasSubstr("expected the type ImageData"));
 }
 
 TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
@@ -174,12 +279,21 @@ TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
             refusal(imageText({.attributes = "Spacing=\"" + wrong + "\"", .points = points})),
             HasSubstr("Spacing: expected 3 finite numbers"))
             << wrong;
+        EXPECT_THAT(
+            refusal(imageText({.attributes = "Origin=\"" + wrong + "\"", .points = points})),
+            HasSubstr("Origin: expected 3 finite numbers"))
+            << wrong;
         EXPECT_THAT(refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
                             "DIMENSIONS 2 1 1\nSPACING " +
                             wrong + "\nPOINT_DATA 2\nSCALARS v int\nLOOKUP_TABLE d\n1 2\n"),
                     testing::AnyOf(HasSubstr("a finite number, found"), HasSubstr("found \"1\"")))
             << wrong;
     }
+    EXPECT_THAT(
+        refusal(imageText({.attributes = "Direction=\"1 0 0 0 nan 0 0 0 1\"", .points = points})),
+        HasSubstr("Direction: expected 9 finite numbers"));
+    EXPECT_THAT(refusal(imageText({.extent = "0 nan 0 1 0 1", .points = points})),
+                HasSubstr("WholeExtent: expected 6 finite numbers"));
 }
 
 TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {

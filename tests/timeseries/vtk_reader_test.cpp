@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numeric>
 
@@ -20,19 +22,9 @@ using tests::Image;
 using tests::imageText;
 using Path = std::filesystem::path;
 
-std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
-
 std::unique_ptr<Reader> openText(const std::string& text) {
-    return open(tests::write("file", text));
-}
-
-std::string refusal(const Path& path, std::size_t step = 0) {
-    try {
-        open(path)->read(0, step);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
+    const Path path = tests::write("file", text);
+    return openReader(std::span(&path, 1));
 }
 
 std::size_t indexOf(const Reader& reader, std::string_view name) {
@@ -205,7 +197,7 @@ TEST(VtkImage, FieldDataOfOneNumberTellsTheTime) {
     EXPECT_EQ(time(field("Other", "30")).name, "step");
 }
 
-TEST(VtkImage, RightAnglesTurnTheValuesAndOtherRotationsAreToldOf) {
+TEST(VtkImage, RightAnglesTurnTheValuesAndOtherDirectionsTheGrid) {
     const std::string points = dataArray("Float32", "p", upTo<float>(12));
     const auto turned = [&](const std::string& direction) {
         return openText(imageText(
@@ -224,12 +216,44 @@ TEST(VtkImage, RightAnglesTurnTheValuesAndOtherRotationsAreToldOf) {
             for (std::size_t x = 0; x < 2; ++x)
                 EXPECT_EQ(values[x + 2 * (y + 3 * z)], static_cast<float>(y + 3 * (x + 2 * z)));
 
-    const auto oblique = turned("0.6 -0.8 0 0.8 0.6 0 0 0 1");
-    EXPECT_THAT(oblique->variables()[0].notes,
-                ElementsAre("drawn in index space: the axes are rotated (0.6 -0.8 0 0.8 0.6 0 0 0 "
-                            "1)"));
-    EXPECT_EQ(oblique->variables()[0].grid->axes()[0].units, "index");
-    EXPECT_EQ(valuesOf<float>(*oblique, "p"), upTo<float>(12));
+    // As VTK multiplies: origin + direction (spacing * ijk), the matrix row by row; also sheared,
+    // mirrored, and with columns of other lengths.
+    for (const glm::dmat3& rows : {glm::dmat3{{0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1}},
+                                   glm::dmat3{{1, 0.5, 0}, {0, 1, 0}, {0, -0.2, -1}},
+                                   glm::dmat3{{2, 0, 0}, {0, 1, 3}, {0, 0, 1}}}) {
+        const auto oblique =
+            turned(fmt::format("{} {} {} {} {} {} {} {} {}", rows[0].x, rows[0].y, rows[0].z,
+                               rows[1].x, rows[1].y, rows[1].z, rows[2].x, rows[2].y, rows[2].z));
+        const Grid& placed = *oblique->variables()[0].grid;
+        for (std::uint64_t p = 0; p < 12; ++p) {
+            const glm::dvec3 ijk(p % 3, p / 3 % 2, p / 6);
+            const glm::dvec3 expected =
+                glm::dvec3(10, 20, 30) + glm::transpose(rows) * (glm::dvec3(1, 2, 3) * ijk);
+            EXPECT_LT(glm::distance(placed.position(p), expected), 1e-12) << p;
+        }
+        EXPECT_EQ(placed.axes()[0].name, "i");
+        EXPECT_TRUE(oblique->variables()[0].notes.empty());
+        EXPECT_EQ(valuesOf<float>(*oblique, "p"), upTo<float>(12));
+    }
+    for (const char* flawed : {"1 1 0 0 0 0 0 0 1", "0 0 0 0 0 0 0 0 0"}) {
+        const auto flat = turned(flawed);
+        EXPECT_THAT(flat->variables()[0].notes, ElementsAre(HasSubstr("drawn in index space")));
+        EXPECT_EQ(flat->variables()[0].grid->axes()[0].units, "index");
+        EXPECT_EQ(valuesOf<float>(*flat, "p"), upTo<float>(12));
+    }
+}
+
+TEST(VtkImage, ObliqueCellDataLieAtTheCellsCentres) {
+    const auto reader = openText(imageText(
+        {.extent = "2 4 0 1 0 1",
+         .attributes =
+             "Origin=\"10 20 30\" Spacing=\"1 2 3\" Direction=\"0.6 -0.8 0 0.8 0.6 0 0 0 1\"",
+         .cells = dataArray("UInt8", "c", upTo<std::uint8_t>(2))}));
+    // The second cell's centre is 3.5, 0.5, 0.5 indices from the origin, which is of index 0.
+    const glm::dvec3 along(3.5, 1, 1.5);
+    const glm::dvec3 expected(10 + 0.6 * along.x - 0.8 * along.y,
+                              20 + 0.8 * along.x + 0.6 * along.y, 30 + along.z);
+    EXPECT_LT(glm::distance(reader->variables()[0].grid->position(1), expected), 1e-12);
 }
 
 TEST(VtkImage, FlatImagesAreOneLayerAndExtentsNeedNotBeginAt0) {
@@ -342,60 +366,6 @@ TEST(VtkLegacy, OldHeadersNameTheSpacingAspectRatio) {
     EXPECT_THAT(reader->variables()[0].grid->axes()[0].coordinates, ElementsAre(1, 3));
     EXPECT_THAT(reader->variables()[0].grid->axes()[1].coordinates, ElementsAre(1, 4));
     EXPECT_THAT(valuesOf<std::uint8_t>(*reader, "s"), ElementsAre(1, 2, 3, 4));
-}
-
-Path collection(const std::string& sets) {
-    return tests::write(
-        "all.pvd", "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>");
-}
-
-std::string member(const std::string& time, const Path& file, const std::string& more = "") {
-    return "<DataSet timestep=\"" + time + "\" " + more + " file=\"" + file.filename().string() +
-           "\"/>";
-}
-
-TEST(VtkCollection, TimesAreRealAndMembersAreReadOneByOne) {
-    std::vector<Path> files;
-    for (int i = 0; i < 3; ++i)
-        files.push_back(
-            tests::write(fmt::format("{}.vti", i),
-                         imageText({.points = dataArray("Int32", "p", std::vector<int>(12, i))})));
-    const auto reader = open(
-        collection(member("1.5", files[1]) + member("0.1", files[0]) + member("1e3", files[2])));
-    EXPECT_EQ(reader->format(), "VTK collection of image data (XML)");
-    const auto& points = reader->variables()[0].time->points;
-    ASSERT_EQ(points.size(), 3u);
-    EXPECT_EQ(points[0].value, 0.1);
-    EXPECT_EQ(points[1].value, 1.5);
-    EXPECT_EQ(points[2].value, 1000);
-    for (const std::size_t step : {2u, 0u, 1u})
-        EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values)[3], step);
-}
-
-TEST(VtkCollection, WhatDiffersIsTold) {
-    const Path good = tests::write(
-        "a.vti", imageText({.points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
-    const Path finer = tests::write(
-        "b.vti", imageText({.attributes = "Spacing=\"1 1 1\"",
-                            .points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
-    const Path other = tests::write(
-        "c.vti", imageText({.points = dataArray("Int16", "p", std::vector<int>(12, 1))}));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("1", finer)), 1),
-                HasSubstr("expected the grid of"));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("1", other)), 1),
-                HasSubstr("'p': expected int32 of 1 components"));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("0", finer))),
-                HasSubstr("expected times that differ, found 0 twice"));
-    EXPECT_THAT(
-        refusal(collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
-        HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected 1 finite numbers"));
-    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
-    const Path gap = collection(member("0", good) + member("1", "none.vti"));
-    EXPECT_THAT(open(gap)->variables()[0].notes,
-                ElementsAre("1 of 2 files are missing, the first none.vti"));
-    EXPECT_THAT(refusal(gap, 1), HasSubstr("none.vti: expected a file, but there is none"));
-    EXPECT_THAT(refusal(collection(member("0", "none.vti"))), HasSubstr("there is none"));
 }
 
 }  // namespace

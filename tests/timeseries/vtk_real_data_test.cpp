@@ -1,11 +1,11 @@
-// VTK's readers against real files, with shares that were counted by other software (numpy).
-#include <fmt/format.h>
+// VTK's readers against real files; tests/app/ranges_csv_test.cpp compares their counts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/support/shared_data.h"
-#include "timeseries/range_set.h"
 #include "timeseries/reader.h"
-#include "timeseries/sorted_step.h"
 
 namespace timeseries {
 namespace {
@@ -29,31 +29,7 @@ std::size_t indexOf(const Reader& reader, const std::string& name) {
     throw std::runtime_error("no variable " + name);
 }
 
-double percentInside(Reader& reader, const std::string& variable, std::size_t step,
-                     const std::string& range) {
-    const auto sorted = SortedStep::build(reader.read(indexOf(reader, variable), step));
-    return 100.0 * static_cast<double>(sorted.count(RangeSet::parse(range))) /
-           static_cast<double>(sorted.statistics().points);
-}
-
-// Rows of ranges.csv.
-TEST_F(RealVtk, SharesInsideRangesAgreeWithNumpy) {
-    struct Row {
-        std::string file, variable, range;
-        double percent;
-    };
-    for (const Row& row : {Row{"cth_impact.vtr", "Pressure", "1e9:1.2e11", 1.82},
-                           Row{"cth_impact.vtr", "Pressure", "-2.4e10:-1e8", 1.90},
-                           Row{"hipip_ironProt_68.vtk", "scalars", "64:255", 6.50},
-                           Row{"hipip_ironProt_68.vtk", "scalars", "128:255", 2.97},
-                           Row{"aneurism_256_u8.vti", "ImageFile", "30:255", 0.65}}) {
-        const auto reader = openShared(row.file);
-        EXPECT_NEAR(percentInside(*reader, row.variable, 0, row.range), row.percent, 0.005 + 1e-9)
-            << row.file << ' ' << row.range;
-    }
-}
-
-// The same run as pool_fire_T.nc: the cells' shares at eight of its times (ranges.csv).
+// The same run as pool_fire_T.nc: the cells' values at eight of its times.
 TEST_F(RealVtk, TheFireAgreesWithItsNetcdfAtUnevenTimes) {
     const auto fire = openShared("pool_fire_vti/fire.pvd");
     const auto netcdf = openShared("pool_fire_T.nc");
@@ -62,12 +38,34 @@ TEST_F(RealVtk, TheFireAgreesWithItsNetcdfAtUnevenTimes) {
     const auto& all = netcdf->variables()[other].time->points;
     ASSERT_EQ(times.size(), 8u);
     EXPECT_EQ(fire->variables()[T].grid->size(), netcdf->variables()[other].grid->size());
-    for (std::size_t step = 0; step < times.size(); ++step)
-        for (std::size_t s = 0; s < all.size(); ++s) {
-            if (std::abs(all[s].value - times[step].value) > 1e-6) continue;
-            EXPECT_EQ(fire->read(T, step).values, netcdf->read(other, s).values)
-                << times[step].value;
-        }
+    for (std::size_t step = 0; step < times.size(); ++step) {
+        const auto same = std::ranges::find_if(
+            all, [&](const TimePoint& t) { return std::abs(t.value - times[step].value) < 1e-6; });
+        ASSERT_NE(same, all.end()) << times[step].value;
+        EXPECT_EQ(fire->read(T, step).values,
+                  netcdf->read(other, static_cast<std::size_t>(same - all.begin())).values)
+            << times[step].value;
+    }
+}
+
+// The NetCDF file keeps 12 bits of the mantissa of the collection's values.
+TEST_F(RealVtk, TheFingersAgreeWithTheirNetcdf) {
+    const auto fingers = openShared("viscous_fingers/vf_run01.pvd");
+    const auto netcdf = openShared("viscous_fingers_demo.nc");
+    const std::size_t density = indexOf(*netcdf, "density");
+    const auto& all = netcdf->variables()[density].time->points;
+    const auto& times = fingers->variables()[0].time->points;
+    for (std::size_t step = 0; step < times.size(); ++step) {
+        const auto same = std::ranges::find(all, times[step].value, &TimePoint::value);
+        ASSERT_NE(same, all.end()) << times[step].value;
+        const Field mine = fingers->read(0, step);
+        const Field other = netcdf->read(density, static_cast<std::size_t>(same - all.begin()));
+        const auto& exact = std::get<std::vector<float>>(mine.values);
+        const auto& rounded = std::get<std::vector<float>>(other.values);
+        ASSERT_EQ(exact.size(), rounded.size());
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            ASSERT_NEAR(exact[i], rounded[i], std::abs(exact[i]) / 4096) << step << ' ' << i;
+    }
 }
 
 TEST_F(RealVtk, NamesGridsAndTimesAreThoseOfTheFiles) {

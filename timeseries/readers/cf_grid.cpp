@@ -14,6 +14,8 @@ namespace {
 // A step of 2^32 points needs no longer axis, and an axis costs 8 bytes a point.
 constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
 
+constexpr std::size_t kShownCoordinates = 8;
+
 std::vector<double> coordinatesOf(const NetcdfFile& file, const NcVariable& coordinate) {
     const Packing packing = packingOf(coordinate, [&](const std::string& what) {
         file.fail("variable '" + coordinate.name + "'", what);
@@ -39,17 +41,18 @@ bool pointsDown(const NcVariable& coordinate) {
 // Longitude and latitude that depend on both horizontal dimensions (CF 1.10, section 5.2):
 // "nav_lon(y, x) and nav_lat(y, x)"; "" when there are none.
 std::string twoDimensionalCoordinates(const NcHeader& header, const NcVariable& variable,
-                                      const Roles& roles) {
+                                      const Roles& roles,
+                                      std::span<const NcVariable* const> geographic) {
     if (!roles.x || !roles.y) return "";
     const std::size_t x = variable.dimensions[*roles.x], y = variable.dimensions[*roles.y];
     std::string found;
-    for (const NcVariable& other : header.variables) {
-        const auto& d = other.dimensions;
+    std::size_t count = 0;
+    for (const NcVariable* other : geographic) {
+        const auto& d = other->dimensions;
         const bool spans = std::ranges::find(d, x) != d.end() && std::ranges::find(d, y) != d.end();
-        if (&other == &variable || !spans || d.size() > 3) continue;
-        const auto kind = kindByAttributes(other);
-        if (kind == AxisKind::X || kind == AxisKind::Y)
-            found += (found.empty() ? "" : " and ") + header.declaration(other);
+        if (other == &variable || !spans || d.size() > 3) continue;
+        if (++count > kShownCoordinates) return found + " and others";
+        found += (found.empty() ? "" : " and ") + header.declaration(*other);
     }
     return found;
 }
@@ -108,6 +111,7 @@ void noteLevels(const NcHeader& header, const NcVariable& variable, std::size_t 
 }  // namespace
 
 std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
+                           std::span<const NcVariable* const> geographic,
                            std::vector<std::string>& notes) {
     const NcHeader& header = file.header();
     const std::array positions{roles.x, roles.y, roles.z};
@@ -117,7 +121,7 @@ std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, c
     };
     const std::string twoD = measured(coordinate(roles.x)) && measured(coordinate(roles.y))
                                  ? ""
-                                 : twoDimensionalCoordinates(header, variable, roles);
+                                 : twoDimensionalCoordinates(header, variable, roles, geographic);
     if (!twoD.empty()) notes.push_back("drawn in index space: 2-D coordinates " + twoD);
 
     std::array<Axis, 3> axes;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,10 @@
 
 namespace timeseries {
 
-// x, y, z; an axis the variable does not have is one point at index 0. Throws FileError when
-// coordinates cannot be read.
+// x, y, z; an axis the variable does not have is one point at index 0. `geographic`: the file's
+// longitudes and latitudes of any rank. Throws FileError when coordinates cannot be read.
 std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
+                           std::span<const NcVariable* const> geographic,
                            std::vector<std::string>& notes);
 
 }  // namespace timeseries

@@ -31,9 +31,14 @@ bool exodus(const NcHeader& header) {
 // The connectivity of an unstructured mesh (UGRID 1.0), which is no data.
 bool mesh(const NcVariable& variable) { return variable.find("cf_role") != nullptr; }
 
-bool geographic(const NcVariable& variable) {
-    const auto kind = kindByAttributes(variable);
-    return kind == AxisKind::X || kind == AxisKind::Y;
+// Longitudes and latitudes, of any rank.
+std::vector<const NcVariable*> geographicOf(const NcHeader& header) {
+    std::vector<const NcVariable*> found;
+    for (const NcVariable& variable : header.variables) {
+        const auto kind = kindByAttributes(variable);
+        if (kind == AxisKind::X || kind == AxisKind::Y) found.push_back(&variable);
+    }
+    return found;
 }
 
 std::uint64_t stepPoints(const NcHeader& header, const NcVariable& variable, const Roles& roles) {
@@ -57,7 +62,8 @@ std::string obstacle(const NetcdfFile& file, const NcVariable& variable, const R
     return file.tooLarge(variable, stepPoints(header, variable, roles));
 }
 
-FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const Roles& roles) {
+FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
+                      std::span<const NcVariable* const> geographic) {
     const NcHeader& header = file.header();
     FileVariable result;
     result.name = variable.name;
@@ -72,7 +78,7 @@ FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const 
         file.fail("variable '" + variable.name + "'", what);
     });
     result.times = timesOf(file, variable, roles);
-    result.axes = axesOf(file, variable, roles, result.notes);
+    result.axes = axesOf(file, variable, roles, geographic, result.notes);
     return result;
 }
 
@@ -84,16 +90,17 @@ std::vector<FileVariable> contentsOf(const NetcdfFile& file) {
         file.fail("", "expected fields on a grid, found a finite-element mesh (Exodus II)");
     const std::set<std::string> named = auxiliaries(header);
     std::vector<FileVariable> contents;
+    const std::vector<const NcVariable*> geographic = geographicOf(header);
     std::string passedOver;
     for (const NcVariable& variable : header.variables) {
-        if (!variable.type || named.contains(variable.name) || geographic(variable) ||
-            mesh(variable))
+        if (!variable.type || named.contains(variable.name) || mesh(variable) ||
+            std::ranges::binary_search(geographic, &variable))
             continue;
         const Roles roles = rolesOf(header, variable);
         if (roles.spatial() < 2) continue;
         const std::string why = obstacle(file, variable, roles);
         if (why.empty())
-            contents.push_back(describe(file, variable, roles));
+            contents.push_back(describe(file, variable, roles, geographic));
         else
             passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
     }

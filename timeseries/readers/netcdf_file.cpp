@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <mutex>
 
 #include "timeseries/reader.h"
 #include "timeseries/readers/classic_layout.h"
+#include "timeseries/trial.h"
 
 namespace timeseries {
 namespace {
@@ -18,6 +20,8 @@ namespace {
 constexpr int kMaxGroupDepth = 64;
 constexpr std::uint64_t kMaxStepPoints = std::uint64_t{1} << 32;  // SortedStep's indices
 constexpr std::size_t kMaxAttributeBytes = 1 << 20;
+constexpr std::size_t kMaxVariables = NC_MAX_VARS;  // each is looked for among the others
+constexpr std::chrono::seconds kMaxHeaderTime{10};  // that of 8000 variables takes one
 
 // Held during every call of the library. HDF5 prints its errors unless told not to, and keeps that
 // setting per thread: netCDF sets it on the first thread alone.
@@ -106,7 +110,7 @@ void NetcdfFile::check(int status, std::string_view place, std::string_view expe
                                 nc_strerror(status)));
 }
 
-NetcdfFile::NetcdfFile(const std::filesystem::path& path) : path_(path) {
+NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : path_(path) {
     std::error_code error;
     fileBytes_ = std::filesystem::file_size(path, error);
     std::ifstream file(path, std::ios::binary);
@@ -117,8 +121,16 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path) : path_(path) {
     file.close();
 
     const LibraryLock lock;
+    if (first != 'C' && header == Header::New) {
+        const std::string end = trialOf([this] { open(); }, kMaxHeaderTime);
+        if (!end.empty()) fail("header", "expected one that HDF5 can read, but HDF5 " + end);
+    }
+    open();
+}
+
+void NetcdfFile::open() {
     // Absolute: the library takes what looks like a URL for one.
-    check(nc_open(std::filesystem::absolute(path).c_str(), NC_NOWRITE, &id_), "",
+    check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",
           "a whole netCDF file");
     try {
         readHeader();
@@ -162,6 +174,9 @@ void NetcdfFile::readGroup(int group, const std::string& name, int depth) {
 
     check(nc_inq_varids(group, &count, nullptr), place, "its variables");
     ids.resize(static_cast<std::size_t>(count));
+    if (header_.variables.size() + ids.size() > kMaxVariables)
+        fail(place, fmt::format("expected at most {} variables, found {}", kMaxVariables,
+                                header_.variables.size() + ids.size()));
     check(nc_inq_varids(group, &count, ids.data()), place, "its variables");
     for (const int id : ids) readVariable(group, name, id);
 

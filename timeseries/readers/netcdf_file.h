@@ -14,8 +14,11 @@ namespace timeseries {
 
 class NetcdfFile {
  public:
+    // A new file's header may crash HDF5 or keep it forever, so that it is read in a copy of this
+    // process first; a known one was read before.
+    enum class Header { New, Known };
     // Reads the header. Throws FileError, also when a classic file lacks values it declares.
-    explicit NetcdfFile(const std::filesystem::path& path);
+    NetcdfFile(const std::filesystem::path& path, Header header);
     ~NetcdfFile();
     NetcdfFile(const NetcdfFile&) = delete;
     NetcdfFile& operator=(const NetcdfFile&) = delete;
@@ -40,6 +43,7 @@ class NetcdfFile {
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
 
  private:
+    void open();
     void readHeader();
     void readGroup(int group, const std::string& name, int depth);
     void readVariable(int group, const std::string& groupName, int id);

@@ -49,7 +49,9 @@ class NetcdfReader final : public Reader {
 NetcdfFile& NetcdfReader::open(std::size_t index) {
     if (!file_ || openIndex_ != index) {
         file_.reset();
-        file_ = std::make_unique<NetcdfFile>(paths_[index]);
+        file_ = std::make_unique<NetcdfFile>(paths_[index], contents_[index].empty()
+                                                                ? NetcdfFile::Header::New
+                                                                : NetcdfFile::Header::Known);
         openIndex_ = index;
     }
     return *file_;
@@ -112,16 +114,19 @@ void NetcdfReader::addVariable(std::size_t v) {
     auto grid = std::make_shared<Grid>(first.axes);
     variable.time = time;
     variable.grid = grid;
-    for (const Variable& other : variables_) {
-        if (*other.grid == *grid) variable.grid = other.grid;
-        const auto same = [](const TimePoint& a, const TimePoint& b) {
-            return a.value == b.value && a.date == b.date;
-        };
-        if (other.time->name == time->name && other.time->units == time->units &&
-            other.time->calendar == time->calendar &&
-            std::ranges::equal(other.time->points, time->points, same))
-            variable.time = other.time;
-    }
+    const auto sameGrid = [&](const Variable& other) { return *other.grid == *grid; };
+    if (const auto other = std::ranges::find_if(variables_, sameGrid); other != variables_.end())
+        variable.grid = other->grid;
+    const auto samePoint = [](const TimePoint& a, const TimePoint& b) {
+        return a.value == b.value && a.date == b.date;
+    };
+    const auto sameTime = [&](const Variable& other) {
+        return other.time->name == time->name && other.time->units == time->units &&
+               other.time->calendar == time->calendar &&
+               std::ranges::equal(other.time->points, time->points, samePoint);
+    };
+    if (const auto other = std::ranges::find_if(variables_, sameTime); other != variables_.end())
+        variable.time = other->time;
     variables_.push_back(std::move(variable));
 }
 

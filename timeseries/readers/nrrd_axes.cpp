@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "timeseries/readers/netcdf_header.h"
 #include "timeseries/units.h"
@@ -118,25 +120,33 @@ Axis spacedAxis(const NrrdAxis& axis, const std::string& name, std::vector<std::
     return {index.name, axis.units, std::move(coordinates), false};
 }
 
-// Which coordinate of space each axis runs along; nothing when one runs along none or two along
-// the same.
-std::optional<std::vector<std::size_t>> aligned(const NrrdHeader& header, const NrrdRoles& roles) {
-    const std::size_t n = spatialDimension(header);
-    std::vector<std::size_t> along;
-    for (const std::size_t i : roles.space) {
-        const auto& v = *header.axes[i].direction;
-        const auto longer = [](double a, double b) { return std::abs(a) < std::abs(b); };
-        const auto most = std::max_element(v.begin(), v.begin() + n, longer);
-        const auto component = static_cast<std::size_t>(most - v.begin());
-        for (std::size_t c = 0; c < header.spaceDimension; ++c)
-            if (c != component && !(std::abs(v[c]) <= kAlignment * std::abs(*most)))
-                return std::nullopt;
-        if (*most == 0 || !std::isfinite(*most) || component >= 3 ||
-            std::ranges::find(along, component) != along.end())
-            return std::nullopt;
-        along.push_back(component);
+// How the axes of space lie in it. Axes that the file lacks stand upright on those that it has.
+struct Directions {
+    glm::dmat3 unit{0.0};             // columns; flawed where one reaches out of space
+    std::array<double, 3> spacing{};  // from sample to sample
+};
+
+Directions directionsOf(const NrrdHeader& header, const NrrdRoles& roles) {
+    const int n = static_cast<int>(std::min<std::size_t>(spatialDimension(header), 3));
+    Directions found;
+    for (int i = 0; i < static_cast<int>(roles.space.size()); ++i) {
+        const auto& v = *header.axes[roles.space[i]].direction;
+        glm::dvec3 step(0);
+        for (int c = 0; c < n; ++c) step[c] = v[c];
+        found.spacing[i] = std::hypot(step.x, step.y, step.z);
+        const bool inSpace =
+            std::all_of(v.begin() + n, v.begin() + header.spaceDimension,
+                        [&](double out) { return std::abs(out) <= kAlignment * found.spacing[i]; });
+        if (inSpace) found.unit[i] = step / found.spacing[i];
     }
-    return along;
+    glm::dmat3& d = found.unit;
+    if (roles.space.size() == 1) {
+        const glm::dvec3 along = glm::abs(d[0]);
+        const int least = along.x <= along.y && along.x <= along.z ? 0 : along.y <= along.z ? 1 : 2;
+        d[1] = glm::normalize(glm::cross(d[0], glm::dmat3(1.0)[least]));
+    }
+    if (roles.space.size() < 3) d[2] = glm::normalize(glm::cross(d[0], d[1]));
+    return found;
 }
 
 // Names of the coordinates of space: what grows along them, where the space says.
@@ -151,8 +161,8 @@ std::string coordinateName(const NrrdHeader& header, std::size_t component) {
     return anatomical ? parts[component] : kLetters[component];
 }
 
-Axis directedAxis(const NrrdHeader& header, std::size_t i, std::size_t component,
-                  std::vector<std::string>& notes) {
+Axis alignedAxis(const NrrdHeader& header, std::size_t i, std::size_t component,
+                 std::vector<std::string>& notes) {
     const NrrdAxis& axis = header.axes[i];
     const std::string name = axis.label.empty() ? coordinateName(header, component) : axis.label;
     const double first = header.origin ? (*header.origin)[component] : 0;
@@ -162,6 +172,34 @@ Axis directedAxis(const NrrdHeader& header, std::size_t i, std::size_t component
         return indexAxis(axis, name);
     }
     return {name, header.spaceUnits[component], std::move(coordinates), false};
+}
+
+// Rotated or sheared: the axes are lengths from the first sample. Returns what is in the way.
+std::string placeInFrame(const NrrdHeader& header, const NrrdRoles& roles,
+                         const Directions& directions, NrrdPlacing& placing) {
+    static constexpr std::array kIndices{"i", "j", "k"};
+    if (const std::string flaw = flawOf(directions.unit); !flaw.empty()) return flaw;
+    const auto& units = header.spaceUnits;
+    if (!std::all_of(units.begin(), units.begin() + spatialDimension(header),
+                     [&](const std::string& unit) { return unit == units[0]; }))
+        return "its coordinates of space have other units";
+    std::array<Axis, 3> axes;
+    for (std::size_t i = 0; i < 3; ++i) {
+        axes[i] = {kIndices[i], units[0], {0.0}, false};
+        if (i >= roles.space.size()) continue;
+        const NrrdAxis& source = header.axes[roles.space[i]];
+        if (!source.label.empty()) axes[i].name = source.label;
+        axes[i].coordinates = spaced(0, directions.spacing[i], source.size);
+        if (const std::string flaw = flawOf(axes[i].coordinates); !flaw.empty())
+            return axes[i].name + ": " + flaw;
+    }
+    placing.axes = std::move(axes);
+    placing.frame.directions = directions.unit;
+    for (int c = 0; c < 3; ++c) {
+        if (header.origin) placing.frame.origin[c] = (*header.origin)[c];
+        placing.frame.names[c] = coordinateName(header, c);
+    }
+    return "";
 }
 
 NrrdLayout layoutOf(const NrrdHeader& header, const NrrdRoles& roles) {
@@ -189,6 +227,21 @@ void checkSizes(const NrrdHeader& header, const NrrdRoles& roles, const NrrdLayo
     if (const std::uint64_t points = header.pointCount() / layout.steps; points > kMaxPoints)
         header.fail("field 'sizes'",
                     fmt::format("expected at most 2^32 points a step, found {}", points));
+}
+
+// The strides of the file's axes, `to` which axes of the grid they become.
+void setStrides(const std::array<int, 3>& to, std::size_t axes, NrrdPlacing& placing) {
+    NrrdLayout& layout = placing.layout;
+    std::uint64_t stride = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < axes; ++i)
+            if (to[i] == axis) layout.stride[i] = stride;
+        stride *= placing.axes[axis].coordinates.size();
+    }
+    // Axes of one point move nothing.
+    std::uint64_t inFile = 1;
+    for (std::size_t i = 0; i < axes; inFile *= layout.size[i++])
+        if (layout.size[i] > 1 && layout.stride[i] != inFile) layout.turned = true;
 }
 
 }  // namespace
@@ -233,43 +286,33 @@ NrrdPlacing placingOf(const NrrdHeader& header, const NrrdRoles& roles,
     placing.layout = layoutOf(header, roles);
     checkSizes(header, roles, placing.layout);
 
-    std::vector<std::size_t> to(roles.space.size());  // which axis of the grid each becomes
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = i;
+    std::array<int, 3> to{0, 1, 2};  // which axis of the grid each becomes
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        placing.axes[axis] = {kLetters[axis], "index", {0.0}, false};
     const bool directed =
         !roles.space.empty() && std::ranges::all_of(roles.space, [&](std::size_t i) {
             return header.axes[i].direction.has_value();
         });
-    const auto along = directed ? aligned(header, roles) : std::nullopt;
-    if (directed && !along)
-        notes.push_back(
-            "drawn in index space: its space directions are not along the axes of "
-            "space");
-    if (along && header.leftHanded)
-        notes.push_back("drawn mirrored: its space, " + header.space + ", is left-handed");
-    if (along) to = *along;
-
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        placing.axes[axis] = {kLetters[axis], "index", {0.0}, false};
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        const NrrdAxis& source = header.axes[roles.space[i]];
+    if (directed) {
+        const Directions directions = directionsOf(header, roles);
+        const auto along = alignedWith(directions.unit);
+        const std::string flaw = along ? "" : placeInFrame(header, roles, directions, placing);
+        if (along) to = *along;
         if (along)
-            placing.axes[to[i]] = directedAxis(header, roles.space[i], to[i], notes);
-        else if (directed)
-            placing.axes[i] = indexAxis(source, kLetters[i]);
-        else
-            placing.axes[i] = spacedAxis(source, kLetters[i], notes);
+            for (std::size_t i = 0; i < roles.space.size(); ++i)
+                placing.axes[to[i]] = alignedAxis(header, roles.space[i], to[i], notes);
+        if (!flaw.empty()) {
+            notes.push_back("drawn in index space: " + flaw);
+            for (std::size_t i = 0; i < roles.space.size(); ++i)
+                placing.axes[i] = indexAxis(header.axes[roles.space[i]], kLetters[i]);
+        } else if (header.leftHanded) {
+            notes.push_back("drawn mirrored: its space, " + header.space + ", is left-handed");
+        }
+    } else {
+        for (std::size_t i = 0; i < roles.space.size(); ++i)
+            placing.axes[i] = spacedAxis(header.axes[roles.space[i]], kLetters[i], notes);
     }
-    std::uint64_t stride = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < to.size(); ++i)
-            if (to[i] == axis) placing.layout.stride[i] = stride;
-        stride *= placing.axes[axis].coordinates.size();
-    }
-    // Axes of one point move nothing.
-    std::uint64_t inFile = 1;
-    for (std::size_t i = 0; i < to.size(); inFile *= placing.layout.size[i++])
-        if (placing.layout.size[i] > 1 && placing.layout.stride[i] != inFile)
-            placing.layout.turned = true;
+    setStrides(to, roles.space.size(), placing);
     return placing;
 }
 

@@ -31,10 +31,13 @@ struct NrrdLayout {
 
 struct NrrdPlacing {
     std::array<Axis, 3> axes;
+    Frame frame;
     NrrdLayout layout;
 };
 
-// By space directions along the axes of space, else by spacings and minimums, else counted.
+// By space directions, else by spacings and minimums, else counted. Directions along the
+// coordinates of space give axes in the order of these; others keep the file's order, and their
+// coordinates are lengths from the first sample.
 // Throws FileError.
 NrrdPlacing placingOf(const NrrdHeader& header, const NrrdRoles& roles,
                       std::vector<std::string>& notes);

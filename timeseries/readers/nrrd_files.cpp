@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "timeseries/ordinary_file.h"
 #include "timeseries/readers/netcdf_header.h"
 
 namespace timeseries {
@@ -60,16 +61,10 @@ struct Pattern {
     }
 };
 
-// Header-relative, and no farther: a header that comes from elsewhere names no file of the user's.
-std::filesystem::path inFolder(const NrrdHeader& header, const std::string& name) {
-    const std::filesystem::path folder = header.path.parent_path();
-    const std::filesystem::path path = (folder / name).lexically_normal();
-    const auto inside = std::filesystem::absolute(path).lexically_normal().lexically_relative(
-        std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal());
-    if (name.empty() || inside.empty() || *inside.begin() == "..")
-        header.fail(kPlace, fmt::format("expected a file in the header's folder, found '{}'",
-                                        name.substr(0, 200)));
-    return path;
+// As teem has it: from the header's folder, upwards too, unless the name is absolute.
+std::filesystem::path fromHeader(const NrrdHeader& header, const std::string& name) {
+    if (name.empty()) header.fail(kPlace, "expected the name of a file");
+    return header.path.parent_path() / name;
 }
 
 // Into how many files the values are cut, when each holds the `subdim` fastest axes; when it holds
@@ -142,15 +137,11 @@ std::vector<std::string> namesOf(const NrrdHeader& header) {
 }
 
 std::uint64_t sizeOf(const NrrdHeader& header, const std::filesystem::path& path) {
+    std::string flaw = flawOfFile(path);
     std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
-        header.fail(kPlace, fmt::format("expected the file {}, but there is none", path.string()));
-    if (!std::filesystem::is_regular_file(status))
-        header.fail(kPlace, fmt::format("expected an ordinary file, found {}", path.string()));
     const std::uint64_t bytes = std::filesystem::file_size(path, error);
-    if (error)
-        header.fail(kPlace, fmt::format("expected a readable file, found {}", path.string()));
+    if (error && flaw.empty()) flaw = "expected a file that can be read";
+    if (!flaw.empty()) header.fail(kPlace, fmt::format("{}: {}", path.string(), flaw));
     return bytes;
 }
 
@@ -188,7 +179,7 @@ NrrdPieces piecesOf(const NrrdHeader& header, std::vector<std::string>& notes) {
     const std::uint64_t count = header.pointCount();
     if (header.dataFile) {
         for (const std::string& name : namesOf(header))
-            pieces.paths.push_back(inFolder(header, name));
+            pieces.paths.push_back(fromHeader(header, name));
     } else {
         pieces.paths = {header.path};
         pieces.headerBytes = header.headerBytes;

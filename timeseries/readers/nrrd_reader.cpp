@@ -49,7 +49,8 @@ class NrrdReader final : public Reader {
             if (variable.units.empty()) variable.units = header_.keyValue(key);
         variable.type = header_.type;
         variable.storedAs = storedAs(header_);
-        variable.grid = std::make_shared<const Grid>(std::move(placing.axes));
+        variable.grid =
+            std::make_shared<const Grid>(std::move(placing.axes), std::move(placing.frame));
         variable.time = std::make_shared<const TimeAxis>(nrrdTimes(header_, roles, notes));
         variable.notes = std::move(notes);
         variables_.push_back(std::move(variable));

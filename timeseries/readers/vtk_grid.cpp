@@ -4,39 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 namespace timeseries {
 namespace {
 
 constexpr std::array kNames{"x", "y", "z"};
 
-// For each index axis the axis of the world that it runs along, and whether backwards.
-struct Turn {
-    std::array<std::size_t, 3> world{0, 1, 2};
-    std::array<double, 3> sign{1, 1, 1};
+// How an image's axes lie in space; `length` is of each as the file has it.
+struct Directions {
+    glm::dmat3 unit{1.0};
+    glm::dvec3 length{1};
 };
 
-// Nothing when the image is rotated other than by right angles.
-std::optional<Turn> turnOf(const std::array<double, 9>& direction) {
-    Turn turn;
-    for (std::size_t index = 0; index < 3; ++index) {
-        std::size_t ones = 0;
-        for (std::size_t world = 0; world < 3; ++world) {
-            const double d = direction[3 * world + index];
-            // Direction cosines are computed, so that 1e-17 stands for 0.
-            if (std::abs(std::abs(d) - 1) < 1e-9) {
-                ++ones;
-                turn.world[index] = world;
-                turn.sign[index] = d < 0 ? -1 : 1;
-            } else if (std::abs(d) > 1e-9) {
-                return std::nullopt;
-            }
-        }
-        if (ones != 1) return std::nullopt;
+Directions directionsOf(const VtkHeader& header) {
+    Directions found;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int c = 0; c < 3; ++c) found.unit[axis][c] = header.direction[3 * c + axis];
+        const glm::dvec3& d = found.unit[axis];
+        found.length[axis] = std::hypot(d.x, d.y, d.z);
+        found.unit[axis] /= found.length[axis];
     }
-    const auto& w = turn.world;
-    if (w[0] == w[1] || w[0] == w[2] || w[1] == w[2]) return std::nullopt;
-    return turn;
+    return found;
 }
 
 std::vector<double> centres(const std::vector<double>& points) {
@@ -47,43 +37,55 @@ std::vector<double> centres(const std::vector<double>& points) {
     return between;
 }
 
+// An image's, at first + spacing n of index n.
+std::vector<double> imageCoordinates(const VtkHeader& header, std::size_t axis, double first,
+                                     double spacing) {
+    auto coordinates = indexCoordinates(header.size(VtkPlace::Points)[axis]);
+    for (double& c : coordinates)
+        c = first + spacing * (c + static_cast<double>(header.extent[axis][0]));
+    return coordinates;
+}
+
 }  // namespace
 
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
+    static constexpr std::array kIndices{"i", "j", "k"};
     const bool image = header.kind == VtkKind::XmlImage || header.kind == VtkKind::LegacyPoints;
-    const auto turn = turnOf(header.direction);
+    const Directions directions = directionsOf(header);
+    const auto along = alignedWith(directions.unit);
+    const std::string flaw = flawOf(directions.unit);
     VtkGrid result;
-    if (!turn)
-        result.notes.push_back(fmt::format("drawn in index space: the axes are rotated ({})",
-                                           fmt::join(header.direction, " ")));
-    const Turn axesTurn = turn.value_or(Turn{});
-    const auto size = header.size(place), points = header.size(VtkPlace::Points);
+    if (!flaw.empty()) result.notes.push_back("drawn in index space: " + flaw);
+    Frame frame;
+    if (!along && flaw.empty())
+        frame = {directions.unit, {header.origin[0], header.origin[1], header.origin[2]}};
+    const auto size = header.size(place);
     std::array<Axis, 3> axes;
     std::size_t stride = 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t w = axesTurn.world[i];
-        std::vector<double> coordinates = header.coordinates[i];
-        if (image) {
-            coordinates = indexCoordinates(points[i]);
-            for (double& c : coordinates)
-                c = header.origin[w] + axesTurn.sign[i] * header.spacing[i] *
-                                           (c + static_cast<double>(header.extent[i][0]));
-        }
+    for (int i = 0; i < 3; ++i) {
+        const int to = along ? (*along)[i] : i;
+        const char* name = frame.aligned() ? kNames[to] : kIndices[i];
+        const double spacing = header.spacing[i] * directions.length[i];
+        std::vector<double> coordinates =
+            !image  ? header.coordinates[i]
+            : along ? imageCoordinates(header, i, header.origin[to],
+                                       std::copysign(spacing, spacing * directions.unit[i][to]))
+                    : imageCoordinates(header, i, 0, spacing);
         if (place == VtkPlace::Cells) coordinates = centres(coordinates);
-        std::string why = turn ? flawOf(coordinates) : "";
+        std::string why = flaw.empty() ? flawOf(coordinates) : "";
         if (!why.empty()) {
             if (image && header.spacing[i] == 0) why = "its spacing is 0";
-            result.notes.push_back(fmt::format("{} is placed by index: {}", kNames[w], why));
+            result.notes.push_back(fmt::format("{} is placed by index: {}", name, why));
         }
-        if (turn && why.empty())
-            axes[w] = {kNames[w], "", std::move(coordinates), false};
+        if (flaw.empty() && why.empty())
+            axes[to] = {name, "", std::move(coordinates), false};
         else
-            axes[w] = {kNames[w], "index", indexCoordinates(size[i]), false};
-        result.layout.size[w] = size[i];
-        result.layout.stride[w] = stride;
+            axes[to] = {name, "index", indexCoordinates(size[i]), false};
+        result.layout.size[to] = size[i];
+        result.layout.stride[to] = stride;
         stride *= size[i];
     }
-    result.grid = std::make_shared<Grid>(std::move(axes));
+    result.grid = std::make_shared<Grid>(std::move(axes), frame);
     return result;
 }
 

@@ -16,8 +16,9 @@ struct VtkGrid {
     std::vector<std::string> notes;
 };
 
-// Of cell data, the grid of the cells' centres. REQUIRES: coordinates as many as points when the
-// header is that of a rectilinear grid.
+// Of cell data, the grid of the cells' centres. A rotated or sheared image keeps the order of its
+// axes; their coordinates are the file's before it is turned. REQUIRES: coordinates as many as
+// points when the header is that of a rectilinear grid.
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place);
 
 }  // namespace timeseries

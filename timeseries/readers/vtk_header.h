@@ -65,6 +65,9 @@ struct VtkMember {
 [[noreturn]] void failVtk(const std::filesystem::path& path, std::string_view place,
                           std::string_view what);
 
+// Of the points, of the cells and of the field data each: VTK looks for each among the others.
+constexpr std::uint64_t kMaxVtkArrays = 4096;
+
 // Each throws FileError when sizes are absurd or exceed the file's.
 VtkHeader readVtkLegacyHeader(const std::filesystem::path& path);
 VtkHeader readVtkXmlHeader(const std::filesystem::path& path);

@@ -12,7 +12,6 @@ namespace timeseries {
 namespace {
 
 constexpr std::uint64_t kMaxComponents = 1024;
-constexpr std::uint64_t kMaxArrays = 1 << 16;
 
 class LegacyHeader {
  public:
@@ -41,6 +40,7 @@ class LegacyHeader {
     void readFieldArray();
     void beginAttributes(VtkPlace place);
     void skipLookupTable();
+    void countArray();
     const VtkType* readType();
     std::array<double, 3> three(std::string_view what);
     // The values come next.
@@ -52,6 +52,7 @@ class LegacyHeader {
     std::optional<VtkPlace> place_;  // once POINT_DATA or CELL_DATA has come
     std::set<std::pair<VtkPlace, std::string>> names_;
     std::string typeName_;
+    std::uint64_t arrays_ = 0;
 };
 
 void LegacyHeader::readStart() {
@@ -145,13 +146,19 @@ void LegacyHeader::beginAttributes(VtkPlace place) {
     place_ = place;
 }
 
+void LegacyHeader::countArray() {
+    if (++arrays_ > kMaxVtkArrays)
+        text_.fail(fmt::format("expected at most {} arrays, found more", kMaxVtkArrays));
+}
+
 void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t components,
                        VtkKeyword keyword) {
+    countArray();
     if (components < 1 || components > kMaxComponents)
         text_.fail(
             fmt::format("expected 1 to {} components, found {}", kMaxComponents, components));
     const std::uint64_t values = header_.count(*place_) * components;
-    if (names_.size() >= kMaxArrays || !names_.emplace(*place_, name).second)
+    if (!names_.emplace(*place_, name).second)
         text_.fail(fmt::format("expected names that differ, found '{}' again", name));
     if (type) {
         text_.values(*type, values);
@@ -224,7 +231,6 @@ void LegacyHeader::readField() {
     text_.name();
     header_.fieldOutside |= !place_;
     const std::uint64_t arrays = text_.count("a number of arrays");
-    if (arrays > kMaxArrays) text_.fail(fmt::format("expected fewer arrays, found {}", arrays));
     for (std::uint64_t i = 0; i < arrays; ++i) readFieldArray();
 }
 
@@ -246,6 +252,7 @@ void LegacyHeader::readFieldArray() {
     if (place_ && tuples == header_.count(*place_))
         return add(std::move(name), type, components, VtkKeyword::Field);
 
+    countArray();
     const std::uint64_t values = tuples * components;
     if (place_) header_.passedOver.push_back(fmt::format("'{}' has {} tuples", name, tuples));
     if (!type && (typeName_ == "string" || typeName_ == "utf8_string"))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "timeseries/ordinary_file.h"
 #include "timeseries/readers/vtk_grid.h"
 #include "timeseries/readers/vtk_library.h"
 
@@ -12,6 +13,8 @@ namespace timeseries {
 namespace {
 
 using Path = std::filesystem::path;
+
+constexpr std::size_t kMaxVariables = std::size_t{1} << 16;
 
 bool legacy(const Path& path) {
     std::string start(5, '\0');
@@ -43,6 +46,7 @@ struct Frame {
 };
 
 Frame frameOf(const Path& path) {
+    if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
     Frame frame{headerOf(path), {}};
     for (const VtkArray& array : frame.header.arrays) {
         auto& grid = frame.grids[static_cast<std::size_t>(array.place)];
@@ -110,11 +114,8 @@ void VtkReader::addTime() {
     time_ = std::move(axis);
 
     std::vector<std::string> absent;
-    for (const VtkMember& member : members_) {
-        std::error_code error;
-        if (!std::filesystem::is_regular_file(member.path, error))
-            absent.push_back(member.path.filename().string());
-    }
+    for (const VtkMember& member : members_)
+        if (!flawOfFile(member.path).empty()) absent.push_back(member.path.filename().string());
     if (!absent.empty())
         notes_.push_back(fmt::format("{} of {} files are missing, the first {}", absent.size(),
                                      members_.size(), absent[0]));
@@ -131,6 +132,9 @@ void VtkReader::addVariables(std::size_t index) {
     const std::string where = array.place == VtkPlace::Points ? "" : ", at cells";
     if (array.components == 1) return add(array, name, array.type, type + where, {});
 
+    if (variables_.size() + array.components > kMaxVariables)
+        failVtk(frame_.header.path, fmt::format("'{}'", array.name),
+                fmt::format("expected at most {} components of all arrays", kMaxVariables));
     const std::string stored = fmt::format("{}, {} components{}", type, array.components, where);
     if (array.components <= 3) {
         const bool single = array.type == ValueType::F32;
@@ -161,11 +165,7 @@ void VtkReader::add(const VtkArray& array, const std::string& name, ValueType ty
 
 void VtkReader::open(std::size_t step) {
     if (step == openStep_) return;
-    const Path& path = members_[step].path;
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-        failVtk(path, "", "expected a file, but there is none");
-    frame_ = frameOf(path);
+    frame_ = frameOf(members_[step].path);
     openStep_ = step;
 }
 
@@ -200,9 +200,6 @@ std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
     if (legacy(path) || !isVtkCollection(path))
         return std::make_unique<VtkReader>(path, std::vector{VtkMember{path, std::nullopt}}, false);
     std::vector<VtkMember> members = readVtkCollection(path);
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(members[0].path, error))
-        failVtk(members[0].path, "", "expected a file, but there is none");
     return std::make_unique<VtkReader>(path, std::move(members), true);
 }
 

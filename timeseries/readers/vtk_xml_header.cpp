@@ -87,6 +87,13 @@ std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& elemen
     return VtkArray{std::move(name), place, type->type, components, {}};
 }
 
+void checkArrayCount(const Context& context, const XmlElement& group) {
+    if (group.children.size() > kMaxVtkArrays)
+        failVtk(context.header.path, placeOf(group),
+                fmt::format("expected at most {} arrays, found {}", kMaxVtkArrays,
+                            group.children.size()));
+}
+
 // The arrays of one piece at points or at cells, by name.
 std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, VtkPlace place,
                                std::uint64_t tuples) {
@@ -94,6 +101,7 @@ std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, 
     const auto groups = named(piece, group);
     if (groups.size() > 1)
         failVtk(context.header.path, placeOf(*groups[1]), "expected one in a piece");
+    if (!groups.empty()) checkArrayCount(context, *groups[0]);
     std::vector<VtkArray> arrays;
     std::set<std::string> names;
     for (std::size_t i = 0; !groups.empty() && i < groups[0]->children.size(); ++i) {
@@ -125,18 +133,29 @@ void checkCoordinates(const Context& context, const XmlElement& piece, const Vtk
     }
 }
 
+// VTK 9.1 makes every array of the field data, and crashes when it knows its type not.
 void checkFieldData(const Context& context, const XmlElement& grid) {
-    for (const XmlElement* field : named(grid, "FieldData"))
+    for (const XmlElement* field : named(grid, "FieldData")) {
+        checkArrayCount(context, *field);
         for (const XmlElement& array : field->children) {
-            const VtkType* type = vtkXmlType(array.attribute("type"));
-            if (array.name != "DataArray" || !type) continue;
+            const std::string_view name = array.attribute("type");
+            const VtkType* type = vtkXmlType(name);
+            if (!type && name != "String" && name != "Bit")
+                failVtk(context.header.path, placeOf(array),
+                        fmt::format("expected a type that VTK knows, found \"{}\"", name));
             const std::uint64_t tuples = wholeNumber(context, array, "NumberOfTuples", 0);
             const std::uint64_t components = wholeNumber(context, array, "NumberOfComponents", 1);
             if (components < 1 || components > kMaxComponents)
                 failVtk(context.header.path, placeOf(array), "expected fewer components");
-            checkVtkValues(context.header.path, context.file, context.encoding, array,
-                           placeOf(array), tuples * components, type->bytes);
+            if (type)
+                checkVtkValues(context.header.path, context.file, context.encoding, array,
+                               placeOf(array), tuples * components, type->bytes);
+            else if (tuples * components > context.file.bytes)
+                failVtk(context.header.path, placeOf(array),
+                        fmt::format("expected values within the file, found {} of them",
+                                    tuples * components));
         }
+    }
 }
 
 void addPieces(const Context& context, const XmlElement& grid) {

@@ -1,0 +1,61 @@
+// What happens to work that is tried out in a copy of the process.
+#include "timeseries/trial.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace timeseries {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Trial, WorkThatEndsChangesNothingHere) {
+    int value = 1;
+    EXPECT_EQ(trialOf([&] { value = 2; }, 10s), "");
+    EXPECT_EQ(value, 1);
+    EXPECT_EQ(trialOf([] { throw std::runtime_error("told later"); }, 10s), "");
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(trialOf([] { static_cast<void>(write(STDERR_FILENO, "noise", 5)); }, 10s), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Trial, WorkThatCrashesIsToldAndCrashesOnlyTheCopy) {
+    for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM})
+        EXPECT_EQ(trialOf([=] { std::raise(fault); }, 10s), "crashes") << fault;
+    EXPECT_EQ(trialOf([] { std::abort(); }, 10s), "crashes");
+    EXPECT_EQ(trialOf([] { _exit(3); }, 10s), "crashes");
+}
+
+TEST(Trial, WorkThatNeverEndsIsStopped) {
+    std::atomic<unsigned> count = 0;
+    EXPECT_EQ(trialOf(
+                  [&] {
+                      while (true) ++count;
+                  },
+                  1s),
+              "does not end within 1 s");
+}
+
+TEST(Trial, WorkMayAllocateWhileOtherThreadsDo) {
+    std::atomic<bool> stop = false;
+    std::vector<std::thread> others;
+    for (int i = 0; i < 3; ++i)
+        others.emplace_back([&] {
+            for (std::size_t n = 1; !stop; n = n % 5000 + 1) std::vector<char>(n).front() = 1;
+        });
+    for (int i = 0; i < 100; ++i)
+        EXPECT_EQ(trialOf([&] { std::vector<std::vector<char>>(50, std::vector<char>(100)); }, 10s),
+                  "");
+    stop = true;
+    for (std::thread& other : others) other.join();
+}
+
+}  // namespace
+}  // namespace timeseries

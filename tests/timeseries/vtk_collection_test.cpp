@@ -1,0 +1,133 @@
+// VTK collections (.pvd): several files as steps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "tests/support/vtk_files.h"
+#include "timeseries/reader.h"
+
+namespace timeseries {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::dataArray;
+using tests::imageText;
+using Path = std::filesystem::path;
+
+std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
+
+std::string refusal(const Path& path, std::size_t step = 0) {
+    try {
+        open(path)->read(0, step);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+Path collection(const std::string& sets) {
+    return tests::write(
+        "all.pvd", "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>");
+}
+
+std::string member(const std::string& time, const Path& file, const std::string& more = "") {
+    return "<DataSet timestep=\"" + time + "\" " + more + " file=\"" + file.filename().string() +
+           "\"/>";
+}
+
+TEST(VtkCollection, TimesAreRealAndMembersAreReadOneByOne) {
+    std::vector<Path> files;
+    for (int i = 0; i < 3; ++i)
+        files.push_back(
+            tests::write(fmt::format("{}.vti", i),
+                         imageText({.points = dataArray("Int32", "p", std::vector<int>(12, i))})));
+    const auto reader = open(
+        collection(member("1.5", files[1]) + member("0.1", files[0]) + member("1e3", files[2])));
+    EXPECT_EQ(reader->format(), "VTK collection of image data (XML)");
+    const auto& points = reader->variables()[0].time->points;
+    ASSERT_EQ(points.size(), 3u);
+    EXPECT_EQ(points[0].value, 0.1);
+    EXPECT_EQ(points[1].value, 1.5);
+    EXPECT_EQ(points[2].value, 1000);
+    for (const std::size_t step : {2u, 0u, 1u})
+        EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values)[3], step);
+}
+
+TEST(VtkCollection, AttributesAreReadHoweverTheyAreWritten) {
+    const auto image = [](int value) {
+        return imageText({.points = dataArray("Int32", "p", std::vector<int>(12, value))});
+    };
+    const Path amp = tests::write("a&b 1.vti", image(1)), plain = tests::write("2.vti", image(2));
+    const Path other = tests::write("3.vti", image(3));
+    std::string escaped = amp.filename().string();
+    escaped.replace(escaped.find('&'), 1, "&amp;");
+    const std::string sets = fmt::format(
+        "<!-- by hand -->\n<DataSet timestep = ' 1.5\n' group='' part=' 0 ' file=\" {} \"/>\n"
+        "<DataSet file='./{}' name=\"x\" part=\"0\"\n\ttimestep=\"-2.5E-1\"></DataSet>"
+        "<Other file='none'/><DataSet file=\"{}\" timestep=\"00\" part=\"0\" group=\"\"/>",
+        escaped, plain.filename().string(), other.string());
+    const Path path =
+        tests::write("odd.pvd",
+                     "\xEF\xBB\xBF<?xml version='1.0' encoding='UTF-8'?>\r\n<VTKFile byte_order = "
+                     "'BigEndian' version=\"0.1\" type=' Collection '><Collection>" +
+                         sets + "</Collection>\n</VTKFile>\n");
+    const auto reader = open(path);
+    const auto& points = reader->variables()[0].time->points;
+    ASSERT_EQ(points.size(), 3u);
+    for (const auto& [step, time, value] :
+         {std::tuple{0, -0.25, 2}, std::tuple{1, 0.0, 3}, std::tuple{2, 1.5, 1}}) {
+        EXPECT_EQ(points[static_cast<std::size_t>(step)].value, time);
+        EXPECT_EQ(std::get<std::vector<std::int32_t>>(
+                      reader->read(0, static_cast<std::size_t>(step)).values)[11],
+                  value);
+    }
+}
+
+TEST(VtkCollection, WithoutTimesStepsAreCountedAsTheyStand) {
+    const auto named = [](int value) {
+        return tests::write(
+            fmt::format("{}.vti", value),
+            imageText({.points = dataArray("Int32", "p", std::vector<int>(12, value))}));
+    };
+    std::string sets;
+    for (const int value : {7, 3, 5})
+        sets += "<DataSet file=\"" + named(value).filename().string() + "\"/>";
+    const auto reader = open(collection(sets));
+    EXPECT_TRUE(reader->variables()[0].time->counted);
+    for (const auto& [step, value] : {std::pair{0u, 7}, std::pair{1u, 3}, std::pair{2u, 5}})
+        EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values)[0], value);
+}
+
+TEST(VtkCollection, WhatDiffersIsTold) {
+    const Path good = tests::write(
+        "a.vti", imageText({.points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
+    const Path finer = tests::write(
+        "b.vti", imageText({.attributes = "Spacing=\"1 1 1\"",
+                            .points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
+    const Path other = tests::write(
+        "c.vti", imageText({.points = dataArray("Int16", "p", std::vector<int>(12, 1))}));
+    EXPECT_THAT(refusal(collection(member("0", good) + member("1", finer)), 1),
+                HasSubstr("expected the grid of"));
+    EXPECT_THAT(refusal(collection(member("0", good) + member("1", other)), 1),
+                HasSubstr("'p': expected int32 of 1 components"));
+    EXPECT_THAT(refusal(collection(member("0", good) + member("0", finer))),
+                HasSubstr("expected times that differ, found 0 twice"));
+    EXPECT_THAT(
+        refusal(collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
+        HasSubstr("expected one part a time step, found 2 parts"));
+    EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected 1 finite numbers"));
+    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
+    const Path gap = collection(member("0", good) + member("1", "none.vti"));
+    EXPECT_THAT(open(gap)->variables()[0].notes,
+                ElementsAre("1 of 2 files are missing, the first none.vti"));
+    EXPECT_THAT(refusal(gap, 1), HasSubstr("none.vti: expected a file, but there is none"));
+    EXPECT_THAT(refusal(collection(member("0", "none.vti"))), HasSubstr("there is none"));
+    EXPECT_THAT(refusal(collection("<DataSet file=\"..\"/>")), HasSubstr("it is a folder"));
+    EXPECT_THAT(refusal(collection("<DataSet file=\"/dev/zero\"/>")),
+                HasSubstr("/dev/zero: expected an ordinary file"));
+}
+
+}  // namespace
+}  // namespace timeseries

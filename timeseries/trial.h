@@ -1,0 +1,18 @@
+// Work that may crash or never end, tried out in a copy of this process: for libraries that do so
+// on damaged files.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+namespace timeseries {
+
+// How `work` ends in a forked copy of this process: "" when it returns or throws, else "crashes",
+// or "does not end within 20 s" of computing. Nothing that it changes is seen here, and nothing
+// that it prints. "" too when no copy can be made: then the work is untried. REQUIRES: `work` takes
+// no lock that another thread may hold, other than malloc's: in the copy that thread is not there
+// to give it back. Forking takes 0.2 ms, and 40 ms for each GB that is in use.
+std::string trialOf(const std::function<void()>& work, std::chrono::seconds limit);
+
+}  // namespace timeseries
