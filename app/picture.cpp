@@ -90,6 +90,27 @@ render::RangeStyle rangeStyle(const LayerChoice& layer) {
     return out;
 }
 
+// The texts of a range's bounds. Doubles of many digits, as a swept window has, are rounded to as
+// few (at least seven) as tell the two apart; `rounded` then becomes true.
+std::pair<std::string, std::string> shortBounds(const Range& range, bool& rounded) {
+    const auto text = [](const timeseries::Number& number, int digits) {
+        const auto* real = std::get_if<double>(&number);
+        std::string exact = timeseries::toText(number);
+        if (real == nullptr || !std::isfinite(*real)) return exact;
+        std::string few = fmt::format("{:.{}g}", *real, digits);
+        return few.size() < exact.size() ? few : exact;
+    };
+    const std::string exactLo = timeseries::toText(range.lo.value);
+    const std::string exactHi = timeseries::toText(range.hi.value);
+    for (int digits = 7; digits < 17; ++digits) {
+        const std::string lo = text(range.lo.value, digits), hi = text(range.hi.value, digits);
+        if (lo == hi && exactLo != exactHi) continue;
+        rounded = rounded || lo != exactLo || hi != exactHi;
+        return {lo, hi};
+    }
+    return {exactLo, exactHi};
+}
+
 }  // namespace
 
 bool needsSamples(const Explorer& e) {
@@ -165,12 +186,13 @@ Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, const SortedS
 
 std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
     std::string text;
+    bool rounded = false;
     for (const Range& r : ranges.ranges()) {
         const auto isUnbounded = [](const timeseries::Bound& b, double end) {
             return timeseries::toDouble(b.value) == end && !b.open;
         };
         const bool down = isUnbounded(r.lo, -kInfinity), up = isUnbounded(r.hi, kInfinity);
-        const std::string lo = timeseries::toText(r.lo.value), hi = timeseries::toText(r.hi.value);
+        const auto [lo, hi] = shortBounds(r, rounded);
         if (!text.empty()) text += ", ";
         if (down && up) return "all values";
         if (lo == hi)
@@ -185,6 +207,7 @@ std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
             text += fmt::format("{} to {}", lo, hi);
     }
     if (text.empty()) return "no values";
+    if (rounded) text = "≈ " + text;
     const std::string unit = render::shownUnit(units);
     return unit.empty() ? text : text + " " + unit;
 }

@@ -34,7 +34,7 @@ timeseries::RangeSet sweptRanges(const Explorer& explorer, const timeseries::Sor
 Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex,
                   const timeseries::SortedStep& step, std::int64_t tick);
 
-// "600 to 1600 K", "≥ 600 K", "all values".
+// "600 to 1600 K", "≥ 600 K", "all values"; "≈ 0.3333333 to 1 K" where doubles were rounded.
 std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& units);
 
 // One step as the explorer wants it drawn. REQUIRES: a resolved explorer; `tick` of its sweep, if

@@ -66,8 +66,18 @@ TEST(RangeLabel, SaysARangeAsPeopleDo) {
     EXPECT_EQ(label("0:1,5:6,9:max"), "0 to 1, 5 to 6, ≥ 9 K");
     EXPECT_EQ(label("0:1", ""), "0 to 1");
     EXPECT_EQ(label("0:1", "1"), "0 to 1");
-    EXPECT_EQ(label("0.1:0.30000000000000004"), "0.1 to 0.30000000000000004 K");
     EXPECT_EQ(rangeLabel(RangeSet(), "K"), "no values");
+}
+
+TEST(RangeLabel, LongDoublesAreRoundedAndSaidToBe) {
+    const auto label = [](const char* text) { return rangeLabel(RangeSet::parse(text), "K"); };
+    EXPECT_EQ(label("0.1:0.30000000000000004"), "≈ 0.1 to 0.3 K");
+    EXPECT_EQ(label("1426.5184782812678:max"), "≈ ≥ 1426.518 K");
+    // As many digits as tell the ends apart; integers are never rounded.
+    EXPECT_EQ(label("1.00000000123:1.00000000456"), "≈ 1.000000001 to 1.000000005 K");
+    EXPECT_EQ(label("0.3:0.30000000000000004"), "0.3 to 0.30000000000000004 K");
+    EXPECT_EQ(label("9007199254740993:9007199254740995"), "9007199254740993 to 9007199254740995 K");
+    EXPECT_EQ(label("123456.7:123456789.5"), "123456.7 to 123456789.5 K") << "no shorter so";
 }
 
 TEST(RangeLabel, AnInfiniteValueAloneIsNotAllValues) {
