@@ -21,15 +21,14 @@ class GpuList {
     void draw(bool quads, std::optional<std::size_t> layer) const;
 
  private:
-    struct LayerRuns {
-        std::vector<GLint> first;
-        std::vector<GLsizei> count;
-    };
+    // Draws the blocks that the run touches; the vertex shader passes the run's points.
+    void drawBlocksOf(const timeseries::Run& run, bool quads) const;
+
     const Scene& scene_;
     const GpuStep& step_;
     bool cubes_;
-    std::vector<LayerRuns> runs_;       // per layer; empty for a sorted list
-    std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first
+    std::vector<std::vector<timeseries::Run>> runs_;  // per layer; empty for a sorted list
+    std::optional<gl::Buffer> sorted_;                // SortedPoint, farthest first
     GLsizei sortedCount_ = 0;
     gl::VertexArray points_, quads_;  // per vertex and per instance
 };

@@ -146,8 +146,9 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
                             static_cast<GLsizei>(row.size()), 1, GL_RGBA, GL_FLOAT, row.data());
     }
     layers_.write(0, sizeof block, &block);
-    // A sorted list brings its own values.
-    if (byValue && std::holds_alternative<Runs>(list)) step.needValues(scene.step, scale);
+    // A sorted list brings its own points.
+    if (std::holds_alternative<Runs>(list))
+        step.need(scene, byValue ? std::optional(scale) : std::nullopt);
     return std::make_unique<GpuList>(scene, list, step, scale);
 }
 

@@ -72,7 +72,7 @@ class VertexArray : public Object {
         GLuint location;
         const Buffer& buffer;
         GLint components;
-        GLenum type;  // GL_UNSIGNED_INT and GL_UNSIGNED_BYTE arrive as integers
+        GLenum type;  // unsigned types arrive as integers
         GLsizei stride;
         GLuint offset = 0;
         GLuint divisor = 0;
