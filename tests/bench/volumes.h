@@ -21,7 +21,8 @@ struct Volume {
     timeseries::Range range(double share) const {
         const auto half = static_cast<std::uint64_t>(static_cast<double>(step.size()) * share / 2);
         const auto at = [&](std::uint64_t p) { return timeseries::toDouble(step.value(p)); };
-        return {{at(step.size() / 2 - half)}, {at(step.size() / 2 + half)}};
+        const std::uint64_t middle = step.size() / 2;
+        return {{at(middle - half)}, {at(std::min(middle + half, step.size() - 1))}};
     }
     timeseries::RangeSet rangeSet(double share) const {
         return timeseries::RangeSet(std::vector{range(share)});
