@@ -1,7 +1,6 @@
 #include "render/block_order.h"
 
 #include <array>
-#include <bit>
 #include <numeric>
 
 #include "render/subset.h"
@@ -50,11 +49,12 @@ std::vector<std::uint16_t> blockOrder(std::span<const std::uint32_t> gridIndex, 
     std::iota(given.begin(), given.end(), std::uint16_t{0});
     const auto near =
         sortedBy<kCells * kCells * kCells>(given, [&](std::uint16_t place) { return cell[place]; });
-    // Level 0: ranks of the largest stride; each further level has as many again as all before it.
-    constexpr std::size_t kLevels = std::bit_width(kMaxStride);
+    // Level 0: ranks of the largest prefix; each further level has three times all before it.
+    constexpr std::uint32_t kLargest = prefixStride(kMaxStride);
+    constexpr std::size_t kLevels = (std::bit_width(kLargest) + 1) / 2;
     return sortedBy<kLevels>(near, [](std::uint16_t place) {
         return static_cast<std::size_t>(
-            std::bit_width(subsetRank(place) / (kSubsetPeriod / kMaxStride)));
+            (std::bit_width(subsetRank(place) / (kSubsetPeriod / kLargest)) + 1) / 2);
     });
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/block_order.h"
+
 namespace render {
 namespace {
 
@@ -33,34 +35,37 @@ struct Slices {
     }
 };
 
-// All that lies in the blocks that the run touches, or their beginnings, which are the subset.
+// All that lies in the blocks that the run touches, or their beginnings, which hold the subset.
 Slices slicesOf(const timeseries::Run& run, std::uint32_t stride, std::uint64_t points) {
     constexpr std::uint64_t kBlock = GpuStep::kBlock;
     const std::uint64_t from = run.first / kBlock * kBlock;
     const std::uint64_t end = run.first + run.count;
     const std::uint64_t to = std::min((end + kBlock - 1) / kBlock * kBlock, points);
     Slices slices;
-    if (stride == 1) {
+    const std::uint32_t prefix = prefixStride(stride);
+    if (prefix == 1) {
         slices.add(from, to - from);
         return slices;
     }
     for (std::uint64_t at = from; at < to; at += kBlock)
-        slices.add(at, subsetCount({at, std::min(kBlock, to - at)}, stride));
+        slices.add(at, subsetCount({at, std::min(kBlock, to - at)}, prefix));
     return slices;
 }
 
-void drawSlices(const timeseries::Run& run, const Slices& slices, bool quads) {
+void drawRun(const timeseries::Run& run, std::uint32_t stride, std::uint64_t points, bool quads) {
+    const Slices slices = slicesOf(run, stride, points);
     const auto first = static_cast<GLuint>(run.first);
     const auto last = static_cast<GLuint>(run.first + run.count - 1);
-    const auto count = static_cast<GLsizei>(slices.first.size());
-    glVertexAttribI4ui(4, first, last, 0, 0);
+    const auto ranks = static_cast<GLuint>(kSubsetPeriod / stride);
+    glVertexAttribI4ui(4, first, last, 0, ranks);
     if (!quads) {
-        glMultiDrawArrays(GL_POINTS, slices.first.data(), slices.count.data(), count);
+        glMultiDrawArrays(GL_POINTS, slices.first.data(), slices.count.data(),
+                          static_cast<GLsizei>(slices.first.size()));
         return;
     }
     for (std::size_t i = 0; i < slices.first.size(); ++i) {
         const auto at = static_cast<GLuint>(slices.first[i]);
-        glVertexAttribI4ui(4, first, last, at, 0);  // gl_InstanceID counts from 0
+        glVertexAttribI4ui(4, first, last, at, ranks);  // gl_InstanceID counts from 0
         glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, slices.count[i], at);
     }
 }
@@ -94,7 +99,7 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
 void GpuList::drawSorted(bool quads) const {
     // Every point, wherever it stands.
     glVertexAttribI4ui(3, 0, 0, 0, 1);
-    glVertexAttribI4ui(4, 0, 0xffffffffu, 0, 0);
+    glVertexAttribI4ui(4, 0, 0xffffffffu, 0, kSubsetPeriod);
     if (quads)
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, sortedCount_);
     else
@@ -111,7 +116,7 @@ void GpuList::draw(bool quads, std::optional<std::size_t> layer) const {
         if (step_.values() == nullptr) glVertexAttrib1f(1, 0);
         const std::uint32_t stride = strideOf(scene_.layers[k], scene_.stride);
         for (const timeseries::Run& run : scene_.layers[k].runs)
-            drawSlices(run, slicesOf(run, stride, scene_.step.size()), quads);
+            drawRun(run, stride, scene_.step.size(), quads);
     }
 }
 

@@ -13,11 +13,11 @@
 namespace render {
 
 // Block b holds the points [b kBlock, (b + 1) kBlock) of the sorted step in blockOrder: splats that
-// follow each other fall on near pixels, which is quicker than order of value, and a block's
-// beginning is the subset of any stride. Each point knows its place in the sorted block, so a run
-// is drawn exactly: all of a block that it touches is sent to the vertex shader, which passes only
-// the points whose place lies in the run. Room is taken at once; blocks come when a scene needs
-// them, in slices, so that frames keep their pace.
+// follow each other fall on near pixels, which is quicker than order of value, and a subset lies in
+// the beginnings of blocks. Each point knows its place in the sorted block, so a run is drawn
+// exactly: all of a block that it touches, or its beginning, is sent to the vertex shader, which
+// passes only the points whose place lies in the run and the subset. Room is taken at once; blocks
+// come when a scene needs them, in slices, so that frames keep their pace.
 //
 // A scene here is of the step and the grid that this was made for. One that is ordered needs
 // nothing: its list brings its own points.
