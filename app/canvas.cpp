@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "app/camera.h"
 #include "app/gpu_steps.h"
@@ -12,28 +11,17 @@
 namespace app {
 namespace {
 
-std::uint64_t selectedPoints(const std::vector<render::Layer>& layers) {
+std::uint64_t drawnSplats(const std::vector<render::Layer>& layers, std::uint32_t stride) {
     std::uint64_t sum = 0;
-    for (const render::Layer& layer : layers) sum += render::pointCount(layer);
+    for (const render::Layer& layer : layers) sum += render::splatCount(layer, stride);
     return sum;
 }
 
-std::uint64_t drawnSplats(const render::Scene& scene) {
-    std::uint64_t sum = 0;
-    for (const render::Layer& layer : scene.layers) sum += render::splatCount(layer, scene.stride);
-    return sum;
-}
-
-// The least stride that keeps to the limit. Points of equal value stand in grid order, where a
-// stride that divides a row would take whole planes and leave others out: one a little greater that
-// divides neither rows nor columns is preferred.
-std::uint32_t strideFor(std::uint64_t points, std::uint64_t limit, const glm::uvec3& grid) {
-    const std::uint64_t least = (points + limit - 1) / std::max<std::uint64_t>(limit, 1);
-    if (least <= 1) return 1;
-    for (std::uint64_t s = least; s <= least + least / 2; ++s)
-        if (std::gcd(s, grid.x) == 1 && std::gcd(s, grid.y) == 1)
-            return static_cast<std::uint32_t>(std::min<std::uint64_t>(s, render::kMaxStride));
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(least, render::kMaxStride));
+// The least stride that keeps to the limit.
+std::uint32_t strideFor(const std::vector<render::Layer>& layers, std::uint64_t limit) {
+    std::uint32_t stride = 1;
+    while (stride < render::kMaxStride && drawnSplats(layers, stride) > limit) stride *= 2;
+    return stride;
 }
 
 // A splat of a subset fills the place of the points that it stands for: at equal cost that is
@@ -44,7 +32,7 @@ render::Footprint footprintFor(render::Footprint footprint, std::uint32_t stride
     return footprint;
 }
 
-// What is drawn: a step that is wholly on the GPU, and the choices it is drawn with.
+// What is drawn: a step, and choices of which all that they select is on the GPU.
 struct Screen {
     std::shared_ptr<const timeseries::SortedStep> sorted;
     GpuSteps::Held* held;
@@ -81,10 +69,20 @@ struct Canvas::State {
     GpuSteps steps;
     std::optional<Screen> screen;
 
-    // Uploads a slice of what is shown and, once it is whole, puts it on the screen. Returns the
-    // step shown.
+    // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
+    // screen. Returns the step shown.
     GpuSteps::Held& bring(const Shown& shown, std::uint64_t uploadBytes, CanvasReport& report);
+    // The step on the screen takes other choices, if all that they select is on the GPU.
+    void choose(const Explorer& choices);
 };
+
+void Canvas::State::choose(const Explorer& choices) {
+    Screen changed = *screen;
+    changed.explorer = choices;
+    if (!changed.held->onGpu.ready(pictureOf(changed).scene)) return;
+    changed.held->stretch(choices.scale);
+    screen = std::move(changed);
+}
 
 GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadBytes,
                                      CanvasReport& report) {
@@ -92,19 +90,20 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
     Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
     const Picture picture = pictureOf(next);
     std::optional<render::ValueScale> scale = render::neededScale(picture.scene);
-    const bool byValue = scale.has_value();
-    if (byValue && held.onGpu.values() != nullptr && held.onGpu.valueScale().serves(*scale))
-        scale = held.onGpu.valueScale();
-    held.onGpu.upload(*shown.sorted, scale, uploadBytes);
-    const std::uint64_t missing = held.onGpu.missingBytes(scale);
-    const std::uint64_t all = shown.sorted->size() * (byValue ? 2 : 1) * sizeof(float);
-    if (missing > 0) report.uploaded = 1 - static_cast<double>(missing) / static_cast<double>(all);
-    if (held.onGpu.ready(byValue)) {
+    if (scale) scale = held.onGpu.serving(*scale);
+    const bool onScreen = screen && screen->held == &held;
+    constexpr std::uint64_t kOnScreen = 8;
+    held.onGpu.upload(picture.scene, scale, onScreen ? kOnScreen * uploadBytes : uploadBytes);
+    if (const std::uint64_t missing = held.onGpu.missingBytes(picture.scene, scale); missing > 0)
+        report.uploaded =
+            1 - static_cast<double>(missing) /
+                    static_cast<double>(render::GpuStep::neededBytes(picture.scene, scale));
+    if (held.onGpu.ready(picture.scene)) {
         screen.emplace(std::move(next));
-    } else if (screen && sameData(screen->explorer, shown.explorer) &&
-               screen->held->onGpu.ready(byValue)) {
-        screen->explorer = shown.explorer;
-        screen->held->stretch(shown.explorer.scale);
+    } else if (onScreen) {
+        screen->explorer.scale = shown.explorer.scale;  // which use() has taken over
+    } else if (screen && sameData(screen->explorer, shown.explorer)) {
+        choose(shown.explorer);
     }
     return held;
 }
@@ -128,13 +127,11 @@ CanvasReport Canvas::draw(
 
     Picture picture = pictureOf(*screen);
     report.step = screen->step;
-    report.selected = selectedPoints(picture.scene.layers);
-    if (moving)
-        picture.scene.stride =
-            strideFor(report.selected * eyes.size(), limits.splats, screen->held->lattice.size());
+    report.selected = drawnSplats(picture.scene.layers, 1);
+    if (moving) picture.scene.stride = strideFor(picture.scene.layers, limits.splats / eyes.size());
     picture.scene.footprint = footprintFor(screen->explorer.footprint, picture.scene.stride);
     report.stride = screen->stride = picture.scene.stride;
-    report.drawn = drawnSplats(picture.scene);
+    report.drawn = drawnSplats(picture.scene.layers, picture.scene.stride);
     report.whole = report.stride == 1 && report.uploaded == 1;
 
     state_->timer.begin();

@@ -22,7 +22,9 @@ namespace app {
 
 struct CanvasLimits {
     std::uint64_t splats = 1'000'000;  // in one frame, all layers and eyes; see FramePace
-    std::uint64_t uploadBytes = std::uint64_t{16} << 20;  // in one frame
+    // In one frame, of a step that comes; eight times as many of the step on the screen, so that
+    // another selection of it is seen at once.
+    std::uint64_t uploadBytes = std::uint64_t{16} << 20;
     // Of steps on the GPU that are not drawn, so that scrubbing back and forth is instant.
     std::uint64_t cacheBytes = std::uint64_t{1} << 30;
 };
@@ -31,9 +33,9 @@ struct CanvasLimits {
 struct CanvasReport {
     std::size_t step = 0;                   // the step on the screen
     std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
-    std::uint32_t stride = 1;               // every so many-th point stands for its neighbours
+    std::uint32_t stride = 1;               // one of so many points stands for its neighbours
     bool whole = false;                     // nothing is missing: all points, all uploaded
-    double uploaded = 1;                    // share of the step asked for that is on the GPU
+    double uploaded = 1;                    // share of what the picture asked for needs
     std::uint64_t gpuBytes = 0;             // of steps held there
     // Of an earlier frame, by timer query, and the splats of all its eyes: what FramePace learns
     // from. None in most frames of a GPU that is behind.
@@ -57,10 +59,10 @@ class Canvas {
     ~Canvas();
 
     // Draws the eyes one after the other and hands each one's light (render::Targets) to `show`
-    // before the next is drawn. Order is taken and uploaded once. A step that is not wholly on the
-    // GPU is not drawn: the one before stays, and the report says so. Nothing is drawn, and `show`
-    // is not called, before the first step is there. `moving`: the picture is expected to change
-    // again at once, so the limits hold; else all points are drawn. Never waits for the GPU.
+    // before the next is drawn. Order is taken and uploaded once. What is not on the GPU yet is not
+    // drawn: the step or the choices before stay, and the report says so. Nothing is drawn, and
+    // `show` is not called, before the first step is there. `moving`: the picture is expected to
+    // change again at once, so the limits hold; else all points are drawn. Never waits for the GPU.
     // REQUIRES: at least one eye, all of one size.
     CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
                       const CanvasLimits& limits, bool moving,

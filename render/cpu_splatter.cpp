@@ -119,8 +119,8 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     }
     for (std::size_t layer = 0; layer < scene.layers.size(); ++layer)
         for (const timeseries::Run& run : scene.layers[layer].runs)
-            for (std::uint64_t p = run.first; p < run.first + run.count; p += scene.stride)
-                draw(layer, p);
+            forEachInSubset(run, strideOf(scene.layers[layer], scene.stride),
+                            [&](std::uint64_t point) { draw(layer, point); });
 }
 
 template void splat(const Scene&, const DrawList&, const View&, std::span<const float>,

@@ -20,16 +20,17 @@ Distances distances(const Scene& scene, const glm::dvec3& midEye) {
     const auto& at = scene.lattice.positions();
     const glm::dmat3& worldFromAxes = scene.lattice.worldFromAxes();
     for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
+        const std::uint32_t stride = strideOf(scene.layers[layer], scene.stride);
         for (const timeseries::Run& run : scene.layers[layer].runs) {
-            for (std::uint64_t p = run.first; p < run.first + run.count; p += scene.stride) {
+            forEachInSubset(run, stride, [&](std::uint64_t p) {
                 const std::uint32_t i = index[p];
                 const glm::uvec3 ijk(i % n.x, i / n.x % n.y, i / n.x / n.y);
-                if (!scene.clip.holds(ijk)) continue;
+                if (!scene.clip.holds(ijk)) return;
                 d.list.point.push_back(static_cast<std::uint32_t>(p));
                 d.list.layer.push_back(static_cast<std::uint8_t>(layer));
                 const glm::dvec3 along(at[0][ijk.x], at[1][ijk.y], at[2][ijk.z]);
                 d.away.push_back(glm::distance(worldFromAxes * along, midEye));
-            }
+            });
         }
     }
     return d;

@@ -52,7 +52,7 @@ void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
-    step.upload(content.scene.step, neededScale(content.scene));
+    step.upload(content.scene, neededScale(content.scene));
     const Prepared frame = prepare(content, step, eyes);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
@@ -67,7 +67,10 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
     }
     if (extras.opticalDepth) {
         // An ordered list interleaves the layers; their weights are added from the runs.
-        const auto runs = splatter_.upload(content.scene, Runs{}, step);
+        Scene unordered = content.scene;
+        unordered.order = Order::None;
+        step.upload(unordered, neededScale(unordered));
+        const auto runs = splatter_.upload(unordered, Runs{}, step);
         for (std::size_t i = 0; i < eyes.size(); ++i) {
             drawOpaque(
                 content, eyes[i],
@@ -90,7 +93,7 @@ void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
     flat_->draw(axes.labels, into, view.size, gl::DepthTest::None);
 }
 
-void FrameRenderer::drawSplats(GpuList& list, const View& view) {
+void FrameRenderer::drawSplats(const GpuList& list, const View& view) {
     const std::vector<Channels> channels = channelsFor(list.scene());
     for (std::size_t i = 0; i < channels.size(); ++i)
         splatter_.draw(list, view, channels[i], i, targets_->clearedPlane(i, channels[i]));
@@ -120,7 +123,7 @@ void FrameRenderer::resolve(const Scene& scene, glm::ivec2 size) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-std::vector<float> FrameRenderer::opticalDepth(GpuList& list, const View& view) {
+std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view) {
     std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
     const auto& layers = list.scene().layers;
     for (std::size_t k = 0; k < layers.size(); ++k) {

@@ -63,10 +63,10 @@ class FrameRenderer {
 
  private:
     void drawOpaque(const FrameContent& content, const View& view, const AxesMeshes& axes);
-    void drawSplats(GpuList& list, const View& view);
+    void drawSplats(const GpuList& list, const View& view);
     void resolve(const Scene& scene, glm::ivec2 size);
     const gl::Program& resolveProgram(const Scene& scene);
-    std::vector<float> opticalDepth(GpuList& list, const View& view);
+    std::vector<float> opticalDepth(const GpuList& list, const View& view);
 
     Font font_;
     glm::ivec2 fontFor_{0};  // the picture size whose label styles font_ holds

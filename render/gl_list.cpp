@@ -1,12 +1,8 @@
 #include "render/gl_list.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <stdexcept>
+
+#include "render/block_order.h"
 
 namespace render {
 namespace {
@@ -29,125 +25,52 @@ std::vector<SortedPoint> gathered(const Scene& scene, const Sorted& list, const 
     return out;
 }
 
-std::vector<glm::vec2> axisTable(const Lattice& lattice) {
-    std::vector<glm::vec2> table;
-    for (int a = 0; a < 3; ++a)
-        for (std::size_t i = 0; i < lattice.positions()[a].size(); ++i)
-            table.emplace_back(lattice.positions()[a][i], lattice.widths()[a][i]);
-    return table;
+// What is sent to the vertex shader, of the points as they lie on the GPU.
+struct Slices {
+    std::vector<GLint> first;
+    std::vector<GLsizei> count;
+    void add(std::uint64_t from, std::uint64_t points) {
+        first.push_back(static_cast<GLint>(from));
+        count.push_back(static_cast<GLsizei>(points));
+    }
+};
+
+// All that lies in the blocks that the run touches, or their beginnings, which hold the subset.
+Slices slicesOf(const timeseries::Run& run, std::uint32_t stride, std::uint64_t points) {
+    constexpr std::uint64_t kBlock = GpuStep::kBlock;
+    const std::uint64_t from = run.first / kBlock * kBlock;
+    const std::uint64_t end = run.first + run.count;
+    const std::uint64_t to = std::min((end + kBlock - 1) / kBlock * kBlock, points);
+    Slices slices;
+    const std::uint32_t prefix = prefixStride(stride);
+    if (prefix == 1) {
+        slices.add(from, to - from);
+        return slices;
+    }
+    for (std::uint64_t at = from; at < to; at += kBlock)
+        slices.add(at, subsetCount({at, std::min(kBlock, to - at)}, prefix));
+    return slices;
 }
 
-// Values from the first-th point on, as many as `into` takes.
-void scaled(const timeseries::SortedStep& step, std::uint64_t first, const ValueScale& scale,
-            std::vector<float>& into) {
-    std::visit(
-        [&](const auto& values) {
-            for (std::size_t i = 0; i < into.size(); ++i)
-                into[i] = scale(static_cast<double>(values[first + i]));
-        },
-        step.values());
-}
-
-constexpr std::uint64_t kMostDrawable = std::numeric_limits<GLint>::max();
-
-const timeseries::SortedStep& drawable(const timeseries::SortedStep& step) {
-    if (step.size() > kMostDrawable)
-        throw std::length_error(
-            fmt::format("{} kept points are more than the {} that can be drawn: keep fewer",
-                        step.size(), kMostDrawable));
-    return step;
+void drawRun(const timeseries::Run& run, std::uint32_t stride, std::uint64_t points, bool quads) {
+    const Slices slices = slicesOf(run, stride, points);
+    const auto first = static_cast<GLuint>(run.first);
+    const auto last = static_cast<GLuint>(run.first + run.count - 1);
+    const auto ranks = static_cast<GLuint>(kSubsetPeriod / stride);
+    glVertexAttribI4ui(4, first, last, 0, ranks);
+    if (!quads) {
+        glMultiDrawArrays(GL_POINTS, slices.first.data(), slices.count.data(),
+                          static_cast<GLsizei>(slices.first.size()));
+        return;
+    }
+    for (std::size_t i = 0; i < slices.first.size(); ++i) {
+        const auto at = static_cast<GLuint>(slices.first[i]);
+        glVertexAttribI4ui(4, first, last, at, ranks);  // gl_InstanceID counts from 0
+        glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, slices.count[i], at);
+    }
 }
 
 }  // namespace
-
-ValueScale ValueScale::of(const std::vector<Layer>& layers) {
-    ValueScale narrowest;
-    for (const Layer& layer : layers) {
-        const auto* map = std::get_if<ByValue>(&layer.style.color);
-        if (map == nullptr) continue;
-        const double halfWidth = map->halfWidth();
-        if (halfWidth > 0 && (narrowest.halfWidth == 0 || halfWidth < narrowest.halfWidth))
-            narrowest = {map->lo, halfWidth};
-    }
-    return narrowest;
-}
-
-float ValueScale::operator()(double value) const {
-    if (halfWidth == 0) return 0;
-    constexpr double kMost = std::numeric_limits<float>::max();
-    return static_cast<float>(std::clamp((0.5 * value - 0.5 * lo) / halfWidth, -kMost, kMost));
-}
-
-bool ValueScale::serves(const ValueScale& wanted) const {
-    // A float's error of 2^-24 grows by how far the two are apart and how much they differ in
-    // width, in widths of the wanted one.
-    constexpr double kMostWidths = 1024;
-    if (!(wanted.halfWidth > 0)) return true;
-    return halfWidth > 0 &&
-           halfWidth / wanted.halfWidth + std::abs(0.5 * lo - 0.5 * wanted.lo) / wanted.halfWidth <=
-               kMostWidths;
-}
-
-GpuStep::GpuStep(const timeseries::SortedStep& step, const Lattice& lattice)
-    : count_(drawable(step).size()),
-      gridIndex_(count_ * sizeof(std::uint32_t)),
-      axisPoints_(std::span<const glm::vec2>(axisTable(lattice))),
-      axisTexture_(GL_RG32F, axisPoints_) {}
-
-void GpuStep::place(const Lattice& lattice) {
-    const std::vector<glm::vec2> table = axisTable(lattice);
-    axisPoints_.write(0, table.size() * sizeof table[0], table.data());
-}
-
-void GpuStep::upload(const timeseries::SortedStep& step, const std::optional<ValueScale>& scale,
-                     std::uint64_t bytes) {
-    std::uint64_t left = bytes / sizeof(float);  // points and values have one size
-    const std::uint64_t points = std::min(left, count_ - points_);
-    gridIndex_.write(points_ * sizeof(std::uint32_t), points * sizeof(std::uint32_t),
-                     step.gridIndex().data() + points_);
-    points_ += points;
-    left -= points;
-    if (!scale || (values_ && values_->scale == *scale)) {
-        coming_.reset();
-        return;
-    }
-    if (!coming_ || coming_->scale != *scale)
-        coming_.emplace(ScaledValues{gl::Buffer(count_ * sizeof(float)), *scale});
-    constexpr std::uint64_t kChunk = std::uint64_t{1} << 16;
-    std::vector<float> chunk;
-    for (; left > 0 && coming_->count < count_; left -= chunk.size()) {
-        chunk.resize(std::min({left, kChunk, count_ - coming_->count}));
-        scaled(step, coming_->count, *scale, chunk);
-        coming_->buffer.write(coming_->count * sizeof(float), chunk.size() * sizeof(float),
-                              chunk.data());
-        coming_->count += chunk.size();
-    }
-    if (coming_->count < count_) return;
-    values_.emplace(std::move(*coming_));
-    coming_.reset();
-}
-
-std::uint64_t GpuStep::missingBytes(const std::optional<ValueScale>& scale) const {
-    std::uint64_t missing = count_ - points_;
-    if (scale && !(values_ && values_->scale == *scale))
-        missing += count_ - (coming_ && coming_->scale == *scale ? coming_->count : 0);
-    return missing * sizeof(float);
-}
-
-std::uint64_t GpuStep::bytes() const {
-    std::uint64_t bytes = gridIndex_.bytes() + axisPoints_.bytes();
-    for (const auto& values : {std::cref(values_), std::cref(coming_)})
-        if (values.get()) bytes += values.get()->buffer.bytes();
-    return bytes;
-}
-
-std::optional<ValueScale> neededScale(const Scene& scene) {
-    const auto byValue = [](const Layer& layer) {
-        return std::holds_alternative<ByValue>(layer.style.color);
-    };
-    if (scene.order != Order::None || std::ranges::none_of(scene.layers, byValue)) return {};
-    return ValueScale::of(scene.layers);
-}
 
 GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
                  const ValueScale& scale)
@@ -166,6 +89,7 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
             array.attach({2, *sorted_, 1, GL_UNSIGNED_INT, kStride, 8, divisor});
         } else {
             array.attach({0, step.gridIndex(), 1, GL_UNSIGNED_INT, 4, 0, divisor});
+            array.attach({3, step.placeInBlock(), 1, GL_UNSIGNED_SHORT, 2, 0, divisor});
             if (step.values() != nullptr)
                 array.attach({1, *step.values(), 1, GL_FLOAT, 4, 0, divisor});
         }
@@ -173,27 +97,16 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
 }
 
 void GpuList::drawSorted(bool quads) const {
+    // Every point, wherever it stands.
+    glVertexAttribI4ui(3, 0, 0, 0, 1);
+    glVertexAttribI4ui(4, 0, 0xffffffffu, 0, kSubsetPeriod);
     if (quads)
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, sortedCount_);
     else
         glDrawArrays(GL_POINTS, 0, sortedCount_);
 }
 
-void GpuList::drawRun(const timeseries::Run& run, bool quads) {
-    // The run's first point becomes the arrays' first, its stride theirs.
-    gl::VertexArray& array = quads ? quads_ : points_;
-    const std::size_t first = run.first * sizeof(std::uint32_t);
-    const auto stride = static_cast<GLsizei>(scene_.stride * sizeof(std::uint32_t));
-    array.move(0, step_.gridIndex(), first, stride);
-    if (step_.values() != nullptr) array.move(1, *step_.values(), first, stride);
-    const auto count = static_cast<GLsizei>((run.count + scene_.stride - 1) / scene_.stride);
-    if (quads)
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
-    else
-        glDrawArrays(GL_POINTS, 0, count);
-}
-
-void GpuList::draw(bool quads, std::optional<std::size_t> layer) {
+void GpuList::draw(bool quads, std::optional<std::size_t> layer) const {
     glBindVertexArray((quads ? quads_ : points_).id());
     if (sorted_) return drawSorted(quads);
     for (std::size_t k = 0; k < scene_.layers.size(); ++k) {
@@ -201,7 +114,9 @@ void GpuList::draw(bool quads, std::optional<std::size_t> layer) {
         // Attributes without an array: one value for all.
         glVertexAttribI4ui(2, static_cast<GLuint>(k), 0, 0, 1);
         if (step_.values() == nullptr) glVertexAttrib1f(1, 0);
-        for (const timeseries::Run& run : scene_.layers[k].runs) drawRun(run, quads);
+        const std::uint32_t stride = strideOf(scene_.layers[k], scene_.stride);
+        for (const timeseries::Run& run : scene_.layers[k].runs)
+            drawRun(run, stride, scene_.step.size(), quads);
     }
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "render/gl_splatter.h"
 
@@ -19,11 +18,10 @@ class GpuList {
 
     // Issues the draw calls of one layer, or of all; program and state are set. A Sorted list is
     // always drawn whole.
-    void draw(bool quads, std::optional<std::size_t> layer);
+    void draw(bool quads, std::optional<std::size_t> layer) const;
 
  private:
     void drawSorted(bool quads) const;
-    void drawRun(const timeseries::Run& run, bool quads);
 
     const Scene& scene_;
     const GpuStep& step_;

@@ -155,7 +155,7 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
     return std::make_unique<GpuList>(scene, list, step, scale);
 }
 
-void GlSplatter::draw(GpuList& list, const View& view, Channels channels, std::size_t layer,
+void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
                       GLuint framebuffer) {
     ++counts_.draws;
     const LatticeView seen(list.scene().lattice, view);

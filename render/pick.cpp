@@ -96,9 +96,10 @@ std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& wi
         const double perWeight =
             opticalDepthPerWeight(layer.style.opacity) * pointsPerSplat(layer, scene.stride);
         for (const timeseries::Run& run : layer.runs)
-            for (std::uint64_t p = run.first; p < run.first + run.count; p += scene.stride)
+            forEachInSubset(run, strideOf(layer, scene.stride), [&](std::uint64_t p) {
                 if (const auto met = ray.meet(scene.step.gridIndex()[p]))
                     hits.push_back({p, k, met->depth, perWeight * met->weight});
+            });
     }
     return hits;
 }

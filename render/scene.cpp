@@ -2,12 +2,25 @@
 
 namespace render {
 
-std::uint64_t pointCount(const Layer& layer) { return splatCount(layer, 1); }
+namespace {
+
+std::uint64_t countOf(const Layer& layer, std::uint32_t stride) {
+    std::uint64_t count = 0;
+    for (const timeseries::Run& run : layer.runs) count += subsetCount(run, stride);
+    return count;
+}
+
+}  // namespace
+
+std::uint64_t pointCount(const Layer& layer) { return countOf(layer, 1); }
+
+std::uint32_t strideOf(const Layer& layer, std::uint32_t stride) {
+    while (stride > 1 && countOf(layer, stride) == 0) stride /= 2;
+    return stride;
+}
 
 std::uint64_t splatCount(const Layer& layer, std::uint32_t stride) {
-    std::uint64_t count = 0;
-    for (const timeseries::Run& run : layer.runs) count += (run.count + stride - 1) / stride;
-    return count;
+    return countOf(layer, strideOf(layer, stride));
 }
 
 double pointsPerSplat(const Layer& layer, std::uint32_t stride) {

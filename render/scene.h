@@ -11,6 +11,7 @@
 
 #include "render/color_map.h"
 #include "render/lattice.h"
+#include "render/subset.h"
 #include "timeseries/sorted_step.h"
 
 namespace render {
@@ -47,11 +48,11 @@ struct Layer {
     RangeStyle style;
 };
 constexpr std::size_t kMaxLayers = 8;
-// What every GL takes as the distance of two vertices, 2048 bytes, in points of 4.
-constexpr std::uint32_t kMaxStride = 512;
 
 std::uint64_t pointCount(const Layer& layer);
-std::uint64_t splatCount(const Layer& layer, std::uint32_t stride);  // drawn of them
+// What a scene's stride is for this layer: halved until a point is drawn, if there is one.
+std::uint32_t strideOf(const Layer& layer, std::uint32_t stride);
+std::uint64_t splatCount(const Layer& layer, std::uint32_t stride);  // drawn of the points
 // The exact share: a layer's mass is the same at every stride.
 double pointsPerSplat(const Layer& layer, std::uint32_t stride);
 
@@ -74,8 +75,8 @@ struct Scene {
     Footprint footprint;
     Order order = Order::None;
     IndexBox clip;
-    // Of each run every stride-th point is drawn, from the first on, and stands for its neighbours
-    // in value: less to draw, for the same mass. At most kMaxStride.
+    // One of so many points is drawn and stands for its neighbours in value: less to draw, for the
+    // same mass. A power of two, at most kMaxStride; which points: render/subset.h.
     std::uint32_t stride = 1;
 };
 

@@ -107,10 +107,6 @@ void VertexArray::attach(const Attribute& a) {
     glVertexArrayBindingDivisor(id(), a.location, a.divisor);
 }
 
-void VertexArray::move(GLuint location, const Buffer& buffer, std::size_t offset, GLsizei stride) {
-    glVertexArrayVertexBuffer(id(), location, buffer.id(), static_cast<GLintptr>(offset), stride);
-}
-
 namespace {
 
 Object compiled(GLenum stage, const char* name, const char* source, const char* defines) {

@@ -77,15 +77,13 @@ class VertexArray : public Object {
         GLuint location;
         const Buffer& buffer;
         GLint components;
-        GLenum type;  // GL_UNSIGNED_INT and GL_UNSIGNED_BYTE arrive as integers
+        GLenum type;  // unsigned types arrive as integers
         GLsizei stride;
         GLuint offset = 0;
         GLuint divisor = 0;
         bool normalized = false;  // unsigned bytes as [0, 1] floats
     };
     void attach(const Attribute& attribute);
-    // An attached attribute reads from here on.
-    void move(GLuint location, const Buffer& buffer, std::size_t offset, GLsizei stride);
 };
 
 // Vertex and fragment shader, linked. Throws std::runtime_error with the driver's log.

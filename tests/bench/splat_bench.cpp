@@ -1,8 +1,6 @@
 // Drawing: 100,000 splats of 8 pixels into 1024 x 1024, and what else a frame costs.
 #include <benchmark/benchmark.h>
 
-#include <glm/geometric.hpp>
-
 #include "render/cpu_splatter.h"
 #include "render/frame.h"
 #include "render/gl/headless_context.h"
@@ -10,45 +8,21 @@
 #include "render/gl_list.h"
 #include "render/gl_splatter.h"
 #include "render/image_compare.h"
-#include "tests/support/scenes.h"
+#include "tests/bench/scattered_splats.h"
 
 namespace {
 
 using namespace render;
 
-constexpr glm::ivec2 kSize{1024, 1024};
-
-// 256^3 points of noise, of which a thin slice of values holds `count`: splats scattered over the
-// volume, each of the wanted diameter in the middle of the picture.
-struct World {
-    World(std::uint64_t count, double diameterPixels)
-        : step(tests::noise(tests::cube(256))), lattice(step.grid()) {
-        const double share = static_cast<double>(count) / static_cast<double>(step.size());
-        const timeseries::RangeSet range(std::vector{timeseries::Range{{0.4}, {0.4 + share}}});
-        scene.layers.push_back({step.select(range), {Constant{{1, 0.5, 0.1}}, 0.3}});
-        const double tangent = 0.25, focal = kSize.y / 2 / tangent;
-        const double cellPixels = diameterPixels / 2 / 1.396;
-        view = tests::lookFrom({0, -focal * lattice.unitLength() / cellPixels, 0}, kSize, tangent);
-    }
-    timeseries::SortedStep step;
-    Lattice lattice;
-    Scene scene{.step = step,
-                .lattice = lattice,
-                .layers = {},
-                .footprint = {},
-                .order = Order::None,
-                .clip = {}};
-    View view;
-};
-
 // The splatter and its targets, without read-back.
 void drawAndResolve(benchmark::State& state, Order order, bool byValue) {
-    World world(static_cast<std::uint64_t>(state.range(0)), static_cast<double>(state.range(1)));
+    bench::ScatteredSplats world(static_cast<std::uint64_t>(state.range(0)),
+                                 static_cast<double>(state.range(1)));
     const gl::HeadlessContext context;
     world.scene.order = order;
     if (byValue) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
     GpuStep onGpu(world.step, world.lattice);
-    onGpu.upload(world.step, neededScale(world.scene));
+    onGpu.upload(world.scene, neededScale(world.scene));
     FrameRenderer renderer;
     const std::array views{world.view};
     const FrameContent content{world.scene, world.step.grid(), {}, glm::dvec3(0)};
@@ -93,7 +67,6 @@ void BM_ErrorAgainstTruth(benchmark::State& state) {
 
     const gl::HeadlessContext context;
     GpuStep onGpu(step, lattice);
-    onGpu.upload(step, ValueScale::of(scene.layers));
     GlSplatter splatter;
     Targets targets(view.size);
     gl::begin({.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
@@ -120,6 +93,7 @@ void BM_ErrorAgainstTruth(benchmark::State& state) {
         return glm::dvec3(ordered[4 * i], ordered[4 * i + 1], ordered[4 * i + 2]);
     });
     scene.order = Order::None;
+    onGpu.upload(scene, neededScale(scene));
     state.counters["depth"] = compareScalars(plane(Channels::Weight), weights.planes[0]).relativeL2;
     const auto colored = plane(Channels::WeightedColor);
     const double tau = opticalDepthPerWeight(scene.layers[0].style.opacity);

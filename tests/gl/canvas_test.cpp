@@ -50,7 +50,7 @@ class CanvasOfNoise : public testing::Test {
     tests::ShownSteps world_{20};
     Canvas canvas_;
     CanvasReport report_;
-    const std::uint64_t stepBytes_ = world_.steps[0]->size() * 8;  // points and values
+    const std::uint64_t stepBytes_ = world_.steps[0]->size() * 10;  // points and values
 };
 
 TEST_F(CanvasOfNoise, AtRestAllPointsAreDrawnForEveryEye) {
@@ -88,9 +88,9 @@ TEST_F(CanvasOfNoise, MovingKeepsToTheLimitOfAllEyesAndRestsWhole) {
             const CanvasLimits limits{.splats = 1000};
             const Image moving = draw(world_.shown(), limits, true)[0];
             const std::uint64_t eyes = stereo == Stereo::Off ? 1 : 2;
-            // Each of the two runs may end with one more.
-            EXPECT_LE(report_.drawn * eyes, limits.splats + 2 * eyes);
-            EXPECT_GE(report_.drawn * eyes, limits.splats / 3);
+            EXPECT_LE(report_.drawn * eyes, limits.splats);
+            // Half the stride would draw more; two runs, each uneven by so many at either stride.
+            EXPECT_GE(report_.drawn + 3 * render::kSubsetUnevenness, limits.splats / eyes / 2);
             EXPECT_FALSE(report_.whole);
             const Image resting = draw(world_.shown(), limits, false)[0];
             EXPECT_TRUE(report_.whole);
@@ -112,43 +112,77 @@ TEST_F(CanvasOfNoise, MovingBelowTheLimitDrawsAll) {
     EXPECT_TRUE(report_.whole);
 }
 
-TEST_F(CanvasOfNoise, AStepComesInSlicesAndTheOneBeforeStays) {
-    const CanvasLimits limits{.uploadBytes = stepBytes_ / 4 + 4};
+// Noise on 64^3 points: eight blocks on the GPU, block b of the values [b / 8, (b + 1) / 8), near
+// enough.
+class CanvasOfBlocks : public CanvasOfNoise {
+ protected:
+    CanvasOfBlocks() { world_ = tests::ShownSteps(64); }
+    static constexpr std::uint64_t kBlockBytes = render::GpuStep::kBlock * 10;
+};
+
+TEST_F(CanvasOfBlocks, AStepComesInSlicesAndTheOneBeforeStays) {
+    // 0.1 to 0.4 and 0.8 to 0.9 touch blocks 0 to 3, 6 and 7.
+    const CanvasLimits limits{.uploadBytes = 2 * kBlockBytes};
     const auto comes = [&](std::size_t step) {
         std::vector<std::vector<Image>> frames;
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < 3; ++i) {
             frames.push_back(draw(world_.shown(step), limits));
-            EXPECT_NEAR(report_.uploaded, std::min(1.0, 0.25 * (i + 1)), 0.01) << step << ' ' << i;
-            EXPECT_EQ(report_.whole, i == 3);
+            EXPECT_DOUBLE_EQ(report_.uploaded, 1 - (2 - i) / 3.0) << step << ' ' << i;
+            EXPECT_EQ(report_.whole, i == 2);
         }
         return frames;
     };
     const auto first = comes(0);
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(first[i].empty()) << "nothing is there yet";
-    ASSERT_EQ(first[3].size(), 1u);
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(first[i].empty()) << "nothing is there yet";
+    ASSERT_EQ(first[2].size(), 1u);
     EXPECT_EQ(report_.step, 0u);
     const auto second = comes(1);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(second[i], first[3]) << "the step before";
-    EXPECT_NE(second[3], first[3]);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(second[i], first[2]) << "the step before";
+    EXPECT_NE(second[2], first[2]);
     EXPECT_EQ(report_.step, 1u);
     // Back again: it is still there.
-    EXPECT_EQ(draw(world_.shown(0), limits), first[3]);
+    EXPECT_EQ(draw(world_.shown(0), limits), first[2]);
     EXPECT_TRUE(report_.whole);
-    EXPECT_EQ(report_.gpuBytes / stepBytes_, 2u);
+    EXPECT_EQ(report_.gpuBytes / (8 * kBlockBytes), 2u);
 }
 
-TEST_F(CanvasOfNoise, ChoicesShowAtOnceWhileAStepComes) {
+TEST_F(CanvasOfBlocks, AnotherSelectionOfTheStepOnTheScreenComesInSlicesOfEightfoldSize) {
+    const auto select = [&](const char* ranges) {
+        world_.explorer.layers = {tests::ShownSteps::layer(ranges, MapChoice{{}, 0.1, 0.4})};
+    };
+    select("0.01:0.1");
+    draw(world_.shown());
+    EXPECT_DOUBLE_EQ(report_.uploaded, 1);
+    select("0.01:0.6");  // four blocks more
+    const auto wider = draw(world_.shown(), {.uploadBytes = kBlockBytes / 2});
+    EXPECT_TRUE(report_.whole);
+    select("0.01:0.99");  // three more, of eight
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(draw(world_.shown(), {.uploadBytes = kBlockBytes / 8}), wider)
+            << "the choices before";
+        EXPECT_DOUBLE_EQ(report_.uploaded, (6 + i) / 8.0);
+        EXPECT_FALSE(report_.whole);
+    }
+    EXPECT_NE(draw(world_.shown(), {.uploadBytes = kBlockBytes / 8}), wider);
+    EXPECT_TRUE(report_.whole);
+}
+
+TEST_F(CanvasOfBlocks, ChoicesShowAtOnceWhileAStepComes) {
     draw(world_.shown(0));
     world_.explorer.layers[1].color = glm::dvec3(0, 0, 1);
     const CanvasLimits slice{.uploadBytes = 64};
     const Image coming = draw(world_.shown(1), slice)[0];
     EXPECT_EQ(report_.step, 0u);
     EXPECT_EQ(coming, draw(world_.shown(0))[0]) << "the step before, in its new colour";
+    // What they select is not there of the step on the screen.
+    world_.explorer.layers[1].ranges = RangeSet::parse("0.55:0.6");
+    EXPECT_EQ(draw(world_.shown(1), slice)[0], coming);
+    EXPECT_EQ(report_.step, 0u);
 }
 
 TEST_F(CanvasOfNoise, AnotherDatasetIsNotDrawnWithChoicesThatAreNotItsOwn) {
     const Image before = draw(world_.shown(0))[0];
-    tests::ShownSteps other(12);
+    tests::ShownSteps other(47);
     other.explorer.files = {"other.nc"};
     other.explorer.layers = {tests::ShownSteps::layer("0:1", glm::dvec3(1))};
     EXPECT_EQ(draw(other.shown(0), {.uploadBytes = 64})[0], before);

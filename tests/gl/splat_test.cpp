@@ -291,12 +291,12 @@ TEST_F(GlSplat, OffsetOfTheCoordinatesDoesNotChangeABit) {
 }
 
 TEST_F(GlSplat, ASubsetIsTheTruthsSubset) {
-    // Two runs a layer; a third run shorter than the stride.
+    // A third run shorter than the largest stride.
     const auto step = tests::noise(cube(16));
     const Lattice lattice(step.grid());
     Scene scene =
         noiseScene(step, lattice, "0.1:0.2,0.3:0.45,0.5:0.501", {ByValue{{}, 0.1, 0.5}, 0.3});
-    for (const std::uint32_t stride : {2u, 7u, kMaxStride}) {
+    for (const std::uint32_t stride : {2u, 8u, kMaxStride}) {
         scene.stride = stride;
         for (const glm::dvec3 eye : {glm::dvec3(1, -3, 1), glm::dvec3(0.2, 0.1, 0.3)}) {
             const View view = lookFrom(eye, {160, 160});
@@ -314,47 +314,6 @@ TEST_F(GlSplat, ASubsetIsTheTruthsSubset) {
     }
 }
 
-TEST_F(GlSplat, AStepInSlicesIsTheStepAtOnce) {
-    const auto step = tests::noise(cube(16));
-    const Lattice lattice(step.grid());
-    const Scene scene = noiseScene(step, lattice, "0.3:0.6", {ByValue{{}, 0.3, 0.6}, 0.5});
-    const auto scale = neededScale(scene);
-    const auto contents = [&](const GpuStep& onGpu) {
-        std::vector<std::uint32_t> points(step.size());
-        std::vector<float> values(step.size());
-        const auto bytes = static_cast<GLsizei>(step.size() * 4);
-        glGetNamedBufferSubData(onGpu.gridIndex().id(), 0, bytes, points.data());
-        glGetNamedBufferSubData(onGpu.values()->id(), 0, bytes, values.data());
-        return std::pair(points, values);
-    };
-    GpuStep once(step, lattice), sliced(step, lattice);
-    once.upload(step, scale);
-    EXPECT_EQ(once.missingBytes(scale), 0u);
-    const std::uint64_t all = step.size() * 8;
-    EXPECT_EQ(sliced.missingBytes(scale), all);
-    const std::uint64_t slice = 1004;  // divides neither half
-    for (std::uint64_t sent = slice; sliced.missingBytes(scale) > 0; sent += slice) {
-        const bool points = sent - slice >= all / 2;
-        EXPECT_EQ(sliced.ready(false), points) << sent;
-        EXPECT_FALSE(sliced.ready(true)) << sent;
-        sliced.upload(step, scale, slice);
-        ASSERT_EQ(sliced.missingBytes(scale), all - std::min(all, sent));
-    }
-    EXPECT_TRUE(sliced.ready(true));
-    EXPECT_EQ(contents(sliced), contents(once));
-    // Another scale: the old values stay in use until the new ones are whole.
-    const ValueScale wider{-3, 4};
-    const std::uint64_t before = sliced.bytes();
-    sliced.upload(step, wider, slice);
-    EXPECT_TRUE(sliced.ready(true));
-    EXPECT_EQ(sliced.valueScale(), *scale);
-    EXPECT_EQ(contents(sliced), contents(once));
-    sliced.upload(step, wider);
-    EXPECT_EQ(sliced.valueScale(), wider);
-    EXPECT_EQ(contents(sliced).second[7], wider(timeseries::toDouble(step.value(7))));
-    EXPECT_EQ(sliced.bytes(), before);
-}
-
 TEST_F(GlSplat, ValuesOnAServingScaleDrawTheSameColours) {
     const auto step = tests::noise(cube(24));
     const Lattice lattice(step.grid());
@@ -370,7 +329,7 @@ TEST_F(GlSplat, ValuesOnAServingScaleDrawTheSameColours) {
         gl::begin(
             {.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
         GpuStep onGpu(step, lattice);
-        onGpu.upload(step, scale);
+        onGpu.upload(scene, scale);
         GlSplatter splatter;
         const auto list = splatter.upload(scene, Runs{}, onGpu);
         splatter.draw(*list, view, Channels::WeightedColor, 0,

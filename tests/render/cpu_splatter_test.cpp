@@ -83,21 +83,35 @@ TEST(Truth, ASubsetHasTheMassOfTheWhole) {
     const View view = tests::lookFrom({0, -400, 0}, {65, 65}, 0.005);
     World world(tests::noise(tests::cube(12)), RangeSet::parse("0.1:0.2,0.5:0.83"));
     const double whole = massDrawn(weights(world, view), view, 400);
-    for (const std::uint32_t stride : {1u, 2u, 3u, 10u, 100u, kMaxStride}) {
+    for (const std::uint32_t stride : {1u, 2u, 8u, 128u, kMaxStride}) {
         world.scene.stride = stride;
         EXPECT_NEAR(massDrawn(weights(world, view), view, 400), whole, 1e-2 * whole) << stride;
     }
-    // Ordered, the list holds the subset: of each run from its first on.
+    // Ordered, the list holds the subset.
     world.scene.order = Order::BackToFront;
-    world.scene.stride = 10;
+    world.scene.stride = 8;
     auto listed = std::get<Sorted>(order(world.scene, {0, -3, 0})).point;
     std::ranges::sort(listed);
     std::vector<std::uint32_t> expected;
     for (const auto& run : world.scene.layers[0].runs)
-        for (std::uint64_t i = 0; i < run.count; i += 10)
-            expected.push_back(static_cast<std::uint32_t>(run.first + i));
+        for (std::uint64_t p = run.first; p < run.first + run.count; ++p)
+            if (inSubset(p, 8)) expected.push_back(static_cast<std::uint32_t>(p));
     EXPECT_EQ(listed, expected);
-    EXPECT_EQ(expected.size(), splatCount(world.scene.layers[0], 10));
+    EXPECT_EQ(expected.size(), splatCount(world.scene.layers[0], 8));
+}
+
+TEST(Truth, ALayerOfFewPointsKeepsItsMassAtEveryStride) {
+    for (std::uint64_t first = 0; first < 600; ++first)
+        for (const std::uint64_t count : {1u, 3u, 70u})
+            for (const std::uint32_t stride : {2u, 64u, kMaxStride}) {
+                const Layer layer{{{first, count}}, {}};
+                const auto splats = static_cast<double>(splatCount(layer, stride));
+                ASSERT_GE(splats, 1);
+                ASSERT_LE(splats, count);
+                ASSERT_DOUBLE_EQ(splats * pointsPerSplat(layer, stride),
+                                 static_cast<double>(count));
+            }
+    EXPECT_EQ(splatCount({}, kMaxStride), 0u);
 }
 
 TEST(Truth, TheTotalStaysWhenTheSplatIsSmallerThanAPixel) {

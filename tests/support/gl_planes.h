@@ -28,7 +28,7 @@ class GlTest : public testing::Test {
                            .clearColor = glm::vec4(0),
                            .clearDepth = opaqueDepth});
         render::GpuStep step(scene.step, scene.lattice);
-        step.upload(scene.step, render::neededScale(scene));
+        step.upload(scene, render::neededScale(scene));
         render::GlSplatter splatter;
         const auto list = splatter.upload(scene, render::order(scene, kMidEye), step);
         splatter.draw(*list, view, channels, 0, targets.clearedPlane(0, channels));

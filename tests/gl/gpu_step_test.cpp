@@ -1,0 +1,214 @@
+// Blocks of points on the GPU: what is drawn of them, and what is uploaded.
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "render/cpu_splatter.h"
+#include "render/image_compare.h"
+#include "tests/support/gl_planes.h"
+
+namespace render {
+namespace {
+
+using RunOfPoints = timeseries::Run;  // testing::Test has a Run of its own
+
+constexpr std::uint64_t kBlock = GpuStep::kBlock;
+
+class GpuSteps : public tests::GlTest {
+ protected:
+    Scene sceneOf(std::vector<std::vector<RunOfPoints>> layers) const {
+        Scene scene{.step = step_,
+                    .lattice = lattice_,
+                    .layers = {},
+                    .footprint = {.kernel = Kernel::Point},
+                    .order = Order::None,
+                    .clip = {}};
+        for (auto& runs : layers)
+            scene.layers.push_back({std::move(runs), {Constant{glm::dvec3(1)}, 0.5}});
+        return scene;
+    }
+
+    // Of single pixels, none outside the picture: as many as points that were drawn.
+    double drawn(const Scene& scene) {
+        const auto counts = plane(scene, tests::lookFrom({1, -4, 1}, {128, 128}), Channels::Count);
+        return std::accumulate(counts.begin(), counts.end(), 0.0);
+    }
+
+    const timeseries::SortedStep step_ = tests::noise(tests::cube(47));  // 3.2 blocks
+    const Lattice lattice_{step_.grid()};
+};
+
+TEST_F(GpuSteps, RunsAreDrawnToTheirEndsAndNoFarther) {
+    const std::uint64_t n = step_.size();
+    std::vector<RunOfPoints> runs = {
+        {0, 1},           {n - 1, 1},           {0, n},
+        {kBlock - 1, 1},  {kBlock, 1},          {kBlock - 1, 2},
+        {kBlock, kBlock}, {kBlock - 1, kBlock}, {3 * kBlock, n - 3 * kBlock}};
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 20; ++i) {
+        const std::uint64_t first = random() % n;
+        runs.push_back({first, 1 + random() % (n - first)});
+    }
+    for (const RunOfPoints& run : runs)
+        EXPECT_EQ(drawn(sceneOf({{run}})), static_cast<double>(run.count))
+            << run.first << " + " << run.count;
+}
+
+TEST_F(GpuSteps, RunsThatShareABlockAreDrawnOnceEach) {
+    EXPECT_EQ(drawn(sceneOf({{{5, 10}, {20, 30}, {kBlock - 3, 7}}})), 47);
+    EXPECT_EQ(drawn(sceneOf({{{5, 10}}, {{8, 100}, {2 * kBlock - 1, 2}}})), 112);
+    EXPECT_EQ(drawn(sceneOf({{}})), 0);
+}
+
+TEST_F(GpuSteps, ASubsetsRunsAreDrawnToTheirEndsAndNoFarther) {
+    const std::uint64_t n = step_.size();
+    for (const std::uint32_t stride : {2u, 8u, kMaxStride})
+        for (const RunOfPoints run : {RunOfPoints{0, n}, RunOfPoints{kBlock - 700, 1400},
+                                      RunOfPoints{2 * kBlock, n - 2 * kBlock}}) {
+            Scene scene = sceneOf({{run}});
+            scene.stride = stride;
+            EXPECT_EQ(drawn(scene), static_cast<double>(subsetCount(run, stride)))
+                << run.first << " + " << run.count << " / " << stride;
+        }
+}
+
+TEST_F(GpuSteps, SpritesAndQuadsDrawTheRunsOwnPoints) {
+    // Which points, not only how many: the truth reads the sorted step.
+    Scene scene = sceneOf({{{kBlock - 4000, 9000}, {3 * kBlock - 10, 500}}});
+    scene.footprint = {.size = 0.5};
+    for (const std::uint32_t stride : {1u, 2u, 8u, kMaxStride}) {
+        scene.stride = stride;
+        for (const glm::dvec3 eye : {glm::dvec3(0, -3, 0), glm::dvec3(0.2, 0.1, 0.3)}) {
+            const View view = tests::lookFrom(eye, {200, 200});
+            Accumulator<double> sums(view.size, {Channels::Weight});
+            splat(scene, Runs{}, view, {}, sums);
+            EXPECT_LE(
+                compareScalars(plane(scene, view, Channels::Weight), sums.planes[0]).relativeL2,
+                1e-5)
+                << stride;
+        }
+    }
+}
+
+// What the buffers hold of one point.
+struct OnGpu {
+    std::vector<std::uint32_t> gridIndex;
+    std::vector<std::uint16_t> place;
+    std::vector<float> value;
+    explicit OnGpu(const GpuStep& step, std::size_t points)
+        : gridIndex(points), place(points), value(points) {
+        const auto read = [](const gl::Buffer& from, auto& into) {
+            glGetNamedBufferSubData(
+                from.id(), 0, static_cast<GLsizeiptr>(into.size() * sizeof into[0]), into.data());
+        };
+        read(step.gridIndex(), gridIndex);
+        read(step.placeInBlock(), place);
+        read(*step.values(), value);
+        gl::throwOnError();
+    }
+};
+
+class GpuStepsByValue : public GpuSteps {
+ protected:
+    Scene byValue(std::vector<RunOfPoints> runs) const {
+        Scene scene = sceneOf({std::move(runs)});
+        scene.layers[0].style.color = ByValue{{}, 0.2, 0.4};
+        return scene;
+    }
+    void expectPoints(const OnGpu& held, std::uint64_t block, const ValueScale& scale) const {
+        const std::uint64_t end = std::min((block + 1) * kBlock, step_.size());
+        for (std::uint64_t i = block * kBlock; i < end; ++i) {
+            const std::uint64_t p = block * kBlock + held.place[i];
+            ASSERT_EQ(held.gridIndex[i], step_.gridIndex()[p]);
+            ASSERT_EQ(held.value[i], scale(timeseries::toDouble(step_.value(p))));
+        }
+    }
+    std::uint64_t lastBlock_ = step_.size() - 3 * kBlock;  // points of the fourth
+};
+
+TEST_F(GpuStepsByValue, BlocksComeOneByOneAndOnlyThoseThatAreAskedFor) {
+    const Scene scene = byValue({{5, 10}, {kBlock - 1, 1}, {3 * kBlock + 2, 3}});  // 0 and 3
+    const auto scale = neededScale(scene);
+    GpuStep onGpu(step_, lattice_);
+    const std::uint64_t all = (kBlock + lastBlock_) * 10;
+    EXPECT_EQ(GpuStep::neededBytes(scene, scale), all);
+    EXPECT_EQ(onGpu.missingBytes(scene, scale), all);
+    EXPECT_FALSE(onGpu.ready(scene));
+    onGpu.upload(scene, scale, 1);
+    EXPECT_EQ(onGpu.missingBytes(scene, scale), lastBlock_ * 10);
+    EXPECT_FALSE(onGpu.ready(scene));
+    EXPECT_EQ(onGpu.values(), nullptr);
+    onGpu.upload(scene, scale, 1);
+    EXPECT_EQ(onGpu.missingBytes(scene, scale), 0u);
+    EXPECT_TRUE(onGpu.ready(scene));
+    const OnGpu held(onGpu, step_.size());
+    for (const std::uint64_t block : {0, 3}) expectPoints(held, block, *scale);
+    // What was not asked for is not there; one colour needs 6 bytes a point.
+    const Scene other = sceneOf({{{kBlock - 1, 2}}});
+    EXPECT_FALSE(onGpu.ready(other));
+    EXPECT_EQ(onGpu.missingBytes(other, {}), kBlock * 6);
+    EXPECT_EQ(onGpu.missingBytes(byValue({{kBlock - 1, 2}}), scale), kBlock * 10);
+}
+
+TEST_F(GpuStepsByValue, OneCallSendsAsManyBlocksAsReachTheBytes) {
+    const Scene scene = byValue({{0, step_.size()}});
+    const auto scale = neededScale(scene);
+    GpuStep onGpu(step_, lattice_);
+    onGpu.upload(scene, scale, kBlock * 10 + 1);
+    EXPECT_EQ(onGpu.missingBytes(scene, scale), (step_.size() - 2 * kBlock) * 10);
+    onGpu.upload(scene, scale);
+    EXPECT_TRUE(onGpu.ready(scene));
+    const OnGpu held(onGpu, step_.size());
+    for (std::uint64_t block = 0; block < 4; ++block) expectPoints(held, block, *scale);
+    EXPECT_GE(onGpu.bytes(), step_.size() * 10);
+    EXPECT_LE(onGpu.bytes(), step_.size() * 10 + 3 * 47 * 8) << "positions along three axes";
+}
+
+TEST_F(GpuStepsByValue, AnOrderedSceneNeedsNothing) {
+    Scene scene = byValue({{0, step_.size()}});
+    scene.order = Order::BackToFront;
+    GpuStep onGpu(step_, lattice_);
+    EXPECT_TRUE(onGpu.ready(scene));
+    EXPECT_EQ(onGpu.missingBytes(scene, neededScale(scene)), 0u);
+    onGpu.upload(scene, neededScale(scene));
+    EXPECT_EQ(onGpu.values(), nullptr);
+}
+
+TEST_F(GpuStepsByValue, ValuesOnAnotherScaleTakeOverWhenAllAreThere) {
+    const Scene scene = byValue({{0, 2 * kBlock}});
+    const ValueScale narrow = *neededScale(scene), wider{-3, 4};
+    GpuStep onGpu(step_, lattice_);
+    onGpu.upload(scene, {});  // points alone
+    EXPECT_FALSE(onGpu.ready(scene));
+    EXPECT_EQ(onGpu.missingBytes(scene, narrow), 2 * kBlock * 4);
+    onGpu.upload(scene, narrow);
+    const std::uint64_t before = onGpu.bytes();
+    onGpu.upload(scene, wider, 1);
+    EXPECT_TRUE(onGpu.ready(scene)) << "with the values before";
+    EXPECT_EQ(onGpu.valueScale(), narrow);
+    EXPECT_EQ(onGpu.missingBytes(scene, wider), kBlock * 4);
+    expectPoints(OnGpu(onGpu, step_.size()), 0, narrow);
+    onGpu.upload(scene, wider, 1);
+    EXPECT_EQ(onGpu.valueScale(), wider);
+    const OnGpu held(onGpu, step_.size());
+    for (const std::uint64_t block : {0, 1}) expectPoints(held, block, wider);
+    EXPECT_EQ(onGpu.bytes(), before);
+}
+
+TEST_F(GpuStepsByValue, AScaleThatServesIsKept) {
+    const Scene scene = byValue({{0, 2 * kBlock}});
+    const ValueScale first{0.2, 0.1}, near{0.21, 0.12}, far{0.2, 1e-9};
+    ASSERT_TRUE(first.serves(near));
+    ASSERT_FALSE(first.serves(far));
+    GpuStep onGpu(step_, lattice_);
+    EXPECT_EQ(onGpu.serving(near), near);
+    onGpu.upload(scene, first, 1);  // coming
+    EXPECT_EQ(onGpu.serving(near), first);
+    EXPECT_EQ(onGpu.serving(far), far);
+    onGpu.upload(scene, first);  // there
+    EXPECT_EQ(onGpu.serving(near), first);
+}
+
+}  // namespace
+}  // namespace render
