@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "render/gl/pass.h"
 #include "render/shader_sources.h"
 
 namespace render {
@@ -13,8 +14,21 @@ FlatPass::FlatPass(const Font& font)
                         GL_UNSIGNED_BYTE, font.atlas().data());
 }
 
-void FlatPass::draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size,
-                    gl::DepthTest depth) const {
+void FlatPass::draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size) const {
+    gl::begin({.framebuffer = framebuffer, .size = size, .blend = gl::Blend::Premultiplied});
+    drawTriangles(mesh, size, 0);
+}
+
+void FlatPass::drawDepth(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size) const {
+    gl::begin({.framebuffer = framebuffer,
+               .size = size,
+               .clearDepth = 1.0f,
+               .depth = gl::DepthTest::TestAndWrite,
+               .colorWrite = false});
+    drawTriangles(mesh, size, 0.5f);
+}
+
+void FlatPass::drawTriangles(const FlatMesh& mesh, glm::ivec2 size, float leastCoverage) const {
     if (mesh.triangles().empty()) return;
     const gl::Buffer vertices{std::span<const FlatVertex>(mesh.triangles())};
     gl::VertexArray array;
@@ -23,27 +37,12 @@ void FlatPass::draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size,
     array.attach({1, vertices, 4, GL_FLOAT, kStride, offsetof(FlatVertex, color)});
     array.attach({2, vertices, 2, GL_FLOAT, kStride, offsetof(FlatVertex, texel)});
     array.attach({3, vertices, 2, GL_FLOAT, kStride, offsetof(FlatVertex, edge)});
-    const auto drawn = [&](gl::DepthTest test, bool colorWrite, float leastCoverage) {
-        gl::begin({.framebuffer = framebuffer,
-                   .size = size,
-                   .blend = gl::Blend::Premultiplied,
-                   .depth = test,
-                   .colorWrite = colorWrite});
-        glUseProgram(program_.id());
-        glUniform2f(0, static_cast<float>(size.x), static_cast<float>(size.y));
-        glUniform1f(1, leastCoverage);
-        glBindTextureUnit(0, atlas_.id());
-        glBindVertexArray(array.id());
-        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.triangles().size()));
-    };
-    if (depth != gl::DepthTest::TestAndWrite) {
-        drawn(depth, true, 0);
-        return;
-    }
-    // Colour with soft edges; depth only where more than half of a pixel is covered, or the soft
-    // edges would cut what lies just behind them.
-    drawn(gl::DepthTest::Test, true, 0);
-    drawn(gl::DepthTest::TestAndWrite, false, 0.5f);
+    glUseProgram(program_.id());
+    glUniform2f(0, static_cast<float>(size.x), static_cast<float>(size.y));
+    glUniform1f(1, leastCoverage);
+    glBindTextureUnit(0, atlas_.id());
+    glBindVertexArray(array.id());
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.triangles().size()));
 }
 
 }  // namespace render

@@ -3,7 +3,6 @@
 
 #include "render/flat_mesh.h"
 #include "render/gl/object.h"
-#include "render/gl/pass.h"
 
 namespace render {
 
@@ -11,10 +10,15 @@ class FlatPass {
  public:
     explicit FlatPass(const Font& font);
 
-    // Blends the mesh over what is there. With DepthTest::TestAndWrite its depths count too.
-    void draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size, gl::DepthTest depth) const;
+    // Blends the mesh over what is there.
+    void draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size) const;
+    // Makes the depth attachment hold the mesh alone: where it covers more than half of a pixel, or
+    // its soft edges would cut what lies just behind them.
+    void drawDepth(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size) const;
 
  private:
+    void drawTriangles(const FlatMesh& mesh, glm::ivec2 size, float leastCoverage) const;
+
     gl::Program program_;
     gl::Texture atlas_;
 };

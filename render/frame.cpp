@@ -41,13 +41,20 @@ void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
     const FlatMesh legend = legendMesh(frame.content.legend, font_, eye.size);
     const AxesMeshes axes = axesMeshes(frame.content.grid, frame.content.scene.lattice, eye,
                                        frame.midEye, font_, legend);
-    drawOpaque(frame.content, eye, axes);
-    drawSplats(*frame.list, eye);
-    resolve(frame.content.scene, eye.size);
+    // All that adds to the light comes last and together: a driver that draws tile by tile then
+    // touches each of its pixels once.
+    drawSplats(*frame.list, eye, axes.behind);
+    const GLuint light = targets_->lightFramebuffer();
+    gl::begin({.framebuffer = light,
+               .size = eye.size,
+               .clearColor = glm::vec4(glm::vec3(frame.content.background), 1)});
+    flat_->draw(axes.behind, light, eye.size);
+    flat_->draw(axes.labels, light, eye.size);
+    resolve(frame.content.scene, coveredPixels(frame.content.scene, eye));
     // Lines before the volume have soft edges: blended over it, not under with a depth of their
     // own.
-    flat_->draw(axes.before, targets_->lightFramebuffer(), eye.size, gl::DepthTest::None);
-    flat_->draw(legend, targets_->lightFramebuffer(), eye.size, gl::DepthTest::None);
+    flat_->draw(axes.before, light, eye.size);
+    flat_->draw(legend, light, eye.size);
 }
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
@@ -72,31 +79,22 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         step.upload(unordered, neededScale(unordered));
         const auto runs = splatter_.upload(unordered, Runs{}, step);
         for (std::size_t i = 0; i < eyes.size(); ++i) {
-            drawOpaque(
-                content, eyes[i],
-                axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_));
-            pictures[i].opticalDepth = opticalDepth(*runs, eyes[i]);
+            const AxesMeshes axes =
+                axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_);
+            pictures[i].opticalDepth = opticalDepth(*runs, eyes[i], axes.behind);
         }
     }
     gl::throwOnError();
     return pictures;
 }
 
-void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
-                               const AxesMeshes& axes) {
-    const GLuint into = targets_->lightFramebuffer();
-    gl::begin({.framebuffer = into,
-               .size = view.size,
-               .clearColor = glm::vec4(glm::vec3(content.background), 1),
-               .clearDepth = 1.0f});
-    flat_->draw(axes.behind, into, view.size, gl::DepthTest::TestAndWrite);
-    flat_->draw(axes.labels, into, view.size, gl::DepthTest::None);
-}
-
-void FrameRenderer::drawSplats(const GpuList& list, const View& view) {
+void FrameRenderer::drawSplats(const GpuList& list, const View& view, const FlatMesh& behind) {
     const std::vector<Channels> channels = channelsFor(list.scene());
-    for (std::size_t i = 0; i < channels.size(); ++i)
-        splatter_.draw(list, view, channels[i], i, targets_->clearedPlane(i, channels[i]));
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const GLuint plane = targets_->clearedPlane(i, channels[i]);
+        if (i == 0) flat_->drawDepth(behind, plane, view.size);
+        splatter_.draw(list, view, channels[i], i, plane);
+    }
 }
 
 const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
@@ -111,9 +109,11 @@ const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
         .first->second;
 }
 
-void FrameRenderer::resolve(const Scene& scene, glm::ivec2 size) {
+void FrameRenderer::resolve(const Scene& scene, const PixelBox& covered) {
+    if (covered.size.x == 0 || covered.size.y == 0) return;
     gl::begin({.framebuffer = targets_->lightFramebuffer(),
-               .size = size,
+               .size = covered.size,
+               .at = covered.at,
                .blend = gl::Blend::Premultiplied});
     glUseProgram(resolveProgram(scene).id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, splatter_.layerBlock().id());
@@ -123,12 +123,14 @@ void FrameRenderer::resolve(const Scene& scene, glm::ivec2 size) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view) {
+std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view,
+                                               const FlatMesh& behind) {
     std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
     const auto& layers = list.scene().layers;
     for (std::size_t k = 0; k < layers.size(); ++k) {
-        splatter_.draw(list, view, Channels::Weight, k,
-                       targets_->clearedPlane(0, Channels::Weight));
+        const GLuint plane = targets_->clearedPlane(0, Channels::Weight);
+        if (k == 0) flat_->drawDepth(behind, plane, view.size);
+        splatter_.draw(list, view, Channels::Weight, k, plane);
         const std::vector<float> weight = targets_->readScalarPlane(0);
         const auto perWeight = static_cast<float>(opticalDepthPerWeight(layers[k].style.opacity));
         for (std::size_t i = 0; i < total.size(); ++i) total[i] += perWeight * weight[i];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/axes.h"
+#include "render/covered.h"
 #include "render/flat_pass.h"
 #include "render/gl_list.h"
 #include "render/image.h"
@@ -62,11 +63,11 @@ class FrameRenderer {
     Counts counts() const { return {orders_, splatter_.counts().uploads, eyes_}; }
 
  private:
-    void drawOpaque(const FrameContent& content, const View& view, const AxesMeshes& axes);
-    void drawSplats(const GpuList& list, const View& view);
-    void resolve(const Scene& scene, glm::ivec2 size);
+    // `behind`: what hides splats.
+    void drawSplats(const GpuList& list, const View& view, const FlatMesh& behind);
+    void resolve(const Scene& scene, const PixelBox& covered);
     const gl::Program& resolveProgram(const Scene& scene);
-    std::vector<float> opticalDepth(const GpuList& list, const View& view);
+    std::vector<float> opticalDepth(const GpuList& list, const View& view, const FlatMesh& behind);
 
     Font font_;
     glm::ivec2 fontFor_{0};  // the picture size whose label styles font_ holds

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/covered.h"
 #include "render/footprint.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
@@ -27,30 +28,6 @@ struct SplatViewBlock {
 struct LayerBlock {
     std::array<glm::vec4, kMaxLayers> style, map;
 };
-
-// How far, in pixels from its centre, any footprint of the scene reaches in this view; infinite
-// when the eye is among the points.
-double farthestReach(const Scene& scene, const LatticeView& view) {
-    if (scene.footprint.kernel == Kernel::Point) return pointSide(scene.footprint) / 2.0;
-    double widest = 0;
-    for (const auto& widths : scene.lattice.widths())
-        widest = std::max(widest, *std::ranges::max_element(widths));
-    double nearest = std::numeric_limits<double>::infinity(), steepest = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const glm::dvec3 at = scene.lattice.boxHalfEdges() * sign;
-        const glm::dvec4 p = view.viewFromWorld * glm::dvec4(at, 1.0);
-        nearest = std::min(nearest, -p.z);
-        if (-p.z > 0) steepest = std::max(steepest, glm::length(glm::dvec2(p)) / -p.z);
-    }
-    if (!(nearest > view.rays.near)) return std::numeric_limits<double>::infinity();
-    const double radius =
-        std::max(scene.footprint.size * kQuarticRadius * widest, nearest * view.smallestRadius) *
-        view.lengthening.most / view.rayLength;
-    const double reach = sphereExtent(nearest, radius, steepest);
-    const double focal = std::max(view.rays.focal.x, view.rays.focal.y);
-    return reach < 0 ? std::numeric_limits<double>::infinity() : reach * focal;
-}
 
 SplatViewBlock viewBlock(const Scene& scene, const View& view, const LatticeView& seen, int guard) {
     SplatViewBlock b{};

@@ -2,14 +2,9 @@
 // Window space in, accumulated sums out; formulas: render/footprint.h.
 // Variants: WEIGHT, WEIGHTED_COLOR, OVER or COUNT (what is accumulated), KERNEL_POINT, CUBES.
 
-layout(std140, binding = 0) uniform SplatView {
-    mat4 viewFromAxes;
-    vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slopeAndLengths;
-    uvec4 lattice, clipLo, clipHi;
-} view;
-
 layout(location = 0) flat in vec4 centreAndWeight;
 layout(location = 1) flat in vec4 quadN;
+layout(location = 4) flat in vec4 windowAndSlopes;
 #if !defined(CUBES) && !defined(KERNEL_POINT)
 layout(location = 2) flat in vec4 quadD;
 #endif
@@ -30,8 +25,8 @@ float opacity(float x) {
 }
 
 void main() {
-    const vec2 at = gl_FragCoord.xy - view.window.xy;
-    const float ray2 = 1.0 + dot(at * at, view.slopeAndLengths.xy);
+    const vec2 at = gl_FragCoord.xy - windowAndSlopes.xy;
+    const float ray2 = 1.0 + dot(at * at, windowAndSlopes.zw);
 #ifdef KERNEL_POINT
     const float w = centreAndWeight.z * sqrt(ray2);
 #else

@@ -1,0 +1,62 @@
+#include "render/covered.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <limits>
+
+namespace render {
+namespace {
+
+std::array<glm::dvec3, 8> corners(const Lattice& lattice) {
+    std::array<glm::dvec3, 8> at;
+    for (std::size_t i = 0; i < 8; ++i)
+        at[i] = lattice.boxHalfEdges() * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    return at;
+}
+
+}  // namespace
+
+double farthestReach(const Scene& scene, const LatticeView& view) {
+    if (scene.footprint.kernel == Kernel::Point) return pointSide(scene.footprint) / 2.0;
+    double widest = 0;
+    for (const auto& widths : scene.lattice.widths())
+        widest = std::max(widest, *std::ranges::max_element(widths));
+    double nearest = std::numeric_limits<double>::infinity(), steepest = 0;
+    for (const glm::dvec3& at : corners(scene.lattice)) {
+        const glm::dvec4 p = view.viewFromWorld * glm::dvec4(at, 1.0);
+        nearest = std::min(nearest, -p.z);
+        if (-p.z > 0) steepest = std::max(steepest, glm::length(glm::dvec2(p)) / -p.z);
+    }
+    if (!(nearest > view.rays.near)) return std::numeric_limits<double>::infinity();
+    const double radius =
+        std::max(scene.footprint.size * kQuarticRadius * widest, nearest * view.smallestRadius) *
+        view.lengthening.most / view.rayLength;
+    const double reach = sphereExtent(nearest, radius, steepest);
+    const double focal = std::max(view.rays.focal.x, view.rays.focal.y);
+    return reach < 0 ? std::numeric_limits<double>::infinity() : reach * focal;
+}
+
+PixelBox coveredPixels(const Scene& scene, const View& view) {
+    const PixelBox whole{{0, 0}, view.size};
+    const LatticeView seen(scene.lattice, view);
+    // What the rasteriser's rounding may add; a point splat is moved to whole pixels, too.
+    const double reach = farthestReach(scene, seen) + 2;
+    if (!std::isfinite(reach)) return whole;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    glm::dvec2 lo(kFar), hi(-kFar);
+    for (const glm::dvec3& corner : corners(scene.lattice)) {
+        const Projected at = project(view, corner);
+        if (!(at.depth > seen.rays.near)) return whole;
+        lo = glm::min(lo, at.window);
+        hi = glm::max(hi, at.window);
+    }
+    const glm::dvec2 size(view.size);
+    const glm::ivec2 first(glm::clamp(glm::floor(lo - reach), glm::dvec2(0), size));
+    const glm::ivec2 last(glm::clamp(glm::ceil(hi + reach), glm::dvec2(0), size));
+    return {first, last - first};
+}
+
+}  // namespace render
