@@ -13,6 +13,8 @@ namespace xr {
 namespace {
 
 constexpr auto kViews = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+// Between questions whether the session runs again.
+constexpr std::chrono::milliseconds kIdle(10);
 // Of LOCAL, whose origin is at the eyes, above the floor, where the runtime knows no floor.
 constexpr float kGuessedEyeHeight = 1.5f;
 
@@ -187,6 +189,19 @@ std::string Session::Impl::unanswered(std::chrono::nanoseconds patience) const {
                        std::chrono::duration<double>(patience).count());
 }
 
+void Session::Impl::orLost(const std::function<void()>& calls, std::chrono::nanoseconds patience) {
+    if (lost) throw LostError(*lost);
+    const Watchman::Watch watch(watchman, patience);
+    try {
+        calls();
+    } catch (const LostError& error) {
+        lost = error.what();
+    }
+    // Also where nothing has failed: Monado locates things with success when it was interrupted.
+    if (watch.fired()) lost = unanswered(patience);
+    if (lost) throw LostError(*lost);
+}
+
 XrFrameState Session::Impl::waitFrame() {
     const auto answer = waiter.wait();
     if (!answer) {
@@ -235,22 +250,19 @@ const std::string& Session::bindingsText() const { return impl_->bindings; }
 bool Session::ended() const { return impl_->ended; }
 
 std::unique_ptr<Session::Frame> Session::beginFrame() {
-    return impl_->orLost([&]() -> std::unique_ptr<Frame> {
+    std::unique_ptr<Frame> frame;
+    impl_->orLost([&] {
         impl_->handleEvents();
-        if (impl_->ended) return nullptr;
-        if (!impl_->state.running()) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            return nullptr;
-        }
+        if (impl_->ended || !impl_->state.running()) return;
         const XrFrameState timing = impl_->waitFrame();
         const auto begin = typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
         impl_->runtime.check(xrBeginFrame(impl_->session, &begin), "xrBeginFrame");
         // From here on it must be ended, which is its destructor's work.
-        std::unique_ptr<Frame> frame(
-            new Frame(std::unique_ptr<Frame::Impl>(new Frame::Impl{*impl_, timing})));
+        frame.reset(new Frame(std::unique_ptr<Frame::Impl>(new Frame::Impl{*impl_, timing})));
         frame->impl_->locate();
-        return frame;
     });
+    if (!frame && !impl_->ended) std::this_thread::sleep_for(kIdle);
+    return frame;
 }
 
 void Session::requestExit() {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,19 +34,9 @@ struct Session::Impl {
     // Throws LostError when none comes in time.
     XrFrameState waitFrame();
     std::string unanswered(std::chrono::nanoseconds patience) const;
-    // Runs `calls` into the runtime, which may take so long. A LostError that leaves them is the
-    // end of the session, and is kept.
-    template <typename Calls>
-    auto orLost(Calls calls, std::chrono::nanoseconds patience = kPatience) {
-        if (lost) throw LostError(*lost);
-        const Watchman::Watch watch(watchman, patience);
-        try {
-            return calls();
-        } catch (const LostError& error) {
-            lost = watch.fired() ? unanswered(patience) : error.what();
-            throw LostError(*lost);
-        }
-    }
+    // Makes `calls` into the runtime, which may take so long together. Throws LostError when one
+    // fails or they take longer; that is the end of the session, and is kept.
+    void orLost(const std::function<void()>& calls, std::chrono::nanoseconds patience = kPatience);
 
     Watchman watchman;
     Runtime runtime;
