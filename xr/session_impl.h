@@ -1,0 +1,70 @@
+// What a session holds between frames, shared by session.cpp and frame.cpp.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "xr/actions.h"
+#include "xr/api.h"
+#include "xr/frame_waiter.h"
+#include "xr/runtime.h"
+#include "xr/session.h"
+#include "xr/session_state.h"
+#include "xr/swapchain.h"
+#include "xr/watchman.h"
+
+namespace xr {
+
+// The end of a frame also waits for what was drawn, which may be much.
+inline constexpr std::chrono::nanoseconds kPatienceWithDrawing = std::chrono::seconds(10);
+
+struct Session::Impl {
+    Impl(Runtime opened, const Binding& binding);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    // What the runtime has to tell since the last call, up to one change of state.
+    void handleEvents();
+    void onState(State next);
+    // Throws LostError when none comes in time.
+    XrFrameState waitFrame();
+    std::string unanswered(std::chrono::nanoseconds patience) const;
+    // Makes `calls` into the runtime, which may take so long together. Throws LostError when one
+    // fails or they take longer; that is the end of the session, and is kept.
+    void orLost(const std::function<void()>& calls, std::chrono::nanoseconds patience = kPatience);
+
+    Watchman watchman;
+    Runtime runtime;
+    XrSession session;
+    XrSpace stage, head;
+    XrEnvironmentBlendMode blendMode;
+    std::vector<EyeImages> eyes;  // left, right
+    Actions actions;
+    FrameWaiter waiter;
+    SessionState state;
+    bool ended = false;
+    std::optional<std::string> lost;  // why
+    std::string bindings;
+};
+
+struct Session::Frame::Impl {
+    Session::Impl& session;
+    XrFrameState timing;
+    bool open = true;  // begun, not yet ended
+    std::array<Hand, 2> hands{};
+    std::optional<Pose> head = {};
+    std::vector<Eye> eyes = {};
+
+    // Where the head and the hands are at the time of display.
+    void locate();
+    // Empty when a pose is not valid.
+    std::vector<Eye> located() const;
+    void end(const std::vector<const XrCompositionLayerBaseHeader*>& layers);
+};
+
+}  // namespace xr
