@@ -25,7 +25,7 @@ OpenedSeries openSeries(std::span<const std::filesystem::path> named) {
 
 Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable) {
     auto [reader, series] = openSeries(named);
-    Dataset dataset{std::move(reader), std::move(series), 0, {}, named.front().string(), 0};
+    Dataset dataset{std::move(reader), std::move(series), 0, {}, named.front().string(), 0, {}};
     const auto variables = dataset.reader->variables();
     std::string names;
     bool found = variable.empty();
@@ -39,6 +39,7 @@ Dataset openDataset(std::span<const std::filesystem::path> named, const std::str
         throw FileError(
             fmt::format("{}: no variable '{}'; it has {}", dataset.name, variable, names));
     dataset.about = variables[dataset.variable];
+    dataset.variables.assign(variables.begin(), variables.end());
     timeseries::StepSpan span{0, dataset.stepCount()};
     if (dataset.series.here)
         span = dataset.reader->stepsOf(dataset.variable, *dataset.series.here).value_or(span);

@@ -33,6 +33,7 @@ struct Dataset {
 
     std::string name;             // the file, folder or pattern named first, for messages
     std::size_t defaultStep = 0;  // the middle one; of the member's own when one was named
+    std::vector<timeseries::Variable> variables = {};  // all that the reader has; copies too
 
     std::size_t stepCount() const { return about.time->points.size(); }
 };

@@ -8,12 +8,6 @@
 #include "app/commands.h"
 #include "timeseries/sorted_step.h"
 
-namespace app {
-
-int view(const ViewOptions&) { throw std::runtime_error("there is no window yet"); }
-
-}  // namespace app
-
 namespace {
 
 struct Run {

@@ -1,0 +1,153 @@
+#include "app/desktop/desktop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "render/gl/debug_output.h"
+
+namespace app::desktop {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr glm::ivec2 kWindowSize{1440, 900};
+
+}  // namespace
+
+Desktop::Desktop(const ViewOptions& options)
+    : window_(kWindowSize, "isochron"),
+      gui_(window_, window_.contentScale()),
+      exploration_({.wake = [] { Window::wake(); }}),
+      interface_([] { Window::wake(); }),
+      errands_(exploration_, picture_.canvas(), window_),
+      signals_([this] {
+          stopped_ = true;
+          Window::wake();
+      }) {
+    render::gl::recordErrors();
+    interface_.choices().scale = errands_.preferences().uiScale;
+    interface_.choices().frameBudget =
+        std::chrono::nanoseconds(std::llround(1e6 * errands_.preferences().frameMilliseconds));
+    if (!options.explorer.files.empty()) exploration_.open(options.explorer);
+}
+
+void Desktop::run() {
+    while (!window_.shouldClose() && !stopped_) {
+        sleep();
+        const Clock::time_point now = Clock::now();
+        frame(now - std::exchange(last_, now));
+    }
+    errands_.finish();
+}
+
+void Desktop::frame(std::chrono::nanoseconds dt) {
+    exploration_.advance(dt);
+    const glm::ivec2 size = window_.framebufferSize();
+    if (size.x == 0 || size.y == 0) return;  // minimised
+    gui_.setScale(static_cast<float>(
+        interface_.choices().scale.value_or(static_cast<double>(window_.contentScale()))));
+    interact(dt);
+    const Clock::time_point begin = Clock::now();
+    drawPicture();
+    gui_.draw();
+    window_.swap();
+    picture_.took(Clock::now() - begin);
+    checkDriver();
+    title();
+    errands_.goOn(interface_.choices());
+}
+
+// Every event is seen by a frame of its own where it must be; only the last is drawn.
+void Desktop::interact(std::chrono::nanoseconds dt) {
+    for (bool first = true;; first = false) {
+        if (!first) gui_.endFrame();
+        const FrameInput input = gui_.beginFrame(first ? dt : 1ms);
+        panels::Requests requests;
+        requests.commands = input.commands;
+        requests.open = input.dropped;
+        interface_.draw(exploration_,
+                        {.window = glm::vec2(window_.framebufferSize()),
+                         .theme = gui_.theme(),
+                         .offers = errands_.offers(),
+                         .boxHalf = picture_.boxHalf(),
+                         .eye = picture_.eye(),
+                         .exporting = errands_.exporting(),
+                         .dt = first ? dt : 0ns,
+                         .performance = picture_.performance()},
+                        requests);
+        serve(requests);
+        if (window_.events().empty()) return;
+    }
+}
+
+void Desktop::serve(panels::Requests& requests) {
+    if (!requests.open.empty()) errands_.open(requests.open);
+    if (requests.save) errands_.save(*requests.save);
+    if (requests.exportTo) errands_.exportTo(*requests.exportTo);
+    if (requests.cancelExport) errands_.cancelExport();
+    for (const panels::Command command : requests.commands) {
+        if (interface_.obey(exploration_, command)) continue;
+        if (command == panels::Command::Screenshot) errands_.screenshot();
+        if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
+    }
+    if (requests.probe) interface_.takeReading(picture_.read(*requests.probe), requests.ruler);
+}
+
+void Desktop::drawPicture() {
+    const glm::ivec2 window = window_.framebufferSize();
+    const panels::Rect place =
+        panels::layoutOf(glm::vec2(window), gui_.theme().scale, interface_.choices().sideWidth)
+            .picture;
+    const Explorer& e = exploration_.explorer();
+    const glm::ivec2 size = PictureView::eyeSize(place, e.stereo.mode);
+    if (size != e.size) exploration_.resize(size);
+    const auto shown = exploration_.shown();
+    picture_.draw(shown ? &*shown : nullptr, window, place, exploration_.playback().playing,
+                  interface_.choices().frameBudget);
+}
+
+// A driver's complaint ends a program that is being tested, and is told to a user.
+void Desktop::checkDriver() {
+#ifdef NDEBUG
+    try {
+        render::gl::throwOnError();
+    } catch (const std::runtime_error& error) {
+        exploration_.tell(error.what(), true);
+    }
+#else
+    render::gl::throwOnError();
+#endif
+}
+
+void Desktop::title() {
+    const auto shown = exploration_.shown();
+    if (!shown) return window_.setTitle("isochron");
+    const PointCounts* counts = exploration_.counts();
+    window_.setTitle(fmt::format(
+        "{} · {} · {} · {} points", std::filesystem::path(shown->dataset.name).filename().string(),
+        shown->dataset.about.name, timeText(*shown->dataset.about.time, shown->step),
+        withCommas(counts != nullptr ? counts->selected : 0)));
+}
+
+void Desktop::sleep() {
+    std::optional<std::chrono::nanoseconds> atMost;
+    const auto within = [&](std::optional<std::chrono::nanoseconds> ns) {
+        if (ns) atMost = std::min(atMost.value_or(*ns), *ns);
+    };
+    if (restless_ > 0 || !window_.events().empty()) within(0ns);
+    within(exploration_.untilNextChange());
+    within(interface_.untilNextChange());
+    within(picture_.untilNextDraw());
+    if (errands_.exporting()) within(100ms);
+    if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
+    const Clock::time_point before = Clock::now();
+    window_.wait(atMost);
+    // Woken before the time was over: by an event or by what was loaded.
+    const bool woken = !atMost || (*atMost > 0ns && Clock::now() - before < *atMost);
+    restless_ = woken || !window_.events().empty() ? 2 : std::max(0, restless_ - 1);
+}
+
+}  // namespace app::desktop

@@ -1,0 +1,172 @@
+#include "app/desktop/errands.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/command_line.h"
+#include "app/json_text.h"
+#include "app/session.h"
+#include "app/user_files.h"
+
+namespace app::desktop {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The first of NAME_0000.png, NAME_0001.png, ... that does not exist.
+fs::path numbered(const std::string& name) {
+    for (int i = 0;; ++i) {
+        fs::path file = fmt::format("{}_{:04}.png", name, i);
+        if (!fs::exists(file)) return file;
+    }
+}
+
+// Beside the program as it is built, or where the user stands.
+fs::path findDemo() {
+    std::error_code gone;
+    const fs::path name = "datasets/pool_fire_T.nc";
+    for (fs::path folder = fs::read_symlink("/proc/self/exe", gone).parent_path();
+         folder != folder.parent_path(); folder = folder.parent_path())
+        if (fs::exists(folder / name, gone)) return folder / name;
+    return fs::exists(name, gone) ? fs::absolute(name) : fs::path();
+}
+
+bool holdsSession(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    return extension == ".json" || extension == ".png" || extension == ".exr";
+}
+
+// What `work` cannot do becomes a message.
+template <typename Work>
+void telling(Exploration& exploration, const Work& work) {
+    try {
+        work();
+    } catch (const std::exception& error) {
+        exploration.tell(error.what(), true);
+    }
+}
+
+}  // namespace
+
+Errands::Errands(Exploration& exploration, Canvas& canvas, Window& window)
+    : exploration_(exploration),
+      canvas_(canvas),
+      window_(window),
+      autosave_(stateFolder()),
+      left_(leftSessions(stateFolder())),
+      demo_(findDemo()) {
+    ReadPreferences read = readPreferences(preferencesFile());
+    if (!read.problem.empty()) exploration_.tell(read.problem, true);
+    preferences_ = kept_ = std::move(read.preferences);
+}
+
+void Errands::open(const std::vector<fs::path>& named) {
+    if (!holdsSession(named.front())) return exploration_.open(named);
+    telling(exploration_, [&] { openSession(named.front()); });
+}
+
+void Errands::openSession(const fs::path& file) {
+    exploration_.open(readSession(file));
+    // A session that was left behind is not offered twice.
+    std::erase_if(left_, [&](const LeftSession& left) {
+        if (left.file != file) return false;
+        std::error_code gone;
+        fs::remove(file, gone);
+        return true;
+    });
+}
+
+void Errands::save(const fs::path& file) {
+    telling(exploration_, [&] {
+        writeWhole(file, jsonText(toJson(exploration_.explorer(), file.parent_path()), 2) + "\n");
+        exploration_.tell("Saved " + file.string());
+    });
+}
+
+void Errands::screenshot() {
+    const auto shown = exploration_.shown();
+    if (!shown) return;
+    telling(exploration_, [&] {
+        const fs::path file = numbered(fs::path(shown->dataset.name).stem().string());
+        canvas_.save(*shown, file);
+        exploration_.tell("Screenshot: " + fs::absolute(file).string());
+    });
+}
+
+void Errands::copyCommandLine() {
+    const auto shown = exploration_.shown();
+    if (!shown) return;
+    const std::vector<std::string> arguments =
+        renderArguments(shown->explorer, "picture.png", fs::current_path());
+    window_.setClipboard("isochron " + shellText(arguments));
+    exploration_.tell("Copied: the command line that makes this picture");
+}
+
+void Errands::exportTo(const fs::path& output) {
+    const auto shown = exploration_.shown();
+    if (!shown) return;
+    telling(exploration_, [&] { export_.emplace(animationOf(*shown), output); });
+}
+
+void Errands::cancelExport() {
+    if (export_) export_->cancel();
+}
+
+std::optional<std::string> Errands::exporting() const {
+    if (!export_) return std::nullopt;
+    if (export_->count() == 0) return "Exporting";
+    return fmt::format("Exporting picture {} of {}",
+                       std::min(export_->done() + 1, export_->count()), export_->count());
+}
+
+void Errands::goOn(const panels::Choices& choices) {
+    if (export_) {
+        export_->poll();
+        switch (export_->state()) {
+            case ExportJob::State::Running:
+                break;
+            case ExportJob::State::Done:
+                exploration_.tell(fmt::format("Exported {} pictures", export_->done()));
+                export_.reset();
+                break;
+            case ExportJob::State::Failed:
+                exploration_.tell(export_->why(), true);
+                export_.reset();
+                break;
+            case ExportJob::State::Cancelled:
+                exploration_.tell(
+                    fmt::format("Export cancelled after {} pictures", export_->done()));
+                export_.reset();
+                break;
+        }
+    }
+    if (!exploration_.shown()) return;
+    if (const auto problem = autosave_.save(exploration_.explorer(), Autosave::Clock::now()))
+        exploration_.tell(*problem, true);
+    keep(choices);
+}
+
+void Errands::keep(const panels::Choices& choices) {
+    preferences_.uiScale = choices.scale;
+    preferences_.frameMilliseconds =
+        std::chrono::duration<double, std::milli>(choices.frameBudget).count();
+    const std::vector<fs::path>& files = exploration_.explorer().files;
+    if (files != remembered_ && !files.empty()) {
+        rememberFile(preferences_, fs::absolute(files.front()));
+        remembered_ = files;
+    }
+    if (preferences_ == kept_) return;
+    kept_ = preferences_;
+    telling(exploration_, [&] { writePreferences(preferences_, preferencesFile()); });
+}
+
+void Errands::finish() { autosave_.discard(); }
+
+panels::StartOffers Errands::offers() const {
+    return {.recent = preferences_.recentFiles,
+            .demo = demo_,
+            .autosave = left_.empty() ? fs::path() : left_.front().file};
+}
+
+}  // namespace app::desktop

@@ -1,0 +1,58 @@
+// What the user asks of the world outside the window: files, the clipboard, a child that exports;
+// and what is kept for the next time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/autosave.h"
+#include "app/canvas.h"
+#include "app/desktop/window.h"
+#include "app/exploration.h"
+#include "app/export_job.h"
+#include "app/panels/interface.h"
+#include "app/preferences.h"
+
+namespace app::desktop {
+
+// Failures become messages of the exploration. The references must outlive it.
+class Errands {
+ public:
+    Errands(Exploration& exploration, Canvas& canvas, Window& window);
+
+    // A member of a series, a folder, several files; a session, or a picture that carries one.
+    void open(const std::vector<std::filesystem::path>& named);
+    void save(const std::filesystem::path& file);
+    void screenshot();
+    void copyCommandLine();
+    void exportTo(const std::filesystem::path& output);
+    void cancelExport();
+
+    // Once a frame: what is to be kept is kept, and a child's progress is told.
+    void goOn(const panels::Choices& choices);
+    // At a clean end.
+    void finish();
+
+    panels::StartOffers offers() const;
+    const Preferences& preferences() const { return preferences_; }
+    // How far an export is, in words, while one runs.
+    std::optional<std::string> exporting() const;
+
+ private:
+    void keep(const panels::Choices& choices);
+    void openSession(const std::filesystem::path& file);
+
+    Exploration& exploration_;
+    Canvas& canvas_;
+    Window& window_;
+    Preferences preferences_, kept_;
+    Autosave autosave_;
+    std::vector<LeftSession> left_;
+    std::filesystem::path demo_;
+    std::optional<ExportJob> export_;
+    std::vector<std::filesystem::path> remembered_;  // the files that were last remembered
+};
+
+}  // namespace app::desktop

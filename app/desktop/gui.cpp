@@ -1,0 +1,187 @@
+#include "app/desktop/gui.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace app::desktop {
+namespace {
+
+using panels::Key;
+static_assert(static_cast<int>(Key::Space) == GLFW_KEY_SPACE &&
+              static_cast<int>(Key::Escape) == GLFW_KEY_ESCAPE &&
+              static_cast<int>(Key::Right) == GLFW_KEY_RIGHT &&
+              static_cast<int>(Key::Left) == GLFW_KEY_LEFT &&
+              static_cast<int>(Key::Home) == GLFW_KEY_HOME &&
+              static_cast<int>(Key::End) == GLFW_KEY_END &&
+              static_cast<int>(Key::F12) == GLFW_KEY_F12 && panels::key('A') == Key{GLFW_KEY_A});
+
+void mapKeys(ImGuiIO& io) {
+    constexpr std::pair<int, int> kKeys[] = {
+        {ImGuiKey_Tab, GLFW_KEY_TAB},
+        {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+        {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+        {ImGuiKey_UpArrow, GLFW_KEY_UP},
+        {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+        {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+        {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+        {ImGuiKey_Home, GLFW_KEY_HOME},
+        {ImGuiKey_End, GLFW_KEY_END},
+        {ImGuiKey_Insert, GLFW_KEY_INSERT},
+        {ImGuiKey_Delete, GLFW_KEY_DELETE},
+        {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+        {ImGuiKey_Space, GLFW_KEY_SPACE},
+        {ImGuiKey_Enter, GLFW_KEY_ENTER},
+        {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+        {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+        {ImGuiKey_A, GLFW_KEY_A},
+        {ImGuiKey_C, GLFW_KEY_C},
+        {ImGuiKey_V, GLFW_KEY_V},
+        {ImGuiKey_X, GLFW_KEY_X},
+        {ImGuiKey_Y, GLFW_KEY_Y},
+        {ImGuiKey_Z, GLFW_KEY_Z},
+    };
+    for (const auto& [imgui, glfw] : kKeys) io.KeyMap[imgui] = glfw;
+}
+
+Cursor cursorOf(ImGuiMouseCursor cursor) {
+    switch (cursor) {
+        case ImGuiMouseCursor_TextInput:
+            return Cursor::Text;
+        case ImGuiMouseCursor_ResizeEW:
+            return Cursor::LeftRight;
+        case ImGuiMouseCursor_ResizeNS:
+            return Cursor::UpDown;
+        case ImGuiMouseCursor_Hand:
+            return Cursor::Hand;
+        case ImGuiMouseCursor_ResizeAll:
+            return Cursor::Cross;
+        default:
+            return Cursor::Arrow;
+    }
+}
+
+// Which commands a key that is held down gives again and again.
+bool repeats(panels::Command command) {
+    using panels::Command;
+    return command == Command::StepForward || command == Command::StepBackward ||
+           command == Command::Undo || command == Command::Redo;
+}
+
+// Hands events to ImGui until one would hide what an earlier one of this frame says.
+class Feed {
+ public:
+    explicit Feed(ImGuiIO& io) : io_(io) {}
+
+    // False: the event belongs to the next frame.
+    bool operator()(const MouseMoved& e) {
+        if (button_) return false;
+        io_.MousePos = {e.at.x, e.at.y};
+        moved_ = true;
+        return true;
+    }
+    bool operator()(const MouseButton& e) {
+        if (button_ || moved_) return false;
+        io_.MouseDown[e.button] = e.down;
+        return button_ = true;
+    }
+    bool operator()(const Wheel& e) {
+        if (button_) return false;
+        io_.MouseWheel += e.by.y;
+        io_.MouseWheelH += e.by.x;
+        return moved_ = true;
+    }
+    bool operator()(const KeyChanged& e) {
+        if (key_) return false;
+        io_.KeysDown[e.key] = e.down;
+        const bool own = e.key >= GLFW_KEY_LEFT_SHIFT;  // GLFW tells modifiers before their change
+        io_.KeyCtrl = own ? held(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) : e.ctrl;
+        io_.KeyShift = own ? held(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) : e.shift;
+        io_.KeyAlt = own ? held(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) : e.alt;
+        if (e.down) pressed.push_back(e);
+        return key_ = true;
+    }
+    bool operator()(const Character& e) {
+        io_.AddInputCharacter(e.code);
+        return true;
+    }
+    bool operator()(const FocusChanged& e) {
+        if (!e.focused) io_.ClearInputKeys();
+        return true;
+    }
+    bool operator()(const Dropped& e) {
+        dropped.insert(dropped.end(), e.files.begin(), e.files.end());
+        return true;
+    }
+
+    std::vector<KeyChanged> pressed;
+    std::vector<std::filesystem::path> dropped;
+
+ private:
+    bool held(int left, int right) const { return io_.KeysDown[left] || io_.KeysDown[right]; }
+    ImGuiIO& io_;
+    bool moved_ = false, button_ = false, key_ = false;
+};
+
+}  // namespace
+
+Gui::Gui(Window& window, float scale) : window_(window) {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
+    io.ClipboardUserData = &window_;
+    io.SetClipboardTextFn = [](void* w, const char* text) {
+        static_cast<Window*>(w)->setClipboard(text);
+    };
+    io.GetClipboardTextFn = [](void* w) { return static_cast<Window*>(w)->clipboard(); };
+    mapKeys(io);
+    theme_ = panels::makeTheme(scale);
+    if (!ImGui_ImplOpenGL3_Init("#version 450 core"))
+        throw std::runtime_error("Dear ImGui's OpenGL renderer did not start");
+}
+
+Gui::~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Gui::setScale(float scale) {
+    if (scale == theme_.scale) return;
+    theme_ = panels::makeTheme(scale);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+FrameInput Gui::beginFrame(std::chrono::nanoseconds dt) {
+    ImGuiIO& io = ImGui::GetIO();
+    Feed feed(io);
+    std::deque<Event>& events = window_.events();
+    while (!events.empty() && std::visit(feed, events.front())) events.pop_front();
+    const glm::ivec2 size = window_.framebufferSize();
+    io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
+    io.DeltaTime = std::max(1e-4f, std::chrono::duration<float>(dt).count());
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    FrameInput out{.commands = {}, .dropped = std::move(feed.dropped)};
+    // Only now ImGui knows whether a field that was just clicked takes the keys.
+    for (const KeyChanged& e : feed.pressed) {
+        if (io.WantTextInput || e.alt) continue;
+        if (const auto command = panels::commandOf(Key{e.key}, e.ctrl, e.shift))
+            if (!e.repeated || repeats(*command)) out.commands.push_back(*command);
+    }
+    return out;
+}
+
+void Gui::endFrame() { ImGui::EndFrame(); }
+
+void Gui::draw() {
+    window_.setCursor(cursorOf(ImGui::GetMouseCursor()));
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace app::desktop

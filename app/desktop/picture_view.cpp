@@ -1,0 +1,105 @@
+#include "app/desktop/picture_view.h"
+
+#include <glm/common.hpp>
+#include <utility>
+
+namespace app::desktop {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A subset is refined when the picture has been at rest for so long: a hand that hesitates is not
+// made to wait.
+constexpr auto kRest = 150ms;
+const glm::vec3 kGroundColor = glm::vec3(13, 17, 23) / 255.0f;
+
+// What a picture depends on.
+Explorer drawnOf(Explorer e) {
+    const std::int64_t tick = e.play.tick;
+    e.steps.reset();
+    e.play = {};
+    e.play.tick = tick;
+    return e;
+}
+
+// How many eyes' pictures stand beside and above each other.
+glm::ivec2 tiles(Stereo mode) {
+    if (mode == Stereo::Off) return {1, 1};
+    return mode == Stereo::TopBottom ? glm::ivec2(1, 2) : glm::ivec2(2, 1);
+}
+
+}  // namespace
+
+glm::ivec2 PictureView::eyeSize(const panels::Rect& place, Stereo mode) {
+    return glm::max(glm::ivec2(place.size()) / tiles(mode), glm::ivec2(16));
+}
+
+bool PictureView::isCurrent(const Shown& shown) const {
+    return drawn_ && drawn_->sorted == shown.sorted && drawn_->explorer == drawnOf(shown.explorer);
+}
+
+void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place,
+                       bool playing, std::chrono::nanoseconds frameBudget) {
+    if (shown == nullptr) return render::showGround(window, kGroundColor);
+    const bool current = isCurrent(*shown);
+    if (!current) changed_ = Clock::now();
+    const bool resting = !playing && Clock::now() - changed_ >= kRest;
+    if (!current || (!report_.whole && (resting || report_.uploaded < 1)))
+        redraw(*shown, !resting, frameBudget);
+    kept_->show(window, {0, window.y - static_cast<int>(place.max.y)}, kGroundColor);
+}
+
+void PictureView::redraw(const Shown& shown, bool moving, std::chrono::nanoseconds frameBudget) {
+    const Explorer& e = shown.explorer;
+    const glm::ivec2 grid = tiles(e.stereo.mode), whole = e.size * grid;
+    if (!kept_ || kept_->size() != whole) kept_.emplace(whole);
+    pace_.setTarget(frameBudget);
+    const std::vector<render::View> eyes = canvas_.eyesOf(shown);
+    report_ = canvas_.draw(shown, eyes, {.splats = pace_.budget()}, moving,
+                           [&](std::size_t eye, const render::Targets& light) {
+                               // The first eye's picture is the left, or the upper one.
+                               const auto i = static_cast<int>(eye);
+                               const glm::ivec2 tile(i * (grid.x - 1), (1 - i) * (grid.y - 1));
+                               present_.draw(light, kept_->framebuffer(), tile * e.size);
+                           });
+    timed_ = report_.gpuTime.has_value();
+    if (report_.gpuTime) {
+        pace_.took(report_.gpuSplats, *report_.gpuTime);
+        performance_.frame = *report_.gpuTime;
+    }
+    performance_ = {.frame = performance_.frame,
+                    .budget = frameBudget,
+                    .drawn = report_.drawn,
+                    .selected = report_.selected,
+                    .gpuBytes = report_.gpuBytes,
+                    .whole = report_.whole,
+                    .uploaded = report_.uploaded,
+                    .step = report_.step};
+    drawn_ = Drawn{drawnOf(e), shown.sorted};
+    if (canvas_.lattice() != nullptr) boxHalf_ = canvas_.lattice()->boxHalf();
+    eye_ = eyes.size() == 1 ? std::optional(eyes.front()) : std::nullopt;
+}
+
+void PictureView::took(std::chrono::nanoseconds frame) {
+    if (!std::exchange(timed_, true)) performance_.frame = frame;
+}
+
+std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
+    if (!drawn_ || report_.whole) return std::nullopt;
+    return report_.uploaded < 1 ? 0ns : std::chrono::nanoseconds(kRest);
+}
+
+std::optional<panels::Reading> PictureView::read(glm::vec2 at) const {
+    if (!eye_) return std::nullopt;
+    const glm::dvec2 window(static_cast<double>(at.x) + 0.5,
+                            static_cast<double>(eye_->size.y) - static_cast<double>(at.y) - 0.5);
+    const auto found = canvas_.probe(*eye_, window);
+    if (!found) return std::nullopt;
+    return panels::Reading{.index = found->index,
+                           .value = found->value,
+                           .position = found->coordinates,
+                           .world = found->picked.world,
+                           .step = report_.step};
+}
+
+}  // namespace app::desktop

@@ -1,0 +1,65 @@
+// The picture in its place in the window: drawn when it changes, refined when it rests, shown again
+// otherwise.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "app/canvas.h"
+#include "app/panels/desk.h"
+#include "render/frame_pace.h"
+#include "render/kept_picture.h"
+#include "render/present.h"
+
+namespace app::desktop {
+
+// Needs a current GL context, from construction to destruction.
+class PictureView {
+ public:
+    // How large each eye's picture is in a place: with two eyes, each has half of it.
+    static glm::ivec2 eyeSize(const panels::Rect& place, Stereo mode);
+
+    // Puts the picture into the window's framebuffer, with ground around it. `shown`: null while
+    // there is nothing. `playing`: it will change again at once.
+    void draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place, bool playing,
+              std::chrono::nanoseconds frameBudget);
+    // When it is to be drawn again although nothing changes; none when it is whole.
+    std::optional<std::chrono::nanoseconds> untilNextDraw() const;
+
+    // What is seen at a place of the picture, y down; none there, and with two eyes.
+    std::optional<panels::Reading> read(glm::vec2 at) const;
+
+    // How long the frame took that the last draw() belongs to, where the GPU did not tell.
+    void took(std::chrono::nanoseconds frame);
+
+    Canvas& canvas() { return canvas_; }
+    const panels::Performance& performance() const { return performance_; }
+    const glm::dvec3& boxHalf() const { return boxHalf_; }
+    const std::optional<render::View>& eye() const { return eye_; }  // where there is one
+
+ private:
+    using Clock = std::chrono::steady_clock;
+    // What the kept picture shows.
+    struct Drawn {
+        Explorer explorer;
+        std::shared_ptr<const timeseries::SortedStep> sorted;
+    };
+
+    bool isCurrent(const Shown& shown) const;
+    void redraw(const Shown& shown, bool moving, std::chrono::nanoseconds frameBudget);
+
+    Canvas canvas_;
+    render::Present present_;
+    render::FramePace pace_{std::chrono::milliseconds(16)};
+    std::optional<render::KeptPicture> kept_;
+    std::optional<Drawn> drawn_;
+    CanvasReport report_;
+    panels::Performance performance_;
+    glm::dvec3 boxHalf_{0.5};
+    std::optional<render::View> eye_;
+    Clock::time_point changed_ = Clock::now();
+    bool timed_ = true;  // what was drawn last has its time
+};
+
+}  // namespace app::desktop

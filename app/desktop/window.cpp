@@ -1,0 +1,202 @@
+#include "app/desktop/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <limits>
+#include <stdexcept>
+
+namespace app::desktop {
+namespace {
+
+constexpr const char* kHeadlessWay = "`isochron render FILE -o OUT.png` draws without a window";
+
+// What GLFW said last; its error callback has no user pointer.
+std::string& lastError() {
+    static std::string error;
+    return error;
+}
+
+// GLFW is process-wide.
+struct Library {
+    Library() {
+        glfwSetErrorCallback([](int, const char* what) { lastError() = what; });
+        if (glfwInit() == GLFW_FALSE)
+            throw std::runtime_error(
+                fmt::format("no display: {}; {}",
+                            std::getenv("DISPLAY") == nullptr ? "DISPLAY is not set" : lastError(),
+                            kHeadlessWay));
+    }
+    ~Library() { glfwTerminate(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+};
+
+// The newest context that the display gives, in words.
+std::string offeredContext() {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow* plain = glfwCreateWindow(64, 64, "isochron", nullptr, nullptr);
+    if (plain == nullptr) return "none: " + lastError();
+    const std::string offered =
+        fmt::format("{}.{}", glfwGetWindowAttrib(plain, GLFW_CONTEXT_VERSION_MAJOR),
+                    glfwGetWindowAttrib(plain, GLFW_CONTEXT_VERSION_MINOR));
+    glfwDestroyWindow(plain);
+    return offered;
+}
+
+GLFWwindow* createWindow(glm::ivec2 size, const std::string& title) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "isochron");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "isochron");
+    GLFWwindow* window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+    if (window == nullptr)
+        throw std::runtime_error(
+            fmt::format("a window needs OpenGL 4.5 and this display gives {}; {}", offeredContext(),
+                        kHeadlessWay));
+    glfwSetWindowSizeLimits(window, 640, 420, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    return window;
+}
+
+constexpr std::array kCursorShapes = {GLFW_ARROW_CURSOR,   GLFW_HAND_CURSOR,
+                                      GLFW_IBEAM_CURSOR,   GLFW_HRESIZE_CURSOR,
+                                      GLFW_VRESIZE_CURSOR, GLFW_CROSSHAIR_CURSOR};
+
+}  // namespace
+
+struct Window::State {
+    Library library;
+    GLFWwindow* window;
+    std::array<GLFWcursor*, kCursorShapes.size()> cursors{};
+    Cursor cursor = Cursor::Arrow;
+    std::string title;
+    std::deque<Event> events;
+
+    State(glm::ivec2 size, const std::string& name)
+        : window(createWindow(size, name)), title(name) {
+        for (std::size_t i = 0; i < cursors.size(); ++i)
+            cursors[i] = glfwCreateStandardCursor(kCursorShapes[i]);
+    }
+    ~State() { glfwDestroyWindow(window); }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    static State& of(GLFWwindow* w) { return *static_cast<State*>(glfwGetWindowUserPointer(w)); }
+    void listen();
+    void listenToKeys();
+};
+
+void Window::State::listen() {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        glm::ivec2 size{1}, pixels{1};
+        glfwGetWindowSize(w, &size.x, &size.y);
+        glfwGetFramebufferSize(w, &pixels.x, &pixels.y);
+        const glm::vec2 ratio = glm::vec2(pixels) / glm::vec2(glm::max(size, glm::ivec2(1)));
+        of(w).events.push_back(MouseMoved{glm::vec2(x, y) * ratio});
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+        // A drag goes on outside.
+        if (entered == GLFW_TRUE || glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
+            glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS)
+            return;
+        of(w).events.push_back(MouseMoved{glm::vec2(-std::numeric_limits<float>::max())});
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+        if (button < 3) of(w).events.push_back(MouseButton{button, action == GLFW_PRESS});
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+        of(w).events.push_back(Wheel{glm::vec2(x, y)});
+    });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+        of(w).events.push_back(FocusChanged{focused == GLFW_TRUE});
+    });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        of(w).events.push_back(Dropped{{paths, paths + count}});
+    });
+    listenToKeys();
+}
+
+void Window::State::listenToKeys() {
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+        if (key < 0) return;
+        // By what is printed on the key, as the keyboard's layout has it, where GLFW knows.
+        if (const char* name = glfwGetKeyName(key, 0); name != nullptr && name[1] == '\0') {
+            if (name[0] >= 'a' && name[0] <= 'z') key = name[0] - 'a' + 'A';
+            if (name[0] == ',' || name[0] == '.') key = name[0];
+        }
+        of(w).events.push_back(KeyChanged{.key = key,
+                                          .down = action != GLFW_RELEASE,
+                                          .repeated = action == GLFW_REPEAT,
+                                          .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
+                                          .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                                          .alt = (mods & GLFW_MOD_ALT) != 0});
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) {
+        of(w).events.push_back(Character{static_cast<char32_t>(code)});
+    });
+}
+
+Window::Window(glm::ivec2 size, const std::string& title)
+    : state_(std::make_unique<State>(size, title)) {
+    state_->listen();
+    glfwMakeContextCurrent(state_->window);
+    glfwSwapInterval(1);
+}
+Window::~Window() = default;
+
+void Window::poll() { glfwPollEvents(); }
+
+void Window::wait(std::optional<std::chrono::nanoseconds> atMost) {
+    if (!atMost) return glfwWaitEvents();
+    const double seconds = std::chrono::duration<double>(*atMost).count();
+    seconds > 0 ? glfwWaitEventsTimeout(seconds) : glfwPollEvents();
+}
+
+std::deque<Event>& Window::events() { return state_->events; }
+bool Window::shouldClose() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }
+void Window::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }
+void Window::wake() { glfwPostEmptyEvent(); }
+
+glm::ivec2 Window::framebufferSize() const {
+    glm::ivec2 size{0};
+    if (glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) == GLFW_TRUE) return size;
+    glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+float Window::contentScale() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(state_->window, &x, &y);
+    return y;
+}
+
+void Window::setTitle(const std::string& title) {
+    if (title == state_->title) return;
+    state_->title = title;
+    glfwSetWindowTitle(state_->window, title.c_str());
+}
+
+void Window::setCursor(Cursor cursor) {
+    if (cursor == state_->cursor) return;
+    state_->cursor = cursor;
+    glfwSetCursor(state_->window, state_->cursors[static_cast<std::size_t>(cursor)]);
+}
+
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(state_->window, text.c_str());
+}
+const char* Window::clipboard() const { return glfwGetClipboardString(state_->window); }
+void Window::swap() { glfwSwapBuffers(state_->window); }
+
+}  // namespace app::desktop

@@ -1,0 +1,21 @@
+// How time and the swept window play (Crawfis 1996, figure 4).
+#pragma once
+
+#include "app/panels/form.h"
+
+namespace app::panels {
+
+class AnimationPage {
+ public:
+    void draw(Desk& desk, const Rect& at);
+
+ private:
+    void time(Desk& desk, Form& form);
+    void sweep(Desk& desk, Form& form);
+    TextField speed_, stride_, range_, delta_, timerSteps_, step_, frequency_;
+};
+
+// Begins a sweep over all values seen, or ends it.
+void toggleSweep(Desk& desk);
+
+}  // namespace app::panels

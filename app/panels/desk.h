@@ -1,0 +1,84 @@
+// What the panels share: the exploration that they show and change, how the interface looks, and
+// what only the front end can do.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/exploration.h"
+#include "app/panels/keys.h"
+#include "app/panels/layout.h"
+#include "app/panels/theme.h"
+
+namespace app::panels {
+
+enum class Page { Animation, View, Quality, Probe };
+
+// What stands under the cursor, as the front end found it.
+struct Reading {
+    std::array<std::size_t, 3> index{};  // along x, y, z
+    timeseries::Number value;
+    glm::dvec3 position{0};  // grid coordinates
+    glm::dvec3 world{0};
+    std::size_t step = 0;
+};
+
+// How the last frame went.
+struct Performance {
+    std::chrono::nanoseconds frame{0}, budget{0};
+    std::uint64_t drawn = 0, selected = 0, gpuBytes = 0;
+    bool whole = true;
+    double uploaded = 1;   // share of the step shown that is on the GPU
+    std::size_t step = 0;  // on the screen
+};
+
+// What the user chose of the interface itself: no part of a picture, not undone.
+struct Choices {
+    std::size_t layer = 0;  // the selected one
+    Page page = Page::Animation;
+    std::chrono::nanoseconds frameBudget{33'333'333};
+    std::optional<double> scale;  // of the interface; absent: the monitor's
+    float sideWidth = kSideWidth;
+};
+
+// What panels ask of the front end, which serves and clears it.
+struct Requests {
+    std::vector<Command> commands;
+    std::vector<std::filesystem::path> open;
+    std::optional<std::filesystem::path> save;
+    std::optional<std::filesystem::path> exportTo;
+    bool cancelExport = false;
+    std::optional<glm::vec2> probe;  // where to read, in pixels of the picture, y down
+    bool ruler = false;              // the reading asked for is another end of the ruler
+};
+
+struct Desk {
+    Exploration& exploration;
+    const Theme& theme;
+    Layout layout;
+    Choices& choices;
+    Requests& requests;
+    const Performance& performance;
+};
+
+// Applies `change` to a copy of the explorer, as one edit; see History::edit for `gesture`.
+template <typename Change>
+void edit(Desk& desk, std::string_view gesture, const Change& change) {
+    Explorer next = desk.exploration.explorer();
+    change(next);
+    desk.exploration.edit(std::move(next), gesture);
+}
+
+// Begins a window of ImGui that is nothing but a rectangle to draw in.
+// One that is not fixed among the others comes to the front when it is focused.
+enum class Depth { Fixed, Front };
+void beginRegion(const char* id, const Rect& at, ImU32 background, Depth depth = Depth::Fixed);
+void endRegion();
+
+}  // namespace app::panels

@@ -1,0 +1,199 @@
+#include "app/panels/file_panel.h"
+
+#include <imgui_stdlib.h>
+
+#include <cstdlib>
+
+namespace app::panels {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "~" is the user's home, as in a shell; the rest is relative to the folder listed.
+fs::path meant(const std::string& typed, const fs::path& folder) {
+    const char* home = std::getenv("HOME");
+    if (home != nullptr && (typed == "~" || typed.starts_with("~/")))
+        return fs::path(home) / (typed.size() > 2 ? typed.substr(2) : "");
+    return folder / typed;
+}
+
+bool isFolder(const fs::path& path) {
+    std::error_code gone;
+    return fs::is_directory(path, gone);
+}
+
+const char* titleOf(FilePanel::For what) {
+    switch (what) {
+        case FilePanel::For::Open:
+            return "Open a file, a folder or a session";
+        case FilePanel::For::Save:
+            return "Save the session as";
+        case FilePanel::For::Export:
+            return "Export the animation as (.png or .exr, numbered)";
+    }
+    return "";
+}
+
+const char* actionOf(FilePanel::For what) {
+    switch (what) {
+        case FilePanel::For::Open:
+            return "Open";
+        case FilePanel::For::Save:
+            return "Save";
+        case FilePanel::For::Export:
+            return "Export";
+    }
+    return "";
+}
+
+}  // namespace
+
+void FilePanel::ask(For what, const fs::path& path) {
+    for_ = what;
+    typed_ = path.string();
+    warnedOf_.clear();
+    focus_ = true;
+    const fs::path folder = fs::absolute(path.has_parent_path() ? path.parent_path() : ".");
+    list(folder.lexically_normal());
+    if (what == For::Open) typed_.clear();
+}
+
+void FilePanel::list(const fs::path& folder) {
+    folder_ = folder;
+    contents_ = {};
+    listing_.emplace(folder, all_, wake_);
+}
+
+void FilePanel::take(Desk& desk, const fs::path& path) {
+    if (*for_ == For::Open) {
+        desk.requests.open = {path};
+        return close();
+    }
+    std::error_code gone;
+    if (fs::exists(path, gone) && warnedOf_ != path.string()) {
+        warnedOf_ = path.string();
+        return;
+    }
+    if (*for_ == For::Save)
+        desk.requests.save = path;
+    else
+        desk.requests.exportTo = path;
+    close();
+}
+
+void FilePanel::draw(Desk& desk) {
+    if (!for_) return;
+    if (listing_) {
+        if (auto contents = listing_->poll()) {
+            contents_ = std::move(*contents);
+            listing_.reset();
+        }
+    }
+    const Theme& theme = desk.theme;
+    const float s = theme.scale;
+    const Rect& window = desk.layout.window;
+    const glm::vec2 half = 0.5f * glm::min(glm::vec2(640, 520) * s, window.size() - 24 * s);
+    const Rect at{glm::floor(window.centre() - half), glm::floor(window.centre() + half)};
+    ImGui::SetNextWindowFocus();
+    beginRegion("##files", window, faded(kGround, 0.6f), Depth::Front);
+    area("##behind", window);
+    ImGui::SetItemAllowOverlap();
+    ImDrawList& drawn = *ImGui::GetWindowDrawList();
+    drawn.AddRectFilled(im(at.min), im(at.max), kPanel, 8 * s);
+    drawn.AddRect(im(at.min), im(at.max), kLine, 8 * s);
+    const float left = at.min.x + 20 * s, right = at.max.x - 20 * s;
+    text(theme, {left, at.min.y + 26 * s}, titleOf(*for_), kText, 0, theme.strong);
+    text(theme, {left, at.min.y + 50 * s}, fitting(*theme.small, folder_.string(), right - left),
+         kDim, 0, theme.small);
+
+    ImGui::SetCursorScreenPos({left, at.min.y + 64 * s});
+    ImGui::SetNextItemWidth(right - left);
+    if (focus_) ImGui::SetKeyboardFocusHere();
+    focus_ = false;
+    const bool entered = ImGui::InputTextWithHint("##path", "type a path, or choose below", &typed_,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    drawList(desk, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
+
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) close();
+    if (!for_) return endRegion();
+
+    const float y = at.max.y - 46 * s;
+    if (*for_ == For::Open) {
+        constexpr std::array kFilter = {"Readable", "All files"};
+        if (const auto filter =
+                segmented(theme, "filter", {{left, y}, {left + 180 * s, y + 30 * s}}, kFilter,
+                          all_ ? 1 : 0)) {
+            all_ = *filter == 1;
+            list(folder_);
+        }
+    } else if (!warnedOf_.empty() &&
+               warnedOf_ == meant(typed_, folder_).lexically_normal().string()) {
+        text(theme, {left, y + 15 * s}, "It exists: again to replace it", kError);
+    }
+    if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}},
+                   "Cancel"))
+        close();
+    const bool pressed =
+        for_ &&
+        textButton(theme, "Do", {{right - 100 * s, y}, {right, y + 30 * s}}, actionOf(*for_), true);
+    if (for_ && (entered || pressed)) {
+        const fs::path path = meant(typed_, folder_);
+        if (entered && isFolder(path)) {
+            list(path.lexically_normal());
+            typed_.clear();
+            focus_ = true;
+        } else if (!typed_.empty() || *for_ == For::Open) {
+            take(desk, path.lexically_normal());
+            focus_ = for_.has_value();
+        }
+    }
+    endRegion();
+}
+
+void FilePanel::drawList(Desk& desk, const Rect& at) {
+    const float s = desk.theme.scale;
+    ImGui::GetWindowDrawList()->AddRectFilled(im(at.min), im(at.max), kGround, 5 * s);
+    ImGui::SetCursorScreenPos(im(at.min));
+    ImGui::BeginChild("##list", im(at.size()));
+    const glm::vec2 origin = vec(ImGui::GetCursorScreenPos());
+    float y = origin.y + 4 * s;
+    const auto line = [&](const char* id, Icon icon, std::string_view name, bool lit) {
+        const Rect r{{at.min.x + 4 * s, y}, {at.max.x - 10 * s, y + 28 * s}};
+        y += 28 * s;
+        if (r.max.y < at.min.y || r.min.y > at.max.y) return Pressing{};
+        const Pressing p = area(id, r);
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        if (p.hovered || lit)
+            list.AddRectFilled(im(r.min), im(r.max), lit ? faded(kAccent, 0.16f) : kField, 4 * s);
+        drawIcon(list, icon, {r.min.x + 16 * s, r.centre().y}, s,
+                 icon == Icon::Folder ? kAccent : kDim);
+        text(desk.theme, {r.min.x + 34 * s, r.centre().y},
+             fitting(*desk.theme.text, name, r.size().x - 44 * s));
+        return p;
+    };
+    std::optional<fs::path> enter, open;
+    if (folder_.has_parent_path() && folder_ != folder_.root_path() &&
+        line("..", Icon::Folder, "..", false).clicked)
+        enter = folder_.parent_path();
+    for (const FolderEntry& entry : contents_.entries) {
+        const std::string name = entry.path.filename().string();
+        const Pressing p = line(name.c_str(), entry.isFolder ? Icon::Folder : Icon::File, name,
+                                !entry.isFolder && name == typed_);
+        if (p.clicked && entry.isFolder) enter = entry.path;
+        if (p.clicked && !entry.isFolder) typed_ = name;
+        if (p.doubled && !entry.isFolder) open = entry.path;
+    }
+    if (!contents_.why.empty())
+        text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, contents_.why, kError);
+    if (listing_) text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, "…", kDim);
+    ImGui::SetCursorScreenPos({origin.x, y});
+    ImGui::Dummy({1, 4 * s});
+    ImGui::EndChild();
+    if (enter) {
+        if (*for_ == For::Open) typed_.clear();
+        list(*enter);
+    }
+    if (open) take(desk, *open);
+}
+
+}  // namespace app::panels

@@ -1,0 +1,41 @@
+// A path asked for inside the window: to open, to save a session, to export pictures to.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "app/folder_listing.h"
+#include "app/panels/desk.h"
+#include "app/panels/widgets.h"
+
+namespace app::panels {
+
+class FilePanel {
+ public:
+    enum class For { Open, Save, Export };
+
+    // `wake`: see FolderListing.
+    explicit FilePanel(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+    // `path`: what is typed at first. Its folder is listed.
+    void ask(For what, const std::filesystem::path& path);
+    void close() { for_.reset(); }
+    bool isOpen() const { return for_.has_value(); }
+    void draw(Desk& desk);
+
+ private:
+    void list(const std::filesystem::path& folder);
+    void drawList(Desk& desk, const Rect& at);
+    void take(Desk& desk, const std::filesystem::path& path);
+
+    std::function<void()> wake_;
+    std::optional<For> for_;
+    std::filesystem::path folder_;
+    std::optional<FolderListing> listing_;
+    FolderContents contents_;
+    std::string typed_, warnedOf_;
+    bool all_ = false, focus_ = false;
+};
+
+}  // namespace app::panels

@@ -1,0 +1,13 @@
+// What is open: file, variable, and the menu of what can be done with it.
+#pragma once
+
+#include <span>
+
+#include "app/panels/desk.h"
+
+namespace app::panels {
+
+// REQUIRES: something is shown.
+void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::path> recent);
+
+}  // namespace app::panels

@@ -1,0 +1,85 @@
+// Value and time at once: a histogram of the step shown beside a map of how many points have which
+// value at which time. Layers are bands across both, to be made, moved and resized by dragging; the
+// swept window, the animation's range and what was kept are drawn apart from them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/panels/desk.h"
+#include "app/panels/widgets.h"
+
+namespace app::panels {
+
+class Instrument {
+ public:
+    void draw(Desk& desk, const Rect& at);
+
+    // The values shown, from the bottom to the top.
+    std::pair<double, double> values(const Desk& desk) const;
+
+ private:
+    enum class Grip {
+        None,
+        Lo,
+        Hi,
+        Band,
+        Background,
+        NewRange,
+        Scrub,
+        AnimationLo,
+        AnimationHi,
+        Window,
+        Pan
+    };
+    struct Grab {
+        Grip grip = Grip::None;
+        std::size_t layer = 0, range = 0;
+        glm::vec2 pressedAt{0};
+        double valueAt = 0;                // where it was pressed
+        timeseries::RangeSet ranges = {};  // as they were then
+        bool newLayer = false;
+        std::pair<double, double> values = {};
+    };
+    struct Frame;  // what one draw() works out before it draws
+
+    Grab gripAt(const Frame& f, glm::vec2 mouse) const;
+    void drag(const Frame& f, glm::vec2 mouse);
+    void dragNew(const Frame& f, glm::vec2 mouse);
+    void zoom(const Frame& f, glm::vec2 mouse);
+    void drawTitle(const Frame& f);
+    using ColorOfValue = std::function<ImU32(double value)>;
+    using Painter = std::function<void(const ColorOfValue&)>;
+    void drawInColors(const Frame& f, const Painter& paint) const;
+    void drawHistogram(const Frame& f) const;
+    void drawMap(const Frame& f) const;
+    void drawColumn(const Frame& f, const Rect& strip, const std::vector<double>& counts,
+                    double most, const ColorOfValue& color) const;
+    void drawBands(const Frame& f, const Grab& hovered) const;
+    void drawSweep(const Frame& f) const;
+    void drawAxis(const Frame& f) const;
+    void drawTime(const Frame& f) const;
+    std::string hoverText(const Frame& f, glm::vec2 mouse) const;
+    void refresh(const Frame& f);
+
+    std::optional<std::pair<double, double>> zoomed_;
+    bool linear_ = false;
+    Grab grab_;
+    std::string readout_;
+
+    // Kept from frame to frame while what they come from stays.
+    struct Column {
+        const timeseries::StepSummary* summary = nullptr;
+        std::vector<double> counts;
+    };
+    std::weak_ptr<const timeseries::SortedStep> countedStep_;
+    std::vector<std::uint64_t> counts_;
+    std::vector<Column> columns_;
+    ValueAxis axis_;
+    std::string of_;  // file, variable and what is kept of it
+};
+
+}  // namespace app::panels

@@ -1,0 +1,257 @@
+#include "app/panels/interface.h"
+
+#include <fmt/format.h>
+
+#include "app/panels/header.h"
+#include "app/panels/help.h"
+#include "app/panels/quality_page.h"
+#include "app/view_edits.h"
+
+namespace app::panels {
+namespace {
+
+Side sideOf(Command command) {
+    switch (command) {
+        case Command::Back:
+            return Side::Back;
+        case Command::Left:
+            return Side::Left;
+        case Command::Right:
+            return Side::Right;
+        case Command::Top:
+            return Side::Top;
+        case Command::Bottom:
+            return Side::Bottom;
+        default:
+            return Side::Front;
+    }
+}
+
+timeseries::Ending next(timeseries::Ending ending) {
+    return static_cast<timeseries::Ending>((static_cast<int>(ending) + 1) % 3);
+}
+
+// "demo_session.json" for "demo.nc".
+std::filesystem::path suggested(const Exploration& exploration, const char* ending) {
+    const auto shown = exploration.shown();
+    if (!shown) return ending;
+    return std::filesystem::path(shown->dataset.name).stem().string() + ending;
+}
+
+// A cross in a ring.
+void mark(ImDrawList& list, glm::vec2 at, float s) {
+    list.AddCircle(im(at), 7 * s, faded(kGround, 0.8f), 24, 3.5f * s);
+    list.AddCircle(im(at), 7 * s, kText, 24, 1.5f * s);
+    list.AddCircleFilled(im(at), 1.8f * s, kText);
+}
+
+}  // namespace
+
+void Interface::draw(Exploration& exploration, const Surroundings& around, Requests& requests) {
+    Desk desk{.exploration = exploration,
+              .theme = around.theme,
+              .layout = layoutOf(around.window, around.theme.scale, choices_.sideWidth),
+              .choices = choices_,
+              .requests = requests,
+              .performance = around.performance};
+    const std::size_t layers = exploration.explorer().layers.size();
+    choices_.layer = std::min(choices_.layer, layers == 0 ? 0 : layers - 1);
+    popup_ = files_.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    ImGui::PushFont(around.theme.text);
+    const bool started = exploration.shown().has_value();
+    if (!started) desk.layout.picture = desk.layout.window;
+    drawPicture(desk, around);
+    if (started) {
+        drawSide(desk, around);
+        timeBar_.draw(desk, desk.layout.timeBar);
+    }
+    files_.draw(desk);
+    ImGui::PopFont();
+    if (ImGui::IsMouseReleased(0) || ImGui::IsMouseReleased(2)) exploration.endGesture();
+}
+
+void Interface::drawPicture(Desk& desk, const Surroundings& around) {
+    beginRegion("##picture", desk.layout.picture, kClear);
+    if (desk.exploration.shown()) {
+        picture_.handle(desk, around.boxHalf);
+        if (around.eye) drawMarks(desk, *around.eye);
+    } else if (!desk.exploration.opening()) {
+        drawStartScreen(desk, around.offers);
+    }
+    drawPictureOverlay(desk, around.exporting);
+    messages_.draw(desk, around.dt);
+    if (help_) drawHelp(desk);
+    endRegion();
+}
+
+void Interface::drawSide(Desk& desk, const Surroundings& around) {
+    beginRegion("##side", desk.layout.side, kPanel);
+    const Rect& side = desk.layout.side;
+    ImGui::GetWindowDrawList()->AddLine({side.min.x + 0.5f, side.min.y},
+                                        {side.min.x + 0.5f, side.max.y}, kLine);
+    const SideLayout parts =
+        sideLayout(desk.layout, LayersPanel::rows(desk.exploration.explorer()));
+    drawHeader(desk, parts.header, around.offers.recent);
+    hairline(side.min.x, side.max.x, parts.layers.min.y);
+    layers_.draw(desk, parts.layers);
+    hairline(side.min.x, side.max.x, parts.instrument.min.y);
+    instrument_.draw(desk, parts.instrument);
+    drawTabs(desk, parts.tabs);
+    switch (choices_.page) {
+        case Page::Animation:
+            animation_.draw(desk, parts.page);
+            break;
+        case Page::View:
+            view_.draw(desk, parts.page);
+            break;
+        case Page::Quality:
+            drawQualityPage(desk, parts.page);
+            break;
+        case Page::Probe:
+            probe_.draw(desk, parts.page);
+            break;
+    }
+    drawEdge(desk);
+    endRegion();
+}
+
+void Interface::drawTabs(Desk& desk, const Rect& at) {
+    constexpr std::array kPages = {"Animation", "View", "Quality", "Probe"};
+    const float s = desk.theme.scale;
+    hairline(at.min.x, at.max.x, at.min.y);
+    hairline(at.min.x, at.max.x, at.max.y - 1);
+    const Rect inner{{at.min.x + kMargin * s, at.min.y}, {at.max.x - kMargin * s, at.max.y}};
+    for (std::size_t i = 0; i < kPages.size(); ++i) {
+        const float width = inner.size().x / kPages.size();
+        const float left = inner.min.x + width * static_cast<float>(i);
+        const Rect cell{{left, at.min.y}, {left + width, at.max.y}};
+        const bool now = static_cast<std::size_t>(choices_.page) == i;
+        const Pressing p = area(kPages[i], cell);
+        text(desk.theme, cell.centre(), kPages[i],
+             now         ? kText
+             : p.hovered ? kText
+                         : kDim,
+             0.5f, now ? desk.theme.strong : desk.theme.text);
+        if (now)
+            ImGui::GetWindowDrawList()->AddRectFilled({cell.min.x + 14 * s, cell.max.y - 2 * s},
+                                                      {cell.max.x - 14 * s, cell.max.y}, kAccent);
+        if (p.clicked) choices_.page = static_cast<Page>(i);
+    }
+}
+
+// The column's left edge is dragged to another width.
+void Interface::drawEdge(Desk& desk) {
+    const Rect& side = desk.layout.side;
+    const float s = desk.theme.scale;
+    const Pressing p = area("##edge", {side.min, {side.min.x + 5 * s, side.max.y}});
+    if (p.hovered || p.held) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        ImGui::GetWindowDrawList()->AddRectFilled(im(side.min), {side.min.x + 2 * s, side.max.y},
+                                                  faded(kAccent, p.held ? 1.0f : 0.6f));
+    }
+    if (p.held) choices_.sideWidth = (desk.layout.window.max.x - ImGui::GetIO().MousePos.x) / s;
+}
+
+void Interface::drawMarks(Desk& desk, const render::View& eye) const {
+    std::vector<glm::vec2> places;
+    for (const std::optional<Reading>* reading : {&probe_.first(), &probe_.second()}) {
+        if (!*reading) continue;
+        const render::Projected at = render::project(eye, (*reading)->world);
+        if (at.depth <= 0) continue;
+        places.push_back(desk.layout.picture.min +
+                         glm::vec2(at.window.x, static_cast<double>(eye.size.y) - at.window.y));
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (places.size() == 2)
+        list.AddLine(im(places[0]), im(places[1]), faded(kText, 0.7f), 1.5f * desk.theme.scale);
+    for (const glm::vec2& place : places) mark(list, place, desk.theme.scale);
+}
+
+bool Interface::obey(Exploration& exploration, Command command) {
+    Explorer e = exploration.explorer();
+    const auto& time = exploration.playback().time;
+    const std::size_t step = time ? time->step() : 0;
+    switch (command) {
+        case Command::Help:
+            return help_ = !help_, true;
+        case Command::Close:
+            return close(exploration);
+        case Command::Open:
+            return files_.ask(FilePanel::For::Open, {}), true;
+        case Command::Undo:
+            if (exploration.canUndo()) exploration.undo();
+            return true;
+        case Command::Redo:
+            if (exploration.canRedo()) exploration.redo();
+            return true;
+        default:
+            break;
+    }
+    if (!exploration.shown()) return true;
+    switch (command) {
+        case Command::TogglePlay:
+            return exploration.togglePlay(), true;
+        case Command::StepForward:
+            return exploration.stepBy(1), true;
+        case Command::StepBackward:
+            return exploration.stepBy(-1), true;
+        case Command::FirstStep:
+            return exploration.seek(0), true;
+        case Command::LastStep:
+            return exploration.seek(exploration.series()->stepCount() - 1), true;
+        case Command::InPoint:
+            setPoint(e.play.time, Point::In, step);
+            break;
+        case Command::OutPoint:
+            setPoint(e.play.time, Point::Out, step);
+            break;
+        case Command::NextEnding:
+            e.play.time.ending = next(e.play.time.ending);
+            break;
+        case Command::Fit:
+            e.view = fitted(e.view);
+            break;
+        case Command::Front:
+        case Command::Back:
+        case Command::Left:
+        case Command::Right:
+        case Command::Top:
+        case Command::Bottom:
+            e.view = lookedFrom(e.view, sideOf(command));
+            break;
+        case Command::Projection:
+            e.view.projection = e.view.projection == Projection::Perspective
+                                    ? Projection::Orthographic
+                                    : Projection::Perspective;
+            break;
+        case Command::StereoPreview:
+            e.stereo.mode = e.stereo.mode == Stereo::Off ? Stereo::SideBySide : Stereo::Off;
+            break;
+        case Command::Save:
+            files_.ask(FilePanel::For::Save, suggested(exploration, ".session.json"));
+            return true;
+        case Command::Export:
+            files_.ask(FilePanel::For::Export, suggested(exploration, ".png"));
+            return true;
+        default:
+            return false;
+    }
+    exploration.edit(std::move(e));
+    return true;
+}
+
+// What lies on top goes first. Popups and files close themselves.
+bool Interface::close(Exploration& exploration) {
+    if (popup_) return true;
+    if (help_)
+        help_ = false;
+    else if (!exploration.messages().empty())
+        exploration.forgetMessage(exploration.messages().back().number);
+    return true;
+}
+
+std::optional<std::chrono::nanoseconds> Interface::untilNextChange() const {
+    return messages_.untilNextGoes();
+}
+
+}  // namespace app::panels

@@ -1,0 +1,74 @@
+// All panels of the window, and what keys mean to them. Pure ImGui: whoever has an ImGui frame, a
+// window's or a headset's, draws it.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "app/panels/animation_page.h"
+#include "app/panels/desk.h"
+#include "app/panels/file_panel.h"
+#include "app/panels/instrument.h"
+#include "app/panels/layers_panel.h"
+#include "app/panels/messages.h"
+#include "app/panels/picture_area.h"
+#include "app/panels/probe_page.h"
+#include "app/panels/start_screen.h"
+#include "app/panels/time_bar.h"
+#include "app/panels/view_page.h"
+#include "render/view.h"
+
+namespace app::panels {
+
+// What the interface is told each frame.
+struct Surroundings {
+    glm::vec2 window{0};  // pixels
+    const Theme& theme;
+    StartOffers offers;
+    glm::dvec3 boxHalf{0.577};             // of the lattice drawn
+    std::optional<render::View> eye;       // of the picture, where probes are marked
+    std::optional<std::string> exporting;  // how far an export is, while one runs
+    std::chrono::nanoseconds dt{0};
+    Performance performance;
+};
+
+class Interface {
+ public:
+    explicit Interface(std::function<void()> wake) : files_(std::move(wake)) {}
+
+    // Between ImGui's NewFrame and Render. Changes `exploration` and adds to `requests`.
+    void draw(Exploration& exploration, const Surroundings& around, Requests& requests);
+    // What a key or a menu asked for. True when it was done here; else the front end does it.
+    bool obey(Exploration& exploration, Command command);
+    void takeReading(const std::optional<Reading>& reading, bool ruler) {
+        probe_.take(reading, ruler);
+    }
+
+    Choices& choices() { return choices_; }
+    // Until the interface changes by itself.
+    std::optional<std::chrono::nanoseconds> untilNextChange() const;
+
+ private:
+    void drawPicture(Desk& desk, const Surroundings& around);
+    void drawSide(Desk& desk, const Surroundings& around);
+    void drawTabs(Desk& desk, const Rect& at);
+    void drawEdge(Desk& desk);
+    void drawMarks(Desk& desk, const render::View& eye) const;
+    bool close(Exploration& exploration);
+
+    Choices choices_;
+    LayersPanel layers_;
+    Instrument instrument_;
+    TimeBar timeBar_;
+    AnimationPage animation_;
+    ViewPage view_;
+    ProbePage probe_;
+    PictureArea picture_;
+    Messages messages_;
+    FilePanel files_;
+    bool help_ = false;
+    bool popup_ = false;  // one, or the files, was open as the frame began
+};
+
+}  // namespace app::panels

@@ -1,0 +1,101 @@
+#include "app/panels/layout.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace app::panels {
+namespace {
+
+Rect box(float x0, float y0, float x1, float y1) { return {{x0, y0}, {x1, y1}}; }
+// Whole pixels keep lines and text crisp.
+Rect crisp(const Rect& r) { return {glm::floor(r.min), glm::floor(r.max)}; }
+
+}  // namespace
+
+Layout layoutOf(glm::vec2 window, float scale, float sideWidth) {
+    const float side = std::clamp(sideWidth * scale, std::min(320 * scale, 0.5f * window.x),
+                                  std::max(320 * scale, 0.5f * window.x));
+    const float column = std::floor(std::max(0.0f, window.x - side));
+    const float bar = std::floor(std::max(0.0f, window.y - kTimeBarHeight * scale));
+    return {.scale = scale,
+            .window = {{0, 0}, window},
+            .picture = box(0, 0, column, bar),
+            .side = box(column, 0, window.x, bar),
+            .timeBar = box(0, bar, window.x, window.y)};
+}
+
+SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
+    constexpr float kHeader = 90, kLeastInstrument = 184, kInstrument = 290, kLeastPage = 168,
+                    kPage = 316, kLeastRows = 2.4f;
+    const float s = layout.scale;
+    const Rect& side = layout.side;
+    const float rest = side.size().y / s - kHeader - kTabsHeight;
+    const float rows = kLayersTitle + kLayerRow * static_cast<float>(layerRows) + 8;
+    const float layers = std::min(rows, std::max(kLayersTitle + kLeastRows * kLayerRow,
+                                                 rest - kLeastInstrument - kLeastPage));
+    const float page = std::clamp(rest - layers - kInstrument, kLeastPage, kPage);
+    float top = side.min.y;
+    const auto next = [&](float height) {
+        const Rect r = crisp(box(side.min.x, top, side.max.x, top + height * s));
+        top += height * s;
+        return r;
+    };
+    SideLayout out;
+    out.header = next(kHeader);
+    out.layers = next(layers);
+    out.instrument = next(std::max(kLeastInstrument, rest - layers - page));
+    out.tabs = next(kTabsHeight);
+    out.page = next(page);
+    return out;
+}
+
+LayerRowLayout layerRow(const Rect& layers, float top, float scale) {
+    const float s = scale, left = layers.min.x + kMargin * s, right = layers.max.x - kMargin * s;
+    const float line = top + 6 * s, height = 26 * s, second = line + height + 2 * s;
+    LayerRowLayout out;
+    out.row = crisp(box(layers.min.x, top, layers.max.x, top + kLayerRow * s));
+    out.swatch = crisp(box(left, line, left + 26 * s, line + height));
+    out.remove = crisp(box(right - 24 * s, line, right, line + height));
+    out.eye = crisp(box(right - 50 * s, line, right - 26 * s, line + height));
+    out.text = crisp(box(left + 34 * s, line, right - 56 * s, line + height));
+    out.amount = crisp(box(left + 34 * s, second, right - 138 * s, second + 20 * s));
+    out.opacity = crisp(box(right - 132 * s, second, right, second + 20 * s));
+    return out;
+}
+
+InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasMap) {
+    const float s = scale, left = instrument.min.x + kMargin * s,
+                right = instrument.max.x - kMargin * s;
+    const float top = instrument.min.y + 34 * s, bottom = instrument.max.y - 26 * s;
+    const float gutter = 52 * s;
+    const float bars = hasMap ? 0.36f * (right - left - gutter) : right - left - gutter;
+    const float axis = left + bars, map = axis + gutter;
+    InstrumentLayout out;
+    out.title = crisp(box(left, instrument.min.y + 6 * s, right, top - 4 * s));
+    out.histogram = crisp(box(left, top, axis, bottom));
+    out.axis = crisp(box(axis, top, map, bottom));
+    out.map = crisp(box(map, top, hasMap ? right : map, bottom));
+    out.times = crisp(box(map, bottom + 3 * s, right, instrument.max.y - 4 * s));
+    return out;
+}
+
+TimeBarLayout timeBarLayout(const Rect& timeBar, float scale) {
+    const float s = scale, middle = timeBar.centre().y;
+    const auto button = [&](float x, float half) {
+        return crisp(box(timeBar.min.x + (x - half) * s, middle - half * s,
+                         timeBar.min.x + (x + half) * s, middle + half * s));
+    };
+    TimeBarLayout out;
+    out.back = button(30, 14);
+    out.play = button(66, 18);
+    out.forward = button(102, 14);
+    const float now = timeBar.min.x + 128 * s, right = timeBar.max.x - kMargin * s;
+    const float width = std::clamp(0.16f * timeBar.size().x, 120 * s, 190 * s);
+    out.now = crisp(box(now, middle - 20 * s, now + width, middle + 20 * s));
+    out.speed = crisp(box(right - 92 * s, middle - 14 * s, right, middle + 14 * s));
+    out.ending = crisp(box(right - 128 * s, middle - 14 * s, right - 100 * s, middle + 14 * s));
+    out.rail = crisp(box(now + width + 12 * s, middle - 16 * s, right - 144 * s, middle + 16 * s));
+    return out;
+}
+
+}  // namespace app::panels

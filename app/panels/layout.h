@@ -1,0 +1,96 @@
+// Where things are in the window, as pure functions of its size: panels draw there, and tests press
+// there. Pixels of the framebuffer, y down, (0, 0) the upper left corner. `scale` is pixels per
+// unit of the design: the monitor's content scale, or the user's own.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/vec2.hpp>
+
+namespace app::panels {
+
+struct Rect {
+    glm::vec2 min{0}, max{0};
+
+    glm::vec2 size() const { return max - min; }
+    glm::vec2 centre() const { return 0.5f * (min + max); }
+    bool holds(glm::vec2 at) const {
+        return at.x >= min.x && at.y >= min.y && at.x < max.x && at.y < max.y;
+    }
+    friend bool operator==(const Rect&, const Rect&) = default;
+};
+
+// The picture, the column beside it and the bar below both.
+struct Layout {
+    float scale = 1;
+    Rect window, picture, side, timeBar;
+};
+
+constexpr float kSideWidth = 400;  // as the program starts; in units of the design, as all below
+constexpr float kTimeBarHeight = 60;
+constexpr float kMargin = 16;
+
+// `sideWidth` as the user dragged it; kept between 320 and half of the window.
+Layout layoutOf(glm::vec2 window, float scale, float sideWidth = kSideWidth);
+
+// The side column from top to bottom. It shows all layers while there is room, and scrolls them
+// where there is not.
+struct SideLayout {
+    Rect header, layers, instrument, tabs, page;
+};
+constexpr float kLayersTitle = 32, kLayerRow = 58, kTabsHeight = 40;
+SideLayout sideLayout(const Layout& layout, std::size_t layerRows);
+
+// One layer's row: what can be pressed in it.
+struct LayerRowLayout {
+    Rect row, swatch, text, eye, remove, amount, opacity;
+};
+// `top`: of the row, which scrolling moves.
+LayerRowLayout layerRow(const Rect& layers, float top, float scale);
+
+// The instrument: bars grow left from the axis, the map lies right of it. A series of one step has
+// no map.
+struct InstrumentLayout {
+    Rect title, histogram, axis, map, times;
+};
+InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasMap);
+
+// The time bar: the rail lies right of the buttons and left of the settings.
+struct TimeBarLayout {
+    Rect back, play, forward, now, rail, ending, speed;
+};
+TimeBarLayout timeBarLayout(const Rect& timeBar, float scale);
+
+// A vertical axis of values: the least at the bottom.
+struct ValueAxis {
+    double lo = 0, hi = 1;
+    float top = 0, bottom = 1;
+
+    double valueAt(float y) const {
+        const double t = static_cast<double>((bottom - y) / (bottom - top));
+        return lo + t * (hi - lo);
+    }
+    // Cut to what is a little outside: infinite ends have a place too.
+    float y(double value) const {
+        const double t = std::clamp((value - lo) / (hi - lo), -1.0, 2.0);
+        return bottom - static_cast<float>(t) * (bottom - top);
+    }
+    double perPixel() const { return (hi - lo) / static_cast<double>(bottom - top); }
+};
+
+// A horizontal axis of steps: step i has the i-th of equally wide cells.
+struct StepAxis {
+    std::size_t steps = 1;
+    float left = 0, right = 1;
+
+    float cell(std::size_t step) const {
+        return left + (right - left) * static_cast<float>(step) / static_cast<float>(steps);
+    }
+    float centre(std::size_t step) const { return 0.5f * (cell(step) + cell(step + 1)); }
+    std::size_t stepAt(float x) const {
+        const float t = std::clamp((x - left) / std::max(1.0f, right - left), 0.0f, 1.0f);
+        return std::min(steps - 1, static_cast<std::size_t>(t * static_cast<float>(steps)));
+    }
+};
+
+}  // namespace app::panels

@@ -1,0 +1,151 @@
+#include "app/panels/picture_area.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/panels/widgets.h"
+#include "app/view_edits.h"
+
+namespace app::panels {
+namespace {
+
+std::string bytesText(std::uint64_t bytes) {
+    const double mb = static_cast<double>(bytes) / (1 << 20);
+    return mb < 1024 ? fmt::format("{:.0f} MB", mb) : fmt::format("{:.1f} GB", mb / 1024);
+}
+
+double milliseconds(std::chrono::nanoseconds ns) {
+    return std::chrono::duration<double, std::milli>(ns).count();
+}
+
+// What keeps the picture from being whole or fast, in a word.
+std::string limitText(const Performance& p) {
+    if (p.uploaded < 1) return fmt::format("sending to the GPU, {:.0f} %", 100 * p.uploaded);
+    if (!p.whole) return "a subset while it moves";
+    if (p.frame > p.budget) return "limited by splats";
+    return "";
+}
+
+// A step may be in memory and not yet on the GPU.
+std::string waitingText(const Desk& desk) {
+    std::string waiting = desk.exploration.waiting();
+    const auto shown = desk.exploration.shown();
+    if (waiting.empty() && shown && desk.performance.uploaded < 1 &&
+        desk.performance.step != shown->step)
+        waiting = fmt::format("requested step {}, showing {}", shown->step, desk.performance.step);
+    return waiting;
+}
+
+// Lines of small text over the picture, the last at the bottom. On the right: the picture's own
+// notes stand on the left.
+void lowerRight(const Desk& desk, std::span<const std::string> lines) {
+    const float s = desk.theme.scale;
+    glm::vec2 at(desk.layout.picture.max.x - kMargin * s, desk.layout.picture.max.y - 16 * s);
+    float widest = 0;
+    for (const std::string& line : lines)
+        widest = std::max(widest, widthOf(*desk.theme.small, line));
+    // Axes may run below.
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {at.x - widest - 8 * s, at.y - (18 * static_cast<float>(lines.size()) - 8) * s},
+        {at.x + 8 * s, at.y + 12 * s}, faded(kGround, 0.75f), 4 * s);
+    for (std::size_t i = lines.size(); i-- > 0; at.y -= 18 * s)
+        text(desk.theme, at, lines[i], i + 1 == lines.size() ? kFaint : kDim, 1, desk.theme.small);
+}
+
+// A rounded label at the picture's top; returns where it is.
+Rect pill(const Desk& desk, float y, std::string_view what, ImU32 color, float room = 0) {
+    const float s = desk.theme.scale, width = widthOf(*desk.theme.text, what) + 28 * s + room;
+    const float middle = desk.layout.picture.centre().x;
+    const Rect at{{middle - 0.5f * width, y}, {middle + 0.5f * width, y + 32 * s}};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(im(at.min), im(at.max), faded(kField, 0.95f), 16 * s);
+    list.AddRect(im(at.min), im(at.max), kLine, 16 * s);
+    text(desk.theme, {at.min.x + 14 * s, at.centre().y}, what, color);
+    return at;
+}
+
+// The same with a button; returns whether that was pressed.
+bool cancelPill(const Desk& desk, float y, std::string_view what, const char* id) {
+    const float s = desk.theme.scale;
+    const Rect at = pill(desk, y, what, kText, 84 * s);
+    return textButton(desk.theme, id,
+                      {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}},
+                      "Cancel");
+}
+
+}  // namespace
+
+void PictureArea::handle(Desk& desk, const glm::dvec3& boxHalf) {
+    Exploration& exploration = desk.exploration;
+    const Rect& at = desk.layout.picture;
+    const ImGuiIO& io = ImGui::GetIO();
+    ImGui::SetCursorScreenPos(im(at.min));
+    ImGui::InvisibleButton("##picture", im(glm::max(at.size(), glm::vec2(1))),
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::SetItemAllowOverlap();
+    if (!exploration.shown()) return;
+    const Looking looking{boxHalf, exploration.explorer().size};
+    const glm::dvec2 cursor = vec(io.MousePos) - at.min;
+    if (ImGui::IsItemActivated())
+        grip_ =
+            io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? Grip::Move : Grip::Turn;
+    if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+        const glm::dvec2 by(static_cast<double>(io.MouseDelta.x),
+                            static_cast<double>(io.MouseDelta.y));
+        edit(desk, "camera", [&](Explorer& e) {
+            e.view =
+                grip_ == Grip::Turn ? orbited(e.view, by, looking) : panned(e.view, by, looking);
+        });
+    }
+    if (!ImGui::IsItemHovered()) return;
+    if (io.MouseWheel != 0)
+        edit(desk, "zoom", [&](Explorer& e) {
+            e.view =
+                zoomed(e.view, std::pow(0.88, static_cast<double>(io.MouseWheel)), cursor, looking);
+        });
+    if (ImGui::IsMouseDoubleClicked(0)) {
+        desk.requests.probe = glm::vec2(cursor);
+        desk.requests.ruler = io.KeyShift;
+        desk.choices.page = Page::Probe;
+    }
+}
+
+void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting) {
+    Exploration& exploration = desk.exploration;
+    const float s = desk.theme.scale;
+    float y = desk.layout.picture.min.y + 14 * s;
+    if (const auto opening = exploration.opening()) {
+        const std::string what = fitting(*desk.theme.text, "Opening " + *opening,
+                                         desk.layout.picture.size().x - 140 * s);
+        if (cancelPill(desk, y, what, "##opening")) exploration.cancelOpening();
+        y += 40 * s;
+    }
+    if (exporting) {
+        if (cancelPill(desk, y, *exporting, "##exporting")) desk.requests.cancelExport = true;
+        y += 40 * s;
+    }
+    if (const std::string waiting = waitingText(desk); !waiting.empty())
+        pill(desk, y, waiting, kText);
+    const PointCounts* counts = exploration.counts();
+    if (counts == nullptr) return;
+    const Performance& p = desk.performance;
+    std::vector<std::string> lines;
+    lines.push_back(p.whole ? fmt::format("{} points drawn", withCommas(p.drawn))
+                            : fmt::format("{} of {} points drawn", withCommas(p.drawn),
+                                          withCommas(p.selected)));
+    lines.push_back(fmt::format(
+        "{} selected  ·  {}{}", withCommas(counts->selected),
+        counts->kept == counts->total ? std::string() : withCommas(counts->kept) + " kept  ·  ",
+        withCommas(counts->total) + " in all"));
+    std::string last =
+        fmt::format("{:.1f} of {:.0f} ms", milliseconds(p.frame), milliseconds(p.budget));
+    if (const timeseries::Series* series = exploration.series())
+        last += fmt::format("  ·  {} memory  ·  {} GPU", bytesText(series->bytes()),
+                            bytesText(p.gpuBytes));
+    if (const std::string limit = limitText(p); !limit.empty()) last += "  ·  " + limit;
+    lines.push_back(last);
+    lowerRight(desk, lines);
+}
+
+}  // namespace app::panels

@@ -1,0 +1,21 @@
+// The picture under the hand: turn, move, zoom, probe; and what is said over it.
+#pragma once
+
+#include "app/panels/desk.h"
+
+namespace app::panels {
+
+class PictureArea {
+ public:
+    // Takes the mouse over the picture. `boxHalf`: Lattice::boxHalf() of what is drawn there.
+    void handle(Desk& desk, const glm::dvec3& boxHalf);
+
+ private:
+    enum class Grip { None, Turn, Move };
+    Grip grip_ = Grip::None;
+};
+
+// What is opening, what is shown instead of what is asked for, and how fast frames come.
+void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting);
+
+}  // namespace app::panels

@@ -1,0 +1,76 @@
+#include "app/panels/quality_page.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/edits.h"
+
+namespace app::panels {
+namespace {
+
+// Sizes from 1/4 to 4 of the kernel, from 1 to 16 pixels of points, evenly by factors.
+void sizeSlider(Desk& desk, Form& form) {
+    const render::Footprint now = desk.exploration.explorer().footprint;
+    const bool point = now.kernel == render::Kernel::Point;
+    const double least = point ? 1 : 0.25;
+    const Rect row = form.row("Size");
+    const float s = desk.theme.scale;
+    double fraction = std::log2(now.size / least) / 4;
+    if (slider(desk.theme, "##size", {row.min, {row.max.x - 56 * s, row.max.y}}, fraction))
+        edit(desk, "splat size", [&](Explorer& e) {
+            const double size = least * std::exp2(4 * fraction);
+            e.footprint.size = point ? std::round(size) : roundedTo(size, 0.01 * size);
+        });
+    text(desk.theme, {row.max.x, row.centre().y},
+         point ? fmt::format("{:.0f} px", now.size) : fmt::format("× {:.2f}", now.size), kDim, 1,
+         desk.theme.small);
+}
+
+void budget(Desk& desk, Form& form) {
+    constexpr std::array kRates = {"60", "30", "20", "10"};
+    constexpr std::array<std::int64_t, 4> kPerSecond = {60, 30, 20, 10};
+    std::size_t now = 0;
+    for (std::size_t i = 0; i < kPerSecond.size(); ++i)
+        if (std::llround(1e9 / static_cast<double>(desk.choices.frameBudget.count())) ==
+            kPerSecond[i])
+            now = i;
+    if (const auto rate = segmented(desk.theme, "rate", form.row("Frames / s"), kRates, now))
+        desk.choices.frameBudget = std::chrono::nanoseconds(1'000'000'000 / kPerSecond[*rate]);
+    form.note("While the picture moves, so many points are drawn as fit this pace; at rest, all.");
+}
+
+void interfaceScale(Desk& desk, Form& form) {
+    constexpr std::array kNames = {"Monitor's", "1", "1.25", "1.5", "2"};
+    constexpr std::array<double, 5> kScales = {0, 1, 1.25, 1.5, 2};
+    std::size_t now = 0;
+    for (std::size_t i = 1; i < kScales.size(); ++i)
+        if (desk.choices.scale == kScales[i]) now = i;
+    if (const auto chosen = segmented(desk.theme, "interface", form.row("Interface"), kNames, now))
+        desk.choices.scale = *chosen == 0 ? std::nullopt : std::optional(kScales[*chosen]);
+}
+
+}  // namespace
+
+void drawQualityPage(Desk& desk, const Rect& at) {
+    if (!desk.exploration.shown()) return;
+    constexpr std::array kKernels = {"Points", "Soft splats"};
+    constexpr std::array kOrders = {"None", "By depth"};
+    Form form(desk.theme, "##quality", at);
+    const Explorer& e = desk.exploration.explorer();
+    if (const auto kernel = segmented(desk.theme, "kernel", form.row("Points as"), kKernels,
+                                      static_cast<std::size_t>(e.footprint.kernel)))
+        edit(desk, {}, [&](Explorer& next) {
+            next.footprint = {.kernel = static_cast<render::Kernel>(*kernel),
+                              .size = *kernel == 0 ? 3.0 : 1.0};
+        });
+    sizeSlider(desk, form);
+    if (const auto order = segmented(desk.theme, "order", form.row("Order"), kOrders,
+                                     static_cast<std::size_t>(e.order)))
+        edit(desk, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });
+    form.space(6);
+    budget(desk, form);
+    interfaceScale(desk, form);
+}
+
+}  // namespace app::panels

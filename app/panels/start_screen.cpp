@@ -1,0 +1,60 @@
+#include "app/panels/start_screen.h"
+
+#include "app/panels/widgets.h"
+
+namespace app::panels {
+namespace {
+
+// A line that opens something; returns whether it was pressed.
+bool offer(const Theme& theme, const Rect& at, Icon icon, std::string_view what,
+           std::string_view where) {
+    const float s = theme.scale;
+    const Pressing p = area(std::string(what).append(where).c_str(), at);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(im(at.min), im(at.max), p.hovered ? kRaised : kPanel, 6 * s);
+    drawIcon(list, icon, {at.min.x + 22 * s, at.centre().y}, s, p.hovered ? kAccent : kDim);
+    text(theme, {at.min.x + 44 * s, at.centre().y}, what);
+    const float used = widthOf(*theme.text, what) + 60 * s;
+    text(theme, {at.max.x - 16 * s, at.centre().y},
+         fitting(*theme.small, where, at.size().x - used - 16 * s), kFaint, 1, theme.small);
+    return p.clicked;
+}
+
+}  // namespace
+
+void drawStartScreen(Desk& desk, const StartOffers& offers) {
+    constexpr std::size_t kRecent = 5;
+    const Theme& theme = desk.theme;
+    const float s = theme.scale;
+    const Rect& picture = desk.layout.picture;
+    const float width = std::min(520 * s, picture.size().x - 2 * kMargin * s);
+    const std::size_t recent = std::min(kRecent, offers.recent.size());
+    const float height = (230 + 46 * static_cast<float>(recent)) * s;
+    const float left = picture.centre().x - 0.5f * width;
+    float y = std::max(picture.min.y + 40 * s, picture.centre().y - 0.5f * height);
+    text(theme, {left, y}, "isochron", kText, 0, theme.title);
+    y += 34 * s;
+    text(theme, {left, y},
+         "Drop a file, a folder or a member of a series here, or open one:", kDim);
+    y += 26 * s;
+    const auto next = [&] {
+        const Rect at{{left, y}, {left + width, y + 40 * s}};
+        y += 46 * s;
+        return at;
+    };
+    if (offer(theme, next(), Icon::Folder, "Open…", "Ctrl+O"))
+        desk.requests.commands.push_back(Command::Open);
+    if (!offers.autosave.empty() &&
+        offer(theme, next(), Icon::Loop, "Go on where the last session broke off", ""))
+        desk.requests.open = {offers.autosave};
+    if (!offers.demo.empty() &&
+        offer(theme, next(), Icon::Play, "The demo: a pool fire", offers.demo.filename().string()))
+        desk.requests.open = {offers.demo};
+    for (std::size_t i = 0; i < recent; ++i) {
+        const std::filesystem::path& file = offers.recent[i];
+        if (offer(theme, next(), Icon::File, file.filename().string(), file.parent_path().string()))
+            desk.requests.open = {file};
+    }
+}
+
+}  // namespace app::panels

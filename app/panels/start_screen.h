@@ -1,0 +1,18 @@
+// What stands where no picture is yet: how to open one.
+#pragma once
+
+#include <span>
+
+#include "app/panels/desk.h"
+
+namespace app::panels {
+
+struct StartOffers {
+    std::span<const std::filesystem::path> recent;
+    std::filesystem::path demo;      // "" when it is not found
+    std::filesystem::path autosave;  // of a session that did not end well; "" without one
+};
+
+void drawStartScreen(Desk& desk, const StartOffers& offers);
+
+}  // namespace app::panels

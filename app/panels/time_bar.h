@@ -1,0 +1,25 @@
+// The bar along the bottom: play, step, where in time, what is loaded, in and out points, ending
+// and speed.
+#pragma once
+
+#include "app/panels/desk.h"
+#include "app/panels/widgets.h"
+
+namespace app::panels {
+
+class TimeBar {
+ public:
+    void draw(Desk& desk, const Rect& at);
+
+ private:
+    enum class Grip { None, Cursor, In, Out };
+    void rail(Desk& desk, const Rect& at);
+    Grip grip_ = Grip::None;
+    TextField speed_;
+};
+
+// Sets the in or the out point to a step; the other gives way where they would cross.
+enum class Point { In, Out };
+void setPoint(timeseries::CursorSettings& time, Point point, std::size_t step);
+
+}  // namespace app::panels

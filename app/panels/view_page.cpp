@@ -1,0 +1,116 @@
+#include "app/panels/view_page.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/choice_text.h"
+#include "app/edits.h"
+#include "app/panels/widgets.h"
+#include "render/ticks.h"
+
+namespace app::panels {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+void sides(Desk& desk, Form& form) {
+    struct Button {
+        const char* label;
+        Command command;
+    };
+    constexpr std::array kButtons = {
+        Button{"Front", Command::Front}, Button{"Back", Command::Back},
+        Button{"Left", Command::Left},   Button{"Right", Command::Right},
+        Button{"Top", Command::Top},     Button{"Bottom", Command::Bottom}};
+    const float s = desk.theme.scale;
+    if (textButton(desk.theme, "Fit", form.row("Look"), "Fit all   F"))
+        desk.requests.commands.push_back(Command::Fit);
+    for (std::size_t line = 0; line < 2; ++line) {
+        const Rect row = form.row(line == 0 ? "From" : " ");
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Button& b = kButtons[3 * line + i];
+            if (textButton(desk.theme, b.label, part(row, i, 3, s), b.label))
+                desk.requests.commands.push_back(b.command);
+        }
+    }
+}
+
+}  // namespace
+
+void ViewPage::draw(Desk& desk, const Rect& at) {
+    if (!desk.exploration.shown()) return;
+    constexpr std::array kProjections = {"Perspective", "Orthographic"};
+    constexpr std::array kEyes = {"One", "Side by side", "Top, bottom"};
+    Form form(desk.theme, "##view", at);
+    sides(desk, form);
+    const Explorer& e = desk.exploration.explorer();
+    if (const auto p = segmented(desk.theme, "projection", form.row("Projection"), kProjections,
+                                 static_cast<std::size_t>(e.view.projection)))
+        edit(desk, {}, [&](Explorer& next) { next.view.projection = static_cast<Projection>(*p); });
+    const std::size_t eyes = e.stereo.mode == Stereo::Off         ? 0
+                             : e.stereo.mode == Stereo::TopBottom ? 2
+                                                                  : 1;
+    if (const auto chosen = segmented(desk.theme, "eyes", form.row("Eyes"), kEyes, eyes))
+        edit(desk, {}, [&](Explorer& next) {
+            next.stereo.mode = *chosen == 0   ? Stereo::Off
+                               : *chosen == 1 ? Stereo::SideBySide
+                                              : Stereo::TopBottom;
+        });
+    form.space(6);
+    clip(desk, form);
+    form.space(6);
+    scale(desk, form);
+}
+
+void ViewPage::clip(Desk& desk, Form& form) {
+    const auto shown = desk.exploration.shown();
+    const timeseries::Grid& grid = shown->sorted->grid();
+    const float s = desk.theme.scale;
+    for (int i = 0; i < 3; ++i) {
+        const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(i)];
+        if (axis.coordinates.size() < 2) continue;
+        const auto [least, most] = std::minmax(axis.coordinates.front(), axis.coordinates.back());
+        const ClipBox now = desk.exploration.explorer().clip.value_or(
+            ClipBox{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)});
+        const double width = most - least;
+        double lo = std::clamp((now.lo[i] - least) / width, 0.0, 1.0),
+               hi = std::clamp((now.hi[i] - least) / width, 0.0, 1.0);
+        const std::string unit = render::shownUnit(axis.units);
+        const Rect row = form.row(
+            fmt::format("{}{}", axis.name, unit.empty() || unit == "index" ? "" : ", " + unit));
+        const Rect bar{row.min, {row.max.x - 116 * s, row.max.y}};
+        ImGui::PushID(i);
+        if (rangeSlider(desk.theme, "##clip", bar, lo, hi))
+            edit(desk, "clip", [&](Explorer& e) {
+                const double resolution = width / static_cast<double>(bar.size().x);
+                ClipBox box = now;
+                box.lo[i] = lo > 0 ? roundedTo(least + lo * width, resolution) : -kInfinity;
+                box.hi[i] = hi < 1 ? roundedTo(least + hi * width, resolution) : kInfinity;
+                const bool open = box == ClipBox{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+                e.clip = open ? std::nullopt : std::optional(box);
+            });
+        ImGui::PopID();
+        text(desk.theme, {row.max.x, row.centre().y},
+             fmt::format("{:.4g} – {:.4g}", std::max(now.lo[i], least), std::min(now.hi[i], most)),
+             kDim, 1, desk.theme.small);
+    }
+}
+
+void ViewPage::scale(Desk& desk, Form& form) {
+    const auto& now = desk.exploration.explorer().scale;
+    const std::string text = now ? fmt::format("{:g},{:g},{:g}", now->x, now->y, now->z) : "";
+    const auto entered = scale_.draw(desk.theme, "##scale", form.row("Axes' scale"), text,
+                                     "fitted; or x,y,z: 1,1,20");
+    if (!entered) return;
+    try {
+        edit(desk, {}, [&](Explorer& e) {
+            e.scale = entered->empty() ? std::nullopt : std::optional(parseScale(*entered));
+        });
+    } catch (const ChoiceError& error) {
+        desk.exploration.tell(error.what(), true);
+    }
+}
+
+}  // namespace app::panels

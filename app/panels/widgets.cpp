@@ -1,0 +1,215 @@
+#include "app/panels/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <charconv>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "timeseries/number.h"
+
+namespace app::panels {
+namespace {
+
+ImDrawList& list() { return *ImGui::GetWindowDrawList(); }
+
+ImVec2 sizeOf(ImFont& font, std::string_view what) {
+    return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, what.data(), what.data() + what.size());
+}
+
+}  // namespace
+
+void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color, float align,
+          ImFont* font) {
+    ImFont& used = *(font != nullptr ? font : theme.text);
+    const ImVec2 size = sizeOf(used, what);
+    const glm::vec2 corner = glm::round(at - glm::vec2(align * size.x, 0.5f * size.y));
+    list().AddText(&used, used.FontSize, im(corner), color, what.data(), what.data() + what.size());
+}
+
+float widthOf(ImFont& font, std::string_view what) { return sizeOf(font, what).x; }
+
+std::string fitting(ImFont& font, std::string_view what, float width) {
+    if (widthOf(font, what) <= width) return std::string(what);
+    const auto inside = [&](std::size_t bytes) {  // not within a UTF-8 character
+        while (bytes > 0 && (static_cast<unsigned char>(what[bytes]) & 0xC0) == 0x80) --bytes;
+        return bytes;
+    };
+    for (std::size_t kept = what.size(); kept > 1; --kept) {
+        const std::string cut = fmt::format("{}…{}", what.substr(0, inside(kept / 2)),
+                                            what.substr(inside(what.size() - kept / 2)));
+        if (widthOf(font, cut) <= width) return cut;
+    }
+    return "…";
+}
+
+Pressing area(const char* id, const Rect& at) {
+    ImGui::SetCursorScreenPos(im(at.min));
+    const glm::vec2 size = glm::max(at.size(), glm::vec2(1));
+    Pressing out;
+    out.clicked = ImGui::InvisibleButton(id, im(size));
+    out.hovered = ImGui::IsItemHovered();
+    out.pressed = ImGui::IsItemActivated();
+    out.held = ImGui::IsItemActive();
+    out.released = ImGui::IsItemDeactivated();
+    out.doubled = out.hovered && ImGui::IsMouseDoubleClicked(0);
+    return out;
+}
+
+bool iconButton(const Theme& theme, const char* id, const Rect& at, Icon icon, const char* what,
+                bool lit) {
+    const Pressing p = area(id, at);
+    if (p.hovered || p.held)
+        list().AddRectFilled(im(at.min), im(at.max), p.held ? kLine : kRaised, 5 * theme.scale);
+    drawIcon(list(), icon, at.centre(), theme.scale, lit ? kAccent : p.hovered ? kText : kDim);
+    if (p.hovered && what != nullptr) tip(theme, what);
+    return p.clicked;
+}
+
+bool textButton(const Theme& theme, const char* id, const Rect& at, std::string_view label,
+                bool lit) {
+    const Pressing p = area(id, at);
+    list().AddRectFilled(im(at.min), im(at.max), p.hovered ? kRaised : kField, 5 * theme.scale);
+    text(theme, at.centre(), label, lit ? kAccent : kText, 0.5f);
+    return p.clicked;
+}
+
+std::optional<std::size_t> segmented(const Theme& theme, const char* id, const Rect& at,
+                                     std::span<const char* const> labels, std::size_t chosen) {
+    std::optional<std::size_t> picked;
+    const float s = theme.scale, width = at.size().x / static_cast<float>(labels.size());
+    list().AddRectFilled(im(at.min), im(at.max), kField, 5 * s);
+    ImGui::PushID(id);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const float left = at.min.x + width * static_cast<float>(i);
+        const Rect cell{{std::round(left), at.min.y}, {std::round(left + width), at.max.y}};
+        const Pressing p = area(labels[i], cell);
+        if (i == chosen)
+            list().AddRectFilled(im(cell.min + glm::vec2(2 * s)), im(cell.max - glm::vec2(2 * s)),
+                                 kRaised, 4 * s);
+        text(theme, cell.centre(), labels[i],
+             i == chosen ? kAccent
+             : p.hovered ? kText
+                         : kDim,
+             0.5f, theme.small);
+        if (p.clicked && i != chosen) picked = i;
+    }
+    ImGui::PopID();
+    return picked;
+}
+
+bool slider(const Theme& theme, const char* id, const Rect& at, double& fraction) {
+    const float s = theme.scale, radius = 5.5f * s, y = at.centre().y;
+    const float left = at.min.x + radius, right = at.max.x - radius;
+    const Pressing p = area(id, at);
+    bool changed = false;
+    if (p.held) {
+        const double t = std::clamp(
+            static_cast<double>((ImGui::GetIO().MousePos.x - left) / (right - left)), 0.0, 1.0);
+        changed = t != fraction;
+        fraction = t;
+    }
+    const float x = left + static_cast<float>(std::clamp(fraction, 0.0, 1.0)) * (right - left);
+    list().AddRectFilled({left, y - 1.5f * s}, {right, y + 1.5f * s}, kRaised, 1.5f * s);
+    list().AddRectFilled({left, y - 1.5f * s}, {x, y + 1.5f * s}, faded(kAccent, 0.75f), 1.5f * s);
+    list().AddCircleFilled({x, y}, radius, p.hovered || p.held ? kText : rgb(0xb6c0cc), 20);
+    return changed;
+}
+
+bool rangeSlider(const Theme& theme, const char* id, const Rect& at, double& lo, double& hi) {
+    const float s = theme.scale, radius = 5.5f * s, y = at.centre().y;
+    const float left = at.min.x + radius, right = at.max.x - radius;
+    const Pressing p = area(id, at);
+    const auto place = [&](double t) {
+        return left + static_cast<float>(std::clamp(t, 0.0, 1.0)) * (right - left);
+    };
+    const double mouse = std::clamp(
+        static_cast<double>((ImGui::GetIO().MousePos.x - left) / (right - left)), 0.0, 1.0);
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const ImGuiID key = ImGui::GetID(id);
+    if (p.pressed) storage.SetBool(key, std::abs(mouse - hi) < std::abs(mouse - lo) || mouse > hi);
+    bool changed = false;
+    if (p.held) {
+        double& end = storage.GetBool(key) ? hi : lo;
+        const double t = storage.GetBool(key) ? std::max(mouse, lo) : std::min(mouse, hi);
+        changed = t != end;
+        end = t;
+    }
+    list().AddRectFilled({left, y - 1.5f * s}, {right, y + 1.5f * s}, kRaised, 1.5f * s);
+    list().AddRectFilled({place(lo), y - 1.5f * s}, {place(hi), y + 1.5f * s},
+                         faded(kAccent, 0.75f));
+    for (const double t : {lo, hi})
+        list().AddCircleFilled({place(t), y}, radius, p.hovered ? kText : rgb(0xb6c0cc), 20);
+    return changed;
+}
+
+std::optional<std::string> TextField::draw(const Theme& theme, const char* id, const Rect& at,
+                                           std::string_view shown, const char* hint) {
+    if (!active_) typed_ = shown;
+    ImGui::SetCursorScreenPos(im(at.min));
+    ImGui::SetNextItemWidth(at.size().x);
+    const float pad = 0.5f * (at.size().y - theme.text->FontSize);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {8 * theme.scale, std::max(0.0f, pad)});
+    if (focus_) ImGui::SetKeyboardFocusHere();
+    focus_ = false;
+    const bool entered = ImGui::InputTextWithHint(
+        id, hint, &typed_,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    ImGui::PopStyleVar();
+    active_ = ImGui::IsItemActive();
+    if (active_)
+        list().AddRect(im(at.min), im(at.max), faded(kAccent, 0.8f), 4 * theme.scale, 0,
+                       theme.scale);
+    const bool left =
+        ImGui::IsItemDeactivated() && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if ((entered || left) && typed_ != shown) return typed_;
+    return std::nullopt;
+}
+
+std::optional<double> numberField(const Theme& theme, TextField& field, const char* id,
+                                  const Rect& at, double shown) {
+    const auto entered = field.draw(theme, id, at, timeseries::toText(shown));
+    if (!entered) return std::nullopt;
+    double value = 0;
+    const char* end = entered->data() + entered->size();
+    const auto result = std::from_chars(entered->data(), end, value);
+    if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+bool beginPopup(const char* id) {
+    // The regions' own windows have no padding.
+    const float unit = ImGui::GetFontSize();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.75f * unit, 0.65f * unit});
+    const bool open = ImGui::BeginPopup(id);
+    ImGui::PopStyleVar();
+    if (!open) return false;
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+    return true;
+}
+
+void tip(const Theme& theme, std::string_view what) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {9 * theme.scale, 6 * theme.scale});
+    ImGui::PushFont(theme.small);
+    ImGui::BeginTooltip();
+    ImGui::TextUnformatted(what.data(), what.data() + what.size());
+    ImGui::EndTooltip();
+    ImGui::PopFont();
+    ImGui::PopStyleVar();
+}
+
+void hairline(float x0, float x1, float y) {
+    list().AddLine({x0, std::floor(y) + 0.5f}, {x1, std::floor(y) + 0.5f}, kLine);
+}
+
+void hatch(ImDrawList& target, const Rect& at, float scale, ImU32 color) {
+    const glm::vec2 size = at.size();
+    if (size.x <= 0 || size.y <= 0) return;
+    target.PushClipRect(im(at.min), im(at.max), true);
+    for (float x = std::fmod(at.min.x, 6 * scale) * -1 - size.y; x < size.x; x += 6 * scale)
+        target.AddLine({at.min.x + x, at.max.y}, {at.min.x + x + size.y, at.min.y}, color);
+    target.PopClipRect();
+}
+
+}  // namespace app::panels

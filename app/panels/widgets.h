@@ -1,0 +1,69 @@
+// The few controls that all panels are made of. Pure ImGui; each draws inside the rectangle that it
+// is given. `id` is unique within its window.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/panels/icons.h"
+#include "app/panels/theme.h"
+
+namespace app::panels {
+
+// Text at a point; `align` 0 begins there, 0.5 is centred, 1 ends there. y is the middle of the
+// line.
+void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color = kText,
+          float align = 0, ImFont* font = nullptr);
+// The text, cut in its middle with an ellipsis to what fits.
+std::string fitting(ImFont& font, std::string_view what, float width);
+float widthOf(ImFont& font, std::string_view what);
+
+// What happened to a rectangle that is pressed and dragged.
+struct Pressing {
+    bool hovered = false, pressed = false, held = false, released = false, doubled = false;
+    bool clicked = false;  // released where it was pressed
+};
+Pressing area(const char* id, const Rect& at);
+
+bool iconButton(const Theme& theme, const char* id, const Rect& at, Icon icon,
+                const char* tip = nullptr, bool lit = false);
+bool textButton(const Theme& theme, const char* id, const Rect& at, std::string_view label,
+                bool lit = false);
+// One of a few, side by side. Returns the one chosen now.
+std::optional<std::size_t> segmented(const Theme& theme, const char* id, const Rect& at,
+                                     std::span<const char* const> labels, std::size_t chosen);
+// A thin slider of [0, 1]; true while it is dragged to another value.
+bool slider(const Theme& theme, const char* id, const Rect& at, double& fraction);
+// A slider of two ends, lo <= hi, in [0, 1].
+bool rangeSlider(const Theme& theme, const char* id, const Rect& at, double& lo, double& hi);
+
+// A field of text that reports what was entered (Enter, or leaving the field) and takes the shown
+// text again otherwise. Keeps what is being typed while it is active.
+class TextField {
+ public:
+    // `shown`: what stands there while nobody types.
+    std::optional<std::string> draw(const Theme& theme, const char* id, const Rect& at,
+                                    std::string_view shown, const char* hint = "");
+    void focus() { focus_ = true; }
+    bool active() const { return active_; }
+
+ private:
+    std::string typed_;
+    bool active_ = false, focus_ = false;
+};
+
+// A number in a field: what was entered, when it is a finite number.
+std::optional<double> numberField(const Theme& theme, TextField& field, const char* id,
+                                  const Rect& at, double shown);
+
+// ImGui's, closed by Escape too.
+bool beginPopup(const char* id);
+void tip(const Theme& theme, std::string_view what);
+// Horizontal hairline.
+void hairline(float x0, float x1, float y);
+// Slanted lines: what has not been seen.
+void hatch(ImDrawList& list, const Rect& at, float scale, ImU32 color);
+
+}  // namespace app::panels

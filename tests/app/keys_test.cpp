@@ -1,0 +1,38 @@
+#include "app/panels/keys.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+
+namespace app::panels {
+namespace {
+
+TEST(Keys, NoTwoCommandsShareAKey) {
+    std::set<std::tuple<int, bool, bool>> seen;
+    for (const Binding& b : bindings())
+        EXPECT_TRUE(seen.insert({static_cast<int>(b.key), b.ctrl, b.shift}).second)
+            << static_cast<int>(b.key);
+}
+
+TEST(Keys, EveryBindingIsObeyed) {
+    for (const Binding& b : bindings()) EXPECT_EQ(commandOf(b.key, b.ctrl, b.shift), b.command);
+    EXPECT_EQ(commandOf(Key::Space, true, false), std::nullopt);
+}
+
+TEST(Keys, TheReadmeHasTheTableThatTheHelpShows) {
+    std::ifstream file(std::string(SOURCE_DIR) + "/README.md");
+    std::stringstream readme;
+    readme << file.rdbuf();
+    for (const HelpLine& line : helpLines()) {
+        const std::string row =
+            "| " + std::string(line.keys) + " | " + std::string(line.does) + " |";
+        EXPECT_NE(readme.str().find(row), std::string::npos) << row;
+    }
+}
+
+}  // namespace
+}  // namespace app::panels

@@ -1,0 +1,108 @@
+#include "app/panels/layout.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace app::panels {
+namespace {
+
+struct Size {
+    glm::vec2 window;
+    float scale;
+    std::size_t layers;
+};
+
+class EveryLayout : public testing::TestWithParam<Size> {
+ protected:
+    const Layout layout_ = layoutOf(GetParam().window, GetParam().scale);
+    const SideLayout side_ = sideLayout(layout_, GetParam().layers);
+};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, EveryLayout,
+                         testing::Values(Size{{1440, 900}, 1, 1}, Size{{1000, 700}, 1, 3},
+                                         Size{{1920, 1080}, 1.5f, 8}, Size{{2880, 1800}, 2, 2},
+                                         Size{{3840, 2160}, 2, 0}));
+
+TEST_P(EveryLayout, PictureColumnAndBarFillTheWindowWithoutOverlap) {
+    const auto area = [](const Rect& r) { return r.size().x * r.size().y; };
+    EXPECT_EQ(area(layout_.picture) + area(layout_.side) + area(layout_.timeBar),
+              area(layout_.window));
+    EXPECT_EQ(layout_.picture.max.x, layout_.side.min.x);
+    EXPECT_EQ(layout_.picture.max.y, layout_.timeBar.min.y);
+    EXPECT_GT(layout_.picture.size().x, 0.4f * layout_.window.size().x);
+}
+
+TEST_P(EveryLayout, PartsOfTheColumnFollowEachOtherToItsEnd) {
+    const std::vector<Rect> parts = {side_.header, side_.layers, side_.instrument, side_.tabs,
+                                     side_.page};
+    float y = layout_.side.min.y;
+    for (const Rect& part : parts) {
+        EXPECT_NEAR(part.min.y, y, 1);
+        EXPECT_GT(part.size().y, 30 * layout_.scale);
+        y = part.max.y;
+    }
+    EXPECT_LE(y, layout_.side.max.y + 1);
+    EXPECT_GT(y, layout_.side.max.y - 60 * layout_.scale);
+}
+
+TEST_P(EveryLayout, WhatIsPressedInARowDoesNotOverlap) {
+    const LayerRowLayout row = layerRow(side_.layers, side_.layers.min.y, layout_.scale);
+    const std::vector<Rect> parts = {row.swatch, row.text,   row.eye,
+                                     row.remove, row.amount, row.opacity};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        EXPECT_GT(parts[i].size().x, 20 * layout_.scale) << i;
+        EXPECT_GE(parts[i].min.x, layout_.side.min.x);
+        EXPECT_LE(parts[i].max.x, layout_.side.max.x);
+        for (std::size_t j = 0; j < i; ++j) {
+            const bool apart = parts[i].min.x >= parts[j].max.x ||
+                               parts[j].min.x >= parts[i].max.x ||
+                               parts[i].min.y >= parts[j].max.y || parts[j].min.y >= parts[i].max.y;
+            EXPECT_TRUE(apart) << i << " and " << j;
+        }
+    }
+}
+
+TEST_P(EveryLayout, TheRailHasRoomBetweenButtonsAndSettings) {
+    const TimeBarLayout bar = timeBarLayout(layout_.timeBar, layout_.scale);
+    EXPECT_GT(bar.rail.min.x, bar.now.max.x);
+    EXPECT_LT(bar.rail.max.x, bar.ending.min.x);
+    EXPECT_GT(bar.rail.size().x, 250 * layout_.scale);
+}
+
+TEST(Layout, TheColumnKeepsItsWidthWithinLimits) {
+    const glm::vec2 window(1440, 900);
+    EXPECT_EQ(layoutOf(window, 1, 10).side.size().x, 320);
+    EXPECT_EQ(layoutOf(window, 1, 500).side.size().x, 500);
+    EXPECT_EQ(layoutOf(window, 1, 5000).side.size().x, 720);
+}
+
+TEST(Layout, ASeriesOfOneStepGivesItsRoomToTheHistogram) {
+    const Rect instrument{{1040, 200}, {1440, 500}};
+    const InstrumentLayout with = instrumentLayout(instrument, 1, true),
+                           without = instrumentLayout(instrument, 1, false);
+    EXPECT_EQ(without.map.size().x, 0);
+    EXPECT_EQ(without.histogram.size().x, with.histogram.size().x + with.map.size().x);
+    EXPECT_EQ(with.histogram.max.x, with.axis.min.x);
+    EXPECT_EQ(with.axis.max.x, with.map.min.x);
+}
+
+TEST(ValueAxis, ValuesAndPlacesAreEachOthersInverse) {
+    const ValueAxis axis{-20, 380, 100, 500};
+    EXPECT_EQ(axis.y(-20), 500);
+    EXPECT_EQ(axis.y(380), 100);
+    for (double value = -20; value <= 380; value += 25)
+        EXPECT_NEAR(axis.valueAt(axis.y(value)), value, 1e-4);
+    EXPECT_EQ(axis.perPixel(), 1);
+}
+
+TEST(StepAxis, EveryStepIsFoundWhereItIsDrawn) {
+    const StepAxis axis{31, 100, 720};
+    for (std::size_t step = 0; step < axis.steps; ++step)
+        EXPECT_EQ(axis.stepAt(axis.centre(step)), step);
+    EXPECT_EQ(axis.stepAt(-5), 0u);
+    EXPECT_EQ(axis.stepAt(5000), 30u);
+}
+
+}  // namespace
+}  // namespace app::panels
