@@ -21,15 +21,17 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 FrameRenderer::FrameRenderer() : font_(fontFor({64, 64})) {}
 
+void FrameRenderer::ready(glm::ivec2 size) {
+    if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
+    if (fontFor_ == size) return;
+    font_ = fontFor(size);
+    flat_ = std::make_unique<FlatPass>(font_);
+    fontFor_ = size;
+}
+
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
                                                std::span<const View> eyes) {
-    const glm::ivec2 size = eyes.front().size;
-    if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
-    if (fontFor_ != size) {
-        font_ = fontFor(size);
-        flat_ = std::make_unique<FlatPass>(font_);
-        fontFor_ = size;
-    }
+    ready(eyes.front().size);
     const glm::dvec3 midEye = midway(eyes);
     ++orders_;
     const DrawList list = order(content.scene, midEye);
@@ -46,7 +48,8 @@ void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
     resolve(frame.content.scene, eye.size);
     // Lines before the volume have soft edges: blended over it, not under with a depth of their
     // own.
-    flat_->draw(axes.before, targets_->lightFramebuffer(), eye.size, gl::DepthTest::None);
+    flat_->draw(axes.before, targets_->lightFramebuffer(), eye.size,
+                frame.content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test);
     flat_->draw(legend, targets_->lightFramebuffer(), eye.size, gl::DepthTest::None);
 }
 
@@ -88,6 +91,18 @@ void FrameRenderer::drawOpaque(const FrameContent& content, const View& view,
                .clearDepth = 1.0f});
     flat_->draw(axes.behind, into, view.size, gl::DepthTest::TestAndWrite);
     flat_->draw(axes.labels, into, view.size, gl::DepthTest::None);
+    for (const Placard& placard : content.placards) placards_.draw(placard, view, into);
+}
+
+void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
+                                 const View& eye) {
+    ready(eye.size);
+    gl::begin({.framebuffer = targets_->lightFramebuffer(),
+               .size = eye.size,
+               .clearColor = glm::vec4(glm::vec3(background), 1),
+               .clearDepth = 1.0f});
+    for (const Placard& placard : placards)
+        placards_.draw(placard, eye, targets_->lightFramebuffer());
 }
 
 void FrameRenderer::drawSplats(GpuList& list, const View& view) {

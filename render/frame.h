@@ -12,6 +12,7 @@
 #include "render/gl_list.h"
 #include "render/image.h"
 #include "render/legend.h"
+#include "render/placard.h"
 #include "render/targets.h"
 
 namespace render {
@@ -21,6 +22,8 @@ struct FrameContent {
     const timeseries::Grid& grid;  // the scene's, for axes
     Legend legend;
     glm::dvec3 background{0};  // linear
+    // Opaque, like the axes; they hide labels.
+    std::span<const Placard> placards = {};
 };
 
 // What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for.
@@ -54,6 +57,9 @@ class FrameRenderer {
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
     void drawEye(const Prepared& frame, const View& eye);  // its light is then in targets()
+    // An eye that sees nothing but placards.
+    void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
+                      const View& eye);
     const Targets& targets() const { return *targets_; }
 
     struct Counts {
@@ -62,6 +68,7 @@ class FrameRenderer {
     Counts counts() const { return {orders_, splatter_.counts().uploads, eyes_}; }
 
  private:
+    void ready(glm::ivec2 size);
     void drawOpaque(const FrameContent& content, const View& view, const AxesMeshes& axes);
     void drawSplats(GpuList& list, const View& view);
     void resolve(const Scene& scene, glm::ivec2 size);
@@ -73,6 +80,7 @@ class FrameRenderer {
     std::unique_ptr<FlatPass> flat_;
     GlSplatter splatter_;
     std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
+    PlacardPass placards_;
     gl::VertexArray noVertices_;
     std::unique_ptr<Targets> targets_;
     std::uint64_t orders_ = 0, eyes_ = 0;

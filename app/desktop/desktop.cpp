@@ -17,12 +17,13 @@ constexpr glm::ivec2 kWindowSize{1440, 900};
 
 }  // namespace
 
-Desktop::Desktop(const ViewOptions& options)
+Desktop::Desktop(Exploration& exploration)
     : window_(kWindowSize, "isochron"),
       gui_(window_, window_.contentScale()),
-      exploration_({.wake = [] { Window::wake(); }}),
+      exploration_(exploration),
       interface_([] { Window::wake(); }),
-      errands_(exploration_, picture_.canvas(), window_),
+      errands_(exploration_, picture_.canvas(),
+               [this](const std::string& text) { window_.setClipboard(text); }),
       signals_([this] {
           stopped_ = true;
           Window::wake();
@@ -31,7 +32,6 @@ Desktop::Desktop(const ViewOptions& options)
     interface_.choices().scale = errands_.preferences().uiScale;
     interface_.choices().frameBudget =
         std::chrono::nanoseconds(std::llround(1e6 * errands_.preferences().frameMilliseconds));
-    if (!options.explorer.files.empty()) exploration_.open(options.explorer);
 }
 
 void Desktop::run() {

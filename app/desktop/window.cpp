@@ -197,6 +197,7 @@ void Window::setClipboard(const std::string& text) {
     glfwSetClipboardString(state_->window, text.c_str());
 }
 const char* Window::clipboard() const { return glfwGetClipboardString(state_->window); }
+void Window::waitForScreen(bool waits) { glfwSwapInterval(waits ? 1 : 0); }
 void Window::swap() { glfwSwapBuffers(state_->window); }
 
 }  // namespace app::desktop

@@ -72,6 +72,8 @@ class Window {
     void setClipboard(const std::string& text);
     const char* clipboard() const;
     void swap();
+    // A swap waits for the screen, as it does at first, or not.
+    void waitForScreen(bool waits);
 
  private:
     struct State;
