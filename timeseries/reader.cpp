@@ -44,9 +44,9 @@ struct Format {
 
 #ifndef ISOCHRON_VTK
 std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths) {
-    throw FileError(fmt::format(
-        "{}: expected a build that reads VTK files, which `./run --with-vtk {}` makes",
-        paths[0].string(), paths[0].string()));
+    throw FileError(
+        fmt::format("{}: expected a build that reads VTK files, which `./run --with-vtk {}` makes",
+                    paths[0].string(), paths[0].string()));
 }
 #endif
 

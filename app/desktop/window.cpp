@@ -64,7 +64,7 @@ GLFWwindow* createWindow(glm::ivec2 size, const std::string& title) {
         throw std::runtime_error(
             fmt::format("a window needs OpenGL 4.5 and this display gives {}; {}", offeredContext(),
                         kHeadlessWay));
-    glfwSetWindowSizeLimits(window, 640, 420, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowSizeLimits(window, 800, 640, GLFW_DONT_CARE, GLFW_DONT_CARE);
     return window;
 }
 

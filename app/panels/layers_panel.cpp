@@ -103,6 +103,7 @@ void LayersPanel::draw(Desk& desk, const Rect& at) {
     const Rect list{{at.min.x, at.min.y + kLayersTitle * s}, at.max};
     ImGui::SetCursorScreenPos(im(list.min));
     ImGui::BeginChild("##rows", im(list.size()));
+    const bool grown = count > texts_.size();
     texts_.resize(count);
     const glm::vec2 top = vec(ImGui::GetCursorScreenPos());
     // A row may remove itself: the rest waits for the next frame.
@@ -113,6 +114,7 @@ void LayersPanel::draw(Desk& desk, const Rect& at) {
     }
     ImGui::SetCursorScreenPos({top.x, top.y + static_cast<float>(count) * kLayerRow * s});
     ImGui::Dummy({1, 1});
+    if (grown) ImGui::SetScrollHereY(1);  // the new one is last
     ImGui::EndChild();
 }
 

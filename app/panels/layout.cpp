@@ -25,15 +25,17 @@ Layout layoutOf(glm::vec2 window, float scale, float sideWidth) {
 }
 
 SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
-    constexpr float kHeader = 90, kLeastInstrument = 184, kInstrument = 290, kLeastPage = 168,
-                    kPage = 316, kLeastRows = 2.4f;
+    constexpr float kHeader = 90, kLeastInstrument = 212, kInstrument = 290, kLeastPage = 140,
+                    kPage = 316, kLeastRows = 2.1f;
     const float s = layout.scale;
     const Rect& side = layout.side;
     const float rest = side.size().y / s - kHeader - kTabsHeight;
     const float rows = kLayersTitle + kLayerRow * static_cast<float>(layerRows) + 8;
     const float layers = std::min(rows, std::max(kLayersTitle + kLeastRows * kLayerRow,
                                                  rest - kLeastInstrument - kLeastPage));
-    const float page = std::clamp(rest - layers - kInstrument, kLeastPage, kPage);
+    // The instrument keeps its least size as long as there is any other.
+    const float leastPage = std::clamp(rest - layers - kLeastInstrument, 40.0f, kLeastPage);
+    const float page = std::clamp(rest - layers - kInstrument, leastPage, kPage);
     float top = side.min.y;
     const auto next = [&](float height) {
         const Rect r = crisp(box(side.min.x, top, side.max.x, top + height * s));

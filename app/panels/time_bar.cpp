@@ -29,10 +29,13 @@ void now(Desk& desk, const Rect& at, const Dataset& dataset, std::size_t step) {
     text(desk.theme, {at.min.x, at.centre().y - 9 * s},
          fitting(*desk.theme.strong, timeText(*dataset.about.time, step), width), kText, 0,
          desk.theme.strong);
-    text(desk.theme, {at.min.x, at.centre().y + 10 * s},
-         fmt::format("{}of 0–{}", dataset.about.time->counted ? "" : fmt::format("step {} ", step),
-                     dataset.stepCount() - 1),
-         kDim, 0, desk.theme.small);
+    const bool counted = dataset.about.time->counted;
+    const std::string place =
+        dataset.stepCount() == 1
+            ? "the only one"
+            : fmt::format("{}of 0–{}", counted ? "" : fmt::format("step {} ", step),
+                          dataset.stepCount() - 1);
+    text(desk.theme, {at.min.x, at.centre().y + 10 * s}, place, kDim, 0, desk.theme.small);
 }
 
 // A cell a step, or a cell a few pixels where steps are narrower: each tells its least ready step.

@@ -34,8 +34,8 @@ inline const std::filesystem::path& folder() {
 
 inline std::filesystem::path write(const std::string& name, std::string_view bytes) {
     const std::filesystem::path path = folder() / name;
-    std::filesystem::remove(
-        path);  // some file systems wait for the disk when a file is written over
+    // Some file systems wait for the disk when a file is written over.
+    std::filesystem::remove(path);
     std::ofstream(path, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path;
