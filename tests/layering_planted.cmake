@@ -48,6 +48,7 @@ plant(render/gl/planted.h "#include \"xr/session.h\"")
 plant(render/planted.h "#include <openxr/openxr.h>")
 plant(xr/planted.h "#include \"app/options.h\"")
 plant(xr/planted.h "#include <epoxy/gl.h>")
+plant(xr/planted.cpp "#include <GLFW/glfw3.h>")
 plant(app/planted.h "#include <epoxy/gl.h>")
 plant(app/panels/planted.h "#include <openxr/openxr.h>")
 

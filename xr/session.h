@@ -4,19 +4,21 @@
 
 #include <array>
 #include <chrono>
-#include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "xr/pose.h"
 #include "xr/session_state.h"
 
 namespace xr {
+
+// A runtime that answers nothing for so long is lost.
+inline constexpr std::chrono::nanoseconds kPatience = std::chrono::seconds(3);
 
 // One sentence: no runtime, a broken manifest, no service, no headset.
 struct NoHeadset {
@@ -28,8 +30,8 @@ struct LostError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The current GL context, as the runtime wants to know it. Plain pointers of EGL and Xlib; 0 where
-// absent.
+// The current GL context, as the runtime wants to know it. Plain pointers of EGL and Xlib. `config`
+// is 0 of a context that was made without one.
 struct EglBinding {
     void *display, *config, *context;
 };
@@ -43,17 +45,21 @@ struct XlibBinding {
 using Binding = std::variant<EglBinding, XlibBinding>;
 
 // What the user's hands do in one frame, by intention and not by button. The two hands: left,
-// right.
+// right. Without focus, nothing is held or pressed. A controller with one button
+// (khr/simple_controller) reports a press as grab and select both: what the ray is on tells which
+// is meant.
 struct Hand {
-    std::optional<Pose> grip, aim;  // in the stage; absent when not tracked
+    std::optional<Pose> grip, aim;  // in the stage; absent when not known
     bool grab = false;              // holds the volume
-    bool select = false;            // trigger: play, or click on the panel
-    bool menu = false;              // help
-    glm::dvec2 stick{0};            // [-1, 1]
+    bool select = false;            // trigger: play and pause, or click on the panel
+    bool menu = false;              // help and panel
+    bool swing = false;             // the sweep turns round at its ends
+    bool bring = false;             // the volume comes here
+    glm::dvec2 stick{0};            // [-1, 1]; right, forward
 };
 
-// One eye of one frame: draw into `framebuffer` (sRGB, linear writes encoded by GL) with `view`'s
-// frustum and size, then call nothing: Frame's end submits it. Depth goes to `depth` if not 0.
+// One eye of one frame: draw into `framebuffer`, whose colour is sRGB (linear writes are encoded by
+// GL) and whose depth, where the runtime takes one, goes to the compositor. Row 0 is the lowest.
 struct Eye {
     Pose stageFromEye;
     Fov fov;
@@ -73,16 +79,20 @@ class Session {
 
     const std::string& runtimeName() const;
     const SessionState& state() const;
-    const std::string& bindingsText() const;  // of the profile in force, for the help panel
+    // What the profile in force binds, for the help panel: "Grab the volume: Squeeze", one a line.
+    // Empty before the runtime has chosen one.
+    const std::string& bindingsText() const;
 
-    // Handles events, waits for the runtime's next frame (at most a few seconds: a runtime that
-    // does not answer is lost) and begins it. None while the session does not run: call again.
-    // Throws LostError. After an event that ends the session, ended() is true.
+    // Handles events, waits for the runtime's next frame (at most kPatience) and begins it. None
+    // while the session does not run, after a hundredth of a second: call again. Throws LostError,
+    // from then on each time. After an event that ends the session, ended() is true.
     class Frame;
     std::unique_ptr<Frame> beginFrame();
     bool ended() const;
+    // Asks the runtime to let the session end; go on with frames until ended().
     void requestExit();
 
+    // `hand` 0 or 1, amplitude in [0, 1]. Nothing without focus.
     void vibrate(int hand, double amplitude, std::chrono::nanoseconds duration);
 
  private:
@@ -91,19 +101,26 @@ class Session {
     std::unique_ptr<Impl> impl_;
 };
 
-// Ends on every path: what was not drawn is submitted as no layer at all.
+// Between the runtime's begin and end of a frame. Ends on every path: what was not submitted is
+// ended with no layer at all. Must not outlive the session; one at a time.
 class Session::Frame {
  public:
     ~Frame();
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
 
     std::chrono::nanoseconds displayTime() const;  // predicted; monotonic
+    std::chrono::nanoseconds period() const;       // from one frame to the next, predicted
     bool shouldRender() const;
-    // Empty when nothing is to be drawn or the head's pose is not valid. `scale` in (0, 1]: the
-    // share of the recommended size to draw, per side.
+    // Left, right. Empty when nothing is to be drawn or the eyes' poses are not valid. `scale` in
+    // (0, 1]: the share of the recommended size to draw, per side; of the first call, which the
+    // later ones repeat. Throws LostError.
     std::span<const Eye> eyes(double scale);
     const std::array<Hand, 2>& hands() const;
-    const std::optional<Pose>& head() const;
-    // Submits the eyes. Throws LostError. near and far in metres, of the depth that was drawn.
+    const std::optional<Pose>& head() const;  // in the stage
+    // Ends the frame with what was drawn into its eyes. near and far in metres, of the depth that
+    // was drawn (View's: 0 at near). REQUIRES: all of the eyes' pixels and depth were written.
+    // Throws LostError.
     void submit(double near, double far);
 
  private:

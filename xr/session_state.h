@@ -21,13 +21,13 @@ enum class Duty { None, BeginSession, EndSession, Leave, Lost };
 class SessionState {
  public:
     // Events in any order, as a broken runtime may send them: never begins a running session nor
-    // ends one that does not run.
+    // ends one that does not run. After Leave or Lost nothing changes any more.
     Duty on(State next);
 
     State state() const { return state_; }
-    bool running() const { return running_; }                  // frames are to be waited for
-    bool visible() const;                                      // what is drawn may be seen
-    bool focused() const { return state_ == State::Focused; }  // hands answer, animations go on
+    bool running() const { return running_; }  // frames are to be waited for
+    bool visible() const;                      // what is drawn may be seen
+    bool focused() const;                      // hands answer, animations go on
 
  private:
     State state_ = State::Unknown;

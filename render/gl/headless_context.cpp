@@ -115,4 +115,6 @@ HeadlessContext::HeadlessContext(const std::string& wanted) {
 
 HeadlessContext::~HeadlessContext() = default;
 
+HeadlessContext::Names HeadlessContext::eglNames() const { return {egl_->display, egl_->context}; }
+
 }  // namespace render::gl

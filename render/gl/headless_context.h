@@ -19,6 +19,12 @@ class HeadlessContext {
 
     // "llvmpipe (LLVM 15.0.6, 256 bits), GL 4.5".
     const std::string& renderer() const { return renderer_; }
+    // EGLDisplay and EGLContext, for another library that draws with them; the context was made
+    // without an EGLConfig.
+    struct Names {
+        void *display, *context;
+    };
+    Names eglNames() const;
 
  private:
     struct Egl;

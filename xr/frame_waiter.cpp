@@ -1,0 +1,58 @@
+#include "xr/frame_waiter.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "xr/session.h"
+
+namespace xr {
+
+// What the asker and the thread share; kept alive by whichever stays longest.
+struct FrameWaiter::Desk {
+    explicit Desk(XrSession of) : session(of) {}
+
+    const XrSession session;
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool asked = false, closed = false;
+    std::optional<Answer> answer;
+
+    void serve() {
+        std::unique_lock lock(mutex);
+        while (true) {
+            changed.wait(lock, [&] { return asked || closed; });
+            if (closed) return;
+            asked = false;
+            lock.unlock();
+            Answer next{XR_SUCCESS, typed<XrFrameState>(XR_TYPE_FRAME_STATE)};
+            const auto info = typed<XrFrameWaitInfo>(XR_TYPE_FRAME_WAIT_INFO);
+            next.result = xrWaitFrame(session, &info, &next.frame);
+            lock.lock();
+            answer = next;
+            changed.notify_all();
+        }
+    }
+};
+
+FrameWaiter::FrameWaiter(XrSession session) : desk_(std::make_shared<Desk>(session)) {
+    // Detached, because joining one that never comes back would hang the program instead.
+    std::thread([desk = desk_] { desk->serve(); }).detach();
+}
+
+FrameWaiter::~FrameWaiter() {
+    const std::lock_guard lock(desk_->mutex);
+    desk_->closed = true;
+    desk_->changed.notify_all();
+}
+
+std::optional<FrameWaiter::Answer> FrameWaiter::wait() {
+    std::unique_lock lock(desk_->mutex);
+    desk_->answer.reset();
+    desk_->asked = true;
+    desk_->changed.notify_all();
+    desk_->changed.wait_for(lock, kPatience, [&] { return desk_->answer.has_value(); });
+    return desk_->answer;
+}
+
+}  // namespace xr
