@@ -130,6 +130,26 @@ TEST(Options, WithoutACommandAFileIsViewed) {
     EXPECT_THAT(refused({"a.nc", "--opacity", "2"}), HasSubstr("--opacity"));
 }
 
+TEST(Options, WhereAFileIsViewed) {
+    EXPECT_EQ(as<ViewOptions>({"a.nc"}).display, Display::Auto);
+    EXPECT_EQ(as<ViewOptions>({"a.nc", "--display", "auto"}).display, Display::Auto);
+    EXPECT_EQ(as<ViewOptions>({"a.nc", "--display", "desktop"}).display, Display::Desktop);
+    EXPECT_EQ(as<ViewOptions>({"view", "a.nc", "--display", "headset"}).display, Display::Headset);
+    EXPECT_THAT(refused({"a.nc", "--display", "vr"}), HasSubstr("headset"));
+}
+
+TEST(Options, ViewedHeadlessAFileIsRendered) {
+    const auto viewed =
+        as<RenderOptions>({"a.nc", "--range", "0:1", "--display", "headless", "-o", "b.png"});
+    const auto rendered = as<RenderOptions>({"render", "a.nc", "--range", "0:1", "-o", "b.png"});
+    EXPECT_TRUE(viewed.explorer == rendered.explorer);
+    EXPECT_EQ(viewed.output, rendered.output);
+    EXPECT_EQ(viewed.device, rendered.device);
+    EXPECT_THAT(refused({"a.nc", "--display", "headless"}), HasSubstr("-o"));
+    EXPECT_THAT(refused({"a.nc", "--display", "desktop", "-o", "b.png"}), HasSubstr("headless"));
+    EXPECT_THAT(refused({"a.nc", "--display", "headless", "-o", "b.txt"}), HasSubstr("b.txt"));
+}
+
 TEST(Options, AWindowNeedsNoFile) {
     EXPECT_TRUE(as<ViewOptions>({}).explorer == Explorer{});
     EXPECT_TRUE(as<ViewOptions>({"view"}).explorer == Explorer{});
