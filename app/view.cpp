@@ -51,7 +51,7 @@ class Viewing {
             desktop.emplace(exploration_);
         } catch (const std::runtime_error& error) {
             if (noHeadset.empty()) throw;
-            throw std::runtime_error(noHeadset + "; " + error.what());
+            throw std::runtime_error(std::string(error.what()) + "; no headset: " + noHeadset);
         }
         begin();
         if (!noHeadset.empty()) {

@@ -80,9 +80,12 @@ TEST_F(Placards, ThePointsAreBeforeOrBehind) {
     const auto step = tests::noise(tests::cube(6));
     const Lattice lattice(step.grid());
     const Scene scene{
-        .step = step,
-        .lattice = lattice,
-        .layers = {{step.select(timeseries::RangeSet::everything()), {Constant{{1, 1, 1}}, 0.9}}}};
+        step,
+        lattice,
+        {{step.select(timeseries::RangeSet::everything()), {Constant{{1, 1, 1}}, 0.9}}},
+        {},
+        Order::None,
+        {}};
     GpuStep onGpu(step, lattice);
     const auto picture = [&](double y) {
         const std::vector<Placard> placards{{standing(y, {2, 2}), glm::vec3(0, 0, 1)}};

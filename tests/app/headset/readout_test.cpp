@@ -14,7 +14,8 @@ TEST(Readout, SaysWhatIsShown) {
     tests::ScriptedExploration world({.times = {0, 0.5, 1}});
     Exploration& e = world.exploration;
     Explorer next = e.explorer();
-    next.layers = {{.ranges = timeseries::RangeSet::parse("3:5"), .color = glm::dvec3(1)}};
+    next.layers = {
+        {.ranges = timeseries::RangeSet::parse("3:5"), .color = glm::dvec3(1), .opacity = 0.5}};
     e.edit(next);
     const std::string text = readoutText(e, 1);
     // Values 0 to 63, each once.
