@@ -105,8 +105,8 @@ struct DisplayText {
 
 void addDisplay(CLI::App& app, DisplayText& into) {
     app.add_option("--display", into.display,
-                   "auto (default: a headset where one answers, else a window), desktop, headset, "
-                   "or headless, which draws a picture into -o")
+                   "auto (default: a headset where one answers, else a window), desktop, headset "
+                   "(or nothing), or headless, which draws a picture into -o")
         ->check(CLI::IsMember({"auto", "desktop", "headset", "headless"}));
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr, with --display headless");
 }

@@ -35,7 +35,8 @@ struct RenderOptions {
     bool progress = false;  // "picture 3 of 31" on stdout after each
 };
 
-// Where a file is explored. Auto: in a headset where one answers, else in a window.
+// Where a file is explored. Auto: in a headset where one answers, else in a window. From a headset
+// that is lost, both go on in a window.
 enum class Display { Auto, Desktop, Headset };
 
 // A window or a headset on these choices; without files, on nothing yet.

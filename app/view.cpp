@@ -20,16 +20,22 @@ class Viewing {
     explicit Viewing(const ViewOptions& options) : options_(options) {}
 
     void run() {
-        std::string none;
-        if (options_.display != Display::Desktop) {
-            const auto why = inHeadset();
-            if (!why) return;
-            none = *why;
+        if (options_.display == Display::Desktop) return inWindow();
+        const auto why = inHeadset();
+        if (!why) return;
+        if (options_.display == Display::Headset && !begun_) throw std::runtime_error(*why);
+        try {
+            inWindow(*why);
+        } catch (const NoWindow& none) {
+            throw std::runtime_error(fmt::format("{}; no headset: {}", none.what(), *why));
         }
-        inWindow(none);
     }
 
  private:
+    struct NoWindow : std::runtime_error {
+        using std::runtime_error::runtime_error;
+    };
+
     // One sentence why there is no headset, or none any more; none when the user is done.
     std::optional<std::string> inHeadset() {
         // Cheap, and no window comes up for it.
@@ -45,17 +51,16 @@ class Viewing {
         }
     }
 
-    void inWindow(const std::string& noHeadset) {
+    void inWindow(const std::string& noHeadset = {}) {
         std::optional<desktop::Desktop> desktop;
         try {
             desktop.emplace(exploration_);
         } catch (const std::runtime_error& error) {
-            if (noHeadset.empty()) throw;
-            throw std::runtime_error(std::string(error.what()) + "; no headset: " + noHeadset);
+            throw NoWindow(error.what());
         }
         begin();
         if (!noHeadset.empty()) {
-            fmt::print(stderr, "isochron: {}: going on in a window\n", noHeadset);
+            fmt::print(stderr, "isochron: in a window, because {}\n", noHeadset);
             exploration_.tell("No headset: " + noHeadset);
         }
         desktop->run();
