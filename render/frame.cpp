@@ -9,7 +9,7 @@
 namespace render {
 namespace {
 
-Font fontFor(glm::ivec2 size) { return Font(std::array{labelStyle(size), titleStyle(size)}); }
+std::array<FontStyle, 2> stylesFor(glm::ivec2 size) { return {labelStyle(size), titleStyle(size)}; }
 
 glm::dvec3 midway(std::span<const View> eyes) {
     glm::dvec3 sum(0);
@@ -19,14 +19,15 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer() : font_(fontFor({64, 64})) {}
+FrameRenderer::FrameRenderer() : styles_(stylesFor({64, 64})), font_(styles_) {}
 
 void FrameRenderer::ready(glm::ivec2 size) {
     if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
-    if (fontFor_ == size) return;
-    font_ = fontFor(size);
+    const auto styles = stylesFor(size);
+    if (flat_ && styles == styles_) return;
+    font_ = Font(styles);
     flat_ = std::make_unique<FlatPass>(font_);
-    fontFor_ = size;
+    styles_ = styles;
 }
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,

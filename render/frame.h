@@ -2,6 +2,7 @@
 // and uploaded once and drawn once an eye, whichever front end asks.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <span>
@@ -75,8 +76,8 @@ class FrameRenderer {
     const gl::Program& resolveProgram(const Scene& scene);
     std::vector<float> opticalDepth(GpuList& list, const View& view);
 
+    std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
-    glm::ivec2 fontFor_{0};  // the picture size whose label styles font_ holds
     std::unique_ptr<FlatPass> flat_;
     GlSplatter splatter_;
     std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/check_driver.h"
 #include "render/gl/debug_output.h"
 
 namespace app::desktop {
@@ -55,7 +56,7 @@ void Desktop::frame(std::chrono::nanoseconds dt) {
     gui_.draw();
     window_.swap();
     picture_.took(Clock::now() - begin);
-    checkDriver();
+    checkDriver(exploration_);
     title();
     errands_.goOn(interface_.choices());
 }
@@ -107,19 +108,6 @@ void Desktop::drawPicture() {
     const auto shown = exploration_.shown();
     picture_.draw(shown ? &*shown : nullptr, window, place, exploration_.playback().playing,
                   interface_.choices().frameBudget);
-}
-
-// A driver's complaint ends a program that is being tested, and is told to a user.
-void Desktop::checkDriver() {
-#ifdef NDEBUG
-    try {
-        render::gl::throwOnError();
-    } catch (const std::runtime_error& error) {
-        exploration_.tell(error.what(), true);
-    }
-#else
-    render::gl::throwOnError();
-#endif
 }
 
 void Desktop::title() {

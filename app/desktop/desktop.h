@@ -30,7 +30,6 @@ class Desktop {
     void interact(std::chrono::nanoseconds dt);
     void serve(panels::Requests& requests);
     void drawPicture();
-    void checkDriver();
     void title();
     void sleep();
 

@@ -4,9 +4,9 @@
 #include <thread>
 #include <utility>
 
+#include "app/check_driver.h"
 #include "app/headset/placards.h"
 #include "app/headset/readout.h"
-#include "render/gl/debug_output.h"
 
 namespace app::headset {
 namespace {
@@ -100,9 +100,9 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
 void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
     readout_.write(readoutText(exploration_, eyes_.scale()));
     if (!room_.panel()) return;
-    help_.write(helpText(*session_));
     const CanvasReport& report = eyes_.report();
     Panel::Around around{.offers = errands_.offers(),
+                         .help = helpText(*session_),
                          .exporting = errands_.exporting(),
                          .performance = {.budget = frame.period(),
                                          .drawn = report.drawn,
@@ -129,11 +129,7 @@ void Headset::serve(const panels::Requests& requests) {
 
 std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) const {
     RoomBoards boards{.readout = &readout_.board(), .readoutHalf = readout_.half()};
-    if (room_.panel()) {
-        boards.panel = &panel_.board();
-        boards.help = &help_.board();
-        boards.helpHalf = help_.half();
-    }
+    if (room_.panel()) boards.panel = &panel_.board();
     return placardsOf(room_, frame.hands(), *frame.head(), boards);
 }
 
@@ -143,7 +139,7 @@ void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
     const auto shown = exploration_.shown();
     eyes_.draw(shown ? &*shown : nullptr, eyes, room_.placement(), placards(frame), frame.period(),
                [&](const render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
-    render::gl::throwOnError();
+    checkDriver(exploration_);
     eyes_.took(Clock::now() - began, frame.period());
     frame.submit(kNear, kFar);
 }

@@ -52,7 +52,7 @@ class Headset {
     Room room_;
     Eyes eyes_;
     Panel panel_;
-    TextBoard readout_, help_;
+    TextBoard readout_;
     desktop::Errands errands_;
     std::optional<std::chrono::nanoseconds> lastDisplay_;
     desktop::StopSignals signals_;  // last: its thread uses what stands above

@@ -10,8 +10,7 @@
 namespace app::headset {
 namespace {
 
-constexpr glm::ivec2 kSize{1250, 1000};
-constexpr float kScale = 1.35f;
+constexpr float kScale = 1.3f;
 
 }  // namespace
 
@@ -28,13 +27,13 @@ Panel::Context::~Context() {
     ImGui::DestroyContext();
 }
 
-Panel::Panel(std::function<void()> wake) : board_(kSize), interface_(std::move(wake)) {}
+Panel::Panel(std::function<void()> wake) : board_(kPanelPixels), interface_(std::move(wake)) {}
 Panel::~Panel() = default;
 
 panels::Requests Panel::draw(Exploration& exploration, const std::optional<Pointer>& pointer,
                              const Around& around, std::chrono::nanoseconds dt) {
     ImGuiIO& io = ImGui::GetIO();
-    const glm::vec2 size(kSize);
+    const glm::vec2 size(kPanelPixels);
     io.DisplaySize = {size.x, size.y};
     io.DeltaTime = std::max(1e-4f, std::chrono::duration<float>(dt).count());
     io.MousePos = {-FLT_MAX, -FLT_MAX};
@@ -46,6 +45,12 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
     io.MouseDown[0] = pointer && pointer->pressed;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
+    ImDrawList& ground = *ImGui::GetBackgroundDrawList();
+    ground.AddRectFilled({0, 0}, io.DisplaySize, panels::kGround);
+    if (exploration.shown())
+        ground.AddText(context_.theme.text, context_.theme.text->FontSize,
+                       {panels::kMargin * kScale, 0.3f * size.y}, panels::kDim,
+                       around.help.c_str());
     panels::Requests requests;
     interface_.draw(exploration,
                     {.window = size,
@@ -53,6 +58,7 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
                      .offers = around.offers,
                      .boxHalfEdges = around.boxHalfEdges,
                      .eye = {},
+                     .hasPicture = false,
                      .exporting = around.exporting,
                      .dt = dt,
                      .performance = around.performance},

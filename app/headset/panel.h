@@ -24,6 +24,7 @@ class Panel {
     // What the front end tells the panels, beside where the pointer is.
     struct Around {
         panels::StartOffers offers;
+        std::string help;  // stands where a window has its picture
         glm::dmat3 boxHalfEdges{0.577};
         std::optional<std::string> exporting;
         panels::Performance performance;

@@ -31,11 +31,6 @@ std::vector<render::Placard> placardsOf(const Room& room, const std::array<xr::H
         placards.push_back({worldFromPlacard(plate, room.placement()), face});
     };
     if (room.panel() && boards.panel != nullptr) put(*room.panel(), boards.panel);
-    if (room.panel() && boards.help != nullptr) {
-        const Plate& panel = *room.panel();
-        const xr::Pose below{{1, 0, 0, 0}, {0, -panel.half.y - boards.helpHalf.y - 0.02, 0}};
-        put({panel.stageFromPlate * below, boards.helpHalf}, boards.help);
-    }
     for (std::size_t i = 0; i < 2; ++i) {
         const xr::Hand& hand = hands[i];
         const glm::vec3& color = room.holds(i) ? kAccent : kQuiet;

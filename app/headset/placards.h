@@ -12,9 +12,9 @@ namespace app::headset {
 
 struct RoomBoards {
     const render::Board* panel = nullptr;  // drawn where the room has one
-    // Near the right hand, or where it is not known below the volume; and left of the panel.
-    const render::Board *readout = nullptr, *help = nullptr;
-    glm::dvec2 readoutHalf{0}, helpHalf{0};  // metres
+    // Near the right hand, else the left, else below the volume.
+    const render::Board* readout = nullptr;
+    glm::dvec2 readoutHalf{0};  // metres
 };
 std::vector<render::Placard> placardsOf(const Room& room, const std::array<xr::Hand, 2>& hands,
                                         const xr::Pose& head, const RoomBoards& boards);

@@ -14,7 +14,6 @@ namespace {
 constexpr glm::dvec3 kUp(0, 1, 0);
 constexpr double kPanelAhead = 1.1, kPanelAside = 0.65;  // radians to the left
 constexpr double kPanelBelowEye = 0.1;
-constexpr glm::dvec2 kPanelHalf(0.5, 0.4);
 constexpr double kReadoutAbove = 0.09;
 
 // The turn about the vertical that a head has, also of one that looks straight up or down.
@@ -49,7 +48,7 @@ xr::Placement volumeBefore(const xr::Pose& head, const glm::dmat3& boxHalfEdges)
 Plate panelBefore(const xr::Pose& head) {
     const glm::dquat turn = heading(head) * glm::angleAxis(kPanelAside, kUp);
     const glm::dvec3 at = head.position + turn * glm::dvec3(0, -kPanelBelowEye, -kPanelAhead);
-    return {{facing(at, head.position), at}, kPanelHalf};
+    return {{facing(at, head.position), at}, 0.5 * kPanelMetresPerPixel * glm::dvec2(kPanelPixels)};
 }
 
 Plate readoutNear(const xr::Pose& hand, const xr::Pose& head, glm::dvec2 half) {

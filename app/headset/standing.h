@@ -21,6 +21,8 @@ struct Plate {
     xr::Pose stageFromPlate;
     glm::dvec2 half{0.5};
 };
+inline constexpr glm::ivec2 kPanelPixels{1060, 1000};
+inline constexpr double kPanelMetresPerPixel = 0.0008;
 // The panel, left of the volume, turned to the head.
 Plate panelBefore(const xr::Pose& head);
 // A text near a hand, turned to the head.
