@@ -56,7 +56,6 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
                     {.window = size,
                      .theme = context_.theme,
                      .offers = around.offers,
-                     .boxHalfEdges = around.boxHalfEdges,
                      .eye = {},
                      .hasPicture = false,
                      .exporting = around.exporting,

@@ -25,7 +25,6 @@ class Panel {
     struct Around {
         panels::StartOffers offers;
         std::string help;  // stands where a window has its picture
-        glm::dmat3 boxHalfEdges{0.577};
         std::optional<std::string> exporting;
         panels::Performance performance;
     };
