@@ -8,16 +8,11 @@
 #include <stdexcept>
 
 namespace app::headset {
-namespace {
-
-constexpr float kScale = 1.3f;
-
-}  // namespace
 
 Panel::Context::Context() {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    theme = panels::makeTheme(kScale);
+    theme = panels::makeTheme(kPanelScale);
     if (!ImGui_ImplOpenGL3_Init("#version 450 core"))
         throw std::runtime_error("Dear ImGui's OpenGL renderer did not start");
 }
@@ -49,7 +44,7 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
     ground.AddRectFilled({0, 0}, io.DisplaySize, panels::kGround);
     if (exploration.shown())
         ground.AddText(context_.theme.text, context_.theme.text->FontSize,
-                       {panels::kMargin * kScale, 0.3f * size.y}, panels::kDim,
+                       {panels::kMargin * kPanelScale, 0.3f * size.y}, panels::kDim,
                        around.help.c_str());
     panels::Requests requests;
     interface_.draw(exploration,
@@ -64,7 +59,7 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
                     requests);
     if (pointer)
         ImGui::GetForegroundDrawList()->AddCircleFilled(
-            io.MousePos, 5 * kScale, pointer->pressed ? panels::kAccent : panels::kText);
+            io.MousePos, 5 * kPanelScale, pointer->pressed ? panels::kAccent : panels::kText);
     ImGui::Render();
     board_.beginDrawing();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

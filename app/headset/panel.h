@@ -11,6 +11,8 @@
 
 namespace app::headset {
 
+inline constexpr float kPanelScale = 1.3f;  // pixels a unit of the panels' design
+
 // The only user of Dear ImGui while it lives. Needs a current GL context, from construction to
 // destruction.
 class Panel {

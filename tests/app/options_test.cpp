@@ -15,6 +15,7 @@ namespace app {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using timeseries::RangeSet;
 
 Command parsed(const std::vector<std::string>& arguments) {
@@ -92,10 +93,11 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
           "--size",      "--stereo",   "--eye-distance", "--convergence", "--channel",
           "--device",    "--output",   "--hide",         "--target",      "--orthographic"}) {
         EXPECT_THAT(help, HasSubstr(option));
-        const bool isOfFiles =
-            std::set<std::string_view>{"--output", "--device", "--channel"}.contains(option);
+        const bool isOfFiles = std::set<std::string_view>{"--device", "--channel"}.contains(option);
         EXPECT_EQ(helpOfView.find(option) == std::string::npos, isOfFiles) << option;
     }
+    EXPECT_THAT(helpOfView, HasSubstr("--display"));
+    EXPECT_THAT(help, Not(HasSubstr("--display")));
 }
 
 TEST(Options, WrongCommandLinesExitWithTwo) {

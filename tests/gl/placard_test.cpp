@@ -41,6 +41,9 @@ TEST_F(Placards, StandWhereTheirCornersProjectTo) {
     for (int y = 0; y < kSize.y; ++y)
         for (int x = 0; x < kSize.x; ++x) {
             const glm::dvec2 centre(x + 0.5, kSize.y - y - 0.5);
+            // On an edge, rounding decides.
+            const glm::dvec2 off = glm::min(glm::abs(centre - lo), glm::abs(centre - hi));
+            if (std::min(off.x, off.y) < 0.01) continue;
             const bool inside =
                 centre.x > lo.x && centre.x < hi.x && centre.y > lo.y && centre.y < hi.y;
             ASSERT_EQ(picture.at(x, y),
@@ -72,7 +75,8 @@ TEST_F(Placards, BearTheirPictureUprightInLinearLight) {
                 picture.at(kSize.x / 2 + (2 * x - 1) * 12, kSize.y / 2 + (2 * y - 1) * 12);
             EXPECT_EQ(seen.r, x == 0 ? 1 : 0);
             EXPECT_EQ(seen.g, y == 0 ? 1 : 0);
-            EXPECT_NEAR(static_cast<double>(seen.b), fifth, 1e-4);
+            // Textures of 8 bits are blended with no more than 8 bits on some drivers.
+            EXPECT_NEAR(static_cast<double>(seen.b), fifth, 2e-3);
         }
 }
 
