@@ -76,7 +76,7 @@ void Headset::attendWindow() {
     if (window == nullptr) return;
     window->poll();
     window->events().clear();
-    if (window->shouldClose()) session_->requestExit();
+    if (window->shouldClose() && !std::exchange(leaving_, true)) session_->requestExit();
 }
 
 // How long after the frame before this one will be seen.
