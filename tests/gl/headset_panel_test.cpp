@@ -18,8 +18,9 @@ using namespace std::chrono_literals;
 class HeadsetPanel : public testing::Test {
  protected:
     panels::Requests frame(const std::optional<Pointer>& pointer = {}) {
-        panels::Requests requests =
-            panel_.draw(world_.exploration, pointer, {.help = "Trigger: play"}, 11ms);
+        Panel::Around around{};
+        around.help = "Trigger: play";
+        panels::Requests requests = panel_.draw(world_.exploration, pointer, around, 11ms);
         render::gl::throwOnError();
         return requests;
     }
