@@ -55,7 +55,7 @@ Session::Frame::Frame(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Session::Frame::~Frame() {
     if (!impl_->open || impl_->session.lost) return;
     try {
-        impl_->session.orLost([&] { impl_->end({}); });
+        impl_->session.orLost([&] { impl_->end({}); }, kPatienceWithDrawing);
     } catch (const LostError&) {
         // The session remembers, and the next call tells.
     }
@@ -117,7 +117,7 @@ void Session::Frame::submit(double near, double far) {
     std::vector<const XrCompositionLayerBaseHeader*> layers;
     if (!impl_->eyes.empty())
         layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer));
-    impl_->session.orLost([&] { impl_->end(layers); });
+    impl_->session.orLost([&] { impl_->end(layers); }, kPatienceWithDrawing);
 }
 
 }  // namespace xr

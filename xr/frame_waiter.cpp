@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "xr/session.h"
+#include "xr/watchman.h"
 
 namespace xr {
 
@@ -36,8 +37,10 @@ struct FrameWaiter::Desk {
 };
 
 FrameWaiter::FrameWaiter(XrSession session) : desk_(std::make_shared<Desk>(session)) {
-    // Detached, because joining one that never comes back would hang the program instead.
-    std::thread([desk = desk_] { desk->serve(); }).detach();
+    std::thread thread([desk = desk_] { desk->serve(); });
+    thread_ = thread.native_handle();
+    // Joining one that never comes back would hang the program instead.
+    thread.detach();
 }
 
 FrameWaiter::~FrameWaiter() {
@@ -51,7 +54,13 @@ std::optional<FrameWaiter::Answer> FrameWaiter::wait() {
     desk_->answer.reset();
     desk_->asked = true;
     desk_->changed.notify_all();
-    desk_->changed.wait_for(lock, kPatience, [&] { return desk_->answer.has_value(); });
+    const auto answered = [&] { return desk_->answer.has_value(); };
+    desk_->changed.wait_for(lock, kPatience, answered);
+    // A second for what lies between the interrupted system call and here.
+    for (auto left = std::chrono::seconds(1) / kInterruptAgain; !answered() && left > 0; --left) {
+        interrupt(thread_);
+        desk_->changed.wait_for(lock, kInterruptAgain, answered);
+    }
     return desk_->answer;
 }
 

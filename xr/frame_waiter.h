@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "xr/api.h"
 
@@ -20,12 +21,14 @@ class FrameWaiter {
         XrResult result;
         XrFrameState frame;
     };
-    // None when the runtime did not answer within kPatience; then it is not to be asked again.
+    // Interrupts the runtime after kPatience; none when it does not come back even then, and it is
+    // not to be called any more. REQUIRES: there is a Watchman.
     std::optional<Answer> wait();
 
  private:
     struct Desk;
     std::shared_ptr<Desk> desk_;
+    std::thread::native_handle_type thread_;
 };
 
 }  // namespace xr

@@ -31,9 +31,9 @@ NoHeadset noRuntime() {
             "configuration folders, and XR_RUNTIME_JSON is not set)"};
     std::error_code unreadable;
     if (!std::filesystem::exists(*manifest, unreadable))
-        return {
-            fmt::format("XR_RUNTIME_JSON names the OpenXR runtime {}, and there is no such file",
-                        manifest->string())};
+        return {fmt::format(
+            "XR_RUNTIME_JSON names {} as the OpenXR runtime's, and there is no such file",
+            manifest->string())};
     return {
         fmt::format("the OpenXR runtime that {} tells of cannot be loaded", manifest->string())};
 }
@@ -109,11 +109,11 @@ Runtime::Runtime(Runtime&& other) noexcept
     : instance_(std::exchange(other.instance_, XR_NULL_HANDLE)),
       system_(other.system_),
       name_(std::move(other.name_)),
-      enabled_(std::move(other.enabled_)),
-      abandoned_(other.abandoned_) {}
+      enabled_(std::move(other.enabled_)) {}
 
-Runtime::~Runtime() {
-    if (instance_ != XR_NULL_HANDLE && !abandoned_) xrDestroyInstance(instance_);
+void Runtime::close() {
+    if (instance_ != XR_NULL_HANDLE) xrDestroyInstance(instance_);
+    instance_ = XR_NULL_HANDLE;
 }
 
 bool Runtime::has(const char* extension) const {

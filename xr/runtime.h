@@ -18,7 +18,9 @@ class Runtime {
     static std::variant<Runtime, NoHeadset> open(const std::vector<const char*>& extensions);
     Runtime(Runtime&& other) noexcept;
     Runtime& operator=(Runtime&&) = delete;
-    ~Runtime();
+    ~Runtime() { close(); }
+    // Destroys the instance and all that belongs to it, once.
+    void close();
 
     XrInstance instance() const { return instance_; }
     XrSystemId system() const { return system_; }
@@ -35,9 +37,8 @@ class Runtime {
 
     // Throws LostError with the call and its answer when it failed.
     void check(XrResult result, const char* call) const;
-    // Nothing is destroyed any more: a call may never return.
-    void abandon() { abandoned_ = true; }
-    bool abandoned() const { return abandoned_; }
+    // Nothing is destroyed any more: it may never return.
+    void abandon() { instance_ = XR_NULL_HANDLE; }
 
  private:
     explicit Runtime(XrInstance instance) : instance_(instance) {}
@@ -45,7 +46,6 @@ class Runtime {
     XrSystemId system_ = XR_NULL_SYSTEM_ID;
     std::string name_;
     std::vector<std::string> enabled_;
-    bool abandoned_ = false;
 };
 
 }  // namespace xr

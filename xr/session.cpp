@@ -13,8 +13,13 @@ namespace xr {
 namespace {
 
 constexpr auto kViews = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+// Between questions whether the session runs again.
+constexpr std::chrono::milliseconds kIdle(10);
 // Of LOCAL, whose origin is at the eyes, above the floor, where the runtime knows no floor.
 constexpr float kGuessedEyeHeight = 1.5f;
+
+// A session's images are made when it opens.
+constexpr std::chrono::nanoseconds kPatienceToOpen = std::chrono::seconds(10);
 
 std::vector<const char*> extensionsFor(const Binding& binding) {
     std::vector<const char*> names{XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
@@ -132,7 +137,9 @@ Session::Impl::Impl(Runtime opened, const Binding& binding)
 Session::Impl::~Impl() {
     // The framebuffers go before the images they are of.
     eyes.clear();
-    if (!runtime.abandoned()) xrDestroySession(session);
+    // Once is enough to have waited for a runtime that does not answer.
+    const Watchman::Watch watch(watchman, lost ? std::chrono::nanoseconds(0) : kPatience);
+    runtime.close();
 }
 
 void Session::Impl::onState(State next) {
@@ -166,8 +173,9 @@ void Session::Impl::handleEvents() {
         if (event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
             XrEventDataSessionStateChanged change;
             std::memcpy(&change, &event, sizeof change);
-            // The numbers are the same.
-            if (change.session == session) onState(static_cast<State>(change.state));
+            if (change.session != session) continue;
+            onState(static_cast<State>(change.state));  // the numbers are the same
+            return;
         } else if (event.type == XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED) {
             bindings = actions.bindingsText();
         } else if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
@@ -176,25 +184,45 @@ void Session::Impl::handleEvents() {
     }
 }
 
+std::string Session::Impl::unanswered(std::chrono::nanoseconds patience) const {
+    return fmt::format("the headset's runtime {} has not answered for {:.0f} s", runtime.name(),
+                       std::chrono::duration<double>(patience).count());
+}
+
+void Session::Impl::orLost(const std::function<void()>& calls, std::chrono::nanoseconds patience) {
+    if (lost) throw LostError(*lost);
+    const Watchman::Watch watch(watchman, patience);
+    try {
+        calls();
+    } catch (const LostError& error) {
+        lost = error.what();
+    }
+    // Also where nothing has failed: Monado locates things with success when it was interrupted.
+    if (watch.fired()) lost = unanswered(patience);
+    if (lost) throw LostError(*lost);
+}
+
 XrFrameState Session::Impl::waitFrame() {
     const auto answer = waiter.wait();
     if (!answer) {
         runtime.abandon();
-        throw LostError(fmt::format("the headset's runtime {} has not answered for {} s",
-                                    runtime.name(),
-                                    std::chrono::duration<double>(kPatience).count()));
+        throw LostError(unanswered(kPatience));
     }
     runtime.check(answer->result, "xrWaitFrame");
     return answer->frame;
 }
 
 std::optional<NoHeadset> Session::whyNone() {
+    Watchman watchman;
+    const Watchman::Watch watch(watchman, kPatience);
     auto runtime = Runtime::open({});
     if (auto* none = std::get_if<NoHeadset>(&runtime)) return std::move(*none);
     return std::nullopt;
 }
 
 std::variant<std::unique_ptr<Session>, NoHeadset> Session::open(const Binding& binding) {
+    Watchman watchman;
+    const Watchman::Watch watch(watchman, kPatienceToOpen);
     const auto extensions = extensionsFor(binding);
     auto runtime = Runtime::open(extensions);
     if (auto* none = std::get_if<NoHeadset>(&runtime)) return std::move(*none);
@@ -222,22 +250,19 @@ const std::string& Session::bindingsText() const { return impl_->bindings; }
 bool Session::ended() const { return impl_->ended; }
 
 std::unique_ptr<Session::Frame> Session::beginFrame() {
-    return impl_->orLost([&]() -> std::unique_ptr<Frame> {
+    std::unique_ptr<Frame> frame;
+    impl_->orLost([&] {
         impl_->handleEvents();
-        if (impl_->ended) return nullptr;
-        if (!impl_->state.running()) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            return nullptr;
-        }
+        if (impl_->ended || !impl_->state.running()) return;
         const XrFrameState timing = impl_->waitFrame();
         const auto begin = typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
         impl_->runtime.check(xrBeginFrame(impl_->session, &begin), "xrBeginFrame");
         // From here on it must be ended, which is its destructor's work.
-        std::unique_ptr<Frame> frame(
-            new Frame(std::unique_ptr<Frame::Impl>(new Frame::Impl{*impl_, timing})));
+        frame.reset(new Frame(std::unique_ptr<Frame::Impl>(new Frame::Impl{*impl_, timing})));
         frame->impl_->locate();
-        return frame;
     });
+    if (!frame && !impl_->ended) std::this_thread::sleep_for(kIdle);
+    return frame;
 }
 
 void Session::requestExit() {

@@ -83,9 +83,10 @@ class Session {
     // Empty before the runtime has chosen one.
     const std::string& bindingsText() const;
 
-    // Handles events, waits for the runtime's next frame (at most kPatience) and begins it. None
-    // while the session does not run, after a hundredth of a second: call again. Throws LostError,
-    // from then on each time. After an event that ends the session, ended() is true.
+    // Handles events, at most one change of state, waits for the runtime's next frame (at most
+    // kPatience) and begins it. None while the session does not run, after a hundredth of a second:
+    // call again. Throws LostError, from then on each time. After an event that ends the session,
+    // ended() is true.
     class Frame;
     std::unique_ptr<Frame> beginFrame();
     bool ended() const;

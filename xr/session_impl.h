@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +15,12 @@
 #include "xr/session.h"
 #include "xr/session_state.h"
 #include "xr/swapchain.h"
+#include "xr/watchman.h"
 
 namespace xr {
+
+// The end of a frame also waits for what was drawn, which may be much.
+inline constexpr std::chrono::nanoseconds kPatienceWithDrawing = std::chrono::seconds(10);
 
 struct Session::Impl {
     Impl(Runtime opened, const Binding& binding);
@@ -22,23 +28,17 @@ struct Session::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    // All that the runtime has to tell since the last call.
+    // What the runtime has to tell since the last call, up to one change of state.
     void handleEvents();
     void onState(State next);
     // Throws LostError when none comes in time.
     XrFrameState waitFrame();
-    // Runs `calls`; a LostError that leaves them is the end of the session, and is kept.
-    template <typename Calls>
-    auto orLost(Calls calls) {
-        if (lost) throw LostError(*lost);
-        try {
-            return calls();
-        } catch (const LostError& error) {
-            lost = error.what();
-            throw;
-        }
-    }
+    std::string unanswered(std::chrono::nanoseconds patience) const;
+    // Makes `calls` into the runtime, which may take so long together. Throws LostError when one
+    // fails or they take longer; that is the end of the session, and is kept.
+    void orLost(const std::function<void()>& calls, std::chrono::nanoseconds patience = kPatience);
 
+    Watchman watchman;
     Runtime runtime;
     XrSession session;
     XrSpace stage, head;

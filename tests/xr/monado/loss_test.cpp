@@ -1,0 +1,124 @@
+// The runtime dies, or stops, before each kind of call: the session ends in bounded time with one
+// sentence, and the same process can have another one.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "tests/support/headset.h"
+#include "tests/support/monado_service.h"
+
+namespace xr {
+namespace {
+
+enum class Before { Begin, Eyes, Submit, EndWithoutSubmit, Vibrate, Exit };
+enum class Fate { Killed, Stopped };
+
+class Loss : public testing::TestWithParam<std::tuple<Before, Fate>> {
+ protected:
+    Before before() const { return std::get<0>(GetParam()); }
+    Fate fate() const { return std::get<1>(GetParam()); }
+
+    void strike(Before call) {
+        if (call != before()) return;
+        if (fate() == Fate::Killed)
+            service_->kill();
+        else
+            service_->stop();
+        struck_ = std::chrono::steady_clock::now();
+    }
+
+    // A frame as a program has it, with the blow where it is to fall; goes on until an error.
+    void frame(Session& session) {
+        strike(Before::Exit);
+        if (before() == Before::Exit) session.requestExit();
+        strike(Before::Vibrate);
+        if (before() == Before::Vibrate) session.vibrate(1, 1, std::chrono::milliseconds(10));
+        strike(Before::Begin);
+        const auto begun = session.beginFrame();
+        if (!begun) return;
+        strike(Before::Eyes);
+        begun->eyes(1);
+        strike(Before::EndWithoutSubmit);
+        if (before() == Before::EndWithoutSubmit) return;
+        strike(Before::Submit);
+        tests::submitColor(*begun);
+    }
+
+    std::unique_ptr<tests::MonadoService> service_ =
+        std::make_unique<tests::MonadoService>(tests::Monado::Null);
+    render::gl::HeadlessContext context_;
+    std::chrono::steady_clock::time_point struck_;
+};
+
+TEST_P(Loss, EndsTheSessionInBoundedTime) {
+    auto session = tests::openHeadset(context_);
+    ASSERT_TRUE(session);
+    ASSERT_TRUE(tests::framesUntilFocused(*session));
+    std::string why;
+    try {
+        frame(*session);
+        while (true) tests::submitColor(*session->beginFrame());
+    } catch (const LostError& error) {
+        why = error.what();
+    }
+    EXPECT_THAT(why, testing::HasSubstr("the headset's runtime Monado"));
+    EXPECT_THAT(why,
+                testing::HasSubstr(fate() == Fate::Killed ? "went away" : "has not answered for"));
+    EXPECT_THROW(session->beginFrame(), LostError);
+    EXPECT_THROW(session->requestExit(), LostError);
+    session.reset();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - struck_;
+    // Ending a frame may take 10 s, for what is drawn.
+    EXPECT_LT(took.count(), fate() == Fate::Killed ? 2 : 11.5);
+
+    service_.reset();
+    service_ = std::make_unique<tests::MonadoService>(tests::Monado::Null);
+    session = tests::openHeadset(context_);
+    ASSERT_TRUE(session);
+    EXPECT_TRUE(tests::framesUntilFocused(*session));
+}
+
+std::string name(const testing::TestParamInfo<std::tuple<Before, Fate>>& test) {
+    constexpr std::array kCalls{"Begin", "Eyes", "Submit", "EndWithoutSubmit", "Vibrate", "Exit"};
+    const auto [before, fate] = test.param;
+    return fmt::format("{}Before{}", fate == Fate::Killed ? "Killed" : "Stopped",
+                       kCalls[static_cast<std::size_t>(before)]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Monado, Loss,
+                         testing::Combine(testing::Values(Before::Begin, Before::Eyes,
+                                                          Before::Submit, Before::EndWithoutSubmit,
+                                                          Before::Vibrate, Before::Exit),
+                                          testing::Values(Fate::Killed, Fate::Stopped)),
+                         name);
+
+TEST(NoService, IsSaidToBeToStart) {
+    tests::MonadoService service(tests::Monado::Null);
+    service.kill();
+    const auto none = Session::whyNone();
+    ASSERT_TRUE(none);
+    EXPECT_EQ(none->why, "the OpenXR runtime of " MONADO_MANIFEST
+                         " does not answer: its service is to be started first");
+}
+
+TEST(NoService, OneThatIsStoppedIsNotWaitedForLong) {
+    tests::MonadoService service(tests::Monado::Null);
+    service.stop();
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_TRUE(Session::whyNone());
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(took.count(), 5);
+}
+
+TEST(Service, IsAHeadset) {
+    tests::MonadoService service(tests::Monado::Null);
+    EXPECT_FALSE(Session::whyNone());
+}
+
+}  // namespace
+}  // namespace xr

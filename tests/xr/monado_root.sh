@@ -1,0 +1,91 @@
+#!/bin/bash
+# The tests labelled xr need Monado, an OpenXR runtime. Debian 12 packages none, so they are built and
+# run inside a Debian 13: a folder outside the source tree, entered by chroot.
+#   tests/xr/monado_root.sh make                 makes it, when it is not there: a few minutes, 2 GB
+#   tests/xr/monado_root.sh test [CTEST ARGS]    builds the tests in it and runs them
+#   tests/xr/monado_root.sh run COMMAND...       any command, in its copy of the source tree
+#   tests/xr/monado_root.sh there                succeeds when it is there
+#   tests/xr/monado_root.sh --remove             removes it
+# The folder: $ISOCHRON_MONADO_ROOT, else isochron/debian13 in the user's cache. Needs root, or sudo.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../../.ci/setup.sh"
+
+folder=${ISOCHRON_MONADO_ROOT:-${XDG_CACHE_HOME:-$HOME/.cache}/isochron/debian13}
+mark=$folder/.isochron-root  # written last: the folder is ours, and complete
+
+# enter COMMAND...: in the folder's system. What is mounted for it is seen by nobody else, and goes
+# with it; so nothing of this machine can ever be reached by removing the folder.
+enter() {
+    asRoot unshare --mount --propagation private bash -c '
+        mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount -t sysfs sysfs "$0/sys" &&
+        exec chroot "$0" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
+            DEBIAN_FRONTEND=noninteractive "$@"' "$folder" "$@"
+}
+
+mirror() { apt-get indextargets --format '$(REPO_URI)' | grep -v security | head -n 1; }
+
+# The network as this machine reaches it.
+useNetwork() {
+    asRoot cp /etc/resolv.conf "$folder/etc/resolv.conf"
+    if [[ -f /etc/apt/apt.conf ]]; then asRoot cp /etc/apt/apt.conf "$folder/etc/apt/apt.conf"; fi
+    asRoot cp -r /etc/apt/apt.conf.d/. "$folder/etc/apt/apt.conf.d/"
+}
+
+make() {
+    local -a packages
+    if [[ -f $mark ]]; then return; fi
+    if [[ -e $folder ]]; then die "$folder is there, but not complete: remove it first"; fi
+    command -v debootstrap >/dev/null ||
+        quietly "Installing debootstrap" asRoot apt-get install -y -qq --no-install-recommends debootstrap
+    asRoot mkdir -p "$folder"
+    quietly "Making a Debian 13 in $folder" asRoot unshare --mount --propagation private \
+        debootstrap --variant=minbase trixie "$folder" "$(mirror)"
+    useNetwork
+    mapfile -t packages < <(packagesOf base tests xr)
+    quietly "Reading its package lists" enter apt-get update -qq
+    quietly "Installing its packages" enter apt-get install -y -qq --no-install-recommends "${packages[@]}"
+    quietly "Cleaning up" enter apt-get clean
+    asRoot touch "$mark"
+}
+
+# The files that git knows or would take, as they are now, their times kept for the build.
+copySource() {
+    asRoot rm -rf --one-file-system "$folder/isochron/source"
+    asRoot mkdir -p "$folder/isochron/source"
+    git ls-files -co --exclude-standard -z |
+        tar --create --null --files-from=- --ignore-failed-read 2>/dev/null |
+        asRoot tar --extract --no-same-owner --directory "$folder/isochron/source"
+}
+
+run() {
+    [[ -f $mark ]] || die "There is no Debian 13 in $folder: tests/xr/monado_root.sh make"
+    copySource
+    enter bash -c 'cd /isochron/source && "$@"' run "$@"
+}
+
+tests() {
+    run bash -c 'build=/isochron/build
+        source .ci/setup.sh
+        quietly "Configuring in Debian 13" cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+            -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON
+        quietly "Building in Debian 13" cmake --build "$build" --target xr_tests
+        exec ctest --test-dir "$build" --no-tests=error --output-on-failure -j2 -L xr "$@"' tests "$@"
+}
+
+remove() {
+    if [[ ! -e $folder ]]; then return; fi
+    [[ -e $folder/etc/debian_version || -f $mark ]] || die "$folder is no Debian: it is left alone"
+    if grep -qF " $folder/" /proc/self/mountinfo; then die "Something is mounted in $folder: it is left alone"; fi
+    asRoot rm -rf --one-file-system "$folder"
+}
+
+command=${1:-}
+if (($# > 0)); then shift; fi
+case $command in
+    make) make ;;
+    test) tests "$@" ;;
+    run) run "$@" ;;
+    there) [[ -f $mark ]] ;;
+    --remove) remove ;;
+    *) die "$(sed -n '2,/^set/{s/^# \{0,1\}//;/^set/d;p}' "${BASH_SOURCE[0]}")" ;;
+esac

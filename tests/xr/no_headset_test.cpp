@@ -1,0 +1,70 @@
+// Why there is no headset, where no runtime is needed to find out.
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "tests/support/files.h"
+#include "xr/session.h"
+
+namespace xr {
+namespace {
+
+// The environment as it was, after the test.
+class Variable {
+ public:
+    Variable(const char* name, const std::optional<std::string>& value) : name_(name) {
+        if (const char* was = getenv(name)) before_ = was;
+        set(value);
+    }
+    ~Variable() { set(before_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+ private:
+    void set(const std::optional<std::string>& value) {
+        if (value)
+            setenv(name_, value->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+std::string whyNone() {
+    const auto none = Session::whyNone();
+    return none ? none->why : "a headset";
+}
+
+TEST(NoHeadset, AManifestThatIsNamedAndMissingIsNamed) {
+    const std::string missing = tests::testFolder() / "no_such_runtime.json";
+    const Variable variable("XR_RUNTIME_JSON", missing);
+    EXPECT_EQ(whyNone(), "XR_RUNTIME_JSON names " + missing +
+                             " as the OpenXR runtime's, and there is no such file");
+}
+
+TEST(NoHeadset, ABrokenManifestIsNamed) {
+    for (const char* contents :
+         {"", "{", R"({"file_format_version": "1.0.0"})",
+          R"({"file_format_version": "1.0.0", "runtime": {"library_path": "/nowhere/lib.so"}})"}) {
+        const std::string path = tests::testFolder() / "broken_runtime.json";
+        tests::writeBytes(path, contents);
+        const Variable variable("XR_RUNTIME_JSON", path);
+        EXPECT_EQ(whyNone(), "the OpenXR runtime that " + path + " tells of cannot be loaded");
+    }
+}
+
+TEST(NoHeadset, AMachineWithoutARuntimeIsSaidToHaveNone) {
+    const Variable manifest("XR_RUNTIME_JSON", std::nullopt);
+    const Variable own("XDG_CONFIG_HOME", tests::freshFolder());
+    const Variable shared("XDG_CONFIG_DIRS", tests::freshFolder());
+    if (std::filesystem::exists("/etc/openxr/1/active_runtime.json"))
+        GTEST_SKIP() << "this machine has a runtime for all its users";
+    EXPECT_THAT(whyNone(), testing::StartsWith("no OpenXR runtime is active on this machine"));
+}
+
+}  // namespace
+}  // namespace xr
