@@ -13,7 +13,7 @@ namespace app::headset {
 // The volume before the head, upright, its front towards the user: its longest side kVolumeWide
 // long, its middle a little below the eye, so that it suits who sits and who stands, whatever the
 // runtime knows of the floor. `boxHalfEdges`: Lattice::boxHalfEdges().
-inline constexpr double kVolumeWide = 0.6, kVolumeAhead = 0.85, kVolumeBelowEye = 0.3;
+inline constexpr double kVolumeWide = 0.6, kVolumeAhead = 0.85, kVolumeBelowEye = 0.25;
 xr::Placement volumeBefore(const xr::Pose& head, const glm::dmat3& boxHalfEdges);
 
 // A flat thing: x right, y up, z towards who looks at it; `half` its half width and height.
