@@ -111,9 +111,10 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
 Canvas::Canvas() : state_(std::make_unique<State>()) {}
 Canvas::~Canvas() = default;
 
-CanvasReport Canvas::draw(
-    const Shown& shown, std::span<const render::View> eyes, const CanvasLimits& limits, bool moving,
-    const std::function<void(std::size_t eye, const render::Targets&)>& show) {
+CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
+                          const CanvasLimits& limits, bool moving,
+                          const std::function<void(std::size_t eye, const render::Targets&)>& show,
+                          const CanvasScene& scene) {
     CanvasReport report;
     const GpuSteps::Held& coming = state_->bring(shown, limits.uploadBytes, report);
     auto& screen = state_->screen;
@@ -135,8 +136,9 @@ CanvasReport Canvas::draw(
     report.whole = report.stride == 1 && report.uploaded == 1;
 
     state_->timer.begin();
-    const render::FrameContent content{picture.scene, screen->sorted->grid(), picture.legend,
-                                       kBackground};
+    const render::FrameContent content{picture.scene, screen->sorted->grid(),
+                                       scene.legend ? picture.legend : render::Legend{},
+                                       kBackground, scene.placards};
     const auto frame = state_->renderer.prepare(content, screen->held->onGpu, eyes);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         state_->renderer.drawEye(frame, eyes[i]);
@@ -144,6 +146,15 @@ CanvasReport Canvas::draw(
     }
     state_->timer.end(report.drawn * eyes.size());
     return report;
+}
+
+void Canvas::drawPlacards(
+    std::span<const render::Placard> placards, std::span<const render::View> eyes,
+    const std::function<void(std::size_t eye, const render::Targets&)>& show) {
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        state_->renderer.drawPlacards(placards, kBackground, eyes[i]);
+        show(i, state_->renderer.targets());
+    }
 }
 
 std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {

@@ -43,6 +43,12 @@ struct CanvasReport {
     std::uint64_t gpuSplats = 0;
 };
 
+// What stands around the points.
+struct CanvasScene {
+    bool legend = true;
+    std::span<const render::Placard> placards = {};
+};
+
 // A point of the step on the screen, in the file's own terms.
 struct Probe {
     render::Picked picked;
@@ -66,6 +72,10 @@ class Canvas {
     // REQUIRES: at least one eye, all of one size.
     CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
                       const CanvasLimits& limits, bool moving,
+                      const std::function<void(std::size_t eye, const render::Targets&)>& show,
+                      const CanvasScene& scene = {});
+    // Likewise, placards alone: where draw() has nothing to draw.
+    void drawPlacards(std::span<const render::Placard> placards, std::span<const render::View> eyes,
                       const std::function<void(std::size_t eye, const render::Targets&)>& show);
 
     // The eyes of the shown explorer on a picture of its size (camera.h).

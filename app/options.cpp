@@ -98,6 +98,30 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     return options;
 }
 
+// What `view` takes beside the choices of a picture. Headless, it is `render`.
+struct DisplayText {
+    std::string display = "auto", output;
+};
+
+void addDisplay(CLI::App& app, DisplayText& into) {
+    app.add_option("--display", into.display,
+                   "auto (default: a headset where one answers, else a window), desktop, headset "
+                   "(or nothing), or headless, which draws a picture into -o")
+        ->check(CLI::IsMember({"auto", "desktop", "headset", "headless"}));
+    app.add_option("-o,--output", into.output, "OUT.png or OUT.exr, with --display headless");
+}
+
+Command viewOptions(Explorer explorer, const DisplayText& text) {
+    if (text.display == "headless") {
+        if (text.output.empty()) throw ChoiceError("--display headless needs -o OUT.png beside it");
+        return renderOptions(std::move(explorer), {.channels = {}, .output = text.output});
+    }
+    if (!text.output.empty()) throw ChoiceError("-o needs --display headless beside it");
+    return ViewOptions{std::move(explorer), text.display == "desktop"   ? Display::Desktop
+                                            : text.display == "headset" ? Display::Headset
+                                                                        : Display::Auto};
+}
+
 constexpr const char* kFooter = R"(
 Ranges: 600:1600 (closed), [600,1600) (open end), 850~50 (800 to 900), min:300, 900:max.
 Commas keep one layer together: 300:400,900:max. A repeated --range is a new layer.
@@ -127,7 +151,9 @@ Command parse(std::span<const char* const> arguments) {
     CountText countText;
     ExplorerOptions renderText, viewText;
     OutputText outputText;
-    CLI::App* viewApp = app.add_subcommand("view", "A window in which a file is explored");
+    DisplayText displayText;
+    CLI::App* viewApp =
+        app.add_subcommand("view", "A window or a headset in which a file is explored");
     CLI::App* renderApp =
         app.add_subcommand("render", "Pictures of value ranges, without a window");
     CLI::App* infoApp =
@@ -135,6 +161,7 @@ Command parse(std::span<const char* const> arguments) {
     CLI::App* countApp =
         app.add_subcommand("count", "How many points of each step lie in value ranges");
     viewText.addTo(*viewApp);
+    addDisplay(*viewApp, displayText);
     renderText.addTo(*renderApp);
     addOutput(*renderApp, outputText);
     addInfo(*infoApp, info);
@@ -146,7 +173,7 @@ Command parse(std::span<const char* const> arguments) {
         app.parse(std::move(all));
         if (*infoApp) return info;
         if (*countApp) return countOptions(*countApp, countText);
-        if (*viewApp) return ViewOptions{viewText.explorer(*viewApp)};
+        if (*viewApp) return viewOptions(viewText.explorer(*viewApp), displayText);
         return renderOptions(renderText.explorer(*renderApp), outputText);
     } catch (const CLI::CallForHelp&) {
         return Exit{0, app.help()};  // of the command, where one was given

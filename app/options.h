@@ -35,9 +35,14 @@ struct RenderOptions {
     bool progress = false;  // "picture 3 of 31" on stdout after each
 };
 
-// A window on these choices; without files, on nothing yet.
+// Where a file is explored. Auto: in a headset where one answers, else in a window. From a headset
+// that is lost, both go on in a window.
+enum class Display { Auto, Desktop, Headset };
+
+// A window or a headset on these choices; without files, on nothing yet.
 struct ViewOptions {
     Explorer explorer;
+    Display display = Display::Auto;
 };
 
 // Nothing to run: help was asked for (0), or the arguments are wrong (2). The text goes to stdout

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "render/gl/pass.h"
 #include "render/shader_sources.h"
 
 namespace render {
@@ -14,8 +13,12 @@ FlatPass::FlatPass(const Font& font)
                         GL_UNSIGNED_BYTE, font.atlas().data());
 }
 
-void FlatPass::draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size) const {
-    gl::begin({.framebuffer = framebuffer, .size = size, .blend = gl::Blend::Premultiplied});
+void FlatPass::draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size,
+                    gl::DepthTest depth) const {
+    gl::begin({.framebuffer = framebuffer,
+               .size = size,
+               .blend = gl::Blend::Premultiplied,
+               .depth = depth});
     drawTriangles(mesh, size, 0);
 }
 

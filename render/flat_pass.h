@@ -3,6 +3,7 @@
 
 #include "render/flat_mesh.h"
 #include "render/gl/object.h"
+#include "render/gl/pass.h"
 
 namespace render {
 
@@ -10,8 +11,9 @@ class FlatPass {
  public:
     explicit FlatPass(const Font& font);
 
-    // Blends the mesh over what is there.
-    void draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size) const;
+    // Blends the mesh over what is there; with DepthTest::Test, where nothing nearer is.
+    void draw(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size,
+              gl::DepthTest depth = gl::DepthTest::None) const;
     // Makes the depth attachment hold the mesh alone: where it covers more than half of a pixel, or
     // its soft edges would cut what lies just behind them.
     void drawDepth(const FlatMesh& mesh, GLuint framebuffer, glm::ivec2 size) const;

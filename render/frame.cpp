@@ -9,7 +9,7 @@
 namespace render {
 namespace {
 
-Font fontFor(glm::ivec2 size) { return Font(std::array{labelStyle(size), titleStyle(size)}); }
+std::array<FontStyle, 2> stylesFor(glm::ivec2 size) { return {labelStyle(size), titleStyle(size)}; }
 
 glm::dvec3 midway(std::span<const View> eyes) {
     glm::dvec3 sum(0);
@@ -19,17 +19,20 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer() : font_(fontFor({64, 64})) {}
+FrameRenderer::FrameRenderer() : styles_(stylesFor({64, 64})), font_(styles_) {}
+
+void FrameRenderer::ready(glm::ivec2 size) {
+    if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
+    const auto styles = stylesFor(size);
+    if (flat_ && styles == styles_) return;
+    font_ = Font(styles);
+    flat_ = std::make_unique<FlatPass>(font_);
+    styles_ = styles;
+}
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
                                                std::span<const View> eyes) {
-    const glm::ivec2 size = eyes.front().size;
-    if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
-    if (fontFor_ != size) {
-        font_ = fontFor(size);
-        flat_ = std::make_unique<FlatPass>(font_);
-        fontFor_ = size;
-    }
+    ready(eyes.front().size);
     const glm::dvec3 midEye = midway(eyes);
     ++orders_;
     const DrawList list = order(content.scene, midEye);
@@ -43,17 +46,19 @@ void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
                                        frame.midEye, font_, legend);
     // All that adds to the light comes last and together: a driver that draws tile by tile then
     // touches each of its pixels once.
-    drawSplats(*frame.list, eye, axes.behind);
+    drawSplats(*frame.list, eye, {axes.behind, frame.content.placards});
     const GLuint light = targets_->lightFramebuffer();
     gl::begin({.framebuffer = light,
                .size = eye.size,
                .clearColor = glm::vec4(glm::vec3(frame.content.background), 1)});
     flat_->draw(axes.behind, light, eye.size);
     flat_->draw(axes.labels, light, eye.size);
+    for (const Placard& placard : frame.content.placards) placards_.draw(placard, eye, light);
     resolve(frame.content.scene, coveredPixels(frame.content.scene, eye));
     // Lines before the volume have soft edges: blended over it, not under with a depth of their
     // own.
-    flat_->draw(axes.before, light, eye.size);
+    flat_->draw(axes.before, light, eye.size,
+                frame.content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test);
     flat_->draw(legend, light, eye.size);
 }
 
@@ -88,13 +93,32 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
     return pictures;
 }
 
-void FrameRenderer::drawSplats(const GpuList& list, const View& view, const FlatMesh& behind) {
+void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
+                                 const View& eye) {
+    ready(eye.size);
+    gl::begin({.framebuffer = targets_->lightFramebuffer(),
+               .size = eye.size,
+               .clearColor = glm::vec4(glm::vec3(background), 1),
+               .clearDepth = 1.0f});
+    for (const Placard& placard : placards)
+        placards_.draw(placard, eye, targets_->lightFramebuffer());
+}
+
+void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer) {
+    flat_->drawDepth(occluders.behind, framebuffer, view.size);
+    for (const Placard& placard : occluders.placards)
+        placards_.drawDepth(placard, view, framebuffer);
+}
+
+void FrameRenderer::drawSplats(const GpuList& list, const View& view, const Occluders& occluders) {
     const std::vector<Channels> channels = channelsFor(list.scene());
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const GLuint plane = targets_->clearedPlane(i, channels[i]);
-        if (i == 0) flat_->drawDepth(behind, plane, view.size);
+        if (i == 0) drawDepth(occluders, view, plane);
         splatter_.draw(list, view, channels[i], i, plane);
     }
+    // The placards are drawn against it even if there are no splats.
+    if (channels.empty()) drawDepth(occluders, view, targets_->lightFramebuffer());
 }
 
 const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {

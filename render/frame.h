@@ -2,6 +2,7 @@
 // and uploaded once and drawn once an eye, whichever front end asks.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <span>
@@ -13,6 +14,7 @@
 #include "render/gl_list.h"
 #include "render/image.h"
 #include "render/legend.h"
+#include "render/placard.h"
 #include "render/targets.h"
 
 namespace render {
@@ -22,6 +24,8 @@ struct FrameContent {
     const timeseries::Grid& grid;  // the scene's, for axes
     Legend legend;
     glm::dvec3 background{0};  // linear
+    // Opaque, like the axes; they hide labels.
+    std::span<const Placard> placards = {};
 };
 
 // What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for.
@@ -55,6 +59,9 @@ class FrameRenderer {
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
     void drawEye(const Prepared& frame, const View& eye);  // its light is then in targets()
+    // An eye that sees nothing but placards.
+    void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
+                      const View& eye);
     const Targets& targets() const { return *targets_; }
 
     struct Counts {
@@ -63,17 +70,25 @@ class FrameRenderer {
     Counts counts() const { return {orders_, splatter_.counts().uploads, eyes_}; }
 
  private:
-    // `behind`: what hides splats.
-    void drawSplats(const GpuList& list, const View& view, const FlatMesh& behind);
+    void ready(glm::ivec2 size);
+    // What hides splats.
+    struct Occluders {
+        const FlatMesh& behind;
+        std::span<const Placard> placards;
+    };
+    // Leaves the depth attachment, which all planes and the light share, holding these alone.
+    void drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer);
+    void drawSplats(const GpuList& list, const View& view, const Occluders& occluders);
     void resolve(const Scene& scene, const PixelBox& covered);
     const gl::Program& resolveProgram(const Scene& scene);
     std::vector<float> opticalDepth(const GpuList& list, const View& view, const FlatMesh& behind);
 
+    std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
-    glm::ivec2 fontFor_{0};  // the picture size whose label styles font_ holds
     std::unique_ptr<FlatPass> flat_;
     GlSplatter splatter_;
     std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
+    PlacardPass placards_;
     gl::VertexArray noVertices_;
     std::unique_ptr<Targets> targets_;
     std::uint64_t orders_ = 0, eyes_ = 0;

@@ -26,19 +26,24 @@ std::array<float, 255> steps() {
 
 Present::Present()
     : encode_("present", shaders::viewport_vert, shaders::present_frag, "#define ENCODE\n"),
-      copy_("present", shaders::viewport_vert, shaders::present_frag),
+      copy_("present", shaders::viewport_vert, shaders::present_frag, "#define DEPTH\n"),
       steps_(std::span<const float>(steps())),
       stepsTexture_(GL_R32F, steps_) {}
 
 void Present::draw(const Targets& light, GLuint framebuffer, glm::ivec2 at,
                    Encoding encoding) const {
-    gl::begin({.framebuffer = framebuffer,
-               .size = light.size(),
-               .at = at,
-               .srgbWrite = encoding == Encoding::Framebuffer});
-    glUseProgram(encoding == Encoding::Shader ? encode_.id() : copy_.id());
+    const bool toHeadset = encoding == Encoding::Framebuffer;
+    gl::Pass pass{
+        .framebuffer = framebuffer, .size = light.size(), .at = at, .srgbWrite = toHeadset};
+    if (toHeadset) {
+        pass.clearDepth = 1.0f;
+        pass.depth = gl::DepthTest::TestAndWrite;
+    }
+    gl::begin(pass);
+    glUseProgram(toHeadset ? copy_.id() : encode_.id());
     glUniform2i(0, at.x, at.y);
     glBindTextureUnit(0, light.light().id());
+    glBindTextureUnit(2, light.depth().id());
     glBindTextureUnit(1, stepsTexture_.id());
     glBindVertexArray(noVertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -7,7 +7,8 @@
 namespace render {
 
 // Who encodes linear light as sRGB: the shader, to the very bytes that a PNG has, or GL, where the
-// framebuffer's format is an sRGB one (a headset's swapchain).
+// framebuffer's format is an sRGB one (a headset's swapchain). Such a framebuffer's depth, where it
+// has one, becomes the opaque scene's.
 enum class Encoding { Shader, Framebuffer };
 
 class Present {

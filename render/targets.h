@@ -22,6 +22,7 @@ class Targets {
     GLuint lightFramebuffer() const { return light_.id(); }
     // May be wider than size(): the picture is its lower left part.
     const gl::Texture& light() const { return color_; }
+    const gl::Texture& depth() const { return depth_; }  // the opaque scene's, likewise
 
     // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
     // opaque scene's.

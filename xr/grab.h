@@ -11,6 +11,8 @@ namespace xr {
 
 // Metres a unit (half the box's diagonal) may be: a thimble to a hall.
 inline constexpr double kSmallestMetres = 0.02, kLargestMetres = 20;
+// Hands nearer than this to each other only carry: the line between them means nothing.
+inline constexpr double kNearestHands = 0.01;
 
 class Grab {
  public:
@@ -18,7 +20,7 @@ class Grab {
     // follows. A change of hands begins anew from where the volume is, so that nothing jumps. One
     // hand: the volume moves rigidly with it. Two: position, and rotation about the shortest turn
     // of the line between the hands, follow their midpoint; the scale is the ratio of their
-    // distances, clamped. Hands nearer than 1 cm to each other do not scale.
+    // distances, clamped.
     Placement update(const Placement& now, const std::array<std::optional<Pose>, 2>& holding);
 
  private:

@@ -6,17 +6,26 @@
 
 namespace xr {
 
-// Lowers the scale when frames take longer than the runtime's period, climbs back slowly when there
-// is room; between 0.5 and 1, in steps small enough not to be seen as a jump.
+// Lowers the scale while frames take longer than the runtime's period, climbs back slowly where
+// there is room; between 0.5 and 1, in steps small enough not to be seen as a jump. A single late
+// frame changes nothing.
 class RenderScale {
  public:
     // `period`: the runtime's predicted display period, > 0. `frame`: what drawing took.
     void took(std::chrono::nanoseconds frame, std::chrono::nanoseconds period);
-    double scale() const { return scale_; }
+    // Of the recommended width and height.
+    double scale() const { return scaleAfter(lowered_); }
+
+    static constexpr int kLateFrames = 3, kQuickFrames = 60;  // in a row, before a step down or up
+    static constexpr double kLate = 0.95, kQuick = 0.85;      // of the period
 
  private:
-    double scale_ = 1;
-    int quickFrames_ = 0;
+    // Integer steps of 1/20, so that equal scales are the same number.
+    static constexpr int kSteps = 20, kMostLowered = 10;
+    static double scaleAfter(int lowered) { return static_cast<double>(kSteps - lowered) / kSteps; }
+
+    int lowered_ = 0;
+    int lateFrames_ = 0, quickFrames_ = 0;
 };
 
 }  // namespace xr

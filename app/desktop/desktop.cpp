@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/check_driver.h"
 #include "render/gl/debug_output.h"
 
 namespace app::desktop {
@@ -17,12 +18,13 @@ constexpr glm::ivec2 kWindowSize{1440, 900};
 
 }  // namespace
 
-Desktop::Desktop(const ViewOptions& options)
+Desktop::Desktop(Exploration& exploration)
     : window_(kWindowSize, "isochron"),
       gui_(window_, window_.contentScale()),
-      exploration_({.wake = [] { Window::wake(); }}),
+      exploration_(exploration),
       interface_([] { Window::wake(); }),
-      errands_(exploration_, picture_.canvas(), window_),
+      errands_(exploration_, picture_.canvas(),
+               [this](const std::string& text) { window_.setClipboard(text); }),
       signals_([this] {
           stopped_ = true;
           Window::wake();
@@ -31,7 +33,6 @@ Desktop::Desktop(const ViewOptions& options)
     interface_.choices().scale = errands_.preferences().uiScale;
     interface_.choices().frameBudget =
         std::chrono::nanoseconds(std::llround(1e6 * errands_.preferences().frameMilliseconds));
-    if (!options.explorer.files.empty()) exploration_.open(options.explorer);
 }
 
 void Desktop::run() {
@@ -55,7 +56,7 @@ void Desktop::frame(std::chrono::nanoseconds dt) {
     gui_.draw();
     window_.swap();
     picture_.took(Clock::now() - begin);
-    checkDriver();
+    checkDriver(exploration_);
     title();
     errands_.goOn(interface_.choices());
 }
@@ -107,19 +108,6 @@ void Desktop::drawPicture() {
     const auto shown = exploration_.shown();
     picture_.draw(shown ? &*shown : nullptr, window, place, exploration_.playback().playing,
                   interface_.choices().frameBudget);
-}
-
-// A driver's complaint ends a program that is being tested, and is told to a user.
-void Desktop::checkDriver() {
-#ifdef NDEBUG
-    try {
-        render::gl::throwOnError();
-    } catch (const std::runtime_error& error) {
-        exploration_.tell(error.what(), true);
-    }
-#else
-    render::gl::throwOnError();
-#endif
 }
 
 void Desktop::title() {

@@ -11,15 +11,15 @@
 #include "app/desktop/stop_signals.h"
 #include "app/desktop/window.h"
 #include "app/exploration.h"
-#include "app/options.h"
 #include "app/panels/interface.h"
 
 namespace app::desktop {
 
 class Desktop {
  public:
-    // Throws std::runtime_error when there is no window to be had.
-    explicit Desktop(const ViewOptions& options);
+    // `exploration` must outlive this; its Settings::wake is Window::wake. Throws
+    // std::runtime_error when there is no window to be had.
+    explicit Desktop(Exploration& exploration);
     // Until the window is closed or a signal ends it.
     void run();
 
@@ -30,14 +30,13 @@ class Desktop {
     void interact(std::chrono::nanoseconds dt);
     void serve(panels::Requests& requests);
     void drawPicture();
-    void checkDriver();
     void title();
     void sleep();
 
     std::atomic<bool> stopped_ = false;
     Window window_;
     Gui gui_;
-    Exploration exploration_;
+    Exploration& exploration_;
     panels::Interface interface_;
     PictureView picture_;
     Errands errands_;

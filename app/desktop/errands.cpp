@@ -49,10 +49,11 @@ void telling(Exploration& exploration, const Work& work) {
 
 }  // namespace
 
-Errands::Errands(Exploration& exploration, Canvas& canvas, Window& window)
+Errands::Errands(Exploration& exploration, Canvas& canvas,
+                 std::function<void(const std::string&)> copy)
     : exploration_(exploration),
       canvas_(canvas),
-      window_(window),
+      copy_(std::move(copy)),
       autosave_(stateFolder()),
       left_(leftSessions(stateFolder())),
       demo_(findDemo()) {
@@ -99,7 +100,7 @@ void Errands::copyCommandLine() {
     if (!shown) return;
     const std::vector<std::string> arguments =
         renderArguments(shown->explorer, "picture.png", fs::current_path());
-    window_.setClipboard("isochron " + shellText(arguments));
+    copy_("isochron " + shellText(arguments));
     exploration_.tell("Copied: the command line that makes this picture");
 }
 

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/autosave.h"
 #include "app/canvas.h"
-#include "app/desktop/window.h"
 #include "app/exploration.h"
 #include "app/export_job.h"
 #include "app/panels/interface.h"
@@ -20,7 +20,8 @@ namespace app::desktop {
 // Failures become messages of the exploration. The references must outlive it.
 class Errands {
  public:
-    Errands(Exploration& exploration, Canvas& canvas, Window& window);
+    // `copy`: puts a text on the clipboard.
+    Errands(Exploration& exploration, Canvas& canvas, std::function<void(const std::string&)> copy);
 
     // A member of a series, a folder, several files; a session, or a picture that carries one.
     void open(const std::vector<std::filesystem::path>& named);
@@ -46,7 +47,7 @@ class Errands {
 
     Exploration& exploration_;
     Canvas& canvas_;
-    Window& window_;
+    std::function<void(const std::string&)> copy_;
     Preferences preferences_, kept_;
     Autosave autosave_;
     std::vector<LeftSession> left_;

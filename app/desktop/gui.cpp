@@ -19,6 +19,12 @@ static_assert(static_cast<int>(Key::Space) == GLFW_KEY_SPACE &&
               static_cast<int>(Key::End) == GLFW_KEY_END &&
               static_cast<int>(Key::F12) == GLFW_KEY_F12 && panels::key('A') == Key{GLFW_KEY_A});
 
+#if IMGUI_VERSION_NUM >= 18700
+constexpr int kKeypadEnter = ImGuiKey_KeypadEnter;
+#else
+constexpr int kKeypadEnter = ImGuiKey_KeyPadEnter;
+#endif
+
 void mapKeys(ImGuiIO& io) {
     constexpr std::pair<int, int> kKeys[] = {
         {ImGuiKey_Tab, GLFW_KEY_TAB},
@@ -35,7 +41,7 @@ void mapKeys(ImGuiIO& io) {
         {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
         {ImGuiKey_Space, GLFW_KEY_SPACE},
         {ImGuiKey_Enter, GLFW_KEY_ENTER},
-        {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+        {kKeypadEnter, GLFW_KEY_KP_ENTER},
         {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
         {ImGuiKey_A, GLFW_KEY_A},
         {ImGuiKey_C, GLFW_KEY_C},

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 
 namespace app::desktop {
@@ -21,6 +22,21 @@ std::string& lastError() {
     return error;
 }
 
+// Whether GLFW can be woken; wake() comes from any thread, also while there is no window.
+struct Awake {
+    std::mutex mutex;
+    bool is = false;
+
+    void set(bool to) {
+        const std::lock_guard lock(mutex);
+        is = to;
+    }
+};
+Awake& awake() {
+    static Awake awake;
+    return awake;
+}
+
 // GLFW is process-wide.
 struct Library {
     Library() {
@@ -30,8 +46,12 @@ struct Library {
                 fmt::format("no display: {}; {}",
                             std::getenv("DISPLAY") == nullptr ? "DISPLAY is not set" : lastError(),
                             kHeadlessWay));
+        awake().set(true);
     }
-    ~Library() { glfwTerminate(); }
+    ~Library() {
+        awake().set(false);
+        glfwTerminate();
+    }
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 };
@@ -166,7 +186,10 @@ void Window::wait(std::optional<std::chrono::nanoseconds> atMost) {
 std::deque<Event>& Window::events() { return state_->events; }
 bool Window::shouldClose() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }
 void Window::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }
-void Window::wake() { glfwPostEmptyEvent(); }
+void Window::wake() {
+    const std::lock_guard lock(awake().mutex);
+    if (awake().is) glfwPostEmptyEvent();
+}
 
 glm::ivec2 Window::framebufferSize() const {
     glm::ivec2 size{0};
@@ -197,6 +220,7 @@ void Window::setClipboard(const std::string& text) {
     glfwSetClipboardString(state_->window, text.c_str());
 }
 const char* Window::clipboard() const { return glfwGetClipboardString(state_->window); }
+void Window::waitForScreen(bool waits) { glfwSwapInterval(waits ? 1 : 0); }
 void Window::swap() { glfwSwapBuffers(state_->window); }
 
 }  // namespace app::desktop

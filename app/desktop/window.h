@@ -61,7 +61,7 @@ class Window {
 
     bool shouldClose() const;
     void close();  // from the thread that made it
-    // From any thread: ends a wait().
+    // From any thread: ends a wait(). Nothing while there is no window.
     static void wake();
 
     glm::ivec2 framebufferSize() const;  // 0 while minimised
@@ -72,6 +72,8 @@ class Window {
     void setClipboard(const std::string& text);
     const char* clipboard() const;
     void swap();
+    // A swap waits for the screen, as it does at first, or not.
+    void waitForScreen(bool waits);
 
  private:
     struct State;

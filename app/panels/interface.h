@@ -28,6 +28,7 @@ struct Surroundings {
     StartOffers offers;
     glm::dmat3 boxHalfEdges{0.577};        // of the lattice drawn
     std::optional<render::View> eye;       // of the picture, where probes are marked
+    bool hasPicture = true;                // a headset's stands in the room
     std::optional<std::string> exporting;  // how far an export is, while one runs
     std::chrono::nanoseconds dt{0};
     Performance performance;

@@ -47,11 +47,12 @@ void Buffer::write(std::size_t offset, std::size_t bytes, const void* contents) 
                              contents);
 }
 
-Texture::Texture(GLenum internalFormat, glm::ivec2 size)
+Texture::Texture(GLenum internalFormat, glm::ivec2 size, int levels)
     : Object(createdTexture(GL_TEXTURE_2D), deleteTexture), size_(size) {
-    glTextureStorage2D(id(), 1, internalFormat, size.x, size.y);
-    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureStorage2D(id(), levels, internalFormat, size.x, size.y);
+    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER,
+                        levels == 1 ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, levels == 1 ? GL_NEAREST : GL_LINEAR);
     glTextureParameteri(id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }

@@ -43,10 +43,10 @@ class Buffer : public Object {
     std::size_t bytes_;
 };
 
-// 2-D, one level, nearest, clamped.
+// 2-D, clamped. One level is taken as it is (nearest), several are blended.
 class Texture : public Object {
  public:
-    Texture(GLenum internalFormat, glm::ivec2 size);
+    Texture(GLenum internalFormat, glm::ivec2 size, int levels = 1);
     glm::ivec2 size() const { return size_; }
 
  private:

@@ -1,8 +1,12 @@
 // Linear premultiplied light -> a display's sRGB bytes; window space.
-// Variant: ENCODE, where the framebuffer's format does not encode by itself.
+// Variants: ENCODE, where the framebuffer's format does not encode by itself; DEPTH, where it takes
+// the opaque scene's depth.
 layout(binding = 0) uniform sampler2D light;
 #ifdef ENCODE
 layout(binding = 1) uniform samplerBuffer steps;  // srgb8Steps in render/color.h
+#endif
+#ifdef DEPTH
+layout(binding = 2) uniform sampler2D depth;
 #endif
 layout(location = 0) uniform ivec2 lowerLeft;
 layout(location = 0) out vec4 shown;
@@ -21,7 +25,11 @@ float encoded(float linear) {
 #endif
 
 void main() {
-    const vec4 premultiplied = texelFetch(light, ivec2(gl_FragCoord.xy) - lowerLeft, 0);
+    const ivec2 at = ivec2(gl_FragCoord.xy) - lowerLeft;
+    const vec4 premultiplied = texelFetch(light, at, 0);
+#ifdef DEPTH
+    gl_FragDepth = texelFetch(depth, at, 0).r;
+#endif
     const vec3 linear = premultiplied.rgb / min(premultiplied.a, 1.0);
 #ifdef ENCODE
     shown = vec4(encoded(linear.r), encoded(linear.g), encoded(linear.b), 1.0);

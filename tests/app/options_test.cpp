@@ -15,6 +15,7 @@ namespace app {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using timeseries::RangeSet;
 
 Command parsed(const std::vector<std::string>& arguments) {
@@ -92,10 +93,11 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
           "--size",      "--stereo",   "--eye-distance", "--convergence", "--channel",
           "--device",    "--output",   "--hide",         "--target",      "--orthographic"}) {
         EXPECT_THAT(help, HasSubstr(option));
-        const bool isOfFiles =
-            std::set<std::string_view>{"--output", "--device", "--channel"}.contains(option);
+        const bool isOfFiles = std::set<std::string_view>{"--device", "--channel"}.contains(option);
         EXPECT_EQ(helpOfView.find(option) == std::string::npos, isOfFiles) << option;
     }
+    EXPECT_THAT(helpOfView, HasSubstr("--display"));
+    EXPECT_THAT(help, Not(HasSubstr("--display")));
 }
 
 TEST(Options, WrongCommandLinesExitWithTwo) {
@@ -128,6 +130,26 @@ TEST(Options, WithoutACommandAFileIsViewed) {
     EXPECT_EQ(as<ViewOptions>({"./info"}).explorer.files.at(0), "./info");
     EXPECT_THAT(refused({"a.nc", "-o", "b.png"}), HasSubstr("-o"));
     EXPECT_THAT(refused({"a.nc", "--opacity", "2"}), HasSubstr("--opacity"));
+}
+
+TEST(Options, WhereAFileIsViewed) {
+    EXPECT_EQ(as<ViewOptions>({"a.nc"}).display, Display::Auto);
+    EXPECT_EQ(as<ViewOptions>({"a.nc", "--display", "auto"}).display, Display::Auto);
+    EXPECT_EQ(as<ViewOptions>({"a.nc", "--display", "desktop"}).display, Display::Desktop);
+    EXPECT_EQ(as<ViewOptions>({"view", "a.nc", "--display", "headset"}).display, Display::Headset);
+    EXPECT_THAT(refused({"a.nc", "--display", "vr"}), HasSubstr("headset"));
+}
+
+TEST(Options, ViewedHeadlessAFileIsRendered) {
+    const auto viewed =
+        as<RenderOptions>({"a.nc", "--range", "0:1", "--display", "headless", "-o", "b.png"});
+    const auto rendered = as<RenderOptions>({"render", "a.nc", "--range", "0:1", "-o", "b.png"});
+    EXPECT_TRUE(viewed.explorer == rendered.explorer);
+    EXPECT_EQ(viewed.output, rendered.output);
+    EXPECT_EQ(viewed.device, rendered.device);
+    EXPECT_THAT(refused({"a.nc", "--display", "headless"}), HasSubstr("-o"));
+    EXPECT_THAT(refused({"a.nc", "--display", "desktop", "-o", "b.png"}), HasSubstr("headless"));
+    EXPECT_THAT(refused({"a.nc", "--display", "headless", "-o", "b.txt"}), HasSubstr("b.txt"));
 }
 
 TEST(Options, AWindowNeedsNoFile) {

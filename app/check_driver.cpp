@@ -1,0 +1,21 @@
+#include "app/check_driver.h"
+
+#include <stdexcept>
+
+#include "render/gl/debug_output.h"
+
+namespace app {
+
+#ifdef NDEBUG
+void checkDriver(Exploration& exploration) {
+    try {
+        render::gl::throwOnError();
+    } catch (const std::runtime_error& error) {
+        exploration.tell(error.what(), true);
+    }
+}
+#else
+void checkDriver(Exploration&) { render::gl::throwOnError(); }
+#endif
+
+}  // namespace app

@@ -1,0 +1,147 @@
+#include "app/headset/headset.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "app/check_driver.h"
+#include "app/headset/placards.h"
+#include "app/headset/readout.h"
+
+namespace app::headset {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLongestFrame = 100ms;  // after a pause of the runtime, play goes on, not ahead
+
+std::string helpText(const xr::Session& session) {
+    const std::string& bound = session.bindingsText();
+    std::string text = "In " + session.runtimeName();
+    if (!bound.empty()) text += "\n" + bound;
+    while (text.ends_with('\n')) text.pop_back();
+    return text + "\nBoth hands: scale and turn\nRight stick: values · left stick: time";
+}
+
+}  // namespace
+
+std::variant<std::unique_ptr<Headset>, xr::NoHeadset> Headset::open(Exploration& exploration) {
+    auto graphics = std::make_unique<Graphics>();
+    auto session = xr::Session::open(graphics->binding());
+    if (auto* none = std::get_if<xr::NoHeadset>(&session)) return std::move(*none);
+    return std::unique_ptr<Headset>(
+        new Headset(exploration, std::move(graphics),
+                    std::get<std::unique_ptr<xr::Session>>(std::move(session))));
+}
+
+Headset::Headset(Exploration& exploration, std::unique_ptr<Graphics> graphics,
+                 std::unique_ptr<xr::Session> session)
+    : exploration_(exploration),
+      graphics_(std::move(graphics)),
+      session_(std::move(session)),
+      panel_([] {}),
+      errands_(exploration_, eyes_.canvas(),
+               [this](const std::string& text) {
+                   if (desktop::Window* window = graphics_->window()) window->setClipboard(text);
+               }),
+      signals_([this] { stopped_ = true; }) {}
+
+void Headset::run() {
+    while (frame()) {
+    }
+    errands_.finish();
+}
+
+bool Headset::frame() {
+    if (stopped_.exchange(false)) session_->requestExit();
+    attendWindow();
+    const std::unique_ptr<xr::Session::Frame> frame = session_->beginFrame();
+    if (session_->ended()) return false;
+    const Clock::time_point began = Clock::now();
+    const std::chrono::nanoseconds dt = frame ? since(frame->displayTime()) : 0ns;
+    // What plays, plays for who can stop it.
+    exploration_.advance(session_->state().focused() ? dt : 0ns);
+    if (!frame) return true;
+    act(*frame, dt);
+    if (frame->shouldRender()) {
+        drawBoards(*frame, dt);
+        drawEyes(*frame, began);
+    }
+    errands_.goOn(panel_.interface().choices());
+    return true;
+}
+
+void Headset::attendWindow() {
+    desktop::Window* window = graphics_->window();
+    if (window == nullptr) return;
+    window->poll();
+    window->events().clear();
+    if (window->shouldClose() && !std::exchange(leaving_, true)) session_->requestExit();
+}
+
+// How long after the frame before this one will be seen.
+std::chrono::nanoseconds Headset::since(std::chrono::nanoseconds displayTime) {
+    const auto last = std::exchange(lastDisplay_, displayTime);
+    if (!last) return 0ns;
+    return std::clamp<std::chrono::nanoseconds>(displayTime - *last, 0ns, kLongestFrame);
+}
+
+void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
+    RoomInput input{.hands = frame.hands(), .head = frame.head(), .dt = dt, .boxHalfEdges = {}};
+    if (const render::Lattice* drawn = eyes_.canvas().lattice())
+        input.boxHalfEdges = drawn->boxHalfEdges();
+    else if (const auto shown = exploration_.shown())
+        input.boxHalfEdges =
+            render::Lattice(shown->sorted->grid(), shown->explorer.scale).boxHalfEdges();
+    for (const Pulse& pulse : room_.update(exploration_, input))
+        session_->vibrate(pulse.hand, pulse.amplitude, pulse.duration);
+}
+
+void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
+    readout_.write(readoutText(exploration_, eyes_.scale()));
+    if (!room_.panel()) return;
+    const CanvasReport& report = eyes_.report();
+    Panel::Around around{.offers = errands_.offers(),
+                         .help = helpText(*session_),
+                         .exporting = errands_.exporting(),
+                         .performance = {.budget = frame.period(),
+                                         .drawn = report.drawn,
+                                         .selected = report.selected,
+                                         .gpuBytes = report.gpuBytes,
+                                         .whole = report.whole,
+                                         .uploaded = report.uploaded,
+                                         .step = report.step}};
+    if (report.gpuTime) around.performance.frame = *report.gpuTime;
+    serve(panel_.draw(exploration_, room_.pointer(), around, dt));
+}
+
+void Headset::serve(const panels::Requests& requests) {
+    if (!requests.open.empty()) errands_.open(requests.open);
+    if (requests.save) errands_.save(*requests.save);
+    if (requests.exportTo) errands_.exportTo(*requests.exportTo);
+    if (requests.cancelExport) errands_.cancelExport();
+    for (const panels::Command command : requests.commands) {
+        if (panel_.interface().obey(exploration_, command)) continue;
+        if (command == panels::Command::Screenshot) errands_.screenshot();
+        if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
+    }
+}
+
+std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) const {
+    RoomBoards boards{.readout = &readout_.board(), .readoutHalf = readout_.half()};
+    if (room_.panel()) boards.panel = &panel_.board();
+    return placardsOf(room_, frame.hands(), *frame.head(), boards);
+}
+
+void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
+    const std::span<const xr::Eye> eyes = frame.eyes(eyes_.scale());
+    if (eyes.empty() || !frame.head()) return;
+    const auto shown = exploration_.shown();
+    eyes_.draw(shown ? &*shown : nullptr, eyes, room_.placement(), placards(frame), frame.period(),
+               [&](const render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
+    checkDriver(exploration_);
+    eyes_.took(Clock::now() - began, frame.period());
+    frame.submit(kNear, kFar);
+}
+
+}  // namespace app::headset

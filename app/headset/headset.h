@@ -1,0 +1,62 @@
+// A headset as a front end: the runtime's frames, the room, the exploration, both eyes.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "app/desktop/errands.h"
+#include "app/desktop/stop_signals.h"
+#include "app/exploration.h"
+#include "app/headset/eyes.h"
+#include "app/headset/graphics.h"
+#include "app/headset/panel.h"
+#include "app/headset/room.h"
+#include "app/headset/text_board.h"
+#include "xr/session.h"
+
+namespace app::headset {
+
+class Headset {
+ public:
+    // `exploration` must outlive it. Throws std::runtime_error when there is no GL to draw with.
+    static std::variant<std::unique_ptr<Headset>, xr::NoHeadset> open(Exploration& exploration);
+
+    // Until the user or the runtime ends the session, or a signal the program. Throws
+    // xr::LostError; the exploration is then as it was in the last frame.
+    void run();
+    // One round of it, which the runtime paces; false when the session has ended.
+    bool frame();
+
+    const Room& room() const { return room_; }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    Headset(Exploration& exploration, std::unique_ptr<Graphics> graphics,
+            std::unique_ptr<xr::Session> session);
+    void attendWindow();
+    std::chrono::nanoseconds since(std::chrono::nanoseconds displayTime);
+    void act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt);
+    void drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt);
+    void serve(const panels::Requests& requests);
+    std::vector<render::Placard> placards(const xr::Session::Frame& frame) const;
+    void drawEyes(xr::Session::Frame& frame, Clock::time_point began);
+
+    std::atomic<bool> stopped_ = false;
+    Exploration& exploration_;
+    std::unique_ptr<Graphics> graphics_;
+    std::unique_ptr<xr::Session> session_;
+    Room room_;
+    Eyes eyes_;
+    Panel panel_;
+    TextBoard readout_;
+    desktop::Errands errands_;
+    std::optional<std::chrono::nanoseconds> lastDisplay_;
+    bool leaving_ = false;  // the window is closed, and the runtime was told
+    desktop::StopSignals signals_;  // last: its thread uses what stands above
+};
+
+}  // namespace app::headset

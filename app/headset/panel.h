@@ -1,0 +1,52 @@
+// The window's panels on a board: Dear ImGui drawn into a texture, with a ray for a mouse.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "app/headset/room.h"
+#include "app/panels/interface.h"
+#include "render/placard.h"
+
+namespace app::headset {
+
+inline constexpr float kPanelScale = 1.3f;  // pixels a unit of the panels' design
+
+// The only user of Dear ImGui while it lives. Needs a current GL context, from construction to
+// destruction.
+class Panel {
+ public:
+    // `wake`: as Exploration::Settings.
+    explicit Panel(std::function<void()> wake);
+    ~Panel();
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+
+    // What the front end tells the panels, beside where the pointer is.
+    struct Around {
+        panels::StartOffers offers;
+        std::string help;  // stands where a window has its picture
+        std::optional<std::string> exporting;
+        panels::Performance performance;
+    };
+    // A frame of the interface. Returns what it asks of the front end.
+    panels::Requests draw(Exploration& exploration, const std::optional<Pointer>& pointer,
+                          const Around& around, std::chrono::nanoseconds dt);
+
+    const render::Board& board() const { return board_; }
+    panels::Interface& interface() { return interface_; }
+
+ private:
+    struct Context {
+        Context();
+        ~Context();
+        panels::Theme theme;
+    };
+
+    Context context_;
+    render::Board board_;
+    panels::Interface interface_;
+};
+
+}  // namespace app::headset

@@ -1,0 +1,124 @@
+#include "app/headset/room.h"
+
+#include <utility>
+
+namespace app::headset {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Pulse kGrabbed{0, 0.5, 30ms}, kAtEnd{0, 0.3, 20ms};
+constexpr double kScrollLines = 12;  // a second
+constexpr std::size_t kTimeHand = 0, kValueHand = 1;
+
+}  // namespace
+
+std::vector<Pulse> Room::update(Exploration& exploration, const RoomInput& input) {
+    pulses_.clear();
+    place(input);
+    for (std::size_t hand = 0; hand < 2; ++hand) press(exploration, hand, input);
+    carry(input);
+    point(input);
+    play(exploration, input);
+    before_ = input.hands;
+    return std::move(pulses_);
+}
+
+void Room::place(const RoomInput& input) {
+    if (!input.head) return;
+    if (!std::exchange(panelPlaced_, true)) panel_ = panelBefore(*input.head);
+    if (input.boxHalfEdges && !std::exchange(placed_, true))
+        placement_ = volumeBefore(*input.head, *input.boxHalfEdges);
+}
+
+void Room::bring(const RoomInput& input) {
+    if (!input.head || !input.boxHalfEdges) return;
+    if (broughtFrom_) {
+        placement_ = *std::exchange(broughtFrom_, std::nullopt);
+        return;
+    }
+    broughtFrom_ = placement_;
+    placement_ = volumeBefore(*input.head, *input.boxHalfEdges);
+    panel_ = panelBefore(*input.head);
+}
+
+// REQUIRES: grab or select was pressed just now.
+Room::Meaning Room::meant(std::size_t hand, const RoomInput& input) const {
+    const xr::Hand& now = input.hands[hand];
+    const bool grabs = now.grab && !before_[hand].grab;
+    const bool selects = now.select && !before_[hand].select;
+    if (selects && panel_ && now.aim && hitOf(*now.aim, *panel_)) return Meaning::Panel;
+    if (!selects) return Meaning::Volume;
+    const bool onVolume = grabs && now.aim && input.boxHalfEdges &&
+                          meetsBox(*now.aim, placement_, *input.boxHalfEdges);
+    return onVolume ? Meaning::Volume : Meaning::Other;
+}
+
+void Room::press(Exploration& exploration, std::size_t hand, const RoomInput& input) {
+    const xr::Hand& now = input.hands[hand];
+    const xr::Hand& before = before_[hand];
+    Meaning& meaning = meaning_[hand];
+    if (meaning == Meaning::Volume ? !now.grab : !now.select) meaning = Meaning::Nothing;
+    const bool selects = now.select && !before.select, grabs = now.grab && !before.grab;
+    if (selects || grabs) {
+        const Meaning pressed = meant(hand, input);
+        if (pressed == Meaning::Other) exploration.togglePlay();
+        if (pressed == Meaning::Panel) pointing_ = hand;
+        if (pressed == Meaning::Volume) {
+            Pulse pulse = kGrabbed;
+            pulse.hand = static_cast<int>(hand);
+            pulses_.push_back(pulse);
+        }
+        // A trigger that is pulled while the volume is held does not let it go.
+        if (meaning != Meaning::Volume) meaning = pressed;
+    }
+    if (now.bring && !before.bring) bring(input);
+    if (now.swing && !before.swing) toggleSwing(exploration);
+    if (now.menu && !before.menu) {
+        const bool shown = panel_.has_value();
+        panel_.reset();
+        if (!shown && input.head) panel_ = panelBefore(*input.head);
+    }
+}
+
+void Room::carry(const RoomInput& input) {
+    std::array<std::optional<xr::Pose>, 2> holding;
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        if (holds(hand)) holding[hand] = input.hands[hand].grip;
+    if (holding[0] || holding[1]) broughtFrom_.reset();
+    placement_ = grab_.update(placement_, holding);
+}
+
+void Room::point(const RoomInput& input) {
+    pointer_.reset();
+    if (!panel_) return;
+    // The hand that pressed last goes on pointing; the other takes over where that one points
+    // elsewhere.
+    for (const std::size_t hand : {pointing_, 1 - pointing_}) {
+        const xr::Hand& now = input.hands[hand];
+        if (!now.aim) continue;
+        if (const auto hit = hitOf(*now.aim, *panel_)) {
+            pointing_ = hand;
+            const double seconds = std::chrono::duration<double>(input.dt).count();
+            pointer_ = Pointer{hit->at, meaning_[hand] == Meaning::Panel,
+                               kScrollLines * rateOf(now.stick.y) * seconds};
+            return;
+        }
+    }
+}
+
+void Room::play(Exploration& exploration, const RoomInput& input) {
+    const Sticks::Ends ends = sticks_.move(exploration, input.hands[kValueHand].stick.x,
+                                           input.hands[kTimeHand].stick.x, input.dt);
+    const auto feel = [&](std::size_t hand, bool now, bool& was) {
+        Pulse pulse = kAtEnd;
+        pulse.hand = static_cast<int>(hand);
+        // An end is felt once, until the stick comes back.
+        if (now && !was) pulses_.push_back(pulse);
+        was = now || (was && rateOf(input.hands[hand].stick.x) != 0);
+    };
+    feel(kValueHand, ends.value, atEnd_.value);
+    feel(kTimeHand, ends.time, atEnd_.time);
+}
+
+}  // namespace app::headset

@@ -1,0 +1,83 @@
+// The room: where volume and panel stand, and what the hands do with them and with the exploration.
+// Pure: poses and buttons in, edits and placements out; no runtime, no GL.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <vector>
+
+#include "app/exploration.h"
+#include "app/headset/standing.h"
+#include "app/headset/sticks.h"
+#include "xr/grab.h"
+#include "xr/session.h"
+
+namespace app::headset {
+
+// What a frame brings.
+struct RoomInput {
+    std::array<xr::Hand, 2> hands;  // left, right
+    std::optional<xr::Pose> head;
+    std::chrono::nanoseconds dt{0};
+    // Lattice::boxHalfEdges() of what is drawn; none before there is any.
+    std::optional<glm::dmat3> boxHalfEdges;
+};
+
+// The panel as a mouse sees it: [0, 1] from its upper left corner.
+struct Pointer {
+    glm::dvec2 at;
+    bool pressed = false;
+    double scroll = 0;  // lines; > 0 is away from the user
+};
+
+// What a hand is to feel.
+struct Pulse {
+    int hand;
+    double amplitude;
+    std::chrono::nanoseconds duration;
+};
+
+class Room {
+ public:
+    // Grab moves the volume; left stick: time, right stick: value; select on the panel clicks,
+    // elsewhere plays and pauses; menu hides and shows the panel; swing turns the sweep's path;
+    // bring puts volume and panel before the head, and, pressed again before the volume is moved,
+    // back. A controller with one button means the panel or the volume where its ray meets them,
+    // and else plays. Returns what the hands are to feel.
+    std::vector<Pulse> update(Exploration& exploration, const RoomInput& input);
+
+    const xr::Placement& placement() const { return placement_; }
+    const std::optional<Plate>& panel() const { return panel_; }  // none while hidden
+    const std::optional<Pointer>& pointer() const { return pointer_; }
+    bool holds(std::size_t hand) const { return meaning_[hand] == Meaning::Volume; }
+
+ private:
+    // What a hand's pressed button was taken for, until it is let go.
+    enum class Meaning { Nothing, Volume, Panel, Other };
+
+    void place(const RoomInput& input);
+    void bring(const RoomInput& input);
+    Meaning meant(std::size_t hand, const RoomInput& input) const;
+    void press(Exploration& exploration, std::size_t hand, const RoomInput& input);
+    void carry(const RoomInput& input);
+    void point(const RoomInput& input);
+    void play(Exploration& exploration, const RoomInput& input);
+
+    xr::Placement placement_;
+    bool placed_ = false;
+    std::optional<xr::Placement> broughtFrom_;
+    std::optional<Plate> panel_;
+    bool panelPlaced_ = false;
+    std::optional<Pointer> pointer_;
+    std::size_t pointing_ = 1;
+    std::array<xr::Hand, 2> before_;
+    std::array<Meaning, 2> meaning_{};
+    xr::Grab grab_;
+    Sticks sticks_;
+    Sticks::Ends atEnd_;
+    std::vector<Pulse> pulses_;
+};
+
+}  // namespace app::headset

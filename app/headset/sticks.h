@@ -1,0 +1,39 @@
+// The value and the time, played by hand: thumbsticks move the window of values and the step. Pure.
+#pragma once
+
+#include <chrono>
+
+#include "app/exploration.h"
+
+namespace app::headset {
+
+// A stick's rest is wider than its noise; beyond, finer near the middle. In [-1, 1].
+double rateOf(double stick);
+
+class Sticks {
+ public:
+    // What was reached and could not be passed.
+    struct Ends {
+        bool value = false, time = false;
+    };
+    // The swept window goes along its animation, where there is one; else the first visible layer
+    // goes through the values of the step shown, as a drag of it would. A full way takes
+    // kValueSeconds. Steps are passed at a rate that suits their number. `value` and `time`: the
+    // sticks, [-1, 1], right is more.
+    Ends move(Exploration& exploration, double value, double time, std::chrono::nanoseconds dt);
+
+    static constexpr double kValueSeconds = 4;
+
+ private:
+    bool moveWindow(Exploration& exploration, double ways);
+    bool moveLayer(Exploration& exploration, double ways);
+    bool moveTime(Exploration& exploration, double steps);
+
+    double ticks_ = 0, steps_ = 0;  // less than one, still to be moved
+    bool dragging_ = false;
+};
+
+// The swept window turns round at its ends, or begins anew. Nothing without a sweep.
+void toggleSwing(Exploration& exploration);
+
+}  // namespace app::headset

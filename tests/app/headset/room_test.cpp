@@ -1,0 +1,258 @@
+// Hands in a room, frame by frame: what moves, what plays, what is clicked.
+#include "app/headset/room.h"
+
+#include <gmock/gmock.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/support/scripted_exploration.h"
+
+namespace app::headset {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr glm::dvec3 kUp(0, 1, 0);
+
+class RoomOfAnExploration : public testing::Test {
+ protected:
+    tests::ScriptedExploration world_;
+    Exploration& e_ = world_.exploration;
+    Room room_;
+    RoomInput input_{.hands = {},
+                     .head = xr::Pose{{1, 0, 0, 0}, {0, 1.6, 0}},
+                     .dt = 10ms,
+                     .boxHalfEdges = glm::dmat3(0.577)};
+    xr::Hand& left_ = input_.hands[0];
+    xr::Hand& right_ = input_.hands[1];
+
+    RoomOfAnExploration() { frame(); }
+
+    std::vector<Pulse> frame() { return room_.update(e_, input_); }
+    static xr::Pose looking(const glm::dvec3& from, const glm::dvec3& at) {
+        return {glm::quatLookAt(glm::normalize(at - from), kUp), from};
+    }
+    // A point of the panel, [0, 1] from its upper left corner.
+    glm::dvec3 onPanel(const glm::dvec2& at) const {
+        const Plate& panel = *room_.panel();
+        const glm::dvec2 in = panel.half * glm::dvec2(2 * at.x - 1, 1 - 2 * at.y);
+        return panel.stageFromPlate.orientation * glm::dvec3(in, 0) + panel.stageFromPlate.position;
+    }
+    void aim(xr::Hand& hand, const glm::dvec3& at) {
+        hand.aim = looking({0.2, 1.3, -0.2}, at);
+        hand.grip = hand.aim;
+    }
+    glm::dvec3 volume() const { return room_.placement().stageFromVolume.position; }
+    bool playing() const { return e_.playback().playing; }
+};
+
+TEST_F(RoomOfAnExploration, VolumeAndPanelStandBeforeTheFirstHeadAndStay) {
+    const xr::Placement expected = volumeBefore(*input_.head, *input_.boxHalfEdges);
+    EXPECT_EQ(volume(), expected.stageFromVolume.position);
+    input_.head->position += glm::dvec3(1, 0, 1);
+    frame();
+    EXPECT_EQ(volume(), expected.stageFromVolume.position);
+}
+
+TEST_F(RoomOfAnExploration, AVolumeThatComesLaterIsPlacedThen) {
+    Room room;
+    RoomInput empty = input_;
+    empty.boxHalfEdges.reset();
+    room.update(e_, empty);
+    EXPECT_TRUE(room.panel());
+    input_.head->position.x = 3;
+    room.update(e_, input_);
+    EXPECT_NEAR(room.placement().stageFromVolume.position.x, 3, 1e-12);
+}
+
+TEST_F(RoomOfAnExploration, AHandThatGrabsCarriesTheVolumeWithIt) {
+    aim(right_, volume());
+    frame();
+    const glm::dvec3 before = volume();
+    right_.grab = true;
+    const auto pulses = frame();
+    ASSERT_EQ(pulses.size(), 1u);
+    EXPECT_EQ(pulses[0].hand, 1);
+    EXPECT_TRUE(room_.holds(1));
+    right_.grip->position += glm::dvec3(0.1, 0.2, -0.05);
+    EXPECT_TRUE(frame().empty()) << "felt once";
+    EXPECT_LT(glm::distance(volume(), before + glm::dvec3(0.1, 0.2, -0.05)), 1e-12);
+    right_.grab = false;
+    frame();
+    right_.grip->position += glm::dvec3(1, 1, 1);
+    frame();
+    EXPECT_LT(glm::distance(volume(), before + glm::dvec3(0.1, 0.2, -0.05)), 1e-12);
+    EXPECT_FALSE(playing());
+}
+
+TEST_F(RoomOfAnExploration, TheOtherHandJoinsWithoutAJumpAndScales) {
+    left_.grip = xr::Pose{{1, 0, 0, 0}, {-0.2, 1.2, -0.5}};
+    right_.grip = xr::Pose{{1, 0, 0, 0}, {0.2, 1.2, -0.5}};
+    left_.grab = true;
+    frame();
+    frame();
+    const xr::Placement before = room_.placement();
+    right_.grab = true;
+    frame();
+    EXPECT_EQ(room_.placement().metresPerUnit, before.metresPerUnit);
+    left_.grip->position.x = -0.4;
+    right_.grip->position.x = 0.4;
+    frame();
+    EXPECT_NEAR(room_.placement().metresPerUnit, 2 * before.metresPerUnit, 1e-12);
+}
+
+TEST_F(RoomOfAnExploration, TheTriggerPlaysAndPauses) {
+    aim(right_, {3, 0, 3});
+    right_.select = true;
+    frame();
+    EXPECT_TRUE(playing());
+    frame();
+    EXPECT_TRUE(playing()) << "once a press";
+    right_.select = false;
+    frame();
+    right_.select = true;
+    frame();
+    EXPECT_FALSE(playing());
+}
+
+TEST_F(RoomOfAnExploration, TheTriggerOnThePanelClicksThere) {
+    aim(right_, onPanel({0.25, 0.75}));
+    frame();
+    ASSERT_TRUE(room_.pointer());
+    EXPECT_LT(glm::distance(room_.pointer()->at, glm::dvec2(0.25, 0.75)), 1e-9);
+    EXPECT_FALSE(room_.pointer()->pressed);
+    right_.select = true;
+    frame();
+    EXPECT_TRUE(room_.pointer()->pressed);
+    EXPECT_FALSE(playing());
+    right_.select = false;
+    frame();
+    EXPECT_FALSE(room_.pointer()->pressed);
+}
+
+TEST_F(RoomOfAnExploration, TheHandThatClicksIsTheMouse) {
+    aim(right_, onPanel({0.2, 0.2}));
+    aim(left_, onPanel({0.8, 0.8}));
+    frame();
+    EXPECT_NEAR(room_.pointer()->at.x, 0.2, 1e-9);
+    left_.select = true;
+    frame();
+    EXPECT_NEAR(room_.pointer()->at.x, 0.8, 1e-9);
+    EXPECT_TRUE(room_.pointer()->pressed);
+}
+
+TEST_F(RoomOfAnExploration, TheMenuHidesThePanelAndBringsItBefore) {
+    right_.menu = true;
+    frame();
+    EXPECT_FALSE(room_.panel());
+    aim(right_, {-1, 1.5, -1});
+    right_.menu = false;
+    frame();
+    EXPECT_FALSE(room_.pointer());
+    input_.head->position = {5, 1.6, 5};
+    right_.menu = true;
+    frame();
+    EXPECT_LT(glm::distance(room_.panel()->stageFromPlate.position, input_.head->position), 2);
+}
+
+TEST_F(RoomOfAnExploration, AControllerWithOneButtonMeansWhatItsRayMeets) {
+    const auto press = [&](const glm::dvec3& at) {
+        aim(right_, at);
+        right_.grab = right_.select = true;
+        frame();
+    };
+    const auto letGo = [&] {
+        right_.grab = right_.select = false;
+        frame();
+    };
+    press(volume());
+    EXPECT_TRUE(room_.holds(1));
+    EXPECT_FALSE(playing());
+    letGo();
+    press(onPanel({0.5, 0.5}));
+    EXPECT_FALSE(room_.holds(1));
+    EXPECT_TRUE(room_.pointer()->pressed);
+    EXPECT_FALSE(playing());
+    letGo();
+    press({3, 0, 3});
+    EXPECT_FALSE(room_.holds(1));
+    EXPECT_TRUE(playing());
+}
+
+TEST_F(RoomOfAnExploration, BringAndBringBack) {
+    left_.grip = xr::Pose{};
+    left_.grab = true;
+    frame();
+    left_.grip->position = {0, 0, -4};
+    frame();
+    left_.grab = false;
+    frame();
+    const glm::dvec3 far = volume();
+    const auto bring = [&] {
+        left_.bring = true;
+        frame();
+        left_.bring = false;
+        frame();
+    };
+    bring();
+    EXPECT_EQ(volume(), volumeBefore(*input_.head, *input_.boxHalfEdges).stageFromVolume.position);
+    bring();
+    EXPECT_EQ(volume(), far);
+    bring();
+    left_.grab = true;
+    frame();
+    left_.grab = false;
+    frame();
+    input_.head->position.x += 1;
+    bring();
+    EXPECT_EQ(volume(), volumeBefore(*input_.head, *input_.boxHalfEdges).stageFromVolume.position)
+        << "moved by hand since, so brought again";
+}
+
+TEST_F(RoomOfAnExploration, SticksPlayTimeWithTheLeftHandAndValueWithTheRight) {
+    Explorer next = e_.explorer();
+    next.sweep.emplace();
+    next.sweep->animation = timeseries::RangeSet::parse("0:63");
+    e_.edit(next);
+    e_.seek(0);
+    e_.seekTick(0);
+    right_.stick.x = 1;
+    for (int i = 0; i < 20; ++i) frame();
+    EXPECT_GT(e_.explorer().play.tick, 0);
+    EXPECT_EQ(e_.explorer().steps->first, 0u);
+    right_.stick.x = 0;
+    left_.stick.x = 1;
+    for (int i = 0; i < 100; ++i) frame();
+    EXPECT_GT(e_.explorer().steps->first, 0u);
+}
+
+TEST_F(RoomOfAnExploration, AnEndIsFeltOnceUntilTheStickComesBack) {
+    Explorer next = e_.explorer();
+    next.sweep.emplace();
+    next.sweep->animation = timeseries::RangeSet::parse("0:63");
+    e_.edit(next);
+    e_.seekTick(0);
+    right_.stick.x = -1;
+    std::size_t felt = 0;
+    for (int i = 0; i < 100; ++i) felt += frame().size();
+    EXPECT_EQ(felt, 1u);
+    right_.stick.x = 0;
+    frame();
+    right_.stick.x = -1;
+    for (int i = 0; i < 100; ++i) felt += frame().size();
+    EXPECT_EQ(felt, 2u);
+}
+
+TEST_F(RoomOfAnExploration, HandsWithoutPosesDoNoHarm) {
+    left_.grab = right_.grab = true;
+    const glm::dvec3 before = volume();
+    for (int i = 0; i < 3; ++i) frame();
+    input_.head.reset();
+    left_.bring = right_.menu = true;
+    frame();
+    EXPECT_EQ(volume(), before);
+}
+
+}  // namespace
+}  // namespace app::headset

@@ -1,0 +1,151 @@
+// What a headset's images get is what a file would have, seen with the same poses.
+#include "app/headset/eyes.h"
+
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "app/headset/standing.h"
+#include "app/still.h"
+#include "render/color.h"
+#include "render/gl/debug_output.h"
+#include "render/gl/headless_context.h"
+#include "tests/support/shown_steps.h"
+
+namespace app::headset {
+namespace {
+
+constexpr glm::ivec2 kImage{220, 200}, kDrawn{160, 150};
+
+// A swapchain image as a runtime hands one out.
+struct EyeImage {
+    render::gl::Texture color{GL_SRGB8_ALPHA8, kImage};
+    render::gl::Texture depth{GL_DEPTH_COMPONENT32F, kImage};
+    render::gl::Framebuffer framebuffer{std::array{color.id()}, depth.id()};
+
+    // As drawn, from the top.
+    std::vector<glm::u8vec4> pixels() const {
+        std::vector<glm::u8vec4> all(std::size_t(kDrawn.x) * kDrawn.y), rows;
+        glGetTextureSubImage(color.id(), 0, 0, 0, 0, kDrawn.x, kDrawn.y, 1, GL_RGBA,
+                             GL_UNSIGNED_BYTE, static_cast<GLsizei>(all.size() * 4), all.data());
+        for (int y = kDrawn.y - 1; y >= 0; --y)
+            rows.insert(rows.end(), all.begin() + y * kDrawn.x, all.begin() + (y + 1) * kDrawn.x);
+        return rows;
+    }
+    float depthAt(glm::ivec2 at) const {
+        float value = 0;
+        glGetTextureSubImage(depth.id(), 0, at.x, at.y, 0, 1, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                             sizeof value, &value);
+        return value;
+    }
+};
+
+class HeadsetEyes : public testing::Test {
+ protected:
+    HeadsetEyes() {
+        const double half = 0.0315;  // a distance of 63 mm
+        for (int i = 0; i < 2; ++i) {
+            const double side = 2 * i - 1;
+            // Wider outwards, as headsets are; a head that looks down at the volume.
+            eyes_.push_back(
+                {.stageFromEye = {glm::angleAxis(-0.4, glm::dvec3(1, 0, 0)), {side * half, 1.6, 0}},
+                 .fov = {i == 0 ? -0.8 : -0.6, i == 0 ? 0.6 : 0.8, 0.7, -0.75},
+                 .size = kDrawn,
+                 .framebuffer = images_[static_cast<std::size_t>(i)].framebuffer.id()});
+        }
+    }
+    // The light of a renderer that has seen nothing else.
+    std::vector<render::EyePicture> rendered(const Shown& shown) const {
+        const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
+        render::GpuStep onGpu(*shown.sorted, lattice);
+        const Picture picture =
+            makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice);
+        render::FrameRenderer renderer;
+        const std::array views{viewOf(eyes_[0], placement_), viewOf(eyes_[1], placement_)};
+        return renderer.render({.scene = picture.scene,
+                                .grid = shown.sorted->grid(),
+                                .legend = {},
+                                .background = kBackground},
+                               onGpu, views);
+    }
+
+    render::gl::HeadlessContext context_;
+    std::array<EyeImage, 2> images_;
+    std::vector<xr::Eye> eyes_;
+    tests::ShownSteps world_{12};
+    Eyes view_;
+    const xr::Placement placement_ = volumeBefore(
+        {{1, 0, 0, 0}, {0, 1.6, 0}}, render::Lattice(world_.steps[0]->grid()).boxHalfEdges());
+};
+
+// GL's own encoding of sRGB may round to the neighbouring step.
+TEST_F(HeadsetEyes, SeeWhatAFileWouldHave) {
+    const Shown shown = world_.shown();
+    view_.draw(&shown, eyes_, placement_, {}, std::nullopt);
+    render::gl::throwOnError();
+    const auto pictures = rendered(shown);
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+        const render::Image& truth = pictures[eye].image;
+        const auto pixels = images_[eye].pixels();
+        int volume = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            for (int c = 0; c < 3; ++c)
+                ASSERT_LE(std::abs(pixels[i][c] - render::srgb8FromLinear(
+                                                      static_cast<double>(truth.pixels[i][c]))),
+                          1)
+                    << "eye " << eye << ", pixel " << i;
+            volume += truth.pixels[i].r > 0.1f ? 1 : 0;
+        }
+        EXPECT_GT(volume, 500) << "the volume is seen";
+    }
+    EXPECT_NE(images_[0].pixels(), images_[1].pixels());
+}
+
+TEST_F(HeadsetEyes, TheDepthIsThatOfTheOpaqueThings) {
+    const Shown shown = world_.shown();
+    // A wall 2 m ahead, as large as the sight.
+    const Plate wall{{{1, 0, 0, 0}, {0, 1.6, -2}}, {9, 9}};
+    const std::array placards{
+        render::Placard{worldFromPlacard(wall, placement_), glm::vec3(0, 0, 1)}};
+    view_.draw(&shown, eyes_, placement_, placards, std::nullopt);
+    render::gl::throwOnError();
+    // A level eye sees the wall at the depth of 2 m everywhere.
+    eyes_[0].stageFromEye.orientation = {1, 0, 0, 0};
+    view_.draw(&shown, eyes_, placement_, placards, std::nullopt);
+    const double expected = kFar * (2 - kNear) / (2 * (kFar - kNear));
+    for (const glm::ivec2 at : {glm::ivec2(3, 3), {80, 140}, {150, 20}})
+        EXPECT_NEAR(static_cast<double>(images_[0].depthAt(at)), expected, 1e-5);
+}
+
+TEST_F(HeadsetEyes, WithoutDataThereIsStillARoom) {
+    const Plate wall{{{1, 0, 0, 0}, {0, 1.2, -1}}, {0.2, 0.2}};
+    const std::array placards{
+        render::Placard{worldFromPlacard(wall, placement_), glm::vec3(0, 1, 0)}};
+    view_.draw(nullptr, eyes_, placement_, placards, std::nullopt);
+    render::gl::throwOnError();
+    for (const EyeImage& image : images_) {
+        int green = 0;
+        for (const glm::u8vec4& pixel : image.pixels()) green += pixel.g == 255 ? 1 : 0;
+        EXPECT_GT(green, 100);
+        EXPECT_EQ(image.pixels()[0].r, render::srgb8FromLinear(static_cast<double>(kBackground.r)));
+    }
+}
+
+TEST_F(HeadsetEyes, KeepTheRuntimesPaceWithFewerSplatsThenFewerPixels) {
+    using namespace std::chrono_literals;
+    const Shown shown = world_.shown();
+    EXPECT_EQ(view_.scale(), 1);
+    for (int i = 0; i < 100; ++i) {
+        view_.draw(&shown, eyes_, placement_, {}, 1us);
+        view_.took(1ms, 1us);
+    }
+    EXPECT_EQ(view_.scale(), 0.5);
+    for (int i = 0; i < 2000; ++i) view_.took(1us, 1s);
+    EXPECT_EQ(view_.scale(), 1);
+}
+
+}  // namespace
+}  // namespace app::headset

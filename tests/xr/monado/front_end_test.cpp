@@ -1,0 +1,201 @@
+// The headset's front end against a real runtime: what both eyes are given, what hands do, and what
+// is left when the runtime goes.
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <glm/geometric.hpp>
+
+#include "app/headset/headset.h"
+#include "app/still.h"
+#include "render/color.h"
+#include "tests/support/headset.h"
+#include "tests/support/monado_service.h"
+#include "tests/support/remote_devices.h"
+#include "tests/support/scripted_exploration.h"
+#include "tests/support/shown_steps.h"
+
+namespace app::headset {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<glm::u8vec4> pixelsOf(const xr::Eye& eye) {
+    std::vector<glm::u8vec4> upwards(std::size_t(eye.size.x) * eye.size.y), rows;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, eye.framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, eye.size.x, eye.size.y, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
+    for (int y = eye.size.y - 1; y >= 0; --y)
+        rows.insert(rows.end(), upwards.begin() + y * eye.size.x,
+                    upwards.begin() + (y + 1) * eye.size.x);
+    return rows;
+}
+
+// 120 frames as the runtime asks for them, a swaying head's; GL's own encoding of sRGB may round to
+// the neighbouring step.
+TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
+    const tests::MonadoService service(tests::Monado::Null);
+    const render::gl::HeadlessContext context;
+    const auto session = tests::openHeadset(context);
+    ASSERT_TRUE(session);
+    const tests::ShownSteps world(10);
+    const Shown shown = world.shown();
+    const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
+    render::GpuStep onGpu(*shown.sorted, lattice);
+    const Picture picture =
+        makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice);
+    render::FrameRenderer renderer;
+    Eyes eyes;
+    std::optional<xr::Placement> placement;
+    for (int drawn = 0; drawn < 120;) {
+        const auto frame = session->beginFrame();
+        if (!frame || !frame->shouldRender()) continue;
+        const auto given = frame->eyes(1);
+        if (given.empty() || !frame->head()) continue;
+        if (!placement) placement = volumeBefore(*frame->head(), lattice.boxHalfEdges());
+        eyes.draw(&shown, given, *placement, {}, std::nullopt);
+        const std::array views{viewOf(given[0], *placement), viewOf(given[1], *placement)};
+        const auto truth = renderer.render({.scene = picture.scene,
+                                            .grid = shown.sorted->grid(),
+                                            .legend = {},
+                                            .background = kBackground},
+                                           onGpu, views);
+        for (std::size_t eye = 0; eye < 2; ++eye) {
+            const auto pixels = pixelsOf(given[eye]);
+            const render::Image& image = truth[eye].image;
+            int far = 0, volume = 0;
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                for (int c = 0; c < 3; ++c)
+                    far = std::max(
+                        far, std::abs(pixels[i][c] - render::srgb8FromLinear(
+                                                         static_cast<double>(image.pixels[i][c]))));
+                volume += image.pixels[i].r > 0.1f ? 1 : 0;
+            }
+            ASSERT_LE(far, 1) << "frame " << drawn << ", eye " << eye;
+            ASSERT_GT(volume, 1000) << "the volume is seen";
+        }
+        frame->submit(kNear, kFar);
+        ++drawn;
+    }
+}
+
+class FrontEnd : public testing::Test {
+ protected:
+    void open() {
+        auto opened = Headset::open(world_.exploration);
+        if (const auto* none = std::get_if<xr::NoHeadset>(&opened)) FAIL() << none->why;
+        headset_ = std::get<std::unique_ptr<Headset>>(std::move(opened));
+    }
+    template <typename Holds>
+    void framesUntil(const Holds& holds) {
+        const auto end = std::chrono::steady_clock::now() + 30s;
+        while (!holds()) {
+            ASSERT_TRUE(headset_->frame());
+            ASSERT_LT(std::chrono::steady_clock::now(), end);
+        }
+    }
+    glm::dvec3 volume() const { return headset_->room().placement().stageFromVolume.position; }
+
+    tests::ScriptedExploration world_;
+    std::unique_ptr<Headset> headset_;
+};
+
+TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
+    tests::MonadoService service(tests::Monado::Null);
+    open();
+    framesUntil([&] { return headset_->room().panel().has_value(); });
+    world_.exploration.seek(3);
+    const Explorer before = world_.exploration.explorer();
+    service.kill();
+    try {
+        headset_->run();
+        FAIL() << "a session without a runtime";
+    } catch (const xr::LostError& lost) {
+        EXPECT_THAT(lost.what(), testing::HasSubstr("Monado"));
+    }
+    headset_.reset();
+    EXPECT_TRUE(world_.exploration.explorer() == before);
+    world_.until([&] { return world_.exploration.shown()->step == 3; });
+}
+
+class FrontEndWithHands : public FrontEnd {
+ protected:
+    void SetUp() override {
+        devices_.head().centre = tests::place({0, 1.6, 0});
+        for (int h = 0; h < 2; ++h)
+            devices_.hand(h).place = tests::place({h == 0 ? -0.3 : 0.3, 1.1, -0.4});
+        devices_.send();
+        open();
+        framesUntil([&] { return headset_->room().panel().has_value() && volume().y > 1; });
+    }
+    void TearDown() override { headset_.reset(); }  // before its runtime goes
+
+    tests::MonadoService service_{tests::Monado::Remote};
+    tests::RemoteDevices devices_{service_.remotePort()};
+};
+
+TEST_F(FrontEndWithHands, AGrabMovesTheVolumeByExactlyTheHandsMotion) {
+    auto& right = devices_.hand(1);
+    right.squeeze = right.squeezeForce = 1;
+    devices_.send();
+    framesUntil([&] { return headset_->room().holds(1); });
+    const glm::dvec3 before = volume(), by(0.12, 0.2, -0.3);
+    right.place = tests::place(glm::dvec3(0.3, 1.1, -0.4) + by);
+    devices_.send();
+    framesUntil([&] { return glm::distance(volume(), before + by) < 1e-5; });
+}
+
+TEST_F(FrontEndWithHands, TwoHandsScaleByTheRatioOfTheirDistances) {
+    for (int h = 0; h < 2; ++h) devices_.hand(h).squeeze = devices_.hand(h).squeezeForce = 1;
+    devices_.send();
+    framesUntil([&] { return headset_->room().holds(0) && headset_->room().holds(1); });
+    const double before = headset_->room().placement().metresPerUnit;
+    for (int h = 0; h < 2; ++h)
+        devices_.hand(h).place = tests::place({h == 0 ? -0.45 : 0.45, 1.1, -0.4});
+    devices_.send();
+    framesUntil(
+        [&] { return std::abs(headset_->room().placement().metresPerUnit / before - 1.5) < 1e-4; });
+}
+
+TEST_F(FrontEndWithHands, TheTriggerPlaysAndTheStickMovesTime) {
+    Exploration& e = world_.exploration;
+    devices_.hand(1).trigger = 1;
+    devices_.hand(1).triggerClick = 1;
+    devices_.send();
+    framesUntil([&] { return e.playback().playing; });
+    devices_.hand(1).trigger = 0;
+    devices_.hand(1).triggerClick = 0;
+    devices_.send();
+    e.togglePlay();
+    const std::size_t before = e.explorer().steps->first;
+    devices_.hand(0).stick = {1, 0};
+    devices_.send();
+    framesUntil([&] { return e.explorer().steps->first != before; });
+}
+
+TEST_F(FrontEndWithHands, TheStickMovesTheWindowAndTheCountFollows) {
+    Exploration& e = world_.exploration;
+    Explorer next = e.explorer();
+    next.sweep.emplace();
+    next.sweep->animation = timeseries::RangeSet::parse("0:63");
+    next.sweep->delta = 3;
+    e.edit(next);
+    const double before = e.playback().sweep->contour();
+    devices_.hand(1).stick = {1, 0};
+    devices_.send();
+    framesUntil([&] { return e.playback().sweep->contour() > before + 10; });
+    const timeseries::Range window = e.playback().sweep->window();
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < 64; ++i) {
+        const double value = world_.world.value(0, e.shown()->step, i);
+        count += value >= timeseries::toDouble(window.lo.value) &&
+                         value <= timeseries::toDouble(window.hi.value)
+                     ? 1
+                     : 0;
+    }
+    EXPECT_GT(count, 0u);
+    EXPECT_EQ(e.counts()->swept, count);
+}
+
+}  // namespace
+}  // namespace app::headset
