@@ -6,13 +6,15 @@
 
 namespace render {
 
-// Who encodes linear light as sRGB: the shader, to the very bytes that a PNG has, or GL, where the
-// framebuffer's format is an sRGB one (a headset's swapchain). Such a framebuffer's depth, where it
-// has one, becomes the opaque scene's.
+// Who encodes linear light as sRGB: the shader, to the bytes that a PNG has, but for light that
+// lies within kBorder steps of the border between two bytes, which may become either (GLSL's pow is
+// a float's); or GL, where the framebuffer's format is an sRGB one (a headset's swapchain). Such a
+// framebuffer's depth, where it has one, becomes the opaque scene's.
 enum class Encoding { Shader, Framebuffer };
 
 class Present {
  public:
+    static constexpr double kBorder = 0.002;  // steps of 1 / 255
     Present();
     // Replaces the pixels of `framebuffer` from `at` (its lower left corner) to at + light.size().
     // Alpha becomes 1: the light's ground is opaque.
@@ -21,8 +23,6 @@ class Present {
 
  private:
     gl::Program encode_, copy_;
-    gl::Buffer steps_;
-    gl::BufferTexture stepsTexture_;
     gl::VertexArray noVertices_;
 };
 

@@ -2,25 +2,17 @@
 // Variants: ENCODE, where the framebuffer's format does not encode by itself; DEPTH, where it takes
 // the opaque scene's depth.
 layout(binding = 0) uniform sampler2D light;
-#ifdef ENCODE
-layout(binding = 1) uniform samplerBuffer steps;  // srgb8Steps in render/color.h
-#endif
 #ifdef DEPTH
-layout(binding = 2) uniform sampler2D depth;
+layout(binding = 1) uniform sampler2D depth;
 #endif
 layout(location = 0) uniform ivec2 lowerLeft;
 layout(location = 0) out vec4 shown;
 
 #ifdef ENCODE
-// srgb8FromLinear in render/color.h: the curve is near enough to be one step off at most.
+// srgbFromLinear in render/color.h.
 float encoded(float linear) {
     const float inside = linear > 0.0 ? min(linear, 1.0) : 0.0;  // NaN is 0
-    const float curve =
-        inside <= 0.0031308 ? 12.92 * inside : 1.055 * pow(inside, 1.0 / 2.4) - 0.055;
-    const int near = int(255.0 * curve + 0.5);
-    if (near > 0 && inside < texelFetch(steps, near - 1).r) return float(near - 1) / 255.0;
-    if (near < 255 && inside >= texelFetch(steps, near).r) return float(near + 1) / 255.0;
-    return float(near) / 255.0;
+    return inside <= 0.0031308 ? 12.92 * inside : 1.055 * pow(inside, 1.0 / 2.4) - 0.055;
 }
 #endif
 
