@@ -1,7 +1,7 @@
 #!/bin/bash
 # The tests labelled xr need Monado, an OpenXR runtime. Debian 12 packages none, so they are built and
 # run inside a Debian 13: a folder outside the source tree, entered by chroot.
-#   tests/xr/monado_root.sh make                 makes it, when it is not there: a few minutes, 2 GB
+#   tests/xr/monado_root.sh make                 makes it, when it is not there: a few minutes, 1.3 GB
 #   tests/xr/monado_root.sh test [CTEST ARGS]    builds the tests in it and runs them
 #   tests/xr/monado_root.sh run COMMAND...       any command, in its copy of the source tree
 #   tests/xr/monado_root.sh there                succeeds when it is there
@@ -11,7 +11,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../.ci/setup.sh"
 
 folder=${ISOCHRON_MONADO_ROOT:-${XDG_CACHE_HOME:-$HOME/.cache}/isochron/debian13}
-mark=$folder/.isochron-root  # written last: the folder is ours, and complete
+ours=$folder/.isochron-root  # written first, and what may be removed by its being there
+complete=$folder/.isochron-complete
 
 # enter COMMAND...: in the folder's system. What is mounted for it is seen by nobody else, and goes
 # with it; so nothing of this machine can ever be reached by removing the folder.
@@ -33,11 +34,12 @@ useNetwork() {
 
 make() {
     local -a packages
-    if [[ -f $mark ]]; then return; fi
-    if [[ -e $folder ]]; then die "$folder is there, but not complete: remove it first"; fi
+    if [[ -f $complete ]]; then return; fi
+    remove  # what an interrupted run has left
     command -v debootstrap >/dev/null ||
         quietly "Installing debootstrap" asRoot apt-get install -y -qq --no-install-recommends debootstrap
     asRoot mkdir -p "$folder"
+    asRoot touch "$ours"
     quietly "Making a Debian 13 in $folder" asRoot unshare --mount --propagation private \
         debootstrap --variant=minbase trixie "$folder" "$(mirror)"
     useNetwork
@@ -45,7 +47,7 @@ make() {
     quietly "Reading its package lists" enter apt-get update -qq
     quietly "Installing its packages" enter apt-get install -y -qq --no-install-recommends "${packages[@]}"
     quietly "Cleaning up" enter apt-get clean
-    asRoot touch "$mark"
+    asRoot touch "$complete"
 }
 
 # The files that git knows or would take, as they are now, their times kept for the build.
@@ -58,7 +60,7 @@ copySource() {
 }
 
 run() {
-    [[ -f $mark ]] || die "There is no Debian 13 in $folder: tests/xr/monado_root.sh make"
+    [[ -f $complete ]] || die "There is no Debian 13 in $folder: tests/xr/monado_root.sh make"
     copySource
     enter bash -c 'cd /isochron/source && "$@"' run "$@"
 }
@@ -74,7 +76,7 @@ tests() {
 
 remove() {
     if [[ ! -e $folder ]]; then return; fi
-    [[ -e $folder/etc/debian_version || -f $mark ]] || die "$folder is no Debian: it is left alone"
+    [[ -f $ours ]] || die "$folder was not made by this script: it is left alone"
     if grep -qF " $folder/" /proc/self/mountinfo; then die "Something is mounted in $folder: it is left alone"; fi
     asRoot rm -rf --one-file-system "$folder"
 }
@@ -85,7 +87,7 @@ case $command in
     make) make ;;
     test) tests "$@" ;;
     run) run "$@" ;;
-    there) [[ -f $mark ]] ;;
+    there) [[ -f $complete ]] ;;
     --remove) remove ;;
     *) die "$(sed -n '2,/^set/{s/^# \{0,1\}//;/^set/d;p}' "${BASH_SOURCE[0]}")" ;;
 esac
