@@ -13,9 +13,11 @@
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 extern char** environ;
 
@@ -148,8 +150,9 @@ void MonadoService::startDisplay() {
     const auto [read, write] = closedOnExec();
     const int log = openedLog(folder_ / "display.log");
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    display_ = spawned({"Xvfb", "-displayfd", "3", "-screen", "0", "1600x1100x24", "-nolisten",
-                        "tcp", "-terminate"},
+    // It ends with this process, however that ends; -terminate would end it with its first client.
+    display_ = spawned({"setpriv", "--pdeathsig", "TERM", "Xvfb", "-displayfd", "3", "-screen", "0",
+                        "1600x1100x24", "-nolisten", "tcp"},
                        {}, {nothing, log, write});
     close(write), close(log), close(nothing);
     std::string number;
