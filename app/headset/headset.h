@@ -55,7 +55,7 @@ class Headset {
     TextBoard readout_;
     desktop::Errands errands_;
     std::optional<std::chrono::nanoseconds> lastDisplay_;
-    bool leaving_ = false;  // the window is closed, and the runtime was told
+    bool leaving_ = false;          // the window is closed, and the runtime was told
     desktop::StopSignals signals_;  // last: its thread uses what stands above
 };
 
