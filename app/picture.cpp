@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "app/choice_text.h"
-#include "app/decimals.h"
 #include "app/first_choice.h"
 #include "app/layer_colors.h"
 #include "render/color.h"
@@ -164,19 +163,6 @@ Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, const SortedS
     return e;
 }
 
-namespace {
-
-// A bound that nobody typed, as a swept window has, needs no more digits than tell where it stands.
-std::string boundText(const timeseries::Bound& bound, double width) {
-    constexpr std::size_t kTyped = 10;
-    const std::string text = timeseries::toText(bound.value);
-    const bool fraction = text.find('.') != std::string::npos;
-    if (text.size() <= kTyped || !fraction || !(width > 0) || !std::isfinite(width)) return text;
-    return timeseries::toText(roundedTo(timeseries::toDouble(bound.value), width / 1000));
-}
-
-}  // namespace
-
 std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
     std::string text;
     for (const Range& r : ranges.ranges()) {
@@ -184,8 +170,7 @@ std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
             return timeseries::toDouble(b.value) == end && !b.open;
         };
         const bool down = isUnbounded(r.lo, -kInfinity), up = isUnbounded(r.hi, kInfinity);
-        const double width = timeseries::toDouble(r.hi.value) - timeseries::toDouble(r.lo.value);
-        const std::string lo = boundText(r.lo, width), hi = boundText(r.hi, width);
+        const std::string lo = timeseries::toText(r.lo.value), hi = timeseries::toText(r.hi.value);
         if (!text.empty()) text += ", ";
         if (down && up) return "all values";
         if (lo == hi)

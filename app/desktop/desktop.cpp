@@ -72,7 +72,7 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
                         {.window = glm::vec2(window_.framebufferSize()),
                          .theme = gui_.theme(),
                          .offers = errands_.offers(),
-                         .boxHalf = picture_.boxHalf(),
+                         .boxHalfEdges = picture_.boxHalfEdges(),
                          .eye = picture_.eye(),
                          .exporting = errands_.exporting(),
                          .dt = first ? dt : 0ns,

@@ -35,7 +35,7 @@ class PictureView {
 
     Canvas& canvas() { return canvas_; }
     const panels::Performance& performance() const { return performance_; }
-    const glm::dvec3& boxHalf() const { return boxHalf_; }
+    const glm::dmat3& boxHalfEdges() const { return boxHalfEdges_; }
     const std::optional<render::View>& eye() const { return eye_; }  // where there is one
 
  private:
@@ -56,7 +56,7 @@ class PictureView {
     std::optional<Drawn> drawn_;
     CanvasReport report_;
     panels::Performance performance_;
-    glm::dvec3 boxHalf_{0.5};
+    glm::dmat3 boxHalfEdges_{0.5};
     std::optional<render::View> eye_;
     Clock::time_point changed_ = Clock::now();
     bool timed_ = true;  // what was drawn last has its time

@@ -83,8 +83,11 @@ void Instrument::draw(Desk& desk, const Rect& at) {
                  .values = {lo, hi}};
     if (p.held || (grab_.grip == Grip::Pan && ImGui::IsMouseDown(ImGuiMouseButton_Middle)))
         drag(f, mouse);
-    else
+    else {
+        if (grab_.grip == Grip::Undecided)  // pressed, and not moved
+            desk.exploration.seek(f.steps.stepAt(grab_.pressedAt.x));
         grab_ = {};
+    }
     if (p.hovered) zoom(f, mouse);
     readout_ = p.hovered || p.held ? hoverText(f, mouse) : std::string();
 

@@ -27,6 +27,7 @@ class Instrument {
         Lo,
         Hi,
         Band,
+        Undecided,  // a band pressed on the map: moved up or down, or time is scrubbed
         Background,
         NewRange,
         Scrub,

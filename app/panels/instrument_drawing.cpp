@@ -125,7 +125,9 @@ void Instrument::drawBands(const Frame& f, const Grab& hovered) const {
             if (bottom < across.min.y || top > across.max.y) continue;
             const bool here = hovered.layer == l && hovered.range == i;
             const float alpha =
-                (selected ? 0.10f : 0.06f) + (here && hovered.grip == Grip::Band ? 0.06f : 0.0f);
+                (selected ? 0.10f : 0.06f) +
+                (here && (hovered.grip == Grip::Band || hovered.grip == Grip::Undecided) ? 0.06f
+                                                                                         : 0.0f);
             const ImU32 low = colorAt(layers[l], f.axis.valueAt(bottom), alpha),
                         high = colorAt(layers[l], f.axis.valueAt(top), alpha);
             f.list.AddRectFilledMultiColor({across.min.x, top}, {across.max.x, bottom}, high, high,

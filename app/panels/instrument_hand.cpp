@@ -59,6 +59,7 @@ Instrument::Grab Instrument::gripAt(const Frame& f, glm::vec2 mouse) const {
         std::abs(mouse.x - f.steps.centre(time->step())) < reach)
         return grab.grip = Grip::Scrub, grab;
 
+    const bool onMap = f.hasMap() && mouse.x >= f.at.map.min.x;
     // The selected layer first, then the others from the last, which lies on top; ends before
     // bands.
     const std::vector<LayerChoice>& layers = f.explorer().layers;
@@ -80,7 +81,7 @@ Instrument::Grab Instrument::gripAt(const Frame& f, glm::vec2 mouse) const {
                 if (ends && std::min(toLo, toHi) < reach)
                     return grab.grip = toLo < toHi ? Grip::Lo : Grip::Hi, grab;
                 if (!ends && !grab.newLayer && mouse.y < lo && mouse.y > hi)
-                    return grab.grip = Grip::Band, grab;
+                    return grab.grip = onMap ? Grip::Undecided : Grip::Band, grab;
             }
         }
     }
@@ -117,6 +118,10 @@ void Instrument::drag(const Frame& f, glm::vec2 mouse) {
             return setRanges(
                 withMoved(grab_.ranges, grab_.range,
                           roundedTo(f.axis.valueAt(mouse.y) - grab_.valueAt, f.axis.perPixel())));
+        case Grip::Undecided:
+            if (std::max(moved.x, moved.y) < 4 * f.s) return;
+            grab_.grip = moved.y >= moved.x ? Grip::Band : Grip::Scrub;
+            return drag(f, mouse);
         case Grip::Background:
             if (f.hasMap() && grab_.pressedAt.x >= f.at.map.min.x && moved.y < 4 * f.s) {
                 desk.exploration.seek(f.steps.stepAt(mouse.x));

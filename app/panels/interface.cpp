@@ -73,7 +73,7 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
 void Interface::drawPicture(Desk& desk, const Surroundings& around) {
     beginRegion("##picture", desk.layout.picture, kClear);
     if (desk.exploration.shown()) {
-        picture_.handle(desk, around.boxHalf);
+        picture_.handle(desk, around.boxHalfEdges);
         if (around.eye) drawMarks(desk, *around.eye);
     } else if (!desk.exploration.opening()) {
         drawStartScreen(desk, around.offers);

@@ -26,7 +26,7 @@ struct Surroundings {
     glm::vec2 window{0};  // pixels
     const Theme& theme;
     StartOffers offers;
-    glm::dvec3 boxHalf{0.577};             // of the lattice drawn
+    glm::dmat3 boxHalfEdges{0.577};        // of the lattice drawn
     std::optional<render::View> eye;       // of the picture, where probes are marked
     std::optional<std::string> exporting;  // how far an export is, while one runs
     std::chrono::nanoseconds dt{0};

@@ -41,6 +41,7 @@ constexpr std::array kHelp = {
     HelpLine{"Values", "drag on the histogram", "a new range of the selected layer"},
     HelpLine{"Values", "Shift + drag", "a new layer"},
     HelpLine{"Values", "drag an end, a band", "change a range, move it"},
+    HelpLine{"Values", "click, drag across on the map", "go to a time"},
     HelpLine{"Values", "wheel, double click", "zoom the values, all of them again"},
     HelpLine{"File", "Ctrl+O  Ctrl+S", "open, save the session"},
     HelpLine{"File", "Ctrl+Z  Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},

@@ -76,7 +76,7 @@ bool cancelPill(const Desk& desk, float y, std::string_view what, const char* id
 
 }  // namespace
 
-void PictureArea::handle(Desk& desk, const glm::dvec3& boxHalf) {
+void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     Exploration& exploration = desk.exploration;
     const Rect& at = desk.layout.picture;
     const ImGuiIO& io = ImGui::GetIO();
@@ -85,7 +85,7 @@ void PictureArea::handle(Desk& desk, const glm::dvec3& boxHalf) {
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemAllowOverlap();
     if (!exploration.shown()) return;
-    const Looking looking{boxHalf, exploration.explorer().size};
+    const Looking looking{boxHalfEdges, exploration.explorer().size};
     const glm::dvec2 cursor = vec(io.MousePos) - at.min;
     if (ImGui::IsItemActivated())
         grip_ =

@@ -7,8 +7,9 @@ namespace app::panels {
 
 class PictureArea {
  public:
-    // Takes the mouse over the picture. `boxHalf`: Lattice::boxHalf() of what is drawn there.
-    void handle(Desk& desk, const glm::dvec3& boxHalf);
+    // Takes the mouse over the picture. `boxHalfEdges`: Lattice::boxHalfEdges() of what is drawn
+    // there.
+    void handle(Desk& desk, const glm::dmat3& boxHalfEdges);
 
  private:
     enum class Grip { None, Turn, Move };

@@ -63,9 +63,6 @@ TEST(RangeLabel, SaysARangeAsPeopleDo) {
     EXPECT_EQ(label("5"), "5 K");
     EXPECT_EQ(label("-3:-1"), "-3 to -1 K");
     EXPECT_EQ(label("min:max"), "all values");
-    // Nobody typed this: a swept window, told to a thousandth of its width.
-    EXPECT_EQ(label("1134.072441673389:1234.072441673389"), "1134.1 to 1234.1 K");
-    EXPECT_EQ(label("0.12345678901:max", ""), "≥ 0.12345678901");
     EXPECT_EQ(label("0:1,5:6,9:max"), "0 to 1, 5 to 6, ≥ 9 K");
     EXPECT_EQ(label("0:1", ""), "0 to 1");
     EXPECT_EQ(label("0:1", "1"), "0 to 1");
