@@ -99,21 +99,23 @@ void Driver::sync() {
     ping();
 }
 
-Shot Driver::shot() const {
-    Shot out{.size = size(), .pixels = {}};
+Shot Driver::shot() const { return shot({{0, 0}, glm::vec2(size())}); }
+
+Shot Driver::shot(const app::panels::Rect& place) const {
+    const glm::ivec2 from(place.min);
+    Shot out{.size = glm::ivec2(place.max) - from, .pixels = {}};
     XImage* const image =
-        XGetImage(screen_.connection(), window_, 0, 0, static_cast<unsigned>(out.size.x),
+        XGetImage(screen_.connection(), window_, from.x, from.y, static_cast<unsigned>(out.size.x),
                   static_cast<unsigned>(out.size.y), AllPlanes, ZPixmap);
     if (image == nullptr) throw std::runtime_error("the window cannot be read");
     out.pixels.reserve(static_cast<std::size_t>(out.size.x) * static_cast<std::size_t>(out.size.y));
     for (int y = 0; y < out.size.y; ++y) {
-        // 24 bits deep: a word of 0x00RRGGBB a pixel.
-        const char* const row =
-            image->data + static_cast<std::ptrdiff_t>(y) * image->bytes_per_line;
-        for (int x = 0; x < out.size.x; ++x)
-            out.pixels.push_back({static_cast<std::uint8_t>(row[4 * x + 2]),
-                                  static_cast<std::uint8_t>(row[4 * x + 1]),
-                                  static_cast<std::uint8_t>(row[4 * x])});
+        // 24 bits deep: a word of 0x00RRGGBB a pixel, here in bytes from the lowest.
+        const char* row = image->data + static_cast<std::ptrdiff_t>(y) * image->bytes_per_line;
+        for (int x = 0; x < out.size.x; ++x, row += 4)
+            out.pixels.push_back({static_cast<std::uint8_t>(row[2]),
+                                  static_cast<std::uint8_t>(row[1]),
+                                  static_cast<std::uint8_t>(row[0])});
     }
     XDestroyImage(image);
     return out;
@@ -161,12 +163,17 @@ void Driver::type(std::string_view text) {
     sync();
 }
 
-void Driver::move(glm::vec2 to) {
+void Driver::moveOnly(glm::vec2 to) {
     XWindow child = 0;
     int x = 0, y = 0;
     XTranslateCoordinates(screen_.connection(), window_, screen_.root(), static_cast<int>(to.x),
                           static_cast<int>(to.y), &x, &y, &child);
     XTestFakeMotionEvent(screen_.connection(), -1, x, y, CurrentTime);
+    XFlush(screen_.connection());
+}
+
+void Driver::move(glm::vec2 to) {
+    moveOnly(to);
     sync();
 }
 

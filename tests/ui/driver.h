@@ -42,7 +42,7 @@ class Driver {
     void waitForTitle(std::string_view piece);
 
     Shot shot() const;
-    Shot shot(const app::panels::Rect& place) const { return part(shot(), place); }
+    Shot shot(const app::panels::Rect& place) const;
     // Once nothing is left to be drawn: two alike, farther apart than a picture needs to be
     // refined.
     Shot settled();
@@ -52,6 +52,7 @@ class Driver {
     void press(std::string_view keys);
     void type(std::string_view text);  // letters, digits and ./-_:
     void move(glm::vec2 to);
+    void moveOnly(glm::vec2 to);  // without sync()
     void down(Button button = Button::Left);
     void up(Button button = Button::Left);
     void click(glm::vec2 at);

@@ -7,9 +7,10 @@
 
 #include <atomic>
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
-#include "tests/support/files.h"
 #include "tests/ui/waiting.h"
 
 namespace ui {
@@ -75,6 +76,9 @@ int Process::exitCode() {
     return *exitCode_;
 }
 
-std::string Process::errors() const { return tests::readBytes(errorFile_); }
+std::string Process::errors() const {
+    std::ifstream in(errorFile_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
 
 }  // namespace ui

@@ -95,6 +95,13 @@ std::string Screen::property(XWindow window, const char* name) const {
     return text;
 }
 
+void Screen::setResource(const std::string& line) const {
+    XChangeProperty(connection_, root(), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(line.data()),
+                    static_cast<int>(line.size()));
+    XSync(connection_, False);
+}
+
 bool Screen::hasEvent(const std::function<bool(const _XEvent&)>& isIt) const {
     using IsIt = std::function<bool(const _XEvent&)>;
     const auto matches = [](Display*, XEvent* event, XPointer asked) -> Bool {

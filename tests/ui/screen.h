@@ -41,6 +41,8 @@ class Screen {
     void send(XWindow to, const char* type, std::array<long, 5> words) const;
     // A property's bytes; empty when it has none.
     std::string property(XWindow window, const char* name) const;
+    // What programs that start later read of the user's desktop, "NAME: VALUE".
+    void setResource(const std::string& line) const;
     // Takes the first event that has come and for which `isIt` holds; false when there is none.
     bool hasEvent(const std::function<bool(const _XEvent&)>& isIt) const;
     // The window that a process has made; none yet.

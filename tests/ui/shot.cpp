@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <glm/common.hpp>
 
 #include "render/color.h"
 #include "render/png.h"
