@@ -21,7 +21,6 @@ class DeskTest : public testing::Test {
             GTEST_SKIP() << "Xvfb is not installed, so no window can be tested (Debian: xvfb)";
         screen_.emplace(folder());
     }
-    // A failed test leaves what the window showed.
     const std::filesystem::path& folder() const { return folder_; }
     const Screen& screen() const { return *screen_; }
 

@@ -15,6 +15,8 @@ Places placesOf(glm::ivec2 size, bool hasMap, float scale) {
     out.clear = out.messages = out.window.picture;
     out.clear.min.y += 130 * scale;
     out.clear.max.y -= 160 * scale;
+    out.besideMessages = out.window.picture;
+    out.besideMessages.max.x -= 460 * scale;
     out.messages.min.y = out.clear.max.y;
     out.messages.max.y -= 76 * scale;
     return out;

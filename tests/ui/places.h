@@ -11,8 +11,9 @@ struct Places {
     app::panels::Layout window;
     app::panels::InstrumentLayout instrument;
     app::panels::TimeBarLayout timeBar;
-    // Of the picture, what lies clear of labels, messages and figures; and where messages appear.
-    app::panels::Rect clear, messages;
+    // Of the picture, what lies clear of labels, one short message and figures; where messages
+    // appear, and what is left of them.
+    app::panels::Rect clear, messages, besideMessages;
 };
 Places placesOf(glm::ivec2 size, bool hasMap = true, float scale = 1);
 

@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include "tests/ui/desk_test.h"
 
 namespace ui {
@@ -26,7 +28,7 @@ class DeskStarts : public DeskTest {
 
 TEST_F(DeskEnds, CleanlyWhenClosed) {
     Driver desk(screen(), folder(), {demo().string()});
-    desk.waitForTitle("pool_fire_T.nc");
+    desk.waitForTitle("pool_fire_T.nc · T");
     desk.close();
     EXPECT_EQ(desk.process().exitCode(), 0);
     EXPECT_EQ(desk.process().errors(), "");
@@ -36,7 +38,7 @@ TEST_F(DeskEnds, CleanlyWhenClosed) {
 TEST_F(DeskEnds, CleanlyWhenTerminated) {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
         Driver desk(screen(), folder(), {demo().string()});
-        desk.waitForTitle("pool_fire_T.nc");
+        desk.waitForTitle("pool_fire_T.nc · T");
         desk.process().signal(signal);
         EXPECT_EQ(desk.process().exitCode(), 0) << signal;
         EXPECT_EQ(desk.process().errors(), "") << signal;
@@ -60,7 +62,7 @@ TEST_F(DeskStarts, WithTheMonitorsScale) {
     // As a desktop says it: 144 dots an inch are one and a half times the usual.
     screen().setResource("Xft.dpi: 144");
     Driver desk(screen(), folder(), {demo().string()});
-    desk.waitForTitle("pool_fire_T.nc");
+    desk.waitForTitle("pool_fire_T.nc · T");
     desk.resize({1500, 950});
     const std::string title = desk.title();
     desk.settled();

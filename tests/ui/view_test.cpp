@@ -9,7 +9,7 @@ class DeskView : public DeskTest {
         DeskTest::SetUp();
         if (IsSkipped()) return;
         desk_.emplace(screen(), folder(), std::vector{demo().string()});
-        desk_->waitForTitle("pool_fire_T.nc");
+        desk_->waitForTitle("pool_fire_T.nc · T");
         at_ = placesOf(desk_->size());
     }
     Shot picture() { return desk_->settled(at_.clear); }
@@ -23,20 +23,18 @@ TEST_F(DeskView, TurnsMovesZoomsAndFits) {
     desk_->drag({500, 400}, {620, 400});
     const Shot turned = picture();
     EXPECT_GT(differing(turned, first), 1000u);
+    desk_->press("f");
+    const Shot fitted = picture();
     desk_->move({400, 300});
     desk_->wheel(4);
     const Shot zoomed = picture();
-    EXPECT_GT(differing(zoomed, turned), 1000u);
+    EXPECT_GT(differing(zoomed, fitted), 1000u);
     desk_->drag({500, 400}, {560, 440}, Button::Middle);
     EXPECT_GT(differing(picture(), zoomed), 1000u);
     desk_->press("f");
-    EXPECT_EQ(picture(), turned);
-    // An undo is a gesture back.
-    desk_->press("ctrl+z");
-    desk_->press("ctrl+z");
-    desk_->press("ctrl+z");
-    desk_->press("ctrl+z");
-    EXPECT_EQ(picture(), first);
+    EXPECT_EQ(differing(picture(), fitted), 0u);
+    for (int i = 0; i < 5; ++i) desk_->press("ctrl+z");
+    EXPECT_EQ(differing(picture(), first), 0u);
 }
 
 TEST_F(DeskView, ShowsItsKeysAndHidesThem) {
@@ -44,10 +42,10 @@ TEST_F(DeskView, ShowsItsKeysAndHidesThem) {
     desk_->press("h");
     EXPECT_GT(differing(picture(), before), 10000u);
     desk_->press("Escape");
-    EXPECT_EQ(picture(), before);
+    EXPECT_EQ(differing(picture(), before), 0u);
     desk_->press("h");
     desk_->press("h");
-    EXPECT_EQ(picture(), before);
+    EXPECT_EQ(differing(picture(), before), 0u);
 }
 
 TEST_F(DeskView, FollowsTheWindowsSize) {
@@ -64,7 +62,7 @@ TEST_F(DeskView, FollowsTheWindowsSize) {
     desk_->press("ctrl+z");
     desk_->waitFor("time is back", [&] { return desk_->title() == title; });
     desk_->resize(size);
-    EXPECT_EQ(picture(), before);
+    EXPECT_EQ(differing(picture(), before), 0u);
 }
 
 TEST_F(DeskView, ComesBackFromBeingMinimised) {
@@ -88,12 +86,12 @@ TEST_F(DeskView, PlayAdvancesTheRealTime) {
     desk_->press("space");
     const Shot paused = picture();
     const std::string title = desk_->title();
-    EXPECT_EQ(picture(), paused);
+    EXPECT_EQ(differing(picture(), paused), 0u);
     EXPECT_EQ(desk_->title(), title);
     desk_->press("period");
     desk_->press("comma");
     desk_->waitFor("a step there and back", [&] { return desk_->title() == title; });
-    EXPECT_EQ(picture(), paused);
+    EXPECT_EQ(differing(picture(), paused), 0u);
     desk_->press("Home");
     desk_->waitFor("the first time", [&] { return seconds() == 0.5; });
     desk_->press("End");
