@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -49,6 +50,7 @@ Process::Process(const Start& start) {
     child_ = fork();
     if (child_ < 0) throw std::system_error(errno, std::generic_category(), start.program);
     if (child_ > 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is killed leaves nothing running
     const int out = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(out, STDERR_FILENO);
     if (start.keptOpen >= 0) fcntl(start.keptOpen, F_SETFD, 0);
