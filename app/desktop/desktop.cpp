@@ -112,12 +112,17 @@ void Desktop::drawPicture() {
 
 void Desktop::title() {
     const auto shown = exploration_.shown();
-    if (!shown) return window_.setTitle("isochron");
-    const PointCounts* counts = exploration_.counts();
-    window_.setTitle(fmt::format(
-        "{} · {} · {} · {} points", std::filesystem::path(shown->dataset.name).filename().string(),
-        shown->dataset.about.name, timeText(*shown->dataset.about.time, shown->step),
-        withCommas(counts != nullptr ? counts->selected : 0)));
+    std::string text = "isochron";
+    if (shown) {
+        const PointCounts* counts = exploration_.counts();
+        text = fmt::format("{} · {} · {} · {} points",
+                           std::filesystem::path(shown->dataset.name).filename().string(),
+                           shown->dataset.about.name,
+                           timeText(*shown->dataset.about.time, shown->step),
+                           withCommas(counts != nullptr ? counts->selected : 0));
+    }
+    if (const auto opening = exploration_.opening()) text += " · opening " + *opening;
+    window_.setTitle(text);
 }
 
 void Desktop::sleep() {

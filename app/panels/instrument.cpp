@@ -38,9 +38,7 @@ std::pair<double, double> allValues(const Exploration& exploration) {
         take(summary->quantiles.back());
     }
     if (lo > hi) return {0, 1};
-    const double room =
-        hi > lo ? 0.5 * (0.04 * hi - 0.04 * lo) : std::max(0.5, 1e-3 * std::abs(lo));
-    return {lo - room, hi + room};
+    return withRoom(lo, hi);
 }
 
 std::pair<double, double> Instrument::values(const Desk& desk) const {

@@ -100,4 +100,18 @@ TimeBarLayout timeBarLayout(const Rect& timeBar, float scale) {
     return out;
 }
 
+StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFiles) {
+    const float s = scale, width = std::min(520 * s, picture.size().x - 2 * kMargin * s);
+    const float height = (230 + 46 * static_cast<float>(recentFiles)) * s;
+    const float left = picture.centre().x - 0.5f * width;
+    const float top = std::max(picture.min.y + 40 * s, picture.centre().y - 0.5f * height) + 60 * s;
+    return {.first = box(left, top, left + width, top + 40 * s), .pitch = 46 * s};
+}
+
+std::pair<double, double> withRoom(double lo, double hi) {
+    const double room =
+        hi > lo ? 0.5 * (0.04 * hi - 0.04 * lo) : std::max(0.5, 1e-3 * std::abs(lo));
+    return {lo - room, hi + room};
+}
+
 }  // namespace app::panels

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <utility>
 
 namespace app::panels {
 
@@ -60,6 +61,20 @@ struct TimeBarLayout {
     Rect back, play, forward, now, rail, ending, speed;
 };
 TimeBarLayout timeBarLayout(const Rect& timeBar, float scale);
+
+// Where nothing is open yet: offers one below the other, of which the last are recent files.
+struct StartLayout {
+    Rect first;
+    float pitch = 0;  // from an offer to the next
+    Rect offer(std::size_t i) const {
+        const glm::vec2 by(0, pitch * static_cast<float>(i));
+        return {first.min + by, first.max + by};
+    }
+};
+StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFiles);
+
+// The ends of an axis that shows all from lo to hi, with a little room; both finite, lo <= hi.
+std::pair<double, double> withRoom(double lo, double hi);
 
 // A vertical axis of values: the least at the bottom.
 struct ValueAxis {

@@ -26,22 +26,13 @@ void drawStartScreen(Desk& desk, const StartOffers& offers) {
     constexpr std::size_t kRecent = 5;
     const Theme& theme = desk.theme;
     const float s = theme.scale;
-    const Rect& picture = desk.layout.picture;
-    const float width = std::min(520 * s, picture.size().x - 2 * kMargin * s);
     const std::size_t recent = std::min(kRecent, offers.recent.size());
-    const float height = (230 + 46 * static_cast<float>(recent)) * s;
-    const float left = picture.centre().x - 0.5f * width;
-    float y = std::max(picture.min.y + 40 * s, picture.centre().y - 0.5f * height);
-    text(theme, {left, y}, "isochron", kText, 0, theme.title);
-    y += 34 * s;
-    text(theme, {left, y},
+    const StartLayout at = startLayout(desk.layout.picture, s, recent);
+    const float left = at.first.min.x;
+    text(theme, {left, at.first.min.y - 60 * s}, "isochron", kText, 0, theme.title);
+    text(theme, {left, at.first.min.y - 26 * s},
          "Drop a file, a folder or a member of a series here, or open one:", kDim);
-    y += 26 * s;
-    const auto next = [&] {
-        const Rect at{{left, y}, {left + width, y + 40 * s}};
-        y += 46 * s;
-        return at;
-    };
+    auto next = [&, i = std::size_t{0}]() mutable { return at.offer(i++); };
     if (offer(theme, next(), Icon::Folder, "Open…", "Ctrl+O"))
         desk.requests.commands.push_back(Command::Open);
     if (!offers.autosave.empty() &&

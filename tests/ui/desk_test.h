@@ -1,0 +1,63 @@
+// What the tests of the window share: a screen, a folder that is the user's home, and where things
+// are.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/session.h"
+#include "tests/support/files.h"
+#include "tests/ui/places.h"
+#include "timeseries/reader.h"
+
+namespace ui {
+
+class DeskTest : public testing::Test {
+ protected:
+    void SetUp() override {
+        if (!Screen::isInstalled())
+            GTEST_SKIP() << "Xvfb is not installed, so no window can be tested (Debian: xvfb)";
+        screen_.emplace(folder());
+    }
+    const std::filesystem::path& folder() const { return folder_; }
+    const Screen& screen() const { return *screen_; }
+
+ private:
+    std::filesystem::path folder_ = tests::freshFolder();
+    std::optional<Screen> screen_;
+};
+
+inline std::filesystem::path demo() { return SOURCE_DIR "/datasets/pool_fire_T.nc"; }
+
+// What a title tells: "NAME · VARIABLE · TIME · 1,234 points", and perhaps what is being opened.
+struct Title {
+    std::string file, variable, time;
+    std::uint64_t points = 0;
+};
+inline Title parse(const std::string& title) {
+    constexpr std::string_view kDot = " · ";
+    std::vector<std::string> pieces;
+    for (std::size_t at = 0, dot; at != std::string::npos;
+         at = dot == std::string::npos ? dot : dot + kDot.size()) {
+        dot = title.find(kDot, at);
+        pieces.push_back(title.substr(at, dot - at));
+    }
+    if (pieces.size() < 4) return {};
+    std::string digits = pieces[3];
+    std::erase(digits, ',');
+    return {pieces[0], pieces[1], pieces[2], std::stoull(digits)};
+}
+
+// Saves the session by Ctrl+S under a name in the user's folder and reads it.
+inline app::Explorer saved(Driver& desk, const std::filesystem::path& file) {
+    desk.press("ctrl+s");
+    desk.press("ctrl+a");
+    desk.type(file.filename().string());
+    desk.press("Return");
+    desk.waitFor("the session is saved", [&] { return std::filesystem::exists(file); });
+    return app::readSession(file);
+}
+
+}  // namespace ui

@@ -1,0 +1,88 @@
+#include "tests/support/selection_oracle.h"
+#include "tests/ui/desk_test.h"
+
+namespace ui {
+namespace {
+
+// The demo's values at one step, as the reader gives them.
+std::vector<float> valuesAt(std::size_t step) {
+    const std::filesystem::path file = demo();
+    const auto reader = timeseries::openReader(std::span(&file, 1));
+    return std::get<std::vector<float>>(reader->read(0, step).values);
+}
+
+std::uint64_t countIn(const app::Explorer& e) {
+    std::uint64_t count = 0;
+    for (const float value : valuesAt(e.steps->first))
+        count += oracle::holds(e.layers.at(0).ranges.ranges(), value) ? 1 : 0;
+    return count;
+}
+
+// The values between which the instrument stands, once all steps are seen.
+app::panels::ValueAxis axisOf(const Places& at) {
+    float lo = INFINITY, hi = -INFINITY;
+    for (std::size_t step = 0; step < 31; ++step)
+        for (const float value : valuesAt(step)) {
+            lo = std::min(lo, value);
+            hi = std::max(hi, value);
+        }
+    const auto [bottom, top] =
+        app::panels::withRoom(static_cast<double>(lo), static_cast<double>(hi));
+    return {bottom, top, at.instrument.histogram.min.y, at.instrument.histogram.max.y};
+}
+
+class DeskSelects : public DeskTest {
+ protected:
+    // Drags the upper end of 600:1000 to about 1300.
+    void dragEnd(Driver& desk) {
+        const Places at = placesOf(desk.size());
+        const float x = at.instrument.histogram.centre().x;
+        waitUntilSeen(desk, 31);
+        desk.settled();
+        const app::panels::ValueAxis axis = axisOf(at);
+        perPixel_ = axis.perPixel();
+        desk.drag({x, axis.y(1000)}, {x, axis.y(1300)});
+    }
+    double perPixel_ = 0;
+};
+
+TEST_F(DeskSelects, ByTheDraggedEndOfARange) {
+    Driver desk(screen(), folder(), {demo().string(), "--range", "600:1000"});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const Places at = placesOf(desk.size());
+    const Shot before = desk.settled(at.clear);
+    const std::uint64_t points = parse(desk.title()).points;
+    dragEnd(desk);
+    const Shot after = desk.settled(at.clear);
+    const app::Explorer e = saved(desk, folder() / "dragged.json");
+    const auto range = e.layers.at(0).ranges.ranges()[0];
+    EXPECT_EQ(timeseries::toDouble(range.lo.value), 600);
+    EXPECT_NEAR(timeseries::toDouble(range.hi.value), 1300, 3 * perPixel_);
+    EXPECT_EQ(parse(desk.title()).points, countIn(e));
+    EXPECT_GT(parse(desk.title()).points, points);
+    EXPECT_GT(differing(before, after), 1000u);
+}
+
+TEST_F(DeskSelects, AndUndoRestoresPixelsAndCount) {
+    Driver desk(screen(), folder(), {demo().string(), "--range", "600:1000"});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const Places at = placesOf(desk.size());
+    const Shot before = desk.settled(at.clear);
+    const std::string title = desk.title();
+    dragEnd(desk);
+    const Shot after = desk.settled(at.clear);
+    const std::string dragged = desk.title();
+    ASSERT_NE(dragged, title);
+    desk.press("ctrl+z");
+    EXPECT_EQ(differing(desk.settled(at.clear), before), 0u);
+    EXPECT_EQ(desk.title(), title);
+    desk.press("ctrl+y");
+    EXPECT_EQ(differing(desk.settled(at.clear), after), 0u);
+    EXPECT_EQ(desk.title(), dragged);
+    desk.press("ctrl+z");
+    desk.press("ctrl+shift+z");
+    EXPECT_EQ(differing(desk.settled(at.clear), after), 0u);
+}
+
+}  // namespace
+}  // namespace ui
