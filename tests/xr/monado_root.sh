@@ -13,6 +13,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../.ci/setup.sh"
 folder=${ISOCHRON_MONADO_ROOT:-${XDG_CACHE_HOME:-$HOME/.cache}/isochron/debian13}
 ours=$folder/.isochron-root  # written first, and what may be removed by its being there
 complete=$folder/.isochron-complete
+# In it, of this checkout alone: files of another would be older than what is built of these.
+inside=/isochron/$(basename "$root")-$(cksum <<<"$root" | cut -d ' ' -f 1)
 
 # enter COMMAND...: in the folder's system. What is mounted for it is seen by nobody else, and goes
 # with it; so nothing of this machine can ever be reached by removing the folder.
@@ -52,21 +54,21 @@ make() {
 
 # The files that git knows or would take, as they are now, their times kept for the build.
 copySource() {
-    asRoot rm -rf --one-file-system "$folder/isochron/source"
-    asRoot mkdir -p "$folder/isochron/source"
+    asRoot rm -rf --one-file-system "$folder$inside/source"
+    asRoot mkdir -p "$folder$inside/source"
     git ls-files -co --exclude-standard -z |
         tar --create --null --files-from=- --ignore-failed-read 2>/dev/null |
-        asRoot tar --extract --no-same-owner --directory "$folder/isochron/source"
+        asRoot tar --extract --no-same-owner --directory "$folder$inside/source"
 }
 
 run() {
     [[ -f $complete ]] || die "There is no Debian 13 in $folder: tests/xr/monado_root.sh make"
     copySource
-    enter bash -c 'cd /isochron/source && "$@"' run "$@"
+    enter bash -c 'cd "$0/source" && "$@"' "$inside" "$@"
 }
 
 tests() {
-    run bash -c 'build=/isochron/build
+    run bash -c 'build=../build
         source .ci/setup.sh
         quietly "Configuring in Debian 13" cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
             -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON
