@@ -106,6 +106,7 @@ TEST_F(SticksOfAnExploration, OnASwingsWayBackRightIsStillMore) {
     const double before = contour();
     hold(1, 0, 300ms);
     EXPECT_GT(contour(), before);
+    EXPECT_LT(contour(), before + 10) << "without a jump";
 }
 
 TEST_F(SticksOfAnExploration, WithoutASweepTheFirstVisibleLayerMoves) {
@@ -124,7 +125,7 @@ TEST_F(SticksOfAnExploration, WithoutASweepTheFirstVisibleLayerMoves) {
 
 TEST_F(SticksOfAnExploration, ALayerOfAllValuesStays) {
     choose("min:max");
-    hold(1, 0, 500ms);
+    EXPECT_FALSE(hold(1, 0, 500ms).value) << "nothing moves, so no end is felt";
     EXPECT_TRUE(e_.explorer().layers[0].ranges == RangeSet::parse("min:max"));
 }
 
