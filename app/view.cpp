@@ -58,11 +58,11 @@ class Viewing {
         } catch (const std::runtime_error& error) {
             throw NoWindow(error.what());
         }
-        begin();
-        if (!noHeadset.empty()) {
+        // Most machines have no headset: only who was in one is told in the window, too.
+        if (!noHeadset.empty())
             fmt::print(stderr, "isochron: in a window, because {}\n", noHeadset);
-            exploration_.tell("No headset: " + noHeadset);
-        }
+        if (begun_) exploration_.tell("No headset any more: " + noHeadset);
+        begin();
         desktop->run();
     }
 

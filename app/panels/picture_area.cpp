@@ -19,11 +19,11 @@ double milliseconds(std::chrono::nanoseconds ns) {
     return std::chrono::duration<double, std::milli>(ns).count();
 }
 
-// What keeps the picture from being whole or fast, in a word.
+// What keeps the picture from being whole, or why it takes long, in a word.
 std::string limitText(const Performance& p) {
     if (p.uploaded < 1) return fmt::format("sending to the GPU, {:.0f} %", 100 * p.uploaded);
     if (!p.whole) return "a subset while it moves";
-    if (p.frame > p.budget) return "limited by splats";
+    if (p.frame > p.budget) return "all points drawn";
     return "";
 }
 

@@ -71,7 +71,8 @@ void ViewPage::clip(Desk& desk, Form& form) {
     for (int i = 0; i < 3; ++i) {
         const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(i)];
         if (axis.coordinates.size() < 2) continue;
-        const auto [least, most] = std::minmax(axis.coordinates.front(), axis.coordinates.back());
+        const double least = std::min(axis.coordinates.front(), axis.coordinates.back());
+        const double most = std::max(axis.coordinates.front(), axis.coordinates.back());
         const ClipBox now = desk.exploration.explorer().clip.value_or(
             ClipBox{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)});
         const double width = most - least;

@@ -37,6 +37,12 @@ KeySym keysymOf(char c) {
     return static_cast<KeySym>(static_cast<unsigned char>(c));  // Latin-1 is its own keysym
 }
 
+// In a window, also where a headset answers.
+std::vector<std::string> inWindow(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"view", "--display", "desktop"});
+    return arguments;
+}
+
 }  // namespace
 
 Driver::Driver(const Screen& screen, const std::filesystem::path& folder,
@@ -44,7 +50,7 @@ Driver::Driver(const Screen& screen, const std::filesystem::path& folder,
                std::map<std::string, std::optional<std::string>> environment)
     : screen_(screen),
       process_({.program = PROGRAM,
-                .arguments = std::move(arguments),
+                .arguments = inWindow(std::move(arguments)),
                 .folder = folder,
                 .environment = withScreen(std::move(environment), screen, folder)}) {
     waitFor("a window appears", [&] {

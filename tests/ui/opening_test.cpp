@@ -100,7 +100,7 @@ TEST_F(DeskOpens, ASavedSessionAsTheSamePixels) {
         first = desk.settled(at.clear);
         saved(desk, file);
     }
-    Driver desk(screen(), folder(), {"view", "--session", file.string()});
+    Driver desk(screen(), folder(), {"--session", file.string()});
     desk.waitForTitle("0.5 s");
     EXPECT_EQ(differing(desk.settled(at.clear), first), 0u);
 }

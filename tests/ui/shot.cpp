@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <glm/common.hpp>
 
 #include "render/color.h"
@@ -23,6 +24,15 @@ std::size_t differing(const Shot& a, const Shot& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1 : 0;
     return count;
+}
+
+int greatestDifference(const Shot& a, const Shot& b) {
+    assert(a.size == b.size);
+    int greatest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (std::size_t c = 0; c < a.pixels[i].size(); ++c)
+            greatest = std::max(greatest, std::abs(a.pixels[i][c] - b.pixels[i][c]));
+    return greatest;
 }
 
 Shot readShot(const std::filesystem::path& png) {

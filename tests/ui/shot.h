@@ -29,6 +29,8 @@ Shot part(const Shot& shot, const app::panels::Rect& place);
 
 // How many pixels are not the same. REQUIRES: equal sizes.
 std::size_t differing(const Shot& a, const Shot& b);
+// The greatest difference of two bytes of one place. REQUIRES: equal sizes.
+int greatestDifference(const Shot& a, const Shot& b);
 
 // Of a PNG that the program wrote: 8 bits, as a screen shows them.
 Shot readShot(const std::filesystem::path& png);

@@ -28,7 +28,11 @@ TEST_F(DeskTakesAway, TheScreenshotThatTheCopiedCommandLineMakes) {
     desk.press("ctrl+c");
     ASSERT_EQ(shell(folder(), desk.clipboard()), 0) << desk.clipboard();
     EXPECT_EQ(differing(readShot(folder() / "picture.png"), readShot(screenshot)), 0u);
-    EXPECT_EQ(differing(part(readShot(screenshot), at.clear), seen), 0u);
+    // The screen's bytes may be one off where the light lies at the border of two
+    // (render/present.h).
+    const Shot written = part(readShot(screenshot), at.clear);
+    EXPECT_LE(greatestDifference(written, seen), 1);
+    EXPECT_LE(differing(written, seen), seen.pixels.size() / 100);
 }
 
 }  // namespace

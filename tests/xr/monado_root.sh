@@ -16,10 +16,18 @@ complete=$folder/.isochron-complete
 # In it, of this checkout alone: files of another would be older than what is built of these.
 inside=/isochron/$(basename "$root")-$(cksum <<<"$root" | cut -d ' ' -f 1)
 
-# enter COMMAND...: in the folder's system. What is mounted for it is seen by nobody else, and goes
-# with it; so nothing of this machine can ever be reached by removing the folder.
+# privately COMMAND...: what it mounts is seen by nobody else, and goes with it; so nothing of this
+# machine can ever be reached by removing the folder. A system entered by chroot has no mount of its own
+# whose propagation could be changed; should its mounts be shared, `remove` refuses what is left.
+privately() {
+    local propagation=private
+    asRoot unshare --mount --propagation private true 2>/dev/null || propagation=unchanged
+    asRoot unshare --mount --propagation "$propagation" "$@"
+}
+
+# enter COMMAND...: in the folder's system.
 enter() {
-    asRoot unshare --mount --propagation private bash -c '
+    privately bash -c '
         mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount -t sysfs sysfs "$0/sys" &&
         exec chroot "$0" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
             DEBIAN_FRONTEND=noninteractive "$@"' "$folder" "$@"
@@ -42,7 +50,7 @@ make() {
         quietly "Installing debootstrap" asRoot apt-get install -y -qq --no-install-recommends debootstrap
     asRoot mkdir -p "$folder"
     asRoot touch "$ours"
-    quietly "Making a Debian 13 in $folder" asRoot unshare --mount --propagation private \
+    quietly "Making a Debian 13 in $folder" privately \
         debootstrap --variant=minbase trixie "$folder" "$(mirror)"
     useNetwork
     mapfile -t packages < <(packagesOf base tests xr)
