@@ -1,8 +1,9 @@
 // What LeakSanitizer passes over: libraries that lose memory over input they refuse.
 // teem 1.12: 88 bytes an error in a header, from airArrayNew.
 // udunits 2.2: the last word of a unit that it cannot parse, from its lexer.
-// VTK 9.1: the colours of a legacy file, and an XML array whose values end early.
+// VTK 9.1: the colours and the arrays of a legacy file, and an XML array whose values end early.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
-    return "leak:libteem.so\nleak:utlex\nleak:vtkLookupTable::New\nleak:vtkArrayIteratorTemplate\n";
+    return "leak:libteem.so\nleak:utlex\nleak:vtkLookupTable::New\nleak:vtkArrayIteratorTemplate\n"
+           "leak:vtk*Array::New\n";
 }
