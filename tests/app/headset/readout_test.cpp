@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(Readout, SaysWhatIsShown) {
-    tests::ScriptedExploration world({.times = {0, 0.5, 1}});
+    tests::ScriptedExploration world({.steps = 3, .times = {0, 0.5, 1}});
     Exploration& e = world.exploration;
     Explorer next = e.explorer();
     next.layers = {
