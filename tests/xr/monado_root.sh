@@ -42,22 +42,35 @@ useNetwork() {
     asRoot cp -r /etc/apt/apt.conf.d/. "$folder/etc/apt/apt.conf.d/"
 }
 
+# What it holds beyond Debian's smallest system.
+packages() { packagesOf base tests xr; }
+
+# A folder that an earlier checkout made may lack what this one's list has since gained: it is told by
+# the list that the folder was completed with, and completed again.
+isComplete() { [[ -f $complete ]] && packages | cmp -s - "$complete"; }
+
 make() {
-    local -a packages
-    if [[ -f $complete ]]; then return; fi
-    remove  # what an interrupted run has left
-    command -v debootstrap >/dev/null ||
-        quietly "Installing debootstrap" asRoot apt-get install -y -qq --no-install-recommends debootstrap
-    asRoot mkdir -p "$folder"
-    asRoot touch "$ours"
-    quietly "Making a Debian 13 in $folder" privately \
-        debootstrap --variant=minbase trixie "$folder" "$(mirror)"
+    if isComplete; then return; fi
+    if [[ ! -f $complete ]]; then
+        remove  # what an interrupted run has left
+        command -v debootstrap >/dev/null || quietly "Installing debootstrap" \
+            asRoot apt-get install -y -qq --no-install-recommends debootstrap
+        asRoot mkdir -p "$folder"
+        asRoot touch "$ours"
+        quietly "Making a Debian 13 in $folder" privately \
+            debootstrap --variant=minbase trixie "$folder" "$(mirror)"
+    fi
+    addPackages
+}
+
+addPackages() {
+    local -a wanted
+    mapfile -t wanted < <(packages)
     useNetwork
-    mapfile -t packages < <(packagesOf base tests xr)
-    quietly "Reading its package lists" enter apt-get update -qq
-    quietly "Installing its packages" enter apt-get install -y -qq --no-install-recommends "${packages[@]}"
+    quietly "Reading the package lists of $folder" enter apt-get update -qq
+    quietly "Installing its packages" enter apt-get install -y -qq --no-install-recommends "${wanted[@]}"
     quietly "Cleaning up" enter apt-get clean
-    asRoot touch "$complete"
+    packages | asRoot tee "$complete" >/dev/null
 }
 
 # The files that git knows or would take, as they are now, their times kept for the build.
@@ -70,7 +83,7 @@ copySource() {
 }
 
 run() {
-    [[ -f $complete ]] || die "There is no Debian 13 in $folder: tests/xr/monado_root.sh make"
+    isComplete || die "There is no Debian 13, or not all of it, in $folder: tests/xr/monado_root.sh make"
     copySource
     enter bash -c 'cd "$0/source" && "$@"' "$inside" "$@"
 }
@@ -97,7 +110,7 @@ case $command in
     make) make ;;
     test) tests "$@" ;;
     run) run "$@" ;;
-    there) [[ -f $complete ]] ;;
+    there) isComplete ;;
     --remove) remove ;;
     *) die "$(sed -n '2,/^set/{s/^# \{0,1\}//;/^set/d;p}' "${BASH_SOURCE[0]}")" ;;
 esac
