@@ -13,6 +13,7 @@ namespace xr {
 struct Pose {
     glm::dquat orientation{1, 0, 0, 0};
     glm::dvec3 position{0};
+    friend bool operator==(const Pose&, const Pose&) = default;
 };
 glm::dmat4 matrix(const Pose& pose);
 Pose inverse(const Pose& pose);
@@ -28,6 +29,7 @@ struct Fov {
 struct Placement {
     Pose stageFromVolume;        // of the volume's own axes
     double metresPerUnit = 0.3;  // > 0: half the box's diagonal in metres
+    friend bool operator==(const Placement&, const Placement&) = default;
 };
 glm::dmat4 stageFromWorld(const Placement& placement);
 

@@ -87,7 +87,11 @@ std::chrono::nanoseconds Headset::since(std::chrono::nanoseconds displayTime) {
 }
 
 void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
-    RoomInput input{.hands = frame.hands(), .head = frame.head(), .dt = dt, .boxHalfEdges = {}};
+    RoomInput input{.hands = frame.hands(),
+                    .head = frame.head(),
+                    .dt = dt,
+                    .boxHalfEdges = {},
+                    .asked = std::exchange(asked_, std::nullopt)};
     if (const render::Lattice* drawn = eyes_.canvas().lattice())
         input.boxHalfEdges = drawn->boxHalfEdges();
     else if (const auto shown = exploration_.shown())
@@ -110,9 +114,12 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
                                          .gpuBytes = report.gpuBytes,
                                          .whole = report.whole,
                                          .uploaded = report.uploaded,
-                                         .step = report.step}};
+                                         .step = report.step},
+                         .buttons = {.canUndo = room_.canUndoMove()}};
     if (report.gpuTime) around.performance.frame = *report.gpuTime;
-    serve(panel_.draw(exploration_, room_.pointer(), around, dt));
+    const Panel::Asked asked = panel_.draw(exploration_, room_.pointer(), around, dt);
+    asked_ = asked.room;
+    serve(asked.requests);
 }
 
 void Headset::serve(const panels::Requests& requests) {

@@ -50,6 +50,7 @@ class Headset {
     std::unique_ptr<Graphics> graphics_;
     std::unique_ptr<xr::Session> session_;
     Room room_;
+    std::optional<RoomCommand> asked_;  // by the panel, for the next frame
     Eyes eyes_;
     Panel panel_;
     TextBoard readout_;

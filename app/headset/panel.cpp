@@ -25,8 +25,8 @@ Panel::Context::~Context() {
 Panel::Panel(std::function<void()> wake) : board_(kPanelPixels), interface_(std::move(wake)) {}
 Panel::~Panel() = default;
 
-panels::Requests Panel::draw(Exploration& exploration, const std::optional<Pointer>& pointer,
-                             const Around& around, std::chrono::nanoseconds dt) {
+Panel::Asked Panel::draw(Exploration& exploration, const std::optional<Pointer>& pointer,
+                         const Around& around, std::chrono::nanoseconds dt) {
     ImGuiIO& io = ImGui::GetIO();
     const glm::vec2 size(kPanelPixels);
     io.DisplaySize = {size.x, size.y};
@@ -46,7 +46,7 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
         ground.AddText(context_.theme.text, context_.theme.text->FontSize,
                        {panels::kMargin * kPanelScale, 0.3f * size.y}, panels::kDim,
                        around.help.c_str());
-    panels::Requests requests;
+    Asked asked;
     interface_.draw(exploration,
                     {.window = size,
                      .theme = context_.theme,
@@ -56,7 +56,12 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
                      .exporting = around.exporting,
                      .dt = dt,
                      .performance = around.performance},
-                    requests);
+                    asked.requests);
+    if (exploration.shown())
+        asked.room = drawRoomButtons(
+            context_.theme,
+            panels::layoutOf(size, context_.theme.scale, interface_.choices().sideWidth),
+            around.buttons);
     if (pointer)
         ImGui::GetForegroundDrawList()->AddCircleFilled(
             io.MousePos, 5 * kPanelScale, pointer->pressed ? panels::kAccent : panels::kText);
@@ -64,7 +69,7 @@ panels::Requests Panel::draw(Exploration& exploration, const std::optional<Point
     board_.beginDrawing();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     board_.drawn();
-    return requests;
+    return asked;
 }
 
 }  // namespace app::headset

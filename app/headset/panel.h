@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "app/headset/room.h"
+#include "app/headset/room_buttons.h"
 #include "app/panels/interface.h"
 #include "render/placard.h"
 
@@ -29,10 +29,16 @@ class Panel {
         std::string help;  // stands where a window has its picture
         std::optional<std::string> exporting;
         panels::Performance performance;
+        RoomButtons buttons;
     };
-    // A frame of the interface. Returns what it asks of the front end.
-    panels::Requests draw(Exploration& exploration, const std::optional<Pointer>& pointer,
-                          const Around& around, std::chrono::nanoseconds dt);
+    // What it asks of the front end, and of the room.
+    struct Asked {
+        panels::Requests requests;
+        std::optional<RoomCommand> room;
+    };
+    // A frame of the interface.
+    Asked draw(Exploration& exploration, const std::optional<Pointer>& pointer,
+               const Around& around, std::chrono::nanoseconds dt);
 
     const render::Board& board() const { return board_; }
     panels::Interface& interface() { return interface_; }

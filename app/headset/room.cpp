@@ -16,6 +16,7 @@ constexpr std::size_t kTimeHand = 0, kValueHand = 1;
 std::vector<Pulse> Room::update(Exploration& exploration, const RoomInput& input) {
     pulses_.clear();
     place(input);
+    if (input.asked) obey(*input.asked, input);
     for (std::size_t hand = 0; hand < 2; ++hand) press(exploration, hand, input);
     carry(input);
     point(input);
@@ -27,17 +28,32 @@ std::vector<Pulse> Room::update(Exploration& exploration, const RoomInput& input
 void Room::place(const RoomInput& input) {
     if (!input.head) return;
     if (!std::exchange(panelPlaced_, true)) panel_ = panelBefore(*input.head);
-    if (input.boxHalfEdges && !std::exchange(placed_, true))
+    if (input.boxHalfEdges && !std::exchange(placed_, true)) {
         placement_ = volumeBefore(*input.head, *input.boxHalfEdges);
+        placements_.settle(placement_);
+    }
+}
+
+void Room::obey(RoomCommand command, const RoomInput& input) {
+    if (!placed_) return;
+    // A volume in a hand rests for this moment, and the hand goes on from where it then is.
+    placements_.settle(placement_);
+    switch (command) {
+        case RoomCommand::Bring:
+            bring(input);
+            break;
+        case RoomCommand::UndoMove:
+            if (placements_.canUndo()) placement_ = placements_.undo();
+            break;
+        case RoomCommand::ResetSize:
+            if (input.boxHalfEdges) placement_.metresPerUnit = firstSize(*input.boxHalfEdges);
+            break;
+    }
+    placements_.settle(placement_);
 }
 
 void Room::bring(const RoomInput& input) {
     if (!input.head || !input.boxHalfEdges) return;
-    if (broughtFrom_) {
-        placement_ = *std::exchange(broughtFrom_, std::nullopt);
-        return;
-    }
-    broughtFrom_ = placement_;
     placement_ = volumeBefore(*input.head, *input.boxHalfEdges);
     panel_ = panelBefore(*input.head);
 }
@@ -72,7 +88,7 @@ void Room::press(Exploration& exploration, std::size_t hand, const RoomInput& in
         // A trigger that is pulled while the volume is held does not let it go.
         if (meaning != Meaning::Volume) meaning = pressed;
     }
-    if (now.bring && !before.bring) bring(input);
+    if (now.bring && !before.bring) obey(RoomCommand::Bring, input);
     if (now.swing && !before.swing) toggleSwing(exploration);
     if (now.menu && !before.menu) {
         const bool shown = panel_.has_value();
@@ -85,8 +101,9 @@ void Room::carry(const RoomInput& input) {
     std::array<std::optional<xr::Pose>, 2> holding;
     for (std::size_t hand = 0; hand < 2; ++hand)
         if (holds(hand)) holding[hand] = input.hands[hand].grip;
-    if (holding[0] || holding[1]) broughtFrom_.reset();
     placement_ = grab_.update(placement_, holding);
+    const bool carries = holds(0) || holds(1);
+    if (std::exchange(carried_, carries) && !carries) placements_.settle(placement_);
 }
 
 void Room::point(const RoomInput& input) {

@@ -9,12 +9,20 @@
 #include <vector>
 
 #include "app/exploration.h"
+#include "app/headset/placement_history.h"
 #include "app/headset/standing.h"
 #include "app/headset/sticks.h"
 #include "xr/grab.h"
 #include "xr/session.h"
 
 namespace app::headset {
+
+// What is asked of the room by a button of its own (room_buttons.h).
+enum class RoomCommand {
+    Bring,      // volume and panel before the head
+    UndoMove,   // the volume where it rested before; see PlacementHistory
+    ResetSize,  // the volume as large as it was at first, about its middle
+};
 
 // What a frame brings.
 struct RoomInput {
@@ -23,6 +31,7 @@ struct RoomInput {
     std::chrono::nanoseconds dt{0};
     // Lattice::boxHalfEdges() of what is drawn; none before there is any.
     std::optional<glm::dmat3> boxHalfEdges;
+    std::optional<RoomCommand> asked = {};
 };
 
 // The panel as a mouse sees it: [0, 1] from its upper left corner.
@@ -43,14 +52,15 @@ class Room {
  public:
     // Grab moves the volume; left stick: time, right stick: value; select on the panel clicks,
     // elsewhere plays and pauses; menu hides and shows the panel; swing turns the sweep's path;
-    // bring puts volume and panel before the head, and, pressed again before the volume is moved,
-    // back. A controller with one button means the panel or the volume where its ray meets them,
-    // and else plays. Returns what the hands are to feel.
+    // bring is RoomCommand::Bring. A controller with one button means the panel or the volume where
+    // its ray meets them, and else plays. Returns what the hands are to feel.
     std::vector<Pulse> update(Exploration& exploration, const RoomInput& input);
 
     const xr::Placement& placement() const { return placement_; }
     const std::optional<Plate>& panel() const { return panel_; }  // none while hidden
     const std::optional<Pointer>& pointer() const { return pointer_; }
+    // Whether the volume has moved since it was placed, or since all of that was undone.
+    bool canUndoMove() const { return placements_.canUndo(); }
     bool holds(std::size_t hand) const { return meaning_[hand] == Meaning::Volume; }
 
  private:
@@ -58,6 +68,7 @@ class Room {
     enum class Meaning { Nothing, Volume, Panel, Other };
 
     void place(const RoomInput& input);
+    void obey(RoomCommand command, const RoomInput& input);
     void bring(const RoomInput& input);
     Meaning meant(std::size_t hand, const RoomInput& input) const;
     void press(Exploration& exploration, std::size_t hand, const RoomInput& input);
@@ -67,13 +78,14 @@ class Room {
 
     xr::Placement placement_;
     bool placed_ = false;
-    std::optional<xr::Placement> broughtFrom_;
+    PlacementHistory placements_;
     std::optional<Plate> panel_;
     bool panelPlaced_ = false;
     std::optional<Pointer> pointer_;
     std::size_t pointing_ = 1;
     std::array<xr::Hand, 2> before_;
     std::array<Meaning, 2> meaning_{};
+    bool carried_ = false;  // a hand has held the volume since it rested
     xr::Grab grab_;
     Sticks sticks_;
     Sticks::Ends atEnd_;

@@ -35,14 +35,18 @@ glm::dquat facing(const glm::dvec3& from, const glm::dvec3& eye) {
 
 }  // namespace
 
+double firstSize(const glm::dmat3& boxHalfEdges) {
+    const double longest = std::max({glm::length(boxHalfEdges[0]), glm::length(boxHalfEdges[1]),
+                                     glm::length(boxHalfEdges[2]), 1e-3});
+    return 0.5 * kVolumeWide / longest;
+}
+
 xr::Placement volumeBefore(const xr::Pose& head, const glm::dmat3& boxHalfEdges) {
     // z up -> y up.
     const glm::dquat upright = glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(1, 0, 0));
     const glm::dquat turn = heading(head);
-    const double longest = std::max({glm::length(boxHalfEdges[0]), glm::length(boxHalfEdges[1]),
-                                     glm::length(boxHalfEdges[2]), 1e-3});
     return {{turn * upright, head.position + turn * glm::dvec3(0, -kVolumeBelowEye, -kVolumeAhead)},
-            0.5 * kVolumeWide / longest};
+            firstSize(boxHalfEdges)};
 }
 
 Plate panelBefore(const xr::Pose& head) {

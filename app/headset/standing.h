@@ -15,6 +15,7 @@ namespace app::headset {
 // runtime knows of the floor. `boxHalfEdges`: Lattice::boxHalfEdges().
 inline constexpr double kVolumeWide = 0.6, kVolumeAhead = 0.85, kVolumeBelowEye = 0.25;
 xr::Placement volumeBefore(const xr::Pose& head, const glm::dmat3& boxHalfEdges);
+double firstSize(const glm::dmat3& boxHalfEdges);  // Placement::metresPerUnit of that
 
 // A flat thing: x right, y up, z towards who looks at it; `half` its half width and height.
 struct Plate {

@@ -43,6 +43,32 @@ class RoomOfAnExploration : public testing::Test {
         hand.aim = looking({0.2, 1.3, -0.2}, at);
         hand.grip = hand.aim;
     }
+    void ask(RoomCommand command) {
+        input_.asked = command;
+        frame();
+        input_.asked.reset();
+    }
+    // Takes hold, goes along, lets go.
+    void carry(xr::Hand& hand, const glm::dvec3& by) {
+        hand.grip = xr::Pose{};
+        hand.grab = true;
+        frame();
+        hand.grip->position += by;
+        frame();
+        hand.grab = false;
+        frame();
+    }
+    // Both hands, from 0.4 m apart.
+    void stretch(double ratio) {
+        for (xr::Hand* hand : {&left_, &right_}) hand->grab = true;
+        for (const double apart : {0.4, 0.4 * ratio}) {
+            left_.grip = xr::Pose{{1, 0, 0, 0}, {-0.5 * apart, 1.2, -0.5}};
+            right_.grip = xr::Pose{{1, 0, 0, 0}, {0.5 * apart, 1.2, -0.5}};
+            frame();
+        }
+        for (xr::Hand* hand : {&left_, &right_}) hand->grab = false;
+        frame();
+    }
     glm::dvec3 volume() const { return room_.placement().stageFromVolume.position; }
     bool playing() const { return e_.playback().playing; }
 };
@@ -180,34 +206,68 @@ TEST_F(RoomOfAnExploration, AControllerWithOneButtonMeansWhatItsRayMeets) {
     EXPECT_TRUE(playing());
 }
 
-TEST_F(RoomOfAnExploration, BringAndBringBack) {
-    left_.grip = xr::Pose{};
-    left_.grab = true;
-    frame();
-    left_.grip->position = {0, 0, -4};
-    frame();
-    left_.grab = false;
-    frame();
-    const glm::dvec3 far = volume();
-    const auto bring = [&] {
-        left_.bring = true;
-        frame();
-        left_.bring = false;
-        frame();
-    };
-    bring();
-    EXPECT_EQ(volume(), volumeBefore(*input_.head, *input_.boxHalfEdges).stageFromVolume.position);
-    bring();
-    EXPECT_EQ(volume(), far);
-    bring();
-    left_.grab = true;
-    frame();
-    left_.grab = false;
-    frame();
+TEST_F(RoomOfAnExploration, ThePressedStickBringsVolumeAndPanelBeforeTheHead) {
+    carry(left_, {0, 0, -4});
     input_.head->position.x += 1;
-    bring();
-    EXPECT_EQ(volume(), volumeBefore(*input_.head, *input_.boxHalfEdges).stageFromVolume.position)
-        << "moved by hand since, so brought again";
+    left_.bring = true;
+    frame();
+    EXPECT_EQ(room_.placement(), volumeBefore(*input_.head, *input_.boxHalfEdges));
+    EXPECT_EQ(room_.panel()->stageFromPlate, panelBefore(*input_.head).stageFromPlate);
+    input_.head->position.x += 1;
+    frame();
+    EXPECT_NEAR(volume().x, 1, 1e-12) << "once a press";
+}
+
+TEST_F(RoomOfAnExploration, EachMoveIsUndoneByItself) {
+    EXPECT_FALSE(room_.canUndoMove()) << "it has only been placed";
+    std::vector rests{room_.placement()};
+    const auto rest = [&] {
+        EXPECT_FALSE(room_.placement() == rests.back());
+        rests.push_back(room_.placement());
+    };
+    carry(right_, {0.1, 0.2, 0.3});
+    rest();
+    stretch(3);
+    rest();
+    ask(RoomCommand::ResetSize);
+    rest();
+    input_.head->position.x += 1;
+    ask(RoomCommand::Bring);
+    rest();
+    while (rests.size() > 1) {
+        ASSERT_TRUE(room_.canUndoMove());
+        rests.pop_back();
+        ask(RoomCommand::UndoMove);
+        EXPECT_EQ(room_.placement(), rests.back());
+    }
+    EXPECT_FALSE(room_.canUndoMove());
+    ask(RoomCommand::UndoMove);
+    EXPECT_EQ(room_.placement(), rests.back()) << "nothing is left to undo";
+}
+
+TEST_F(RoomOfAnExploration, UndoWhileAHandHoldsTheVolumeTakesBackThatHandsWay) {
+    const xr::Placement first = room_.placement();
+    right_.grip = xr::Pose{};
+    right_.grab = true;
+    frame();
+    right_.grip->position.x = 0.5;
+    frame();
+    ask(RoomCommand::UndoMove);
+    EXPECT_EQ(room_.placement(), first);
+    right_.grip->position.x = 0.6;
+    frame();
+    EXPECT_LT(glm::distance(volume(), first.stageFromVolume.position + glm::dvec3(0.1, 0, 0)),
+              1e-12)
+        << "it goes on from there";
+}
+
+TEST_F(RoomOfAnExploration, TheFirstSizeComesBackWhereTheVolumeIs) {
+    const double first = room_.placement().metresPerUnit;
+    stretch(0.5);
+    const xr::Placement small = room_.placement();
+    EXPECT_NEAR(small.metresPerUnit, 0.5 * first, 1e-12);
+    ask(RoomCommand::ResetSize);
+    EXPECT_EQ(room_.placement(), (xr::Placement{small.stageFromVolume, first}));
 }
 
 TEST_F(RoomOfAnExploration, SticksPlayTimeWithTheLeftHandAndValueWithTheRight) {
