@@ -20,7 +20,9 @@ std::string helpText(const xr::Session& session) {
     std::string text = "In " + session.runtimeName();
     if (!bound.empty()) text += "\n" + bound;
     while (text.ends_with('\n')) text.pop_back();
-    return text + "\nBoth hands: scale and turn\nRight stick: values · left stick: time";
+    return text +
+           "\nBoth hands: scale and turn\nRight stick: values · left stick: time\n"
+           "Stick of a hand that holds the volume: turn it";
 }
 
 }  // namespace

@@ -7,7 +7,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Pulse kGrabbed{0, 0.5, 30ms}, kAtEnd{0, 0.3, 20ms};
+// Amplitude and duration.
+constexpr Pulse kGrabbed{0, 0.5, 30ms}, kTurned{0, 0.4, 15ms}, kAtEnd{0, 0.3, 20ms};
 constexpr double kScrollLines = 12;  // a second
 constexpr std::size_t kTimeHand = 0, kValueHand = 1;
 
@@ -19,6 +20,7 @@ std::vector<Pulse> Room::update(Exploration& exploration, const RoomInput& input
     if (input.asked) obey(*input.asked, input);
     for (std::size_t hand = 0; hand < 2; ++hand) press(exploration, hand, input);
     carry(input);
+    turn(input);
     point(input);
     play(exploration, input);
     before_ = input.hands;
@@ -80,11 +82,7 @@ void Room::press(Exploration& exploration, std::size_t hand, const RoomInput& in
         const Meaning pressed = meant(hand, input);
         if (pressed == Meaning::Other) exploration.togglePlay();
         if (pressed == Meaning::Panel) pointing_ = hand;
-        if (pressed == Meaning::Volume) {
-            Pulse pulse = kGrabbed;
-            pulse.hand = static_cast<int>(hand);
-            pulses_.push_back(pulse);
-        }
+        if (pressed == Meaning::Volume) feel(hand, kGrabbed);
         // A trigger that is pulled while the volume is held does not let it go.
         if (meaning != Meaning::Volume) meaning = pressed;
     }
@@ -106,6 +104,18 @@ void Room::carry(const RoomInput& input) {
     if (std::exchange(carried_, carries) && !carries) placements_.settle(placement_);
 }
 
+// Each turn is a move of its own, also amid a carry.
+void Room::turn(const RoomInput& input) {
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+        const int steps = snap_[hand].update(holds(hand), input.hands[hand].stick.x);
+        if (steps == 0) continue;
+        placements_.settle(placement_);
+        placement_ = turned(placement_, steps);
+        placements_.settle(placement_);
+        feel(hand, kTurned);
+    }
+}
+
 void Room::point(const RoomInput& input) {
     pointer_.reset();
     if (!panel_) return;
@@ -125,17 +135,23 @@ void Room::point(const RoomInput& input) {
 }
 
 void Room::play(Exploration& exploration, const RoomInput& input) {
-    const Sticks::Ends ends = sticks_.move(exploration, input.hands[kValueHand].stick.x,
-                                           input.hands[kTimeHand].stick.x, input.dt);
-    const auto feel = [&](std::size_t hand, bool now, bool& was) {
-        Pulse pulse = kAtEnd;
-        pulse.hand = static_cast<int>(hand);
+    std::array<double, 2> sticks{};
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        if (!snap_[hand].owns()) sticks[hand] = input.hands[hand].stick.x;
+    const Sticks::Ends ends =
+        sticks_.move(exploration, sticks[kValueHand], sticks[kTimeHand], input.dt);
+    const auto feelEnd = [&](std::size_t hand, bool now, bool& was) {
         // An end is felt once, until the stick comes back.
-        if (now && !was) pulses_.push_back(pulse);
-        was = now || (was && rateOf(input.hands[hand].stick.x) != 0);
+        if (now && !was) feel(hand, kAtEnd);
+        was = now || (was && rateOf(sticks[hand]) != 0);
     };
-    feel(kValueHand, ends.value, atEnd_.value);
-    feel(kTimeHand, ends.time, atEnd_.time);
+    feelEnd(kValueHand, ends.value, atEnd_.value);
+    feelEnd(kTimeHand, ends.time, atEnd_.time);
+}
+
+void Room::feel(std::size_t hand, Pulse pulse) {
+    pulse.hand = static_cast<int>(hand);
+    pulses_.push_back(pulse);
 }
 
 }  // namespace app::headset

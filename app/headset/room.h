@@ -10,6 +10,7 @@
 
 #include "app/exploration.h"
 #include "app/headset/placement_history.h"
+#include "app/headset/snap_turn.h"
 #include "app/headset/standing.h"
 #include "app/headset/sticks.h"
 #include "xr/grab.h"
@@ -50,10 +51,11 @@ struct Pulse {
 
 class Room {
  public:
-    // Grab moves the volume; left stick: time, right stick: value; select on the panel clicks,
-    // elsewhere plays and pauses; menu hides and shows the panel; swing turns the sweep's path;
-    // bring is RoomCommand::Bring. A controller with one button means the panel or the volume where
-    // its ray meets them, and else plays. Returns what the hands are to feel.
+    // Grab moves the volume. Left stick: time, right stick: value; but of a hand that holds the
+    // volume, it turns that by steps. Select on the panel clicks, elsewhere plays and pauses; menu
+    // hides and shows the panel; swing turns the sweep's path; bring is RoomCommand::Bring. A
+    // controller with one button means the panel or the volume where its ray meets them, and else
+    // plays. Returns what the hands are to feel.
     std::vector<Pulse> update(Exploration& exploration, const RoomInput& input);
 
     const xr::Placement& placement() const { return placement_; }
@@ -73,8 +75,10 @@ class Room {
     Meaning meant(std::size_t hand, const RoomInput& input) const;
     void press(Exploration& exploration, std::size_t hand, const RoomInput& input);
     void carry(const RoomInput& input);
+    void turn(const RoomInput& input);
     void point(const RoomInput& input);
     void play(Exploration& exploration, const RoomInput& input);
+    void feel(std::size_t hand, Pulse pulse);
 
     xr::Placement placement_;
     bool placed_ = false;
@@ -87,6 +91,7 @@ class Room {
     std::array<Meaning, 2> meaning_{};
     bool carried_ = false;  // a hand has held the volume since it rested
     xr::Grab grab_;
+    std::array<SnapTurn, 2> snap_;
     Sticks sticks_;
     Sticks::Ends atEnd_;
     std::vector<Pulse> pulses_;

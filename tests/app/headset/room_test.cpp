@@ -128,6 +128,50 @@ TEST_F(RoomOfAnExploration, TheOtherHandJoinsWithoutAJumpAndScales) {
     EXPECT_NEAR(room_.placement().metresPerUnit, 2 * before.metresPerUnit, 1e-12);
 }
 
+TEST_F(RoomOfAnExploration, TheStickOfAHandThatHoldsTurnsTheVolumeAndMovesNothingElse) {
+    const std::size_t step = e_.explorer().steps->first;
+    left_.grip = xr::Pose{};
+    left_.grab = true;
+    frame();
+    const xr::Placement before = room_.placement();
+    left_.stick.x = 1;
+    const auto pulses = frame();
+    ASSERT_EQ(pulses.size(), 1u);
+    EXPECT_EQ(pulses[0].hand, 0);
+    EXPECT_EQ(room_.placement(), turned(before, 1));
+    for (int i = 0; i < 100; ++i) frame();
+    EXPECT_EQ(room_.placement(), turned(before, 1)) << "one step a flick";
+    left_.grab = false;
+    for (int i = 0; i < 100; ++i) frame();
+    EXPECT_EQ(e_.explorer().steps->first, step) << "before the stick has come back";
+    left_.stick.x = 0;
+    frame();
+    left_.stick.x = 1;
+    for (int i = 0; i < 100; ++i) frame();
+    EXPECT_GT(e_.explorer().steps->first, step);
+}
+
+TEST_F(RoomOfAnExploration, ATurnAmidACarryIsUndoneByItself) {
+    right_.grip = xr::Pose{};
+    right_.grab = true;
+    frame();
+    right_.grip->position = {0.3, 0, 0};
+    frame();
+    const xr::Placement carried = room_.placement();
+    right_.stick.x = -1;
+    frame();
+    const xr::Placement turnedThere = room_.placement();
+    EXPECT_EQ(turnedThere, turned(carried, -1));
+    right_.grip->position = {0.3, 0.4, 0};
+    frame();
+    right_.grab = false;
+    frame();
+    ask(RoomCommand::UndoMove);
+    EXPECT_EQ(room_.placement(), turnedThere);
+    ask(RoomCommand::UndoMove);
+    EXPECT_EQ(room_.placement(), carried);
+}
+
 TEST_F(RoomOfAnExploration, TheTriggerPlaysAndPauses) {
     aim(right_, {3, 0, 3});
     right_.select = true;
