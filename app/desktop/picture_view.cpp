@@ -89,17 +89,17 @@ std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     return report_.uploaded < 1 ? 0ns : std::chrono::nanoseconds(kRest);
 }
 
-std::optional<panels::Reading> PictureView::read(glm::vec2 at) const {
+std::optional<Reading> PictureView::read(glm::vec2 at) const {
     if (!eye_) return std::nullopt;
     const glm::dvec2 window(static_cast<double>(at.x) + 0.5,
                             static_cast<double>(eye_->size.y) - static_cast<double>(at.y) - 0.5);
     const auto found = canvas_.probe(*eye_, window);
     if (!found) return std::nullopt;
-    return panels::Reading{.index = found->index,
-                           .value = found->value,
-                           .position = found->coordinates,
-                           .world = found->picked.world,
-                           .step = report_.step};
+    return Reading{.index = found->index,
+                   .value = found->value,
+                   .position = found->coordinates,
+                   .world = found->picked.world,
+                   .step = report_.step};
 }
 
 }  // namespace app::desktop

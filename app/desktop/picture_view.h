@@ -28,7 +28,7 @@ class PictureView {
     std::optional<std::chrono::nanoseconds> untilNextDraw() const;
 
     // What is seen at a place of the picture, y down; none there, and with two eyes.
-    std::optional<panels::Reading> read(glm::vec2 at) const;
+    std::optional<Reading> read(glm::vec2 at) const;
 
     // How long the frame took that the last draw() belongs to, where the GPU did not tell.
     void took(std::chrono::nanoseconds frame);

@@ -2,11 +2,9 @@
 // what only the front end can do.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,19 +13,11 @@
 #include "app/panels/keys.h"
 #include "app/panels/layout.h"
 #include "app/panels/theme.h"
+#include "app/reading.h"
 
 namespace app::panels {
 
 enum class Page { Animation, View, Quality, Probe };
-
-// What stands under the cursor, as the front end found it.
-struct Reading {
-    std::array<std::size_t, 3> index{};  // along x, y, z
-    timeseries::Number value;
-    glm::dvec3 position{0};  // grid coordinates
-    glm::dvec3 world{0};
-    std::size_t step = 0;
-};
 
 // How the last frame went.
 struct Performance {

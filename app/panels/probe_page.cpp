@@ -3,22 +3,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "render/ticks.h"
-
 namespace app::panels {
 namespace {
-
-std::string withUnit(const std::string& number, const std::string& unit) {
-    const std::string shown = render::shownUnit(unit);
-    return shown.empty() || shown == "index" ? number : number + " " + shown;
-}
-
-// As few digits as tell the value among those of its own type.
-std::string valueText(const timeseries::Number& value, timeseries::ValueType type) {
-    if (type == timeseries::ValueType::F32)
-        return fmt::format("{}", static_cast<float>(timeseries::toDouble(value)));
-    return timeseries::toText(value);
-}
 
 void line(const Theme& theme, Form& form, std::string_view label, std::string_view what) {
     const Rect row = form.row(label);
@@ -65,12 +51,11 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     const timeseries::Grid& grid = shown->sorted->grid();
     const Reading& r = second_ ? *second_ : *first_;
     line(desk.theme, form, shown->dataset.about.name,
-         withUnit(valueText(r.value, shown->sorted->type()), shown->dataset.about.units));
+         valueText(r.value, shown->sorted->type(), shown->dataset.about.units));
     for (int i = 0; i < 3; ++i) {
         const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(i)];
         line(desk.theme, form, axis.name,
-             fmt::format("{}   [{}]", withUnit(fmt::format("{:.6g}", r.position[i]), axis.units),
-                         r.index[static_cast<std::size_t>(i)]));
+             placeText(axis, r.position[i], r.index[static_cast<std::size_t>(i)]));
     }
     line(desk.theme, form, "Time", timeText(*shown->dataset.about.time, r.step));
     if (second_) ruler(desk, form, *first_, *second_, grid);
