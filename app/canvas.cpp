@@ -163,8 +163,9 @@ std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
                 e.size);
 }
 
-const render::Lattice* Canvas::lattice() const {
-    return state_->screen ? &state_->screen->held->lattice : nullptr;
+std::optional<Drawn> Canvas::drawn() const {
+    if (!state_->screen) return std::nullopt;
+    return Drawn{&state_->screen->held->lattice, state_->screen->sorted, state_->screen->step};
 }
 
 std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& window) const {

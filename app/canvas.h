@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "app/drawn.h"
 #include "app/exploration.h"
 #include "app/picture.h"
 #include "render/frame.h"
@@ -80,8 +81,8 @@ class Canvas {
 
     // The eyes of the shown explorer on a picture of its size (camera.h).
     std::vector<render::View> eyesOf(const Shown& shown) const;
-    // Of the step on the screen; null before the first.
-    const render::Lattice* lattice() const;
+    // What is on the screen, until the next draw(); none before the first.
+    std::optional<Drawn> drawn() const;
     // What an eye sees at a window position (pixels, y up), of what was drawn last; see pick.h.
     std::optional<Probe> probe(const render::View& eye, const glm::dvec2& window) const;
     // The picture as files have it: drawn whole and read back, with the session embedded. The step

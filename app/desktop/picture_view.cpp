@@ -76,7 +76,7 @@ void PictureView::redraw(const Shown& shown, bool moving, std::chrono::nanosecon
                     .uploaded = report_.uploaded,
                     .step = report_.step};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
-    if (canvas_.lattice() != nullptr) boxHalfEdges_ = canvas_.lattice()->boxHalfEdges();
+    if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->lattice->boxHalfEdges();
     eye_ = eyes.size() == 1 ? std::optional(eyes.front()) : std::nullopt;
 }
 

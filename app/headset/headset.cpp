@@ -22,7 +22,8 @@ std::string helpText(const xr::Session& session) {
     while (text.ends_with('\n')) text.pop_back();
     return text +
            "\nBoth hands: scale and turn\nRight stick: values · left stick: time\n"
-           "Stick of a hand that holds the volume: turn it";
+           "Stick of a hand that holds the volume: turn it\n"
+           "Trigger inside the volume: keep the point there";
 }
 
 }  // namespace
@@ -92,19 +93,25 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
     RoomInput input{.hands = frame.hands(),
                     .head = frame.head(),
                     .dt = dt,
-                    .boxHalfEdges = {},
+                    .drawn = eyes_.canvas().drawn(),
                     .asked = std::exchange(asked_, std::nullopt)};
-    if (const render::Lattice* drawn = eyes_.canvas().lattice())
-        input.boxHalfEdges = drawn->boxHalfEdges();
-    else if (const auto shown = exploration_.shown())
-        input.boxHalfEdges =
-            render::Lattice(shown->sorted->grid(), shown->explorer.scale).boxHalfEdges();
-    for (const Pulse& pulse : room_.update(exploration_, input))
+    // What comes first is placed before it is drawn.
+    std::optional<render::Lattice> first;
+    if (const auto shown = exploration_.shown(); shown && !input.drawn) {
+        first.emplace(shown->sorted->grid(), shown->explorer.scale);
+        input.drawn = Drawn{&*first, shown->sorted, shown->step};
+    }
+    const RoomOutcome outcome = room_.update(exploration_, input);
+    for (const Pulse& pulse : outcome.pulses)
         session_->vibrate(pulse.hand, pulse.amplitude, pulse.duration);
+    if (outcome.reading) {
+        panel_.interface().takeReading(outcome.reading, false);
+        panel_.interface().choices().page = panels::Page::Probe;
+    }
 }
 
 void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
-    readout_.write(readoutText(exploration_, eyes_.scale()));
+    readout_.write(readoutText(exploration_, room_.tip(), eyes_.scale()));
     if (!room_.panel()) return;
     const CanvasReport& report = eyes_.report();
     Panel::Around around{.offers = errands_.offers(),
@@ -137,8 +144,12 @@ void Headset::serve(const panels::Requests& requests) {
 }
 
 std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) const {
-    RoomBoards boards{.readout = &readout_.board(), .readoutHalf = readout_.half()};
+    RoomBoards boards{.panel = nullptr,
+                      .readout = &readout_.board(),
+                      .readoutHalf = readout_.half(),
+                      .kept = {}};
     if (room_.panel()) boards.panel = &panel_.board();
+    if (const auto& kept = panel_.interface().reading()) boards.kept = kept->world;
     return placardsOf(room_, frame.hands(), *frame.head(), boards);
 }
 

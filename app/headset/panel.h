@@ -42,6 +42,7 @@ class Panel {
 
     const render::Board& board() const { return board_; }
     panels::Interface& interface() { return interface_; }
+    const panels::Interface& interface() const { return interface_; }
 
  private:
     struct Context {

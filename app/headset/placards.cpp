@@ -6,8 +6,9 @@
 namespace app::headset {
 namespace {
 
-constexpr double kRayHalfWidth = 0.0015, kRayLength = 0.6, kHandHalf = 0.006;
-constexpr glm::vec3 kAccent(0.07f, 0.54f, 0.43f), kQuiet(0.3f, 0.33f, 0.37f);
+constexpr double kRayHalfWidth = 0.0015, kRayLength = 0.6, kHandHalf = 0.006, kMarkHalf = 0.004;
+constexpr glm::vec3 kAccent(0.07f, 0.54f, 0.43f), kQuiet(0.3f, 0.33f, 0.37f),
+    kMark(0.7f, 0.74f, 0.8f);
 
 // Along -z of the pose, its flat side to the head.
 Plate rayOf(const xr::Pose& aim, const xr::Pose& head, double length) {
@@ -19,6 +20,12 @@ Plate rayOf(const xr::Pose& aim, const xr::Pose& head, double length) {
         glm::length(across) > 1e-6 ? glm::normalize(across) : aim.orientation * glm::dvec3(1, 0, 0);
     return {{glm::quat_cast(glm::dmat3(x, along, glm::cross(x, along))), middle},
             {kRayHalfWidth, 0.5 * length}};
+}
+
+// The hand that the readout stands near.
+std::optional<xr::Pose> readoutHand(const Room& room, const std::array<xr::Hand, 2>& hands) {
+    if (room.tip() && hands[room.tip()->hand].grip) return hands[room.tip()->hand].grip;
+    return hands[1].grip ? hands[1].grip : hands[0].grip;
 }
 
 }  // namespace
@@ -34,21 +41,23 @@ std::vector<render::Placard> placardsOf(const Room& room, const std::array<xr::H
     for (std::size_t i = 0; i < 2; ++i) {
         const xr::Hand& hand = hands[i];
         const glm::vec3& color = room.holds(i) ? kAccent : kQuiet;
-        if (hand.grip)
-            put(readoutNear({hand.grip->orientation, hand.grip->position - glm::dvec3(0, 0.09, 0)},
-                            head, {kHandHalf, kHandHalf}),
-                color);
+        if (hand.grip) put(facingHead(hand.grip->position, head, glm::dvec2(kHandHalf)), color);
         if (!hand.aim || room.holds(i)) continue;
         const auto hit = room.panel() ? hitOf(*hand.aim, *room.panel()) : std::nullopt;
         put(rayOf(*hand.aim, head, hit ? hit->distance : kRayLength), hit ? kAccent : color);
     }
     if (boards.readout != nullptr) {
-        const auto& right = hands[1].grip ? hands[1].grip : hands[0].grip;
         // Without hands: under the volume.
         const glm::dvec3 under = room.placement().stageFromVolume.position - glm::dvec3(0, 0.45, 0);
-        put(readoutNear(right.value_or(xr::Pose{{1, 0, 0, 0}, under}), head, boards.readoutHalf),
-            boards.readout);
+        const xr::Pose at = readoutHand(room, hands).value_or(xr::Pose{{1, 0, 0, 0}, under});
+        put(readoutNear(at, head, boards.readoutHalf), boards.readout);
     }
+    const auto mark = [&](const glm::dvec3& world, const glm::vec3& color) {
+        const glm::dvec4 place = xr::stageFromWorld(room.placement()) * glm::dvec4(world, 1);
+        put(facingHead(glm::dvec3(place), head, glm::dvec2(kMarkHalf)), color);
+    };
+    if (boards.kept) mark(*boards.kept, kMark);
+    if (room.tip()) mark(room.tip()->world, kAccent);
     return placards;
 }
 

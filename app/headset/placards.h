@@ -12,9 +12,10 @@ namespace app::headset {
 
 struct RoomBoards {
     const render::Board* panel = nullptr;  // drawn where the room has one
-    // Near the right hand, else the left, else below the volume.
+    // Near the hand whose tip is in the volume, else the right hand, the left, below the volume.
     const render::Board* readout = nullptr;
-    glm::dvec2 readoutHalf{0};  // metres
+    glm::dvec2 readoutHalf{0};       // metres
+    std::optional<glm::dvec3> kept;  // the point kept of a probe, in the world
 };
 std::vector<render::Placard> placardsOf(const Room& room, const std::array<xr::Hand, 2>& hands,
                                         const xr::Pose& head, const RoomBoards& boards);

@@ -20,15 +20,32 @@ std::string valuesText(const Explorer& e, const Shown& shown) {
     return about.name + ", nothing visible";
 }
 
+std::string tipText(const TipProbe::At& tip, const Shown& shown) {
+    const timeseries::Variable& about = shown.dataset.about;
+    std::string text = about.name;
+    if (tip.value)
+        text += " " + valueText(*tip.value, shown.sorted->type(), about.units);
+    else
+        text += tip.known ? ": no value" : " \u2026";
+    for (std::size_t a = 0; a < 3; ++a) {
+        const timeseries::Axis& axis = shown.sorted->grid().axes()[a];
+        text += "\n" + axis.name + " " +
+                placeText(axis, tip.position[static_cast<int>(a)], tip.index[a]);
+    }
+    return text + "\n";
+}
+
 }  // namespace
 
-std::string readoutText(const Exploration& exploration, double renderScale) {
+std::string readoutText(const Exploration& exploration, const std::optional<TipProbe::At>& tip,
+                        double renderScale) {
     const auto shown = exploration.shown();
     if (!shown) {
         const auto opening = exploration.opening();
         return opening ? "opening " + *opening : "no file is open";
     }
-    std::string text = valuesText(exploration.explorer(), *shown);
+    std::string text = tip ? tipText(*tip, *shown) : "";
+    text += valuesText(exploration.explorer(), *shown);
     text +=
         fmt::format("\n{}, step {} of 0\u2013{}", timeText(*shown->dataset.about.time, shown->step),
                     shown->step, shown->dataset.stepCount() - 1);

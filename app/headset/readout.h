@@ -1,15 +1,20 @@
 // What is written near the hand: which values, when, how many points. Pure.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/exploration.h"
+#include "app/headset/tip_probe.h"
 
 namespace app::headset {
 
-// A line each: the values shown (with units), the time and the step, how many points, and, where
-// it is so, what is shown instead of what was asked for, that nothing plays on, and the share of
-// the headset's resolution that is drawn. Before there are data, what is being opened.
-std::string readoutText(const Exploration& exploration, double renderScale);
+// First what is at the tip of the hand that it stands near, where that is in the volume: value and
+// unit, and along each axis position and index. Then a line each: the values shown (with units),
+// the time and the step, how many points, and, where it is so, what is shown instead of what was
+// asked for, that nothing plays on, and the share of the headset's resolution that is drawn. Before
+// there are data, what is being opened.
+std::string readoutText(const Exploration& exploration, const std::optional<TipProbe::At>& tip,
+                        double renderScale);
 
 }  // namespace app::headset

@@ -9,29 +9,34 @@ using namespace std::chrono_literals;
 
 // Amplitude and duration.
 constexpr Pulse kGrabbed{0, 0.5, 30ms}, kTurned{0, 0.4, 15ms}, kAtEnd{0, 0.3, 20ms};
+constexpr auto kTap = 300ms;         // a longer press is a grab
 constexpr double kScrollLines = 12;  // a second
 constexpr std::size_t kTimeHand = 0, kValueHand = 1;
 
 }  // namespace
 
-std::vector<Pulse> Room::update(Exploration& exploration, const RoomInput& input) {
-    pulses_.clear();
+RoomOutcome Room::update(Exploration& exploration, const RoomInput& input) {
+    outcome_ = {};
     place(input);
     if (input.asked) obey(*input.asked, input);
-    for (std::size_t hand = 0; hand < 2; ++hand) press(exploration, hand, input);
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+        press(exploration, hand, input);
+        pushButtons(exploration, hand, input);
+    }
     carry(input);
     turn(input);
     point(input);
     play(exploration, input);
+    probe_.update(input.drawn, placement_, {tipOf(0, input), tipOf(1, input)});
     before_ = input.hands;
-    return std::move(pulses_);
+    return std::move(outcome_);
 }
 
 void Room::place(const RoomInput& input) {
     if (!input.head) return;
     if (!std::exchange(panelPlaced_, true)) panel_ = panelBefore(*input.head);
-    if (input.boxHalfEdges && !std::exchange(placed_, true)) {
-        placement_ = volumeBefore(*input.head, *input.boxHalfEdges);
+    if (input.drawn && !std::exchange(placed_, true)) {
+        placement_ = volumeBefore(*input.head, input.drawn->lattice->boxHalfEdges());
         placements_.settle(placement_);
     }
 }
@@ -48,16 +53,28 @@ void Room::obey(RoomCommand command, const RoomInput& input) {
             if (placements_.canUndo()) placement_ = placements_.undo();
             break;
         case RoomCommand::ResetSize:
-            if (input.boxHalfEdges) placement_.metresPerUnit = firstSize(*input.boxHalfEdges);
+            if (input.drawn)
+                placement_.metresPerUnit = firstSize(input.drawn->lattice->boxHalfEdges());
             break;
     }
     placements_.settle(placement_);
 }
 
 void Room::bring(const RoomInput& input) {
-    if (!input.head || !input.boxHalfEdges) return;
-    placement_ = volumeBefore(*input.head, *input.boxHalfEdges);
+    if (!input.head || !input.drawn) return;
+    placement_ = volumeBefore(*input.head, input.drawn->lattice->boxHalfEdges());
     panel_ = panelBefore(*input.head);
+}
+
+bool Room::pointsAtPanel(const xr::Hand& hand) const {
+    return panel_ && hand.aim && hitOf(*hand.aim, *panel_);
+}
+
+// None of a hand that holds something or points at the panel.
+std::optional<glm::dvec3> Room::tipOf(std::size_t hand, const RoomInput& input) const {
+    const xr::Hand& now = input.hands[hand];
+    if (!now.aim || holds(hand) || pointsAtPanel(now)) return std::nullopt;
+    return now.aim->position;
 }
 
 // REQUIRES: grab or select was pressed just now.
@@ -65,27 +82,53 @@ Room::Meaning Room::meant(std::size_t hand, const RoomInput& input) const {
     const xr::Hand& now = input.hands[hand];
     const bool grabs = now.grab && !before_[hand].grab;
     const bool selects = now.select && !before_[hand].select;
-    if (selects && panel_ && now.aim && hitOf(*now.aim, *panel_)) return Meaning::Panel;
     if (!selects) return Meaning::Volume;
-    const bool onVolume = grabs && now.aim && input.boxHalfEdges &&
-                          meetsBox(*now.aim, placement_, *input.boxHalfEdges);
-    return onVolume ? Meaning::Volume : Meaning::Other;
+    if (pointsAtPanel(now)) return Meaning::Panel;
+    if (!now.aim || !input.drawn) return Meaning::Other;
+    if (grabs) {
+        const glm::dmat3 box = input.drawn->lattice->boxHalfEdges();
+        return meetsBox(*now.aim, placement_, box) ? Meaning::Volume : Meaning::Other;
+    }
+    const auto tip = tipOf(hand, input);
+    return tip && isInBox(*input.drawn, placement_, *tip) ? Meaning::Point : Meaning::Other;
 }
 
 void Room::press(Exploration& exploration, std::size_t hand, const RoomInput& input) {
     const xr::Hand& now = input.hands[hand];
     const xr::Hand& before = before_[hand];
-    Meaning& meaning = meaning_[hand];
-    if (meaning == Meaning::Volume ? !now.grab : !now.select) meaning = Meaning::Nothing;
-    const bool selects = now.select && !before.select, grabs = now.grab && !before.grab;
-    if (selects || grabs) {
-        const Meaning pressed = meant(hand, input);
-        if (pressed == Meaning::Other) exploration.togglePlay();
-        if (pressed == Meaning::Panel) pointing_ = hand;
-        if (pressed == Meaning::Volume) feel(hand, kGrabbed);
-        // A trigger that is pulled while the volume is held does not let it go.
-        if (meaning != Meaning::Volume) meaning = pressed;
+    if (taps_[hand]) taps_[hand]->age += input.dt;
+    if (holds(hand) ? !now.grab : !now.select) letGo(hand, input);
+    if ((now.select && !before.select) || (now.grab && !before.grab))
+        begin(exploration, hand, input);
+}
+
+void Room::begin(Exploration& exploration, std::size_t hand, const RoomInput& input) {
+    const Meaning pressed = meant(hand, input);
+    const auto tip = tipOf(hand, input);
+    if (pressed == Meaning::Other) exploration.togglePlay();
+    if (pressed == Meaning::Panel) pointing_ = hand;
+    if (pressed == Meaning::Point) outcome_.reading = readingAt(*input.drawn, placement_, *tip);
+    if (pressed == Meaning::Volume) {
+        feel(hand, kGrabbed);
+        const bool selects = input.hands[hand].select && !before_[hand].select;
+        if (selects && tip) taps_[hand] = Tap{placement_, *tip};
     }
+    // A trigger that is pulled while the volume is held does not let it go.
+    if (!holds(hand)) meaning_[hand] = pressed;
+}
+
+void Room::letGo(std::size_t hand, const RoomInput& input) {
+    meaning_[hand] = Meaning::Nothing;
+    const auto tap = std::exchange(taps_[hand], std::nullopt);
+    if (!tap || tap->age > kTap || !input.drawn) return;
+    outcome_.reading = readingAt(*input.drawn, tap->from, tap->tip);
+    // A tap carries nothing.
+    if (outcome_.reading && !holds(1 - hand)) placement_ = tap->from;
+}
+
+void Room::pushButtons(Exploration& exploration, std::size_t hand, const RoomInput& input) {
+    const xr::Hand& now = input.hands[hand];
+    const xr::Hand& before = before_[hand];
     if (now.bring && !before.bring) obey(RoomCommand::Bring, input);
     if (now.swing && !before.swing) toggleSwing(exploration);
     if (now.menu && !before.menu) {
@@ -151,7 +194,7 @@ void Room::play(Exploration& exploration, const RoomInput& input) {
 
 void Room::feel(std::size_t hand, Pulse pulse) {
     pulse.hand = static_cast<int>(hand);
-    pulses_.push_back(pulse);
+    outcome_.pulses.push_back(pulse);
 }
 
 }  // namespace app::headset

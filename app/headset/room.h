@@ -4,15 +4,16 @@
 
 #include <array>
 #include <chrono>
-#include <glm/mat3x3.hpp>
 #include <optional>
 #include <vector>
 
+#include "app/drawn.h"
 #include "app/exploration.h"
 #include "app/headset/placement_history.h"
 #include "app/headset/snap_turn.h"
 #include "app/headset/standing.h"
 #include "app/headset/sticks.h"
+#include "app/headset/tip_probe.h"
 #include "xr/grab.h"
 #include "xr/session.h"
 
@@ -30,8 +31,7 @@ struct RoomInput {
     std::array<xr::Hand, 2> hands;  // left, right
     std::optional<xr::Pose> head;
     std::chrono::nanoseconds dt{0};
-    // Lattice::boxHalfEdges() of what is drawn; none before there is any.
-    std::optional<glm::dmat3> boxHalfEdges;
+    std::optional<Drawn> drawn;  // none before there is any
     std::optional<RoomCommand> asked = {};
 };
 
@@ -49,14 +49,21 @@ struct Pulse {
     std::chrono::nanoseconds duration;
 };
 
+// What a frame leads to, beside edits and placements.
+struct RoomOutcome {
+    std::vector<Pulse> pulses;
+    std::optional<Reading> reading;  // asked for, to be kept
+};
+
 class Room {
  public:
     // Grab moves the volume. Left stick: time, right stick: value; but of a hand that holds the
-    // volume, it turns that by steps. Select on the panel clicks, elsewhere plays and pauses; menu
-    // hides and shows the panel; swing turns the sweep's path; bring is RoomCommand::Bring. A
-    // controller with one button means the panel or the volume where its ray meets them, and else
-    // plays. Returns what the hands are to feel.
-    std::vector<Pulse> update(Exploration& exploration, const RoomInput& input);
+    // volume, it turns that by steps. Select on the panel clicks; with the tip (the aim pose's
+    // place) in the volume's box, it keeps the point there as a reading; elsewhere it plays and
+    // pauses. Menu hides and shows the panel; swing turns the sweep's path; bring is
+    // RoomCommand::Bring. A controller with one button means the panel or the volume where its ray
+    // meets them, and else plays; in the volume, a tap keeps the point at its tip.
+    RoomOutcome update(Exploration& exploration, const RoomInput& input);
 
     const xr::Placement& placement() const { return placement_; }
     const std::optional<Plate>& panel() const { return panel_; }  // none while hidden
@@ -64,16 +71,29 @@ class Room {
     // Whether the volume has moved since it was placed, or since all of that was undone.
     bool canUndoMove() const { return placements_.canUndo(); }
     bool holds(std::size_t hand) const { return meaning_[hand] == Meaning::Volume; }
+    // The point that a hand's tip is at, which holds nothing and points beside the panel.
+    const std::optional<TipProbe::At>& tip() const { return probe_.at(); }
 
  private:
     // What a hand's pressed button was taken for, until it is let go.
-    enum class Meaning { Nothing, Volume, Panel, Other };
+    enum class Meaning { Nothing, Volume, Panel, Point, Other };
+    // A press of a controller's only button in the volume: a grab, or a tap where it is short.
+    struct Tap {
+        xr::Placement from;
+        glm::dvec3 tip;
+        std::chrono::nanoseconds age{0};
+    };
 
     void place(const RoomInput& input);
     void obey(RoomCommand command, const RoomInput& input);
     void bring(const RoomInput& input);
     Meaning meant(std::size_t hand, const RoomInput& input) const;
+    bool pointsAtPanel(const xr::Hand& hand) const;
+    std::optional<glm::dvec3> tipOf(std::size_t hand, const RoomInput& input) const;
     void press(Exploration& exploration, std::size_t hand, const RoomInput& input);
+    void begin(Exploration& exploration, std::size_t hand, const RoomInput& input);
+    void letGo(std::size_t hand, const RoomInput& input);
+    void pushButtons(Exploration& exploration, std::size_t hand, const RoomInput& input);
     void carry(const RoomInput& input);
     void turn(const RoomInput& input);
     void point(const RoomInput& input);
@@ -94,7 +114,9 @@ class Room {
     std::array<SnapTurn, 2> snap_;
     Sticks sticks_;
     Sticks::Ends atEnd_;
-    std::vector<Pulse> pulses_;
+    std::array<std::optional<Tap>, 2> taps_;
+    TipProbe probe_;
+    RoomOutcome outcome_;
 };
 
 }  // namespace app::headset

@@ -55,11 +55,14 @@ Plate panelBefore(const xr::Pose& head) {
     return {{facing(at, head.position), at}, 0.5 * kPanelMetresPerPixel * glm::dvec2(kPanelPixels)};
 }
 
-Plate readoutNear(const xr::Pose& hand, const xr::Pose& head, glm::dvec2 half) {
-    const glm::dvec3 at = hand.position + (kReadoutAbove + half.y) * kUp;
+Plate facingHead(const glm::dvec3& at, const xr::Pose& head, glm::dvec2 half) {
     const glm::dvec3 towards = head.position - at;
     const bool isAbove = std::hypot(towards.x, towards.z) < 1e-3;
     return {{isAbove ? heading(head) : facing(at, head.position), at}, half};
+}
+
+Plate readoutNear(const xr::Pose& hand, const xr::Pose& head, glm::dvec2 half) {
+    return facingHead(hand.position + (kReadoutAbove + half.y) * kUp, head, half);
 }
 
 glm::dmat4 worldFromPlacard(const Plate& plate, const xr::Placement& placement) {
@@ -76,6 +79,10 @@ std::optional<Hit> hitOf(const xr::Pose& ray, const Plate& plate) {
         (glm::dvec2(inPlate.position) + distance * glm::dvec2(along)) / plate.half;
     if (std::abs(meets.x) > 1 || std::abs(meets.y) > 1) return std::nullopt;
     return Hit{{0.5 + 0.5 * meets.x, 0.5 - 0.5 * meets.y}, distance};
+}
+
+glm::dmat4 stageFromAxes(const xr::Placement& placement, const render::Lattice& lattice) {
+    return xr::stageFromWorld(placement) * glm::dmat4(lattice.worldFromAxes());
 }
 
 bool meetsBox(const xr::Pose& ray, const xr::Placement& placement, const glm::dmat3& boxHalfEdges) {

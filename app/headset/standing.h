@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
+#include "render/lattice.h"
 #include "xr/pose.h"
 
 namespace app::headset {
@@ -26,7 +27,9 @@ inline constexpr glm::ivec2 kPanelPixels{1060, 1000};
 inline constexpr double kPanelMetresPerPixel = 0.0008;
 // The panel, left of the volume, turned to the head.
 Plate panelBefore(const xr::Pose& head);
-// A text near a hand, turned to the head.
+// Upright at a place, turned to the head.
+Plate facingHead(const glm::dvec3& at, const xr::Pose& head, glm::dvec2 half);
+// The same above a hand: a text.
 Plate readoutNear(const xr::Pose& hand, const xr::Pose& head, glm::dvec2 half);
 
 // The square from -1 to 1 (render::Placard) onto the plate, in the world of the volume.
@@ -39,6 +42,8 @@ struct Hit {
     double distance;
 };
 std::optional<Hit> hitOf(const xr::Pose& ray, const Plate& plate);
+// Of the volume's own coordinates (render/lattice.h), in which its box is upright.
+glm::dmat4 stageFromAxes(const xr::Placement& placement, const render::Lattice& lattice);
 // Whether the ray meets the volume's box, or begins in it.
 bool meetsBox(const xr::Pose& ray, const xr::Placement& placement, const glm::dmat3& boxHalfEdges);
 

@@ -45,6 +45,7 @@ class Interface {
     void takeReading(const std::optional<Reading>& reading, bool ruler) {
         probe_.take(reading, ruler);
     }
+    const std::optional<Reading>& reading() const { return probe_.first(); }
 
     Choices& choices() { return choices_; }
     // Until the interface changes by itself.

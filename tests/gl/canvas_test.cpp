@@ -239,7 +239,7 @@ TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
     EXPECT_EQ(step.gridIndex()[probe->picked.point], i);
     EXPECT_EQ(probe->value, step.value(probe->picked.point));
     EXPECT_EQ(probe->coordinates, step.grid().position(i));
-    EXPECT_EQ(probe->picked.world, canvas_.lattice()->position(i));
+    EXPECT_EQ(probe->picked.world, canvas_.drawn()->lattice->position(i));
     const double value = timeseries::toDouble(probe->value);
     ASSERT_TRUE(probe->layer);
     EXPECT_TRUE(*probe->layer == 0 ? 0.1 <= value && value <= 0.4 : 0.8 <= value && value <= 0.9)

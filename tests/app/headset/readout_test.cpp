@@ -9,6 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 TEST(Readout, SaysWhatIsShown) {
     tests::ScriptedExploration world({.steps = 3, .times = {0, 0.5, 1}});
@@ -17,7 +18,7 @@ TEST(Readout, SaysWhatIsShown) {
     next.layers = {
         {.ranges = timeseries::RangeSet::parse("3:5"), .color = glm::dvec3(1), .opacity = 0.5}};
     e.edit(next);
-    const std::string text = readoutText(e, 1);
+    const std::string text = readoutText(e, {}, 1);
     // Values 0 to 63, each once.
     EXPECT_THAT(text, HasSubstr("T 3 to 5"));
     EXPECT_THAT(text, HasSubstr("step"));
@@ -35,7 +36,7 @@ TEST(Readout, FollowsTheSweptWindow) {
     next.sweep->delta = 2;
     e.edit(next);
     e.seekTick(0);
-    EXPECT_THAT(readoutText(e, 1), HasSubstr("T 8 to 12"));
+    EXPECT_THAT(readoutText(e, {}, 1), HasSubstr("T 8 to 12"));
 }
 
 TEST(Readout, SaysWhatIsAskedForAndNotThere) {
@@ -43,18 +44,34 @@ TEST(Readout, SaysWhatIsAskedForAndNotThere) {
     Exploration& e = world.exploration;
     e.seek(9);
     ASSERT_EQ(e.shown()->step, 5u) << "before the next frame nothing has come";
-    EXPECT_THAT(readoutText(e, 1), HasSubstr("\nrequested step 9, showing 5"));
+    EXPECT_THAT(readoutText(e, {}, 1), HasSubstr("\nrequested step 9, showing 5"));
 }
 
 TEST(Readout, SaysWhatPlaysAndWhatIsDrawnCoarsely) {
     tests::ScriptedExploration world;
     world.exploration.togglePlay();
-    EXPECT_THAT(readoutText(world.exploration, 0.85), HasSubstr("playing\nresolution 85 %"));
+    EXPECT_THAT(readoutText(world.exploration, {}, 0.85), HasSubstr("playing\nresolution 85 %"));
+}
+
+TEST(Readout, BeginsWithWhatIsAtTheHandsTip) {
+    tests::ScriptedExploration world;
+    TipProbe::At tip{.hand = 1,
+                     .index = {3, 2, 1},
+                     .position = {3, 2, 1},
+                     .world = {},
+                     .value = 21.5,
+                     .known = true};
+    EXPECT_THAT(readoutText(world.exploration, tip, 1),
+                StartsWith("T 21.5\nx 3 m   [3]\nx 2 m   [2]\nx 1 m   [1]\nT "));
+    tip.value.reset();
+    EXPECT_THAT(readoutText(world.exploration, tip, 1), StartsWith("T: no value\n"));
+    tip.known = false;
+    EXPECT_THAT(readoutText(world.exploration, tip, 1), StartsWith("T \u2026\n"));
 }
 
 TEST(Readout, BeforeThereAreDataSaysWhatIsComing) {
     Exploration empty({});
-    EXPECT_EQ(readoutText(empty, 1), "no file is open");
+    EXPECT_EQ(readoutText(empty, {}, 1), "no file is open");
 }
 
 }  // namespace

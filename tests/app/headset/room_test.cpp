@@ -20,16 +20,26 @@ class RoomOfAnExploration : public testing::Test {
     tests::ScriptedExploration world_;
     Exploration& e_ = world_.exploration;
     Room room_;
+    // 4 x 4 x 4 points.
+    render::Lattice lattice_{e_.shown()->sorted->grid()};
     RoomInput input_{.hands = {},
                      .head = xr::Pose{{1, 0, 0, 0}, {0, 1.6, 0}},
                      .dt = 10ms,
-                     .boxHalfEdges = glm::dmat3(0.577)};
+                     .drawn = Drawn{&lattice_, e_.shown()->sorted, e_.shown()->step},
+                     .asked = {}};
     xr::Hand& left_ = input_.hands[0];
     xr::Hand& right_ = input_.hands[1];
+    std::optional<Reading> reading_;  // of the last frame
 
     RoomOfAnExploration() { frame(); }
 
-    std::vector<Pulse> frame() { return room_.update(e_, input_); }
+    std::vector<Pulse> frame() {
+        RoomOutcome outcome = room_.update(e_, input_);
+        reading_ = outcome.reading;
+        return outcome.pulses;
+    }
+    // Where the room is to place the volume.
+    xr::Placement first() const { return volumeBefore(*input_.head, lattice_.boxHalfEdges()); }
     static xr::Pose looking(const glm::dvec3& from, const glm::dvec3& at) {
         return {glm::quatLookAt(glm::normalize(at - from), kUp), from};
     }
@@ -74,7 +84,7 @@ class RoomOfAnExploration : public testing::Test {
 };
 
 TEST_F(RoomOfAnExploration, VolumeAndPanelStandBeforeTheFirstHeadAndStay) {
-    const xr::Placement expected = volumeBefore(*input_.head, *input_.boxHalfEdges);
+    const xr::Placement expected = first();
     EXPECT_EQ(volume(), expected.stageFromVolume.position);
     input_.head->position += glm::dvec3(1, 0, 1);
     frame();
@@ -84,7 +94,7 @@ TEST_F(RoomOfAnExploration, VolumeAndPanelStandBeforeTheFirstHeadAndStay) {
 TEST_F(RoomOfAnExploration, AVolumeThatComesLaterIsPlacedThen) {
     Room room;
     RoomInput empty = input_;
-    empty.boxHalfEdges.reset();
+    empty.drawn.reset();
     room.update(e_, empty);
     EXPECT_TRUE(room.panel());
     input_.head->position.x = 3;
@@ -255,7 +265,7 @@ TEST_F(RoomOfAnExploration, ThePressedStickBringsVolumeAndPanelBeforeTheHead) {
     input_.head->position.x += 1;
     left_.bring = true;
     frame();
-    EXPECT_EQ(room_.placement(), volumeBefore(*input_.head, *input_.boxHalfEdges));
+    EXPECT_EQ(room_.placement(), first());
     EXPECT_EQ(room_.panel()->stageFromPlate, panelBefore(*input_.head).stageFromPlate);
     input_.head->position.x += 1;
     frame();
@@ -346,6 +356,90 @@ TEST_F(RoomOfAnExploration, AnEndIsFeltOnceUntilTheStickComesBack) {
     right_.stick.x = -1;
     for (int i = 0; i < 100; ++i) felt += frame().size();
     EXPECT_EQ(felt, 2u);
+}
+
+// A tip (the aim pose's place) at a point of the grid, and a little beside it.
+class TipInTheVolume : public RoomOfAnExploration {
+ protected:
+    static constexpr std::size_t kPoint = 1 + 4 * (2 + 4 * 3);
+    glm::dvec3 inStage(const glm::dvec3& world) const {
+        return glm::dvec3(xr::stageFromWorld(room_.placement()) * glm::dvec4(world, 1));
+    }
+    void reach(xr::Hand& hand) {
+        const glm::dvec3 at = inStage(lattice_.position(kPoint) * 0.97);
+        hand.aim = looking(at, at + glm::dvec3(1, 0, 1));  // beside the panel
+        hand.grip = hand.aim;
+    }
+    double value() const { return world_.world.value(0, e_.shown()->step, kPoint); }
+};
+
+TEST_F(TipInTheVolume, TellsThePointThatItIsAt) {
+    frame();
+    EXPECT_FALSE(room_.tip());
+    reach(left_);
+    frame();
+    ASSERT_TRUE(room_.tip());
+    EXPECT_EQ(room_.tip()->hand, 0u);
+    EXPECT_EQ(room_.tip()->index, (std::array<std::size_t, 3>{1, 2, 3}));
+    EXPECT_EQ(timeseries::toDouble(*room_.tip()->value), value());
+    left_.grab = true;
+    frame();
+    EXPECT_FALSE(room_.tip()) << "it holds the volume";
+}
+
+TEST_F(TipInTheVolume, TheTriggerKeepsThePointInsteadOfPlaying) {
+    reach(right_);
+    right_.select = true;
+    frame();
+    ASSERT_TRUE(reading_);
+    EXPECT_EQ(reading_->index, (std::array<std::size_t, 3>{1, 2, 3}));
+    EXPECT_EQ(timeseries::toDouble(reading_->value), value());
+    EXPECT_EQ(reading_->position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(reading_->world, lattice_.position(kPoint));
+    EXPECT_EQ(reading_->step, e_.shown()->step);
+    EXPECT_FALSE(playing());
+    frame();
+    EXPECT_FALSE(reading_) << "once a press";
+}
+
+TEST_F(TipInTheVolume, ATapOfTheOnlyButtonKeepsThePointAndCarriesNothing) {
+    reach(right_);
+    const xr::Placement before = room_.placement();
+    right_.grab = right_.select = true;
+    frame();
+    EXPECT_FALSE(reading_);
+    right_.grip->position.x += 0.01;
+    frame();
+    right_.grab = right_.select = false;
+    frame();
+    ASSERT_TRUE(reading_);
+    EXPECT_EQ(timeseries::toDouble(reading_->value), value());
+    EXPECT_EQ(room_.placement(), before);
+    EXPECT_FALSE(room_.canUndoMove());
+}
+
+TEST_F(TipInTheVolume, ALongPressOfTheOnlyButtonCarriesTheVolume) {
+    reach(right_);
+    const xr::Placement before = room_.placement();
+    right_.grab = right_.select = true;
+    frame();
+    right_.grip->position.x += 0.3;
+    for (int i = 0; i < 40; ++i) frame();
+    right_.grab = right_.select = false;
+    frame();
+    EXPECT_FALSE(reading_);
+    EXPECT_LT(glm::distance(volume(), before.stageFromVolume.position + glm::dvec3(0.3, 0, 0)),
+              1e-12);
+}
+
+TEST_F(TipInTheVolume, ARayAtThePanelStillClicksThere) {
+    right_.grip = right_.aim = looking(inStage({0, 0, 0}), onPanel({0.5, 0.5}));
+    right_.select = true;
+    frame();
+    EXPECT_FALSE(reading_);
+    EXPECT_FALSE(room_.tip());
+    ASSERT_TRUE(room_.pointer());
+    EXPECT_TRUE(room_.pointer()->pressed);
 }
 
 TEST_F(RoomOfAnExploration, HandsWithoutPosesDoNoHarm) {
