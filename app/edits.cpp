@@ -107,6 +107,20 @@ RangeSet with(const RangeSet& ranges, const Range& added) {
     return RangeSet(std::move(all));
 }
 
+std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
+                                   std::size_t axis, End end, double coordinate) {
+    const auto& along = grid.axes()[axis].coordinates;
+    const auto [least, most] = std::minmax(along.front(), along.back());
+    const ClipBox open{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+    ClipBox box = clip.value_or(open);
+    double &lo = box.lo[static_cast<int>(axis)], &hi = box.hi[static_cast<int>(axis)];
+    if (end == End::Lo)
+        lo = coordinate <= least ? -kInfinity : std::min(coordinate, std::min(hi, most));
+    else
+        hi = coordinate >= most ? kInfinity : std::max(coordinate, std::max(lo, least));
+    return box == open ? std::nullopt : std::optional(box);
+}
+
 std::size_t addLayer(Explorer& explorer, RangeSet ranges, const SortedStep& step) {
     assert(explorer.layers.size() + (explorer.sweep ? 1 : 0) < render::kMaxLayers);
     const auto isTaken = [&](const glm::dvec3& color) {

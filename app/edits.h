@@ -1,6 +1,7 @@
-// What a user does to ranges and layers, as functions of plain values: a panel, a key and a script
-// call the same. Exact numbers that were typed stay as typed; dragged ones are doubles. What is
-// typed into a layer's field is read by parseSelection, what is dragged rounded by roundedTo.
+// What a user does to ranges, layers and the clip box, as functions of plain values: a panel, a key
+// and a script call the same. Exact numbers that were typed stay as typed; dragged ones are
+// doubles. What is typed into a layer's field is read by parseSelection, what is dragged rounded by
+// roundedTo.
 #pragma once
 
 #include "app/decimals.h"
@@ -23,6 +24,12 @@ timeseries::RangeSet withEnd(const timeseries::RangeSet& ranges, std::size_t ran
 timeseries::RangeSet withMoved(const timeseries::RangeSet& ranges, std::size_t range, double by);
 timeseries::RangeSet without(const timeseries::RangeSet& ranges, std::size_t range);
 timeseries::RangeSet with(const timeseries::RangeSet& ranges, const timeseries::Range& added);
+
+// One end of the clip box along an axis of the grid dragged to a coordinate: no farther than its
+// other end, so that the box never turns inside out. Where the axis ends, or beyond, it is
+// unbounded; no box is left where all ends are. REQUIRES: not NaN.
+std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
+                                   std::size_t axis, End end, double coordinate);
 
 // A new layer, last; its colour is the next that no layer has (constant colours by place, as for
 // several --range), its opacity that of a lump of so many points (opacityFor). Layers that were

@@ -128,6 +128,13 @@ glm::dvec3 Lattice::axesFromGrid(const glm::dvec3& grid) const {
     return along;
 }
 
+glm::dvec3 Lattice::gridFromAxes(const glm::dvec3& axes) const {
+    glm::dvec3 along;
+    for (int a = 0; a < 3; ++a)
+        along[a] = static_cast<double>(Wide{axes[a]} / scale_[a] + centre_[a]);
+    return along;
+}
+
 Lattice::Lengthening Lattice::lengthening() const {
     // The squares are the eigenvalues of the columns' scalar products: 1 + t with
     // t^3 - (p^2 + q^2 + r^2) t - 2 p q r = 0, whose three real roots are cosines (Viete).

@@ -61,6 +61,7 @@ class Lattice {
     glm::dvec3 scale() const;
     // In axis coordinates, from the grid's coordinates along its axes.
     glm::dvec3 axesFromGrid(const glm::dvec3& grid) const;
+    glm::dvec3 gridFromAxes(const glm::dvec3& axes) const;  // and back
 
  private:
     std::array<std::vector<double>, 3> positions_, widths_;

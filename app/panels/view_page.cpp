@@ -69,7 +69,8 @@ void ViewPage::clip(Desk& desk, Form& form) {
     const timeseries::Grid& grid = shown->sorted->grid();
     const float s = desk.theme.scale;
     for (int i = 0; i < 3; ++i) {
-        const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(i)];
+        const auto place = static_cast<std::size_t>(i);
+        const timeseries::Axis& axis = grid.axes()[place];
         if (axis.coordinates.size() < 2) continue;
         const double least = std::min(axis.coordinates.front(), axis.coordinates.back());
         const double most = std::max(axis.coordinates.front(), axis.coordinates.back());
@@ -86,11 +87,11 @@ void ViewPage::clip(Desk& desk, Form& form) {
         if (rangeSlider(desk.theme, "##clip", bar, lo, hi))
             edit(desk, "clip", [&](Explorer& e) {
                 const double resolution = width / static_cast<double>(bar.size().x);
-                ClipBox box = now;
-                box.lo[i] = lo > 0 ? roundedTo(least + lo * width, resolution) : -kInfinity;
-                box.hi[i] = hi < 1 ? roundedTo(least + hi * width, resolution) : kInfinity;
-                const bool open = box == ClipBox{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
-                e.clip = open ? std::nullopt : std::optional(box);
+                const auto at = [&](double fraction) {
+                    return roundedTo(least + fraction * width, resolution);
+                };
+                e.clip = withClipEnd(e.clip, grid, place, End::Lo, lo > 0 ? at(lo) : -kInfinity);
+                e.clip = withClipEnd(e.clip, grid, place, End::Hi, hi < 1 ? at(hi) : kInfinity);
             });
         ImGui::PopID();
         text(desk.theme, {row.max.x, row.centre().y},

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "app/choice_text.h"
 #include "app/first_choice.h"
 #include "app/layer_colors.h"
 #include "tests/support/scenes.h"
@@ -185,6 +186,27 @@ TEST(AddLayer, TakesTheNextFreeColourAndAnOpacityForItsPoints) {
     e.layers.erase(e.layers.begin() + 1);
     addLayer(e, RangeSet::parse("5"), step);
     EXPECT_EQ(std::get<glm::dvec3>(*e.layers[4].color), kLayerColors[1]) << "free again";
+}
+
+TEST(ClipEnd, StopsAtTheOtherEndAndIsUnboundedWhereTheAxisEnds) {
+    timeseries::Axis down = tests::axis(5, 10);  // 10 to 14
+    std::ranges::reverse(down.coordinates);
+    const timeseries::Grid grid(std::array{tests::axis(5), down, tests::axis(1)});
+    const auto set = [&](const std::optional<ClipBox>& clip, std::size_t axis, End end, double at) {
+        return withClipEnd(clip, grid, axis, end, at);
+    };
+    const auto box = set(std::nullopt, 0, End::Lo, 1.5);
+    ASSERT_TRUE(box);
+    EXPECT_EQ(clipText(*box), "1.5:max,min:max,min:max");
+    EXPECT_EQ(clipText(*set(box, 0, End::Hi, 3)), "1.5:3,min:max,min:max");
+    EXPECT_EQ(clipText(*set(box, 0, End::Hi, 1)), "1.5:1.5,min:max,min:max");
+    EXPECT_EQ(clipText(*set(set(box, 0, End::Hi, 3), 0, End::Lo, 3.5)), "3:3,min:max,min:max");
+    EXPECT_EQ(clipText(*set(std::nullopt, 0, End::Lo, 99)), "4:max,min:max,min:max");
+    EXPECT_EQ(clipText(*set(std::nullopt, 0, End::Hi, -99)), "min:0,min:max,min:max");
+    EXPECT_FALSE(set(box, 0, End::Lo, 0)) << "nothing is cut off";
+    EXPECT_EQ(clipText(*set(box, 1, End::Lo, 11)), "1.5:max,11:max,min:max");
+    EXPECT_EQ(set(box, 1, End::Lo, 10), box);
+    EXPECT_EQ(set(box, 1, End::Hi, 14), box);
 }
 
 TEST(AddLayer, CountsWhatOfItWasKept) {

@@ -97,6 +97,15 @@ TEST(Lattice, AxesBeyondAllProportionStayFinite) {
     }
 }
 
+TEST(Lattice, CoordinatesAlongTheAxesComeBack) {
+    const Lattice lattice(Grid({axis(5, 100), in("Pa", axis(9, 0, 1e4), true), axis(1, 7)}),
+                          glm::dvec3(1, 1e-5, 2));
+    for (const glm::dvec3 at : {glm::dvec3(100, 0, 7), glm::dvec3(103.25, 5e4, 7.5)}) {
+        const glm::dvec3 back = lattice.gridFromAxes(lattice.axesFromGrid(at));
+        for (int a = 0; a < 3; ++a) EXPECT_NEAR(back[a], at[a], 1e-9 * (1 + at[a]));
+    }
+}
+
 TEST(Lattice, AStretchIsTakenAsGiven) {
     const Lattice lattice(Grid({axis(11), axis(11), axis(11)}), glm::dvec3(1, 2, 3));
     EXPECT_NEAR(lattice.boxHalf().y / lattice.boxHalf().x, 2, 1e-12);
