@@ -114,17 +114,18 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
     readout_.write(readoutText(exploration_, room_.tip(), eyes_.scale()));
     if (!room_.panel()) return;
     const CanvasReport& report = eyes_.report();
-    Panel::Around around{.offers = errands_.offers(),
-                         .help = helpText(*session_),
-                         .exporting = errands_.exporting(),
-                         .performance = {.budget = frame.period(),
-                                         .drawn = report.drawn,
-                                         .selected = report.selected,
-                                         .gpuBytes = report.gpuBytes,
-                                         .whole = report.whole,
-                                         .uploaded = report.uploaded,
-                                         .step = report.step},
-                         .buttons = {.canUndo = room_.canUndoMove()}};
+    Panel::Around around{
+        .offers = errands_.offers(),
+        .help = helpText(*session_),
+        .exporting = errands_.exporting(),
+        .performance = {.budget = frame.period(),
+                        .drawn = report.drawn,
+                        .selected = report.selected,
+                        .gpuBytes = report.gpuBytes,
+                        .whole = report.whole,
+                        .uploaded = report.uploaded,
+                        .step = report.step},
+        .buttons = {.canUndo = room_.canUndoMove(), .clipsByHand = room_.clipsByHand()}};
     if (report.gpuTime) around.performance.frame = *report.gpuTime;
     const Panel::Asked asked = panel_.draw(exploration_, room_.pointer(), around, dt);
     asked_ = asked.room;
@@ -144,10 +145,8 @@ void Headset::serve(const panels::Requests& requests) {
 }
 
 std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) const {
-    RoomBoards boards{.panel = nullptr,
-                      .readout = &readout_.board(),
-                      .readoutHalf = readout_.half(),
-                      .kept = {}};
+    RoomBoards boards{
+        .panel = nullptr, .readout = &readout_.board(), .readoutHalf = readout_.half(), .kept = {}};
     if (room_.panel()) boards.panel = &panel_.board();
     if (const auto& kept = panel_.interface().reading()) boards.kept = kept->world;
     return placardsOf(room_, frame.hands(), *frame.head(), boards);

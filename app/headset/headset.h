@@ -31,6 +31,7 @@ class Headset {
     bool frame();
 
     const Room& room() const { return room_; }
+    const Panel& panel() const { return panel_; }
 
  private:
     using Clock = std::chrono::steady_clock;

@@ -25,6 +25,7 @@ RoomOutcome Room::update(Exploration& exploration, const RoomInput& input) {
     }
     carry(input);
     turn(input);
+    clip(exploration, input);
     point(input);
     play(exploration, input);
     probe_.update(input.drawn, placement_, {tipOf(0, input), tipOf(1, input)});
@@ -56,6 +57,9 @@ void Room::obey(RoomCommand command, const RoomInput& input) {
             if (input.drawn)
                 placement_.metresPerUnit = firstSize(input.drawn->lattice->boxHalfEdges());
             break;
+        case RoomCommand::ClipByHand:
+            clipsByHand_ = !clipsByHand_;
+            break;
     }
     placements_.settle(placement_);
 }
@@ -73,17 +77,28 @@ bool Room::pointsAtPanel(const xr::Hand& hand) const {
 // None of a hand that holds something or points at the panel.
 std::optional<glm::dvec3> Room::tipOf(std::size_t hand, const RoomInput& input) const {
     const xr::Hand& now = input.hands[hand];
-    if (!now.aim || holds(hand) || pointsAtPanel(now)) return std::nullopt;
+    if (!now.aim || holds(hand) || holdsFace(hand) || pointsAtPanel(now)) return std::nullopt;
     return now.aim->position;
 }
 
+// What a grab of this hand would take of the clip box.
+std::optional<Hold> Room::holdOfFace(const Exploration& exploration, std::size_t hand,
+                                     const RoomInput& input) const {
+    const auto& aim = input.hands[hand].aim;
+    if (!clipsByHand_ || !input.drawn || !aim || holds(hand) || holdsFace(hand))
+        return std::nullopt;
+    return ClipHand::holdAt(*aim, *input.drawn, placement_, exploration);
+}
+
 // REQUIRES: grab or select was pressed just now.
-Room::Meaning Room::meant(std::size_t hand, const RoomInput& input) const {
+Room::Meaning Room::meant(const Exploration& exploration, std::size_t hand,
+                          const RoomInput& input) const {
     const xr::Hand& now = input.hands[hand];
     const bool grabs = now.grab && !before_[hand].grab;
     const bool selects = now.select && !before_[hand].select;
+    if (selects && pointsAtPanel(now)) return Meaning::Panel;
+    if (grabs && holdOfFace(exploration, hand, input)) return Meaning::Face;
     if (!selects) return Meaning::Volume;
-    if (pointsAtPanel(now)) return Meaning::Panel;
     if (!now.aim || !input.drawn) return Meaning::Other;
     if (grabs) {
         const glm::dmat3 box = input.drawn->lattice->boxHalfEdges();
@@ -97,13 +112,15 @@ void Room::press(Exploration& exploration, std::size_t hand, const RoomInput& in
     const xr::Hand& now = input.hands[hand];
     const xr::Hand& before = before_[hand];
     if (taps_[hand]) taps_[hand]->age += input.dt;
-    if (holds(hand) ? !now.grab : !now.select) letGo(hand, input);
+    if (holds(hand) || holdsFace(hand) ? !now.grab : !now.select) letGo(exploration, hand, input);
     if ((now.select && !before.select) || (now.grab && !before.grab))
         begin(exploration, hand, input);
 }
 
 void Room::begin(Exploration& exploration, std::size_t hand, const RoomInput& input) {
-    const Meaning pressed = meant(hand, input);
+    // A trigger that is pulled while something is held does not let it go.
+    const bool isFree = !holds(hand) && !holdsFace(hand);
+    const Meaning pressed = meant(exploration, hand, input);
     const auto tip = tipOf(hand, input);
     if (pressed == Meaning::Other) exploration.togglePlay();
     if (pressed == Meaning::Panel) pointing_ = hand;
@@ -113,12 +130,17 @@ void Room::begin(Exploration& exploration, std::size_t hand, const RoomInput& in
         const bool selects = input.hands[hand].select && !before_[hand].select;
         if (selects && tip) taps_[hand] = Tap{placement_, *tip};
     }
-    // A trigger that is pulled while the volume is held does not let it go.
-    if (!holds(hand)) meaning_[hand] = pressed;
+    if (pressed == Meaning::Face) {
+        feel(hand, kGrabbed);
+        clip_.take(hand, *holdOfFace(exploration, hand, input), *input.hands[hand].aim,
+                   *input.drawn, placement_, exploration);
+    }
+    if (isFree) meaning_[hand] = pressed;
 }
 
-void Room::letGo(std::size_t hand, const RoomInput& input) {
+void Room::letGo(Exploration& exploration, std::size_t hand, const RoomInput& input) {
     meaning_[hand] = Meaning::Nothing;
+    clip_.letGo(hand, exploration);
     const auto tap = std::exchange(taps_[hand], std::nullopt);
     if (!tap || tap->age > kTap || !input.drawn) return;
     outcome_.reading = readingAt(*input.drawn, tap->from, tap->tip);
@@ -159,6 +181,16 @@ void Room::turn(const RoomInput& input) {
     }
 }
 
+void Room::clip(Exploration& exploration, const RoomInput& input) {
+    clipEdges_.clear();
+    if (!input.drawn) return;
+    clip_.move(exploration, {input.hands[0].aim, input.hands[1].aim}, *input.drawn, placement_);
+    if (clipsByHand_)
+        clipEdges_ =
+            clip_.edges({holdOfFace(exploration, 0, input), holdOfFace(exploration, 1, input)},
+                        *input.drawn, exploration);
+}
+
 void Room::point(const RoomInput& input) {
     pointer_.reset();
     if (!panel_) return;
@@ -178,9 +210,11 @@ void Room::point(const RoomInput& input) {
 }
 
 void Room::play(Exploration& exploration, const RoomInput& input) {
+    // A face that is dragged is one step of undo: nothing else may be dragged meanwhile.
+    const bool rest = holdsFace(0) || holdsFace(1);
     std::array<double, 2> sticks{};
     for (std::size_t hand = 0; hand < 2; ++hand)
-        if (!snap_[hand].owns()) sticks[hand] = input.hands[hand].stick.x;
+        if (!rest && !snap_[hand].owns()) sticks[hand] = input.hands[hand].stick.x;
     const Sticks::Ends ends =
         sticks_.move(exploration, sticks[kValueHand], sticks[kTimeHand], input.dt);
     const auto feelEnd = [&](std::size_t hand, bool now, bool& was) {

@@ -9,6 +9,7 @@
 
 #include "app/drawn.h"
 #include "app/exploration.h"
+#include "app/headset/clip_hand.h"
 #include "app/headset/placement_history.h"
 #include "app/headset/snap_turn.h"
 #include "app/headset/standing.h"
@@ -21,9 +22,10 @@ namespace app::headset {
 
 // What is asked of the room by a button of its own (room_buttons.h).
 enum class RoomCommand {
-    Bring,      // volume and panel before the head
-    UndoMove,   // the volume where it rested before; see PlacementHistory
-    ResetSize,  // the volume as large as it was at first, about its middle
+    Bring,       // volume and panel before the head
+    UndoMove,    // the volume where it rested before; see PlacementHistory
+    ResetSize,   // the volume as large as it was at first, about its middle
+    ClipByHand,  // on and off
 };
 
 // What a frame brings.
@@ -60,7 +62,8 @@ class Room {
     // Grab moves the volume. Left stick: time, right stick: value; but of a hand that holds the
     // volume, it turns that by steps. Select on the panel clicks; with the tip (the aim pose's
     // place) in the volume's box, it keeps the point there as a reading; elsewhere it plays and
-    // pauses. Menu hides and shows the panel; swing turns the sweep's path; bring is
+    // pauses. With clip by hand on, a grab with the tip or the ray at a face of the clip box moves
+    // that face instead. Menu hides and shows the panel; swing turns the sweep's path; bring is
     // RoomCommand::Bring. A controller with one button means the panel or the volume where its ray
     // meets them, and else plays; in the volume, a tap keeps the point at its tip.
     RoomOutcome update(Exploration& exploration, const RoomInput& input);
@@ -71,12 +74,16 @@ class Room {
     // Whether the volume has moved since it was placed, or since all of that was undone.
     bool canUndoMove() const { return placements_.canUndo(); }
     bool holds(std::size_t hand) const { return meaning_[hand] == Meaning::Volume; }
+    bool clipsByHand() const { return clipsByHand_; }
+    bool holdsFace(std::size_t hand) const { return clip_.holds(hand); }
+    // Of the clip box, as of the last update; none while clip by hand is off.
+    const std::vector<ClipHand::Edge>& clipEdges() const { return clipEdges_; }
     // The point that a hand's tip is at, which holds nothing and points beside the panel.
     const std::optional<TipProbe::At>& tip() const { return probe_.at(); }
 
  private:
     // What a hand's pressed button was taken for, until it is let go.
-    enum class Meaning { Nothing, Volume, Panel, Point, Other };
+    enum class Meaning { Nothing, Volume, Face, Panel, Point, Other };
     // A press of a controller's only button in the volume: a grab, or a tap where it is short.
     struct Tap {
         xr::Placement from;
@@ -87,15 +94,18 @@ class Room {
     void place(const RoomInput& input);
     void obey(RoomCommand command, const RoomInput& input);
     void bring(const RoomInput& input);
-    Meaning meant(std::size_t hand, const RoomInput& input) const;
+    Meaning meant(const Exploration& exploration, std::size_t hand, const RoomInput& input) const;
+    std::optional<Hold> holdOfFace(const Exploration& exploration, std::size_t hand,
+                                   const RoomInput& input) const;
     bool pointsAtPanel(const xr::Hand& hand) const;
     std::optional<glm::dvec3> tipOf(std::size_t hand, const RoomInput& input) const;
     void press(Exploration& exploration, std::size_t hand, const RoomInput& input);
     void begin(Exploration& exploration, std::size_t hand, const RoomInput& input);
-    void letGo(std::size_t hand, const RoomInput& input);
+    void letGo(Exploration& exploration, std::size_t hand, const RoomInput& input);
     void pushButtons(Exploration& exploration, std::size_t hand, const RoomInput& input);
     void carry(const RoomInput& input);
     void turn(const RoomInput& input);
+    void clip(Exploration& exploration, const RoomInput& input);
     void point(const RoomInput& input);
     void play(Exploration& exploration, const RoomInput& input);
     void feel(std::size_t hand, Pulse pulse);
@@ -116,6 +126,9 @@ class Room {
     Sticks::Ends atEnd_;
     std::array<std::optional<Tap>, 2> taps_;
     TipProbe probe_;
+    bool clipsByHand_ = false;
+    ClipHand clip_;
+    std::vector<ClipHand::Edge> clipEdges_;
     RoomOutcome outcome_;
 };
 

@@ -12,9 +12,9 @@ struct Button {
     RoomCommand command;
     const char* label;
 };
-constexpr std::array kButtons = {Button{RoomCommand::Bring, "Bring it here"},
-                                 Button{RoomCommand::UndoMove, "Undo move"},
-                                 Button{RoomCommand::ResetSize, "Reset size"}};
+constexpr std::array kButtons = {
+    Button{RoomCommand::Bring, "Bring it here"}, Button{RoomCommand::UndoMove, "Undo move"},
+    Button{RoomCommand::ResetSize, "Reset size"}, Button{RoomCommand::ClipByHand, "Clip by hand"}};
 constexpr float kTop = 104, kHeight = 36, kGap = 8;  // a ray is less steady than a mouse
 
 }  // namespace
@@ -32,15 +32,15 @@ panels::Rect roomButton(const panels::Layout& layout, RoomCommand command) {
 std::optional<RoomCommand> drawRoomButtons(const panels::Theme& theme, const panels::Layout& layout,
                                            const RoomButtons& buttons) {
     const panels::Rect all{roomButton(layout, kButtons.front().command).min,
-                           {roomButton(layout, RoomCommand::UndoMove).max.x,
-                            roomButton(layout, kButtons.back().command).max.y}};
+                           roomButton(layout, kButtons.back().command).max};
     panels::beginRegion("##room", all, panels::kClear);
     std::optional<RoomCommand> pressed;
     for (const Button& button : kButtons) {
         const panels::Rect at = roomButton(layout, button.command);
+        const bool lit = button.command == RoomCommand::ClipByHand && buttons.clipsByHand;
         if (button.command == RoomCommand::UndoMove && !buttons.canUndo)
             panels::text(theme, at.centre(), button.label, panels::kFaint, 0.5f);
-        else if (panels::textButton(theme, button.label, at, button.label))
+        else if (panels::textButton(theme, button.label, at, button.label, lit))
             pressed = button.command;
     }
     panels::endRegion();

@@ -13,6 +13,7 @@ namespace app::headset {
 // What they depend on.
 struct RoomButtons {
     bool canUndo = false;
+    bool clipsByHand = false;
 };
 
 // Two by two where a window has its picture, below what is said at its top and above the help.

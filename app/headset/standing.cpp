@@ -5,8 +5,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <numbers>
+
+#include "app/headset/clip_faces.h"
 
 namespace app::headset {
 namespace {
@@ -95,17 +96,8 @@ bool meetsBox(const xr::Pose& ray, const xr::Placement& placement, const glm::dm
     const glm::dvec3 from = boxFromWorld * glm::dvec3(worldFromStage * glm::dvec4(ray.position, 1));
     const glm::dvec3 along =
         boxFromWorld * (glm::dmat3(worldFromStage) * (ray.orientation * glm::dvec3(0, 0, -1)));
-    double enters = 0, leaves = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) {
-        if (along[i] == 0) {
-            if (std::abs(from[i]) > 1) return false;
-            continue;
-        }
-        const double a = (-1 - from[i]) / along[i], b = (1 - from[i]) / along[i];
-        enters = std::max(enters, std::min(a, b));
-        leaves = std::min(leaves, std::max(a, b));
-    }
-    return enters <= leaves;
+    const auto met = crossing(from, along, {glm::dvec3(-1), glm::dvec3(1)});
+    return met && met->leaves >= 0;
 }
 
 }  // namespace app::headset

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "app/choice_text.h"
 #include "tests/support/scripted_exploration.h"
 
 namespace app::headset {
@@ -440,6 +441,71 @@ TEST_F(TipInTheVolume, ARayAtThePanelStillClicksThere) {
     EXPECT_FALSE(room_.tip());
     ASSERT_TRUE(room_.pointer());
     EXPECT_TRUE(room_.pointer()->pressed);
+}
+
+TEST_F(RoomOfAnExploration, WithClipByHandAGrabMovesAFaceAndNotTheVolume) {
+    const Explorer before = e_.explorer();
+    const xr::Placement stood = room_.placement();
+    // From the right, at the middle: the face at the greatest x.
+    const auto grab = [&] {
+        right_.aim = looking(volume() + glm::dvec3(1, 0, 0), volume());
+        right_.grip = right_.aim;
+        right_.grab = true;
+        const auto pulses = frame();
+        EXPECT_EQ(pulses.size(), 1u);
+    };
+    const auto moved = [&] {
+        // A quarter of the box, whose sides are 0.6 m and three units.
+        right_.aim->position.x -= 0.15;
+        right_.grip = right_.aim;
+        frame();
+        right_.grab = false;
+        frame();
+    };
+    EXPECT_TRUE(room_.clipEdges().empty());
+    ask(RoomCommand::ClipByHand);
+    EXPECT_TRUE(room_.clipsByHand());
+    EXPECT_EQ(room_.clipEdges().size(), 12u);
+    grab();
+    EXPECT_TRUE(room_.holdsFace(1));
+    EXPECT_FALSE(room_.holds(1));
+    moved();
+    EXPECT_FALSE(room_.holdsFace(1));
+    EXPECT_EQ(room_.placement(), stood);
+    ASSERT_TRUE(e_.explorer().clip);
+    EXPECT_EQ(clipText(*e_.explorer().clip), "min:2.25,min:max,min:max");
+    e_.undo();
+    EXPECT_TRUE(e_.explorer() == before) << "one step of undo";
+    ask(RoomCommand::ClipByHand);
+    grab();
+    EXPECT_TRUE(room_.holds(1)) << "as without";
+    moved();
+    EXPECT_FALSE(room_.placement() == stood);
+    EXPECT_FALSE(e_.explorer().clip);
+}
+
+TEST_F(RoomOfAnExploration, WithClipByHandAGrabElsewhereStillCarries) {
+    ask(RoomCommand::ClipByHand);
+    aim(right_, {3, 0, 3});
+    right_.grab = true;
+    frame();
+    EXPECT_TRUE(room_.holds(1));
+    aim(left_, onPanel({0.5, 0.5}));
+    left_.grab = left_.select = true;
+    frame();
+    EXPECT_FALSE(room_.holdsFace(0));
+    EXPECT_TRUE(room_.pointer()->pressed);
+}
+
+TEST_F(RoomOfAnExploration, WhileAFaceIsHeldNothingElseIsDragged) {
+    ask(RoomCommand::ClipByHand);
+    right_.aim = right_.grip = looking(volume() + glm::dvec3(1, 0, 0), volume());
+    right_.grab = true;
+    frame();
+    const Explorer before = e_.explorer();
+    left_.stick.x = right_.stick.x = 1;
+    for (int i = 0; i < 100; ++i) frame();
+    EXPECT_TRUE(e_.explorer() == before);
 }
 
 TEST_F(RoomOfAnExploration, HandsWithoutPosesDoNoHarm) {
