@@ -6,14 +6,12 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
-#include "app/headset/headset.h"
 #include "app/still.h"
 #include "render/color.h"
 #include "tests/support/headset.h"
 #include "tests/support/monado_service.h"
-#include "tests/support/remote_devices.h"
-#include "tests/support/scripted_exploration.h"
 #include "tests/support/shown_steps.h"
+#include "tests/xr/monado/front_end.h"
 
 namespace app::headset {
 namespace {
@@ -79,27 +77,6 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
     }
 }
 
-class FrontEnd : public testing::Test {
- protected:
-    void open() {
-        auto opened = Headset::open(world_.exploration);
-        if (const auto* none = std::get_if<xr::NoHeadset>(&opened)) FAIL() << none->why;
-        headset_ = std::get<std::unique_ptr<Headset>>(std::move(opened));
-    }
-    template <typename Holds>
-    void framesUntil(const Holds& holds) {
-        const auto end = std::chrono::steady_clock::now() + 30s;
-        while (!holds()) {
-            ASSERT_TRUE(headset_->frame());
-            ASSERT_LT(std::chrono::steady_clock::now(), end);
-        }
-    }
-    glm::dvec3 volume() const { return headset_->room().placement().stageFromVolume.position; }
-
-    tests::ScriptedExploration world_;
-    std::unique_ptr<Headset> headset_;
-};
-
 TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
     tests::MonadoService service(tests::Monado::Null);
     open();
@@ -117,22 +94,6 @@ TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
     EXPECT_TRUE(world_.exploration.explorer() == before);
     world_.until([&] { return world_.exploration.shown()->step == 3; });
 }
-
-class FrontEndWithHands : public FrontEnd {
- protected:
-    void SetUp() override {
-        devices_.head().centre = tests::place({0, 1.6, 0});
-        for (int h = 0; h < 2; ++h)
-            devices_.hand(h).place = tests::place({h == 0 ? -0.3 : 0.3, 1.1, -0.4});
-        devices_.send();
-        open();
-        framesUntil([&] { return headset_->room().panel().has_value() && volume().y > 1; });
-    }
-    void TearDown() override { headset_.reset(); }  // before its runtime goes
-
-    tests::MonadoService service_{tests::Monado::Remote};
-    tests::RemoteDevices devices_{service_.remotePort()};
-};
 
 TEST_F(FrontEndWithHands, AGrabMovesTheVolumeByExactlyTheHandsMotion) {
     auto& right = devices_.hand(1);
