@@ -151,6 +151,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
 void Canvas::drawPlacards(
     std::span<const render::Placard> placards, std::span<const render::View> eyes,
     const std::function<void(std::size_t eye, const render::Targets&)>& show) {
+    state_->renderer.makeRoom(eyes);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         state_->renderer.drawPlacards(placards, kBackground, eyes[i]);
         show(i, state_->renderer.targets());

@@ -70,7 +70,7 @@ class Canvas {
     // drawn: the step or the choices before stay, and the report says so. Nothing is drawn, and
     // `show` is not called, before the first step is there. `moving`: the picture is expected to
     // change again at once, so the limits hold; else all points are drawn. Never waits for the GPU.
-    // REQUIRES: at least one eye, all of one size.
+    // REQUIRES: at least one eye.
     CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
                       const CanvasLimits& limits, bool moving,
                       const std::function<void(std::size_t eye, const render::Targets&)>& show,

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
+
 #include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
 #include "render/shader_sources.h"
@@ -21,18 +24,32 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 FrameRenderer::FrameRenderer() : styles_(stylesFor({64, 64})), font_(styles_) {}
 
-void FrameRenderer::ready(glm::ivec2 size) {
-    if (!targets_ || targets_->size() != size) targets_ = std::make_unique<Targets>(size);
-    const auto styles = stylesFor(size);
+void FrameRenderer::makeRoom(std::span<const View> eyes) {
+    for (const View& eye : eyes)
+        if (std::ranges::none_of(targets_, [&](const auto& t) { return t->size() == eye.size; }))
+            targets_.push_back(std::make_unique<Targets>(eye.size));
+    std::erase_if(targets_, [&](const auto& held) {
+        return std::ranges::none_of(eyes, [&](const View& e) { return e.size == held->size(); });
+    });
+    // Letters of one size for all eyes, or they would not be seen as one.
+    const auto styles = stylesFor(eyes.front().size);
     if (flat_ && styles == styles_) return;
     font_ = Font(styles);
     flat_ = std::make_unique<FlatPass>(font_);
     styles_ = styles;
 }
 
+Targets& FrameRenderer::use(glm::ivec2 size) {
+    const auto found =
+        std::ranges::find_if(targets_, [&](const auto& t) { return t->size() == size; });
+    assert(found != targets_.end());
+    current_ = static_cast<std::size_t>(found - targets_.begin());
+    return **found;
+}
+
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
                                                std::span<const View> eyes) {
-    ready(eyes.front().size);
+    makeRoom(eyes);
     const glm::dvec3 midEye = midway(eyes);
     ++orders_;
     const DrawList list = order(content.scene, midEye);
@@ -41,13 +58,13 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
 
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
     ++eyes_;
+    const GLuint light = use(eye.size).lightFramebuffer();
     const FlatMesh legend = legendMesh(frame.content.legend, font_, eye.size);
     const AxesMeshes axes = axesMeshes(frame.content.grid, frame.content.scene.lattice, eye,
                                        frame.midEye, font_, legend);
     // All that adds to the light comes last and together: a driver that draws tile by tile then
     // touches each of its pixels once.
     drawSplats(*frame.list, eye, {axes.behind, frame.content.placards});
-    const GLuint light = targets_->lightFramebuffer();
     gl::begin({.framebuffer = light,
                .size = eye.size,
                .clearColor = glm::vec4(glm::vec3(frame.content.background), 1)});
@@ -70,11 +87,11 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
     for (const View& eye : eyes) {
         drawEye(frame, eye);
         EyePicture& picture = pictures.emplace_back();
-        picture.image = targets_->readLight();
+        picture.image = targets().readLight();
         if (extras.splatCount) {
             splatter_.draw(*frame.list, eye, Channels::Count, 0,
-                           targets_->clearedPlane(0, Channels::Count));
-            picture.splatCount = targets_->readScalarPlane(0);
+                           use(eye.size).clearedPlane(0, Channels::Count));
+            picture.splatCount = targets().readScalarPlane(0);
         }
     }
     if (extras.opticalDepth) {
@@ -95,30 +112,32 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
 
 void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                                  const View& eye) {
-    ready(eye.size);
-    gl::begin({.framebuffer = targets_->lightFramebuffer(),
+    const GLuint light = use(eye.size).lightFramebuffer();
+    gl::begin({.framebuffer = light,
                .size = eye.size,
                .clearColor = glm::vec4(glm::vec3(background), 1),
                .clearDepth = 1.0f});
-    for (const Placard& placard : placards)
-        placards_.draw(placard, eye, targets_->lightFramebuffer());
+    hidden_.drawDepth(eye, light);
+    for (const Placard& placard : placards) placards_.draw(placard, eye, light);
 }
 
 void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer) {
     flat_->drawDepth(occluders.behind, framebuffer, view.size);
     for (const Placard& placard : occluders.placards)
         placards_.drawDepth(placard, view, framebuffer);
+    hidden_.drawDepth(view, framebuffer);
 }
 
 void FrameRenderer::drawSplats(const GpuList& list, const View& view, const Occluders& occluders) {
     const std::vector<Channels> channels = channelsFor(list.scene());
+    Targets& targets = use(view.size);
     for (std::size_t i = 0; i < channels.size(); ++i) {
-        const GLuint plane = targets_->clearedPlane(i, channels[i]);
+        const GLuint plane = targets.clearedPlane(i, channels[i]);
         if (i == 0) drawDepth(occluders, view, plane);
         splatter_.draw(list, view, channels[i], i, plane);
     }
     // The placards are drawn against it even if there are no splats.
-    if (channels.empty()) drawDepth(occluders, view, targets_->lightFramebuffer());
+    if (channels.empty()) drawDepth(occluders, view, targets.lightFramebuffer());
 }
 
 const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
@@ -135,27 +154,28 @@ const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
 
 void FrameRenderer::resolve(const Scene& scene, const PixelBox& covered) {
     if (covered.size.x == 0 || covered.size.y == 0) return;
-    gl::begin({.framebuffer = targets_->lightFramebuffer(),
+    gl::begin({.framebuffer = targets().lightFramebuffer(),
                .size = covered.size,
                .at = covered.at,
                .blend = gl::Blend::Premultiplied});
     glUseProgram(resolveProgram(scene).id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, splatter_.layerBlock().id());
     for (std::size_t i = 0; i < channelsFor(scene).size(); ++i)
-        glBindTextureUnit(static_cast<GLuint>(i), targets_->plane(i).id());
+        glBindTextureUnit(static_cast<GLuint>(i), targets().plane(i).id());
     glBindVertexArray(noVertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view,
                                                const FlatMesh& behind) {
+    Targets& targets = use(view.size);
     std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
     const auto& layers = list.scene().layers;
     for (std::size_t k = 0; k < layers.size(); ++k) {
-        const GLuint plane = targets_->clearedPlane(0, Channels::Weight);
+        const GLuint plane = targets.clearedPlane(0, Channels::Weight);
         if (k == 0) flat_->drawDepth(behind, plane, view.size);
         splatter_.draw(list, view, Channels::Weight, k, plane);
-        const std::vector<float> weight = targets_->readScalarPlane(0);
+        const std::vector<float> weight = targets.readScalarPlane(0);
         const auto perWeight = static_cast<float>(opticalDepthPerWeight(layers[k].style.opacity));
         for (std::size_t i = 0; i < total.size(); ++i) total[i] += perWeight * weight[i];
     }

@@ -12,6 +12,7 @@
 #include "render/covered.h"
 #include "render/flat_pass.h"
 #include "render/gl_list.h"
+#include "render/hidden_area_pass.h"
 #include "render/image.h"
 #include "render/legend.h"
 #include "render/placard.h"
@@ -45,8 +46,7 @@ class FrameRenderer {
 
     // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
     // picture does not depend on what was drawn before. Order is taken from the point midway
-    // between the eyes. REQUIRES: at least one eye, all of one size. Throws
-    // std::runtime_error on a GL error.
+    // between the eyes. REQUIRES: at least one eye. Throws std::runtime_error on a GL error.
     std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
@@ -58,11 +58,14 @@ class FrameRenderer {
         glm::dvec3 midEye;
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
-    void drawEye(const Prepared& frame, const View& eye);  // its light is then in targets()
-    // An eye that sees nothing but placards.
+    // One of the eyes that the frame was prepared for.
+    void drawEye(const Prepared& frame, const View& eye);
+    // An eye that sees nothing but placards. REQUIRES: makeRoom() for it.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                       const View& eye);
-    const Targets& targets() const { return *targets_; }
+    // Keeps targets of these eyes' sizes, and no others; prepare() does that.
+    void makeRoom(std::span<const View> eyes);
+    const Targets& targets() const { return *targets_[current_]; }  // of the eye drawn last
 
     struct Counts {
         std::uint64_t orders = 0, uploads = 0, eyes = 0;
@@ -70,7 +73,7 @@ class FrameRenderer {
     Counts counts() const { return {orders_, splatter_.counts().uploads, eyes_}; }
 
  private:
-    void ready(glm::ivec2 size);
+    Targets& use(glm::ivec2 size);  // which targets() then are
     // What hides splats.
     struct Occluders {
         const FlatMesh& behind;
@@ -89,8 +92,10 @@ class FrameRenderer {
     GlSplatter splatter_;
     std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
     PlacardPass placards_;
+    HiddenAreaPass hidden_;
     gl::VertexArray noVertices_;
-    std::unique_ptr<Targets> targets_;
+    std::vector<std::unique_ptr<Targets>> targets_;  // all of different sizes
+    std::size_t current_ = 0;
     std::uint64_t orders_ = 0, eyes_ = 0;
 };
 

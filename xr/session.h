@@ -11,7 +11,9 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "render/hidden_area.h"
 #include "xr/pose.h"
 #include "xr/session_state.h"
 
@@ -63,8 +65,9 @@ struct Hand {
 struct Eye {
     Pose stageFromEye;
     Fov fov;
-    glm::ivec2 size;  // pixels to draw now, the lower left of the image
+    glm::ivec2 size;  // pixels to draw now, the lower left of the image; an eye's own
     unsigned framebuffer = 0;
+    std::shared_ptr<const render::HiddenArea> hidden = {};  // behind the lens's rim, if it is known
 };
 
 class Session {
@@ -92,6 +95,12 @@ class Session {
     bool ended() const;
     // Asks the runtime to let the session end; go on with frames until ended().
     void requestExit();
+
+    // In Hz; empty where the runtime offers no choice (XR_FB_display_refresh_rate).
+    const std::vector<double>& refreshRates() const;
+    // Asks for one of them; the frames' period tells whether and when the runtime follows. Asking
+    // again for the same costs nothing.
+    void requestRefreshRate(double rate);
 
     // `hand` 0 or 1, amplitude in [0, 1]. Nothing without focus.
     void vibrate(int hand, double amplitude, std::chrono::nanoseconds duration);

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,10 @@ struct Session::Impl {
     XrSession session;
     XrSpace stage, head;
     XrEnvironmentBlendMode blendMode;
-    std::vector<EyeImages> eyes;  // left, right
+    std::vector<EyeImages> eyes;                                      // left, right
+    std::array<std::shared_ptr<const render::HiddenArea>, 2> hidden;  // of each eye; may be null
+    std::vector<double> refreshRates;
+    double requestedRate = 0;  // the last; 0 before the first
     Actions actions;
     FrameWaiter waiter;
     SessionState state;

@@ -13,35 +13,13 @@
 #include "render/color.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
+#include "tests/support/eye_image.h"
 #include "tests/support/shown_steps.h"
 
 namespace app::headset {
 namespace {
 
 constexpr glm::ivec2 kImage{220, 200}, kDrawn{160, 150};
-
-// A swapchain image as a runtime hands one out.
-struct EyeImage {
-    render::gl::Texture color{GL_SRGB8_ALPHA8, kImage};
-    render::gl::Texture depth{GL_DEPTH_COMPONENT32F, kImage};
-    render::gl::Framebuffer framebuffer{std::array{color.id()}, depth.id()};
-
-    // As drawn, from the top.
-    std::vector<glm::u8vec4> pixels() const {
-        std::vector<glm::u8vec4> all(std::size_t(kDrawn.x) * kDrawn.y), rows;
-        glGetTextureSubImage(color.id(), 0, 0, 0, 0, kDrawn.x, kDrawn.y, 1, GL_RGBA,
-                             GL_UNSIGNED_BYTE, static_cast<GLsizei>(all.size() * 4), all.data());
-        for (int y = kDrawn.y - 1; y >= 0; --y)
-            rows.insert(rows.end(), all.begin() + y * kDrawn.x, all.begin() + (y + 1) * kDrawn.x);
-        return rows;
-    }
-    float depthAt(glm::ivec2 at) const {
-        float value = 0;
-        glGetTextureSubImage(depth.id(), 0, at.x, at.y, 0, 1, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                             sizeof value, &value);
-        return value;
-    }
-};
 
 class HeadsetEyes : public testing::Test {
  protected:
@@ -57,14 +35,15 @@ class HeadsetEyes : public testing::Test {
                  .framebuffer = images_[static_cast<std::size_t>(i)].framebuffer.id()});
         }
     }
-    // The light of a renderer that has seen nothing else.
-    std::vector<render::EyePicture> rendered(const Shown& shown) const {
+    // The light of a renderer that has seen nothing else, pictures of `size`.
+    std::vector<render::EyePicture> rendered(const Shown& shown, glm::ivec2 size) const {
         const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
         render::GpuStep onGpu(*shown.sorted, lattice);
         const Picture picture =
             makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice);
         render::FrameRenderer renderer;
-        const std::array views{viewOf(eyes_[0], placement_), viewOf(eyes_[1], placement_)};
+        std::array views{viewOf(eyes_[0], placement_), viewOf(eyes_[1], placement_)};
+        for (render::View& view : views) view.size = size;
         return renderer.render({.scene = picture.scene,
                                 .grid = shown.sorted->grid(),
                                 .legend = {},
@@ -72,24 +51,10 @@ class HeadsetEyes : public testing::Test {
                                onGpu, views);
     }
 
-    render::gl::HeadlessContext context_;
-    std::array<EyeImage, 2> images_;
-    std::vector<xr::Eye> eyes_;
-    tests::ShownSteps world_{12};
-    Eyes view_;
-    const xr::Placement placement_ = volumeBefore(
-        {{1, 0, 0, 0}, {0, 1.6, 0}}, render::Lattice(world_.steps[0]->grid()).boxHalfEdges());
-};
-
-// GL's own encoding of sRGB may round to the neighbouring step.
-TEST_F(HeadsetEyes, SeeWhatAFileWouldHave) {
-    const Shown shown = world_.shown();
-    view_.draw(&shown, eyes_, placement_, {}, std::nullopt);
-    render::gl::throwOnError();
-    const auto pictures = rendered(shown);
-    for (std::size_t eye = 0; eye < 2; ++eye) {
-        const render::Image& truth = pictures[eye].image;
-        const auto pixels = images_[eye].pixels();
+    // GL's own encoding of sRGB may round to the neighbouring step.
+    void expectPicture(std::size_t eye, const render::Image& truth) const {
+        ASSERT_EQ(eyes_[eye].size, truth.size);
+        const auto pixels = images_[eye].pixels(truth.size);
         int volume = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             for (int c = 0; c < 3; ++c)
@@ -101,7 +66,79 @@ TEST_F(HeadsetEyes, SeeWhatAFileWouldHave) {
         }
         EXPECT_GT(volume, 500) << "the volume is seen";
     }
-    EXPECT_NE(images_[0].pixels(), images_[1].pixels());
+
+    render::gl::HeadlessContext context_;
+    std::array<tests::EyeImage, 2> images_{tests::EyeImage(kImage), tests::EyeImage(kImage)};
+    std::vector<xr::Eye> eyes_;
+    tests::ShownSteps world_{12};
+    Eyes view_;
+    const xr::Placement placement_ = volumeBefore(
+        {{1, 0, 0, 0}, {0, 1.6, 0}}, render::Lattice(world_.steps[0]->grid()).boxHalfEdges());
+};
+
+TEST_F(HeadsetEyes, SeeWhatAFileWouldHave) {
+    const Shown shown = world_.shown();
+    view_.draw(&shown, eyes_, placement_, {}, std::nullopt);
+    render::gl::throwOnError();
+    const auto pictures = rendered(shown, kDrawn);
+    for (std::size_t eye = 0; eye < 2; ++eye) expectPicture(eye, pictures[eye].image);
+    EXPECT_NE(images_[0].pixels(kDrawn), images_[1].pixels(kDrawn));
+}
+
+// As headsets may recommend, and as the share that is drawn of them changes.
+TEST_F(HeadsetEyes, MayBeOfDifferentSizes) {
+    const Shown shown = world_.shown();
+    for (const auto& [left, right] : {std::pair{glm::ivec2(160, 150), glm::ivec2(220, 200)},
+                                      {glm::ivec2(140, 120), glm::ivec2(200, 180)},
+                                      {glm::ivec2(180, 160), glm::ivec2(180, 160)}}) {
+        eyes_[0].size = left;
+        eyes_[1].size = right;
+        view_.draw(&shown, eyes_, placement_, {}, std::nullopt);
+        render::gl::throwOnError();
+        expectPicture(0, rendered(shown, left)[0].image);
+        expectPicture(1, rendered(shown, right)[1].image);
+    }
+}
+
+// Of one eye alone, beneath a slope from corner to corner of its field of view, and a notch above.
+TEST_F(HeadsetEyes, WhatALensHidesIsBlackAndFarAndNothingElseChanges) {
+    const Shown shown = world_.shown();
+    const xr::Fov& fov = eyes_[1].fov;
+    const glm::dvec2 lo(std::tan(fov.left), std::tan(fov.down)),
+        hi(std::tan(fov.right), std::tan(fov.up));
+    const auto area = std::make_shared<render::HiddenArea>(
+        render::HiddenArea{{lo, {hi.x, lo.y}, hi, {-0.2, hi.y}, {0, 0.1}, {0.3, hi.y}}});
+    eyes_[1].hidden = area;
+    // A wall behind the volume, as large as the sight: also its depth is left out.
+    const Plate wall{{{1, 0, 0, 0}, {0, 1.6, -3}}, {9, 9}};
+    const std::array placards{
+        render::Placard{worldFromPlacard(wall, placement_), glm::vec3(0, 0, 1)}};
+    for (const bool withData : {true, false}) {
+        const auto draw = [&] {
+            view_.draw(withData ? &shown : nullptr, eyes_, placement_, placards, std::nullopt);
+            render::gl::throwOnError();
+            return std::array{images_[0].pixels(kDrawn), images_[1].pixels(kDrawn)};
+        };
+        eyes_[1].hidden = nullptr;
+        const auto whole = draw();
+        eyes_[1].hidden = area;
+        const auto masked = draw();
+        EXPECT_EQ(masked[0], whole[0]);
+        std::vector<bool> hidden(whole[1].size());
+        for (const auto& [at, size] : hiddenPixels(*area, viewOf(eyes_[1], placement_)))
+            for (int x = at.x; x < at.x + size.x; ++x)
+                hidden[std::size_t(kDrawn.y - 1 - at.y) * kDrawn.x + x] = true;
+        int lost = 0;
+        for (int y = 0; y < kDrawn.y; ++y)
+            for (int x = 0; x < kDrawn.x; ++x) {
+                const std::size_t i = std::size_t(kDrawn.y - 1 - y) * kDrawn.x + x;
+                lost += hidden[i] && whole[1][i].r > 100 ? 1 : 0;
+                ASSERT_EQ(masked[1][i], hidden[i] ? glm::u8vec4(0, 0, 0, 255) : whole[1][i])
+                    << x << ' ' << y;
+                ASSERT_EQ(images_[1].depthAt({x, y}) == 1.0f, hidden[i]) << x << ' ' << y;
+            }
+        EXPECT_EQ(lost > 100, withData) << "something of the volume is hidden";
+    }
 }
 
 TEST_F(HeadsetEyes, TheDepthIsThatOfTheOpaqueThings) {
@@ -126,11 +163,15 @@ TEST_F(HeadsetEyes, WithoutDataThereIsStillARoom) {
         render::Placard{worldFromPlacard(wall, placement_), glm::vec3(0, 1, 0)}};
     view_.draw(nullptr, eyes_, placement_, placards, std::nullopt);
     render::gl::throwOnError();
-    for (const EyeImage& image : images_) {
+    eyes_[1].size = kImage;
+    view_.draw(nullptr, eyes_, placement_, placards, std::nullopt);
+    render::gl::throwOnError();
+    for (const tests::EyeImage& image : images_) {
         int green = 0;
-        for (const glm::u8vec4& pixel : image.pixels()) green += pixel.g == 255 ? 1 : 0;
+        for (const glm::u8vec4& pixel : image.pixels(kDrawn)) green += pixel.g == 255 ? 1 : 0;
         EXPECT_GT(green, 100);
-        EXPECT_EQ(image.pixels()[0].r, render::srgb8FromLinear(static_cast<double>(kBackground.r)));
+        EXPECT_EQ(image.pixels(kDrawn)[0].r,
+                  render::srgb8FromLinear(static_cast<double>(kBackground.r)));
     }
 }
 

@@ -22,6 +22,7 @@ class Placards : public tests::GlTest {
         return glm::scale(upright, glm::dvec3(half, 1));
     }
     Image alone(const std::vector<Placard>& placards) {
+        renderer_.makeRoom(std::array{eye_});
         renderer_.drawPlacards(placards, glm::dvec3(0.1), eye_);
         gl::throwOnError();
         return renderer_.targets().readLight();
