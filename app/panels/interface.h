@@ -9,6 +9,8 @@
 #include "app/panels/animation_page.h"
 #include "app/panels/desk.h"
 #include "app/panels/file_panel.h"
+#include "app/panels/focus.h"
+#include "app/panels/hover_tip.h"
 #include "app/panels/instrument.h"
 #include "app/panels/layers_panel.h"
 #include "app/panels/messages.h"
@@ -31,6 +33,7 @@ struct Surroundings {
     bool hasPicture = true;                // a headset's stands in the room
     std::optional<std::string> exporting;  // how far an export is, while one runs
     std::chrono::nanoseconds dt{0};
+    std::optional<KeyPress> key = {};  // pressed since the last frame
     Performance performance;
 };
 
@@ -46,12 +49,14 @@ class Interface {
         probe_.take(reading, ruler);
     }
     const std::optional<Reading>& reading() const { return probe_.first(); }
+    void takeHover(const std::optional<Reading>& reading) { hover_.take(reading); }
 
     Choices& choices() { return choices_; }
     // Until the interface changes by itself.
     std::optional<std::chrono::nanoseconds> untilNextChange() const;
 
  private:
+    void takeKey(Exploration& exploration, const std::optional<KeyPress>& key, Requests& requests);
     void drawPicture(Desk& desk, const Surroundings& around);
     void drawSide(Desk& desk, const Surroundings& around);
     void drawTabs(Desk& desk, const Rect& at);
@@ -60,6 +65,7 @@ class Interface {
     bool close(Exploration& exploration);
 
     Choices choices_;
+    Focus focus_;
     LayersPanel layers_;
     Instrument instrument_;
     TimeBar timeBar_;
@@ -67,6 +73,7 @@ class Interface {
     ViewPage view_;
     ProbePage probe_;
     PictureArea picture_;
+    HoverTip hover_;
     Messages messages_;
     FilePanel files_;
     bool help_ = false;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/panels/drawn_text.h"
 #include "app/panels/widgets.h"
 #include "app/view_edits.h"
 
@@ -84,6 +85,7 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     ImGui::InvisibleButton("##picture", im(glm::max(at.size(), glm::vec2(1))),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemAllowOverlap();
+    pointer_.reset();
     if (!exploration.shown()) return;
     const Looking looking{boxHalfEdges, exploration.explorer().size};
     const glm::dvec2 cursor = vec(io.MousePos) - at.min;
@@ -99,6 +101,7 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
         });
     }
     if (!ImGui::IsItemHovered()) return;
+    if (!ImGui::IsItemActive()) pointer_ = cursor;
     if (io.MouseWheel != 0)
         edit(desk, "zoom", [&](Explorer& e) {
             e.view =
@@ -131,9 +134,12 @@ void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting)
     if (counts == nullptr) return;
     const Performance& p = desk.performance;
     std::vector<std::string> lines;
-    lines.push_back(p.whole ? fmt::format("{} points drawn", withCommas(p.drawn))
-                            : fmt::format("{} of {} points drawn", withCommas(p.drawn),
-                                          withCommas(p.selected)));
+    // What is counted may be a step that is not on the screen yet.
+    const auto shown = exploration.shown();
+    const bool counted = shown && p.uploaded == 1 && p.step == shown->step;
+    lines.push_back(drawnText({.splats = p.drawn,
+                               .allSplats = p.selected,
+                               .points = counted ? counts->selected : p.selected}));
     lines.push_back(fmt::format(
         "{} selected  ·  {}{}", withCommas(counts->selected),
         counts->kept == counts->total ? std::string() : withCommas(counts->kept) + " kept  ·  ",

@@ -468,6 +468,22 @@ TEST(Axes, AllThreeAreNamedFromEveryCornerView) {
     }
 }
 
+TEST(Axes, TitlesKeepOffThePicturesEdge) {
+    // A long title beside wide numbers, in pictures that the box nearly fills.
+    const Grid grid({axis("x", "m", 0, 1, 5), axis("y", "m", 0, 1, 5),
+                     axis("height above the ground", "m", 0, 40000, 9)});
+    for (const int width : {600, 700, 800, 1000}) {
+        const glm::ivec2 size(width, 600);
+        const double line = labelStyle(size).linePixels;
+        for (const double distance : {2.6, 2.8, 3.0, 3.2, 3.4}) {
+            const Drawn d(grid, eyeAt(-60, 25, distance), size);
+            const auto title = d.label("height above the ground (m)");
+            ASSERT_TRUE(title) << width << ' ' << distance;
+            EXPECT_GE(title->lo.x, 0.9 * line - 1) << width << ' ' << distance;
+        }
+    }
+}
+
 TEST(Axes, DegreesOfManyCirclesAreNumberedSparsely) {
     for (const double step : {500.0, 1e12, 1e300}) {
         Axis lon = tests::axis(6, 0, step);
