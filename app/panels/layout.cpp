@@ -27,14 +27,17 @@ Layout layoutOf(glm::vec2 window, float scale, float sideWidth) {
 SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
     constexpr float kHeader = 90, kLeastInstrument = 212, kInstrument = 290, kLeastPage = 140,
                     kPage = 316, kLeastRows = 2.1f;
+    // Where a large scale leaves no room for that: the tabs stay in the window, for behind one of
+    // them the scale is chosen.
+    constexpr float kTightInstrument = 100, kTightPage = 60;
     const float s = layout.scale;
     const Rect& side = layout.side;
     const float rest = side.size().y / s - kHeader - kTabsHeight;
     const float rows = kLayersTitle + kLayerRow * static_cast<float>(layerRows) + 8;
-    const float layers = std::min(rows, std::max(kLayersTitle + kLeastRows * kLayerRow,
-                                                 rest - kLeastInstrument - kLeastPage));
-    // The instrument keeps its least size as long as there is any other.
-    const float leastPage = std::clamp(rest - layers - kLeastInstrument, 40.0f, kLeastPage);
+    const float fewRows = std::clamp(rest - kTightInstrument - kTightPage, kLayersTitle,
+                                     kLayersTitle + kLeastRows * kLayerRow);
+    const float layers = std::min(rows, std::max(fewRows, rest - kLeastInstrument - kLeastPage));
+    const float leastPage = std::clamp(rest - layers - kLeastInstrument, kTightPage, kLeastPage);
     const float page = std::clamp(rest - layers - kInstrument, leastPage, kPage);
     float top = side.min.y;
     const auto next = [&](float height) {
@@ -45,7 +48,7 @@ SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
     SideLayout out;
     out.header = next(kHeader);
     out.layers = next(layers);
-    out.instrument = next(std::max(kLeastInstrument, rest - layers - page));
+    out.instrument = next(std::max(kTightInstrument, rest - layers - page));
     out.tabs = next(kTabsHeight);
     out.page = next(page);
     return out;
