@@ -89,8 +89,8 @@ void Interface::drawSide(Desk& desk, const Surroundings& around) {
     const Rect& side = desk.layout.side;
     ImGui::GetWindowDrawList()->AddLine({side.min.x + 0.5f, side.min.y},
                                         {side.min.x + 0.5f, side.max.y}, kLine);
-    const SideLayout parts =
-        sideLayout(desk.layout, LayersPanel::rows(desk.exploration.explorer()));
+    if (!instrument_.isHeld()) layerRows_ = LayersPanel::rows(desk.exploration.explorer());
+    const SideLayout parts = sideLayout(desk.layout, layerRows_);
     drawHeader(desk, parts.header, around.offers.recent);
     hairline(side.min.x, side.max.x, parts.layers.min.y);
     layers_.draw(desk, parts.layers);
