@@ -4,6 +4,7 @@
 
 #include "app/panels/header.h"
 #include "app/panels/help.h"
+#include "app/panels/left_offer.h"
 #include "app/panels/quality_page.h"
 #include "app/view_edits.h"
 
@@ -78,7 +79,13 @@ void Interface::drawPicture(Desk& desk, const Surroundings& around) {
     } else if (!desk.exploration.opening()) {
         drawStartScreen(desk, around.offers);
     }
-    drawPictureOverlay(desk, around.exporting);
+    const float s = around.theme.scale;
+    float top = desk.layout.picture.min.y + 14 * s;
+    if (desk.exploration.shown() && !around.offers.autosave.empty()) {
+        drawLeftOffer(desk, around.offers.autosave);
+        top += 40 * s;
+    }
+    drawPictureOverlay(desk, top, around.exporting);
     messages_.draw(desk, around.dt);
     if (help_) drawHelp(desk);
     endRegion();

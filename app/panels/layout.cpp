@@ -111,6 +111,14 @@ StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFile
     return {.first = box(left, top, left + width, top + 40 * s), .pitch = 46 * s};
 }
 
+LeftOfferLayout leftOfferLayout(const Rect& picture, float scale) {
+    const float s = scale, half = std::min(170 * s, 0.5f * picture.size().x - 8 * s);
+    const float x = picture.centre().x, y = picture.min.y + 14 * s, right = x + half;
+    return {.whole = crisp(box(x - half, y, right, y + 32 * s)),
+            .goOn = crisp(box(right - 106 * s, y + 4 * s, right - 36 * s, y + 28 * s)),
+            .discard = crisp(box(right - 32 * s, y + 4 * s, right - 8 * s, y + 28 * s))};
+}
+
 std::pair<double, double> withRoom(double lo, double hi) {
     const double room =
         hi > lo ? 0.5 * (0.04 * hi - 0.04 * lo) : std::max(0.5, 1e-3 * std::abs(lo));

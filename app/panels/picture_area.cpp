@@ -112,10 +112,10 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     }
 }
 
-void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting) {
+void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>& exporting) {
     Exploration& exploration = desk.exploration;
     const float s = desk.theme.scale;
-    float y = desk.layout.picture.min.y + 14 * s;
+    float y = top;
     if (const auto opening = exploration.opening()) {
         const std::string what = fitting(*desk.theme.text, "Opening " + *opening,
                                          desk.layout.picture.size().x - 140 * s);
