@@ -61,8 +61,8 @@ Autosave::Autosave(fs::path folder)
     : file_(std::move(folder) / nameOf(getpid(), startOf(getpid()).value_or(0))) {}
 
 std::optional<std::string> Autosave::save(const Explorer& explorer, Clock::time_point now) {
-    if (explorer.files.empty() || (saved_ && *saved_ == explorer)) return std::nullopt;
-    if (saved_ && now - lastWrite_ < kPause) return std::nullopt;
+    const auto wait = untilSaved(explorer, now);
+    if (!wait || *wait > std::chrono::nanoseconds(0)) return std::nullopt;
     saved_ = explorer;
     lastWrite_ = now;
     try {
@@ -72,6 +72,14 @@ std::optional<std::string> Autosave::save(const Explorer& explorer, Clock::time_
             return fmt::format("the session is not saved for a crash: {}", error.what());
     }
     return std::nullopt;
+}
+
+std::optional<std::chrono::nanoseconds> Autosave::untilSaved(const Explorer& explorer,
+                                                             Clock::time_point now) const {
+    if (explorer.files.empty() || (saved_ && *saved_ == explorer)) return std::nullopt;
+    if (!saved_) return std::chrono::nanoseconds(0);
+    return std::max<std::chrono::nanoseconds>(kPause - (now - lastWrite_),
+                                              std::chrono::nanoseconds(0));
 }
 
 void Autosave::discard() {

@@ -25,6 +25,10 @@ class Autosave {
     // From the front end's loop: writes when the explorer has changed and kPause has passed. What
     // goes wrong is told once, as one sentence: a full disk must not end the program.
     std::optional<std::string> save(const Explorer& explorer, Clock::time_point now);
+    // Until save() would write this explorer; none: it is written. A front end that sleeps wakes
+    // then.
+    std::optional<std::chrono::nanoseconds> untilSaved(const Explorer& explorer,
+                                                       Clock::time_point now) const;
     // At a clean end: nothing is left to be offered.
     void discard();
 

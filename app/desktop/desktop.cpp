@@ -47,7 +47,7 @@ void Desktop::run() {
 void Desktop::frame(std::chrono::nanoseconds dt) {
     exploration_.advance(dt);
     const glm::ivec2 size = window_.framebufferSize();
-    if (size.x == 0 || size.y == 0) return;  // minimised
+    if (size.x == 0 || size.y == 0) return errands_.goOn(interface_.choices());  // minimised
     gui_.setScale(static_cast<float>(
         interface_.choices().scale.value_or(static_cast<double>(window_.contentScale()))));
     interact(dt);
@@ -89,6 +89,7 @@ void Desktop::serve(panels::Requests& requests) {
     if (requests.save) errands_.save(*requests.save);
     if (requests.exportTo) errands_.exportTo(*requests.exportTo);
     if (requests.cancelExport) errands_.cancelExport();
+    if (requests.discardLeft) errands_.discardLeft();
     for (const panels::Command command : requests.commands) {
         if (interface_.obey(exploration_, command)) continue;
         if (command == panels::Command::Screenshot) errands_.screenshot();
@@ -135,6 +136,7 @@ void Desktop::sleep() {
     within(exploration_.untilNextChange());
     within(interface_.untilNextChange());
     within(picture_.untilNextDraw());
+    within(errands_.untilKept());
     if (errands_.exporting()) within(100ms);
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
     const Clock::time_point before = Clock::now();

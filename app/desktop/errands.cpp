@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.h"
@@ -69,13 +70,29 @@ void Errands::open(const std::vector<fs::path>& named) {
 
 void Errands::openSession(const fs::path& file) {
     exploration_.open(readSession(file));
-    // A session that was left behind is not offered twice.
-    std::erase_if(left_, [&](const LeftSession& left) {
-        if (left.file != file) return false;
-        std::error_code gone;
-        fs::remove(file, gone);
-        return true;
-    });
+    const auto left = std::ranges::find(left_, file, &LeftSession::file);
+    goingOn_ = left == left_.end() ? std::nullopt : std::optional(*left);
+}
+
+// A session that was left behind is not offered twice, once it is shown. One whose data are gone
+// stays: they may come back.
+void Errands::settleLeft() {
+    if (!goingOn_ || exploration_.opening()) return;
+    const LeftSession left = *std::exchange(goingOn_, std::nullopt);
+    const Explorer &now = exploration_.explorer(), &wished = left.explorer;
+    if (now.files == wished.files && now.variable == wished.variable && now.keep == wished.keep &&
+        now.layers == wished.layers && now.sweep == wished.sweep)
+        forgetLeft(left.file);
+}
+
+void Errands::forgetLeft(const fs::path& file) {
+    std::error_code gone;
+    fs::remove(file, gone);
+    std::erase_if(left_, [&](const LeftSession& left) { return left.file == file; });
+}
+
+void Errands::discardLeft() {
+    if (!left_.empty()) forgetLeft(fs::path(left_.front().file));
 }
 
 void Errands::save(const fs::path& file) {
@@ -142,6 +159,7 @@ void Errands::goOn(const panels::Choices& choices) {
                 break;
         }
     }
+    settleLeft();
     if (!exploration_.shown()) return;
     if (const auto problem = autosave_.save(exploration_.explorer(), Autosave::Clock::now()))
         exploration_.tell(*problem, true);
@@ -162,12 +180,17 @@ void Errands::keep(const panels::Choices& choices) {
     telling(exploration_, [&] { writePreferences(preferences_, preferencesFile()); });
 }
 
+std::optional<std::chrono::nanoseconds> Errands::untilKept() const {
+    if (!exploration_.shown()) return std::nullopt;
+    return autosave_.untilSaved(exploration_.explorer(), Autosave::Clock::now());
+}
+
 void Errands::finish() { autosave_.discard(); }
 
 panels::StartOffers Errands::offers() const {
     return {.recent = preferences_.recentFiles,
             .demo = demo_,
-            .autosave = left_.empty() ? fs::path() : left_.front().file};
+            .autosave = left_.empty() || goingOn_ ? fs::path() : left_.front().file};
 }
 
 }  // namespace app::desktop

@@ -33,8 +33,13 @@ class Errands {
 
     // Once a frame: what is to be kept is kept, and a child's progress is told.
     void goOn(const panels::Choices& choices);
+    // Until goOn() has something to keep, though nothing happens any more.
+    std::optional<std::chrono::nanoseconds> untilKept() const;
     // At a clean end.
     void finish();
+
+    // The session offered that broke off.
+    void discardLeft();
 
     panels::StartOffers offers() const;
     const Preferences& preferences() const { return preferences_; }
@@ -44,6 +49,8 @@ class Errands {
  private:
     void keep(const panels::Choices& choices);
     void openSession(const std::filesystem::path& file);
+    void settleLeft();
+    void forgetLeft(const std::filesystem::path& file);
 
     Exploration& exploration_;
     Canvas& canvas_;
@@ -51,6 +58,7 @@ class Errands {
     Preferences preferences_, kept_;
     Autosave autosave_;
     std::vector<LeftSession> left_;
+    std::optional<LeftSession> goingOn_;  // on its way to be shown
     std::filesystem::path demo_;
     std::optional<ExportJob> export_;
     std::vector<std::filesystem::path> remembered_;  // the files that were last remembered

@@ -45,6 +45,7 @@ struct Requests {
     std::optional<std::filesystem::path> save;
     std::optional<std::filesystem::path> exportTo;
     bool cancelExport = false;
+    bool discardLeft = false;        // the session that broke off and is offered
     std::optional<glm::vec2> probe;  // where to read, in pixels of the picture, y down
     bool ruler = false;              // the reading asked for is another end of the ruler
     std::optional<glm::vec2> hover;  // likewise, for a look that must be quick

@@ -63,6 +63,12 @@ void FilePanel::ask(For what, const fs::path& path) {
     if (what == For::Open) typed_.clear();
 }
 
+fs::path FilePanel::chosen() const {
+    fs::path path = meant(typed_, folder_).lexically_normal();
+    if (for_ == For::Save && path.extension() != ".json") path += ".json";
+    return path;
+}
+
 void FilePanel::list(const fs::path& folder) {
     folder_ = folder;
     contents_ = {};
@@ -118,8 +124,9 @@ void FilePanel::draw(Desk& desk) {
                      {right, at.min.y + 64 * s + ImGui::GetFrameHeight()}};
     if (takesText("##path", field) || focus_) ImGui::SetKeyboardFocusHere();
     focus_ = false;
-    const bool entered = ImGui::InputTextWithHint("##path", "type a path, or choose below", &typed_,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered = ImGui::InputTextWithHint(
+        "##path", "type a path, or choose below", &typed_,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID("##path"));
     drawList(desk, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
 
@@ -135,8 +142,7 @@ void FilePanel::draw(Desk& desk) {
             all_ = *filter == 1;
             list(folder_);
         }
-    } else if (!warnedOf_.empty() &&
-               warnedOf_ == meant(typed_, folder_).lexically_normal().string()) {
+    } else if (!warnedOf_.empty() && warnedOf_ == chosen().string()) {
         text(theme, {left, y + 15 * s}, "It exists: again to replace it", kError);
     }
     if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}},
@@ -146,13 +152,13 @@ void FilePanel::draw(Desk& desk) {
         for_ &&
         textButton(theme, "Do", {{right - 100 * s, y}, {right, y + 30 * s}}, actionOf(*for_), true);
     if (for_ && (entered || pressed)) {
-        const fs::path path = meant(typed_, folder_);
+        const fs::path path = meant(typed_, folder_).lexically_normal();
         if (entered && isFolder(path)) {
-            list(path.lexically_normal());
+            list(path);
             typed_.clear();
             focus_ = true;
         } else if (!typed_.empty() || *for_ == For::Open) {
-            take(desk, path.lexically_normal());
+            take(desk, chosen());
             focus_ = for_.has_value();
         }
     }
@@ -202,7 +208,7 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
         if (*for_ == For::Open) typed_.clear();
         list(*enter);
     }
-    if (open) take(desk, *open);
+    if (open) take(desk, *for_ == For::Open ? *open : chosen());
 }
 
 }  // namespace app::panels

@@ -25,6 +25,8 @@ class FilePanel {
     void draw(Desk& desk);
 
  private:
+    // The path typed. A session has its ending, by which it is known when it is opened.
+    std::filesystem::path chosen() const;
     void list(const std::filesystem::path& folder);
     void drawList(Desk& desk, const Rect& at);
     void take(Desk& desk, const std::filesystem::path& path);

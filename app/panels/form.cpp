@@ -24,7 +24,9 @@ Rect Form::row(std::string_view label) {
     const float s = theme_.scale, height = 28 * s;
     const float left = label.empty() ? left_ : left_ + 104 * s;
     const Rect at{{left, y_}, {right_, y_ + height}};
-    if (!label.empty()) text(theme_, {left_, at.centre().y}, label, kDim);
+    if (!label.empty())
+        text(theme_, {left_, at.centre().y}, fitting(*theme_.text, label, left - left_ - 6 * s),
+             kDim);
     y_ += height + 8 * s;
     return at;
 }

@@ -18,6 +18,9 @@ namespace app::panels {
 class Instrument {
  public:
     void draw(Desk& desk, const Rect& at);
+    // A drag goes on: until it ends the instrument stays where it is, for values are read off its
+    // place.
+    bool isHeld() const { return grab_.grip != Grip::None; }
 
     // The values shown, from the bottom to the top.
     std::pair<double, double> values(const Desk& desk) const;

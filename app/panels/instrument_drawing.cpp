@@ -177,18 +177,23 @@ void Instrument::drawSweep(const Frame& f) const {
 
 void Instrument::drawAxis(const Frame& f) const {
     const Rect& at = f.at.axis;
+    ImFont& font = *f.desk.theme.small;
     const int wanted = std::max(2, static_cast<int>(at.size().y / (38 * f.s)));
     const std::vector<double> ticks = render::niceTicks(f.axis.lo, f.axis.hi, wanted);
     const std::vector<std::string> texts = render::tickTexts(ticks);
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         const float y = f.axis.y(ticks[i]);
         if (y < at.min.y + 6 * f.s || y > at.max.y - 6 * f.s) continue;
-        text(f.desk.theme, {at.centre().x, y}, texts[i], kDim, 0.5f, f.desk.theme.small);
+        text(f.desk.theme, {at.centre().x, y}, fitting(font, texts[i], at.size().x), kDim, 0.5f,
+             &font);
     }
     const std::string unit = render::shownUnit(f.shown.dataset.about.units);
-    text(f.desk.theme, {at.centre().x, f.at.times.centre().y},
-         fitting(*f.desk.theme.small, unit, at.size().x + 20 * f.s), kFaint, 0.5f,
-         f.desk.theme.small);
+    const float y = f.at.times.centre().y, right = at.max.x - 2 * f.s;
+    if (widthOf(font, unit) < at.size().x)
+        text(f.desk.theme, {at.centre().x, y}, unit, kFaint, 0.5f, &font);
+    else  // there is room on the left, and the times stand on the right
+        text(f.desk.theme, {right, y}, fitting(font, unit, right - f.at.histogram.min.x), kFaint, 1,
+             &font);
 }
 
 void Instrument::drawTime(const Frame& f) const {
@@ -210,11 +215,18 @@ void Instrument::drawTime(const Frame& f) const {
     const std::size_t last = f.steps.steps - 1;
     const float half = 0.48f * f.at.times.size().x, y = f.at.times.centre().y;
     ImFont& font = *f.desk.theme.small;
-    // The day alone where day and hour do not fit.
+    const auto dayOf = [&](std::size_t step) {
+        const std::string& date = axis.points[step].date;
+        return date.substr(0, date.find(' '));
+    };
+    // Where day and hour do not fit: the one that tells the two ends apart.
     const auto shortened = [&](std::size_t step) {
         const std::string whole = timeText(axis, step);
-        const bool dated = !axis.points[step].date.empty() && widthOf(font, whole) > half;
-        return fitting(font, dated ? whole.substr(0, whole.find(' ')) : whole, half);
+        if (axis.points[step].date.empty() || widthOf(font, whole) <= half)
+            return fitting(font, whole, half);
+        const bool oneDay = dayOf(0) == dayOf(last);
+        const std::size_t gap = whole.find(' ');
+        return fitting(font, oneDay ? whole.substr(gap + 1) : whole.substr(0, gap), half);
     };
     text(f.desk.theme, {f.at.times.min.x, y}, shortened(0), kFaint, 0, &font);
     text(f.desk.theme, {f.at.times.max.x, y}, shortened(last), kFaint, 1, &font);

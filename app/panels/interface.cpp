@@ -4,6 +4,7 @@
 
 #include "app/panels/header.h"
 #include "app/panels/help.h"
+#include "app/panels/left_offer.h"
 #include "app/panels/quality_page.h"
 #include "app/view_edits.h"
 
@@ -95,7 +96,13 @@ void Interface::drawPicture(Desk& desk, const Surroundings& around) {
     } else if (!desk.exploration.opening()) {
         drawStartScreen(desk, around.offers);
     }
-    drawPictureOverlay(desk, around.exporting);
+    const float s = around.theme.scale;
+    float top = desk.layout.picture.min.y + 14 * s;
+    if (desk.exploration.shown() && !around.offers.autosave.empty()) {
+        drawLeftOffer(desk, around.offers.autosave);
+        top += 40 * s;
+    }
+    drawPictureOverlay(desk, top, around.exporting);
     messages_.draw(desk, around.dt);
     if (help_) drawHelp(desk);
     endRegion();
@@ -106,8 +113,8 @@ void Interface::drawSide(Desk& desk, const Surroundings& around) {
     const Rect& side = desk.layout.side;
     ImGui::GetWindowDrawList()->AddLine({side.min.x + 0.5f, side.min.y},
                                         {side.min.x + 0.5f, side.max.y}, kLine);
-    const SideLayout parts =
-        sideLayout(desk.layout, LayersPanel::rows(desk.exploration.explorer()));
+    if (!instrument_.isHeld()) layerRows_ = LayersPanel::rows(desk.exploration.explorer());
+    const SideLayout parts = sideLayout(desk.layout, layerRows_);
     drawHeader(desk, parts.header, around.offers.recent);
     hairline(side.min.x, side.max.x, parts.layers.min.y);
     layers_.draw(desk, parts.layers);

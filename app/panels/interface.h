@@ -76,6 +76,7 @@ class Interface {
     HoverTip hover_;
     Messages messages_;
     FilePanel files_;
+    std::size_t layerRows_ = 0;  // that have room; new ones get theirs once the instrument is free
     bool help_ = false;
     bool popup_ = false;  // one, or the files, was open as the frame began
 };

@@ -27,14 +27,17 @@ Layout layoutOf(glm::vec2 window, float scale, float sideWidth) {
 SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
     constexpr float kHeader = 90, kLeastInstrument = 212, kInstrument = 290, kLeastPage = 140,
                     kPage = 316, kLeastRows = 2.1f;
+    // Where a large scale leaves no room for that: the tabs stay in the window, for behind one of
+    // them the scale is chosen.
+    constexpr float kTightInstrument = 100, kTightPage = 60;
     const float s = layout.scale;
     const Rect& side = layout.side;
     const float rest = side.size().y / s - kHeader - kTabsHeight;
     const float rows = kLayersTitle + kLayerRow * static_cast<float>(layerRows) + 8;
-    const float layers = std::min(rows, std::max(kLayersTitle + kLeastRows * kLayerRow,
-                                                 rest - kLeastInstrument - kLeastPage));
-    // The instrument keeps its least size as long as there is any other.
-    const float leastPage = std::clamp(rest - layers - kLeastInstrument, 40.0f, kLeastPage);
+    const float fewRows = std::clamp(rest - kTightInstrument - kTightPage, kLayersTitle,
+                                     kLayersTitle + kLeastRows * kLayerRow);
+    const float layers = std::min(rows, std::max(fewRows, rest - kLeastInstrument - kLeastPage));
+    const float leastPage = std::clamp(rest - layers - kLeastInstrument, kTightPage, kLeastPage);
     const float page = std::clamp(rest - layers - kInstrument, leastPage, kPage);
     float top = side.min.y;
     const auto next = [&](float height) {
@@ -45,7 +48,7 @@ SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
     SideLayout out;
     out.header = next(kHeader);
     out.layers = next(layers);
-    out.instrument = next(std::max(kLeastInstrument, rest - layers - page));
+    out.instrument = next(std::max(kTightInstrument, rest - layers - page));
     out.tabs = next(kTabsHeight);
     out.page = next(page);
     return out;
@@ -114,6 +117,14 @@ StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFile
     const float left = picture.centre().x - 0.5f * width;
     const float top = std::max(picture.min.y + 40 * s, picture.centre().y - 0.5f * height) + 60 * s;
     return {.first = box(left, top, left + width, top + 40 * s), .pitch = 46 * s};
+}
+
+LeftOfferLayout leftOfferLayout(const Rect& picture, float scale) {
+    const float s = scale, half = std::min(170 * s, 0.5f * picture.size().x - 8 * s);
+    const float x = picture.centre().x, y = picture.min.y + 14 * s, right = x + half;
+    return {.whole = crisp(box(x - half, y, right, y + 32 * s)),
+            .goOn = crisp(box(right - 106 * s, y + 4 * s, right - 36 * s, y + 28 * s)),
+            .discard = crisp(box(right - 32 * s, y + 4 * s, right - 8 * s, y + 28 * s))};
 }
 
 std::pair<double, double> withRoom(double lo, double hi) {

@@ -77,6 +77,12 @@ struct StartLayout {
 };
 StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFiles);
 
+// Over the picture: a session that broke off, while other data are shown.
+struct LeftOfferLayout {
+    Rect whole, goOn, discard;
+};
+LeftOfferLayout leftOfferLayout(const Rect& picture, float scale);
+
 // The ends of an axis that shows all from lo to hi, with a little room; both finite, lo <= hi.
 std::pair<double, double> withRoom(double lo, double hi);
 

@@ -42,16 +42,17 @@ std::string waitingText(const Desk& desk) {
 // notes stand on the left.
 void lowerRight(const Desk& desk, std::span<const std::string> lines) {
     const float s = desk.theme.scale;
+    ImFont& font = *desk.theme.small;
+    const float half = 9 * s, most = desk.layout.picture.size().x - 2 * kMargin * s;
     glm::vec2 at(desk.layout.picture.max.x - kMargin * s, desk.layout.picture.max.y - 16 * s);
-    float widest = 0;
-    for (const std::string& line : lines)
-        widest = std::max(widest, widthOf(*desk.theme.small, line));
-    // Axes may run below.
-    ImGui::GetWindowDrawList()->AddRectFilled(
-        {at.x - widest - 8 * s, at.y - (18 * static_cast<float>(lines.size()) - 8) * s},
-        {at.x + 8 * s, at.y + 12 * s}, faded(kGround, 0.75f), 4 * s);
-    for (std::size_t i = lines.size(); i-- > 0; at.y -= 18 * s)
-        text(desk.theme, at, lines[i], i + 1 == lines.size() ? kFaint : kDim, 1, desk.theme.small);
+    for (std::size_t i = lines.size(); i-- > 0; at.y -= 2 * half) {
+        const std::string line = fitting(font, lines[i], most);
+        // Axes may run below: no more of their labels is covered than the line needs.
+        ImGui::GetWindowDrawList()->AddRectFilled({at.x - widthOf(font, line) - 6 * s, at.y - half},
+                                                  {at.x + 6 * s, at.y + half},
+                                                  faded(kGround, 0.75f));
+        text(desk.theme, at, line, i + 1 == lines.size() ? kFaint : kDim, 1, &font);
+    }
 }
 
 // A rounded label at the picture's top; returns where it is.
@@ -114,10 +115,10 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     }
 }
 
-void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting) {
+void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>& exporting) {
     Exploration& exploration = desk.exploration;
     const float s = desk.theme.scale;
-    float y = desk.layout.picture.min.y + 14 * s;
+    float y = top;
     if (const auto opening = exploration.opening()) {
         const std::string what = fitting(*desk.theme.text, "Opening " + *opening,
                                          desk.layout.picture.size().x - 140 * s);

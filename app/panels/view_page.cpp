@@ -80,8 +80,8 @@ void ViewPage::clip(Desk& desk, Form& form) {
         double lo = std::clamp((now.lo[i] - least) / width, 0.0, 1.0),
                hi = std::clamp((now.hi[i] - least) / width, 0.0, 1.0);
         const std::string unit = render::shownUnit(axis.units);
-        const Rect row = form.row(
-            fmt::format("{}{}", axis.name, unit.empty() || unit == "index" ? "" : ", " + unit));
+        const Rect row = form.row(fmt::format("Clip {}{}", axis.name,
+                                              unit.empty() || unit == "index" ? "" : ", " + unit));
         const Rect bar{row.min, {row.max.x - 116 * s, row.max.y}};
         ImGui::PushID(i);
         if (rangeSlider(desk.theme, "##clip", bar, lo, hi))

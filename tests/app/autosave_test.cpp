@@ -52,6 +52,18 @@ TEST(Autosave, IsASessionWrittenAtMostEverySoOften) {
     EXPECT_FALSE(std::filesystem::exists(autosave.file()));
 }
 
+TEST(Autosave, TellsHowLongAChangeWaitsToBeWritten) {
+    const auto folder = tests::freshFolder();
+    Autosave autosave(folder);
+    const Autosave::Clock::time_point start{};
+    EXPECT_EQ(autosave.untilSaved(Explorer{}, start), std::nullopt);
+    EXPECT_EQ(autosave.untilSaved(exampleAt(folder, 1), start), 0ns);
+    autosave.save(exampleAt(folder, 1), start);
+    EXPECT_EQ(autosave.untilSaved(exampleAt(folder, 1), start + 1s), std::nullopt);
+    EXPECT_EQ(autosave.untilSaved(exampleAt(folder, 2), start + 1s), Autosave::kPause - 1s);
+    EXPECT_EQ(autosave.untilSaved(exampleAt(folder, 2), start + 2 * Autosave::kPause), 0ns);
+}
+
 TEST(Autosave, IsOfferedOnceItsProcessIsGone) {
     const auto folder = tests::freshFolder();
     Autosave own(folder);

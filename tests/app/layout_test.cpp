@@ -22,7 +22,8 @@ class EveryLayout : public testing::TestWithParam<Size> {
 INSTANTIATE_TEST_SUITE_P(Sizes, EveryLayout,
                          testing::Values(Size{{1440, 900}, 1, 1}, Size{{1000, 700}, 1, 3},
                                          Size{{800, 640}, 1, 8}, Size{{1920, 1080}, 1.5f, 8},
-                                         Size{{2880, 1800}, 2, 2}, Size{{3840, 2160}, 2, 0}));
+                                         Size{{2880, 1800}, 2, 2}, Size{{3840, 2160}, 2, 0},
+                                         Size{{1440, 900}, 2, 1}, Size{{1440, 900}, 2, 8}));
 
 TEST_P(EveryLayout, PictureColumnAndBarFillTheWindowWithoutOverlap) {
     const auto area = [](const Rect& r) { return r.size().x * r.size().y; };

@@ -143,6 +143,10 @@ Shot Driver::settled() {
     return last;
 }
 
+unsigned long Driver::modifierOf(std::string_view name) {
+    return name == "ctrl" ? XK_Control_L : XK_Shift_L;
+}
+
 void Driver::key(unsigned long keysym, bool isDown) {
     XTestFakeKeyEvent(screen_.connection(), XKeysymToKeycode(screen_.connection(), keysym),
                       isDown ? True : False, CurrentTime);
@@ -151,7 +155,7 @@ void Driver::key(unsigned long keysym, bool isDown) {
 void Driver::press(std::string_view keys) {
     std::vector<KeySym> held;
     for (std::size_t plus; (plus = keys.find('+')) != std::string_view::npos;) {
-        held.push_back(keys.substr(0, plus) == "ctrl" ? XK_Control_L : XK_Shift_L);
+        held.push_back(modifierOf(keys.substr(0, plus)));
         keys.remove_prefix(plus + 1);
     }
     held.push_back(keysymOf(keys));

@@ -50,6 +50,8 @@ class Driver {
 
     // "space", "F12", "ctrl+s", "ctrl+shift+z": names of X keysyms.
     void press(std::string_view keys);
+    void hold(std::string_view modifier) { key(modifierOf(modifier), true); }
+    void release(std::string_view modifier) { key(modifierOf(modifier), false); }
     void type(std::string_view text);  // letters, digits and ./-_:
     void move(glm::vec2 to);
     void moveOnly(glm::vec2 to);  // without sync()
@@ -71,6 +73,7 @@ class Driver {
     void restore();
 
  private:
+    static unsigned long modifierOf(std::string_view name);  // "ctrl" or "shift"
     void key(unsigned long keysym, bool isDown);
 
     const Screen& screen_;

@@ -132,23 +132,82 @@ TEST_F(DeskOpens, ASavedSessionAsTheSamePixels) {
     EXPECT_EQ(differing(desk.settled(at.clear), first), 0u);
 }
 
-TEST_F(DeskOpens, WhatWasLeftByAProcessThatWasKilled) {
-    const auto state = folder() / ".local/state/isochron";
-    std::string title;
-    {
-        Driver desk(screen(), folder(), {demo().string(), "--range", "700:900"});
-        desk.waitForTitle("pool_fire_T.nc · T");
-        title = desk.title();
-        desk.waitFor("the session is kept", [&] {
-            return std::filesystem::exists(state) && !std::filesystem::is_empty(state);
-        });
+class DeskGoesOn : public DeskOpens {
+ protected:
+    // The sessions that processes have left, or keep.
+    std::vector<std::filesystem::path> kept() const {
+        std::vector<std::filesystem::path> files;
+        const auto state = folder() / ".local/state/isochron";
+        if (std::filesystem::exists(state))
+            for (const auto& entry : std::filesystem::directory_iterator(state))
+                if (entry.path().extension() == ".json") files.push_back(entry.path());
+        return files;
+    }
+    // Opens a file, and is killed; returns its title.
+    std::string leave(const std::filesystem::path& file) {
+        Driver desk(screen(), folder(), {file.string(), "--range", "100:200"});
+        desk.waitForTitle(" points");
+        const std::string title = desk.title();
+        desk.waitFor("the session is kept", [&] { return !kept().empty(); });
         desk.process().signal(SIGKILL);
         EXPECT_EQ(desk.process().exitCode(), 128 + SIGKILL);
+        return title;
     }
+};
+
+TEST_F(DeskGoesOn, WithWhatWasLeftByAProcessThatWasKilled) {
+    const std::string title = leave(writeRamp(folder() / "ramp.nrrd"));
     Driver desk(screen(), folder(), {});
     desk.settled();
     desk.click(startOffer(desk.size(), 1, 1));
     desk.waitFor("the session goes on", [&] { return desk.title() == title; });
+}
+
+TEST_F(DeskGoesOn, AlsoWhereAnotherFileWasOpened) {
+    const std::string title = leave(writeRamp(folder() / "ramp.nrrd"));
+    Driver desk(screen(), folder(), {demo().string()});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const auto offer = app::panels::leftOfferLayout(placesOf(desk.size()).window.picture, 1);
+    const Shot offered = desk.settled(offer.whole);
+    desk.click(offer.goOn.centre());
+    desk.waitFor("the session goes on", [&] { return desk.title() == title; });
+    EXPECT_GT(differing(desk.settled(offer.whole), offered), 1000u);
+    desk.waitFor("it is not offered again", [&] { return kept().size() == 1; });
+}
+
+TEST_F(DeskGoesOn, UnlessItIsDiscarded) {
+    leave(writeRamp(folder() / "ramp.nrrd"));
+    Driver desk(screen(), folder(), {demo().string()});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const auto offer = app::panels::leftOfferLayout(placesOf(desk.size()).window.picture, 1);
+    desk.click(offer.discard.centre());
+    desk.waitFor("it is not offered again", [&] { return kept().size() == 1; });
+    EXPECT_THAT(desk.title(), testing::HasSubstr("pool_fire_T.nc"));
+}
+
+TEST_F(DeskGoesOn, OnceItsDataAreThereAgain) {
+    const auto file = folder() / "ramp.nrrd", away = folder() / "away.nrrd";
+    const std::string title = leave(writeRamp(file));
+    Driver desk(screen(), folder(), {});
+    const Shot before = desk.settled();
+    std::filesystem::rename(file, away);
+    desk.click(startOffer(desk.size(), 1, 1));
+    desk.waitFor("a message appears", [&] { return differing(desk.shot(), before) > 5000; });
+    desk.settled();
+    EXPECT_EQ(kept().size(), 1u);
+    std::filesystem::rename(away, file);
+    desk.click(startOffer(desk.size(), 1, 1));
+    desk.waitFor("the session goes on", [&] { return desk.title() == title; });
+}
+
+TEST_F(DeskGoesOn, WithTheLastChangeThoughNothingHappenedAfterIt) {
+    Driver desk(screen(), folder(), {writeRamp(folder() / "ramp.nrrd").string()});
+    desk.waitForTitle(" points");
+    desk.waitFor("the session is kept", [&] { return !kept().empty(); });
+    desk.press("2");
+    desk.waitFor("the change is kept", [&] {
+        return !kept().empty() && app::readSession(kept()[0]).view.azimuthDegrees == 180;
+    });
 }
 
 }  // namespace

@@ -57,5 +57,24 @@ TEST_F(DeskSelects, AndUndoRestoresPixelsAndCount) {
     EXPECT_EQ(differing(desk.settled(at.clear), after), 0u);
 }
 
+// The new layer's row takes room in the column, but not from under the hand.
+TEST_F(DeskSelects, AsANewLayerWhatWasDraggedAcrossWithShift) {
+    Driver desk(screen(), folder(), {demo().string(), "--range", "1200:max"});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const Places at = placesOf(desk.size());
+    waitUntilSeen(desk, 31);
+    desk.settled();
+    const app::panels::ValueAxis axis = axisOf(at);
+    const float x = at.instrument.histogram.centre().x;
+    desk.hold("shift");
+    desk.drag({x, axis.y(600)}, {x, axis.y(900)});
+    desk.release("shift");
+    const app::Explorer e = saved(desk, folder() / "added.json");
+    ASSERT_EQ(e.layers.size(), 2u);
+    const auto range = e.layers[1].ranges.ranges()[0];
+    EXPECT_NEAR(timeseries::toDouble(range.lo.value), 600, 3 * axis.perPixel());
+    EXPECT_NEAR(timeseries::toDouble(range.hi.value), 900, 3 * axis.perPixel());
+}
+
 }  // namespace
 }  // namespace ui

@@ -36,5 +36,18 @@ TEST_F(DeskTakesAway, TheScreenshotThatTheCopiedCommandLineMakes) {
     EXPECT_LE(differing(written, seen), seen.pixels.size() / 100);
 }
 
+TEST_F(DeskTakesAway, SessionsUnderTheNamesTyped) {
+    Driver desk(screen(), folder(), {demo().string()});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    for (const char* name : {"first", "second"}) {
+        desk.press("ctrl+s");
+        desk.type(name);  // in place of the name proposed
+        desk.press("Return");
+        const auto file = folder() / (name + std::string(".json"));
+        desk.waitFor("the session is saved", [&] { return std::filesystem::exists(file); });
+        EXPECT_EQ(app::readSession(file).variable, "T");
+    }
+}
+
 }  // namespace
 }  // namespace ui
