@@ -13,6 +13,7 @@ struct View {
     glm::dmat4 clipFromView{1.0};
     glm::dmat4 viewFromWorld{1.0};  // rigid, or rigid and one uniform scale
     glm::ivec2 size{0};
+    friend bool operator==(const View&, const View&) = default;
 };
 
 // Tangents of the half angles, left and down negative: x / -z of the frustum's sides.

@@ -133,7 +133,9 @@ void Desktop::sleep() {
     if (restless_ > 0 || !window_.events().empty()) within(0ns);
     within(exploration_.untilNextChange());
     within(interface_.untilNextChange());
-    within(picture_.untilNextDraw());
+    // While it is minimised, nothing is drawn.
+    if (const glm::ivec2 size = window_.framebufferSize(); size.x > 0 && size.y > 0)
+        within(picture_.untilNextDraw());
     if (errands_.exporting()) within(100ms);
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
     const Clock::time_point before = Clock::now();
