@@ -36,10 +36,15 @@ Desktop::Desktop(Exploration& exploration)
 }
 
 void Desktop::run() {
-    while (!window_.shouldClose() && !stopped_) {
-        sleep();
-        const Clock::time_point now = Clock::now();
-        frame(now - std::exchange(last_, now));
+    try {
+        while (!window_.shouldClose() && !stopped_) {
+            sleep();
+            const Clock::time_point now = Clock::now();
+            frame(now - std::exchange(last_, now));
+        }
+    } catch (...) {
+        errands_.rescue();
+        throw;
     }
     errands_.finish();
 }

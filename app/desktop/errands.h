@@ -35,6 +35,9 @@ class Errands {
     void goOn(const panels::Choices& choices);
     // At a clean end.
     void finish();
+    // At an end that nobody asked for: what is to be offered at the next start is kept as it is
+    // now.
+    void rescue();
 
     panels::StartOffers offers() const;
     const Preferences& preferences() const { return preferences_; }
