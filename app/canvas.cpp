@@ -5,6 +5,7 @@
 
 #include "app/camera.h"
 #include "app/gpu_steps.h"
+#include "app/refinement.h"
 #include "app/still.h"
 #include "render/gl/gpu_timer.h"
 
@@ -39,7 +40,6 @@ struct Screen {
     Explorer explorer;
     timeseries::Variable about;
     std::size_t step;
-    std::uint32_t stride = 1;  // of the last draw
 };
 
 Picture pictureOf(const Screen& screen) {
@@ -61,19 +61,39 @@ bool sameData(const Explorer& a, const Explorer& b) {
     return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
 }
 
+// What is on the screen, being refined.
+struct Resting {
+    Screen of;
+    Refinement refinement;
+
+    Resting(render::FrameRenderer& renderer, const Screen& screen,
+            std::span<const render::View> eyes)
+        : of(screen), refinement(renderer, pictureOf(screen), screen.held->onGpu, eyes) {}
+    bool is(const Screen& screen, std::span<const render::View> eyes) const {
+        return of.sorted == screen.sorted && of.explorer == screen.explorer &&
+               std::ranges::equal(refinement.eyes(), eyes);
+    }
+};
+
 }  // namespace
 
 struct Canvas::State {
     render::FrameRenderer renderer;
-    render::gl::GpuTimer timer;
+    render::gl::GpuTimer timer, refineTimer;
     GpuSteps steps;
     std::optional<Screen> screen;
+    std::uint32_t stride = 1;        // of what was shown last
+    std::optional<Resting> resting;  // uses the renderer alone
 
+    // What every frame begins with: brings what is shown and tells of it.
+    CanvasReport begin(const Shown& shown, const CanvasLimits& limits, render::gl::GpuTimer& of);
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
     GpuSteps::Held& bring(const Shown& shown, std::uint64_t uploadBytes, CanvasReport& report);
     // The step on the screen takes other choices, if all that they select is on the GPU.
     void choose(const Explorer& choices);
+    // What of the layers is on the screen.
+    void tell(CanvasReport& report, const std::vector<render::Layer>& layers) const;
 };
 
 void Canvas::State::choose(const Explorer& choices) {
@@ -111,29 +131,40 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
 Canvas::Canvas() : state_(std::make_unique<State>()) {}
 Canvas::~Canvas() = default;
 
-CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
-                          const CanvasLimits& limits, bool moving,
-                          const std::function<void(std::size_t eye, const render::Targets&)>& show,
-                          const CanvasScene& scene) {
+CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits,
+                                  render::gl::GpuTimer& of) {
     CanvasReport report;
-    const GpuSteps::Held& coming = state_->bring(shown, limits.uploadBytes, report);
-    auto& screen = state_->screen;
-    state_->steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
-    report.gpuBytes = state_->steps.bytes();
-    if (const auto timed = state_->timer.poll()) {
+    const GpuSteps::Held& coming = bring(shown, limits.uploadBytes, report);
+    steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
+    report.gpuBytes = steps.bytes();
+    if (const auto timed = of.poll()) {
         report.gpuTime = timed->took;
         report.gpuSplats = timed->label;
     }
+    if (screen) report.step = screen->step;
+    return report;
+}
+
+void Canvas::State::tell(CanvasReport& report, const std::vector<render::Layer>& layers) const {
+    report.selected = drawnSplats(layers, 1);
+    report.stride = stride;
+    report.drawn = drawnSplats(layers, stride);
+    report.whole = stride == 1 && report.uploaded == 1;
+}
+
+CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
+                          const CanvasLimits& limits, bool moving, const Show& show,
+                          const CanvasScene& scene) {
+    state_->resting.reset();
+    CanvasReport report = state_->begin(shown, limits, state_->timer);
+    auto& screen = state_->screen;
     if (!screen) return report;
 
     Picture picture = pictureOf(*screen);
-    report.step = screen->step;
-    report.selected = drawnSplats(picture.scene.layers, 1);
     if (moving) picture.scene.stride = strideFor(picture.scene.layers, limits.splats / eyes.size());
     picture.scene.footprint = footprintFor(screen->explorer.footprint, picture.scene.stride);
-    report.stride = screen->stride = picture.scene.stride;
-    report.drawn = drawnSplats(picture.scene.layers, picture.scene.stride);
-    report.whole = report.stride == 1 && report.uploaded == 1;
+    state_->stride = picture.scene.stride;
+    state_->tell(report, picture.scene.layers);
 
     state_->timer.begin();
     const render::FrameContent content{picture.scene, screen->sorted->grid(),
@@ -148,9 +179,29 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     return report;
 }
 
-void Canvas::drawPlacards(
-    std::span<const render::Placard> placards, std::span<const render::View> eyes,
-    const std::function<void(std::size_t eye, const render::Targets&)>& show) {
+CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> eyes,
+                            const CanvasLimits& limits, const Show& show) {
+    CanvasReport report = state_->begin(shown, limits, state_->refineTimer);
+    auto& screen = state_->screen;
+    if (!screen) return report;
+    auto& resting = state_->resting;
+    if (!resting || !resting->is(*screen, eyes)) resting.emplace(state_->renderer, *screen, eyes);
+    Refinement& refinement = resting->refinement;
+    state_->refineTimer.begin();
+    const std::uint64_t splats = refinement.goOn(limits.splats, show);
+    state_->refineTimer.end(splats);
+    const bool done = refinement.done();
+    if (done) state_->stride = 1;
+    state_->tell(report, refinement.scene().layers);
+    report.refined = refinement.share();
+    report.whole = report.whole && done;
+    if (done) resting.reset();
+    return report;
+}
+
+void Canvas::drawPlacards(std::span<const render::Placard> placards,
+                          std::span<const render::View> eyes, const Show& show) {
+    state_->resting.reset();
     state_->renderer.makeRoom(eyes);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         state_->renderer.drawPlacards(placards, kBackground, eyes[i]);
@@ -172,7 +223,7 @@ std::optional<Drawn> Canvas::drawn() const {
 std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& window) const {
     if (!state_->screen) return std::nullopt;
     Picture picture = pictureOf(*state_->screen);
-    picture.scene.stride = state_->screen->stride;
+    picture.scene.stride = state_->stride;
     picture.scene.footprint =
         footprintFor(state_->screen->explorer.footprint, picture.scene.stride);
     const auto picked = render::pick(picture.scene, eye, window);
@@ -188,6 +239,7 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
 }
 
 void Canvas::save(const Shown& shown, const std::filesystem::path& file) {
+    state_->resting.reset();
     GpuSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
     writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, held.lattice,
                 shown.explorer.play.tick},

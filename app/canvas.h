@@ -30,16 +30,17 @@ struct CanvasLimits {
     std::uint64_t cacheBytes = std::uint64_t{1} << 30;
 };
 
-// What one draw() drew, as the overlay tells it.
+// What the picture on the screen is after one draw() or refine(), as the overlay tells it.
 struct CanvasReport {
     std::size_t step = 0;                   // the step on the screen
     std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
     std::uint32_t stride = 1;               // one of so many points stands for its neighbours
     bool whole = false;                     // nothing is missing: all points, all uploaded
     double uploaded = 1;                    // share of what the picture asked for needs
+    double refined = 0;                     // share that refine() has drawn; it shows all at once
     std::uint64_t gpuBytes = 0;             // of steps held there
-    // Of an earlier frame, by timer query, and the splats of all its eyes: what FramePace learns
-    // from. None in most frames of a GPU that is behind.
+    // Of an earlier call of the same function, by timer query, and the splats of all its eyes: what
+    // FramePace learns from. None in most frames of a GPU that is behind.
     std::optional<std::chrono::nanoseconds> gpuTime;
     std::uint64_t gpuSplats = 0;
 };
@@ -65,6 +66,7 @@ class Canvas {
     Canvas();
     ~Canvas();
 
+    using Show = std::function<void(std::size_t eye, const render::Targets&)>;
     // Draws the eyes one after the other and hands each one's light (render::Targets) to `show`
     // before the next is drawn. Order is taken and uploaded once. What is not on the GPU yet is not
     // drawn: the step or the choices before stay, and the report says so. Nothing is drawn, and
@@ -72,12 +74,17 @@ class Canvas {
     // change again at once, so the limits hold; else all points are drawn. Never waits for the GPU.
     // REQUIRES: at least one eye.
     CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
-                      const CanvasLimits& limits, bool moving,
-                      const std::function<void(std::size_t eye, const render::Targets&)>& show,
+                      const CanvasLimits& limits, bool moving, const Show& show,
                       const CanvasScene& scene = {});
+    // The picture that draw() makes of all points, for a window at rest: each call draws no more
+    // than the limits and a little, and `show` gets an eye when the last of its points is drawn;
+    // what was shown before holds until then. Begins anew when something else is asked for, by this
+    // or another function.
+    CanvasReport refine(const Shown& shown, std::span<const render::View> eyes,
+                        const CanvasLimits& limits, const Show& show);
     // Likewise, placards alone: where draw() has nothing to draw.
     void drawPlacards(std::span<const render::Placard> placards, std::span<const render::View> eyes,
-                      const std::function<void(std::size_t eye, const render::Targets&)>& show);
+                      const Show& show);
 
     // The eyes of the shown explorer on a picture of its size (camera.h).
     std::vector<render::View> eyesOf(const Shown& shown) const;

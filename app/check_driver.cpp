@@ -1,5 +1,7 @@
 #include "app/check_driver.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "render/gl/debug_output.h"
@@ -11,7 +13,9 @@ void checkDriver(Exploration& exploration) {
     try {
         render::gl::throwOnError();
     } catch (const std::runtime_error& error) {
-        exploration.tell(error.what(), true);
+        exploration.tell(fmt::format("The graphics driver complains; the picture may be wrong ({})",
+                                     error.what()),
+                         true);
     }
 }
 #else

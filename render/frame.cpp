@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
@@ -11,6 +12,8 @@
 
 namespace render {
 namespace {
+
+constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 
 std::array<FontStyle, 2> stylesFor(glm::ivec2 size) { return {labelStyle(size), titleStyle(size)}; }
 
@@ -57,26 +60,49 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
 }
 
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
+    EyeInWork work = begin(frame, eye);
+    goOn(work, kAll);
+}
+
+FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View& eye) {
     ++eyes_;
-    const GLuint light = use(eye.size).lightFramebuffer();
-    const FlatMesh legend = legendMesh(frame.content.legend, font_, eye.size);
-    const AxesMeshes axes = axesMeshes(frame.content.grid, frame.content.scene.lattice, eye,
-                                       frame.midEye, font_, legend);
-    // All that adds to the light comes last and together: a driver that draws tile by tile then
-    // touches each of its pixels once.
-    drawSplats(*frame.list, eye, {axes.behind, frame.content.placards});
+    FlatMesh legend = legendMesh(frame.content.legend, font_, eye.size);
+    AxesMeshes axes = axesMeshes(frame.content.grid, frame.content.scene.lattice, eye, frame.midEye,
+                                 font_, legend);
+    return {frame, eye, std::move(legend), std::move(axes)};
+}
+
+bool FrameRenderer::goOn(EyeInWork& work, std::uint64_t splats) {
+    if (!drawSplats(work, splats)) return false;
+    drawLight(work);
+    return true;
+}
+
+std::uint64_t FrameRenderer::cost(const Prepared& frame) {
+    const std::vector<Channels> channels = channelsFor(frame.content.scene);
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        for (const Piece& piece : frame.list->pieces(channels[i], i)) sum += piece.cost;
+    return sum;
+}
+
+// All that adds to the light comes last and together: a driver that draws tile by tile then touches
+// each of its pixels once.
+void FrameRenderer::drawLight(const EyeInWork& work) {
+    const FrameContent& content = work.frame.content;
+    const GLuint light = use(work.eye.size).lightFramebuffer();
     gl::begin({.framebuffer = light,
-               .size = eye.size,
-               .clearColor = glm::vec4(glm::vec3(frame.content.background), 1)});
-    flat_->draw(axes.behind, light, eye.size);
-    flat_->draw(axes.labels, light, eye.size);
-    for (const Placard& placard : frame.content.placards) placards_.draw(placard, eye, light);
-    resolve(frame.content.scene, coveredPixels(frame.content.scene, eye));
+               .size = work.eye.size,
+               .clearColor = glm::vec4(glm::vec3(content.background), 1)});
+    flat_->draw(work.axes.behind, light, work.eye.size);
+    flat_->draw(work.axes.labels, light, work.eye.size);
+    for (const Placard& placard : content.placards) placards_.draw(placard, work.eye, light);
+    resolve(content.scene, coveredPixels(content.scene, work.eye));
     // Lines before the volume have soft edges: blended over it, not under with a depth of their
     // own.
-    flat_->draw(axes.before, light, eye.size,
-                frame.content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test);
-    flat_->draw(legend, light, eye.size);
+    flat_->draw(work.axes.before, light, work.eye.size,
+                content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test);
+    flat_->draw(work.legend, light, work.eye.size);
 }
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
@@ -128,16 +154,28 @@ void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLui
     hidden_.drawDepth(view, framebuffer);
 }
 
-void FrameRenderer::drawSplats(const GpuList& list, const View& view, const Occluders& occluders) {
-    const std::vector<Channels> channels = channelsFor(list.scene());
-    Targets& targets = use(view.size);
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        const GLuint plane = targets.clearedPlane(i, channels[i]);
-        if (i == 0) drawDepth(occluders, view, plane);
-        splatter_.draw(list, view, channels[i], i, plane);
+bool FrameRenderer::drawSplats(EyeInWork& work, std::uint64_t splats) {
+    const FrameContent& content = work.frame.content;
+    const Occluders occluders{work.axes.behind, content.placards};
+    const std::vector<Channels> channels = channelsFor(content.scene);
+    Targets& targets = use(work.eye.size);
+    const std::uint64_t until = work.cost + std::clamp<std::uint64_t>(splats, 1, kAll - work.cost);
+    for (; work.plane < channels.size(); ++work.plane, work.piece = 0) {
+        if (work.cost >= until) return false;
+        const Channels channel = channels[work.plane];
+        const GLuint plane = work.piece > 0 ? targets.planeFramebuffer(work.plane)
+                                            : targets.clearedPlane(work.plane, channel);
+        if (work.plane == 0 && work.piece == 0) drawDepth(occluders, work.eye, plane);
+        const auto left = work.frame.list->pieces(channel, work.plane).subspan(work.piece);
+        std::size_t now = 0;
+        while (now < left.size() && work.cost < until) work.cost += left[now++].cost;
+        splatter_.draw(*work.frame.list, work.eye, channel, left.first(now), plane);
+        work.piece += now;
+        if (now < left.size()) return false;
     }
     // The placards are drawn against it even if there are no splats.
-    if (channels.empty()) drawDepth(occluders, view, targets.lightFramebuffer());
+    if (channels.empty()) drawDepth(occluders, work.eye, targets.lightFramebuffer());
+    return true;
 }
 
 const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {

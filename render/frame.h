@@ -58,8 +58,23 @@ class FrameRenderer {
         glm::dvec3 midEye;
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
-    // One of the eyes that the frame was prepared for.
+    // One of the eyes that the frame was prepared for; its light is then in targets().
     void drawEye(const Prepared& frame, const View& eye);
+    // The same bit for bit over several frames, in which nothing else is drawn. Frame and view must
+    // outlive it.
+    struct EyeInWork {
+        const Prepared& frame;
+        const View& eye;
+        FlatMesh legend;
+        AxesMeshes axes;
+        std::size_t plane = 0, piece = 0;  // to be drawn next
+        std::uint64_t cost = 0;            // drawn so far, in splats
+    };
+    EyeInWork begin(const Prepared& frame, const View& eye);
+    // Draws until `splats` are reached: one piece (render/pieces.h) at least. True when the light
+    // is in targets(); before, there is nothing to see.
+    bool goOn(EyeInWork& work, std::uint64_t splats);
+    static std::uint64_t cost(const Prepared& frame);  // of a whole eye
     // An eye that sees nothing but placards. REQUIRES: makeRoom() for it.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                       const View& eye);
@@ -81,7 +96,8 @@ class FrameRenderer {
     };
     // Leaves the depth attachment, which all planes and the light share, holding these alone.
     void drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer);
-    void drawSplats(const GpuList& list, const View& view, const Occluders& occluders);
+    bool drawSplats(EyeInWork& work, std::uint64_t splats);
+    void drawLight(const EyeInWork& work);
     void resolve(const Scene& scene, const PixelBox& covered);
     const gl::Program& resolveProgram(const Scene& scene);
     std::vector<float> opticalDepth(const GpuList& list, const View& view, const FlatMesh& behind);

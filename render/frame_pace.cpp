@@ -25,7 +25,8 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-FramePace::FramePace(std::chrono::nanoseconds target) : targetNs_(ns(target)) {}
+FramePace::FramePace(std::chrono::nanoseconds target, std::uint64_t first)
+    : targetNs_(ns(target)), budget_(first) {}
 
 void FramePace::setTarget(std::chrono::nanoseconds target) {
     targetNs_ = ns(target);

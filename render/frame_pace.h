@@ -13,13 +13,14 @@ namespace render {
 // is followed within ten frames.
 class FramePace {
  public:
-    explicit FramePace(std::chrono::nanoseconds target);
+    // `first`: the budget before the first frame.
+    explicit FramePace(std::chrono::nanoseconds target, std::uint64_t first = kFirst);
 
     void setTarget(std::chrono::nanoseconds target);
     // A frame of `splats` splats (all eyes together) took so long.
     void took(std::uint64_t splats, std::chrono::nanoseconds time);
     // The most for the target, from kFewest to kMost; with hysteresis: it changes only by 10 % or
-    // more. kFirst before the first frame.
+    // more.
     std::uint64_t budget() const { return budget_; }
 
     static constexpr std::uint64_t kFewest = 20'000, kFirst = 100'000,
@@ -33,7 +34,7 @@ class FramePace {
     void follow();
 
     double targetNs_, fixedNs_ = 0, perSplatNs_ = 0;
-    std::uint64_t budget_ = kFirst;
+    std::uint64_t budget_;
     std::deque<Frame> recent_;
 };
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "render/block_order.h"
-
 namespace render {
 namespace {
 
@@ -25,38 +23,28 @@ std::vector<SortedPoint> gathered(const Scene& scene, const Sorted& list, const 
     return out;
 }
 
-// What is sent to the vertex shader, of the points as they lie on the GPU.
+// Pieces that follow each other without a gap, sent as one.
 struct Slices {
     std::vector<GLint> first;
     std::vector<GLsizei> count;
-    void add(std::uint64_t from, std::uint64_t points) {
-        first.push_back(static_cast<GLint>(from));
-        count.push_back(static_cast<GLsizei>(points));
+    void add(const Piece& piece) {
+        const auto from = static_cast<GLint>(piece.first);
+        const auto points = static_cast<GLsizei>(piece.count);
+        if (!first.empty() && first.back() + count.back() == from) {
+            count.back() += points;
+            return;
+        }
+        first.push_back(from);
+        count.push_back(points);
     }
 };
 
-// All that lies in the blocks that the run touches, or their beginnings, which hold the subset.
-Slices slicesOf(const timeseries::Run& run, std::uint32_t stride, std::uint64_t points) {
-    constexpr std::uint64_t kBlock = GpuStep::kBlock;
-    const std::uint64_t from = run.first / kBlock * kBlock;
-    const std::uint64_t end = run.first + run.count;
-    const std::uint64_t to = std::min((end + kBlock - 1) / kBlock * kBlock, points);
-    Slices slices;
-    const std::uint32_t prefix = prefixStride(stride);
-    if (prefix == 1) {
-        slices.add(from, to - from);
-        return slices;
-    }
-    for (std::uint64_t at = from; at < to; at += kBlock)
-        slices.add(at, subsetCount({at, std::min(kBlock, to - at)}, prefix));
-    return slices;
-}
-
-void drawRun(const timeseries::Run& run, std::uint32_t stride, std::uint64_t points, bool quads) {
-    const Slices slices = slicesOf(run, stride, points);
-    const auto first = static_cast<GLuint>(run.first);
-    const auto last = static_cast<GLuint>(run.first + run.count - 1);
-    const auto ranks = static_cast<GLuint>(kSubsetPeriod / stride);
+// Of one run. Attributes without an array have one value for all.
+void drawRun(const Piece& of, const Slices& slices, bool quads) {
+    const auto first = static_cast<GLuint>(of.run.first);
+    const auto last = static_cast<GLuint>(of.run.first + of.run.count - 1);
+    const auto ranks = static_cast<GLuint>(kSubsetPeriod / of.stride);
+    glVertexAttribI4ui(2, static_cast<GLuint>(of.layer), 0, 0, 1);
     glVertexAttribI4ui(4, first, last, 0, ranks);
     if (!quads) {
         glMultiDrawArrays(GL_POINTS, slices.first.data(), slices.count.data(),
@@ -70,15 +58,18 @@ void drawRun(const timeseries::Run& run, std::uint32_t stride, std::uint64_t poi
     }
 }
 
+bool sameRun(const Piece& a, const Piece& b) {
+    return a.layer == b.layer && a.run.first == b.run.first;
+}
+
 }  // namespace
 
 GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
                  const ValueScale& scale)
-    : scene_(scene), step_(step), cubes_(scene.lattice.cubes()) {
+    : scene_(scene), step_(step), cubes_(scene.lattice.cubes()), pieces_(piecesOf(scene, list)) {
     if (const auto* sorted = std::get_if<Sorted>(&list)) {
         const std::vector<SortedPoint> points = gathered(scene, *sorted, scale);
         sorted_.emplace(std::span<const SortedPoint>(points));
-        sortedCount_ = static_cast<GLsizei>(points.size());
     }
     for (const GLuint divisor : {0u, 1u}) {
         gl::VertexArray& array = divisor == 0 ? points_ : quads_;
@@ -96,27 +87,25 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
     }
 }
 
-void GpuList::drawSorted(bool quads) const {
-    // Every point, wherever it stands.
-    glVertexAttribI4ui(3, 0, 0, 0, 1);
-    glVertexAttribI4ui(4, 0, 0xffffffffu, 0, kSubsetPeriod);
-    if (quads)
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, sortedCount_);
-    else
-        glDrawArrays(GL_POINTS, 0, sortedCount_);
+std::span<const Piece> GpuList::pieces(Channels channels, std::size_t layer) const {
+    const bool alone = channels == Channels::Over || channels == Channels::Count;
+    if (alone || sorted_) return pieces_;
+    const auto found = std::ranges::equal_range(pieces_, layer, {}, &Piece::layer);
+    return {found.begin(), found.end()};
 }
 
-void GpuList::draw(bool quads, std::optional<std::size_t> layer) const {
+void GpuList::draw(bool quads, std::span<const Piece> pieces) const {
     glBindVertexArray((quads ? quads_ : points_).id());
-    if (sorted_) return drawSorted(quads);
-    for (std::size_t k = 0; k < scene_.layers.size(); ++k) {
-        if (layer && *layer != k) continue;
-        // Attributes without an array: one value for all.
-        glVertexAttribI4ui(2, static_cast<GLuint>(k), 0, 0, 1);
-        if (step_.values() == nullptr) glVertexAttrib1f(1, 0);
-        const std::uint32_t stride = strideOf(scene_.layers[k], scene_.stride);
-        for (const timeseries::Run& run : scene_.layers[k].runs)
-            drawRun(run, stride, scene_.step.size(), quads);
+    // Where there are no arrays of them.
+    glVertexAttrib1f(1, 0);
+    glVertexAttribI4ui(3, 0, 0, 0, 1);
+    while (!pieces.empty()) {
+        Slices slices;
+        std::size_t drawn = 0;
+        for (; drawn < pieces.size() && sameRun(pieces[drawn], pieces[0]); ++drawn)
+            slices.add(pieces[drawn]);
+        drawRun(pieces[0], slices, quads);
+        pieces = pieces.subspan(drawn);
     }
 }
 

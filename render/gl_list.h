@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "render/gl_splatter.h"
+#include "render/pieces.h"
 
 namespace render {
 
@@ -16,19 +18,18 @@ class GpuList {
     const GpuStep& step() const { return step_; }
     bool cubes() const { return cubes_; }
 
-    // Issues the draw calls of one layer, or of all; program and state are set. A Sorted list is
-    // always drawn whole.
-    void draw(bool quads, std::optional<std::size_t> layer) const;
+    // What makes up a plane, in the order of drawing; see GlSplatter::draw.
+    std::span<const Piece> pieces(Channels channels, std::size_t layer) const;
+    // Issues the draw calls of some that follow each other; program and state are set.
+    void draw(bool quads, std::span<const Piece> pieces) const;
 
  private:
-    void drawSorted(bool quads) const;
-
     const Scene& scene_;
     const GpuStep& step_;
     bool cubes_;
+    std::vector<Piece> pieces_;
     std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first
-    GLsizei sortedCount_ = 0;
-    gl::VertexArray points_, quads_;  // per vertex and per instance
+    gl::VertexArray points_, quads_;    // per vertex and per instance
 };
 
 }  // namespace render

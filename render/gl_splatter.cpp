@@ -134,6 +134,11 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
 
 void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
                       GLuint framebuffer) {
+    draw(list, view, channels, list.pieces(channels, layer), framebuffer);
+}
+
+void GlSplatter::draw(const GpuList& list, const View& view, Channels channels,
+                      std::span<const Piece> pieces, GLuint framebuffer) {
     ++counts_.draws;
     const LatticeView seen(list.scene().lattice, view);
     const double reach = farthestReach(list.scene(), seen);
@@ -158,8 +163,7 @@ void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, 
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, layers_.id());
     glBindTextureUnit(0, list.step().axisPoints().id());
     glBindTextureUnit(1, colorMaps_.id());
-    const bool alone = channels == Channels::Over || channels == Channels::Count;
-    list.draw(quads, alone ? std::nullopt : std::optional(layer));
+    list.draw(quads, pieces);
 }
 
 }  // namespace render

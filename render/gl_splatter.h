@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "render/gl/object.h"
 #include "render/gpu_step.h"
+#include "render/pieces.h"
 #include "render/scene.h"
 #include "render/view.h"
 
@@ -28,6 +30,9 @@ class GlSplatter {
     // `layer` is the plane's layer for Weight and WeightedColor. Clears nothing.
     void draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
               GLuint framebuffer);
+    // Adds some of the plane's pieces, list.pieces(channels, layer).
+    void draw(const GpuList& list, const View& view, Channels channels,
+              std::span<const Piece> pieces, GLuint framebuffer);
 
     // How often each was called: two eyes are one list drawn twice.
     struct Counts {

@@ -27,6 +27,7 @@ class Targets {
     // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
     // opaque scene's.
     GLuint clearedPlane(std::size_t i, Channels channels);
+    GLuint planeFramebuffer(std::size_t i) const { return planes_[i]->framebuffer.id(); }
     const gl::Texture& plane(std::size_t i) const { return planes_[i]->texture; }
 
     Image readLight() const;

@@ -18,6 +18,7 @@ struct View {
     glm::ivec2 size{0};
     // What of the picture nobody sees (render/hidden_area.h): GL leaves it out. None: all is seen.
     std::shared_ptr<const HiddenArea> hidden = {};
+    friend bool operator==(const View&, const View&) = default;
 };
 
 // Tangents of the half angles, left and down negative: x / -z of the frustum's sides.

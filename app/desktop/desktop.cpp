@@ -36,10 +36,15 @@ Desktop::Desktop(Exploration& exploration)
 }
 
 void Desktop::run() {
-    while (!window_.shouldClose() && !stopped_) {
-        sleep();
-        const Clock::time_point now = Clock::now();
-        frame(now - std::exchange(last_, now));
+    try {
+        while (!window_.shouldClose() && !stopped_) {
+            sleep();
+            const Clock::time_point now = Clock::now();
+            frame(now - std::exchange(last_, now));
+        }
+    } catch (...) {
+        errands_.rescue();
+        throw;
     }
     errands_.finish();
 }
@@ -135,7 +140,9 @@ void Desktop::sleep() {
     if (restless_ > 0 || !window_.events().empty()) within(0ns);
     within(exploration_.untilNextChange());
     within(interface_.untilNextChange());
-    within(picture_.untilNextDraw());
+    // While it is minimised, nothing is drawn.
+    if (const glm::ivec2 size = window_.framebufferSize(); size.x > 0 && size.y > 0)
+        within(picture_.untilNextDraw());
     within(errands_.untilKept());
     if (errands_.exporting()) within(100ms);
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks

@@ -187,6 +187,11 @@ std::optional<std::chrono::nanoseconds> Errands::untilKept() const {
 
 void Errands::finish() { autosave_.discard(); }
 
+void Errands::rescue() {
+    // Nobody is there to be told of a failure; no pause is kept.
+    autosave_.save(exploration_.explorer(), Autosave::Clock::time_point::max());
+}
+
 panels::StartOffers Errands::offers() const {
     return {.recent = preferences_.recentFiles,
             .demo = demo_,

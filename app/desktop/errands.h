@@ -37,6 +37,9 @@ class Errands {
     std::optional<std::chrono::nanoseconds> untilKept() const;
     // At a clean end.
     void finish();
+    // At an end that nobody asked for: what is to be offered at the next start is kept as it is
+    // now.
+    void rescue();
 
     // The session offered that broke off.
     void discardLeft();

@@ -44,27 +44,35 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
     const bool current = isCurrent(*shown);
     if (!current) changed_ = Clock::now();
     const bool resting = !playing && Clock::now() - changed_ >= kRest;
-    if (!current || (!report_.whole && (resting || report_.uploaded < 1)))
-        redraw(*shown, !resting, frameBudget);
+    const bool arriving = current && report_.uploaded < 1;
+    if (!current || arriving || (!report_.whole && resting))
+        redraw(*shown, resting && !arriving, frameBudget);
     kept_->show(window, {0, window.y - static_cast<int>(place.max.y)}, kGroundColor);
 }
 
-void PictureView::redraw(const Shown& shown, bool moving, std::chrono::nanoseconds frameBudget) {
+void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget) {
     const Explorer& e = shown.explorer;
     const glm::ivec2 grid = tiles(e.stereo.mode), whole = e.size * grid;
     if (!kept_ || kept_->size() != whole) kept_.emplace(whole);
-    pace_.setTarget(frameBudget);
+    if (!resting)
+        slices_.reset();
+    else if (!slices_)
+        slices_.emplace(frameBudget, pace_.budget());
+    render::FramePace& pace = slices_ ? *slices_ : pace_;
+    pace.setTarget(frameBudget);
+    const CanvasLimits limits{.splats = pace.budget()};
     const std::vector<render::View> eyes = canvas_.eyesOf(shown);
-    report_ = canvas_.draw(shown, eyes, {.splats = pace_.budget()}, moving,
-                           [&](std::size_t eye, const render::Targets& light) {
-                               // The first eye's picture is the left, or the upper one.
-                               const auto i = static_cast<int>(eye);
-                               const glm::ivec2 tile(i * (grid.x - 1), (1 - i) * (grid.y - 1));
-                               present_.draw(light, kept_->framebuffer(), tile * e.size);
-                           });
+    const auto show = [&](std::size_t eye, const render::Targets& light) {
+        // The first eye's picture is the left, or the upper one.
+        const auto i = static_cast<int>(eye);
+        const glm::ivec2 tile(i * (grid.x - 1), (1 - i) * (grid.y - 1));
+        present_.draw(light, kept_->framebuffer(), tile * e.size);
+    };
+    report_ = resting ? canvas_.refine(shown, eyes, limits, show)
+                      : canvas_.draw(shown, eyes, limits, true, show);
     timed_ = report_.gpuTime.has_value();
     if (report_.gpuTime) {
-        pace_.took(report_.gpuSplats, *report_.gpuTime);
+        pace.took(report_.gpuSplats, *report_.gpuTime);
         performance_.frame = *report_.gpuTime;
     }
     const std::uint64_t picture = performance_.picture + 1;
@@ -75,6 +83,7 @@ void PictureView::redraw(const Shown& shown, bool moving, std::chrono::nanosecon
                     .gpuBytes = report_.gpuBytes,
                     .whole = report_.whole,
                     .uploaded = report_.uploaded,
+                    .refined = report_.refined,
                     .step = report_.step,
                     .picture = picture};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
@@ -88,7 +97,8 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     if (!drawn_ || report_.whole) return std::nullopt;
-    return report_.uploaded < 1 ? 0ns : std::chrono::nanoseconds(kRest);
+    const bool goesOn = report_.uploaded < 1 || report_.refined > 0;
+    return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }
 
 std::optional<Reading> PictureView::readSoon(glm::vec2 at) {

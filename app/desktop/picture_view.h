@@ -50,11 +50,13 @@ class PictureView {
     };
 
     bool isCurrent(const Shown& shown) const;
-    void redraw(const Shown& shown, bool moving, std::chrono::nanoseconds frameBudget);
+    void redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget);
 
     Canvas canvas_;
     render::Present present_;
     render::FramePace pace_{std::chrono::milliseconds(16)};
+    // While the picture is refined: a slice of it has no axes to draw, and its splats are others.
+    std::optional<render::FramePace> slices_;
     std::optional<render::KeptPicture> kept_;
     std::optional<Drawn> drawn_;
     CanvasReport report_;

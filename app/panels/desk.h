@@ -25,6 +25,7 @@ struct Performance {
     std::uint64_t drawn = 0, selected = 0, gpuBytes = 0;
     bool whole = true;
     double uploaded = 1;        // share of the step shown that is on the GPU
+    double refined = 0;         // share of all points that is drawn and not shown yet
     std::size_t step = 0;       // on the screen
     std::uint64_t picture = 0;  // another number, another picture
 };

@@ -23,6 +23,7 @@ double milliseconds(std::chrono::nanoseconds ns) {
 // What keeps the picture from being whole, or why it takes long, in a word.
 std::string limitText(const Performance& p) {
     if (p.uploaded < 1) return fmt::format("sending to the GPU, {:.0f} %", 100 * p.uploaded);
+    if (!p.whole && p.refined > 0) return fmt::format("refining, {:.0f} %", 100 * p.refined);
     if (!p.whole) return "a subset while it moves";
     if (p.frame > p.budget) return "all points drawn";
     return "";

@@ -2,9 +2,8 @@
 
 #include <epoxy/gl.h>
 
-#include <optional>
 #include <stdexcept>
-#include <string>
+#include <utility>
 
 namespace render::gl {
 namespace {
@@ -29,10 +28,9 @@ void recordErrors() {
 void throwOnError() {
     if (const GLenum code = glGetError(); code != GL_NO_ERROR && !firstError)
         firstError = "error " + std::to_string(code);
-    if (!firstError) return;
-    const std::string message = *firstError;
-    firstError.reset();
-    throw std::runtime_error("GL: " + message);
+    if (const auto error = takeRecordedError()) throw std::runtime_error("GL: " + *error);
 }
+
+std::optional<std::string> takeRecordedError() { return std::exchange(firstError, std::nullopt); }
 
 }  // namespace render::gl

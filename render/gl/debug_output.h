@@ -2,6 +2,9 @@
 // GL error is found at the frame that made it.
 #pragma once
 
+#include <optional>
+#include <string>
+
 namespace render::gl {
 
 // Errors and undefined behaviour are recorded from now on, on the context that is current.
@@ -9,5 +12,7 @@ void recordErrors();
 // Throws std::runtime_error with the driver's message when an error was recorded since the last
 // call.
 void throwOnError();
+// The recorded error itself, forgotten thereby; needs no context any more.
+std::optional<std::string> takeRecordedError();
 
 }  // namespace render::gl

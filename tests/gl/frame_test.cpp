@@ -61,6 +61,43 @@ TEST_F(Frame, EyesAtOnePlaceSeeTheSameBits) {
     }
 }
 
+// 64,000 points: pieces of two layers in two blocks.
+TEST_F(Frame, AnEyeDrawnBitByBitIsTheSameBitForBit) {
+    const timeseries::SortedStep step = tests::noise(tests::cube(40));
+    const Lattice lattice(step.grid());
+    GpuStep onGpu(step, lattice);
+    for (const Order order : {Order::None, Order::BackToFront})
+        // From outside by point sprites, from inside by quads.
+        for (const glm::dvec3 from : {glm::dvec3(-0.05, -3, 0), glm::dvec3(0.2, 0.1, 0.3)}) {
+            const Scene scene{
+                .step = step,
+                .lattice = lattice,
+                .layers = {{step.select(RangeSet::parse("0.1:0.3,0.6:0.9")),
+                            {ByValue{{}, 0, 1}, 0.3}},
+                           {step.select(RangeSet::parse("0.7:0.8")), {Constant{{1, 0, 0}}, 0.2}}},
+                .footprint = {},
+                .order = order,
+                .clip = {}};
+            const FrameContent content{scene, step.grid(), {}, glm::dvec3(0.02)};
+            const std::array eyes{tests::lookFrom(from, {120, 90})};
+            const Image expected = renderer_.render(content, onGpu, eyes)[0].image;
+            const auto frame = renderer_.prepare(content, onGpu, eyes);
+            const std::uint64_t cost = FrameRenderer::cost(frame);
+            for (const std::uint64_t splats : {std::uint64_t{1}, std::uint64_t{20'000}, cost}) {
+                auto work = renderer_.begin(frame, eyes[0]);
+                std::uint64_t before = 0, calls = 1;
+                for (; !renderer_.goOn(work, splats); ++calls) {
+                    EXPECT_GT(work.cost, before) << "one piece at least";
+                    EXPECT_LE(work.cost - before, splats + kPiecePoints);
+                    before = work.cost;
+                }
+                EXPECT_EQ(work.cost, cost);
+                EXPECT_GE(calls, cost / (splats + kPiecePoints));
+                EXPECT_EQ(renderer_.targets().readLight(), expected) << splats << " at a time";
+            }
+        }
+}
+
 TEST_F(Frame, ResolvedColoursAreTheTruths) {
     for (const Order order : {Order::None, Order::BackToFront}) {
         scene_.order = order;

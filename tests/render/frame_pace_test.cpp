@@ -121,5 +121,13 @@ TEST(FramePace, BeforeTheFirstFrameThereIsABudget) {
     EXPECT_EQ(FramePace(kTarget).budget(), FramePace::kFirst);
 }
 
+TEST(FramePace, BeginsWhereItIsToldAndLearnsFromThere) {
+    Machine machine{0, 100};
+    FramePace pace(kTarget, 30'000);
+    EXPECT_EQ(pace.budget(), 30'000u);
+    for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+    EXPECT_NEAR(machine.exactly(pace.budget()), 16e6, 0.2 * 16e6);
+}
+
 }  // namespace
 }  // namespace render

@@ -27,15 +27,15 @@ glm::vec2 startOffer(glm::ivec2 window, std::size_t which, std::size_t recent) {
     return app::panels::startLayout(all.window, 1, recent).offer(which).centre();
 }
 
-void waitUntilSeen(Driver& desk, std::size_t steps) {
-    const Rect rail = placesOf(desk.size()).timeBar.rail;
+void waitUntilSeen(Driver& desk, std::size_t steps, float scale) {
+    const Rect rail = placesOf(desk.size(), true, scale).timeBar.rail;
     const app::panels::StepAxis axis{steps, rail.min.x, rail.max.x};
     desk.waitFor("all steps are seen", [&] {
         const Shot shot = desk.shot();
         for (std::size_t i = 0; i < steps; ++i) {
             // Beside the bracket on the left and the cursor in the middle.
-            const Rect cell{{axis.cell(i) + 7, rail.centre().y - 3},
-                            {axis.centre(i) - 3, rail.centre().y + 3}};
+            const Rect cell{{axis.cell(i) + 7 * scale, rail.centre().y - 3 * scale},
+                            {axis.centre(i) - 3 * scale, rail.centre().y + 3 * scale}};
             const Shot seen = part(shot, cell);
             if (std::ranges::count(seen.pixels, seen.pixels.at(0)) != std::ssize(seen.pixels))
                 return false;

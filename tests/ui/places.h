@@ -22,6 +22,6 @@ glm::vec2 startOffer(glm::ivec2 window, std::size_t which, std::size_t recent);
 
 // Waits until every step has been seen once: the time bar hatches those that were not, so that a
 // cell of theirs has more than one colour. The steps must be few enough for cells to be wide.
-void waitUntilSeen(Driver& desk, std::size_t steps);
+void waitUntilSeen(Driver& desk, std::size_t steps, float scale = 1);
 
 }  // namespace ui

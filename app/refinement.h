@@ -1,0 +1,47 @@
+// A picture at rest, drawn over as many frames as its points take. Whoever has begun one draws
+// nothing else with the same renderer until it is done, or drops it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/picture.h"
+#include "render/frame.h"
+
+namespace app {
+
+class Refinement {
+ public:
+    // Makes the draw list. The renderer, `onGpu`, ready for the picture, and what the picture
+    // refers to must outlive this. REQUIRES: at least one eye, all of one size.
+    Refinement(render::FrameRenderer& renderer, Picture picture, const render::GpuStep& onGpu,
+               std::span<const render::View> eyes);
+    Refinement(const Refinement&) = delete;
+    Refinement& operator=(const Refinement&) = delete;
+
+    // Draws until `splats` are reached, a little more than that, and hands each eye's light to
+    // `show` once it is whole. Returns the splats. REQUIRES: it is not done.
+    std::uint64_t goOn(std::uint64_t splats,
+                       const std::function<void(std::size_t eye, const render::Targets&)>& show);
+    bool done() const { return eye_ == eyes_.size(); }
+    double share() const;  // that is drawn, [0, 1]
+    const render::Scene& scene() const { return picture_.scene; }
+    std::span<const render::View> eyes() const { return eyes_; }
+
+ private:
+    render::FrameRenderer& renderer_;
+    const Picture picture_;
+    const std::vector<render::View> eyes_;
+    const render::FrameContent content_;
+    const render::FrameRenderer::Prepared frame_;
+    const std::uint64_t cost_;  // of all eyes, in splats
+    std::uint64_t drawn_ = 0;
+    std::size_t eye_ = 0;  // to go on with
+    std::optional<render::FrameRenderer::EyeInWork> work_;
+};
+
+}  // namespace app
