@@ -421,7 +421,7 @@ TEST(Exploration, ASessionOpensAsItSays) {
     Explorer session;
     session.files = {"b"};
     session.variable = "P";
-    session.steps = StepChoice{3, 11};
+    session.steps = StepChoice{3, 11, 4};
     session.layers = {layer("1010:1020")};
     session.view.azimuthDegrees = -9;
     desk.exploration.open(session);
@@ -434,6 +434,7 @@ TEST(Exploration, ASessionOpensAsItSays) {
     // Several steps are what plays.
     EXPECT_EQ(now.play.time.first, 3u);
     EXPECT_EQ(now.play.time.last, 11u);
+    EXPECT_EQ(now.play.time.stride, 4u);
     EXPECT_TRUE(desk.exploration.canUndo());
 }
 
