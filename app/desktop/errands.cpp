@@ -150,7 +150,7 @@ void Errands::keep(const panels::Choices& choices) {
         std::chrono::duration<double, std::milli>(choices.frameBudget).count();
     const std::vector<fs::path>& files = exploration_.explorer().files;
     if (files != remembered_ && !files.empty()) {
-        rememberFile(preferences_, fs::absolute(files.front()));
+        remember(preferences_, files);
         remembered_ = files;
     }
     if (preferences_ == kept_) return;
@@ -161,7 +161,7 @@ void Errands::keep(const panels::Choices& choices) {
 void Errands::finish() { autosave_.discard(); }
 
 panels::StartOffers Errands::offers() const {
-    return {.recent = preferences_.recentFiles,
+    return {.recent = preferences_.recent,
             .demo = demo_,
             .autosave = left_.empty() ? fs::path() : left_.front().file};
 }

@@ -16,7 +16,7 @@ std::string titleOf(const timeseries::Variable& v) {
     return out;
 }
 
-void menu(Desk& desk, std::span<const std::filesystem::path> recent) {
+void menu(Desk& desk, std::span<const Named> recent) {
     const auto item = [&](const char* label, const char* keys, Command command,
                           bool enabled = true) {
         if (ImGui::MenuItem(label, keys, false, enabled)) desk.requests.commands.push_back(command);
@@ -24,8 +24,8 @@ void menu(Desk& desk, std::span<const std::filesystem::path> recent) {
     const bool open = desk.exploration.shown().has_value();
     item("Open…", "Ctrl+O", Command::Open);
     if (ImGui::BeginMenu("Recent", !recent.empty())) {
-        for (const auto& file : recent)
-            if (ImGui::MenuItem(file.filename().string().c_str())) desk.requests.open = {file};
+        for (const Named& named : recent)
+            if (ImGui::MenuItem(shortName(named).c_str())) desk.requests.open = named;
         ImGui::EndMenu();
     }
     item("Save session…", "Ctrl+S", Command::Save, open);
@@ -62,7 +62,7 @@ void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
 
 }  // namespace
 
-void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::path> recent) {
+void drawHeader(Desk& desk, const Rect& at, std::span<const Named> recent) {
     const float s = desk.theme.scale, left = at.min.x + kMargin * s, right = at.max.x - kMargin * s;
     const Rect button{{right - 28 * s, at.min.y + 12 * s}, {right, at.min.y + 40 * s}};
     const Shown shown = *desk.exploration.shown();
