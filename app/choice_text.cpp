@@ -91,21 +91,35 @@ constexpr std::array<std::pair<std::string_view, timeseries::Ending>, 3> kEnding
 }  // namespace
 
 StepChoice parseSteps(std::string_view text) {
-    if (text == "all") return {0, std::nullopt};
+    if (text == "all") return {};
+    const auto refusal = [&] {
+        return ChoiceError(
+            fmt::format("step '{}' is not a step counted from 0, a range A:B with A <= B, every "
+                        "S-th step of it A:B:S, or all",
+                        text));
+    };
+    const auto number = [&](std::string_view part) {
+        const auto n = numberIn<std::size_t>(part);
+        if (!n) throw refusal();
+        return *n;
+    };
     const auto parts = split(text, ':');
-    const auto first = numberIn<std::size_t>(parts.front());
-    if (parts.size() == 2 && first && parts.back().empty()) return {*first, std::nullopt};
-    const auto last = numberIn<std::size_t>(parts.back());
-    if (parts.size() > 2 || !first || !last || *first > *last)
-        throw ChoiceError(fmt::format(
-            "step '{}' is not a step counted from 0, a range A:B with A <= B, or all", text));
-    return {*first, *last};
+    StepChoice steps{number(parts.front()), {}};
+    if (parts.size() == 1) steps.last = steps.first;
+    if (parts.size() > 1 && !parts[1].empty()) steps.last = number(parts[1]);
+    if (parts.size() > 2) steps.stride = number(parts[2]);
+    if (parts.size() > 3 || steps.stride == 0 || (steps.last && *steps.last < steps.first))
+        throw refusal();
+    return steps;
 }
 
 std::string stepsText(const StepChoice& steps) {
-    if (!steps.last) return steps.first == 0 ? "all" : fmt::format("{}:", steps.first);
-    if (*steps.last == steps.first) return fmt::format("{}", steps.first);
-    return fmt::format("{}:{}", steps.first, *steps.last);
+    if (!steps.last && steps.first == 0 && steps.stride == 1) return "all";
+    if (steps.last == steps.first && steps.stride == 1) return fmt::format("{}", steps.first);
+    std::string text = fmt::format("{}:", steps.first);
+    if (steps.last) text += fmt::format("{}", *steps.last);
+    if (steps.stride != 1) text += fmt::format(":{}", steps.stride);
+    return text;
 }
 
 glm::dvec3 parseColor(std::string_view text) {

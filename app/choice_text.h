@@ -14,7 +14,8 @@ struct ChoiceError : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-StepChoice parseSteps(std::string_view text);  // "12", "0:30", "3:" to the last, "all"
+// "12", "0:30", "3:" to the last, "0:30:5" and "3::5" every fifth of these, "all".
+StepChoice parseSteps(std::string_view text);
 std::string stepsText(const StepChoice& steps);
 
 glm::dvec3 parseColor(std::string_view text);  // "#rrggbb" -> [0, 1], sRGB

@@ -52,8 +52,8 @@ std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choic
     if (last >= count || choice.first > last)
         throw FileError(fmt::format("{}: no step {}; variable {} has steps 0 to {}", dataset.name,
                                     std::max(last, choice.first), dataset.about.name, count - 1));
-    std::vector<std::size_t> steps;
-    for (std::size_t step = choice.first; step <= last; ++step) steps.push_back(step);
+    std::vector<std::size_t> steps((last - choice.first) / choice.stride + 1);
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = choice.first + i * choice.stride;
     return steps;
 }
 

@@ -90,9 +90,10 @@ void Exploration::takeOpened() {
     const std::size_t first = std::min(asked.first, last);
     // Several steps are what is to be played.
     timeseries::CursorSettings& play = wish.play.time;
-    if (asked.last != asked.first && play.first == 0 && play.last >= last) {
+    if (asked.last != asked.first && play.first == 0 && play.last >= last && play.stride == 1) {
         play.first = first;
         play.last = asked.last.value_or(play.last);
+        play.stride = asked.stride;
     }
     wish.steps = StepChoice{first, first};
     if (!open_ || wish.files != explorer().files)

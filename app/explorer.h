@@ -34,10 +34,12 @@ struct LayerChoice {
     friend bool operator==(const LayerChoice&, const LayerChoice&) = default;
 };
 
-// Which steps: inclusive, counted from 0. Absent `last` is the series' last.
+// Which steps: first, first + stride, ... up to `last`, counted from 0. Absent `last` is the
+// series' last.
 struct StepChoice {
     std::size_t first = 0;
     std::optional<std::size_t> last;
+    std::size_t stride = 1;  // >= 1
     friend bool operator==(const StepChoice&, const StepChoice&) = default;
 };
 

@@ -20,7 +20,8 @@ void ExplorerOptions::addTo(CLI::App& app) {
                    "A session file, or a picture that carries one; options given beside it win");
     app.add_option("--variable", variable_, "Which variable; the file's first without it");
     app.add_option("--step", steps_,
-                   "A step counted from 0, A:B, or all; the middle one without it");
+                   "A step counted from 0, A:B, A:B:S for every S-th, or all; the middle one "
+                   "without it");
     app.add_option("--range", ranges_, kRangeHelp)->allow_extra_args(false);
     app.add_option("--keep", keep_, "Values to keep when the sorted list is built");
     app.add_option("--color", colors_, "#rrggbb of the next layer")->allow_extra_args(false);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -10,13 +11,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostText = 64 * 1024;  // kept of what the child says
+constexpr std::chrono::milliseconds kLongestEnd{2000};
 
 [[noreturn]] void fail(const std::string& what, int error) {
     throw std::runtime_error(
@@ -127,7 +129,8 @@ Explorer animationOf(const Shown& shown) {
     e.steps = shown.explorer.steps;
     if (play.timeMoves)
         e.steps =
-            StepChoice{play.time.first, std::min(play.time.last, shown.dataset.stepCount() - 1)};
+            StepChoice{play.time.first, std::min(play.time.last, shown.dataset.stepCount() - 1),
+                       play.time.stride};
     return e;
 }
 
@@ -144,8 +147,8 @@ void ExportJob::Pipe::drain(std::string& into) {
     }
 }
 
-ExportJob::ExportJob(const Explorer& explorer, fs::path output, const fs::path& program)
-    : output_(std::move(output)) {
+ExportJob::ExportJob(const Explorer& explorer, Frames frames, const fs::path& program)
+    : frames_(std::move(frames)) {
     for (Pipe* const pipe : {&out_, &errors_}) {
         std::array<int, 2> ends{};
         if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("a pipe", errno);
@@ -167,19 +170,21 @@ void ExportJob::start(const fs::path& program) {
     spawn.redirect(out_.writing, STDOUT_FILENO);
     spawn.redirect(errors_.writing, STDERR_FILENO);
     child_ = spawn.run(program, {"isochron", "render", "--session", session_.string(), "--progress",
-                                 "-o", output_.string()});
+                                 "-o", frames_.output().string()});
     // The child alone holds these, so that their end is its end.
     for (Pipe* const pipe : {&out_, &errors_}) close(std::exchange(pipe->writing, -1));
 }
 
 ExportJob::~ExportJob() {
     if (state_ != State::Running) return;
-    kill(child_, SIGTERM);
-    // Somebody must take in its end, or it stays in the system's table; nobody waits for that.
-    std::thread([child = child_, output = output_] {
-        waitpid(child, nullptr, 0);
-        removePartial(output);
-    }).detach();
+    cancel();
+    // A pipe's end is the child's. One that a driver or a disk holds back is left to the system.
+    pollfd end{out_.reading, 0, 0};
+    int ends = 0;
+    do ends = ::poll(&end, 1, kLongestEnd.count());
+    while (ends < 0 && errno == EINTR);
+    if (ends == 1) waitpid(child_, nullptr, 0);
+    removePartial(frames_.output());
     removeSession();
 }
 
@@ -203,11 +208,8 @@ void ExportJob::poll() {
 // Lines "picture 3 of 31", as `render --progress` tells them.
 void ExportJob::readProgress() {
     for (std::size_t end = 0; (end = outText_.find('\n')) != std::string::npos;) {
-        std::size_t done = 0, count = 0;
-        if (std::sscanf(outText_.c_str(), "picture %zu of %zu", &done, &count) == 2) {
-            done_ = done;
-            count_ = count;
-        }
+        std::size_t done = 0;
+        if (std::sscanf(outText_.c_str(), "picture %zu of", &done) == 1) done_ = done;
         outText_.erase(0, end + 1);
     }
 }
@@ -218,7 +220,7 @@ void ExportJob::ended(int status) {
         state_ = State::Done;
         return;
     }
-    removePartial(output_);
+    removePartial(frames_.output());
     state_ = cancelled_ ? State::Cancelled : State::Failed;
     if (cancelled_) return;
     why_ = lastLine(errorText_);
@@ -226,6 +228,18 @@ void ExportJob::ended(int status) {
     why_ = WIFSIGNALED(status)
                ? fmt::format("the export was ended by signal {}", WTERMSIG(status))
                : fmt::format("the export ended with exit code {}", WEXITSTATUS(status));
+}
+
+std::string ExportJob::outcome() const {
+    if (state_ == State::Failed) return why_;
+    const auto pictures = [](std::size_t n) {
+        return fmt::format("{} {}", n, n == 1 ? "picture" : "pictures");
+    };
+    if (state_ == State::Done)
+        return fmt::format("Exported {}: {}", pictures(frames_.size()), frames_.names());
+    if (done_ == 0) return "Export cancelled before its first picture";
+    return fmt::format("Export cancelled after {} of {}, which stay in {}", done_,
+                       pictures(frames_.size()), frames_.output().parent_path().string());
 }
 
 void ExportJob::removeSession() const {

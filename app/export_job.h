@@ -9,25 +9,25 @@
 #include <string>
 
 #include "app/exploration.h"
+#include "app/frames.h"
 
 namespace app {
 
-// What plays, as pictures: the steps from the in to the out point where time moves, else the one
-// asked for; one cycle of the sweep where it moves, else its window as a layer. (Every step: a
-// stride is the play's alone.)
+// What plays, once, as pictures: the steps from the in to the out point by the stride where time
+// moves, else the one asked for; one cycle of the sweep where it moves, else its window as a layer.
+// Which way, how fast and what comes at the end is for whoever plays the pictures.
 Explorer animationOf(const Shown& shown);
 
-// Nothing here blocks. Everything is as poll() last saw it.
+// Nothing here blocks but its end. Everything is as poll() last saw it.
 class ExportJob {
  public:
     enum class State { Running, Done, Failed, Cancelled };
 
-    // Starts it: numbered files beside `output` (OUT.png, OUT.exr), as `isochron render` names
-    // them. `program`: isochron. Throws std::runtime_error, one sentence, when it cannot be
-    // started.
-    ExportJob(const Explorer& explorer, std::filesystem::path output,
+    // Starts it: `isochron render` makes these frames of the explorer. `program`: isochron. Throws
+    // std::runtime_error, one sentence, when it cannot be started.
+    ExportJob(const Explorer& explorer, Frames frames,
               const std::filesystem::path& program = "/proc/self/exe");
-    // Cancels what still runs.
+    // Cancels what still runs, and waits for its end, for a moment: nothing of it is left.
     ~ExportJob();
     ExportJob(const ExportJob&) = delete;
     ExportJob& operator=(const ExportJob&) = delete;
@@ -37,9 +37,10 @@ class ExportJob {
     void cancel();
 
     State state() const { return state_; }
-    std::size_t done() const { return done_; }       // pictures
-    std::size_t count() const { return count_; }     // of so many; 0 until the first is done
-    const std::string& why() const { return why_; }  // one sentence, when failed
+    std::size_t done() const { return done_; }  // pictures, of frames().size()
+    const Frames& frames() const { return frames_; }
+    // One sentence, once it has ended: what was made and where, or why it failed.
+    std::string outcome() const;
 
  private:
     // The reading end of a pipe from the child.
@@ -54,14 +55,15 @@ class ExportJob {
     void ended(int status);
     void removeSession() const;
 
-    std::filesystem::path output_, session_;
+    Frames frames_;
+    std::filesystem::path session_;
     Pipe out_, errors_;
     pid_t child_ = -1;
     std::string outText_, errorText_;  // not used yet
     State state_ = State::Running;
-    std::size_t done_ = 0, count_ = 0;
+    std::size_t done_ = 0;
     bool cancelled_ = false;
-    std::string why_;
+    std::string why_;  // when failed
 };
 
 }  // namespace app

@@ -4,8 +4,8 @@
 #include "app/choice_text.h"
 #include "app/commands.h"
 #include "app/dataset.h"
+#include "app/frames.h"
 #include "app/picture.h"
-#include "app/picture_files.h"
 #include "app/progress.h"
 #include "app/step_source.h"
 #include "app/still.h"
@@ -14,44 +14,7 @@
 namespace app {
 namespace {
 
-namespace fs = std::filesystem;
 using timeseries::SortedStep;
-
-struct FrameAt {
-    std::size_t step;
-    std::int64_t tick;
-    fs::path file;
-};
-
-// A frame a step; with a sweep a frame a tick of one cycle, over which the steps pass once. Told
-// one by one: a cycle may have 2^30 ticks.
-class Frames {
- public:
-    Frames(fs::path output, const Explorer& e, std::vector<std::size_t> steps)
-        : output_(std::move(output)), steps_(std::move(steps)), swept_(e.sweep.has_value()) {
-        count_ = swept_ ? static_cast<std::size_t>(timeseries::ValueSweep(*e.sweep).ticksPerCycle())
-                        : steps_.size();
-        digits_ = std::to_string(swept_ ? count_ - 1 : steps_.back()).size();
-    }
-    std::size_t size() const { return count_; }
-    FrameAt operator[](std::size_t i) const {
-        const std::size_t step = swept_ ? steps_[i * steps_.size() / count_] : steps_[i];
-        fs::path file = output_;
-        if (count_ > 1)
-            file.replace_filename(fmt::format("{}_{:0{}}{}", file.stem().string(),
-                                              swept_ ? i : step, digits_,
-                                              file.extension().string()));
-        return {step, swept_ ? static_cast<std::int64_t>(i) : 0, file};
-    }
-    FrameAt front() const { return (*this)[0]; }
-    FrameAt back() const { return (*this)[count_ - 1]; }
-
- private:
-    fs::path output_;
-    std::vector<std::size_t> steps_;
-    bool swept_;
-    std::size_t count_ = 0, digits_ = 0;
-};
 
 // First, middle and last of the chosen steps.
 Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
@@ -78,17 +41,10 @@ void tellStyle(const Explorer& e, const timeseries::Variable& about) {
     for (const LayerChoice& layer : e.layers) tell(layer.ranges, layer);
 }
 
-void tellFiles(const Frames& frames, Stereo stereo, const timeseries::Variable& about) {
-    const fs::path first = filesOf(frames.front().file, stereo).front();
-    const fs::path last = filesOf(frames.back().file, stereo).back();
-    const std::string from = timeText(*about.time, frames.front().step);
-    if (frames.size() == 1) {
-        fmt::print("{}{}: {}, {}\n", first.string(),
-                   first == last ? "" : " and " + last.filename().string(), about.name, from);
-    } else {
-        fmt::print("{} to {}: {}, {} to {}\n", first.string(), last.filename().string(), about.name,
-                   from, timeText(*about.time, frames.back().step));
-    }
+void tellFiles(const Frames& frames, const timeseries::Variable& about) {
+    std::string times = timeText(*about.time, frames.front().step);
+    if (frames.size() > 1) times += " to " + timeText(*about.time, frames.back().step);
+    fmt::print("{}: {}, {}\n", frames.names(), about.name, times);
 }
 
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
@@ -131,7 +87,7 @@ int renderHeadless(const RenderOptions& options) {
     const render::gl::HeadlessContext context(options.device);
     const Frames frames(options.output, e, steps);
     drawFrames(options, e, dataset.about, frames, source);
-    tellFiles(frames, e.stereo.mode, dataset.about);
+    tellFiles(frames, dataset.about);
     if (!dataset.series.recognised.empty()) fmt::print("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) fmt::print("  note: {}\n", note);
     tellStyle(e, dataset.about);

@@ -1,11 +1,23 @@
 #include "app/live_steps.h"
 
+#include <algorithm>
+#include <iterator>
 #include <thread>
 #include <utility>
 
 namespace app {
 
 using timeseries::SlotState;
+
+namespace {
+
+// A read that runs, and freeing large steps, takes long enough to be seen.
+template <typename... T>
+void endElsewhere(T... things) {
+    std::thread([... ending = std::move(things)] {}).detach();
+}
+
+}  // namespace
 
 LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::uint64_t budgetBytes,
                      std::function<void()> wake)
@@ -14,10 +26,7 @@ LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::ui
                                                        kept, std::move(wake))) {}
 
 LiveSteps::~LiveSteps() {
-    // Freeing gigabytes of steps takes long enough to be seen, too.
-    std::thread([loader = std::move(loader_), steps = std::move(series_)]() mutable {
-        loader.reset();
-    }).detach();
+    endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_));
 }
 
 void LiveSteps::want(std::vector<std::size_t> mostUrgentFirst) {
@@ -34,12 +43,23 @@ std::vector<LiveSteps::Arrival> LiveSteps::poll() {
             arrivals.push_back({failed->step, nullptr});
         } else {
             const auto& loaded = std::get<timeseries::Loaded>(*result);
-            series_.loaded(loaded.step, loaded.sorted);
+            for (auto& left : series_.loaded(loaded.step, loaded.sorted))
+                leaving_.push_back(std::move(left));
             arrivals.push_back({loaded.step, loaded.sorted});
         }
     }
+    freeLeaving();
     if (!arrivals.empty()) ask();
     return arrivals;
+}
+
+void LiveSteps::freeLeaving() {
+    const auto isShared = [](const auto& step) { return step.use_count() > 1; };
+    const auto alone = std::partition(leaving_.begin(), leaving_.end(), isShared);
+    if (alone == leaving_.end()) return;
+    endElsewhere(
+        timeseries::Series::Steps(std::move_iterator(alone), std::move_iterator(leaving_.end())));
+    leaving_.erase(alone, leaving_.end());
 }
 
 void LiveSteps::retry(std::size_t step) {

@@ -45,8 +45,12 @@ class LiveSteps {
 
  private:
     void ask();
+    void freeLeaving();
 
     timeseries::Series series_;
+    // Dropped by the budget, but perhaps still shown: whoever looks at them last must not be the
+    // one who frees them, on the interface's thread.
+    timeseries::Series::Steps leaving_;
     std::unique_ptr<timeseries::StepLoader> loader_;
     std::vector<std::size_t> wished_;
     std::size_t seenBelow_ = 0;  // all steps before it are seen, or failed

@@ -35,7 +35,8 @@ void addCount(CLI::App& app, CountText& into) {
     app.add_option("--variable", into.variable, "Which variable; the file's first without it");
     app.add_option("--range", into.ranges, kRangeHelp)->required()->allow_extra_args(false);
     app.add_option("--keep", into.keep, "Values to keep when the sorted list is built");
-    app.add_option("--step", into.steps, "A step counted from 0, A:B, or all (the default)");
+    app.add_option("--step", into.steps,
+                   "A step counted from 0, A:B, A:B:S for every S-th, or all (the default)");
     app.add_flag("--json", into.json, "Machine-readable");
 }
 

@@ -24,22 +24,46 @@ double number(const json& object, const char* key, double lo, double hi) {
     return value.get<double>();
 }
 
+// A pattern is there while the folder is in which its names are looked for.
+bool isThere(fs::path path) {
+    std::error_code gone;
+    while (!fs::exists(path, gone)) {
+        if (path.string().find_first_of("*?[") == std::string::npos) return false;
+        path = path.parent_path();
+    }
+    return true;
+}
+
+// One is a text, several are a list of texts.
+std::optional<Named> namedIn(const json& entry) {
+    const json list = entry.is_array() ? entry : json::array({entry});
+    Named named;
+    for (const json& path : list) {
+        if (!path.is_string()) return std::nullopt;
+        named.emplace_back(path.get<std::string>());
+    }
+    if (named.empty()) return std::nullopt;
+    return named;
+}
+
+std::vector<Named> recentIn(const json& list) {
+    const std::invalid_argument refusal("recentFiles is not a list of texts and lists of texts");
+    if (!list.is_array()) throw refusal;
+    std::vector<Named> recent;
+    for (const json& entry : list) {
+        auto named = namedIn(entry);
+        if (!named) throw refusal;
+        if (recent.size() < Preferences::kRecent && std::ranges::all_of(*named, isThere))
+            recent.push_back(std::move(*named));
+    }
+    return recent;
+}
+
 // Unknown keys may be a later version's.
 Preferences fromJson(const json& object) {
     if (!object.is_object()) throw std::invalid_argument("it is not a JSON object");
     Preferences preferences;
-    if (object.contains("recentFiles")) {
-        const json& files = object["recentFiles"];
-        const auto isText = [](const json& file) { return file.is_string(); };
-        if (!files.is_array() || !std::ranges::all_of(files, isText))
-            throw std::invalid_argument("recentFiles is not a list of texts");
-        for (const json& file : files) {
-            std::error_code ignored;
-            const fs::path path = file.get<std::string>();
-            if (preferences.recentFiles.size() < Preferences::kRecent && fs::exists(path, ignored))
-                preferences.recentFiles.push_back(path);
-        }
-    }
+    if (object.contains("recentFiles")) preferences.recent = recentIn(object["recentFiles"]);
     if (object.contains("uiScale")) preferences.uiScale = number(object, "uiScale", 0.5, 4);
     if (object.contains("frameMilliseconds"))
         preferences.frameMilliseconds = number(object, "frameMilliseconds", 1, 1000);
@@ -48,11 +72,19 @@ Preferences fromJson(const json& object) {
 
 }  // namespace
 
-void rememberFile(Preferences& preferences, const fs::path& file) {
-    const fs::path path = fs::absolute(file).lexically_normal();
-    auto& recent = preferences.recentFiles;
-    std::erase(recent, path);
-    recent.insert(recent.begin(), path);
+std::string shortName(const Named& named) {
+    const std::string first = named.front().filename().string();
+    return named.size() == 1 ? first : fmt::format("{} and {} more", first, named.size() - 1);
+}
+
+void remember(Preferences& preferences, Named named) {
+    for (fs::path& path : named) {
+        path = fs::absolute(path).lexically_normal();
+        if (!path.has_filename()) path = path.parent_path();  // a folder, written with its slash
+    }
+    auto& recent = preferences.recent;
+    std::erase(recent, named);
+    recent.insert(recent.begin(), std::move(named));
     if (recent.size() > Preferences::kRecent) recent.resize(Preferences::kRecent);
 }
 
@@ -76,8 +108,11 @@ ReadPreferences readPreferences(const fs::path& file) {
 
 void writePreferences(const Preferences& preferences, const fs::path& file) {
     json out{{"recentFiles", json::array()}, {"frameMilliseconds", preferences.frameMilliseconds}};
-    for (const fs::path& recent : preferences.recentFiles)
-        out["recentFiles"].push_back(recent.string());
+    for (const Named& named : preferences.recent) {
+        json entry = json::array();
+        for (const fs::path& path : named) entry.push_back(path.string());
+        out["recentFiles"].push_back(named.size() == 1 ? entry.front() : entry);
+    }
     if (preferences.uiScale) out["uiScale"] = *preferences.uiScale;
     writeWhole(file, jsonText(out, 2) + "\n");
 }

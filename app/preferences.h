@@ -8,17 +8,22 @@
 
 namespace app {
 
+// What a user named to open one series: a file, a folder, a pattern, or several of them. Not empty.
+using Named = std::vector<std::filesystem::path>;
+// For a list of such: "run_*.nc", "a.nc and 3 more".
+std::string shortName(const Named& named);
+
 struct Preferences {
     static constexpr std::size_t kRecent = 10;
 
-    std::vector<std::filesystem::path> recentFiles;  // absolute, newest first, at most kRecent
-    std::optional<double> uiScale;                   // in 0.5 .. 4; absent: the monitor's
-    double frameMilliseconds = 1000.0 / 60;          // to draw a frame in; 1 .. 1000
+    std::vector<Named> recent;               // absolute, newest first, at most kRecent
+    std::optional<double> uiScale;           // in 0.5 .. 4; absent: the monitor's
+    double frameMilliseconds = 1000.0 / 60;  // to draw a frame in; 1 .. 1000
     friend bool operator==(const Preferences&, const Preferences&) = default;
 };
 
-// The file comes first among the recent ones, once.
-void rememberFile(Preferences& preferences, const std::filesystem::path& file);
+// It comes first among the recent ones, once.
+void remember(Preferences& preferences, Named named);
 
 // Where they are kept: preferences.json in configFolder() (user_files.h).
 std::filesystem::path preferencesFile();
@@ -27,7 +32,8 @@ struct ReadPreferences {
     Preferences preferences;
     std::string problem;  // one sentence, when the file is damaged: the preferences are the usual
 };
-// A file that is not there is no problem. Recent files that are not there any more are left out.
+// A file that is not there is no problem. Recent files that are not there any more are left out,
+// and patterns whose folder is not.
 ReadPreferences readPreferences(const std::filesystem::path& file);
 // Throws std::runtime_error, one sentence.
 void writePreferences(const Preferences& preferences, const std::filesystem::path& file);

@@ -12,11 +12,6 @@ Series::Series(std::size_t steps, std::uint64_t budgetBytes) : slots_(steps), bu
     if (steps == 0) throw std::invalid_argument("a series needs at least one time step");
 }
 
-void Series::setBudget(std::uint64_t bytes) {
-    budget_ = bytes;
-    evict();
-}
-
 std::shared_ptr<const SortedStep> Series::use(std::size_t step) {
     Slot& slot = slots_[step];
     if (slot.state == SlotState::Loaded) slot.lastUse = ++uses_;
@@ -54,8 +49,9 @@ std::vector<std::size_t> Series::missingWishes() const {
     return steps;
 }
 
-void Series::loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted) {
-    drop(step);
+Series::Steps Series::loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted) {
+    Steps left;
+    if (auto before = drop(step)) left.push_back(std::move(before));
     Slot& slot = slots_[step];
     slot.summary = std::make_unique<const StepSummary>(StepSummary{
         sorted->quantiles(kQuantiles), sorted->statistics(), sorted->size(), sorted->bytes()});
@@ -65,7 +61,8 @@ void Series::loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted) 
     inMemory_.push_back(step);
     bytes_ += slot.summary->bytes;
     largest_ = std::max(largest_, slot.summary->bytes);
-    evict();
+    evict(left);
+    return left;
 }
 
 void Series::failed(std::size_t step, std::string why) {
@@ -78,15 +75,15 @@ void Series::retry(std::size_t step) {
     if (slots_[step].state == SlotState::Failed) drop(step);
 }
 
-void Series::drop(std::size_t step) {
+std::shared_ptr<const SortedStep> Series::drop(std::size_t step) {
     Slot& slot = slots_[step];
     if (slot.state == SlotState::Loaded) {
         bytes_ -= slot.summary->bytes;
         std::erase(inMemory_, step);
     }
     slot.state = SlotState::Empty;
-    slot.sorted.reset();
     slot.why.clear();
+    return std::exchange(slot.sorted, nullptr);
 }
 
 std::size_t Series::urgency(std::size_t step) const {
@@ -94,14 +91,14 @@ std::size_t Series::urgency(std::size_t step) const {
     return wish == wishes_.end() ? kUnwanted : static_cast<std::size_t>(wish - wishes_.begin());
 }
 
-void Series::evict() {
+void Series::evict(Steps& left) {
     while (bytes_ > budget_ && inMemory_.size() > 1) {
         // kUnwanted is greater than any place among the wishes.
         const auto leavesLater = [&](std::size_t a, std::size_t b) {
             const std::size_t ua = urgency(a), ub = urgency(b);
             return ua != ub ? ua < ub : slots_[a].lastUse > slots_[b].lastUse;
         };
-        drop(*std::max_element(inMemory_.begin(), inMemory_.end(), leavesLater));
+        left.push_back(drop(*std::max_element(inMemory_.begin(), inMemory_.end(), leavesLater)));
     }
 }
 

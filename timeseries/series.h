@@ -38,7 +38,6 @@ class Series {
         return bytes_;
     }  // of the steps loaded; whoever shares one may hold more
     std::uint64_t budgetBytes() const { return budget_; }
-    void setBudget(std::uint64_t bytes);
 
     // REQUIRES in all that follows: every step < stepCount().
     SlotState state(std::size_t step) const { return slots_[step].state; }
@@ -56,9 +55,10 @@ class Series {
     std::vector<std::size_t> want(std::vector<std::size_t> mostUrgentFirst);
 
     // Takes the step in, wished or not, then evicts down to the budget: first what is not wished,
-    // by least recent use, then the least urgent wish; which may be `step` itself. The summary
-    // stays.
-    void loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted);
+    // by least recent use, then the least urgent wish; which may be `step` itself. The summaries
+    // stay. Returns what left: freeing a large step takes long enough to be done elsewhere.
+    using Steps = std::vector<std::shared_ptr<const SortedStep>>;
+    Steps loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted);
     // A step that failed is not handed out again before retry().
     void failed(std::size_t step, std::string why);
     void retry(std::size_t step);
@@ -75,8 +75,8 @@ class Series {
 
     std::vector<std::size_t> missingWishes() const;
     std::size_t urgency(std::size_t step) const;  // place among the wishes, or kUnwanted
-    void drop(std::size_t step);
-    void evict();
+    std::shared_ptr<const SortedStep> drop(std::size_t step);  // what was there, or null
+    void evict(Steps& left);
 
     std::vector<Slot> slots_;
     std::vector<std::size_t> inMemory_;  // the loaded steps, in no order

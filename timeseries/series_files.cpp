@@ -58,44 +58,65 @@ std::string namesText(const Paths& files) {
                        files.back().filename().string());
 }
 
-void describe(const Numbered& series, ExpandedSeries& into) {
-    const auto& numbers = series.numbers;
+// Returns whether any number stands twice.
+bool tellTwice(const Numbered& series, ExpandedSeries& into) {
+    std::size_t told = 0;
     bool twice = false;
-    for (std::size_t i = 1, told = 0; i < numbers.size(); ++i) {
-        if (numbers[i] != numbers[i - 1]) continue;
+    for (std::size_t i = 1; i < series.numbers.size(); ++i) {
+        if (series.numbers[i] != series.numbers[i - 1]) continue;
         twice = true;
         if (told++ < kMostTold)
-            into.notes.push_back(fmt::format("number {} stands twice: {} and {}", numbers[i],
+            into.notes.push_back(fmt::format("number {} stands twice: {} and {}", series.numbers[i],
                                              series.files[i - 1].filename().string(),
                                              series.files[i].filename().string()));
     }
-    std::string shape;
-    if (auto values = integers(numbers)) {
-        values->erase(std::unique(values->begin(), values->end()), values->end());
-        std::int64_t least = 0, common = 0;
-        for (std::size_t i = 1; i < values->size(); ++i) {
-            const std::int64_t step = (*values)[i] - (*values)[i - 1];
-            least = i == 1 ? step : std::min(least, step);
-            common = std::gcd(common, step);
-        }
-        const bool uneven = least != common;
-        const bool gaps = !uneven && common > 0 &&
-                          (values->back() - values->front()) / common + 1 > std::ssize(*values);
-        if (values->size() == 2 && !twice) {
-            shape = fmt::format("numbers {} and {}", numbers.front(), numbers.back());
-        } else if (uneven && values->size() <= kMostTold) {
-            shape = fmt::format("numbers {}: uneven", fmt::join(*values, ", "));
-        } else {
-            shape = fmt::format("numbers {} to {}", numbers.front(), numbers.back());
-            if (uneven) shape += ": uneven";
-            if (!uneven && common > 1) shape += fmt::format(" every {}", common);
-            if (gaps) shape += ", with gaps";
-        }
-        if (gaps) into.notes.push_back(missingText(*values, common));
-    } else {
-        shape = fmt::format("numbers {} to {}", numbers.front(), numbers.back());
+    return twice;
+}
+
+// How ascending numbers follow each other.
+struct Spacing {
+    std::int64_t every = 0;  // divides all distances
+    bool uneven = false;     // none of them is just that
+    bool gaps = false;       // some of them are more
+};
+Spacing spacingOf(const std::vector<std::int64_t>& values) {
+    std::int64_t least = 0;
+    Spacing spacing;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        const std::int64_t step = values[i] - values[i - 1];
+        least = i == 1 ? step : std::min(least, step);
+        spacing.every = std::gcd(spacing.every, step);
     }
-    into.recognised = fmt::format("{}, {}", namesText(series.files), shape);
+    spacing.uneven = least != spacing.every;
+    spacing.gaps = !spacing.uneven && spacing.every > 0 &&
+                   (values.back() - values.front()) / spacing.every + 1 > std::ssize(values);
+    return spacing;
+}
+
+// "0 to 20 every 5, with gaps".
+std::string spacingText(const std::vector<std::int64_t>& values, const Spacing& spacing,
+                        const std::string& ends) {
+    if (spacing.uneven && values.size() <= kMostTold)
+        return fmt::format("{}: uneven", fmt::join(values, ", "));
+    if (spacing.uneven) return ends + ": uneven";
+    std::string text = ends;
+    if (spacing.every > 1) text += fmt::format(" every {}", spacing.every);
+    if (spacing.gaps) text += ", with gaps";
+    return text;
+}
+
+void describe(const Numbered& series, ExpandedSeries& into) {
+    const bool twice = tellTwice(series, into);
+    const std::string &first = series.numbers.front(), &last = series.numbers.back();
+    std::string shape = fmt::format("{} to {}", first, last);
+    if (auto values = integers(series.numbers)) {
+        values->erase(std::unique(values->begin(), values->end()), values->end());
+        const Spacing spacing = spacingOf(*values);
+        shape = values->size() == 2 && !twice ? fmt::format("{} and {}", first, last)
+                                              : spacingText(*values, spacing, shape);
+        if (spacing.gaps) into.notes.push_back(missingText(*values, spacing.every));
+    }
+    into.recognised = fmt::format("{}, numbers {}", namesText(series.files), shape);
 }
 
 // The ordinary files of a folder, hidden ones left out. None when there are too many.

@@ -51,6 +51,7 @@ void Desktop::run() {
 
 void Desktop::frame(std::chrono::nanoseconds dt) {
     exploration_.advance(dt);
+    errands_.goOn(interface_.choices());  // before all is drawn: nothing else may wake it
     const glm::ivec2 size = window_.framebufferSize();
     if (size.x == 0 || size.y == 0) return errands_.goOn(interface_.choices());  // minimised
     gui_.setScale(static_cast<float>(
@@ -63,7 +64,6 @@ void Desktop::frame(std::chrono::nanoseconds dt) {
     picture_.took(Clock::now() - begin);
     checkDriver(exploration_);
     title();
-    errands_.goOn(interface_.choices());
 }
 
 // Every event is seen by a frame of its own where it must be; only the last is drawn.

@@ -7,6 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/json_text.h"
+#include "app/picture.h"
 #include "app/session.h"
 #include "app/user_files.h"
 
@@ -115,8 +116,10 @@ void Errands::screenshot() {
 void Errands::copyCommandLine() {
     const auto shown = exploration_.shown();
     if (!shown) return;
+    const Explorer picture =
+        onlyThis(shown->explorer, shown->step, *shown->sorted, shown->explorer.play.tick);
     const std::vector<std::string> arguments =
-        renderArguments(shown->explorer, "picture.png", fs::current_path());
+        renderArguments(picture, "picture.png", fs::current_path());
     copy_("isochron " + shellText(arguments));
     exploration_.tell("Copied: the command line that makes this picture");
 }
@@ -124,7 +127,12 @@ void Errands::copyCommandLine() {
 void Errands::exportTo(const fs::path& output) {
     const auto shown = exploration_.shown();
     if (!shown) return;
-    telling(exploration_, [&] { export_.emplace(animationOf(*shown), output); });
+    if (export_) return exploration_.tell("One export at a time: cancel the one that runs", true);
+    telling(exploration_, [&] {
+        const Explorer animation = animationOf(*shown);
+        export_.emplace(animation, Frames(fs::absolute(output), animation,
+                                          stepsOf(shown->dataset, *animation.steps)));
+    });
 }
 
 void Errands::cancelExport() {
@@ -133,32 +141,20 @@ void Errands::cancelExport() {
 
 std::optional<std::string> Errands::exporting() const {
     if (!export_) return std::nullopt;
-    if (export_->count() == 0) return "Exporting";
-    return fmt::format("Exporting picture {} of {}",
-                       std::min(export_->done() + 1, export_->count()), export_->count());
+    const std::size_t count = export_->frames().size();
+    return fmt::format("Exporting picture {} of {}", std::min(export_->done() + 1, count), count);
+}
+
+void Errands::attendExport() {
+    if (!export_) return;
+    export_->poll();
+    if (export_->state() == ExportJob::State::Running) return;
+    exploration_.tell(export_->outcome(), export_->state() == ExportJob::State::Failed);
+    export_.reset();
 }
 
 void Errands::goOn(const panels::Choices& choices) {
-    if (export_) {
-        export_->poll();
-        switch (export_->state()) {
-            case ExportJob::State::Running:
-                break;
-            case ExportJob::State::Done:
-                exploration_.tell(fmt::format("Exported {} pictures", export_->done()));
-                export_.reset();
-                break;
-            case ExportJob::State::Failed:
-                exploration_.tell(export_->why(), true);
-                export_.reset();
-                break;
-            case ExportJob::State::Cancelled:
-                exploration_.tell(
-                    fmt::format("Export cancelled after {} pictures", export_->done()));
-                export_.reset();
-                break;
-        }
-    }
+    attendExport();
     settleLeft();
     if (!exploration_.shown()) return;
     if (const auto problem = autosave_.save(exploration_.explorer(), Autosave::Clock::now()))
@@ -172,7 +168,7 @@ void Errands::keep(const panels::Choices& choices) {
         std::chrono::duration<double, std::milli>(choices.frameBudget).count();
     const std::vector<fs::path>& files = exploration_.explorer().files;
     if (files != remembered_ && !files.empty()) {
-        rememberFile(preferences_, fs::absolute(files.front()));
+        remember(preferences_, files);
         remembered_ = files;
     }
     if (preferences_ == kept_) return;
@@ -193,7 +189,7 @@ void Errands::rescue() {
 }
 
 panels::StartOffers Errands::offers() const {
-    return {.recent = preferences_.recentFiles,
+    return {.recent = preferences_.recent,
             .demo = demo_,
             .autosave = left_.empty() || goingOn_ ? fs::path() : left_.front().file};
 }

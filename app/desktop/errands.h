@@ -50,6 +50,7 @@ class Errands {
     std::optional<std::string> exporting() const;
 
  private:
+    void attendExport();
     void keep(const panels::Choices& choices);
     void openSession(const std::filesystem::path& file);
     void settleLeft();

@@ -41,7 +41,7 @@ bool popupRow(const Theme& theme, std::string_view label, float width, std::stri
     return p.clicked;
 }
 
-void menu(Desk& desk, std::span<const std::filesystem::path> recent) {
+void menu(Desk& desk, std::span<const Named> recent) {
     constexpr std::size_t kRecent = 5;
     const float width = 240 * desk.theme.scale;
     const auto item = [&](const char* label, const char* keys, Command command,
@@ -67,10 +67,10 @@ void menu(Desk& desk, std::span<const std::filesystem::path> recent) {
     item("All keys", "H", Command::Help);
     if (recent.empty()) return;
     separator();
-    for (const auto& file : recent.first(std::min(kRecent, recent.size()))) {
-        ImGui::PushID(file.c_str());
-        if (popupRow(desk.theme, file.filename().string(), width, "recent"))
-            desk.requests.open = {file};
+    int id = 0;
+    for (const Named& named : recent.first(std::min(kRecent, recent.size()))) {
+        ImGui::PushID(++id);
+        if (popupRow(desk.theme, shortName(named), width, "recent")) desk.requests.open = named;
         ImGui::PopID();
     }
 }
@@ -99,7 +99,7 @@ void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
 
 }  // namespace
 
-void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::path> recent) {
+void drawHeader(Desk& desk, const Rect& at, std::span<const Named> recent) {
     const float s = desk.theme.scale, left = at.min.x + kMargin * s, right = at.max.x - kMargin * s;
     const Rect button{{right - 28 * s, at.min.y + 12 * s}, {right, at.min.y + 40 * s}};
     const Shown shown = *desk.exploration.shown();

@@ -4,10 +4,11 @@
 #include <span>
 
 #include "app/panels/desk.h"
+#include "app/preferences.h"
 
 namespace app::panels {
 
 // REQUIRES: something is shown.
-void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::path> recent);
+void drawHeader(Desk& desk, const Rect& at, std::span<const Named> recent);
 
 }  // namespace app::panels

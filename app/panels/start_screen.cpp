@@ -42,9 +42,10 @@ void drawStartScreen(Desk& desk, const StartOffers& offers) {
         offer(theme, next(), Icon::Play, "The demo: a pool fire", offers.demo.filename().string()))
         desk.requests.open = {offers.demo};
     for (std::size_t i = 0; i < recent; ++i) {
-        const std::filesystem::path& file = offers.recent[i];
-        if (offer(theme, next(), Icon::File, file.filename().string(), file.parent_path().string()))
-            desk.requests.open = {file};
+        const Named& named = offers.recent[i];
+        if (offer(theme, next(), Icon::File, shortName(named),
+                  named.front().parent_path().string()))
+            desk.requests.open = named;
     }
 }
 

@@ -4,11 +4,12 @@
 #include <span>
 
 #include "app/panels/desk.h"
+#include "app/preferences.h"
 
 namespace app::panels {
 
 struct StartOffers {
-    std::span<const std::filesystem::path> recent;
+    std::span<const Named> recent;
     std::filesystem::path demo;      // "" when it is not found
     std::filesystem::path autosave;  // of a session that did not end well; "" without one
 };

@@ -40,11 +40,19 @@ TEST(ChoiceText, StepsWithoutALastGoToTheEndOfTheSeries) {
     EXPECT_EQ(parseSteps("0:"), parseSteps("all"));
 }
 
+TEST(ChoiceText, StepsHaveAStride) {
+    EXPECT_EQ(parseSteps("1:9:4"), (StepChoice{1, 9, 4}));
+    EXPECT_EQ(parseSteps("3::2"), (StepChoice{3, {}, 2}));
+    EXPECT_EQ(parseSteps("0::1"), parseSteps("all"));
+    EXPECT_EQ(parseSteps("2:5:100"), (StepChoice{2, 5, 100}));
+}
+
 TEST(ChoiceText, StepsAreWrittenAsTheyAreRead) {
     std::mt19937 random(5);
     for (int i = 0; i < 500; ++i) {
         StepChoice steps{random() % 40, {}};
         if (random() % 3 != 0) steps.last = steps.first + random() % 3;
+        if (random() % 3 != 0) steps.stride = 1 + random() % 5;
         EXPECT_EQ(parseSteps(stepsText(steps)), steps) << stepsText(steps);
     }
 }
@@ -53,7 +61,12 @@ TEST(ChoiceText, MalformedStepsAreRefused) {
     for (const char* text : {"",
                              ":",
                              ":3",
-                             "1:2:3",
+                             "1:2:0",
+                             "1:2:-1",
+                             "1:2:3:4",
+                             "1:2:",
+                             ":2:3",
+                             "3:2:1",
                              "3:2",
                              "-1",
                              "+1",

@@ -158,6 +158,10 @@ TEST(Dataset, StepsAreThoseChosen) {
     EXPECT_EQ(stepsOf(dataset, {1, {}}), (std::vector<std::size_t>{1, 2}));
     EXPECT_EQ(stepsOf(dataset, {2, 2}), (std::vector<std::size_t>{2}));
     EXPECT_EQ(stepsOf(dataset, {0, 1}), (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(stepsOf(dataset, {0, {}, 2}), (std::vector<std::size_t>{0, 2}));
+    EXPECT_EQ(stepsOf(dataset, {0, 1, 2}), (std::vector<std::size_t>{0}));
+    EXPECT_EQ(stepsOf(dataset, {1, 2, std::numeric_limits<std::size_t>::max()}),
+              (std::vector<std::size_t>{1}));
 }
 
 TEST(Dataset, AStepThatIsNotThereIsToldWithThoseThatAre) {

@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 #include <thread>
 
 #include "app/session.h"
@@ -37,14 +39,17 @@ void pollToEnd(ExportJob& job) {
 Explorer example() {
     Explorer e;
     e.files = {tests::testFolder() / "a.nc"};
-    e.steps = StepChoice{2, 7};
+    e.steps = StepChoice{2, 4};
     return e;
 }
+
+// Three pictures.
+Frames into(const std::filesystem::path& output) { return {output, example(), {2, 3, 4}}; }
 
 TEST(ExportJob, TellsItsProgressAndGivesItsSession) {
     const auto folder = tests::freshFolder();
     const auto copy = folder / "copy.json";
-    ExportJob job(example(), folder / "out.png",
+    ExportJob job(example(), into(folder / "out.png"),
                   programOf("[ $1 = render ] && [ $2 = --session ] && [ $4 = --progress ] && "
                             "[ $5 = -o ] && cp $3 " +
                             copy.string() +
@@ -53,7 +58,8 @@ TEST(ExportJob, TellsItsProgressAndGivesItsSession) {
     pollToEnd(job);
     EXPECT_EQ(job.state(), State::Done);
     EXPECT_EQ(job.done(), 2u);
-    EXPECT_EQ(job.count(), 3u);
+    EXPECT_EQ(job.outcome(),
+              fmt::format("Exported 3 pictures: {}/out_2.png to out_4.png", folder.string()));
     EXPECT_EQ(tests::readBytes(folder / "named"), (folder / "out.png").string() + "\n");
     const auto session = nlohmann::json::parse(tests::readBytes(copy));
     EXPECT_EQ(fromJson(session, std::filesystem::temp_directory_path()), example());
@@ -62,18 +68,18 @@ TEST(ExportJob, TellsItsProgressAndGivesItsSession) {
 TEST(ExportJob, AChildThatFailsHandsOnItsSentence) {
     tests::freshFolder();
     ExportJob job(
-        example(), "out.png",
+        example(), into("out.png"),
         programOf("echo warning >&2; echo 'isochron: a.nc: cannot be opened' >&2; exit 1"));
     pollToEnd(job);
     EXPECT_EQ(job.state(), State::Failed);
-    EXPECT_EQ(job.why(), "a.nc: cannot be opened");
-    ExportJob silent(example(), "out.png", programOf("exit 3"));
+    EXPECT_EQ(job.outcome(), "a.nc: cannot be opened");
+    ExportJob silent(example(), into("out.png"), programOf("exit 3"));
     pollToEnd(silent);
-    EXPECT_THAT(silent.why(), HasSubstr("exit code 3"));
-    ExportJob killed(example(), "out.png", programOf("kill -9 $$"));
+    EXPECT_THAT(silent.outcome(), HasSubstr("exit code 3"));
+    ExportJob killed(example(), into("out.png"), programOf("kill -9 $$"));
     pollToEnd(killed);
     EXPECT_EQ(killed.state(), State::Failed);
-    EXPECT_THAT(killed.why(), HasSubstr("signal 9"));
+    EXPECT_THAT(killed.outcome(), HasSubstr("signal 9"));
 }
 
 TEST(ExportJob, IsCancelledAndItsPartialPictureRemoved) {
@@ -81,33 +87,45 @@ TEST(ExportJob, IsCancelledAndItsPartialPictureRemoved) {
     tests::writeBytes(folder / "out_0.png", "done");
     tests::writeBytes(folder / "out_1.png.part0", "half");
     tests::writeBytes(folder / "other.png.part0", "not its own");
-    ExportJob job(example(), folder / "out.png", programOf("echo picture 1 of 2; exec sleep 1000"));
+    ExportJob job(example(), into(folder / "out.png"),
+                  programOf("echo picture 1 of 2; exec sleep 1000"));
     pollUntil(job, [&] { return job.done() == 1; });
     EXPECT_EQ(job.state(), State::Running);
     job.cancel();
     pollToEnd(job);
     EXPECT_EQ(job.state(), State::Cancelled);
-    EXPECT_EQ(job.why(), "");
+    EXPECT_EQ(job.outcome(),
+              "Export cancelled after 1 of 3 pictures, which stay in " + folder.string());
     EXPECT_TRUE(std::filesystem::exists(folder / "out_0.png"));
     EXPECT_FALSE(std::filesystem::exists(folder / "out_1.png.part0"));
     EXPECT_TRUE(std::filesystem::exists(folder / "other.png.part0"));
 }
 
-TEST(ExportJob, DroppingItEndsTheChild) {
+TEST(ExportJob, IsCancelledBeforeItsFirstPicture) {
     const auto folder = tests::freshFolder();
-    const auto program = programOf("echo picture 1 of 2; exec sleep 1000");
+    ExportJob job(example(), into(folder / "out.png"), programOf("exec sleep 1000"));
+    job.cancel();
+    pollToEnd(job);
+    EXPECT_EQ(job.outcome(), "Export cancelled before its first picture");
+}
+
+TEST(ExportJob, DroppingItEndsTheChildAndLeavesNothingOfIt) {
+    const auto folder = tests::freshFolder();
+    const auto half = folder / "out_3.png.part0", child = folder / "child";
+    const auto program = programOf("echo $$ > " + child.string() + "; echo half > " +
+                                   half.string() + "; echo picture 1 of 3; exec sleep 1000");
     {
-        ExportJob job(example(), folder / "out.png", program);
+        ExportJob job(example(), into(folder / "out.png"), program);
         pollUntil(job, [&] { return job.done() == 1; });
-        // Half a picture, that is removed when the child has ended.
-        tests::writeBytes(folder / "out_1.png.part0", "half");
+        EXPECT_TRUE(std::filesystem::exists(half));
     }
-    while (std::filesystem::exists(folder / "out_1.png.part0")) std::this_thread::yield();
+    EXPECT_FALSE(std::filesystem::exists(half));
+    EXPECT_EQ(kill(std::stoi(tests::readBytes(child)), 0), -1);
 }
 
 TEST(ExportJob, AProgramThatIsNotThereIsTold) {
     try {
-        ExportJob job(example(), "out.png", tests::freshFolder() / "gone");
+        ExportJob job(example(), into("out.png"), tests::freshFolder() / "gone");
         FAIL();
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("gone"));
@@ -116,40 +134,74 @@ TEST(ExportJob, AProgramThatIsNotThereIsTold) {
 
 TEST(ExportJob, AFloodOfWordsDoesNotStopIt) {
     tests::freshFolder();
-    ExportJob job(example(), "out.png",
+    ExportJob job(example(), into("out.png"),
                   programOf("i=0; while [ $i -lt 4000 ]; do echo "
                             "'a line of fifty letters or so, of no use to anyone at all'; "
                             "i=$((i+1)); done >&2; echo 'isochron: the end' >&2; exit 1"));
     pollToEnd(job);
-    EXPECT_EQ(job.why(), "the end");
+    EXPECT_EQ(job.outcome(), "the end");
 }
 
-TEST(AnimationOf, IsWhatPlays) {
-    Dataset dataset;
-    auto time = std::make_shared<timeseries::TimeAxis>();
-    time->points.resize(10);
-    dataset.about.time = time;
-    const auto sorted =
+// An animation of ten steps of noise.
+class AnimationOf : public testing::Test {
+ protected:
+    AnimationOf() {
+        auto time = std::make_shared<timeseries::TimeAxis>();
+        time->points.resize(kSteps);
+        dataset_.about.time = time;
+        explorer_.steps = StepChoice{3, 3};
+        explorer_.layers = {
+            {.ranges = timeseries::RangeSet::parse("0:0.25"), .color = {}, .opacity = {}}};
+    }
+    Explorer animation() const { return animationOf({explorer_, dataset_, 3, sorted_}); }
+
+    static constexpr std::size_t kSteps = 10;
+    Dataset dataset_;
+    Explorer explorer_;
+
+ private:
+    std::shared_ptr<const timeseries::SortedStep> sorted_ =
         std::make_shared<const timeseries::SortedStep>(tests::noise(tests::cube(4)));
-    Explorer e;
-    e.steps = StepChoice{3, 3};
-    e.layers = {{.ranges = timeseries::RangeSet::parse("0:0.25"), .color = {}, .opacity = {}}};
-    e.sweep =
+};
+
+TEST_F(AnimationOf, IsWhatPlays) {
+    PlayChoice& play = explorer_.play;
+    explorer_.sweep =
         timeseries::SweepSettings{.animation = timeseries::RangeSet::parse("0:1"), .delta = 0.1};
-    e.play.time.first = 2;
-    e.play.tick = 40;
-    const auto animation = [&] { return animationOf({e, dataset, 3, sorted}); };
+    play.time.first = 2;
+    play.tick = 40;
     EXPECT_EQ(animation().steps, (StepChoice{2, 9}));
-    EXPECT_EQ(animation().sweep, e.sweep);
-    e.play.timeMoves = false;
+    EXPECT_EQ(animation().sweep, explorer_.sweep);
+    play.timeMoves = false;
     EXPECT_EQ(animation().steps, (StepChoice{3, 3}));
-    e.play.timeMoves = true;
-    e.play.sweepMoves = false;
+    play.timeMoves = true;
+    play.sweepMoves = false;
     EXPECT_EQ(animation().steps, (StepChoice{2, 9}));
     EXPECT_FALSE(animation().sweep);
     ASSERT_EQ(animation().layers.size(), 2u);
-    const auto window = timeseries::ValueSweep(*e.sweep).window(40);
+    const auto window = timeseries::ValueSweep(*explorer_.sweep).window(40);
     EXPECT_EQ(animation().layers[0].ranges, timeseries::RangeSet(std::vector{window}));
+}
+
+// The cursor that plays is the oracle: once, forward, whatever way and end were chosen.
+TEST_F(AnimationOf, PassesOnceTheStepsThatPlayPasses) {
+    std::mt19937 random(17);
+    for (int i = 0; i < 500; ++i) {
+        timeseries::CursorSettings& time = explorer_.play.time;
+        time = {.first = random() % kSteps, .stride = 1 + random() % (kSteps + 2)};
+        if (random() % 3 != 0) time.last = time.first + random() % kSteps;
+        time.direction = static_cast<timeseries::Direction>(random() % 2);
+        time.ending = static_cast<timeseries::Ending>(random() % 3);
+        timeseries::CursorSettings once = time;
+        once.direction = timeseries::Direction::Forward;
+        once.ending = timeseries::Ending::Once;
+        const timeseries::TimeCursor cursor(kSteps, once);
+        std::vector<std::size_t> passed;
+        for (std::size_t place = 0; place < cursor.placesPerCycle(); ++place)
+            passed.push_back(cursor.stepOfPlace(place));
+        EXPECT_EQ(stepsOf(dataset_, *animation().steps), passed)
+            << time.first << ':' << time.last << ':' << time.stride;
+    }
 }
 
 }  // namespace

@@ -17,9 +17,12 @@ using testing::HasSubstr;
 TEST(Preferences, ReadAsTheyWereWritten) {
     const auto folder = tests::freshFolder();
     const auto file = folder / "made" / "preferences.json";
-    tests::writeBytes(folder / "a.nc", "");
-    Preferences preferences{.recentFiles = {}, .uiScale = 1.5, .frameMilliseconds = 25};
-    rememberFile(preferences, folder / "a.nc");
+    for (const char* name : {"a.nc", "b.nc"}) tests::writeBytes(folder / name, "");
+    Preferences preferences{.recent = {}, .uiScale = 1.5, .frameMilliseconds = 25};
+    remember(preferences, {folder / "a.nc"});
+    remember(preferences, {folder});
+    remember(preferences, {folder / "*.n[co]"});
+    remember(preferences, {folder / "b.nc", folder / "a.nc"});
     writePreferences(preferences, file);
     const auto [read, problem] = readPreferences(file);
     EXPECT_EQ(read, preferences);
@@ -31,22 +34,37 @@ TEST(Preferences, ReadAsTheyWereWritten) {
 TEST(Preferences, RecentFilesAreTheTenNewestOnceEach) {
     const auto folder = tests::freshFolder();
     Preferences preferences;
-    for (int i = 0; i < 12; ++i) rememberFile(preferences, folder / fmt::format("{}", i));
-    rememberFile(preferences, folder / "x" / ".." / "5");
+    for (int i = 0; i < 12; ++i) remember(preferences, {folder / fmt::format("{}", i)});
+    remember(preferences, {folder / "x" / ".." / "5"});
+    remember(preferences, {folder / "8" / ""});
     std::vector<std::string> names;
-    for (const auto& file : preferences.recentFiles) names.push_back(file.filename());
-    EXPECT_THAT(names, ElementsAre("5", "11", "10", "9", "8", "7", "6", "4", "3", "2"));
+    for (const Named& named : preferences.recent) names.push_back(shortName(named));
+    EXPECT_THAT(names, ElementsAre("8", "5", "11", "10", "9", "7", "6", "4", "3", "2"));
+}
+
+TEST(Preferences, SeveralFilesAreAnotherThingThanTheFirstOfThem) {
+    Preferences preferences;
+    remember(preferences, {"/a.nc"});
+    remember(preferences, {"/a.nc", "/b.nc", "/c.nc"});
+    EXPECT_THAT(preferences.recent, ElementsAre(Named{"/a.nc", "/b.nc", "/c.nc"}, Named{"/a.nc"}));
+    EXPECT_EQ(shortName(preferences.recent[0]), "a.nc and 2 more");
 }
 
 TEST(Preferences, RecentFilesThatAreGoneAreLeftOut) {
     const auto folder = tests::freshFolder();
     tests::writeBytes(folder / "here", "");
     Preferences preferences;
-    rememberFile(preferences, folder / "here");
-    rememberFile(preferences, folder / "gone");
+    const std::vector<Named> there = {{folder / "here"},
+                                      {folder / "run_*.nc"},
+                                      {folder / "*" / "?.nc"},
+                                      {folder / "here", folder}};
+    for (const Named& named : there) remember(preferences, named);
+    remember(preferences, {folder / "gone"});
+    remember(preferences, {folder / "gone" / "run_*.nc"});
+    remember(preferences, {folder / "here", folder / "gone"});
     writePreferences(preferences, folder / "p.json");
-    EXPECT_THAT(readPreferences(folder / "p.json").preferences.recentFiles,
-                ElementsAre(folder / "here"));
+    EXPECT_THAT(readPreferences(folder / "p.json").preferences.recent,
+                testing::UnorderedElementsAreArray(there));
 }
 
 TEST(Preferences, ADamagedFileIsToldAndTheUsualOnesHold) {
@@ -60,6 +78,8 @@ TEST(Preferences, ADamagedFileIsToldAndTheUsualOnesHold) {
              {R"({"frameMilliseconds": 0})", "frameMilliseconds"},
              {R"({"frameMilliseconds": 1e999})", "beyond all doubles"},
              {R"({"recentFiles": "a.nc"})", "recentFiles is not a list of texts"},
+             {R"({"recentFiles": [[]]})", "recentFiles"},
+             {R"({"recentFiles": [["a.nc", ["b.nc"]]]})", "recentFiles"},
              {R"({"recentFiles": [1]})", "recentFiles"},
              {std::string("\x00\xff", 2), "not JSON"}}) {
         tests::writeBytes(file, text);

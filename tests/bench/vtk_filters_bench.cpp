@@ -61,6 +61,15 @@ void vtkSelect(benchmark::State& state) {
     state.counters["points2"] = static_cast<double>(filter->GetOutput()->GetNumberOfPoints());
 }
 
+// A selection until it can be drawn: found, and sent to the GPU in drawing order.
+void makeReady(const bench::Volume& v, double share, GlSplatter& splatter) {
+    const Scene scene = v.scene(share);
+    GpuStep onGpu(v.step, v.lattice);
+    onGpu.upload(scene, {});
+    benchmark::DoNotOptimize(splatter.upload(scene, Runs{}, onGpu));
+    glFinish();
+}
+
 // Until the points can be drawn: ours lie on the GPU, in drawing order; VTK's in main memory.
 void vtkSelectToDraw(benchmark::State& state) {
     const bench::Volume& v = volume(state);
@@ -72,15 +81,7 @@ void vtkSelectToDraw(benchmark::State& state) {
     const gl::HeadlessContext context;
     GlSplatter splatter;
     bench::alternate(
-        state,
-        [&] {
-            const Scene scene = v.scene(share(state));
-            GpuStep onGpu(v.step, v.lattice);
-            onGpu.upload(scene, {});
-            benchmark::DoNotOptimize(splatter.upload(scene, Runs{}, onGpu));
-            glFinish();
-        },
-        [&] { threshold(filter, range); });
+        state, [&] { makeReady(v, share(state), splatter); }, [&] { threshold(filter, range); });
 }
 
 // The contour of the median, the usual first look, beside a range about it made ready to draw.
@@ -96,14 +97,7 @@ void vtkContour(benchmark::State& state) {
     const gl::HeadlessContext context;
     GlSplatter splatter;
     bench::alternate(
-        state,
-        [&] {
-            const Scene scene = v.scene(share(state));
-            GpuStep onGpu(v.step, v.lattice);
-            onGpu.upload(scene, {});
-            benchmark::DoNotOptimize(splatter.upload(scene, Runs{}, onGpu));
-            glFinish();
-        },
+        state, [&] { makeReady(v, share(state), splatter); },
         [&] {
             contour->Modified();
             contour->Update();

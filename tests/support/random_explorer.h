@@ -21,6 +21,7 @@ class RandomExplorer {
         if (maybe()) {
             e.steps = app::StepChoice{random_() % 40, {}};
             if (maybe()) e.steps->last = e.steps->first + random_() % 4;
+            if (random_() % 3 == 0) e.steps->stride = 1 + random_() % 5;
         }
         if (maybe()) e.keep = ranges();
         if (maybe()) {

@@ -1,13 +1,12 @@
 #include "timeseries/range_set.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "tests/support/ranges.h"
 #include "tests/support/selection_oracle.h"
 
 namespace timeseries {
@@ -15,18 +14,16 @@ namespace {
 
 using oracle::describe;
 using oracle::Real;
+using tests::ranges::closed;
+using tests::ranges::halfOpen;
+using tests::ranges::open;
+using tests::ranges::openLow;
+using tests::ranges::operator""_i;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kTwo53 = std::int64_t{1} << 53;
 constexpr std::int64_t kTwo60 = std::int64_t{1} << 60;
-
-Range closed(Number lo, Number hi) { return {{lo, false}, {hi, false}}; }
-Range open(Number lo, Number hi) { return {{lo, true}, {hi, true}}; }
-Range halfOpen(Number lo, Number hi) { return {{lo, false}, {hi, true}}; }
-Range openLow(Number lo, Number hi) { return {{lo, true}, {hi, false}}; }
-
-std::int64_t operator""_i(unsigned long long i) { return static_cast<std::int64_t>(i); }
 
 // Reals at which two sets made of these numbers can differ: the numbers and a real between any two.
 std::vector<Real> probes(const std::vector<Number>& numbers) {
@@ -306,189 +303,6 @@ TEST(RangeSetConversion, FiniteBoundsBeyondFloatStayOutside) {
     EXPECT_EQ(RangeSet({closed(1e300, kInfinity)}).toIntervals<float>(),
               (std::vector<Interval<float>>{{F::infinity(), F::infinity()}}));
     EXPECT_TRUE(RangeSet({closed(1e299, 1e300)}).toIntervals<float>().empty());
-}
-
-// --- Text.
-
-TEST(RangeText, DocumentedFormsAreRead) {
-    const std::pair<const char*, RangeSet> cases[] = {
-        {"1:2", RangeSet({closed(1_i, 2_i)})},
-        {"-1.5:2e3", RangeSet({closed(-1.5, 2000.0)})},
-        {"[1,2)", RangeSet({halfOpen(1_i, 2_i)})},
-        {"(1,2]", RangeSet({openLow(1_i, 2_i)})},
-        {"(1,2)", RangeSet({open(1_i, 2_i)})},
-        {"[1,2]", RangeSet({closed(1_i, 2_i)})},
-        {"[1:2)", RangeSet({halfOpen(1_i, 2_i)})},
-        {"(1:2]", RangeSet({openLow(1_i, 2_i)})},
-        {"5~2", RangeSet({closed(3_i, 7_i)})},
-        {"3~5", RangeSet({closed(-2.0, 8.0)})},
-        {"1.5~0.25", RangeSet({closed(1.25, 1.75)})},
-        {"-1.5~0", RangeSet({closed(-1.5, -1.5)})},
-        {"min:2", RangeSet({closed(-kInfinity, 2.0)})},
-        {"2:max", RangeSet({closed(2.0, kInfinity)})},
-        {"min:max", RangeSet::everything()},
-        {"-inf:inf", RangeSet::everything()},
-        {"inf", RangeSet({closed(kInfinity, kInfinity)})},
-        {"(0,max]", RangeSet({openLow(0.0, kInfinity)})},
-        {"[min,0)", RangeSet({halfOpen(-kInfinity, 0.0)})},
-        {"7", RangeSet({closed(7_i, 7_i)})},
-        {"-7.5", RangeSet({closed(-7.5, -7.5)})},
-        {"1e-3", RangeSet({closed(1e-3, 1e-3)})},
-        {"1:2,5:6", RangeSet({closed(1_i, 2_i), closed(5_i, 6_i)})},
-        {"5:6,1:2", RangeSet({closed(1_i, 2_i), closed(5_i, 6_i)})},
-        {"1:3,2:4", RangeSet({closed(1_i, 4_i)})},
-        {"[1,2),(3:4],9,20~1,100:max",
-         RangeSet({halfOpen(1_i, 2_i), openLow(3_i, 4_i), closed(9_i, 9_i), closed(19_i, 21_i),
-                   closed(100.0, kInfinity)})},
-    };
-    for (const auto& [text, expected] : cases) {
-        const RangeSet read = RangeSet::parse(text);
-        EXPECT_EQ(read, expected) << text << " was read as " << describe(read.ranges());
-    }
-}
-
-TEST(RangeText, IntegersStayIntegers) {
-    const RangeSet set = RangeSet::parse("1152921504606846977:1152921504606846978");
-    ASSERT_EQ(set.ranges().size(), 1U);
-    EXPECT_TRUE(compare(set.ranges()[0].lo.value, kTwo60 + 1) == 0);
-    EXPECT_TRUE(compare(set.ranges()[0].hi.value, kTwo60 + 2) == 0);
-    EXPECT_FALSE(std::holds_alternative<double>(set.ranges()[0].lo.value));
-
-    EXPECT_EQ(RangeSet::parse("1152921504606846977~1"), RangeSet({closed(kTwo60, kTwo60 + 2)}));
-    EXPECT_EQ(RangeSet::parse("-9223372036854775808:18446744073709551615"),
-              RangeSet({closed(std::numeric_limits<std::int64_t>::min(),
-                               std::numeric_limits<std::uint64_t>::max())}));
-    EXPECT_TRUE(std::holds_alternative<double>(RangeSet::parse("1.0").ranges()[0].lo.value));
-    EXPECT_TRUE(std::holds_alternative<double>(RangeSet::parse("1e0").ranges()[0].lo.value));
-}
-
-TEST(RangeText, CentreAndWidthAreExactForIntegers) {
-    // Through doubles, c - d and c + d would both round to 2^63.
-    EXPECT_EQ(RangeSet::parse("9223372036854775809~3"),
-              RangeSet({closed((std::uint64_t{1} << 63) - 2, (std::uint64_t{1} << 63) + 4)}));
-    EXPECT_EQ(RangeSet::parse("-9223372036854775807~1"),
-              RangeSet({closed(std::numeric_limits<std::int64_t>::min(),
-                               std::numeric_limits<std::int64_t>::min() + 2)}));
-    EXPECT_EQ(RangeSet::parse("9223372036854775808~9223372036854775807"),
-              RangeSet({closed(1_i, std::numeric_limits<std::uint64_t>::max())}));
-}
-
-TEST(RangeText, AnIntegerBeyondAllTypesIsNotReadAsAnother) {
-    try {
-        const RangeSet set = RangeSet::parse("99999999999999999999");
-        EXPECT_EQ(set, RangeSet({closed(99999999999999999999.0, 99999999999999999999.0)}));
-    } catch (const RangeSyntaxError&) {
-        SUCCEED();
-    }
-}
-
-TEST(RangeText, MalformedTextsGiveOneSentenceThatQuotesThem) {
-    for (const std::string text : {"",
-                                   " ",
-                                   ",",
-                                   "1:",
-                                   ":2",
-                                   ":",
-                                   "1:2:3",
-                                   "abc",
-                                   "1:2,",
-                                   ",1",
-                                   "1,,2",
-                                   "2:1",
-                                   "nan",
-                                   "nan:1",
-                                   "1:nan",
-                                   "NaN~1",
-                                   "1~nan",
-                                   "1~-1",
-                                   "1~",
-                                   "~1",
-                                   "1~2~3",
-                                   "1~-0.5",
-                                   "[1,2",
-                                   "1,2]",
-                                   "(1:2",
-                                   "1:2)",
-                                   "[1 2]",
-                                   "1..2",
-                                   "1.2.3",
-                                   "1:2 x",
-                                   "x1:2",
-                                   "--1",
-                                   "1e",
-                                   "1e+",
-                                   "e5",
-                                   ".",
-                                   "-",
-                                   "+",
-                                   "[]",
-                                   "[,]",
-                                   "[1,]",
-                                   "[,1]",
-                                   "[[1,2]",
-                                   "[1,2]]",
-                                   "[1,2]3",
-                                   "3[1,2]",
-                                   "[1,2,3]",
-                                   "max:min",
-                                   "inf:-inf",
-                                   "[2,1)",
-                                   "{1,2}",
-                                   "1:2;3:4",
-                                   "1-2",
-                                   "1/2",
-                                   "0x",
-                                   "minmax",
-                                   "min:mix",
-                                   "1:2,3:2",
-                                   "[1:2],",
-                                   "1'000",
-                                   "1:2\n:3",
-                                   "[1~2]:",
-                                   "2:1.9999",
-                                   "9223372036854775809:9223372036854775808",
-                                   "18446744073709551615:-1"}) {
-        try {
-            const RangeSet set = RangeSet::parse(text);
-            ADD_FAILURE() << "'" << text << "' was read as " << describe(set.ranges());
-        } catch (const RangeSyntaxError& error) {
-            const std::string what = error.what();
-            // It quotes the text, or the one range of it that is wrong.
-            const std::size_t begin = what.find('\''), end = what.find("':", begin + 1);
-            ASSERT_TRUE(begin != std::string::npos && end != std::string::npos) << what;
-            EXPECT_THAT(text, testing::HasSubstr(what.substr(begin + 1, end - begin - 1)));
-            // One sentence: nothing follows a full stop.
-            EXPECT_THAT(what, testing::Not(testing::HasSubstr(". "))) << text;
-        }
-    }
-}
-
-TEST(RangeText, AnEmbeddedNulIsMalformed) {
-    EXPECT_THROW(RangeSet::parse(std::string_view("1:2\0,3", 6)), RangeSyntaxError);
-}
-
-TEST(RangeText, TheEmptySetHasNoText) { EXPECT_EQ(RangeSet().text(), ""); }
-
-TEST(RangeText, RandomSetsReadBackTheSame) {
-    const std::vector<Number> awkward = oracle::awkwardNumbers();
-    std::mt19937_64 random(24);
-    for (int i = 0; i < 4000; ++i) {
-        std::vector<Number> numbers = awkward;
-        for (int k = 0; k < 20; ++k) {
-            const std::uint64_t bits = random();
-            const double value = std::bit_cast<double>(bits);
-            if (!std::isnan(value)) numbers.push_back(value);
-            numbers.push_back(bits);
-            numbers.push_back(static_cast<std::int64_t>(bits));
-        }
-        const RangeSet set(oracle::randomRanges(random, 6, numbers));
-        if (set.empty()) continue;
-        SCOPED_TRACE("case " + std::to_string(i) + " " + describe(set.ranges()) + " text " +
-                     set.text());
-        const RangeSet read = RangeSet::parse(set.text());
-        ASSERT_EQ(read, set) << "read as " << describe(read.ranges());
-        ASSERT_EQ(RangeSet::parse(read.text()), set) << read.text();
-    }
 }
 
 }  // namespace

@@ -105,8 +105,6 @@ TEST(Series, WantedStepsLeaveAfterTheOthersAndTheMostUrgentNever) {
     EXPECT_THAT(stepsIn(series, SlotState::Loaded), ElementsAre(0, 1, 5));
     series.loaded(6, stepOf(100));  // the least urgent of all is 6 itself
     EXPECT_THAT(stepsIn(series, SlotState::Loaded), ElementsAre(0, 1, 5));
-    series.setBudget(1);
-    EXPECT_THAT(stepsIn(series, SlotState::Loaded), ElementsAre(1));
 }
 
 TEST(Series, AStepLargerThanTheBudgetIsKeptAlone) {
@@ -168,11 +166,22 @@ TEST(Series, TheSummaryOutlivesEviction) {
 
 TEST(Series, AnEvictedStepLivesOnWithWhoeverSharesIt) {
     Series series(3, bytesOf(10));
-    series.loaded(0, stepOf(10, 5));
+    EXPECT_THAT(series.loaded(0, stepOf(10, 5)), IsEmpty());
     const std::shared_ptr<const SortedStep> shared = series.use(0);
-    series.loaded(1, stepOf(10));
+    EXPECT_THAT(series.loaded(1, stepOf(10)), ElementsAre(shared));
     EXPECT_EQ(series.use(0), nullptr);
     EXPECT_EQ(toDouble(shared->value(0)), 5);
+}
+
+TEST(Series, WhatLeavesIsReturned) {
+    Series series(5, 2 * bytesOf(100));
+    const auto zero = stepOf(100), one = stepOf(100), again = stepOf(100), large = stepOf(200);
+    EXPECT_THAT(series.loaded(0, zero), IsEmpty());
+    EXPECT_THAT(series.loaded(1, one), IsEmpty());
+    EXPECT_THAT(series.loaded(1, again), ElementsAre(one));
+    EXPECT_THAT(series.loaded(2, large), ElementsAre(zero, again));
+    series.want({2});
+    EXPECT_THAT(series.loaded(3, one), ElementsAre(one)) << "itself, which nobody wished";
 }
 
 TEST(Series, RandomUseFollowsTheModel) {

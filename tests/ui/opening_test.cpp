@@ -132,6 +132,25 @@ TEST_F(DeskOpens, ASavedSessionAsTheSamePixels) {
     EXPECT_EQ(differing(desk.settled(at.clear), first), 0u);
 }
 
+TEST_F(DeskOpens, ARecentSeriesAsItWasNamed) {
+    for (const char* name : {"ramp_1.nrrd", "ramp_2.nrrd", "ramp_3.nrrd"})
+        writeRamp(folder() / name);
+    {
+        Driver desk(screen(), folder(), {"ramp_[13].nrrd"});
+        desk.waitForTitle("ramp_[13].nrrd · ");
+        desk.close();
+        EXPECT_EQ(desk.process().exitCode(), 0);
+    }
+    Driver desk(screen(), folder(), {});
+    desk.settled();
+    desk.click(startOffer(desk.size(), 2, 1));  // after the file panel and the demo
+    desk.waitForTitle("ramp_[13].nrrd · ");
+    desk.press("End");
+    const app::Explorer e = saved(desk, folder() / "recent.json");
+    EXPECT_EQ(e.files, std::vector{folder() / "ramp_[13].nrrd"});
+    EXPECT_EQ(e.steps, (app::StepChoice{1, 1})) << "two steps, where the whole series has three";
+}
+
 class DeskGoesOn : public DeskOpens {
  protected:
     // The sessions that processes have left, or keep.

@@ -8,6 +8,8 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -37,7 +39,42 @@ std::vector<std::string> environmentWith(
     return all;
 }
 
+// What proc(5) tells of a process; none when there is no such process.
+struct Stat {
+    char state = '?';
+    pid_t parent = 0;
+};
+std::optional<Stat> statOf(pid_t process) {
+    std::ifstream in(fmt::format("/proc/{}/stat", process));
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    // The name stands in parentheses and may hold any character.
+    const std::size_t name = text.rfind(')');
+    Stat stat;
+    if (name == std::string::npos ||
+        std::sscanf(text.c_str() + name, ") %c %d", &stat.state, &stat.parent) != 2)
+        return std::nullopt;
+    return stat;
+}
+
+bool runs(const Stat& stat) { return stat.state != 'Z' && stat.state != 'X'; }
+
 }  // namespace
+
+std::vector<pid_t> childrenOf(pid_t parent) {
+    std::vector<pid_t> children;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const pid_t process = std::atoi(entry.path().filename().c_str());
+        if (process <= 0) continue;
+        const auto stat = statOf(process);
+        if (stat && stat->parent == parent && runs(*stat)) children.push_back(process);
+    }
+    return children;
+}
+
+bool isRunning(pid_t process) {
+    const auto stat = statOf(process);
+    return stat && runs(*stat);
+}
 
 Process::Process(const Start& start) {
     static std::atomic<int> count = 0;

@@ -38,4 +38,8 @@ class Process {
     std::filesystem::path errorFile_;
 };
 
+// The processes that one has started and that run; the dead that nobody has taken in do not count.
+std::vector<pid_t> childrenOf(pid_t parent);
+bool isRunning(pid_t process);
+
 }  // namespace ui

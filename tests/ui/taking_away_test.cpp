@@ -1,9 +1,9 @@
+#include <set>
+
 #include "tests/ui/desk_test.h"
 
 namespace ui {
 namespace {
-
-class DeskTakesAway : public DeskTest {};
 
 // Runs a command line as a shell in `folder` does, with `isochron` meaning the program under test.
 int shell(const std::filesystem::path& folder, const std::string& line) {
@@ -13,6 +13,33 @@ int shell(const std::filesystem::path& folder, const std::string& line) {
                                    folder.string(), PROGRAM, line.substr(name.size()))
                            .c_str());
 }
+
+class DeskTakesAway : public DeskTest {
+ protected:
+    // The command line of the picture shown, with another option or value in place of one.
+    std::string commandLine(Driver& desk, std::string_view from, std::string_view to) {
+        desk.press("ctrl+c");
+        std::string line = desk.clipboard();
+        const std::size_t at = line.find(from);
+        if (at == std::string::npos)
+            throw std::runtime_error("no " + std::string(from) + ": " + line);
+        return line.replace(at, from.size(), to);
+    }
+    // Asks for the export of the animation under a name in the user's folder.
+    void startExport(Driver& desk, std::string_view name) {
+        desk.press("ctrl+e");
+        desk.press("ctrl+a");
+        desk.type(name);
+        desk.press("Return");
+    }
+    std::set<std::string> namesThatBegin(std::string_view with) const {
+        std::set<std::string> names;
+        for (const auto& each : std::filesystem::directory_iterator(folder()))
+            if (const std::string name = each.path().filename(); name.starts_with(with))
+                names.insert(name);
+        return names;
+    }
+};
 
 TEST_F(DeskTakesAway, TheScreenshotThatTheCopiedCommandLineMakes) {
     Driver desk(screen(), folder(), {demo().string(), "--range", "350:500", "--range", "700:max"});
@@ -47,6 +74,70 @@ TEST_F(DeskTakesAway, SessionsUnderTheNamesTyped) {
         desk.waitFor("the session is saved", [&] { return std::filesystem::exists(file); });
         EXPECT_EQ(app::readSession(file).variable, "T");
     }
+}
+
+// By a stride, between the in and out points.
+TEST_F(DeskTakesAway, TheStepsThatPlayAsPictures) {
+    Driver desk(screen(), folder(), {demo().string(), "--range", "600:1200", "--step", "2:17:6"});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    desk.resize({900, 600});
+    const Places at = placesOf({900, 600});
+    const Shot quiet = desk.settled(at.messages);
+    startExport(desk, "movie.png");
+    const std::set<std::string> names = {"movie_02.png", "movie_08.png", "movie_14.png"};
+    desk.waitFor("all is exported", [&] { return namesThatBegin("movie") == names; });
+    desk.waitFor("it is told", [&] { return differing(desk.shot(at.messages), quiet) > 1000; });
+    const std::string line = commandLine(desk, "--step=2 ", "--step=2:17:6 ");
+    ASSERT_EQ(shell(folder(), line), 0) << line;
+    for (const char* number : {"02", "08", "14"})
+        EXPECT_EQ(differing(readShot(folder() / fmt::format("movie_{}.png", number)),
+                            readShot(folder() / fmt::format("picture_{}.png", number))),
+                  0u)
+            << number;
+}
+
+// One cycle of the sweep, over which the steps pass once.
+TEST_F(DeskTakesAway, TheSweepAndTheStepsThatPlayAsPictures) {
+    const std::vector<std::string> choices = {
+        demo().string(), "--sweep=400:1400", "--delta=100",     "--timer-steps=5",
+        "--step=2:14:6", "--opacity=0.2",    "--color=#88aaff", "--range=1500:max",
+        "--opacity=0.1", "--color=#ffaa44"};
+    Driver desk(screen(), folder(), choices);
+    desk.waitForTitle("pool_fire_T.nc · T");
+    desk.resize({900, 600});
+    desk.settled();
+    startExport(desk, "movie.png");
+    const std::set<std::string> names = {"movie_0.png", "movie_1.png", "movie_2.png", "movie_3.png",
+                                         "movie_4.png"};
+    desk.waitFor("all is exported", [&] { return namesThatBegin("movie") == names; });
+    const glm::ivec2 size = readShot(folder() / "movie_0.png").size;
+    std::string line = "isochron render -o swept.png";
+    for (const std::string& choice : choices) line += " '" + choice + "'";
+    line += fmt::format(" --size {}x{}", size.x, size.y);
+    ASSERT_EQ(shell(folder(), line), 0) << line;
+    for (int i = 0; i < 5; ++i)
+        EXPECT_EQ(differing(readShot(folder() / fmt::format("movie_{}.png", i)),
+                            readShot(folder() / fmt::format("swept_{}.png", i))),
+                  0u)
+            << i;
+}
+
+// The picture shown, and not the sweep's whole cycle.
+TEST_F(DeskTakesAway, TheCommandLineOfASweptPicture) {
+    Driver desk(screen(), folder(), {demo().string(), "--sweep=400:1400", "--delta=100"});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    desk.resize({900, 600});
+    desk.press("space");
+    const std::string title = desk.title();
+    desk.waitFor("the window of values moves", [&] { return desk.title() != title; });
+    desk.press("space");
+    desk.settled();
+    desk.press("F12");
+    const auto screenshot = folder() / "pool_fire_T_0000.png";
+    desk.waitFor("the screenshot is written", [&] { return std::filesystem::exists(screenshot); });
+    desk.press("ctrl+c");
+    ASSERT_EQ(shell(folder(), desk.clipboard()), 0) << desk.clipboard();
+    EXPECT_EQ(differing(readShot(folder() / "picture.png"), readShot(screenshot)), 0u);
 }
 
 }  // namespace

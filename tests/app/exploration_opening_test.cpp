@@ -1,0 +1,288 @@
+#include "app/exploration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/picture.h"
+#include "tests/support/exploration_desk.h"
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::bruteForce;
+using tests::layer;
+using tests::Script;
+using tests::World;
+using timeseries::RangeSet;
+using Desk = tests::ExplorationDesk;
+
+TEST(Exploration, OpensAFileAndShowsItsMiddleStepResolved) {
+    Desk desk;
+    EXPECT_FALSE(desk.exploration.shown());
+    EXPECT_EQ(desk.exploration.counts(), nullptr);
+    desk.startOpening("a");
+    EXPECT_EQ(desk.exploration.opening(), "a");
+    desk.untilOpened();
+    const auto shown = desk.exploration.shown();
+    ASSERT_TRUE(shown);
+    EXPECT_EQ(shown->step, 5u);
+    EXPECT_EQ(shown->explorer.variable, "T");
+    EXPECT_EQ(shown->explorer.steps, (StepChoice{5, 5}));
+    EXPECT_FALSE(needsSamples(shown->explorer));
+    EXPECT_EQ(shown->explorer.layers.size(), 1u);
+    EXPECT_FALSE(desk.exploration.canUndo());
+}
+
+TEST(Exploration, NothingWaitsForAReader) {
+    Desk desk;
+    desk.script->hold();
+    desk.startOpening("a");
+    desk.until([&] { return !desk.script->begun().empty(); });
+    for (int frame = 0; frame < 10; ++frame) desk.exploration.advance(16ms);
+    EXPECT_FALSE(desk.exploration.shown());
+    EXPECT_EQ(desk.exploration.opening(), "a");
+    desk.script->letGo(5);
+    desk.untilOpened();
+    // The reader is held again, by the survey or by these:
+    desk.exploration.seek(7);
+    desk.exploration.togglePlay();
+    for (int frame = 0; frame < 10; ++frame) desk.exploration.advance(16ms);
+    desk.choose("P");
+    for (int frame = 0; frame < 10; ++frame) desk.exploration.advance(16ms);
+    desk.exploration.undo();
+    EXPECT_EQ(desk.shownStep(), 5u);
+    desk.script->letAllGo();
+}
+
+TEST(Exploration, ABadFileLeavesWhatIsShownUntouchedAndSaysWhy) {
+    Desk desk;
+    desk.open("a");
+    const Explorer before = desk.exploration.explorer();
+    const auto sorted = desk.exploration.shown()->sorted;
+    desk.open("gone");
+    EXPECT_EQ(desk.exploration.explorer(), before);
+    EXPECT_EQ(desk.exploration.shown()->sorted, sorted);
+    EXPECT_FALSE(desk.exploration.canUndo());
+    EXPECT_THAT(desk.errors(), ElementsAre("gone: cannot be opened"));
+    desk.exploration.forgetMessage(desk.exploration.messages().front().number);
+    EXPECT_THAT(desk.errors(), ElementsAre());
+}
+
+TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThere) {
+    Desk desk({{"a", {}}, {"b", {}}});
+    desk.open("a");
+    Explorer next = desk.exploration.explorer();
+    next.layers = {layer("3:4"), layer("5:6")};
+    next.sweep = timeseries::SweepSettings{.animation = RangeSet::parse("1:2")};
+    desk.exploration.edit(next);
+    desk.startOpening("b");
+    next = desk.exploration.explorer();
+    next.view.azimuthDegrees = 12;
+    next.order = render::Order::BackToFront;
+    desk.exploration.edit(next);
+    desk.untilOpened();
+    const Explorer& now = desk.exploration.explorer();
+    EXPECT_EQ(now.files.front(), "b");
+    EXPECT_EQ(now.view, next.view);
+    EXPECT_EQ(now.order, next.order);
+    EXPECT_EQ(now.layers.size(), 1u);
+    EXPECT_FALSE(now.sweep);
+}
+
+TEST(Exploration, AFileWithoutAStepThatCanBeReadIsRefused) {
+    Desk desk({{"a", {}}, {"b", {.steps = 2}}});
+    desk.open("a");
+    desk.untilAllSeen();
+    const Explorer before = desk.exploration.explorer();
+    desk.script->failAt(0, "b: step 0 is cut off");
+    desk.script->failAt(1, "b: step 1 is cut off");
+    desk.open("b");
+    EXPECT_EQ(desk.exploration.explorer(), before);
+    EXPECT_THAT(desk.errors(), ElementsAre("b: step 1 is cut off", "b: step 0 is cut off"));
+}
+
+TEST(Exploration, AFileOpensWithAnotherStepWhereTheMiddleOneFails) {
+    Desk desk;
+    desk.script->failAt(5, "a: step 5 is cut off");
+    desk.open("a");
+    ASSERT_TRUE(desk.exploration.shown());
+    EXPECT_NE(desk.shownStep(), 5u);
+    EXPECT_EQ(desk.asked(), 5u);
+    EXPECT_THAT(desk.exploration.waiting(), HasSubstr("step 5 is not available"));
+    EXPECT_THAT(desk.errors(), ElementsAre("a: step 5 is cut off"));
+    desk.script->mend();
+    desk.exploration.seek(5);
+    desk.untilShown(5);
+}
+
+TEST(Exploration, AnotherVariableHasAFirstChoiceOfItsOwnAndUndoComesBackAcrossIt) {
+    const World world;
+    Desk desk({{"a", world}});
+    desk.open("a");
+    Explorer edited = desk.exploration.explorer();
+    edited.layers = {layer("3:20")};
+    edited.view.azimuthDegrees = 77;
+    desk.exploration.edit(edited);
+    edited = desk.exploration.explorer();
+    desk.choose("P");
+    EXPECT_EQ(desk.exploration.opening(), "P");
+    EXPECT_EQ(desk.exploration.explorer(), edited);  // until it is there
+    desk.untilOpened();
+    const Explorer other = desk.exploration.explorer();
+    EXPECT_EQ(other.variable, "P");
+    EXPECT_EQ(other.steps, edited.steps);
+    EXPECT_EQ(other.view, edited.view);
+    EXPECT_NE(other.layers, edited.layers);
+    EXPECT_EQ(*desk.exploration.counts(), bruteForce(world, *desk.exploration.shown()));
+    desk.exploration.undo();
+    EXPECT_EQ(desk.exploration.explorer(), other);
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer(), edited);
+    EXPECT_EQ(*desk.exploration.counts(), bruteForce(world, *desk.exploration.shown()));
+    desk.exploration.redo();
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer(), other);
+}
+
+TEST(Exploration, ARedoOfNothingLeavesAnOpeningAloneAndUndoCancelsIt) {
+    Desk desk;
+    desk.open("a");
+    const Explorer before = desk.exploration.explorer();
+    EXPECT_FALSE(desk.exploration.canUndo());
+    desk.choose("P");
+    desk.exploration.redo();
+    EXPECT_TRUE(desk.exploration.opening());
+    EXPECT_TRUE(desk.exploration.canUndo());
+    desk.exploration.undo();
+    EXPECT_FALSE(desk.exploration.opening());
+    EXPECT_EQ(desk.exploration.explorer(), before);
+}
+
+TEST(Exploration, UndoAcrossDataLeavesTheWindowsSizeAlone) {
+    Desk desk;
+    desk.open("a");
+    desk.choose("P");
+    desk.untilOpened();
+    desk.exploration.undo();
+    desk.exploration.resize({320, 200});
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer().variable, "T");
+    EXPECT_EQ(desk.exploration.explorer().size, glm::ivec2(320, 200));
+}
+
+TEST(Exploration, UndoTwiceGoesPastDataThatAreNotThereYet) {
+    Desk desk;
+    desk.open("a");
+    const Explorer first = desk.exploration.explorer();
+    desk.choose("P");
+    desk.untilOpened();
+    desk.choose("T");
+    desk.untilOpened();
+    desk.exploration.undo();  // towards P
+    EXPECT_TRUE(desk.exploration.opening());
+    desk.exploration.undo();  // to T, which is what is shown
+    EXPECT_FALSE(desk.exploration.opening());
+    EXPECT_EQ(desk.exploration.explorer(), first);
+    EXPECT_FALSE(desk.exploration.canUndo());
+    desk.exploration.redo();
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer().variable, "P");
+}
+
+TEST(Exploration, AnEditWhileUndoneDataAreOpenedIsTheNewerWish) {
+    Desk desk;
+    desk.open("a");
+    desk.choose("P");
+    desk.untilOpened();
+    desk.exploration.undo();
+    Explorer next = desk.exploration.explorer();
+    next.view.azimuthDegrees = 5;
+    desk.exploration.edit(next);
+    EXPECT_FALSE(desk.exploration.opening());
+    EXPECT_EQ(desk.exploration.explorer(), next);
+}
+
+TEST(Exploration, AVariableThatIsNotThereChangesNothing) {
+    Desk desk;
+    desk.open("a");
+    const Explorer before = desk.exploration.explorer();
+    desk.choose("Q");
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer(), before);
+    EXPECT_THAT(desk.errors(), ElementsAre("a: no variable 'Q'"));
+}
+
+TEST(Exploration, UndoneDataThatAreGoneLeaveTheHistoryWhereItIs) {
+    Desk desk({{"a", {}}, {"b", {.steps = 2}}});
+    desk.open("a");
+    desk.open("b");
+    desk.untilAllSeen();
+    const Explorer before = desk.exploration.explorer();
+    for (std::size_t step = 0; step < 10; ++step) desk.script->failAt(step, "a: is gone");
+    desk.exploration.undo();
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer(), before);
+    EXPECT_TRUE(desk.exploration.canUndo());
+    EXPECT_THAT(desk.errors(), ElementsAre("a: is gone"));
+}
+
+TEST(Exploration, ACancelledOpeningLeavesNoTrace) {
+    Desk desk({{"a", {}}, {"b", {}}});
+    desk.open("a");
+    desk.untilAllSeen();
+    const Explorer before = desk.exploration.explorer();
+    desk.script->hold();
+    desk.startOpening("b");
+    desk.until([&] { return desk.script->begun().size() > 10; });  // its first step
+    desk.exploration.cancelOpening();
+    EXPECT_FALSE(desk.exploration.opening());
+    desk.script->letAllGo();
+    desk.script->waitUntilReadersEnded(1);
+    desk.exploration.advance(0ns);
+    EXPECT_EQ(desk.exploration.explorer(), before);
+    EXPECT_TRUE(desk.exploration.messages().empty());
+}
+
+TEST(Exploration, EndsWhileItsReadersRead) {
+    std::shared_ptr<Script> script;
+    {
+        Desk desk;
+        script = desk.script;
+        desk.open("a");
+        desk.untilAllSeen();
+        script->hold();
+        desk.choose("P");
+        desk.until([&] { return script->begun().size() > 10; });
+    }
+    script->letAllGo();
+    script->waitUntilReadersEnded(2);
+}
+
+TEST(Exploration, ASessionOpensAsItSays) {
+    Desk desk({{"a", {}}, {"b", {.steps = 20}}});
+    desk.open("a");
+    Explorer session;
+    session.files = {"b"};
+    session.variable = "P";
+    session.steps = StepChoice{3, 11, 4};
+    session.layers = {layer("1010:1020")};
+    session.view.azimuthDegrees = -9;
+    desk.exploration.open(session);
+    desk.untilOpened();
+    const Explorer& now = desk.exploration.explorer();
+    EXPECT_EQ(now.files, session.files);
+    EXPECT_EQ(now.layers, session.layers);
+    EXPECT_EQ(now.view, session.view);
+    EXPECT_EQ(desk.shownStep(), 3u);
+    // Several steps are what plays.
+    EXPECT_EQ(now.play.time.first, 3u);
+    EXPECT_EQ(now.play.time.last, 11u);
+    EXPECT_EQ(now.play.time.stride, 4u);
+    EXPECT_TRUE(desk.exploration.canUndo());
+}
+
+}  // namespace
+}  // namespace app

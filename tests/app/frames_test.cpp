@@ -1,0 +1,96 @@
+#include "app/frames.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+namespace app {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> filesOf(const Frames& frames) {
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < frames.size(); ++i) files.push_back(frames[i].file.string());
+    return files;
+}
+
+std::vector<std::size_t> stepsOf(const Frames& frames) {
+    std::vector<std::size_t> steps;
+    for (std::size_t i = 0; i < frames.size(); ++i) steps.push_back(frames[i].step);
+    return steps;
+}
+
+Explorer sweeping(std::int64_t timerSteps, std::int64_t step = 1) {
+    Explorer e;
+    e.sweep = timeseries::SweepSettings{
+        .animation = timeseries::RangeSet::parse("0:1"), .timerSteps = timerSteps, .step = step};
+    return e;
+}
+
+TEST(Frames, AreOneAStepUnderItsNumber) {
+    const Frames frames("out/fire.png", {}, {3, 7, 11});
+    EXPECT_THAT(stepsOf(frames), ElementsAre(3, 7, 11));
+    EXPECT_THAT(filesOf(frames), ElementsAre("out/fire_03.png", "out/fire_07.png",  //
+                                             "out/fire_11.png"));
+    EXPECT_EQ(frames[1].tick, 0);
+    EXPECT_EQ(frames.names(), "out/fire_03.png to fire_11.png");
+}
+
+TEST(Frames, OneAloneHasTheNameAskedFor) {
+    Explorer e;
+    EXPECT_THAT(filesOf(Frames("fire.exr", e, {41})), ElementsAre("fire.exr"));
+    EXPECT_EQ(Frames("fire.exr", e, {41}).names(), "fire.exr");
+    EXPECT_THAT(filesOf(Frames("fire.png", sweeping(8, 8), {0, 1})), ElementsAre("fire.png"));
+}
+
+TEST(Frames, OfTwoEyesAreNamedByBoth) {
+    Explorer e;
+    e.stereo.mode = Stereo::LeftRight;
+    EXPECT_EQ(Frames("a/b.png", e, {5}).names(), "a/b_left.png and b_right.png");
+    EXPECT_EQ(Frames("a/b.png", e, {5, 6}).names(), "a/b_5_left.png to b_6_right.png");
+    e.stereo.mode = Stereo::SideBySide;
+    EXPECT_EQ(Frames("a/b.png", e, {5}).names(), "a/b.png");
+}
+
+TEST(Frames, OfASweepAreOneATick) {
+    // 10 timer steps by 3: the counts 0, 3, 6 and 9.
+    const Frames frames("s.png", sweeping(10, 3), {5});
+    ASSERT_EQ(frames.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(frames[i].tick, static_cast<std::int64_t>(i));
+        EXPECT_EQ(frames[i].step, 5u);
+    }
+    EXPECT_EQ(frames.names(), "s_0.png to s_3.png");
+}
+
+TEST(Frames, OfOneCycleOfASweepSpanTheStepsOnce) {
+    for (const std::size_t count : {1u, 2u, 5u, 7u, 64u}) {
+        std::vector<std::size_t> steps;
+        for (std::size_t i = 0; i < count; ++i) steps.push_back(2 + 3 * i);
+        const Frames frames("s.png", sweeping(64), steps);
+        ASSERT_EQ(frames.size(), 64u);
+        const std::vector<std::size_t> shown = stepsOf(frames);
+        EXPECT_TRUE(std::ranges::is_sorted(shown));
+        std::map<std::size_t, std::size_t> times;
+        for (const std::size_t step : shown) ++times[step];
+        ASSERT_EQ(times.size(), count);
+        for (const std::size_t step : steps) {
+            EXPECT_GE(times[step], 64 / count) << step;
+            EXPECT_LE(times[step], 64 / count + 1) << step;
+        }
+    }
+}
+
+TEST(Frames, OfTheLongestCycleTakeNoRoom) {
+    const Frames frames("s.png", sweeping(std::int64_t{1} << 30), {0, 1});
+    EXPECT_EQ(frames.size(), std::size_t{1} << 30);
+    EXPECT_EQ(frames.back().step, 1u);
+    EXPECT_EQ(frames[frames.size() / 2 - 1].step, 0u);
+    EXPECT_EQ(frames.back().file, "s_1073741823.png");
+}
+
+}  // namespace
+}  // namespace app

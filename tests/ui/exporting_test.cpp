@@ -1,0 +1,112 @@
+// Exports that do not come to their end.
+#include <csignal>
+#include <set>
+
+#include "tests/ui/desk_test.h"
+#include "tests/ui/waiting.h"
+
+namespace ui {
+namespace {
+
+class DeskExports : public DeskTest {
+ protected:
+    // Its animation has more pictures than anyone waits for.
+    void SetUp() override {
+        DeskTest::SetUp();
+        if (IsSkipped()) return;
+        std::filesystem::create_directory(temporary());
+        desk_.emplace(
+            screen(), folder(),
+            std::vector<std::string>{demo().string(), "--sweep=300:1600", "--delta=50",
+                                     "--timer-steps=100000", "--step=2:14:6"},
+            std::map<std::string, std::optional<std::string>>{{"TMPDIR", temporary().string()}});
+        desk_->waitForTitle("pool_fire_T.nc · T");
+        desk_->resize({900, 600});
+        at_ = placesOf({900, 600});
+        top_ = at_.window.picture;
+        top_.max.y = top_.min.y + 60;
+        quiet_ = desk_->settled();
+    }
+
+    // Starts it, and returns its process once a few pictures are there.
+    pid_t startExport() {
+        desk_->press("ctrl+e");
+        desk_->press("ctrl+a");
+        desk_->type("movie.png");
+        desk_->press("Return");
+        desk_->waitFor("pictures are there", [&] { return pictures().size() > 3; });
+        const std::vector<pid_t> children = childrenOf(desk_->process().id());
+        return children.size() == 1 ? children.front() : throw std::runtime_error("no one child");
+    }
+    std::set<std::filesystem::path> pictures() const {
+        std::set<std::filesystem::path> files;
+        for (const auto& each : std::filesystem::directory_iterator(folder()))
+            if (each.path().filename().string().starts_with("movie")) files.insert(each.path());
+        return files;
+    }
+    // Nothing of an export is left but whole pictures, each the window's and under its number.
+    void expectWholePictures() const {
+        const std::set<std::filesystem::path> files = pictures();
+        EXPECT_GT(files.size(), 2u);  // of those waited for, one may have been half
+        std::size_t number = 0;
+        for (const auto& file : files) {
+            EXPECT_EQ(file.filename(), fmt::format("movie_{:05}.png", number++));
+            EXPECT_EQ(readShot(file).size, glm::ivec2(at_.window.picture.size())) << file;
+        }
+        EXPECT_TRUE(std::filesystem::is_empty(temporary()));
+    }
+    std::filesystem::path temporary() const { return folder() / "temporary"; }
+    // What stands at the picture's top now and did not before.
+    Shot top() { return desk_->shot(top_); }
+
+    std::optional<Driver> desk_;
+    Places at_;
+    app::panels::Rect top_;
+    Shot quiet_;  // before
+};
+
+TEST_F(DeskExports, TellsHowFarItIsAndIsCancelled) {
+    const pid_t child = startExport();
+    const Shot quiet = part(quiet_, top_);
+    const Shot early = top();
+    ASSERT_GT(differing(early, quiet), 1000u);
+    desk_->waitFor("its progress changes", [&] { return top() != early; });
+    // The button lies at the right end of what is told.
+    int right = 0;
+    for (int y = 0; y < quiet.size.y; ++y)
+        for (int x = 0; x < quiet.size.x; ++x)
+            if (quiet.at({x, y}) != early.at({x, y})) right = std::max(right, x);
+    desk_->click(top_.min + glm::vec2(right - 42, 30));
+    desk_->waitFor("nothing is told any more", [&] { return top() == quiet; });
+    EXPECT_FALSE(isRunning(child));
+    EXPECT_GT(differing(desk_->shot(at_.messages), part(quiet_, at_.messages)), 1000u);
+    expectWholePictures();
+}
+
+TEST_F(DeskExports, EndsWithTheWindow) {
+    const pid_t child = startExport();
+    desk_->close();
+    EXPECT_EQ(desk_->process().exitCode(), 0);
+    EXPECT_EQ(desk_->process().errors(), "");
+    EXPECT_FALSE(isRunning(child));
+    expectWholePictures();
+}
+
+TEST_F(DeskExports, EndsWithAProgramThatIsTerminated) {
+    const pid_t child = startExport();
+    desk_->process().signal(SIGTERM);
+    EXPECT_EQ(desk_->process().exitCode(), 0);
+    EXPECT_FALSE(isRunning(child));
+    expectWholePictures();
+}
+
+// Nobody is left to end it: it finds out with its next picture.
+TEST_F(DeskExports, EndsAfterAProgramThatIsKilled) {
+    const pid_t child = startExport();
+    desk_->process().signal(SIGKILL);
+    waitUntil("the export ends", [&] { return !isRunning(child); });
+    for (const auto& file : pictures()) EXPECT_EQ(file.extension(), ".png");
+}
+
+}  // namespace
+}  // namespace ui
