@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -132,6 +133,39 @@ TEST(DamagedVtk, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
                 HasSubstr("a whole number, found \"-1\""));
     EXPECT_THAT(refusal(start + "DIMENSIONS 2 2 2\nPOINT_DATA 9\n" + rest),
                 HasSubstr("expected 8 points, found 9"));
+}
+
+// Of one row along x, each [first, last], with an array at points or at cells.
+std::string piecesText(const std::string& whole, const std::vector<std::array<int, 2>>& pieces,
+                       bool cells) {
+    const std::string group = cells ? "CellData" : "PointData";
+    std::string text = "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"" + whole + "\">";
+    for (const auto& [first, last] : pieces) {
+        const auto count = static_cast<std::size_t>(std::max(last - first + (cells ? 0 : 1), 1));
+        text += fmt::format("<Piece Extent=\"{} {} 0 0 0 0\"><{}>{}</{}></Piece>", first, last,
+                            group, dataArray("Float64", "v", std::vector<double>(count, 5)), group);
+    }
+    return text + "</ImageData></VTKFile>";
+}
+
+TEST(DamagedVtk, PiecesThatLeaveSomethingOutAreRefused) {
+    const std::string row = "0 9 0 0 0 0";
+    EXPECT_THAT(refusal(piecesText(row, {{0, 2}, {6, 9}}, false)),
+                HasSubstr("fill WholeExtent, found 7 of its 10 points"));
+    EXPECT_THAT(refusal(piecesText(row, {{0, 2}}, false)), HasSubstr("found 3 of its 10 points"));
+    // As many points as the whole, but some of them twice.
+    EXPECT_THAT(refusal(piecesText(row, {{0, 5}, {2, 7}}, false)),
+                HasSubstr("found 8 of its 10 points"));
+    // Each point is there, the cell between the pieces is not.
+    EXPECT_THAT(refusal(piecesText(row, {{0, 4}, {5, 9}}, true)),
+                HasSubstr("found 8 of its 9 cells"));
+    // A layer of points is no cell, also where it would lie beyond the last.
+    EXPECT_THAT(refusal(piecesText("0 1 0 0 0 0", {{1, 1}, {1, 1}}, true)),
+                HasSubstr("found 0 of its 1 cells"));
+    EXPECT_EQ(refusal(piecesText(row, {{0, 4}, {5, 9}}, false)), "");
+    EXPECT_EQ(refusal(piecesText(row, {{3, 9}, {0, 4}}, true)), "");
+    EXPECT_THAT(refusal(piecesText("0 1023 0 1023 0 1023", {{0, 2}}, false)),
+                HasSubstr("found 3 of its 1073741824 points"));
 }
 
 TEST(DamagedVtk, PackedBlocksThatLieAreRefused) {
