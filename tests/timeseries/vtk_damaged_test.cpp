@@ -330,6 +330,48 @@ TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
                 HasSubstr("WholeExtent: expected 6 finite numbers"));
 }
 
+// VTK takes the lower bits of what is beyond a byte, and of what is below 0 for an unsigned type.
+TEST(DamagedVtk, TextThatIsNoNumberOfItsTypeIsRefused) {
+    struct Word {
+        std::string xml, legacy, text;
+        bool number;
+    };
+    const std::vector<Word> words{
+        {"UInt8", "unsigned_char", "256", false},
+        {"UInt8", "unsigned_char", "-1", false},
+        {"UInt8", "unsigned_char", "255", true},
+        {"Int8", "char", "128", false},
+        {"Int8", "char", "-128", true},
+        {"UInt32", "unsigned_int", "-1", false},
+        {"UInt32", "unsigned_int", "4294967295", true},
+        {"Int32", "int", "1.5", false},
+        {"Int64", "vtktypeint64", "9223372036854775807", true},
+        {"Int64", "vtktypeint64", "9223372036854775808", false},
+        {"Float32", "float", "nan", false},
+        {"Float32", "float", "1e39", false},
+        {"Float32", "float", "3.4028235e+38", true},
+        {"Float32", "float", "1e-50", true},
+        {"Float64", "double", "+.5", true},
+        {"Float64", "double", "1e-400", true},
+        {"Float64", "double", "1..2", false},
+    };
+    for (const Word& word : words) {
+        const auto accepted = [&](const std::string& why) {
+            return word.number ? why.empty() : why.find("\"" + word.text + "\"") != why.npos;
+        };
+        EXPECT_PRED1(
+            accepted,
+            refusal(imageText({.extent = "0 1 0 0 0 0",
+                               .points = dataArray<std::string>(word.xml, "v", {"7", word.text})})))
+            << word.xml << " " << word.text;
+        EXPECT_PRED1(accepted,
+                     refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                             "DIMENSIONS 2 1 1\nPOINT_DATA 2\nSCALARS v " +
+                             word.legacy + "\nLOOKUP_TABLE d\n7 " + word.text + "\n"))
+            << word.legacy << " " << word.text;
+    }
+}
+
 TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {
     EXPECT_THAT(refusal(imageText({})), HasSubstr("expected an array of numbers, found none"));
     EXPECT_THAT(refusal(imageText({.points = "<DataArray type=\"String\" Name=\"s\" "

@@ -84,7 +84,7 @@ std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& elemen
                 "expected one time step in a file, found an array of one of several");
     checkVtkValues(context.header.path, context.file, context.encoding, element, where,
                    tuples * components, type->bytes);
-    return VtkArray{std::move(name), place, type->type, components, {}};
+    return VtkArray{std::move(name), place, type->type, components, {}, element.notNumber};
 }
 
 void checkArrayCount(const Context& context, const XmlElement& group) {
@@ -130,6 +130,10 @@ void checkCoordinates(const Context& context, const XmlElement& piece, const Vtk
             failVtk(context.header.path, placeOf(array), "expected a DataArray of numbers");
         checkVtkValues(context.header.path, context.file, context.encoding, array, placeOf(array),
                        size[i], type->bytes);
+        if (!array.notNumber.empty())
+            failVtk(
+                context.header.path, placeOf(array),
+                fmt::format("expected finite numbers of its type, found \"{}\"", array.notNumber));
     }
 }
 
@@ -158,10 +162,6 @@ void checkFieldData(const Context& context, const XmlElement& grid) {
     }
 }
 
-void addPieces(const Context& context, const XmlElement& grid) {
-    VtkHeader& header = context.header;
-    const auto pieces = named(grid, "Piece");
-    if (pieces.empty()) failVtk(header.path, placeOf(grid), "expected a Piece, found none");
 // VTK leaves what no piece holds as it finds it in memory. Costs a bit for each point, and the
 // pieces, whose values the file holds, declare as many points.
 void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkPlace place) {
@@ -197,11 +197,15 @@ void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkP
                             all, place == VtkPlace::Points ? "points" : "cells"));
 }
 
+void addPieces(const Context& context, const XmlElement& grid) {
+    VtkHeader& header = context.header;
+    const auto pieces = named(grid, "Piece");
+    if (pieces.empty()) failVtk(header.path, placeOf(grid), "expected a Piece, found none");
+    std::vector<VtkHeader> shapes;
     for (const XmlElement* piece : pieces) {
         VtkHeader& shape = shapes.emplace_back();
         shape.path = header.path;
         shape.extent = extentOf(header, *piece, "Extent");
-    std::vector<VtkHeader> shapes;
         checkVtkExtent(shape, placeOf(*piece));
         for (std::size_t i = 0; i < 3; ++i)
             if (shape.extent[i][0] < header.extent[i][0] ||
@@ -217,10 +221,16 @@ void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkP
                    a.components == b.components;
         };
         if (piece == pieces.front())
-            header.arrays = std::move(arrays);
+            header.arrays = arrays;
         else if (!std::ranges::equal(arrays, header.arrays, same))
             failVtk(header.path, placeOf(*piece), "expected the arrays of the first piece");
+        for (std::size_t i = 0; i < arrays.size(); ++i)
+            if (header.arrays[i].notNumber.empty())
+                header.arrays[i].notNumber = arrays[i].notNumber;
     }
+    for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
+        if (std::ranges::any_of(header.arrays, [&](const auto& a) { return a.place == place; }))
+            checkCover(header, shapes, place);
     std::ranges::sort(header.passedOver);
     header.passedOver.erase(std::unique(header.passedOver.begin(), header.passedOver.end()),
                             header.passedOver.end());
@@ -228,9 +238,6 @@ void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkP
         if (!isVtkGhostName(array.name)) return false;
         header.ghosts[static_cast<std::size_t>(array.place)] = true;
         return true;
-    for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
-        if (std::ranges::any_of(header.arrays, [&](const auto& a) { return a.place == place; }))
-            checkCover(header, shapes, place);
     });
 }
 
