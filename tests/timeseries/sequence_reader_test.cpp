@@ -162,6 +162,12 @@ TEST_F(Sequence, EqualOrDescendingTimesAreToldAndNotUsed) {
     EXPECT_THAT(open()->variables()[0].notes, ElementsAre(HasSubstr("in \"h\"")));
     files_.at("a_4.f").time = Content{}.time;
     EXPECT_THAT(open()->variables()[0].notes, ElementsAre(HasSubstr("a_4.f has none")));
+    files_.at("a_4.f").time = seconds({9});
+    files_.at("a_4.f").time.name = "TimeStep";
+    EXPECT_THAT(timesOf(*open()), ElementsAre(1, 4));
+    EXPECT_THAT(open()->variables()[0].notes,
+                ElementsAre(HasSubstr("those of a_1.f are called 'time', those of a_4.f "
+                                      "'TimeStep'")));
 }
 
 TEST_F(Sequence, OverlappingFilesOfSeveralStepsAreRefused) {

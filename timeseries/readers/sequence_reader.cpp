@@ -140,6 +140,10 @@ TimeAxis SequenceReader::ownTimes(std::size_t v) const {
     return axis;
 }
 
+    for (std::size_t f = 1; f < axes.size(); ++f)
+        if (axes[f]->name != axes[0]->name)
+            return fmt::format("those of {} are called '{}', those of {} '{}'", name(0),
+                               axes[0]->name, name(f), axes[f]->name);
 void SequenceReader::joinTimes(std::size_t v) {
     Variable& variable = variables_[v];
     std::vector<std::size_t> begins{0};
