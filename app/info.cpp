@@ -89,6 +89,25 @@ std::string frameText(const timeseries::Frame& frame) {
                        place(frame.origin), place(d[0]), place(d[1]), place(d[2]));
 }
 
+// What the first and the last time do not tell; "" when times are even, or counted.
+std::string unevenText(const timeseries::TimeAxis& time) {
+    if (time.counted) return "";
+    const auto& points = time.points;
+    constexpr double kRounding = 1e-3;  // times written in few digits
+    const double mean =
+        (points.back().value - points.front().value) / static_cast<double>(points.size() - 1);
+    bool ascending = true, twice = false, even = true;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double gap = points[i].value - points[i - 1].value;
+        ascending = ascending && gap >= 0;
+        twice = twice || gap == 0;
+        even = even && std::abs(gap - mean) <= kRounding * std::abs(mean);
+    }
+    if (!ascending) return ", not ascending";
+    if (twice) return ", some times twice";
+    return even ? "" : ", uneven";
+}
+
 void print(const Variable& v) {
     fmt::print("\n{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
                v.units.empty() ? "" : " (" + v.units + ")");
@@ -104,8 +123,8 @@ void print(const Variable& v) {
     if (steps == 1) {
         fmt::print("  time     1 step: {}\n", timeText(*v.time, 0));
     } else {
-        fmt::print("  time     {} steps, {} to {}{}\n", steps, timeText(*v.time, 0),
-                   timeText(*v.time, steps - 1),
+        fmt::print("  time     {} steps, {} to {}{}{}\n", steps, timeText(*v.time, 0),
+                   timeText(*v.time, steps - 1), unevenText(*v.time),
                    v.time->calendar.empty() ? "" : ", calendar " + v.time->calendar);
     }
     for (const std::string& note : v.notes) fmt::print("  note     {}\n", note);

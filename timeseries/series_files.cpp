@@ -5,6 +5,7 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -20,6 +21,7 @@ using Path = std::filesystem::path;
 using Paths = std::vector<Path>;
 
 constexpr std::size_t kMostTold = 8;  // numbers, files or gaps, in one sentence
+constexpr std::string_view kByName = "in the order of their names";
 
 // Null beyond 18 digits.
 std::optional<std::vector<std::int64_t>> integers(const std::vector<std::string>& numbers) {
@@ -223,6 +225,23 @@ ExpandedSeries member(const Path& file) {
     return result;
 }
 
+// Files found together are ordered by whole numbers, which fractions need not follow.
+void tellFractions(const Paths& files, ExpandedSeries& into) {
+    const Name first = cut(files.front());
+    for (std::size_t at = 1; at < first.digits.size(); ++at)
+        for (const Path& file : files) {
+            const Name name = cut(file);
+            if (name.texts != first.texts ||
+                !ambiguous(name, at, std::array{first.digits[at], name.digits[at]}))
+                continue;
+            into.notes.push_back(fmt::format(
+                "the numbers of {} and {} may be decimal or whole, and are taken as whole; name "
+                "the files in their order",
+                files.front().filename().string(), file.filename().string()));
+            return;
+        }
+}
+
 // Files that were named or found together.
 ExpandedSeries together(Paths files, std::string_view order) {
     const auto isCollection = [](const Path& file) { return file.extension() == ".pvd"; };
@@ -237,6 +256,7 @@ ExpandedSeries together(Paths files, std::string_view order) {
         return result;
     }
     if (files.size() > 1) result.recognised = fmt::format("{}, {}", namesText(files), order);
+    if (order == kByName) tellFractions(files, result);
     result.files = std::move(files);
     return result;
 }
@@ -309,7 +329,7 @@ ExpandedSeries folder(const Path& folder) {
         for (auto& [shape, each] : byShape) candidates.push_back(std::move(each));
         refuseCandidates(folder, candidates);
     }
-    ExpandedSeries result = together(std::move(files), "in the order of their names");
+    ExpandedSeries result = together(std::move(files), kByName);
     if (result.files.size() == 1)
         result.recognised =
             fmt::format("{}, the only file to open here", result.files.front().filename().string());
@@ -352,7 +372,7 @@ Paths matches(const Path& pattern) {
 ExpandedSeries expandSeries(std::span<const Path> named) {
     if (named.size() == 1) {
         const Path& one = named.front();
-        if (isPattern(one)) return together(matches(one), "in the order of their names");
+        if (isPattern(one)) return together(matches(one), kByName);
         std::error_code ignored;
         if (std::filesystem::is_directory(one, ignored)) return folder(one);
         if (std::filesystem::is_regular_file(one, ignored)) return member(one);

@@ -48,7 +48,12 @@ std::string dataArray(const std::string& type, const std::string& name,
     std::string text = fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", type,
         name, components);
-    for (const T& value : values) text += fmt::format("{} ", +value);
+    for (const T& value : values) {
+        if constexpr (std::is_arithmetic_v<T>)
+            text += fmt::format("{} ", +value);
+        else
+            text += value + " ";
+    }
     return text + "\n</DataArray>\n";
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <ctime>
 #include <random>
 
 #include "tests/support/nrrd_builder.h"
@@ -121,6 +122,19 @@ TEST_F(DamagedNrrd, SizesThatNoFileHasAreRefused) {
     EXPECT_THAT(toldOf("sizes: 1024 1024 1024\nencoding: bzip2\n"), HasSubstr("in this encoding"));
     EXPECT_THAT(toldOf("sizes: 2 3 5\nencoding: ascii\n"), HasSubstr("in this encoding"));
     EXPECT_THAT(toldOf("sizes: 1 1 1048577\nkinds: space space time\n"), HasSubstr("2^20 steps"));
+}
+
+TEST_F(DamagedNrrd, HeadersThatWouldTakeTheSquareOfTheirLengthAreNotGivenToTheLibrary) {
+    std::string comments, pairs;
+    for (int i = 0; i < 100'000; ++i) {
+        comments += fmt::format("# {}\n", i);
+        pairs += fmt::format("key{}:=\n", i);
+    }
+    const std::clock_t before = std::clock();
+    EXPECT_EQ(toldOf(comments), "");
+    EXPECT_THAT(toldOf(pairs), HasSubstr("expected at most 8192 key/value pairs"));
+    // teem takes 5 s for the pairs, half a second for the comments, in a release.
+    EXPECT_LT(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, 2);
 }
 
 TEST_F(DamagedNrrd, ValuesThatAreNoNumbersOfTheTypeAreNamed) {

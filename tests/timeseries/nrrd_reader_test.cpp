@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -56,6 +57,25 @@ TEST(Nrrd, EveryTypeInEitherByteOrderAndEveryEncodingIsExact) {
     expectExact<std::uint64_t>("uint64", ValueType::U64);
     expectExact<float>("float", ValueType::F32);
     expectExact<double>("double", ValueType::F64);
+}
+
+TEST(Nrrd, FilesWhoseArraysHaveNoNameMakeASeries) {
+    const std::filesystem::path folder = freshFolder();
+    const std::array paths{folder / "run_1.nrrd", folder / "run_2.nrrd"};
+    const auto writeWith = [&](const std::string& content, std::size_t file) {
+        const auto values = std::vector<std::uint8_t>(8, static_cast<std::uint8_t>(file));
+        writeBytes(paths[file],
+                   nrrd("type: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n" + content,
+                        bytesOf(values)));
+    };
+    for (const std::size_t file : {0u, 1u}) writeWith("", file);
+    const auto reader = openReader(paths);
+    EXPECT_EQ(reader->variables()[0].name, "run");
+    ASSERT_EQ(reader->variables()[0].time->points.size(), 2u);
+    EXPECT_EQ(valuesOf<std::uint8_t>(*reader, 1), std::vector<std::uint8_t>(8, 1));
+    writeWith("content: heat\n", 0);
+    writeWith("content: pressure\n", 1);
+    EXPECT_THROW(openReader(paths), FileError);
 }
 
 TEST(Nrrd, TextTakesCommasSignsNansAndInfinities) {

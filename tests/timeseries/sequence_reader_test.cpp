@@ -27,6 +27,7 @@ struct Content {
     ValueType type = ValueType::F32;
     std::vector<double> x{0, 1};
     float first = 0;
+    bool nameless = false;
 };
 
 TimeAxis seconds(const std::vector<double>& values, const std::string& units = "s") {
@@ -46,6 +47,7 @@ class FakeReader final : public Reader {
         for (const std::string& name : content.variables) {
             Variable variable;
             variable.name = name;
+            variable.nameless = content.nameless;
             variable.units = content.units;
             variable.type = content.type;
             variable.grid = grid;
@@ -160,6 +162,12 @@ TEST_F(Sequence, EqualOrDescendingTimesAreToldAndNotUsed) {
                 ElementsAre(HasSubstr("they do not ascend: a_1.f has 5, a_4.f has 4")));
     files_.at("a_4.f").time = seconds({9}, "h");
     EXPECT_THAT(open()->variables()[0].notes, ElementsAre(HasSubstr("in \"h\"")));
+    files_.at("a_4.f").time = seconds({9});
+    files_.at("a_4.f").time.name = "TimeStep";
+    EXPECT_THAT(timesOf(*open()), ElementsAre(1, 4));
+    EXPECT_THAT(open()->variables()[0].notes,
+                ElementsAre(HasSubstr("those of a_1.f are called 'time', those of a_4.f "
+                                      "'TimeStep'")));
     files_.at("a_4.f").time = Content{}.time;
     EXPECT_THAT(open()->variables()[0].notes, ElementsAre(HasSubstr("a_4.f has none")));
 }
@@ -194,6 +202,27 @@ TEST_F(Sequence, VariablesAreMatchedByName) {
     EXPECT_EQ(reader->variables()[0].time, reader->variables()[1].time);
     EXPECT_THAT(reader->variables()[0].notes,
                 Contains("'extra' is not in the first file: it is left out"));
+}
+
+TEST_F(Sequence, NamelessArraysAreOneVariableNamedAsTheFilesAre) {
+    const auto nameOf = [&](const std::vector<std::string>& stems) {
+        files_.clear();
+        for (const std::string& stem : stems)
+            files_[stem + ".f"] = {.variables = {stem}, .nameless = true};
+        return open()->variables()[0].name;
+    };
+    EXPECT_EQ(nameOf({"run_009", "run_010"}), "run");
+    EXPECT_EQ(nameOf({"a", "ab"}), "a");
+    EXPECT_EQ(nameOf({"1", "2"}), "values");
+    EXPECT_EQ(nameOf({"t\u00e9", "t\u00e8"}), "t") << "no half of a character";
+
+    files_ = {{"r1.f", {.variables = {"r1"}, .first = 1, .nameless = true}},
+              {"r2.f", {.variables = {"r2"}, .first = 2, .nameless = true}}};
+    const auto reader = open();
+    EXPECT_THAT(reader->variables()[0].notes, IsEmpty());
+    EXPECT_EQ(firstValue(*reader, 0, 1), 2);
+    files_.at("r2.f").nameless = false;
+    EXPECT_THAT(failure(), HasSubstr("but the second has no 'r1'"));
 }
 
 TEST_F(Sequence, AnUnreadableFileIsNamed) {

@@ -158,6 +158,15 @@ TEST_F(SeriesFiles, FractionsAreNotGuessed) {
     EXPECT_THAT(alone.notes, ElementsAre(HasSubstr("may be decimal or whole")));
     EXPECT_THAT(names(expand("u_0.50.nc")), ElementsAre("u_0.25.nc", "u_0.50.nc"));
     EXPECT_THAT(names(expand({"t_0.5.nc", "t_0.25.nc"})), ElementsAre("t_0.5.nc", "t_0.25.nc"));
+    EXPECT_THAT(expand({"t_0.5.nc", "t_0.25.nc"}).notes, IsEmpty());
+    EXPECT_THAT(expand("t*.nc").notes,
+                ElementsAre(HasSubstr("t_0.5.nc and t_0.25.nc may be decimal or whole, and are "
+                                      "taken as whole")));
+    EXPECT_THAT(expand("u*.nc").notes, IsEmpty());
+    std::filesystem::create_directory(folder_ / "only");
+    make({"only/v_0.95.nc", "only/v_1.05.nc", "only/v_1.1.nc"});
+    EXPECT_THAT(expand("only").notes,
+                ElementsAre(HasSubstr("may be decimal or whole, and are taken as whole")));
 }
 
 TEST_F(SeriesFiles, NumbersBeyondIntegersAreOrdered) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -132,6 +133,39 @@ TEST(DamagedVtk, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
                 HasSubstr("a whole number, found \"-1\""));
     EXPECT_THAT(refusal(start + "DIMENSIONS 2 2 2\nPOINT_DATA 9\n" + rest),
                 HasSubstr("expected 8 points, found 9"));
+}
+
+// Of one row along x, each [first, last], with an array at points or at cells.
+std::string piecesText(const std::string& whole, const std::vector<std::array<int, 2>>& pieces,
+                       bool cells) {
+    const std::string group = cells ? "CellData" : "PointData";
+    std::string text = "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"" + whole + "\">";
+    for (const auto& [first, last] : pieces) {
+        const auto count = static_cast<std::size_t>(std::max(last - first + (cells ? 0 : 1), 1));
+        text += fmt::format("<Piece Extent=\"{} {} 0 0 0 0\"><{}>{}</{}></Piece>", first, last,
+                            group, dataArray("Float64", "v", std::vector<double>(count, 5)), group);
+    }
+    return text + "</ImageData></VTKFile>";
+}
+
+TEST(DamagedVtk, PiecesThatLeaveSomethingOutAreRefused) {
+    const std::string row = "0 9 0 0 0 0";
+    EXPECT_THAT(refusal(piecesText(row, {{0, 2}, {6, 9}}, false)),
+                HasSubstr("fill WholeExtent, found 7 of its 10 points"));
+    EXPECT_THAT(refusal(piecesText(row, {{0, 2}}, false)), HasSubstr("found 3 of its 10 points"));
+    // As many points as the whole, but some of them twice.
+    EXPECT_THAT(refusal(piecesText(row, {{0, 5}, {2, 7}}, false)),
+                HasSubstr("found 8 of its 10 points"));
+    // Each point is there, the cell between the pieces is not.
+    EXPECT_THAT(refusal(piecesText(row, {{0, 4}, {5, 9}}, true)),
+                HasSubstr("found 8 of its 9 cells"));
+    // A layer of points is no cell, also where it would lie beyond the last.
+    EXPECT_THAT(refusal(piecesText("0 1 0 0 0 0", {{1, 1}, {1, 1}}, true)),
+                HasSubstr("found 0 of its 1 cells"));
+    EXPECT_EQ(refusal(piecesText(row, {{0, 4}, {5, 9}}, false)), "");
+    EXPECT_EQ(refusal(piecesText(row, {{3, 9}, {0, 4}}, true)), "");
+    EXPECT_THAT(refusal(piecesText("0 1023 0 1023 0 1023", {{0, 2}}, false)),
+                HasSubstr("found 3 of its 1073741824 points"));
 }
 
 TEST(DamagedVtk, PackedBlocksThatLieAreRefused) {
@@ -294,6 +328,48 @@ TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
         HasSubstr("Direction: expected 9 finite numbers"));
     EXPECT_THAT(refusal(imageText({.extent = "0 nan 0 1 0 1", .points = points})),
                 HasSubstr("WholeExtent: expected 6 finite numbers"));
+}
+
+// VTK takes the lower bits of what is beyond a byte, and of what is below 0 for an unsigned type.
+TEST(DamagedVtk, TextThatIsNoNumberOfItsTypeIsRefused) {
+    struct Word {
+        std::string xml, legacy, text;
+        bool number;
+    };
+    const std::vector<Word> words{
+        {"UInt8", "unsigned_char", "256", false},
+        {"UInt8", "unsigned_char", "-1", false},
+        {"UInt8", "unsigned_char", "255", true},
+        {"Int8", "char", "128", false},
+        {"Int8", "char", "-128", true},
+        {"UInt32", "unsigned_int", "-1", false},
+        {"UInt32", "unsigned_int", "4294967295", true},
+        {"Int32", "int", "1.5", false},
+        {"Int64", "vtktypeint64", "9223372036854775807", true},
+        {"Int64", "vtktypeint64", "9223372036854775808", false},
+        {"Float32", "float", "nan", false},
+        {"Float32", "float", "1e39", false},
+        {"Float32", "float", "3.4028235e+38", true},
+        {"Float32", "float", "1e-50", true},
+        {"Float64", "double", "+.5", true},
+        {"Float64", "double", "1e-400", true},
+        {"Float64", "double", "1..2", false},
+    };
+    for (const Word& word : words) {
+        const auto accepted = [&](const std::string& why) {
+            return word.number ? why.empty() : why.find("\"" + word.text + "\"") != why.npos;
+        };
+        EXPECT_PRED1(
+            accepted,
+            refusal(imageText({.extent = "0 1 0 0 0 0",
+                               .points = dataArray<std::string>(word.xml, "v", {"7", word.text})})))
+            << word.xml << " " << word.text;
+        EXPECT_PRED1(accepted,
+                     refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                             "DIMENSIONS 2 1 1\nPOINT_DATA 2\nSCALARS v " +
+                             word.legacy + "\nLOOKUP_TABLE d\n7 " + word.text + "\n"))
+            << word.legacy << " " << word.text;
+    }
 }
 
 TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {

@@ -20,6 +20,8 @@ namespace {
 // Slicer writes whole XML texts into key/value pairs; more than this is no header.
 constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 24;
 constexpr std::size_t kMaxLines = std::size_t{1} << 20;
+// teem compares each key, and each comment, with all before it.
+constexpr std::size_t kMaxPairs = std::size_t{1} << 13;
 
 // teem and its error texts (biff) are global.
 std::mutex& libraryMutex() {
@@ -34,10 +36,10 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-// The header as teem reads it, without the lines taken out here.
+// The header as teem reads it, without comments and the lines taken out here.
 struct HeaderText {
     std::string forTeem;
-    std::size_t lines = 0;
+    std::size_t lines = 0, pairs = 0;
     bool ended = false;  // by a blank line
 };
 
@@ -66,10 +68,13 @@ void checkQuotes(const NrrdHeader& header, const std::string& field, std::string
 }
 
 void takeLine(std::string_view line, NrrdHeader& header, HeaderText& text) {
+    if (line[0] == '#') return;
     // "name: description"; "key:=value" is teem's.
     const auto colon = line.find(": ");
     const auto pair = line.find(":=");
-    const bool field = colon != std::string_view::npos && colon < pair && line[0] != '#';
+    const bool field = colon != std::string_view::npos && colon < pair;
+    if (!field && pair != std::string_view::npos && ++text.pairs > kMaxPairs)
+        header.fail("header", fmt::format("expected at most {} key/value pairs", kMaxPairs));
     const std::string name = field ? lower(trim(line.substr(0, colon))) : "";
     if (name == "data file" || name == "datafile") {
         if (header.dataFile) header.fail("field 'data file'", "expected it once");

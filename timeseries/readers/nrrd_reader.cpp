@@ -42,7 +42,8 @@ class NrrdReader final : public Reader {
         format_ = header_.magic + (header_.dataFile ? ", detached values" : "");
 
         Variable variable;
-        variable.name = header_.content.empty() ? path.stem().string() : header_.content;
+        variable.nameless = header_.content.empty();
+        variable.name = variable.nameless ? path.stem().string() : header_.content;
         variable.longName = header_.keyValue("quantity");
         variable.units = header_.sampleUnits;
         for (const char* key : {"unit", "units"})

@@ -14,6 +14,31 @@ using Path = std::filesystem::path;
 
 constexpr std::size_t kMostOpen = 3;  // a series may have more files than handles
 
+// The place in `all` of the variable that one of another file is: of its name, or nameless as it.
+std::optional<std::size_t> placeOf(const Variable& variable, std::span<const Variable> all) {
+    const auto same = [&](const Variable& other) {
+        return variable.nameless ? other.nameless : other.name == variable.name;
+    };
+    const auto found = std::ranges::find_if(all, same);
+    if (found == all.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - all.begin());
+}
+
+// For an array that no file names: what the files' names begin with, without what numbers them.
+std::string commonName(std::span<const Path> paths) {
+    const std::string first = paths.front().stem().string();
+    std::size_t length = first.size();
+    for (const Path& path : paths) {
+        const std::string other = path.stem().string();
+        const auto end = std::ranges::mismatch(std::string_view(first).substr(0, length), other);
+        length = static_cast<std::size_t>(end.in1 - first.data());
+    }
+    while (length > 0 && (first[length] & 0xC0) == 0x80) --length;  // not within a UTF-8 character
+    const std::string_view common = std::string_view(first).substr(0, length);
+    const std::size_t last = common.find_last_not_of("0123456789 ._-");
+    return last == common.npos ? "values" : std::string(common.substr(0, last + 1));
+}
+
 class SequenceReader final : public Reader {
  public:
     SequenceReader(std::span<const Path> paths, OpenOne openOne)
@@ -24,6 +49,8 @@ class SequenceReader final : public Reader {
         axes_.resize(variables_.size());
         for (std::size_t v = 0; v < variables_.size(); ++v) axes_[v].push_back(variables_[v].time);
         for (std::size_t f = 1; f < paths_.size(); ++f) add(f, *openOne_(paths_[f]));
+        for (Variable& variable : variables_)
+            if (variable.nameless) variable.name = commonName(paths_);
         for (std::size_t v = 0; v < variables_.size(); ++v) joinTimes(v);
         axes_.clear();
     }
@@ -67,11 +94,12 @@ class SequenceReader final : public Reader {
 
 const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t file,
                                            const Reader& reader) const {
-    const auto found = std::ranges::find(reader.variables(), expected.name, &Variable::name);
-    if (found == reader.variables().end())
+    const auto at = placeOf(expected, reader.variables());
+    if (!at)
         differ(
             0, file,
             fmt::format("expected the same variables, but the second has no '{}'", expected.name));
+    const Variable* const found = &reader.variables()[*at];
     const std::string place = fmt::format("variable '{}': expected the same ", expected.name);
     if (found->type != expected.type)
         differ(0, file,
@@ -96,8 +124,7 @@ void SequenceReader::add(std::size_t file, const Reader& reader) {
     for (std::size_t v = 0; v < variables_.size(); ++v)
         axes_[v].push_back(expectSame(variables_[v], file, reader).time);
     for (const Variable& other : reader.variables()) {
-        if (std::ranges::find(variables_, other.name, &Variable::name) != variables_.end())
-            continue;
+        if (placeOf(other, variables_)) continue;
         const std::string note =
             fmt::format("'{}' is not in the first file: it is left out", other.name);
         auto& notes = variables_.front().notes;
@@ -113,6 +140,10 @@ std::string SequenceReader::ownTimesFail(std::size_t v) const {
         std::ranges::any_of(axes, [](const auto& axis) { return axis->points.size() > 1; });
     for (std::size_t f = 0; f < axes.size(); ++f)
         if (axes[f]->counted) return fmt::format("{} has none", name(f));
+    for (std::size_t f = 1; f < axes.size(); ++f)
+        if (axes[f]->name != axes[0]->name)
+            return fmt::format("those of {} are called '{}', those of {} '{}'", name(0),
+                               axes[0]->name, name(f), axes[f]->name);
     for (std::size_t f = 1; f < axes.size(); ++f)
         if (axes[f]->units != axes[0]->units || axes[f]->calendar != axes[0]->calendar)
             return fmt::format("those of {} are in \"{}\", those of {} in \"{}\"", name(0),
@@ -197,9 +228,8 @@ Field SequenceReader::read(std::size_t variable, std::size_t step) {
     const auto file =
         static_cast<std::size_t>(std::ranges::upper_bound(begins, step) - begins.begin() - 1);
     Reader& reader = open(file);
-    const auto all = reader.variables();
-    const auto found = std::ranges::find(all, variables_[variable].name, &Variable::name);
-    Field field = reader.read(static_cast<std::size_t>(found - all.begin()), step - begins[file]);
+    const auto at = placeOf(variables_[variable], reader.variables());
+    Field field = reader.read(at.value(), step - begins[file]);
     field.grid = variables_[variable].grid;
     return field;
 }

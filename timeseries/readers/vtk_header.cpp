@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace timeseries {
 namespace {
@@ -52,6 +53,46 @@ const VtkType* vtkXmlType(std::string_view name) {
 const VtkType* vtkLegacyType(std::string_view lowerCase) {
     const auto found = std::ranges::find(kTypes, lowerCase, &VtkType::legacy);
     return found == kTypes.end() ? nullptr : &*found;
+}
+
+bool isVtkNumber(const VtkType& type, std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    const auto is = [&]<typename T>(T number) {
+        const char* const last = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), last, number);
+        if (stop != last) return false;
+        if constexpr (std::is_floating_point_v<T>) {
+            // Too small to be told from 0 is a number, too large is none.
+            if (error == std::errc::result_out_of_range)
+                return std::abs(std::strtod(std::string(text).c_str(), nullptr)) < 1;
+            return error == std::errc() && std::isfinite(number);
+        } else {
+            return error == std::errc();
+        }
+    };
+    switch (type.type) {
+        case ValueType::U8:
+            return is(std::uint8_t{});
+        case ValueType::I8:
+            return is(std::int8_t{});
+        case ValueType::U16:
+            return is(std::uint16_t{});
+        case ValueType::I16:
+            return is(std::int16_t{});
+        case ValueType::U32:
+            return is(std::uint32_t{});
+        case ValueType::I32:
+            return is(std::int32_t{});
+        case ValueType::U64:
+            return is(std::uint64_t{});
+        case ValueType::I64:
+            return is(std::int64_t{});
+        case ValueType::F32:
+            return is(float{});
+        case ValueType::F64:
+            return is(double{});
+    }
+    return false;
 }
 
 bool isVtkGhostName(std::string_view name) {

@@ -28,6 +28,8 @@ struct VtkArray {
     ValueType type{};
     std::size_t components = 1;
     VtkKeyword keyword{};  // of legacy files
+    // A word of its text that is no number of its type, for which it cannot be read.
+    std::string notNumber = {};
 };
 
 struct VtkTime {
@@ -83,6 +85,9 @@ struct VtkType {
 };
 const VtkType* vtkXmlType(std::string_view name);
 const VtkType* vtkLegacyType(std::string_view lowerCase);
+// Whether text is a number of the type. VTK reads none that is not finite, and wraps what is beyond
+// the range of a byte or below that of an unsigned type.
+bool isVtkNumber(const VtkType& type, std::string_view text);
 bool isVtkGhostName(std::string_view name);
 // Throws FileError when there are too many points, none, or too many along an axis.
 void checkVtkExtent(const VtkHeader& header, std::string_view place);

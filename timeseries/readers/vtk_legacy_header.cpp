@@ -161,7 +161,10 @@ void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t comp
     if (!names_.emplace(*place_, name).second)
         text_.fail(fmt::format("expected names that differ, found '{}' again", name));
     if (type) {
-        text_.values(*type, values);
+        if (typeName_.empty())
+            text_.skipBytesOrWords(values, values);
+        else
+            text_.values(*type, values);
         if (isVtkGhostName(name))
             header_.ghosts[static_cast<std::size_t>(*place_)] = true;
         else
@@ -193,7 +196,7 @@ void LegacyHeader::readAttribute(const std::string& word) {
     std::string name = text_.name();
     if (word == "color_scalars") {
         const std::uint64_t components = text_.count("a number of components");
-        // Bytes, or numbers from 0 to 1 in text.
+        typeName_.clear();  // bytes, but numbers from 0 to 1 in text
         return add(std::move(name), vtkLegacyType("unsigned_char"), components,
                    VtkKeyword::Scalars);
     }
@@ -260,8 +263,6 @@ void LegacyHeader::readFieldArray() {
     if (!type && typeName_ == "bit") return text_.skipBytesOrWords((values + 7) / 8, values);
     if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
     const auto time = place_ || values != 1 ? std::nullopt : vtkTimeName(name);
-    // VTK 9.1 crashes on words among these that are no numbers of the type.
-    if (!place_ && !text_.binary() && !time) return text_.checkNumbers(*type, values);
     const auto number = text_.values(*type, values, time ? 1 : 0);
     if (time && std::isfinite(number[0]) && (!header_.time || *time == "time"))
         header_.time = VtkTime{*time, number[0]};

@@ -181,6 +181,10 @@ Field VtkReader::read(std::size_t variable, std::size_t step) {
         failVtk(header.path, fmt::format("'{}'", array.name),
                 fmt::format("expected {} of {} components, as in {}", typeName(array.type),
                             array.components, members_[0].path.filename().string()));
+    if (!found->notNumber.empty())
+        failVtk(header.path, fmt::format("'{}'", array.name),
+                fmt::format("expected finite numbers of type {}, found \"{}\"",
+                            typeName(array.type), found->notNumber));
     const VtkGrid& grid = *frame_.grids[static_cast<std::size_t>(array.place)];
     if (*grid.grid != *variables_[variable].grid)
         failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());

@@ -184,7 +184,10 @@ void VtkText::skipBytesOrWords(std::uint64_t bytes, std::uint64_t words) {
 
 std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, std::uint64_t kept) {
     if (kept == 0) {
-        skipBytesOrWords(count * type.bytes, count);
+        if (binary_)
+            skipBytesOrWords(count * type.bytes, 0);
+        else
+            checkNumbers(type, count);
         return {};
     }
     std::vector<double> found;
@@ -210,17 +213,13 @@ std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, st
 }
 
 void VtkText::checkNumbers(const VtkType& type, std::uint64_t count) {
-    const bool real = type.type == ValueType::F32 || type.type == ValueType::F64;
-    // One bit less than unsigned types hold, so that the test is the same for all.
-    const double limit = type.type == ValueType::F64 ? 1.7e308
-                         : type.type == ValueType::F32
-                             ? 3.4e38
-                             : std::exp2(static_cast<double>(8 * type.bytes - 1));
+    if (count > bytes_) fail(fmt::format("expected {} values, but the file is too small", count));
     for (std::uint64_t i = 0; i < count; ++i) {
-        const double value = number("a value");
-        const bool whole = value == std::trunc(value) && value < limit;
-        if (real ? std::abs(value) > limit : !whole || value < -limit)
-            fail(fmt::format("expected a value of the type, found {}", value));
+        const std::string text = word();
+        if (text.empty()) fail(fmt::format("expected {} values, found {}", count, i));
+        if (!isVtkNumber(type, text))
+            fail(fmt::format("expected a finite number of type {}, found \"{}\"",
+                             typeName(type.type), text));
     }
 }
 

@@ -37,10 +37,9 @@ class VtkText {
     // Up to a blank line or the end of the file.
     void skipParagraph();
     // Values in the file's own form, after the rest of the line when they are binary. The first
-    // `kept` of them are returned. Throws FileError when there are fewer.
+    // `kept` of them are returned. Throws FileError when there are fewer, or words that are no
+    // numbers of the type.
     std::vector<double> values(const VtkType& type, std::uint64_t count, std::uint64_t kept = 0);
-    // Of text: as many numbers of the type.
-    void checkNumbers(const VtkType& type, std::uint64_t count);
     void skipBytesOrWords(std::uint64_t bytes, std::uint64_t words);
     void skipStrings(std::uint64_t count);
 
@@ -48,6 +47,7 @@ class VtkText {
 
  private:
     int next();  // -1 at the end
+    void checkNumbers(const VtkType& type, std::uint64_t count);
 
     std::filesystem::path path_;
     std::uint64_t bytes_ = 0;

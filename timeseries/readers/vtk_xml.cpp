@@ -21,12 +21,21 @@ constexpr std::uint64_t kMaxTokenBytes = std::uint64_t{1} << 20;
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
+// The text of an open element.
+struct Text {
+    bool inWord = false;
+    const VtkType* numbers = nullptr;  // what its words have to be
+    std::string word;                  // of numbers alone: the one that goes on
+};
+
+constexpr std::size_t kMaxWord = 255;
+
 // expat calls back through C, so nothing may be thrown here: a refusal is kept and parsing stops.
 struct Parsing {
     XML_Parser parser;
     XmlElement root;
     std::vector<XmlElement> open;  // from the root down
-    std::vector<bool> inWord;      // of each open element
+    std::vector<Text> texts;       // of each open element
     std::size_t elements = 0, attributeBytes = 0;
     std::string refusal;
     std::uint64_t appendedTagEnd = 0;
@@ -61,14 +70,24 @@ void start(void* user, const XML_Char* name, const XML_Char** attributes) {
         XML_StopParser(parsing.parser, XML_FALSE);
         return;
     }
+    const bool text = !element.has("format") || element.attribute("format") == "ascii";
+    const bool numbers = text && element.name == "DataArray";
+    parsing.texts.push_back({false, numbers ? vtkXmlType(element.attribute("type")) : nullptr, ""});
     parsing.open.push_back(std::move(element));
-    parsing.inWord.push_back(false);
+}
+
+void endWord(XmlElement& element, Text& text) {
+    text.inWord = false;
+    if (text.numbers && element.notNumber.empty() && !isVtkNumber(*text.numbers, text.word))
+        element.notNumber = text.word;
+    text.word.clear();
 }
 
 void close(Parsing& parsing) {
     XmlElement done = std::move(parsing.open.back());
+    if (parsing.texts.back().inWord) endWord(done, parsing.texts.back());
     parsing.open.pop_back();
-    parsing.inWord.pop_back();
+    parsing.texts.pop_back();
     if (parsing.open.empty())
         parsing.root = std::move(done);
     else
@@ -80,20 +99,23 @@ void end(void* user, const XML_Char*) {
     if (!parsing.open.empty()) close(parsing);
 }
 
-void text(void* user, const XML_Char* characters, int length) {
+void characterData(void* user, const XML_Char* characters, int length) {
     auto& parsing = *static_cast<Parsing*>(user);
     if (parsing.open.empty()) return;
     XmlElement& element = parsing.open.back();
-    bool inWord = parsing.inWord.back();
+    Text& text = parsing.texts.back();
     for (int i = 0; i < length; ++i) {
-        const bool word = !blank(characters[i]);
-        if (word && element.characters++ == 0)
+        if (blank(characters[i])) {
+            if (text.inWord) endWord(element, text);
+            continue;
+        }
+        if (element.characters++ == 0)
             element.textAt =
                 static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parsing.parser) + i);
-        element.words += word && !inWord;
-        inWord = word;
+        element.words += !text.inWord;
+        text.inWord = true;
+        if (text.numbers && text.word.size() < kMaxWord) text.word += characters[i];
     }
-    parsing.inWord.back() = inWord;
 }
 
 void doctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int) {
@@ -139,7 +161,7 @@ XmlFile readXml(const std::filesystem::path& path) {
     Parsing parsing{parser.get(), {}, {}, {}, 0, 0, "", 0, ""};
     XML_SetUserData(parser.get(), &parsing);
     XML_SetElementHandler(parser.get(), start, end);
-    XML_SetCharacterDataHandler(parser.get(), text);
+    XML_SetCharacterDataHandler(parser.get(), characterData);
     XML_SetStartDoctypeDeclHandler(parser.get(), doctype);
 
     std::string buffer(std::size_t{1} << 16, '\0');

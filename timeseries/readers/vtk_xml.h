@@ -17,6 +17,7 @@ struct XmlElement {
     std::vector<XmlElement> children;
     // Text directly inside: its words, its characters that are no blanks, and where it begins.
     std::uint64_t words = 0, characters = 0, textAt = 0;
+    std::string notNumber;  // the first word of a DataArray's text that is no number of its type
     std::uint64_t line = 0;
 
     // "" when there is none; without blanks around it.

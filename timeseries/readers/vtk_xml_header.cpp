@@ -84,7 +84,7 @@ std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& elemen
                 "expected one time step in a file, found an array of one of several");
     checkVtkValues(context.header.path, context.file, context.encoding, element, where,
                    tuples * components, type->bytes);
-    return VtkArray{std::move(name), place, type->type, components, {}};
+    return VtkArray{std::move(name), place, type->type, components, {}, element.notNumber};
 }
 
 void checkArrayCount(const Context& context, const XmlElement& group) {
@@ -130,6 +130,10 @@ void checkCoordinates(const Context& context, const XmlElement& piece, const Vtk
             failVtk(context.header.path, placeOf(array), "expected a DataArray of numbers");
         checkVtkValues(context.header.path, context.file, context.encoding, array, placeOf(array),
                        size[i], type->bytes);
+        if (!array.notNumber.empty())
+            failVtk(
+                context.header.path, placeOf(array),
+                fmt::format("expected finite numbers of its type, found \"{}\"", array.notNumber));
     }
 }
 
@@ -158,12 +162,48 @@ void checkFieldData(const Context& context, const XmlElement& grid) {
     }
 }
 
+// VTK leaves what no piece holds as it finds it in memory. Costs a bit for each point, and the
+// pieces, whose values the file holds, declare as many points.
+void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkPlace place) {
+    const std::uint64_t all = header.count(place);
+    const auto whole = header.size(place);
+    std::uint64_t found = 0;
+    for (const VtkHeader& piece : pieces) found += piece.count(place);
+    if (found >= all && pieces.size() > 1) {
+        std::vector<bool> held(all);
+        for (const VtkHeader& piece : pieces) {
+            const auto size = piece.size(place);
+            std::array<std::uint64_t, 3> first{};
+            bool flat = false;  // one layer of points within a thick grid: no cells
+            for (std::size_t i = 0; i < 3; ++i) {
+                first[i] = static_cast<std::uint64_t>(piece.extent[i][0] - header.extent[i][0]);
+                flat |= place == VtkPlace::Cells && piece.extent[i][0] == piece.extent[i][1] &&
+                        header.extent[i][0] != header.extent[i][1];
+            }
+            for (std::uint64_t z = 0; z < (flat ? 0 : size[2]); ++z)
+                for (std::uint64_t y = 0; y < size[1]; ++y) {
+                    const auto row =
+                        held.begin() +
+                        static_cast<std::ptrdiff_t>(
+                            ((first[2] + z) * whole[1] + first[1] + y) * whole[0] + first[0]);
+                    std::fill(row, row + static_cast<std::ptrdiff_t>(size[0]), true);
+                }
+        }
+        found = static_cast<std::uint64_t>(std::count(held.begin(), held.end(), true));
+    }
+    if (found < all)
+        failVtk(header.path, "Piece",
+                fmt::format("expected pieces that fill WholeExtent, found {} of its {} {}", found,
+                            all, place == VtkPlace::Points ? "points" : "cells"));
+}
+
 void addPieces(const Context& context, const XmlElement& grid) {
     VtkHeader& header = context.header;
     const auto pieces = named(grid, "Piece");
     if (pieces.empty()) failVtk(header.path, placeOf(grid), "expected a Piece, found none");
+    std::vector<VtkHeader> shapes;
     for (const XmlElement* piece : pieces) {
-        VtkHeader shape;
+        VtkHeader& shape = shapes.emplace_back();
         shape.path = header.path;
         shape.extent = extentOf(header, *piece, "Extent");
         checkVtkExtent(shape, placeOf(*piece));
@@ -181,10 +221,16 @@ void addPieces(const Context& context, const XmlElement& grid) {
                    a.components == b.components;
         };
         if (piece == pieces.front())
-            header.arrays = std::move(arrays);
+            header.arrays = arrays;
         else if (!std::ranges::equal(arrays, header.arrays, same))
             failVtk(header.path, placeOf(*piece), "expected the arrays of the first piece");
+        for (std::size_t i = 0; i < arrays.size(); ++i)
+            if (header.arrays[i].notNumber.empty())
+                header.arrays[i].notNumber = arrays[i].notNumber;
     }
+    for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
+        if (std::ranges::any_of(header.arrays, [&](const auto& a) { return a.place == place; }))
+            checkCover(header, shapes, place);
     std::ranges::sort(header.passedOver);
     header.passedOver.erase(std::unique(header.passedOver.begin(), header.passedOver.end()),
                             header.passedOver.end());
