@@ -20,7 +20,7 @@ std::optional<std::array<std::size_t, 3>> pointAt(const render::Lattice& lattice
 
 class TipProbe {
  public:
-    // Of so many points a frame looks through no more: some 2 ms.
+    // A frame looks through no more: under a millisecond.
     static constexpr std::uint64_t kPointsAFrame = std::uint64_t{1} << 22;
 
     struct At {
