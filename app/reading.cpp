@@ -11,15 +11,19 @@ std::string withUnit(const std::string& number, const std::string& unit) {
     return shown.empty() || shown == "index" ? number : number + " " + shown;
 }
 
-std::string valueText(const timeseries::Number& value, timeseries::ValueType type,
-                      const std::string& unit) {
-    if (type == timeseries::ValueType::F32)
-        return withUnit(fmt::format("{}", static_cast<float>(timeseries::toDouble(value))), unit);
-    return withUnit(timeseries::toText(value), unit);
+std::string valueText(const Reading& reading, const Shown& shown) {
+    const std::string number =
+        shown.sorted->type() == timeseries::ValueType::F32
+            ? fmt::format("{}", static_cast<float>(timeseries::toDouble(reading.value)))
+            : timeseries::toText(reading.value);
+    return withUnit(number, shown.dataset.about.units);
 }
 
-std::string placeText(const timeseries::Axis& axis, double position, std::size_t index) {
-    return fmt::format("{}   [{}]", withUnit(fmt::format("{:.6g}", position), axis.units), index);
+std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis) {
+    const std::string& unit = shown.sorted->grid().axes()[axis].units;
+    const double place = reading.position[static_cast<int>(axis)];
+    return fmt::format("{}   [{}]", withUnit(fmt::format("{:.6g}", place), unit),
+                       reading.index[axis]);
 }
 
 }  // namespace app

@@ -6,8 +6,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "timeseries/field.h"
-#include "timeseries/grid.h"
+#include "app/exploration.h"
 #include "timeseries/number.h"
 
 namespace app {
@@ -20,12 +19,11 @@ struct Reading {
     std::size_t step = 0;
 };
 
-// "0.35 m"; without the unit where it says nothing.
+// A number with a unit, where there is one to be shown.
 std::string withUnit(const std::string& number, const std::string& unit);
-// As few digits as tell the value among those of its own type, with its unit.
-std::string valueText(const timeseries::Number& value, timeseries::ValueType type,
-                      const std::string& unit);
-// Where the point is along one axis: "0.35 m   [12]".
-std::string placeText(const timeseries::Axis& axis, double position, std::size_t index);
+// "612.34 K": as few digits as tell the value among those of its own type.
+std::string valueText(const Reading& reading, const Shown& shown);
+// "0.125 m   [37]": along an axis (0 x, 1 y, 2 z), with the index.
+std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis);
 
 }  // namespace app

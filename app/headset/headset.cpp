@@ -23,7 +23,7 @@ std::string helpText(const xr::Session& session) {
     return text +
            "\nBoth hands: scale and turn\nRight stick: values · left stick: time\n"
            "Stick of a hand that holds the volume: turn it\n"
-           "Trigger inside the volume: keep the point there";
+           "Tip in the volume: what is there; the trigger, or a tap, keeps it";
 }
 
 }  // namespace

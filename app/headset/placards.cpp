@@ -65,7 +65,7 @@ std::vector<render::Placard> placardsOf(const Room& room, const std::array<xr::H
         put(facingHead(inStage(world), head, glm::dvec2(kMarkHalf)), color);
     };
     if (boards.kept) mark(*boards.kept, kMark);
-    if (room.tip()) mark(room.tip()->world, kAccent);
+    if (room.tip()) mark(room.tip()->reading.world, kAccent);
     for (const ClipHand::Edge& edge : room.clipEdges())
         put(lineOf(inStage(edge.from), inStage(edge.to), edge.lit ? kLitHalfWidth : kEdgeHalfWidth,
                    head),

@@ -21,17 +21,14 @@ std::string valuesText(const Explorer& e, const Shown& shown) {
 }
 
 std::string tipText(const TipProbe::At& tip, const Shown& shown) {
-    const timeseries::Variable& about = shown.dataset.about;
-    std::string text = about.name;
-    if (tip.value)
-        text += " " + valueText(*tip.value, shown.sorted->type(), about.units);
+    std::string text = shown.dataset.about.name;
+    if (tip.value == TipProbe::Value::Found)
+        text += " " + valueText(tip.reading, shown);
     else
-        text += tip.known ? ": no value" : " \u2026";
-    for (std::size_t a = 0; a < 3; ++a) {
-        const timeseries::Axis& axis = shown.sorted->grid().axes()[a];
-        text += "\n" + axis.name + " " +
-                placeText(axis, tip.position[static_cast<int>(a)], tip.index[a]);
-    }
+        text += tip.value == TipProbe::Value::None ? ": no value" : " \u2026";
+    for (std::size_t a = 0; a < 3; ++a)
+        text +=
+            "\n" + shown.sorted->grid().axes()[a].name + " " + positionText(tip.reading, shown, a);
     return text + "\n";
 }
 

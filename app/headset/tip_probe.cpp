@@ -30,6 +30,15 @@ std::optional<std::array<std::size_t, 3>> pointAtTip(const Drawn& drawn,
     return pointAt(*drawn.lattice, glm::dvec3(axesFromStage * glm::dvec4(tip, 1)));
 }
 
+// All of a reading but its value.
+Reading placeOf(const Drawn& drawn, const std::array<std::size_t, 3>& index, std::uint64_t i) {
+    return {.index = index,
+            .value = {},
+            .position = drawn.sorted->grid().position(i),
+            .world = drawn.lattice->position(i),
+            .step = drawn.step};
+}
+
 std::uint64_t gridIndexOf(const render::Lattice& lattice, const std::array<std::size_t, 3>& at) {
     const glm::uvec3 size = lattice.size();
     return at[0] + size.x * (at[1] + size.y * at[2]);
@@ -60,13 +69,11 @@ void TipProbe::update(const std::optional<Drawn>& drawn, const xr::Placement& pl
         if (!index) continue;
         const std::uint64_t i = gridIndexOf(*drawn->lattice, *index);
         search_.look(drawn->sorted, i, kPointsAFrame);
-        at_ = At{.hand = hand,
-                 .index = *index,
-                 .position = drawn->sorted->grid().position(i),
-                 .world = drawn->lattice->position(i),
-                 .value = {},
-                 .known = search_.ended()};
-        if (const auto found = search_.found()) at_->value = drawn->sorted->value(*found);
+        at_ = At{hand, placeOf(*drawn, *index, i), search_.ended() ? Value::None : Value::Sought};
+        if (const auto found = search_.found()) {
+            at_->reading.value = drawn->sorted->value(*found);
+            at_->value = Value::Found;
+        }
         return;
     }
     search_ = {};  // holds no step in memory that nobody asks about
@@ -84,11 +91,9 @@ std::optional<Reading> readingAt(const Drawn& drawn, const xr::Placement& placem
     PointSearch search;
     search.look(drawn.sorted, i, drawn.sorted->size());
     if (!search.found()) return std::nullopt;
-    return Reading{.index = *index,
-                   .value = drawn.sorted->value(*search.found()),
-                   .position = drawn.sorted->grid().position(i),
-                   .world = drawn.lattice->position(i),
-                   .step = drawn.step};
+    Reading reading = placeOf(drawn, *index, i);
+    reading.value = drawn.sorted->value(*search.found());
+    return reading;
 }
 
 }  // namespace app::headset

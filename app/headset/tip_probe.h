@@ -20,16 +20,14 @@ std::optional<std::array<std::size_t, 3>> pointAt(const render::Lattice& lattice
 
 class TipProbe {
  public:
-    // Of so many points a frame looks through no more: some 2 ms.
+    // A frame looks through no more: under a millisecond.
     static constexpr std::uint64_t kPointsAFrame = std::uint64_t{1} << 22;
 
+    enum class Value { Sought, Found, None };  // None: missing there, or not kept
     struct At {
         std::size_t hand;
-        std::array<std::size_t, 3> index;
-        glm::dvec3 position;  // the grid's
-        glm::dvec3 world;
-        std::optional<timeseries::Number> value;
-        bool known;  // without a value: there is none, else it is still looked for
+        Reading reading;  // its value once that is found
+        Value value;
     };
 
     // `tips` in the stage: of the hands that have nothing else to do. The hand that was first in

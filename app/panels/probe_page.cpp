@@ -50,13 +50,9 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     }
     const timeseries::Grid& grid = shown->sorted->grid();
     const Reading& r = second_ ? *second_ : *first_;
-    line(desk.theme, form, shown->dataset.about.name,
-         valueText(r.value, shown->sorted->type(), shown->dataset.about.units));
-    for (int i = 0; i < 3; ++i) {
-        const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(i)];
-        line(desk.theme, form, axis.name,
-             placeText(axis, r.position[i], r.index[static_cast<std::size_t>(i)]));
-    }
+    line(desk.theme, form, shown->dataset.about.name, valueText(r, *shown));
+    for (std::size_t i = 0; i < 3; ++i)
+        line(desk.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
     line(desk.theme, form, "Time", timeText(*shown->dataset.about.time, r.step));
     if (second_) ruler(desk, form, *first_, *second_, grid);
     if (textButton(desk.theme, "Clear", part(form.row(), 0, 3, desk.theme.scale), "Clear")) clear();

@@ -4,23 +4,40 @@
 
 #include <limits>
 
+#include "tests/support/shown_steps.h"
+
 namespace app {
 namespace {
 
-using timeseries::ValueType;
+// A value as the step of its own type has it.
+template <typename T>
+std::string textOf(T value, const std::string& units) {
+    tests::ShownSteps world(2);
+    world.dataset.about.units = units;
+    world.steps[0] = std::make_shared<const timeseries::SortedStep>(
+        timeseries::SortedStep::build({tests::cube(2), std::vector<T>(8, value), {}}));
+    Reading reading;
+    reading.value = world.steps[0]->value(0);
+    return valueText(reading, world.shown());
+}
 
 TEST(ReadingText, AValueHasTheDigitsOfItsOwnType) {
     // The nearest float to 0.1 is not 0.1; of a float it is written so all the same.
-    EXPECT_EQ(valueText(static_cast<double>(0.1f), ValueType::F32, "K"), "0.1 K");
-    EXPECT_EQ(valueText(0.1, ValueType::F64, "K"), "0.1 K");
-    EXPECT_EQ(valueText(0.1 + 0.2, ValueType::F64, ""), "0.30000000000000004");
-    EXPECT_EQ(valueText(std::numeric_limits<std::uint64_t>::max(), ValueType::U64, "1"),
-              "18446744073709551615");
+    EXPECT_EQ(textOf(0.1f, "K"), "0.1 K");
+    EXPECT_EQ(textOf(0.1, "K"), "0.1 K");
+    EXPECT_EQ(textOf(0.1 + 0.2, ""), "0.30000000000000004");
+    EXPECT_EQ(textOf(std::numeric_limits<std::uint64_t>::max(), ""), "18446744073709551615");
 }
 
 TEST(ReadingText, APlaceHasItsIndexAndItsUnitWhereThatIsOne) {
-    EXPECT_EQ(placeText({"x", "m", {0.25, 0.5}, false}, 0.5, 1), "0.5 m   [1]");
-    EXPECT_EQ(placeText({"i", "index", {0, 1, 2}, false}, 2, 2), "2   [2]");
+    const tests::ShownSteps world(3);
+    Reading reading;
+    reading.index = {0, 2, 1};
+    reading.position = {0, 2, 0.125};
+    EXPECT_EQ(positionText(reading, world.shown(), 1), "2 m   [2]");
+    EXPECT_EQ(positionText(reading, world.shown(), 2), "0.125 m   [1]");
+    EXPECT_EQ(withUnit("7", "index"), "7");
+    EXPECT_EQ(withUnit("7", ""), "7");
 }
 
 }  // namespace

@@ -102,9 +102,9 @@ using ValueAt = std::function<float(std::size_t variable, std::size_t step, std:
 struct World {
     std::vector<std::string> variables{"T", "P"};
     std::size_t steps = 10;
-    std::vector<double> times = {};  // counted without
-    std::size_t edge = 4;            // points along each axis
-    glm::dmat3 directions{1.0};      // of the axes: timeseries::Frame
+    std::vector<double> times = {};                          // counted without
+    std::size_t edge = 4;                                    // points along each axis of a cube
+    std::shared_ptr<const timeseries::Grid> grid = nullptr;  // instead of the cube
     ValueAt value = [](std::size_t variable, std::size_t step, std::size_t point) {
         return static_cast<float>(1000 * variable + (point * 7 + step * 13) % 64);
     };
@@ -119,11 +119,7 @@ class ScriptedReader : public timeseries::Reader {
         time->counted = world_.times.empty();
         for (std::size_t i = 0; i < world_.steps; ++i)
             time->points.push_back({time->counted ? static_cast<double>(i) : world_.times[i], ""});
-        timeseries::Frame frame;
-        frame.directions = world_.directions;
-        const timeseries::Axis along = axis(world_.edge);
-        const auto grid =
-            std::make_shared<const timeseries::Grid>(std::array{along, along, along}, frame);
+        const auto grid = world_.grid ? world_.grid : cube(world_.edge);
         for (const std::string& name : world_.variables)
             variables_.push_back({.name = name,
                                   .longName = "",

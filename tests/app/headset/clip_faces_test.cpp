@@ -35,6 +35,7 @@ TEST(Crossing, IsWhereAWalkAlongTheLineIsInTheBox) {
         const auto crossed = crossing(from, along, box);
         if (crossed) {
             ++met;
+            EXPECT_LE(crossed->enters, crossed->leaves) << "else it is a miss";
             for (const auto& [t, face] : {std::pair(crossed->enters, crossed->in),
                                           std::pair(crossed->leaves, crossed->out)}) {
                 const double at = (from + t * along)[face.axis];

@@ -15,12 +15,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// 4 x 4 x 4 points at 0, 1, 2, 3 along axes that lean over each other, turned in the room.
+// 4 x 4 x 4 points at 0, 1, 2, 3 along axes that lean over each other, turned in the room; y is
+// drawn downwards.
 class ClipByHand : public testing::Test {
  protected:
     static tests::World leaning() {
         tests::World world;
-        world.directions = tests::leaning({1, 0.2, 0}, {-0.1, 1, 0.1}, {0.2, 0, 1});
+        timeseries::Frame frame;
+        frame.directions = tests::leaning({1, 0.2, 0}, {-0.1, 1, 0.1}, {0.2, 0, 1});
+        timeseries::Axis down = tests::axis(4);
+        down.down = true;
+        world.grid = std::make_shared<const timeseries::Grid>(
+            std::array{tests::axis(4), down, tests::axis(4)}, frame);
         return world;
     }
 
@@ -74,7 +80,7 @@ TEST_F(ClipByHand, AFaceHeldByTheRayGoesWithTheHandFromAfar) {
     };
     const auto hold = ClipHand::holdAt(looking(face), drawn_, placement_, e_);
     ASSERT_TRUE(hold);
-    ASSERT_EQ(hold->face, (Face{1, -1}));
+    ASSERT_EQ(hold->face, (Face{1, 1})) << "the least coordinate stands highest";
     clip_.take(0, *hold, looking(face), drawn_, placement_, e_);
     // The hand goes a unit forward, and its ray with it.
     xr::Pose nearer = looking(face);

@@ -55,17 +55,15 @@ TEST(Readout, SaysWhatPlaysAndWhatIsDrawnCoarsely) {
 
 TEST(Readout, BeginsWithWhatIsAtTheHandsTip) {
     tests::ScriptedExploration world;
-    TipProbe::At tip{.hand = 1,
-                     .index = {3, 2, 1},
-                     .position = {3, 2, 1},
-                     .world = {},
-                     .value = 21.5,
-                     .known = true};
+    TipProbe::At tip{1, {}, TipProbe::Value::Found};
+    tip.reading.index = {3, 2, 1};
+    tip.reading.position = {3, 2, 1};
+    tip.reading.value = 21.5;
     EXPECT_THAT(readoutText(world.exploration, tip, 1),
                 StartsWith("T 21.5\nx 3 m   [3]\nx 2 m   [2]\nx 1 m   [1]\nT "));
-    tip.value.reset();
+    tip.value = TipProbe::Value::None;
     EXPECT_THAT(readoutText(world.exploration, tip, 1), StartsWith("T: no value\n"));
-    tip.known = false;
+    tip.value = TipProbe::Value::Sought;
     EXPECT_THAT(readoutText(world.exploration, tip, 1), StartsWith("T \u2026\n"));
 }
 

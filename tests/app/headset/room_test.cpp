@@ -381,8 +381,8 @@ TEST_F(TipInTheVolume, TellsThePointThatItIsAt) {
     frame();
     ASSERT_TRUE(room_.tip());
     EXPECT_EQ(room_.tip()->hand, 0u);
-    EXPECT_EQ(room_.tip()->index, (std::array<std::size_t, 3>{1, 2, 3}));
-    EXPECT_EQ(timeseries::toDouble(*room_.tip()->value), value());
+    EXPECT_EQ(room_.tip()->reading.index, (std::array<std::size_t, 3>{1, 2, 3}));
+    EXPECT_EQ(timeseries::toDouble(room_.tip()->reading.value), value());
     left_.grab = true;
     frame();
     EXPECT_FALSE(room_.tip()) << "it holds the volume";

@@ -81,10 +81,10 @@ TEST_F(HandsInTheRoom, ATipInTheVolumeReadsThePointThere) {
     const std::size_t point = 2 + 4 * (1 + 4 * 3);
     const glm::dvec3 at = inStage({1.95, 1.05, 2.95});
     move(at, at + glm::dvec3(1, 0, 1));
-    framesUntil([&] { return room().tip() && room().tip()->value; });
-    EXPECT_EQ(room().tip()->index, (std::array<std::size_t, 3>{2, 1, 3}));
+    framesUntil([&] { return room().tip() && room().tip()->value == TipProbe::Value::Found; });
+    EXPECT_EQ(room().tip()->reading.index, (std::array<std::size_t, 3>{2, 1, 3}));
     const double value = world_.world.value(0, world_.exploration.shown()->step, point);
-    EXPECT_EQ(timeseries::toDouble(*room().tip()->value), value);
+    EXPECT_EQ(timeseries::toDouble(room().tip()->reading.value), value);
     trigger(true);
     framesUntil([&] { return headset_->panel().interface().reading().has_value(); });
     EXPECT_EQ(timeseries::toDouble(headset_->panel().interface().reading()->value), value);
@@ -100,7 +100,7 @@ TEST_F(HandsInTheRoom, AFaceOfTheClipBoxGoesWithTheHandThatHoldsIt) {
     const glm::dvec3 from = inStage({2.95, 1.5, 1.5}), to = inStage({1.7, 1.5, 1.5});
     const glm::dvec3 away(1, 0, 0);
     move(from, from + away);
-    framesUntil([&] { return room().tip() && room().tip()->index[0] == 3; });
+    framesUntil([&] { return room().tip() && room().tip()->reading.index[0] == 3; });
     squeeze(1);
     framesUntil([&] { return room().holdsFace(1); });
     move(to, to + away);
