@@ -33,7 +33,8 @@ std::optional<RoomCommand> drawRoomButtons(const panels::Theme& theme, const pan
                                            const RoomButtons& buttons) {
     const panels::Rect all{roomButton(layout, kButtons.front().command).min,
                            roomButton(layout, kButtons.back().command).max};
-    panels::beginRegion("##room", all, panels::kClear);
+    // A fixed region that comes later than the picture's would lie below it.
+    panels::beginRegion("##room", all, panels::kClear, panels::Depth::Front);
     std::optional<RoomCommand> pressed;
     for (const Button& button : kButtons) {
         const panels::Rect at = roomButton(layout, button.command);
