@@ -47,15 +47,12 @@ void HoverTip::draw(const Desk& desk) const {
     if (!reading_ || !at_ || !shown) return;
     const Theme& theme = desk.theme;
     const float s = theme.scale, line = 19 * s;
-    const timeseries::Variable& about = shown->dataset.about;
-    const timeseries::Grid& grid = shown->sorted->grid();
-    const std::string value = fmt::format(
-        "{}  {}", about.name, valueText(reading_->value, shown->sorted->type(), about.units));
+    const std::string value =
+        fmt::format("{}  {}", shown->dataset.about.name, valueText(*reading_, *shown));
     std::array<std::string, 3> places;
     float width = widthOf(*theme.strong, value);
     for (std::size_t i = 0; i < 3; ++i) {
-        places[i] = placeText(grid.axes()[i], reading_->position[static_cast<glm::length_t>(i)],
-                              reading_->index[i]);
+        places[i] = positionText(*reading_, *shown, i);
         width = std::max(width, 24 * s + widthOf(*theme.small, places[i]));
     }
     // Below and right of the pointer; on its other side where the picture ends.
@@ -72,7 +69,8 @@ void HoverTip::draw(const Desk& desk) const {
     text(theme, at, value, kText, 0, theme.strong);
     for (std::size_t i = 0; i < 3; ++i) {
         at.y += line;
-        text(theme, at, fitting(*theme.small, grid.axes()[i].name, 30 * s), kFaint, 0, theme.small);
+        const timeseries::Axis& axis = shown->sorted->grid().axes()[i];
+        text(theme, at, fitting(*theme.small, axis.name, 30 * s), kFaint, 0, theme.small);
         text(theme, at + glm::vec2(size.x - 22 * s, 0), places[i], kDim, 1, theme.small);
     }
 }
