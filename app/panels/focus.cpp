@@ -169,8 +169,14 @@ void Focus::end(float scale) {
     for (const Control& c : coming_) front = std::max(front, c.depth);
     std::erase_if(coming_, [&](const Control& c) { return c.depth < front; });
     shown_ = std::exchange(coming_, {});
-    if (front > front_) behind_ = std::exchange(place_, 0);
-    if (front < front_) place_ = behind_;
+    if (front > front_) {
+        behind_ = std::exchange(place_, 0);
+        hadBehind_ = has_;
+    }
+    if (front < front_) {
+        place_ = behind_;
+        has_ = hadBehind_;
+    }
     const bool opened = front > std::exchange(front_, front);
     if (!has_ || shown_.empty()) return;
     const Control* now = here();

@@ -71,7 +71,8 @@ class Focus {
     std::vector<Control> shown_;  // of the last whole frame: those in front
     std::vector<Control> coming_;
     bool has_ = false;
-    ImGuiID place_ = 0, behind_ = 0;  // behind_: where it was when something opened in front
+    ImGuiID place_ = 0, behind_ = 0;  // behind_: place_ when something opened in front
+    bool hadBehind_ = false;          // has_, likewise
     Rect at_;                         // of place_
     Turn turn_;
     bool came_ = false;  // and place_ was not drawn since

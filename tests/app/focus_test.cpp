@@ -153,6 +153,17 @@ TEST_F(AFocus, StaysInFrontWhileAPopupIsOpenAndComesBack) {
     EXPECT_EQ(frame(), 5u);
 }
 
+TEST_F(AFocus, IsNobodysAgainBehindAPopupThatWasOpenedWithoutIt) {
+    popup_ = true;
+    EXPECT_EQ(frame(), 0u);
+    EXPECT_EQ(press(Key::Down), 21u) << "an arrow is enough";
+    popup_ = false;
+    frame();
+    EXPECT_EQ(frame(), 0u);
+    press(Key::Space);
+    EXPECT_FALSE(taken_);
+}
+
 TEST_F(AFocus, GoesToTheNearestWhenItsControlIsGone) {
     for (int i = 0; i < 5; ++i) press(Key::Tab);
     gone_ = 5;

@@ -93,7 +93,9 @@ TEST_P(EveryLayout, HandlesOfRangesLieBesideBarsNumbersAndEachOther) {
                 EXPECT_LE(handle.max.y, bars.max.y);
             }
             const bool room = y >= bars.min.y + 10 * scale && y <= bars.max.y - 10 * scale;
-            if (room) EXPECT_LE(upper.max.y, lower.min.y + 1) << y;
+            if (room) {
+                EXPECT_LE(upper.max.y, lower.min.y + 1) << y;
+            }
         }
     }
 }
