@@ -36,6 +36,8 @@ const glm::vec3 kAxisEdge = light(134, 145, 162), kNearEdge = light(84, 94, 110)
                 kFarEdge = light(52, 59, 71), kNumber = light(170, 179, 193),
                 kTitle = light(230, 233, 239);
 
+constexpr double kLeastMargin = 2;  // pixels between a label and the picture's edge
+
 struct Rect {
     glm::dvec2 lo, hi;
     Rect grown(double by) const { return {lo - by, hi + by}; }
@@ -95,6 +97,8 @@ struct Page {
     double line() const { return style.linePixels; }
     double tickLength() const { return 0.36 * line(); }
     double gap() const { return 0.38 * line(); }
+    // What stays free around titles, as around the legend.
+    double margin() const { return std::min(0.9 * line(), 0.06 * std::min(size.x, size.y)); }
 };
 
 glm::dvec3 tickAt(const Page& page, const Edge& edge, double coordinate) {
@@ -245,9 +249,10 @@ class Placed {
             taken_.push_back(shape);
         }
     }
-    bool fits(const Label& label, double apart) const {
+    // In the picture, so far from its edges and so far apart from the others.
+    bool fits(const Label& label, double margin, double apart) const {
         const Rect covers = label.covers();
-        if (!inside(covers.grown(2), page_.size)) return false;
+        if (!inside(covers.grown(margin), page_.size)) return false;
         return std::none_of(taken_.begin(), taken_.end(),
                             [&](const Rect& other) { return overlap(covers.grown(apart), other); });
     }
@@ -257,6 +262,24 @@ class Placed {
     const Page& page_;
     std::vector<Rect> taken_;
 };
+
+// Beyond the numbers, as near the middle as there is room; else between two of them; at last, near
+// the picture's edge. `farthest`: where the numbers end.
+std::optional<Label> placedTitle(const Page& page, const Screen& screen, const ShownAxis& axis,
+                                 const Placed& placed, glm::dvec2 part, double farthest) {
+    const glm::dvec3 half = page.lattice.boxHalf();
+    const glm::dvec3 a = axis.edge.at(half, -1), b = axis.edge.at(half, 1);
+    const glm::dvec2 out = outward(page, screen, axis.edge, part);
+    for (const double margin : {page.margin(), kLeastMargin})
+        for (const double away : {farthest + 1.2 * page.gap(), page.tickLength() + page.gap()})
+            for (const double along : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9, 0.0, 1.0}) {
+                const double t = glm::mix(part.x, part.y, along);
+                const glm::dvec2 from(screen.pixel(glm::mix(a, b, t)));
+                Label title = beyond(page.font, page.style, axis.title, from + out * away, out);
+                if (placed.fits(title, margin, 0.4 * page.line())) return title;
+            }
+    return std::nullopt;
+}
 
 void drawAxis(const Page& page, const Screen& screen, const ShownAxis& axis, Placed& placed,
               AxesMeshes& meshes, float width) {
@@ -273,7 +296,7 @@ void drawAxis(const Page& page, const Screen& screen, const ShownAxis& axis, Pla
         const glm::dvec3 from = screen.pixel(at);
         const glm::dvec3 to = from + glm::dvec3(out * page.tickLength(), 0);
         meshes.before.line(from, to, width, glm::vec4(kAxisEdge, 1));
-        if (!placed.fits(labels[i], 0.25 * page.line())) continue;
+        if (!placed.fits(labels[i], kLeastMargin, 0.25 * page.line())) continue;
         placed.take(labels[i]);
         meshes.labels.text(page.font, page.style, labels[i].text, labels[i].topLeft, kNumber);
         const glm::dvec2 size = labels[i].covers().hi - labels[i].covers().lo;
@@ -281,17 +304,9 @@ void drawAxis(const Page& page, const Screen& screen, const ShownAxis& axis, Pla
             std::max(farthest, page.tickLength() + page.gap() + glm::dot(size, glm::abs(out)));
     }
     if (axis.title.empty()) return;
-    // Beyond the numbers, as near the middle as there is room; else between two of them.
-    for (const double away : {farthest + 1.2 * page.gap(), page.tickLength() + page.gap()}) {
-        for (const double along : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9, 0.0, 1.0}) {
-            const double t = glm::mix(part->x, part->y, along);
-            const glm::dvec2 from(screen.pixel(glm::mix(a, b, t)));
-            const Label title = beyond(page.font, page.style, axis.title, from + out * away, out);
-            if (!placed.fits(title, 0.4 * page.line())) continue;
-            placed.take(title);
-            meshes.labels.text(page.font, page.style, title.text, title.topLeft, kTitle);
-            return;
-        }
+    if (const auto title = placedTitle(page, screen, axis, placed, *part, farthest)) {
+        placed.take(*title);
+        meshes.labels.text(page.font, page.style, title->text, title->topLeft, kTitle);
     }
 }
 

@@ -468,6 +468,30 @@ TEST(Axes, AllThreeAreNamedFromEveryCornerView) {
     }
 }
 
+TEST(Axes, TitlesKeepTheLegendsMarginWhereThereIsRoom) {
+    // A long title beside wide numbers. As the picture grows narrower, the place beyond the numbers
+    // comes to its edge; then the title is to stand between two of them.
+    const Grid grid({axis("x", "m", 0, 1, 5), axis("y", "m", 0, 1, 5),
+                     axis("pressure of the level", "Pa", 0, 100000, 9, true)});
+    std::size_t beyond = 0, between = 0;
+    for (int width = 1400; width >= 600; width -= 4) {
+        const glm::ivec2 size(width, 600);
+        const double line = labelStyle(size).linePixels, margin = 0.9 * line;
+        const Drawn d(grid, eyeAt(-60, 25, 3.2), size);
+        const auto title = d.label("pressure of the level (Pa)");
+        if (!title) continue;
+        // Where the middle of the labelled edge is seen.
+        const glm::dvec3 half = d.lattice.boxHalf();
+        const double edge = seen(d.view, {-half.x, -half.y, 0}).x;
+        const double length = static_cast<double>(title->hi.x - title->lo.x);
+        if (edge - length - 2 * line < margin) continue;  // no room either way
+        EXPECT_GE(title->lo.x, margin - 1) << width;
+        ++(static_cast<double>(title->hi.x) < edge - 3 * line ? beyond : between);
+    }
+    EXPECT_GT(beyond, 0u);
+    EXPECT_GT(between, 0u);
+}
+
 TEST(Axes, DegreesOfManyCirclesAreNumberedSparsely) {
     for (const double step : {500.0, 1e12, 1e300}) {
         Axis lon = tests::axis(6, 0, step);
