@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/panels/drawn_text.h"
 #include "app/panels/widgets.h"
 #include "app/view_edits.h"
 
@@ -131,9 +132,12 @@ void drawPictureOverlay(Desk& desk, const std::optional<std::string>& exporting)
     if (counts == nullptr) return;
     const Performance& p = desk.performance;
     std::vector<std::string> lines;
-    lines.push_back(p.whole ? fmt::format("{} points drawn", withCommas(p.drawn))
-                            : fmt::format("{} of {} points drawn", withCommas(p.drawn),
-                                          withCommas(p.selected)));
+    // What is counted may be a step that is not on the screen yet.
+    const auto shown = exploration.shown();
+    const bool counted = shown && p.uploaded == 1 && p.step == shown->step;
+    lines.push_back(drawnText({.splats = p.drawn,
+                               .allSplats = p.selected,
+                               .points = counted ? counts->selected : p.selected}));
     lines.push_back(fmt::format(
         "{} selected  ·  {}{}", withCommas(counts->selected),
         counts->kept == counts->total ? std::string() : withCommas(counts->kept) + " kept  ·  ",

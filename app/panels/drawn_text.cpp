@@ -1,0 +1,19 @@
+#include "app/panels/drawn_text.h"
+
+#include <fmt/format.h>
+
+#include "app/dataset.h"
+
+namespace app::panels {
+
+std::string drawnText(const Drawn& drawn) {
+    const bool shared = drawn.allSplats > drawn.points;
+    if (drawn.splats < drawn.allSplats)
+        return fmt::format("{} of {} {} drawn", withCommas(drawn.splats),
+                           withCommas(drawn.allSplats), shared ? "splats" : "points");
+    if (!shared) return fmt::format("{} points drawn", withCommas(drawn.splats));
+    return fmt::format("{} points drawn, as {} splats", withCommas(drawn.points),
+                       withCommas(drawn.splats));
+}
+
+}  // namespace app::panels

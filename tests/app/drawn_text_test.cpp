@@ -1,0 +1,21 @@
+#include "app/panels/drawn_text.h"
+
+#include <gtest/gtest.h>
+
+namespace app::panels {
+namespace {
+
+TEST(DrawnText, CountsPointsWhereEachIsDrawnOnce) {
+    EXPECT_EQ(drawnText({.splats = 100, .allSplats = 100, .points = 100}), "100 points drawn");
+    EXPECT_EQ(drawnText({.splats = 30, .allSplats = 1200, .points = 1200}),
+              "30 of 1,200 points drawn");
+}
+
+TEST(DrawnText, CallsSplatsSplatsWherePointsAreDrawnInSeveralLayers) {
+    EXPECT_EQ(drawnText({.splats = 120, .allSplats = 120, .points = 100}),
+              "100 points drawn, as 120 splats");
+    EXPECT_EQ(drawnText({.splats = 30, .allSplats = 120, .points = 100}), "30 of 120 splats drawn");
+}
+
+}  // namespace
+}  // namespace app::panels
