@@ -71,7 +71,7 @@ void Instrument::draw(Desk& desk, const Rect& at) {
     refresh(f);
 
     const glm::vec2 mouse = vec(ImGui::GetIO().MousePos);
-    const Pressing p = area("##instrument", f.across());
+    const Pressing p = area("##instrument", reach(f));
     const bool panning = p.hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
     if (p.pressed) grab_ = gripAt(f, mouse);
     if (panning)
@@ -94,6 +94,7 @@ void Instrument::draw(Desk& desk, const Rect& at) {
     if (f.hasMap()) drawMap(f);
     const Grab hovered = p.hovered && !p.held ? gripAt(f, mouse) : grab_;
     drawBands(f, hovered);
+    drawEnds(f, hovered);
     drawSweep(f);
     drawAxis(f);
     if (f.hasMap()) drawTime(f);

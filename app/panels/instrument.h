@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/edits.h"
 #include "app/panels/desk.h"
 #include "app/panels/widgets.h"
 
@@ -41,6 +42,7 @@ class Instrument {
         std::size_t layer = 0, range = 0;
         glm::vec2 pressedAt{0};
         double valueAt = 0;                // where it was pressed
+        float off = 0;                     // pixels from the end that is dragged to there
         timeseries::RangeSet ranges = {};  // as they were then
         bool newLayer = false;
         std::pair<double, double> values = {};
@@ -60,6 +62,12 @@ class Instrument {
     void drawColumn(const Frame& f, const Rect& strip, const std::vector<double>& counts,
                     double most, const ColorOfValue& color) const;
     void drawBands(const Frame& f, const Grab& hovered) const;
+    // instrument_ends.cpp
+    static Rect reach(const Frame& f);  // where the mouse is the instrument's
+    static Rect handleOf(const Frame& f, double value, End end);
+    void forEachEnd(const Frame& f, const std::function<void(std::size_t layer, std::size_t range,
+                                                             End end, double value)>& visit) const;
+    void drawEnds(const Frame& f, const Grab& hovered) const;
     void drawSweep(const Frame& f) const;
     void drawAxis(const Frame& f) const;
     void drawTime(const Frame& f) const;

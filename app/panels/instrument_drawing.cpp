@@ -132,19 +132,6 @@ void Instrument::drawBands(const Frame& f, const Grab& hovered) const {
                         high = colorAt(layers[l], f.axis.valueAt(top), alpha);
             f.list.AddRectFilledMultiColor({across.min.x, top}, {across.max.x, bottom}, high, high,
                                            low, low);
-            for (const bool upper : {false, true}) {
-                const float y = upper ? top : bottom;
-                const bool grabbed = here && hovered.grip == (upper ? Grip::Hi : Grip::Lo);
-                // Lighter than the layer: a map's dark end is as dark as the ground.
-                const ImU32 line =
-                    grabbed ? kText : mixed(colorAt(layers[l], upper ? hi : lo), kText, 0.35f);
-                f.list.AddRectFilled({across.min.x, y - (grabbed ? 1.5f : 0.75f) * f.s},
-                                     {across.max.x, y + (grabbed ? 1.5f : 0.75f) * f.s}, line);
-                // The handle, where the hand finds it.
-                const float x = f.at.axis.centre().x;
-                f.list.AddRectFilled({x - 12 * f.s, y - 3 * f.s}, {x + 12 * f.s, y + 3 * f.s}, line,
-                                     3 * f.s);
-            }
         }
     }
     f.list.PopClipRect();

@@ -54,6 +54,20 @@ Instrument::Grab Instrument::gripAt(const Frame& f, glm::vec2 mouse) const {
             mouse.y >= f.axis.y(toDouble(window.hi.value)) - reach)
             return grab.grip = Grip::Window, grab;
     }
+    if (mouse.x < f.at.histogram.min.x) {
+        forEachEnd(f, [&](std::size_t layer, std::size_t range, End end, double value) {
+            // The selected layer's before others.
+            if (!handleOf(f, value, end).holds(mouse) ||
+                (grab.grip != Grip::None && layer != f.desk.choices.layer))
+                return;
+            grab.grip = end == End::Lo ? Grip::Lo : Grip::Hi;
+            grab.layer = layer;
+            grab.range = range;
+            grab.ranges = f.explorer().layers[layer].ranges;
+            grab.off = mouse.y - std::clamp(f.axis.y(value), f.axis.top, f.axis.bottom);
+        });
+        if (grab.grip != Grip::None) return grab;
+    }
     const auto& time = playback.time;
     if (f.hasMap() && time && mouse.x >= f.at.map.min.x &&
         std::abs(mouse.x - f.steps.centre(time->step())) < reach)
@@ -78,8 +92,11 @@ Instrument::Grab Instrument::gripAt(const Frame& f, glm::vec2 mouse) const {
                 grab.range = i;
                 grab.ranges = layers[layer].ranges;
                 const float toLo = std::abs(mouse.y - lo), toHi = std::abs(mouse.y - hi);
-                if (ends && std::min(toLo, toHi) < reach)
-                    return grab.grip = toLo < toHi ? Grip::Lo : Grip::Hi, grab;
+                if (ends && std::min(toLo, toHi) < reach) {
+                    grab.grip = toLo < toHi ? Grip::Lo : Grip::Hi;
+                    grab.off = mouse.y - (toLo < toHi ? lo : hi);
+                    return grab;
+                }
                 if (!ends && !grab.newLayer && mouse.y < lo && mouse.y > hi)
                     return grab.grip = onMap ? Grip::Undecided : Grip::Band, grab;
             }
@@ -110,8 +127,9 @@ void Instrument::drag(const Frame& f, glm::vec2 mouse) {
         case Grip::Hi:
             desk.choices.layer = grab_.layer;
             if (moved.y < 1) return;
-            return setRanges(withEnd(grab_.ranges, grab_.range,
-                                     grab_.grip == Grip::Lo ? End::Lo : End::Hi, value));
+            return setRanges(
+                withEnd(grab_.ranges, grab_.range, grab_.grip == Grip::Lo ? End::Lo : End::Hi,
+                        roundedTo(f.axis.valueAt(mouse.y - grab_.off), f.axis.perPixel())));
         case Grip::Band:
             desk.choices.layer = grab_.layer;
             if (moved.y < 1) return;

@@ -81,6 +81,14 @@ InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasM
     return out;
 }
 
+Rect endHandle(const InstrumentLayout& instrument, float scale, float y, bool isUpper) {
+    const Rect& bars = instrument.histogram;
+    const float size = 9 * scale, right = bars.min.x - 2 * scale;
+    const float top =
+        std::clamp(y - (isUpper ? size : 0), bars.min.y, std::max(bars.min.y, bars.max.y - size));
+    return crisp({{right - size, top}, {right, top + size}});
+}
+
 TimeBarLayout timeBarLayout(const Rect& timeBar, float scale) {
     const float s = scale, middle = timeBar.centre().y;
     const auto button = [&](float x, float half) {

@@ -55,6 +55,10 @@ struct InstrumentLayout {
     Rect title, histogram, axis, map, times;
 };
 InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasMap);
+// The handle of an end of a range whose line is at y, left of the histogram. An upper end's stands
+// above its line, a lower one's below: handles of a thin range are apart, and those of two ranges
+// that meet. Within the histogram's height, also where the end is not.
+Rect endHandle(const InstrumentLayout& instrument, float scale, float y, bool isUpper);
 
 // The time bar: the rail lies right of the buttons and left of the settings.
 struct TimeBarLayout {

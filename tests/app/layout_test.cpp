@@ -77,6 +77,28 @@ TEST(Layout, TheColumnKeepsItsWidthWithinLimits) {
     EXPECT_EQ(layoutOf(window, 1, 5000).side.size().x, 720);
 }
 
+TEST_P(EveryLayout, HandlesOfRangesLieBesideBarsNumbersAndEachOther) {
+    const float scale = GetParam().scale;
+    for (const bool hasMap : {false, true}) {
+        const InstrumentLayout parts = instrumentLayout(side_.instrument, scale, hasMap);
+        const Rect& bars = parts.histogram;
+        for (float y = bars.min.y - 300; y < bars.max.y + 300; y += 7.3f) {
+            const Rect upper = endHandle(parts, scale, y, true),
+                       lower = endHandle(parts, scale, y, false);
+            for (const Rect& handle : {upper, lower}) {
+                EXPECT_LE(handle.max.x, bars.min.x);
+                EXPECT_GT(handle.min.x, side_.instrument.min.x);
+                EXPECT_GE(handle.min.y, bars.min.y);
+                EXPECT_LE(handle.max.y, bars.max.y);
+            }
+            const bool room = y >= bars.min.y + 10 * scale && y <= bars.max.y - 10 * scale;
+            if (room) {
+                EXPECT_LE(upper.max.y, lower.min.y + 1) << y;
+            }
+        }
+    }
+}
+
 TEST(Layout, ASeriesOfOneStepGivesItsRoomToTheHistogram) {
     const Rect instrument{{1040, 200}, {1440, 500}};
     const InstrumentLayout with = instrumentLayout(instrument, 1, true),

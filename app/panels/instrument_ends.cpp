@@ -1,0 +1,64 @@
+// The ends of ranges: a line across, but for the column of numbers, and a handle left of the
+// histogram.
+#include <algorithm>
+#include <cmath>
+
+#include "app/panels/instrument_frame.h"
+#include "app/panels/layer_style.h"
+
+namespace app::panels {
+namespace {
+
+const timeseries::Bound& boundOf(const timeseries::Range& range, End end) {
+    return end == End::Lo ? range.lo : range.hi;
+}
+
+}  // namespace
+
+Rect Instrument::reach(const Frame& f) {
+    Rect across = f.across();
+    across.min.x = endHandle(f.at, f.s, 0, true).min.x;
+    return across;
+}
+
+Rect Instrument::handleOf(const Frame& f, double value, End end) {
+    return endHandle(f.at, f.s, f.axis.y(value), end == End::Hi);
+}
+
+void Instrument::forEachEnd(
+    const Frame& f, const std::function<void(std::size_t, std::size_t, End, double)>& visit) const {
+    const std::vector<LayerChoice>& layers = f.explorer().layers;
+    for (std::size_t l = 0; l < layers.size(); ++l) {
+        if (!layers[l].visible) continue;
+        const auto ranges = layers[l].ranges.ranges();
+        for (std::size_t i = 0; i < ranges.size(); ++i)
+            for (const End end : {End::Lo, End::Hi})
+                visit(l, i, end, timeseries::toDouble(boundOf(ranges[i], end).value));
+    }
+}
+
+void Instrument::drawEnds(const Frame& f, const Grab& hovered) const {
+    forEachEnd(f, [&](std::size_t layer, std::size_t range, End end, double value) {
+        const bool grabbed = hovered.layer == layer && hovered.range == range &&
+                             hovered.grip == (end == End::Hi ? Grip::Hi : Grip::Lo);
+        // Lighter than the layer: a map's dark end is as dark as the ground.
+        const ImU32 color = grabbed ? kText
+                                    : mixed(colorAt(f.explorer().layers[layer],
+                                                    std::clamp(value, f.axis.lo, f.axis.hi)),
+                                            kText, 0.35f);
+        const bool inView = value >= f.axis.lo && value <= f.axis.hi;
+        if (inView) {
+            const float y = f.axis.y(value), half = (grabbed ? 1.5f : 0.75f) * f.s;
+            f.list.AddRectFilled({f.at.histogram.min.x - 2 * f.s, y - half},
+                                 {f.at.histogram.max.x, y + half}, color);
+            if (f.hasMap())
+                f.list.AddRectFilled({f.at.map.min.x, y - half}, {f.at.map.max.x, y + half}, color);
+        }
+        const Rect handle = handleOf(f, value, end);
+        f.list.AddRectFilled(
+            im(handle.min), im(handle.max), inView ? color : faded(color, 0.4f), 4 * f.s,
+            end == End::Hi ? ImDrawFlags_RoundCornersTopLeft : ImDrawFlags_RoundCornersBottomLeft);
+    });
+}
+
+}  // namespace app::panels
