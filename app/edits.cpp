@@ -1,9 +1,14 @@
 #include "app/edits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
 
 #include "app/first_choice.h"
 #include "app/layer_colors.h"
@@ -52,6 +57,36 @@ RangeSet replaced(const RangeSet& set, std::size_t range, const Range& by) {
     return changed.ranges().size() == set.ranges().size() ? changed : set;
 }
 
+// The finite value to which an end must come to pass one more of the ascending values. Compared as
+// selections are: floats as floats.
+template <typename T>
+std::optional<double> valuePassed(const std::vector<T>& values, double from, End end, bool up) {
+    using Key = std::conditional_t<std::is_floating_point_v<T>, T, double>;
+    const auto keyOf = [](T value) { return static_cast<Key>(value); };
+    Key edge = static_cast<Key>(from);
+    // Inwards, the outermost of what is selected is to be left out.
+    const bool inward = up == (end == End::Lo);
+    const auto beyond = [&](bool orAt) {
+        if (up) {
+            const auto found = orAt ? std::ranges::lower_bound(values, edge, {}, keyOf)
+                                    : std::ranges::upper_bound(values, edge, {}, keyOf);
+            return found == values.end() ? std::optional<Key>() : keyOf(*found);
+        }
+        const auto found = orAt ? std::ranges::upper_bound(values, edge, {}, keyOf)
+                                : std::ranges::lower_bound(values, edge, {}, keyOf);
+        return found == values.begin() ? std::optional<Key>() : keyOf(*std::prev(found));
+    };
+    if (inward) {
+        const auto outermost = beyond(true);
+        if (!outermost) return std::nullopt;
+        edge = *outermost;
+    }
+    const auto next = beyond(false);
+    if (!next || !std::isfinite(*next)) return std::nullopt;
+    // As it is written: the shortest text that means it.
+    return std::stod(fmt::format("{}", *next));
+}
+
 bool isBounded(const Bound& bound) { return std::isfinite(timeseries::toDouble(bound.value)); }
 
 }  // namespace
@@ -69,6 +104,15 @@ RangeSet withEnd(const RangeSet& ranges, std::size_t range, End end, double valu
     if (!(room.lo <= room.hi)) return ranges;
     (end == End::Lo ? changed.lo : changed.hi).value = std::clamp(value, room.lo, room.hi);
     return replaced(ranges, range, changed);
+}
+
+double steppedEnd(const SortedStep& step, double from, End end, int by, double resolution) {
+    const bool up = by > 0;
+    const auto passed = std::visit(
+        [&](const auto& values) { return valuePassed(values, from, end, up); }, step.values());
+    if (!passed) return from;
+    const double steps = roundedTo(from + by * resolution, resolution);
+    return up ? std::max(steps, *passed) : std::min(steps, *passed);
 }
 
 RangeSet withMoved(const RangeSet& ranges, std::size_t range, double by) {

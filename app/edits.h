@@ -18,6 +18,11 @@ enum class End { Lo, Hi };
 // hand. An open end stays open; an infinite value makes an end unbounded. REQUIRES: not NaN.
 timeseries::RangeSet withEnd(const timeseries::RangeSet& ranges, std::size_t range, End end,
                              double value);
+// Where an end at `from` comes to by so many steps of `resolution`, down where `by` < 0: past one
+// of the step's values at least, so that another set of points is selected, however narrow or wide
+// values lie; `from` where there is none. REQUIRES: from is finite, by != 0, resolution > 0.
+double steppedEnd(const timeseries::SortedStep& step, double from, End end, int by,
+                  double resolution);
 // The whole range dragged by `by` (finite), stopped by its neighbours; its width stays, to
 // rounding. Unbounded ends stay.
 timeseries::RangeSet withMoved(const timeseries::RangeSet& ranges, std::size_t range, double by);

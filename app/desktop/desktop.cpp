@@ -67,7 +67,6 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
         if (!first) gui_.endFrame();
         const FrameInput input = gui_.beginFrame(first ? dt : 1ms);
         panels::Requests requests;
-        requests.commands = input.commands;
         requests.open = input.dropped;
         interface_.draw(exploration_,
                         {.window = glm::vec2(window_.framebufferSize()),
@@ -77,6 +76,7 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
                          .eye = picture_.eye(),
                          .exporting = errands_.exporting(),
                          .dt = first ? dt : 0ns,
+                         .key = input.key,
                          .performance = picture_.performance()},
                         requests);
         serve(requests);

@@ -13,6 +13,11 @@ namespace {
 using panels::Key;
 static_assert(static_cast<int>(Key::Space) == GLFW_KEY_SPACE &&
               static_cast<int>(Key::Escape) == GLFW_KEY_ESCAPE &&
+              static_cast<int>(Key::Enter) == GLFW_KEY_ENTER &&
+              static_cast<int>(Key::KeypadEnter) == GLFW_KEY_KP_ENTER &&
+              static_cast<int>(Key::Tab) == GLFW_KEY_TAB &&
+              static_cast<int>(Key::Up) == GLFW_KEY_UP &&
+              static_cast<int>(Key::Down) == GLFW_KEY_DOWN &&
               static_cast<int>(Key::Right) == GLFW_KEY_RIGHT &&
               static_cast<int>(Key::Left) == GLFW_KEY_LEFT &&
               static_cast<int>(Key::Home) == GLFW_KEY_HOME &&
@@ -25,9 +30,9 @@ constexpr int kKeypadEnter = ImGuiKey_KeypadEnter;
 constexpr int kKeypadEnter = ImGuiKey_KeyPadEnter;
 #endif
 
+// Tab is not ImGui's: panels::Focus has it.
 void mapKeys(ImGuiIO& io) {
     constexpr std::pair<int, int> kKeys[] = {
-        {ImGuiKey_Tab, GLFW_KEY_TAB},
         {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
         {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
         {ImGuiKey_UpArrow, GLFW_KEY_UP},
@@ -70,13 +75,6 @@ Cursor cursorOf(ImGuiMouseCursor cursor) {
     }
 }
 
-// Which commands a key that is held down gives again and again.
-bool repeats(panels::Command command) {
-    using panels::Command;
-    return command == Command::StepForward || command == Command::StepBackward ||
-           command == Command::Undo || command == Command::Redo;
-}
-
 // Hands events to ImGui until one would hide what an earlier one of this frame says.
 class Feed {
  public:
@@ -107,7 +105,7 @@ class Feed {
         io_.KeyCtrl = own ? held(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) : e.ctrl;
         io_.KeyShift = own ? held(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) : e.shift;
         io_.KeyAlt = own ? held(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) : e.alt;
-        if (e.down) pressed.push_back(e);
+        if (e.down && !e.alt) pressed = panels::KeyPress{Key{e.key}, e.ctrl, e.shift, e.repeated};
         return key_ = true;
     }
     bool operator()(const Character& e) {
@@ -123,7 +121,7 @@ class Feed {
         return true;
     }
 
-    std::vector<KeyChanged> pressed;
+    std::optional<panels::KeyPress> pressed;
     std::vector<std::filesystem::path> dropped;
 
  private:
@@ -172,14 +170,7 @@ FrameInput Gui::beginFrame(std::chrono::nanoseconds dt) {
     io.DeltaTime = std::max(1e-4f, std::chrono::duration<float>(dt).count());
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
-    FrameInput out{.commands = {}, .dropped = std::move(feed.dropped)};
-    // Only now ImGui knows whether a field that was just clicked takes the keys.
-    for (const KeyChanged& e : feed.pressed) {
-        if (io.WantTextInput || e.alt) continue;
-        if (const auto command = panels::commandOf(Key{e.key}, e.ctrl, e.shift))
-            if (!e.repeated || repeats(*command)) out.commands.push_back(*command);
-    }
-    return out;
+    return {.key = feed.pressed, .dropped = std::move(feed.dropped)};
 }
 
 void Gui::endFrame() { ImGui::EndFrame(); }

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <optional>
 #include <vector>
 
 #include "app/desktop/window.h"
@@ -16,7 +17,7 @@ namespace app::desktop {
 
 // What a frame brought for others than ImGui.
 struct FrameInput {
-    std::vector<panels::Command> commands;  // none while text is being typed
+    std::optional<panels::KeyPress> key;
     std::vector<std::filesystem::path> dropped;
 };
 

@@ -46,6 +46,11 @@ const char* actionOf(FilePanel::For what) {
     return "";
 }
 
+void end() {
+    focus().leaveFront();
+    endRegion();
+}
+
 }  // namespace
 
 void FilePanel::ask(For what, const fs::path& path) {
@@ -96,6 +101,7 @@ void FilePanel::draw(Desk& desk) {
     const Rect at{glm::floor(window.centre() - half), glm::floor(window.centre() + half)};
     ImGui::SetNextWindowFocus();
     beginRegion("##files", window, faded(kGround, 0.6f), Depth::Front);
+    focus().enterFront();
     area("##behind", window);
     ImGui::SetItemAllowOverlap();
     ImDrawList& drawn = *ImGui::GetWindowDrawList();
@@ -108,14 +114,17 @@ void FilePanel::draw(Desk& desk) {
 
     ImGui::SetCursorScreenPos({left, at.min.y + 64 * s});
     ImGui::SetNextItemWidth(right - left);
-    if (focus_) ImGui::SetKeyboardFocusHere();
+    const Rect field{{left, at.min.y + 64 * s},
+                     {right, at.min.y + 64 * s + ImGui::GetFrameHeight()}};
+    if (takesText("##path", field) || focus_) ImGui::SetKeyboardFocusHere();
     focus_ = false;
     const bool entered = ImGui::InputTextWithHint("##path", "type a path, or choose below", &typed_,
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID("##path"));
     drawList(desk, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
 
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) close();
-    if (!for_) return endRegion();
+    if (!for_) return end();
 
     const float y = at.max.y - 46 * s;
     if (*for_ == For::Open) {
@@ -147,7 +156,7 @@ void FilePanel::draw(Desk& desk) {
             focus_ = for_.has_value();
         }
     }
-    endRegion();
+    end();
 }
 
 void FilePanel::drawList(Desk& desk, const Rect& at) {
@@ -160,10 +169,10 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
     const auto line = [&](const char* id, Icon icon, std::string_view name, bool lit) {
         const Rect r{{at.min.x + 4 * s, y}, {at.max.x - 10 * s, y + 28 * s}};
         y += 28 * s;
-        if (r.max.y < at.min.y || r.min.y > at.max.y) return Pressing{};
-        const Pressing p = area(id, r);
+        const Pressing p = button(id, r, lit || r.min.y < origin.y + 28 * s);  // the first
+        if (r.max.y < at.min.y || r.min.y > at.max.y) return p;
         ImDrawList& list = *ImGui::GetWindowDrawList();
-        if (p.hovered || lit)
+        if (p.hovered || p.focused || lit)
             list.AddRectFilled(im(r.min), im(r.max), lit ? faded(kAccent, 0.16f) : kField, 4 * s);
         drawIcon(list, icon, {r.min.x + 16 * s, r.centre().y}, s,
                  icon == Icon::Folder ? kAccent : kDim);
@@ -181,7 +190,7 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
                                 !entry.isFolder && name == typed_);
         if (p.clicked && entry.isFolder) enter = entry.path;
         if (p.clicked && !entry.isFolder) typed_ = name;
-        if (p.doubled && !entry.isFolder) open = entry.path;
+        if ((p.doubled || (p.clicked && p.focused)) && !entry.isFolder) open = entry.path;
     }
     if (!contents_.why.empty())
         text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, contents_.why, kError);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/panels/widgets.h"
 #include "render/ticks.h"
 
@@ -16,33 +18,66 @@ std::string titleOf(const timeseries::Variable& v) {
     return out;
 }
 
+// A line of a popup; closes it when it is pressed.
+bool popupRow(const Theme& theme, std::string_view label, float width, std::string_view keys = {},
+              bool enabled = true, bool now = false) {
+    const float s = theme.scale;
+    const glm::vec2 from = vec(ImGui::GetCursorScreenPos());
+    const Rect at{from, from + glm::vec2(width, 28 * s)};
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    const Pressing p = enabled ? button(std::string(label).c_str(), at) : Pressing{};
+    ImGui::SetCursorScreenPos(im(from));
+    ImGui::Dummy(im(at.size()));
+    ImGui::PopStyleVar();
+    if (p.hovered || p.focused || now)
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            im(at.min), im(at.max), p.hovered || p.focused ? kRaised : faded(kAccent, 0.16f),
+            4 * s);
+    text(theme, {at.min.x + 8 * s, at.centre().y},
+         fitting(*theme.text, label, width - 24 * s - widthOf(*theme.small, keys)),
+         enabled ? kText : kFaint);
+    text(theme, {at.max.x - 8 * s, at.centre().y}, keys, kFaint, 1, theme.small);
+    if (p.clicked) ImGui::CloseCurrentPopup();
+    return p.clicked;
+}
+
 void menu(Desk& desk, std::span<const std::filesystem::path> recent) {
+    constexpr std::size_t kRecent = 5;
+    const float width = 240 * desk.theme.scale;
     const auto item = [&](const char* label, const char* keys, Command command,
                           bool enabled = true) {
-        if (ImGui::MenuItem(label, keys, false, enabled)) desk.requests.commands.push_back(command);
+        if (popupRow(desk.theme, label, width, keys, enabled))
+            desk.requests.commands.push_back(command);
+    };
+    const auto separator = [] {
+        ImGui::Spacing();
+        ImGui::Separator();
     };
     const bool open = desk.exploration.shown().has_value();
     item("Open…", "Ctrl+O", Command::Open);
-    if (ImGui::BeginMenu("Recent", !recent.empty())) {
-        for (const auto& file : recent)
-            if (ImGui::MenuItem(file.filename().string().c_str())) desk.requests.open = {file};
-        ImGui::EndMenu();
-    }
     item("Save session…", "Ctrl+S", Command::Save, open);
-    ImGui::Separator();
+    separator();
     item("Screenshot", "F12", Command::Screenshot, open);
     item("Export the animation…", "Ctrl+E", Command::Export, open);
     item("Copy as command line", "Ctrl+C", Command::CopyCommandLine, open);
-    ImGui::Separator();
+    separator();
     item("Undo", "Ctrl+Z", Command::Undo, desk.exploration.canUndo());
     item("Redo", "Ctrl+Y", Command::Redo, desk.exploration.canRedo());
-    ImGui::Separator();
+    separator();
     item("All keys", "H", Command::Help);
+    if (recent.empty()) return;
+    separator();
+    for (const auto& file : recent.first(std::min(kRecent, recent.size()))) {
+        ImGui::PushID(file.c_str());
+        if (popupRow(desk.theme, file.filename().string(), width, "recent"))
+            desk.requests.open = {file};
+        ImGui::PopID();
+    }
 }
 
 void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
     const float s = desk.theme.scale;
-    const Pressing p = area("##variable", at);
+    const Pressing p = button("##variable", at);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.min), im(at.max), p.hovered ? kRaised : kField, 5 * s);
     text(desk.theme, {at.min.x + 10 * s, at.centre().y},
@@ -54,10 +89,12 @@ void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
     if (!beginPopup("variables")) return;
     for (const timeseries::Variable& v : shown.dataset.variables) {
         const bool now = v.name == shown.dataset.about.name;
-        if (ImGui::Selectable(titleOf(v).c_str(), now) && !now)
+        ImGui::PushID(v.name.c_str());
+        if (popupRow(desk.theme, titleOf(v), at.size().x - 24 * s, {}, true, now) && !now)
             edit(desk, {}, [&](Explorer& e) { e.variable = v.name; });
+        ImGui::PopID();
     }
-    ImGui::EndPopup();
+    endPopup();
 }
 
 }  // namespace
@@ -74,7 +111,7 @@ void drawHeader(Desk& desk, const Rect& at, std::span<const std::filesystem::pat
     ImGui::SetNextWindowPos({right, button.max.y + 4 * s}, ImGuiCond_Always, {1, 0});
     if (beginPopup("menu")) {
         menu(desk, recent);
-        ImGui::EndPopup();
+        endPopup();
     }
     variableChoice(desk, {{left, at.min.y + 48 * s}, {right, at.min.y + 78 * s}}, shown);
 }

@@ -89,6 +89,8 @@ void Instrument::draw(Desk& desk, const Rect& at) {
     if (p.hovered) zoom(f, mouse);
     readout_ = p.hovered || p.held ? hoverText(f, mouse) : std::string();
 
+    moveEndsByKeys(f);
+
     drawTitle(f);
     drawHistogram(f);
     if (f.hasMap()) drawMap(f);

@@ -68,6 +68,7 @@ class Instrument {
     void forEachEnd(const Frame& f, const std::function<void(std::size_t layer, std::size_t range,
                                                              End end, double value)>& visit) const;
     void drawEnds(const Frame& f, const Grab& hovered) const;
+    void moveEndsByKeys(const Frame& f);
     void drawSweep(const Frame& f) const;
     void drawAxis(const Frame& f) const;
     void drawTime(const Frame& f) const;

@@ -1,6 +1,7 @@
 // The ends of ranges: a line across, but for the column of numbers, and a handle left of the
-// histogram.
+// histogram, for the mouse and for the keyboard.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/panels/instrument_frame.h"
@@ -58,6 +59,40 @@ void Instrument::drawEnds(const Frame& f, const Grab& hovered) const {
         f.list.AddRectFilled(
             im(handle.min), im(handle.max), inView ? color : faded(color, 0.4f), 4 * f.s,
             end == End::Hi ? ImDrawFlags_RoundCornersTopLeft : ImDrawFlags_RoundCornersBottomLeft);
+    });
+}
+
+void Instrument::moveEndsByKeys(const Frame& f) {
+    Desk& desk = f.desk;
+    // By value: a turn edits the layers.
+    struct Moved {
+        std::size_t layer, range;
+        End end;
+        double to;
+    };
+    std::optional<Moved> moved;
+    forEachEnd(f, [&](std::size_t layer, std::size_t range, End end, double value) {
+        const std::array<int, 3> place = {static_cast<int>(layer), static_cast<int>(range),
+                                          static_cast<int>(end)};
+        for (const int part : place) ImGui::PushID(part);
+        const Focus::Turn turn =
+            focus().control(ImGui::GetID("##end"), handleOf(f, value, end), Focus::Takes::UpDown);
+        for (std::size_t i = 0; i < place.size(); ++i) ImGui::PopID();
+        if (turn.has) {
+            desk.choices.layer = layer;
+            readout_ = f.withUnit(std::isfinite(value) ? timeseries::toText(value)
+                                  : end == End::Lo     ? "min"
+                                                       : "max");
+        }
+        if (turn.by == 0) return;
+        const double from = std::isfinite(value) ? value : end == End::Lo ? f.axis.lo : f.axis.hi;
+        moved = {layer, range, end,
+                 steppedEnd(*f.shown.sorted, from, end, turn.by, f.axis.perPixel())};
+    });
+    if (!moved) return;
+    edit(desk, "instrument", [&](Explorer& e) {
+        timeseries::RangeSet& ranges = e.layers[moved->layer].ranges;
+        ranges = withEnd(ranges, moved->range, moved->end, moved->to);
     });
 }
 

@@ -56,6 +56,7 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
               .performance = around.performance};
     const std::size_t layers = exploration.explorer().layers.size();
     choices_.layer = std::min(choices_.layer, layers == 0 ? 0 : layers - 1);
+    takeKey(exploration, around.key, requests);
     popup_ = files_.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     ImGui::PushFont(around.theme.text);
     const bool started = exploration.shown().has_value();
@@ -66,8 +67,22 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
         timeBar_.draw(desk, desk.layout.timeBar);
     }
     files_.draw(desk);
+    focus_.end(around.theme.scale);
     ImGui::PopFont();
     if (ImGui::IsMouseReleased(0) || ImGui::IsMouseReleased(2)) exploration.endGesture();
+}
+
+// The control that has the focus first; else a key is a command, but for what is typed.
+void Interface::takeKey(Exploration& exploration, const std::optional<KeyPress>& key,
+                        Requests& requests) {
+    setFocus(focus_);
+    const bool typing = ImGui::GetIO().WantTextInput;
+    const bool typed = typing || focus_.expectsText();
+    if (focus_.begin(key, typing)) {
+        if (!key->repeated) exploration.endGesture();  // a held key is one gesture, as a drag
+    } else if (key && !typed) {
+        if (const auto command = commandOf(*key)) requests.commands.push_back(*command);
+    }
 }
 
 void Interface::drawPicture(Desk& desk, const Surroundings& around) {
@@ -121,18 +136,20 @@ void Interface::drawTabs(Desk& desk, const Rect& at) {
     hairline(at.min.x, at.max.x, at.min.y);
     hairline(at.min.x, at.max.x, at.max.y - 1);
     const Rect inner{{at.min.x + kMargin * s, at.min.y}, {at.max.x - kMargin * s, at.max.y}};
+    const auto now = static_cast<std::size_t>(choices_.page);
+    if (const int by = focus_.control(ImGui::GetID("##pages"), inner, Focus::Takes::LeftRight).by)
+        choices_.page = static_cast<Page>(std::clamp<std::ptrdiff_t>(
+            static_cast<std::ptrdiff_t>(now) + (by > 0 ? 1 : -1), 0, std::ssize(kPages) - 1));
     for (std::size_t i = 0; i < kPages.size(); ++i) {
         const float width = inner.size().x / kPages.size();
         const float left = inner.min.x + width * static_cast<float>(i);
         const Rect cell{{left, at.min.y}, {left + width, at.max.y}};
-        const bool now = static_cast<std::size_t>(choices_.page) == i;
+        const bool lit = now == i;
         const Pressing p = area(kPages[i], cell);
-        text(desk.theme, cell.centre(), kPages[i],
-             now         ? kText
-             : p.hovered ? kText
-                         : kDim,
-             0.5f, now ? desk.theme.strong : desk.theme.text);
-        if (now)
+        if (p.pressed) focus_.touch(ImGui::GetID("##pages"));
+        text(desk.theme, cell.centre(), kPages[i], lit || p.hovered ? kText : kDim, 0.5f,
+             lit ? desk.theme.strong : desk.theme.text);
+        if (lit)
             ImGui::GetWindowDrawList()->AddRectFilled({cell.min.x + 14 * s, cell.max.y - 2 * s},
                                                       {cell.max.x - 14 * s, cell.max.y}, kAccent);
         if (p.clicked) choices_.page = static_cast<Page>(i);
@@ -143,7 +160,11 @@ void Interface::drawTabs(Desk& desk, const Rect& at) {
 void Interface::drawEdge(Desk& desk) {
     const Rect& side = desk.layout.side;
     const float s = desk.theme.scale;
-    const Pressing p = area("##edge", {side.min, {side.min.x + 5 * s, side.max.y}});
+    const Rect at{side.min, {side.min.x + 5 * s, side.max.y}};
+    const Pressing p = area("##edge", at);
+    const Focus::Turn turn = focus_.control(ImGui::GetID("##edge"), at, Focus::Takes::LeftRight);
+    if (p.pressed) focus_.touch(ImGui::GetID("##edge"));
+    if (turn.by != 0) choices_.sideWidth = side.size().x / s - 8 * static_cast<float>(turn.by);
     if (p.hovered || p.held) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
         ImGui::GetWindowDrawList()->AddRectFilled(im(side.min), {side.min.x + 2 * s, side.max.y},

@@ -9,6 +9,7 @@
 #include "app/panels/animation_page.h"
 #include "app/panels/desk.h"
 #include "app/panels/file_panel.h"
+#include "app/panels/focus.h"
 #include "app/panels/instrument.h"
 #include "app/panels/layers_panel.h"
 #include "app/panels/messages.h"
@@ -31,6 +32,7 @@ struct Surroundings {
     bool hasPicture = true;                // a headset's stands in the room
     std::optional<std::string> exporting;  // how far an export is, while one runs
     std::chrono::nanoseconds dt{0};
+    std::optional<KeyPress> key = {};  // pressed since the last frame
     Performance performance;
 };
 
@@ -51,6 +53,7 @@ class Interface {
     std::optional<std::chrono::nanoseconds> untilNextChange() const;
 
  private:
+    void takeKey(Exploration& exploration, const std::optional<KeyPress>& key, Requests& requests);
     void drawPicture(Desk& desk, const Surroundings& around);
     void drawSide(Desk& desk, const Surroundings& around);
     void drawTabs(Desk& desk, const Rect& at);
@@ -59,6 +62,7 @@ class Interface {
     bool close(Exploration& exploration);
 
     Choices choices_;
+    Focus focus_;
     LayersPanel layers_;
     Instrument instrument_;
     TimeBar timeBar_;

@@ -43,6 +43,11 @@ constexpr std::array kHelp = {
     HelpLine{"Values", "drag an end, a band", "change a range, move it"},
     HelpLine{"Values", "click, drag across on the map", "go to a time"},
     HelpLine{"Values", "wheel, double click", "zoom the values, all of them again"},
+    HelpLine{"Controls", "Tab  Shift + Tab", "to the next control, to the one before"},
+    HelpLine{"Controls", "Enter, Space", "press it; type in a field"},
+    HelpLine{"Controls", "↑ ↓ ← →", "change it, or go to what lies beside it"},
+    HelpLine{"Controls", "Shift + ↑ ↓ ← →", "change it by ten times as much"},
+    HelpLine{"Controls", "Esc", "leave it: keys are the picture's again"},
     HelpLine{"File", "Ctrl+O  Ctrl+S", "open, save the session"},
     HelpLine{"File", "Ctrl+Z  Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
     HelpLine{"File", "F12", "screenshot"},
@@ -51,15 +56,21 @@ constexpr std::array kHelp = {
     HelpLine{"File", "H  Esc", "this help, close it"},
 };
 
+bool repeats(Command command) {
+    return command == Command::StepForward || command == Command::StepBackward ||
+           command == Command::Undo || command == Command::Redo;
+}
+
 }  // namespace
 
 std::span<const Binding> bindings() { return kBindings; }
 
-std::optional<Command> commandOf(Key key, bool ctrl, bool shift) {
+std::optional<Command> commandOf(const KeyPress& press) {
     const auto found = std::find_if(kBindings.begin(), kBindings.end(), [&](const Binding& b) {
-        return b.key == key && b.ctrl == ctrl && b.shift == shift;
+        return b.key == press.key && b.ctrl == press.ctrl && b.shift == press.shift;
     });
-    if (found == kBindings.end()) return std::nullopt;
+    if (found == kBindings.end() || (press.repeated && !repeats(found->command)))
+        return std::nullopt;
     return found->command;
 }
 

@@ -42,11 +42,16 @@ enum class Command {
 enum class Key : int {
     Space = 32,
     Escape = 256,
+    Enter = 257,
+    Tab = 258,
     Right = 262,
     Left = 263,
+    Down = 264,
+    Up = 265,
     Home = 268,
     End = 269,
-    F12 = 301
+    F12 = 301,
+    KeypadEnter = 335
 };
 constexpr Key key(char c) { return static_cast<Key>(c); }
 
@@ -56,9 +61,16 @@ struct Binding {
     bool ctrl = false, shift = false;
 };
 
+// A key that went down, or that is held and given again.
+struct KeyPress {
+    Key key;
+    bool ctrl = false, shift = false, repeated = false;
+};
+
 // Of several bindings of one command, the first is the one shown.
 std::span<const Binding> bindings();
-std::optional<Command> commandOf(Key key, bool ctrl, bool shift);
+// None too for a key that is held down, of a command that is given once.
+std::optional<Command> commandOf(const KeyPress& press);
 
 // What help and README show, in groups; mouse gestures too.
 struct HelpLine {

@@ -14,7 +14,4 @@ ImU32 colorOf(const LayerChoice& layer, float alpha = 1);
 void drawSwatch(ImDrawList& list, const Rect& at, const LayerChoice& layer, float scale);
 void drawMap(ImDrawList& list, const Rect& at, const render::ColorMap& map);
 
-// Edits a layer's colour in a popup that is open, and reports what was chosen.
-bool editColor(const Theme& theme, LayerChoice& layer);
-
 }  // namespace app::panels

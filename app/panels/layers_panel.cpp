@@ -47,16 +47,6 @@ void add(Desk& desk, const timeseries::SortedStep& step) {
     });
 }
 
-void colorPopup(Desk& desk, const Rect& swatch, std::size_t row) {
-    ImGui::SetNextWindowPos({swatch.min.x, swatch.max.y + 4 * desk.theme.scale});
-    ImGui::SetNextWindowSize({292 * desk.theme.scale, 0});
-    if (!beginPopup("color")) return;
-    Explorer next = desk.exploration.explorer();
-    if (editColor(desk.theme, layerOf(next, row)))
-        desk.exploration.edit(std::move(next), fmt::format("color {}", row));
-    ImGui::EndPopup();
-}
-
 void amountText(Desk& desk, const Rect& at, std::size_t row) {
     const PointCounts* counts = desk.exploration.counts();
     if (counts == nullptr) return;
@@ -131,7 +121,7 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
         list.AddRectFilled(im(at.row.min), im(at.row.max), faded(kField, 0.6f));
         list.AddRectFilled(im(at.row.min), {at.row.min.x + 3 * s, at.row.max.y}, kAccent);
     }
-    const Pressing pressing = area("##swatch", at.swatch);
+    const Pressing pressing = button("##swatch", at.swatch);
     drawSwatch(list, at.swatch, layer, s);
     if (pressing.hovered) list.AddRect(im(at.swatch.min), im(at.swatch.max), kText, 4 * s, 0, s);
     if (pressing.clicked) ImGui::OpenPopup("color");
@@ -152,7 +142,18 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
     if (!swept && ImGui::IsMouseClicked(0) && at.row.holds(vec(ImGui::GetIO().MousePos)) &&
         ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
         desk.choices.layer = index;
+    if (!swept && focus().in(at.row)) desk.choices.layer = index;
     if (iconButton(desk.theme, "##remove", at.remove, Icon::Remove, "Remove")) remove(desk, row);
+}
+
+void LayersPanel::colorPopup(Desk& desk, const Rect& swatch, std::size_t row) {
+    ImGui::SetNextWindowPos({swatch.min.x, swatch.max.y + 4 * desk.theme.scale});
+    ImGui::SetNextWindowSize({292 * desk.theme.scale, 0});
+    if (!beginPopup("color")) return;
+    Explorer next = desk.exploration.explorer();
+    if (color_.draw(desk, layerOf(next, row)))
+        desk.exploration.edit(std::move(next), fmt::format("color {}", row));
+    endPopup();
 }
 
 void LayersPanel::editText(Desk& desk, const LayerRowLayout& at, std::size_t row) {

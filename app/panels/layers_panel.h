@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "app/panels/color_editor.h"
 #include "app/panels/desk.h"
 #include "app/panels/widgets.h"
 
@@ -17,8 +18,10 @@ class LayersPanel {
 
  private:
     void row(Desk& desk, const LayerRowLayout& at, std::size_t row);
+    void colorPopup(Desk& desk, const Rect& swatch, std::size_t row);
     void editText(Desk& desk, const LayerRowLayout& at, std::size_t row);
     std::vector<TextField> texts_;
+    ColorEditor color_;
 };
 
 }  // namespace app::panels

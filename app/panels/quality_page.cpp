@@ -17,7 +17,9 @@ void sizeSlider(Desk& desk, Form& form) {
     const Rect row = form.row("Size");
     const float s = desk.theme.scale;
     double fraction = std::log2(now.size / least) / 4;
-    if (slider(desk.theme, "##size", {row.min, {row.max.x - 56 * s, row.max.y}}, fraction))
+    // A key: a pixel, or a fifth of an octave.
+    const double step = point ? std::log2((now.size + 1) / now.size) / 4 : 0.05;
+    if (slider(desk.theme, "##size", {row.min, {row.max.x - 56 * s, row.max.y}}, fraction, step))
         edit(desk, "splat size", [&](Explorer& e) {
             const double size = least * std::exp2(4 * fraction);
             e.footprint.size = point ? std::round(size) : roundedTo(size, 0.01 * size);

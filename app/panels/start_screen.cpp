@@ -9,7 +9,7 @@ namespace {
 bool offer(const Theme& theme, const Rect& at, Icon icon, std::string_view what,
            std::string_view where) {
     const float s = theme.scale;
-    const Pressing p = area(std::string(what).append(where).c_str(), at);
+    const Pressing p = button(std::string(what).append(where).c_str(), at);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.min), im(at.max), p.hovered ? kRaised : kPanel, 6 * s);
     drawIcon(list, icon, {at.min.x + 22 * s, at.centre().y}, s, p.hovered ? kAccent : kDim);

@@ -173,6 +173,10 @@ void TimeBar::rail(Desk& desk, const Rect& at) {
     const float in = axis.cell(first), out = axis.cell(last + 1);
 
     const Pressing p = area("##rail", {at.min - glm::vec2(6 * s, 0), at.max + glm::vec2(6 * s, 0)});
+    const Focus::Turn turn = focus().control(ImGui::GetID("##rail"), at, Focus::Takes::LeftRight);
+    if (p.pressed) focus().touch(ImGui::GetID("##rail"));
+    if (turn.by != 0) exploration.stepBy(turn.by);
+    if (turn.toEnd != 0) exploration.seek(turn.toEnd > 0 ? axis.steps - 1 : 0);
     const glm::vec2 mouse = vec(ImGui::GetIO().MousePos);
     const auto near = [&](float x) { return std::abs(mouse.x - x) < 6 * s; };
     const std::size_t step = axis.stepAt(mouse.x);

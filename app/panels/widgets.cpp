@@ -18,6 +18,15 @@ ImVec2 sizeOf(ImFont& font, std::string_view what) {
     return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, what.data(), what.data() + what.size());
 }
 
+// Where keys take a fraction; true when that is elsewhere.
+bool moved(const Focus::Turn& turn, double& fraction, double step) {
+    const double to = turn.toEnd != 0 ? (turn.toEnd > 0 ? 1.0 : 0.0)
+                                      : std::clamp(fraction + turn.by * step, 0.0, 1.0);
+    if ((turn.toEnd == 0 && turn.by == 0) || to == fraction) return false;
+    fraction = to;
+    return true;
+}
+
 }  // namespace
 
 void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color, float align,
@@ -57,19 +66,32 @@ Pressing area(const char* id, const Rect& at) {
     return out;
 }
 
+Pressing button(const char* id, const Rect& at, bool isStop) {
+    Pressing p = area(id, at);
+    const ImGuiID own = ImGui::GetID(id);
+    const Focus::Turn turn = focus().control(own, at, Focus::Takes::Nothing, isStop);
+    if (p.pressed) focus().touch(own);
+    p.clicked = p.clicked || turn.entered;
+    p.focused = turn.has;
+    return p;
+}
+
 bool iconButton(const Theme& theme, const char* id, const Rect& at, Icon icon, const char* what,
                 bool lit) {
-    const Pressing p = area(id, at);
+    const Pressing p = button(id, at);
     if (p.hovered || p.held)
         list().AddRectFilled(im(at.min), im(at.max), p.held ? kLine : kRaised, 5 * theme.scale);
     drawIcon(list(), icon, at.centre(), theme.scale, lit ? kAccent : p.hovered ? kText : kDim);
-    if (p.hovered && what != nullptr) tip(theme, what);
+    if (what != nullptr && p.hovered)
+        tip(theme, what);
+    else if (what != nullptr && p.focused)
+        tipBeside(theme, at, what);
     return p.clicked;
 }
 
 bool textButton(const Theme& theme, const char* id, const Rect& at, std::string_view label,
                 bool lit) {
-    const Pressing p = area(id, at);
+    const Pressing p = button(id, at);
     list().AddRectFilled(im(at.min), im(at.max), p.hovered ? kRaised : kField, 5 * theme.scale);
     text(theme, at.centre(), label, lit ? kAccent : kText, 0.5f);
     return p.clicked;
@@ -81,10 +103,17 @@ std::optional<std::size_t> segmented(const Theme& theme, const char* id, const R
     const float s = theme.scale, width = at.size().x / static_cast<float>(labels.size());
     list().AddRectFilled(im(at.min), im(at.max), kField, 5 * s);
     ImGui::PushID(id);
+    const ImGuiID own = ImGui::GetID("##focus");
+    if (const int by = focus().control(own, at, Focus::Takes::LeftRight).by; by != 0) {
+        const std::size_t next = by > 0 ? std::min(chosen + 1, labels.size() - 1)
+                                        : chosen - std::min<std::size_t>(chosen, 1);
+        if (next != chosen) picked = next;
+    }
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const float left = at.min.x + width * static_cast<float>(i);
         const Rect cell{{std::round(left), at.min.y}, {std::round(left + width), at.max.y}};
         const Pressing p = area(labels[i], cell);
+        if (p.pressed) focus().touch(own);
         if (i == chosen)
             list().AddRectFilled(im(cell.min + glm::vec2(2 * s)), im(cell.max - glm::vec2(2 * s)),
                                  kRaised, 4 * s);
@@ -99,11 +128,13 @@ std::optional<std::size_t> segmented(const Theme& theme, const char* id, const R
     return picked;
 }
 
-bool slider(const Theme& theme, const char* id, const Rect& at, double& fraction) {
+bool slider(const Theme& theme, const char* id, const Rect& at, double& fraction, double step) {
     const float s = theme.scale, radius = 5.5f * s, y = at.centre().y;
     const float left = at.min.x + radius, right = at.max.x - radius;
     const Pressing p = area(id, at);
-    bool changed = false;
+    const ImGuiID own = ImGui::GetID(id);
+    bool changed = moved(focus().control(own, at, Focus::Takes::LeftRight), fraction, step);
+    if (p.pressed) focus().touch(own);
     if (p.held) {
         const double t = std::clamp(
             static_cast<double>((ImGui::GetIO().MousePos.x - left) / (right - left)), 0.0, 1.0);
@@ -136,12 +167,29 @@ bool rangeSlider(const Theme& theme, const char* id, const Rect& at, double& lo,
         changed = t != end;
         end = t;
     }
+    ImGui::PushID(id);
+    for (double* end : {&lo, &hi}) {
+        const float x = place(*end);
+        const ImGuiID own = ImGui::GetID(end == &lo ? "##lo" : "##hi");
+        const Focus::Turn turn = focus().control(
+            own, {{x - radius, y - radius}, {x + radius, y + radius}}, Focus::Takes::LeftRight);
+        double to = *end;
+        if (!moved(turn, to, 0.02)) continue;
+        *end = end == &lo ? std::min(to, hi) : std::max(to, lo);
+        changed = true;
+    }
+    ImGui::PopID();
     list().AddRectFilled({left, y - 1.5f * s}, {right, y + 1.5f * s}, kRaised, 1.5f * s);
     list().AddRectFilled({place(lo), y - 1.5f * s}, {place(hi), y + 1.5f * s},
                          faded(kAccent, 0.75f));
     for (const double t : {lo, hi})
         list().AddCircleFilled({place(t), y}, radius, p.hovered ? kText : rgb(0xb6c0cc), 20);
     return changed;
+}
+
+bool takesText(const char* id, const Rect& at) {
+    const Focus::Turn turn = focus().control(ImGui::GetID(id), at, Focus::Takes::Typing);
+    return turn.came || turn.entered;
 }
 
 std::optional<std::string> TextField::draw(const Theme& theme, const char* id, const Rect& at,
@@ -151,12 +199,12 @@ std::optional<std::string> TextField::draw(const Theme& theme, const char* id, c
     ImGui::SetNextItemWidth(at.size().x);
     const float pad = 0.5f * (at.size().y - theme.text->FontSize);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {8 * theme.scale, std::max(0.0f, pad)});
-    if (focus_) ImGui::SetKeyboardFocusHere();
-    focus_ = false;
+    if (takesText(id, at)) ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputTextWithHint(
         id, hint, &typed_,
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     ImGui::PopStyleVar();
+    if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID(id));
     active_ = ImGui::IsItemActive();
     if (active_)
         list().AddRect(im(at.min), im(at.max), faded(kAccent, 0.8f), 4 * theme.scale, 0,
@@ -185,8 +233,23 @@ bool beginPopup(const char* id) {
     const bool open = ImGui::BeginPopup(id);
     ImGui::PopStyleVar();
     if (!open) return false;
+    focus().enterFront();
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
     return true;
+}
+
+void endPopup() {
+    focus().leaveFront();
+    ImGui::EndPopup();
+}
+
+void tipBeside(const Theme& theme, const Rect& at, std::string_view what) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const bool right = at.centre().x > 0.5f * window.x, low = at.centre().y > 0.5f * window.y;
+    const float gap = 6 * theme.scale;
+    ImGui::SetNextWindowPos({right ? at.max.x : at.min.x, low ? at.min.y - gap : at.max.y + gap},
+                            ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
+    tip(theme, what);
 }
 
 void tip(const Theme& theme, std::string_view what) {

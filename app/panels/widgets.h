@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/panels/focus.h"
 #include "app/panels/icons.h"
 #include "app/panels/theme.h"
 
@@ -23,21 +24,29 @@ float widthOf(ImFont& font, std::string_view what);
 // What happened to a rectangle that is pressed and dragged.
 struct Pressing {
     bool hovered = false, pressed = false, held = false, released = false, doubled = false;
-    bool clicked = false;  // released where it was pressed
+    bool clicked = false;  // released where it was pressed, or entered with the keyboard
+    bool focused = false;
 };
+// Under the mouse alone.
 Pressing area(const char* id, const Rect& at);
+// The keyboard reaches it too (focus.h).
+Pressing button(const char* id, const Rect& at, bool isStop = true);
 
 bool iconButton(const Theme& theme, const char* id, const Rect& at, Icon icon,
                 const char* tip = nullptr, bool lit = false);
 bool textButton(const Theme& theme, const char* id, const Rect& at, std::string_view label,
                 bool lit = false);
-// One of a few, side by side. Returns the one chosen now.
+// One of a few, side by side; arrows choose. Returns the one chosen now.
 std::optional<std::size_t> segmented(const Theme& theme, const char* id, const Rect& at,
                                      std::span<const char* const> labels, std::size_t chosen);
-// A thin slider of [0, 1]; true while it is dragged to another value.
-bool slider(const Theme& theme, const char* id, const Rect& at, double& fraction);
+// A thin slider of [0, 1]; true when it comes to another value, by `step` with a key.
+bool slider(const Theme& theme, const char* id, const Rect& at, double& fraction,
+            double step = 0.02);
 // A slider of two ends, lo <= hi, in [0, 1].
 bool rangeSlider(const Theme& theme, const char* id, const Rect& at, double& lo, double& hi);
+
+// Makes ImGui's field `id`, which follows, a control; true when it is to take the text now.
+bool takesText(const char* id, const Rect& at);
 
 // A field of text that reports what was entered (Enter, or leaving the field) and takes the shown
 // text again otherwise. Keeps what is being typed while it is active.
@@ -46,21 +55,23 @@ class TextField {
     // `shown`: what stands there while nobody types.
     std::optional<std::string> draw(const Theme& theme, const char* id, const Rect& at,
                                     std::string_view shown, const char* hint = "");
-    void focus() { focus_ = true; }
     bool active() const { return active_; }
 
  private:
     std::string typed_;
-    bool active_ = false, focus_ = false;
+    bool active_ = false;
 };
 
 // A number in a field: what was entered, when it is a finite number.
 std::optional<double> numberField(const Theme& theme, TextField& field, const char* id,
                                   const Rect& at, double shown);
 
-// ImGui's, closed by Escape too.
+// ImGui's, closed by Escape too, with the keys to itself.
 bool beginPopup(const char* id);
+void endPopup();
+// At the cursor, or beside what has the focus.
 void tip(const Theme& theme, std::string_view what);
+void tipBeside(const Theme& theme, const Rect& at, std::string_view what);
 // Horizontal hairline.
 void hairline(float x0, float x1, float y);
 // Slanted lines: what has not been seen.

@@ -1,7 +1,9 @@
 #include "app/edits.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -161,6 +163,53 @@ TEST_F(RangeEdits, TakingAwayAndAddingAreWhatSetsDo) {
         for (double v = -11; v <= 11; v += 0.125)
             EXPECT_EQ(oracle::holds<double>(with(before, added).ranges(), v),
                       oracle::holds<double>(before.ranges(), v) || oracle::holds<double>(added, v));
+    }
+}
+
+// A range's points, counted one by one.
+std::uint64_t countOf(const std::vector<float>& values, double lo, double hi) {
+    const RangeSet range = RangeSet({Range{{lo}, {hi}}});
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        values, [&](float value) { return oracle::holds(range.ranges(), value); }));
+}
+
+TEST(SteppedEnd, SelectsOtherPointsWithEveryStep) {
+    std::mt19937_64 random(3);
+    // Crowded in places, wide apart in others, and ties.
+    std::vector<float> values(1000);
+    for (float& value : values)
+        value = 300 + std::round(std::pow(static_cast<float>(random() % 1000) / 100, 3.0f)) / 7;
+    const auto step = timeseries::SortedStep::build({tests::cube(10), values, {}});
+    const double least = std::ranges::min(values), most = std::ranges::max(values);
+    for (const double resolution : {1e-5, 0.3, 5.0}) {
+        for (const int by : {1, -1, 10, -10}) {
+            double lo = 320, hi = 380;
+            for (int i = 0; i < 400; ++i) {
+                const double above = steppedEnd(step, hi, End::Hi, by, resolution);
+                const double below = steppedEnd(step, lo, End::Lo, -by, resolution);
+                const std::string which =
+                    fmt::format("{} to {}, {} times {}", lo, hi, by, resolution);
+                const auto upTo = [&](double end) { return countOf(values, -kInfinity, end); };
+                const auto from = [&](double end) { return countOf(values, end, kInfinity); };
+                // An end stays where there is no value to pass: all are selected, or the last at
+                // most.
+                const std::uint64_t all = values.size();
+                if (above == hi) {
+                    EXPECT_TRUE(by > 0 ? upTo(hi) == all : upTo(hi) <= upTo(least)) << which;
+                }
+                if (below == lo) {
+                    EXPECT_TRUE(by > 0 ? from(lo) == all : from(lo) <= from(most)) << which;
+                }
+                if (above == hi || below == lo) break;
+                EXPECT_GE(std::abs(above - hi), 0.49 * resolution * std::abs(by)) << which;
+                EXPECT_EQ(upTo(above) > upTo(hi), by > 0) << which;
+                EXPECT_NE(upTo(above), upTo(hi)) << which;
+                EXPECT_EQ(from(below) > from(lo), by > 0) << which;
+                EXPECT_NE(from(below), from(lo)) << which;
+                hi = above;
+                lo = below;
+            }
+        }
     }
 }
 

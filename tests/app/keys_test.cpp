@@ -19,8 +19,15 @@ TEST(Keys, NoTwoCommandsShareAKey) {
 }
 
 TEST(Keys, EveryBindingIsObeyed) {
-    for (const Binding& b : bindings()) EXPECT_EQ(commandOf(b.key, b.ctrl, b.shift), b.command);
-    EXPECT_EQ(commandOf(Key::Space, true, false), std::nullopt);
+    for (const Binding& b : bindings()) EXPECT_EQ(commandOf({b.key, b.ctrl, b.shift}), b.command);
+    EXPECT_EQ(commandOf({Key::Space, true}), std::nullopt);
+}
+
+TEST(Keys, HeldDownStepAndUndoButDoNotToggle) {
+    EXPECT_EQ(commandOf({.key = Key::Right, .repeated = true}), Command::StepForward);
+    EXPECT_EQ(commandOf({.key = key('Z'), .ctrl = true, .repeated = true}), Command::Undo);
+    EXPECT_EQ(commandOf({.key = Key::Space, .repeated = true}), std::nullopt);
+    EXPECT_EQ(commandOf({.key = Key::F12, .repeated = true}), std::nullopt);
 }
 
 TEST(Keys, TheReadmeHasTheTableThatTheHelpShows) {

@@ -1,0 +1,132 @@
+#include "app/panels/color_editor.h"
+
+#include <array>
+
+#include "app/choice_text.h"
+#include "app/layer_colors.h"
+#include "app/panels/form.h"
+#include "app/panels/layer_style.h"
+
+namespace app::panels {
+namespace {
+
+// One of the colours that are offered; returns whether it was pressed.
+bool paletteCell(const Theme& theme, const Rect& at, const glm::dvec3& srgb, bool now) {
+    const float s = theme.scale;
+    const Pressing p = button("##palette", at, now);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(im(at.min), im(at.max), fromSrgb(srgb), 4 * s);
+    if (p.hovered || now)
+        list.AddRect(im(at.min - glm::vec2(2 * s)), im(at.max + glm::vec2(2 * s)),
+                     now ? kText : kDim, 5 * s);
+    return p.clicked;
+}
+
+bool mapRow(const Theme& theme, const Rect& at, std::string_view name, bool now) {
+    const float s = theme.scale;
+    const Pressing p = button(std::string(name).c_str(), at, now);
+    drawMap(*ImGui::GetWindowDrawList(),
+            {at.min + glm::vec2(84 * s, 3 * s), at.max - glm::vec2(0, 3 * s)},
+            *render::colorMapNamed(name));
+    text(theme, {at.min.x, at.centre().y}, name,
+         now         ? kAccent
+         : p.hovered ? kText
+                     : kDim,
+         0, theme.small);
+    return p.clicked;
+}
+
+}  // namespace
+
+bool ColorEditor::draw(Desk& desk, LayerChoice& layer) {
+    constexpr std::array kKinds = {"One colour", "By value"};
+    const float s = desk.theme.scale, width = 264 * s;
+    const bool byValue = layer.color && std::holds_alternative<MapChoice>(*layer.color);
+    const glm::vec2 at = vec(ImGui::GetCursorScreenPos());
+    bool changed = false;
+    if (const auto kind = segmented(desk.theme, "kind", {at, at + glm::vec2(width, 28 * s)}, kKinds,
+                                    byValue ? 1 : 0)) {
+        if (*kind == 1)
+            layer.color = MapChoice{};
+        else
+            layer.color = kLayerColors[0];
+        changed = true;
+    }
+    ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 38 * s)));
+    const bool maps = layer.color && std::holds_alternative<MapChoice>(*layer.color);
+    return (maps ? drawMaps(desk, layer, width) : drawConstant(desk, layer, width)) || changed;
+}
+
+bool ColorEditor::drawConstant(Desk& desk, LayerChoice& layer, float width) {
+    const float s = desk.theme.scale;
+    bool changed = false;
+    const glm::vec2 at = vec(ImGui::GetCursorScreenPos());
+    const float cell = (width + 4 * s) / kLayerColors.size();
+    for (std::size_t i = 0; i < kLayerColors.size(); ++i) {
+        const glm::vec2 corner = at + glm::vec2(cell * static_cast<float>(i), 0);
+        const bool now = layer.color == std::variant<glm::dvec3, MapChoice>(kLayerColors[i]);
+        ImGui::PushID(static_cast<int>(i));
+        if (paletteCell(desk.theme, {corner, corner + glm::vec2(cell - 4 * s, 24 * s)},
+                        kLayerColors[i], now)) {
+            layer.color = kLayerColors[i];
+            changed = true;
+        }
+        ImGui::PopID();
+    }
+    ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 34 * s)));
+    const auto* constant = layer.color ? std::get_if<glm::dvec3>(&*layer.color) : nullptr;
+    const glm::dvec3 srgb = constant != nullptr ? *constant : kLayerColors[0];
+    std::array<float, 3> c = {static_cast<float>(srgb.x), static_cast<float>(srgb.y),
+                              static_cast<float>(srgb.z)};
+    const auto take = [&](const std::string& hex) {
+        try {
+            layer.color = parseColor(hex);
+            changed = true;
+        } catch (const ChoiceError& error) {
+            desk.exploration.tell(error.what(), true);
+        }
+    };
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::ColorPicker3("##picker", c.data(),
+                            ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoSmallPreview |
+                                ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoInputs |
+                                ImGuiColorEditFlags_PickerHueBar))
+        // As a text would say it, so that what is saved is what is shown.
+        take(colorText(glm::dvec3(c[0], c[1], c[2])));
+    const glm::vec2 field = vec(ImGui::GetCursorScreenPos());
+    if (const auto hex = hex_.draw(desk.theme, "##hex", {field, field + glm::vec2(width, 28 * s)},
+                                   colorText(srgb), "#rrggbb"))
+        take(*hex);
+    return changed;
+}
+
+bool ColorEditor::drawMaps(Desk& desk, LayerChoice& layer, float width) {
+    const float s = desk.theme.scale;
+    bool changed = false;
+    MapChoice choice = std::get<MapChoice>(*layer.color);
+    glm::vec2 at = vec(ImGui::GetCursorScreenPos());
+    for (const std::string_view name : render::colorMapNames()) {
+        const render::ColorMap map = *render::colorMapNamed(name);
+        if (mapRow(desk.theme, {at, at + glm::vec2(width, 26 * s)}, name, choice.map == map)) {
+            choice.map = map;
+            changed = true;
+        }
+        at.y += 32 * s;
+    }
+    const Rect row{at, at + glm::vec2(width, 28 * s)};
+    const double least = choice.lo.value_or(0), most = choice.hi.value_or(0);
+    if (const auto lo = numberField(desk.theme, lo_, "##lo", part(row, 0, 2, s), least);
+        lo && *lo < most) {
+        choice.lo = lo;
+        changed = true;
+    }
+    if (const auto hi = numberField(desk.theme, hi_, "##hi", part(row, 1, 2, s), most);
+        hi && *hi > least) {
+        choice.hi = hi;
+        changed = true;
+    }
+    if (changed) layer.color = choice;
+    return changed;
+}
+
+}  // namespace app::panels

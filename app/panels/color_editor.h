@@ -1,0 +1,21 @@
+// A layer's colour, chosen in a popup: one colour, or a map and its ends.
+#pragma once
+
+#include "app/explorer.h"
+#include "app/panels/desk.h"
+#include "app/panels/widgets.h"
+
+namespace app::panels {
+
+class ColorEditor {
+ public:
+    // In a popup that is open; true when it has changed the layer's colour.
+    bool draw(Desk& desk, LayerChoice& layer);
+
+ private:
+    bool drawConstant(Desk& desk, LayerChoice& layer, float width);
+    bool drawMaps(Desk& desk, LayerChoice& layer, float width);
+    TextField hex_, lo_, hi_;
+};
+
+}  // namespace app::panels
