@@ -67,6 +67,7 @@ void PictureView::redraw(const Shown& shown, bool moving, std::chrono::nanosecon
         pace_.took(report_.gpuSplats, *report_.gpuTime);
         performance_.frame = *report_.gpuTime;
     }
+    const std::uint64_t picture = performance_.picture + 1;
     performance_ = {.frame = performance_.frame,
                     .budget = frameBudget,
                     .drawn = report_.drawn,
@@ -74,7 +75,8 @@ void PictureView::redraw(const Shown& shown, bool moving, std::chrono::nanosecon
                     .gpuBytes = report_.gpuBytes,
                     .whole = report_.whole,
                     .uploaded = report_.uploaded,
-                    .step = report_.step};
+                    .step = report_.step,
+                    .picture = picture};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
     if (canvas_.lattice() != nullptr) boxHalfEdges_ = canvas_.lattice()->boxHalfEdges();
     eye_ = eyes.size() == 1 ? std::optional(eyes.front()) : std::nullopt;
@@ -87,6 +89,20 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     if (!drawn_ || report_.whole) return std::nullopt;
     return report_.uploaded < 1 ? 0ns : std::chrono::nanoseconds(kRest);
+}
+
+std::optional<panels::Reading> PictureView::readSoon(glm::vec2 at) {
+    const auto splats = static_cast<double>(report_.drawn);
+    if (splats * readNs_ > std::chrono::duration<double, std::nano>(kSoon).count()) {
+        readNs_ *= 0.9;  // a machine that was slow once is tried again
+        return std::nullopt;
+    }
+    const Clock::time_point begin = Clock::now();
+    const auto reading = read(at);
+    // Few splats say little of what one costs.
+    if (report_.drawn > 10'000)
+        readNs_ = std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / splats;
+    return reading;
 }
 
 std::optional<panels::Reading> PictureView::read(glm::vec2 at) const {

@@ -29,6 +29,9 @@ class PictureView {
 
     // What is seen at a place of the picture, y down; none there, and with two eyes.
     std::optional<panels::Reading> read(glm::vec2 at) const;
+    // Likewise, where that keeps nobody waiting: none too where it would take kSoon or more.
+    std::optional<panels::Reading> readSoon(glm::vec2 at);
+    static constexpr std::chrono::milliseconds kSoon{50};
 
     // How long the frame took that the last draw() belongs to, where the GPU did not tell.
     void took(std::chrono::nanoseconds frame);
@@ -59,7 +62,8 @@ class PictureView {
     glm::dmat3 boxHalfEdges_{0.5};
     std::optional<render::View> eye_;
     Clock::time_point changed_ = Clock::now();
-    bool timed_ = true;  // what was drawn last has its time
+    double readNs_ = 10;  // of a read, a splat drawn, as the last one took
+    bool timed_ = true;   // what was drawn last has its time
 };
 
 }  // namespace app::desktop

@@ -34,8 +34,9 @@ struct Performance {
     std::chrono::nanoseconds frame{0}, budget{0};
     std::uint64_t drawn = 0, selected = 0, gpuBytes = 0;
     bool whole = true;
-    double uploaded = 1;   // share of the step shown that is on the GPU
-    std::size_t step = 0;  // on the screen
+    double uploaded = 1;        // share of the step shown that is on the GPU
+    std::size_t step = 0;       // on the screen
+    std::uint64_t picture = 0;  // another number, another picture
 };
 
 // What the user chose of the interface itself: no part of a picture, not undone.
@@ -56,6 +57,7 @@ struct Requests {
     bool cancelExport = false;
     std::optional<glm::vec2> probe;  // where to read, in pixels of the picture, y down
     bool ruler = false;              // the reading asked for is another end of the ruler
+    std::optional<glm::vec2> hover;  // likewise, for a look that must be quick
 };
 
 struct Desk {

@@ -90,6 +90,8 @@ void Interface::drawPicture(Desk& desk, const Surroundings& around) {
     if (desk.exploration.shown()) {
         if (around.hasPicture) picture_.handle(desk, around.boxHalfEdges);
         if (around.eye) drawMarks(desk, *around.eye);
+        hover_.follow(desk, help_ || popup_ ? std::nullopt : picture_.pointer(), around.dt);
+        hover_.draw(desk);
     } else if (!desk.exploration.opening()) {
         drawStartScreen(desk, around.offers);
     }
@@ -272,7 +274,9 @@ bool Interface::close(Exploration& exploration) {
 }
 
 std::optional<std::chrono::nanoseconds> Interface::untilNextChange() const {
-    return messages_.untilNextGoes();
+    const auto messages = messages_.untilNextGoes(), hover = hover_.untilNextChange();
+    if (!messages || !hover) return messages ? messages : hover;
+    return std::min(*messages, *hover);
 }
 
 }  // namespace app::panels

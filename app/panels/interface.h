@@ -10,6 +10,7 @@
 #include "app/panels/desk.h"
 #include "app/panels/file_panel.h"
 #include "app/panels/focus.h"
+#include "app/panels/hover_tip.h"
 #include "app/panels/instrument.h"
 #include "app/panels/layers_panel.h"
 #include "app/panels/messages.h"
@@ -47,6 +48,7 @@ class Interface {
     void takeReading(const std::optional<Reading>& reading, bool ruler) {
         probe_.take(reading, ruler);
     }
+    void takeHover(const std::optional<Reading>& reading) { hover_.take(reading); }
 
     Choices& choices() { return choices_; }
     // Until the interface changes by itself.
@@ -70,6 +72,7 @@ class Interface {
     ViewPage view_;
     ProbePage probe_;
     PictureArea picture_;
+    HoverTip hover_;
     Messages messages_;
     FilePanel files_;
     bool help_ = false;

@@ -85,6 +85,7 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     ImGui::InvisibleButton("##picture", im(glm::max(at.size(), glm::vec2(1))),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemAllowOverlap();
+    pointer_.reset();
     if (!exploration.shown()) return;
     const Looking looking{boxHalfEdges, exploration.explorer().size};
     const glm::dvec2 cursor = vec(io.MousePos) - at.min;
@@ -100,6 +101,7 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
         });
     }
     if (!ImGui::IsItemHovered()) return;
+    if (!ImGui::IsItemActive()) pointer_ = cursor;
     if (io.MouseWheel != 0)
         edit(desk, "zoom", [&](Explorer& e) {
             e.view =

@@ -10,10 +10,13 @@ class PictureArea {
     // Takes the mouse over the picture. `boxHalfEdges`: Lattice::boxHalfEdges() of what is drawn
     // there.
     void handle(Desk& desk, const glm::dmat3& boxHalfEdges);
+    // The pointer's place on the picture, in its pixels; none where it is elsewhere or drags.
+    const std::optional<glm::vec2>& pointer() const { return pointer_; }
 
  private:
     enum class Grip { None, Turn, Move };
     Grip grip_ = Grip::None;
+    std::optional<glm::vec2> pointer_;
 };
 
 // What is opening, what is shown instead of what is asked for, and how fast frames come.

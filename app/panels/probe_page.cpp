@@ -3,22 +3,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "render/ticks.h"
+#include "app/panels/reading_text.h"
 
 namespace app::panels {
 namespace {
-
-std::string withUnit(const std::string& number, const std::string& unit) {
-    const std::string shown = render::shownUnit(unit);
-    return shown.empty() || shown == "index" ? number : number + " " + shown;
-}
-
-// As few digits as tell the value among those of its own type.
-std::string valueText(const timeseries::Number& value, timeseries::ValueType type) {
-    if (type == timeseries::ValueType::F32)
-        return fmt::format("{}", static_cast<float>(timeseries::toDouble(value)));
-    return timeseries::toText(value);
-}
 
 void line(const Theme& theme, Form& form, std::string_view label, std::string_view what) {
     const Rect row = form.row(label);
@@ -58,20 +46,15 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     Form form(desk.theme, "##probe", at);
     if (!first_) {
         form.note(
-            "Double click on the picture reads the point that is seen there. Shift and double "
-            "click then measures to another.");
+            "Double click on the picture keeps what is read there. Shift and double click then "
+            "measures to another point.");
         return;
     }
     const timeseries::Grid& grid = shown->sorted->grid();
     const Reading& r = second_ ? *second_ : *first_;
-    line(desk.theme, form, shown->dataset.about.name,
-         withUnit(valueText(r.value, shown->sorted->type()), shown->dataset.about.units));
-    for (int i = 0; i < 3; ++i) {
-        const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(i)];
-        line(desk.theme, form, axis.name,
-             fmt::format("{}   [{}]", withUnit(fmt::format("{:.6g}", r.position[i]), axis.units),
-                         r.index[static_cast<std::size_t>(i)]));
-    }
+    line(desk.theme, form, shown->dataset.about.name, valueText(r, *shown));
+    for (std::size_t i = 0; i < 3; ++i)
+        line(desk.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
     line(desk.theme, form, "Time", timeText(*shown->dataset.about.time, r.step));
     if (second_) ruler(desk, form, *first_, *second_, grid);
     if (textButton(desk.theme, "Clear", part(form.row(), 0, 3, desk.theme.scale), "Clear")) clear();

@@ -183,6 +183,8 @@ void Driver::move(glm::vec2 to) {
     sync();
 }
 
+void Driver::moveAway() { move({3, 3}); }
+
 void Driver::down(Button button) {
     XTestFakeButtonEvent(screen_.connection(), static_cast<unsigned>(button), True, CurrentTime);
     sync();

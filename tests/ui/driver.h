@@ -53,6 +53,7 @@ class Driver {
     void type(std::string_view text);  // letters, digits and ./-_:
     void move(glm::vec2 to);
     void moveOnly(glm::vec2 to);  // without sync()
+    void moveAway();              // where nothing is under the pointer
     void down(Button button = Button::Left);
     void up(Button button = Button::Left);
     void click(glm::vec2 at);

@@ -18,6 +18,7 @@ TEST_F(DeskTakesAway, TheScreenshotThatTheCopiedCommandLineMakes) {
     Driver desk(screen(), folder(), {demo().string(), "--range", "350:500", "--range", "700:max"});
     desk.waitForTitle("pool_fire_T.nc · T");
     desk.drag({500, 400}, {640, 380});
+    desk.moveAway();
     desk.press("End");
     desk.waitForTitle("2 s");
     const Places at = placesOf(desk.size());

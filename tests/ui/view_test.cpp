@@ -12,7 +12,11 @@ class DeskView : public DeskTest {
         desk_->waitForTitle("pool_fire_T.nc · T");
         at_ = placesOf(desk_->size());
     }
-    Shot picture() { return desk_->settled(at_.clear); }
+    // Without what stands beside a pointer that rests.
+    Shot picture() {
+        desk_->moveAway();
+        return desk_->settled(at_.clear);
+    }
 
     std::optional<Driver> desk_;
     Places at_;
@@ -35,6 +39,37 @@ TEST_F(DeskView, TurnsMovesZoomsAndFits) {
     EXPECT_EQ(differing(picture(), fitted), 0u);
     for (int i = 0; i < 5; ++i) desk_->press("ctrl+z");
     EXPECT_EQ(differing(picture(), first), 0u);
+}
+
+// Where a picture is most colourful, away from its right and lower edge: in the fire, for lines and
+// text are grey.
+glm::vec2 mostColorful(const Shot& shot, const app::panels::Rect& place) {
+    glm::ivec2 best(place.min);
+    int most = -1;
+    for (int y = static_cast<int>(place.min.y); y < static_cast<int>(place.max.y) - 150; ++y)
+        for (int x = static_cast<int>(place.min.x); x < static_cast<int>(place.max.x) - 350; ++x) {
+            const auto [least, highest] = std::ranges::minmax(shot.at({x, y}));
+            if (highest - least <= most) continue;
+            most = highest - least;
+            best = {x, y};
+        }
+    return best;
+}
+
+TEST_F(DeskView, TellsWhatThePointerRestsOn) {
+    const Shot before = picture(), whole = desk_->shot();
+    const app::panels::Rect& clear = at_.clear;
+    const glm::vec2 found = mostColorful(whole, clear);
+    desk_->move(found);
+    desk_->waitFor("a card appears", [&] { return differing(desk_->shot(clear), before) > 1000; });
+    const Shot with = desk_->settled();
+    const auto changed = [&](const app::panels::Rect& place) {
+        return differing(part(with, place), part(whole, place));
+    };
+    EXPECT_GT(changed({found + glm::vec2(14), found + glm::vec2(340, 130)}), 1000u);
+    EXPECT_EQ(changed({clear.min, {found.x, clear.max.y}}), 0u);
+    EXPECT_EQ(changed({clear.min, {clear.max.x, found.y}}), 0u);
+    EXPECT_EQ(differing(picture(), before), 0u) << "gone with the pointer";
 }
 
 TEST_F(DeskView, ShowsItsKeysAndHidesThem) {

@@ -1,0 +1,79 @@
+#include "app/panels/hover_tip.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+
+#include "app/panels/reading_text.h"
+#include "app/panels/widgets.h"
+
+namespace app::panels {
+
+void HoverTip::follow(Desk& desk, const std::optional<glm::vec2>& cursor,
+                      std::chrono::nanoseconds dt) {
+    const std::uint64_t picture = desk.performance.picture;
+    const bool rests = cursor && cursor == at_ && picture == picture_ && desk.performance.whole &&
+                       !desk.exploration.playback().playing;
+    at_ = cursor;
+    picture_ = picture;
+    isNew_ = false;
+    if (!rests) {
+        rested_ = std::chrono::nanoseconds(0);
+        asked_ = false;
+        reading_.reset();
+        return;
+    }
+    rested_ += dt;
+    if (asked_ || rested_ < kRest) return;
+    asked_ = true;
+    desk.requests.hover = at_;
+}
+
+void HoverTip::take(const std::optional<Reading>& reading) {
+    reading_ = reading;
+    isNew_ = reading.has_value();
+}
+
+std::optional<std::chrono::nanoseconds> HoverTip::untilNextChange() const {
+    using std::chrono::nanoseconds;
+    if (isNew_) return nanoseconds(0);  // it came after its frame was drawn
+    if (!at_ || asked_) return std::nullopt;
+    return std::max(nanoseconds(0), kRest - rested_);
+}
+
+void HoverTip::draw(const Desk& desk) const {
+    const auto shown = desk.exploration.shown();
+    if (!reading_ || !at_ || !shown) return;
+    const Theme& theme = desk.theme;
+    const float s = theme.scale, line = 19 * s;
+    const std::string value =
+        fmt::format("{}  {}", shown->dataset.about.name, valueText(*reading_, *shown));
+    std::array<std::string, 3> places;
+    float width = widthOf(*theme.strong, value);
+    for (std::size_t i = 0; i < 3; ++i) {
+        places[i] = positionText(*reading_, *shown, i);
+        width = std::max(width, 24 * s + widthOf(*theme.small, places[i]));
+    }
+    // Below and right of the pointer; on its other side where the picture ends.
+    const Rect& picture = desk.layout.picture;
+    const glm::vec2 size(width + 22 * s, 4 * line + 14 * s), pointer = picture.min + *at_;
+    glm::vec2 corner = pointer + glm::vec2(16 * s);
+    if (corner.x + size.x > picture.max.x) corner.x = pointer.x - 12 * s - size.x;
+    if (corner.y + size.y > picture.max.y) corner.y = pointer.y - 12 * s - size.y;
+    corner = glm::floor(corner);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(im(corner), im(corner + size), faded(kPanel, 0.92f), 5 * s);
+    list.AddRect(im(corner), im(corner + size), kLine, 5 * s);
+    glm::vec2 at = corner + glm::vec2(11 * s, 7 * s + 0.5f * line);
+    text(theme, at, value, kText, 0, theme.strong);
+    for (std::size_t i = 0; i < 3; ++i) {
+        at.y += line;
+        const timeseries::Axis& axis = shown->sorted->grid().axes()[i];
+        text(theme, at, fitting(*theme.small, axis.name, 30 * s), kFaint, 0, theme.small);
+        text(theme, at + glm::vec2(size.x - 22 * s, 0), places[i], kDim, 1, theme.small);
+    }
+}
+
+}  // namespace app::panels
