@@ -1,8 +1,10 @@
-// What the program has to say: quiet cards over the picture. Errors stay until they are closed.
+// What the program has to say: quiet cards over the picture's lower half. Errors stay until they
+// are closed; a long text is cut, and opened on demand.
 #pragma once
 
 #include <chrono>
 #include <map>
+#include <set>
 
 #include "app/panels/desk.h"
 
@@ -16,7 +18,9 @@ class Messages {
 
  private:
     static constexpr std::chrono::nanoseconds kStay = std::chrono::seconds(7);
+    float card(Desk& desk, const Exploration::Message& message, float bottom, bool& closed);
     std::map<std::uint64_t, std::chrono::nanoseconds> shownFor_;  // of those that go by themselves
+    std::set<std::uint64_t> opened_;                              // long ones, shown whole
 };
 
 }  // namespace app::panels

@@ -39,18 +39,27 @@ void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color, 
 
 float widthOf(ImFont& font, std::string_view what) { return sizeOf(font, what).x; }
 
-std::string fitting(ImFont& font, std::string_view what, float width) {
-    if (widthOf(font, what) <= width) return std::string(what);
+std::string shortened(std::string_view what, const std::function<bool(std::string_view)>& fits) {
+    if (fits(what)) return std::string(what);
     const auto inside = [&](std::size_t bytes) {  // not within a UTF-8 character
         while (bytes > 0 && (static_cast<unsigned char>(what[bytes]) & 0xC0) == 0x80) --bytes;
         return bytes;
     };
-    for (std::size_t kept = what.size(); kept > 1; --kept) {
-        const std::string cut = fmt::format("{}…{}", what.substr(0, inside(kept / 2)),
-                                            what.substr(inside(what.size() - kept / 2)));
-        if (widthOf(font, cut) <= width) return cut;
+    const auto cut = [&](std::size_t kept) {
+        if (kept == 0) return std::string("…");
+        return fmt::format("{}…{}", what.substr(0, inside(kept / 2)),
+                           what.substr(inside(what.size() - kept / 2)));
+    };
+    std::size_t kept = 0, tooMany = what.size();
+    while (tooMany - kept > 1) {
+        const std::size_t middle = kept + (tooMany - kept) / 2;
+        (fits(cut(middle)) ? kept : tooMany) = middle;
     }
-    return "…";
+    return cut(kept);
+}
+
+std::string fitting(ImFont& font, std::string_view what, float width) {
+    return shortened(what, [&](std::string_view text) { return widthOf(font, text) <= width; });
 }
 
 Pressing area(const char* id, const Rect& at) {

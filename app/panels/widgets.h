@@ -2,6 +2,7 @@
 // is given. `id` is unique within its window.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,7 +18,8 @@ namespace app::panels {
 // line.
 void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color = kText,
           float align = 0, ImFont* font = nullptr);
-// The text, cut in its middle with an ellipsis to what fits.
+// The text, cut in its middle with an ellipsis to what fits; in one line of a width.
+std::string shortened(std::string_view what, const std::function<bool(std::string_view)>& fits);
 std::string fitting(ImFont& font, std::string_view what, float width);
 float widthOf(ImFont& font, std::string_view what);
 

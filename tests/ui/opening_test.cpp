@@ -47,7 +47,7 @@ TEST_F(DeskOpens, NothingOfADamagedFileButAMessage) {
     const auto broken = folder() / "broken.nc";
     std::string bytes = tests::readBytes(demo());
     tests::writeBytes(broken, bytes.substr(0, bytes.size() / 2));
-    desk.drop({broken}, {500, 400});
+    desk.drop({broken}, {30, 500});
     desk.waitFor("a message appears", [&] {
         return differing(part(desk.shot(), at.messages), part(before, at.messages)) > 1000;
     });
@@ -57,6 +57,34 @@ TEST_F(DeskOpens, NothingOfADamagedFileButAMessage) {
     EXPECT_EQ(differing(part(after, at.window.side), part(before, at.window.side)), 0u);
     desk.press("Escape");
     EXPECT_EQ(differing(desk.settled(at.messages), part(before, at.messages)), 0u);
+}
+
+TEST_F(DeskOpens, NothingOfALongMessageButItsBegin) {
+    // The file's name is part of the sentence.
+    std::string name = "broken";
+    for (int i = 0; i < 40; ++i) name += " file";
+    const auto broken = folder() / (name + ".nc");
+    tests::writeBytes(broken, "CDF");
+    Driver desk(screen(), folder(), {demo().string()});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const Places at = placesOf(desk.size());
+    waitUntilSeen(desk, 31);
+    desk.moveAway();
+    const Shot before = desk.settled();
+    desk.drop({broken}, {30, 500});
+    desk.waitFor("a message appears", [&] {
+        return differing(part(desk.shot(), at.messages), part(before, at.messages)) > 1000;
+    });
+    const Shot after = desk.settled();
+    // Four lines and two buttons: half of the picture's height stays as it was.
+    const app::panels::Rect& picture = at.window.picture;
+    const app::panels::Rect upper{picture.min, {picture.max.x, picture.centre().y}};
+    EXPECT_EQ(differing(part(after, upper), part(before, upper)), 0u);
+    EXPECT_EQ(differing(part(after, at.besideMessages), part(before, at.besideMessages)), 0u);
+    // Its buttons, with the keyboard: opened, then copied whole.
+    for (const char* key : {"Tab", "Return", "Tab", "Return"}) desk.press(key);
+    EXPECT_GT(differing(desk.settled(), after), 1000u);
+    EXPECT_THAT(desk.clipboard(), testing::HasSubstr(name));
 }
 
 TEST_F(DeskOpens, ASlowFileWhileFramesGoOn) {
@@ -93,6 +121,7 @@ TEST_F(DeskOpens, ASavedSessionAsTheSamePixels) {
         desk.waitForTitle("pool_fire_T.nc · T");
         at = placesOf(desk.size());
         desk.drag({400, 300}, {520, 340});
+        desk.moveAway();
         desk.press("Home");
         desk.waitForTitle("0.5 s");
         first = desk.settled(at.clear);
