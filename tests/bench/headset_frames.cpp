@@ -89,23 +89,21 @@ void measureMissed(tests::Monado mode, const char* name, const Load& load) {
     const auto session = openSession(context);
     Eyes eyes;
     std::optional<xr::Placement> placement;
-    // Of the display: Monado tells a multiple of it where a program does not keep up.
-    std::chrono::nanoseconds period = std::chrono::nanoseconds::max();
-    std::chrono::nanoseconds last{0};
+    std::chrono::nanoseconds last{0}, period{0};
     std::vector<double> took;
     int settling = 60, periods = 0;
     while (periods < kFrames) {
         const auto frame = nextFrame(*session);
         const Clock::time_point began = Clock::now();
-        period = std::min(period, frame->period());
+        period = frame->period();
         const auto passed = static_cast<int>(
             std::lround(milliseconds(frame->displayTime() - last) / milliseconds(period)));
         last = frame->displayTime();
         if (!placement)
             placement =
                 volumeBefore(*frame->head(), render::Lattice(shown.sorted->grid()).boxHalfEdges());
-        eyes.draw(&shown, frame->eyes(eyes.scale()), *placement, {}, frame->period());
-        eyes.took(Clock::now() - began, frame->period());
+        eyes.draw(&shown, frame->eyes(eyes.scale()), *placement, {}, period);
+        eyes.took(Clock::now() - began, period);
         frame->submit(kNear, kFar);
         if (--settling >= 0) continue;
         took.push_back(milliseconds(Clock::now() - began));
