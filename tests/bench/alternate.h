@@ -3,18 +3,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <vector>
 
-namespace bench {
+#include "tests/bench/median.h"
 
-inline double median(std::vector<double> of) {
-    const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
-    std::nth_element(of.begin(), middle, of.end());
-    return *middle;
-}
+namespace bench {
 
 struct Cost {
     std::vector<double> ms, cpu;  // of the wall clock; of all the process's threads

@@ -9,20 +9,15 @@
 #include "render/image_compare.h"
 #include "render/pick.h"
 #include "render/present.h"
-#include "tests/support/shown_steps.h"
+#include "tests/bench/noise_world.h"
 
 namespace {
 
 constexpr glm::ivec2 kSize{1024, 1024};
 
-// 256^3 points of noise of which `count` are selected, by one colour.
 tests::ShownSteps world(std::uint64_t count) {
-    tests::ShownSteps shown(256, 1);
-    const double share = static_cast<double>(count) / (256.0 * 256 * 256);
+    tests::ShownSteps shown = bench::noiseWorld(256, count);
     shown.explorer.size = kSize;
-    shown.explorer.layers = {tests::ShownSteps::layer("0:1", glm::dvec3(1, 0.5, 0))};
-    shown.explorer.layers[0].ranges =
-        timeseries::RangeSet(std::vector{timeseries::Range{{0.4}, {0.4 + share}}});
     return shown;
 }
 

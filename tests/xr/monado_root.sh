@@ -3,6 +3,7 @@
 # run inside a Debian 13: a folder outside the source tree, entered by chroot.
 #   tests/xr/monado_root.sh make                 makes it, when it is not there: a few minutes, 1.3 GB
 #   tests/xr/monado_root.sh test [CTEST ARGS]    builds the tests in it and runs them
+#   tests/xr/monado_root.sh bench                builds and runs what measures against Monado, some minutes
 #   tests/xr/monado_root.sh run COMMAND...       any command, in its copy of the source tree
 #   tests/xr/monado_root.sh there                succeeds when it is there
 #   tests/xr/monado_root.sh --remove             removes it
@@ -88,14 +89,18 @@ run() {
     enter bash -c 'cd "$0/source" && "$@"' "$inside" "$@"
 }
 
-tests() {
+# built TARGET COMMAND...: builds the target in it, then runs the command in the build's folder.
+built() {
     run bash -c 'build=../build
         source .ci/setup.sh
         quietly "Configuring in Debian 13" cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
             -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON
-        quietly "Building in Debian 13" cmake --build "$build" --target xr_tests
-        exec ctest --test-dir "$build" --no-tests=error --output-on-failure -j2 -L xr "$@"' tests "$@"
+        quietly "Building in Debian 13" cmake --build "$build" --target "$1"
+        cd "$build" && exec "${@:2}"' built "$@"
 }
+
+tests() { built xr_tests ctest --no-tests=error --output-on-failure -j2 -L xr "$@"; }
+bench() { built headset_frames tests/headset_frames; }
 
 remove() {
     if [[ ! -e $folder ]]; then return; fi
@@ -109,6 +114,7 @@ if (($# > 0)); then shift; fi
 case $command in
     make) make ;;
     test) tests "$@" ;;
+    bench) bench ;;
     run) run "$@" ;;
     there) isComplete ;;
     --remove) remove ;;
