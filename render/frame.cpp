@@ -117,6 +117,7 @@ void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::d
                .size = eye.size,
                .clearColor = glm::vec4(glm::vec3(background), 1),
                .clearDepth = 1.0f});
+    hidden_.drawDepth(eye, light);
     for (const Placard& placard : placards) placards_.draw(placard, eye, light);
 }
 
@@ -124,6 +125,7 @@ void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLui
     flat_->drawDepth(occluders.behind, framebuffer, view.size);
     for (const Placard& placard : occluders.placards)
         placards_.drawDepth(placard, view, framebuffer);
+    hidden_.drawDepth(view, framebuffer);
 }
 
 void FrameRenderer::drawSplats(const GpuList& list, const View& view, const Occluders& occluders) {

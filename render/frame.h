@@ -12,6 +12,7 @@
 #include "render/covered.h"
 #include "render/flat_pass.h"
 #include "render/gl_list.h"
+#include "render/hidden_area_pass.h"
 #include "render/image.h"
 #include "render/legend.h"
 #include "render/placard.h"
@@ -91,6 +92,7 @@ class FrameRenderer {
     GlSplatter splatter_;
     std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
     PlacardPass placards_;
+    HiddenAreaPass hidden_;
     gl::VertexArray noVertices_;
     std::vector<std::unique_ptr<Targets>> targets_;  // all of different sizes
     std::size_t current_ = 0;

@@ -9,7 +9,8 @@ namespace render {
 // Who encodes linear light as sRGB: the shader, to the bytes that a PNG has, but for light that
 // lies within kBorder steps of the border between two bytes, which may become either (GLSL's pow is
 // a float's); or GL, where the framebuffer's format is an sRGB one (a headset's swapchain). Such a
-// framebuffer's depth, where it has one, becomes the opaque scene's.
+// framebuffer's depth, where it has one, becomes the opaque scene's; pixels that nobody sees (View)
+// become black, and as far away as can be, so that no reprojection draws them over others.
 enum class Encoding { Shader, Framebuffer };
 
 class Present {

@@ -4,8 +4,11 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 
 namespace render {
+
+struct HiddenArea;
 
 // Right-handed; view looks along -z, y up. Clip depth is [0, 1], 0 at the near plane. Pixels: (0,
 // 0) is the lower left corner, as in GL; pictures are turned over when they are read back.
@@ -13,6 +16,8 @@ struct View {
     glm::dmat4 clipFromView{1.0};
     glm::dmat4 viewFromWorld{1.0};  // rigid, or rigid and one uniform scale
     glm::ivec2 size{0};
+    // What of the picture nobody sees (render/hidden_area.h): GL leaves it out. None: all is seen.
+    std::shared_ptr<const HiddenArea> hidden = {};
 };
 
 // Tangents of the half angles, left and down negative: x / -z of the frustum's sides.

@@ -31,10 +31,13 @@ std::vector<Eye> Session::Frame::Impl::located() const {
         xrLocateViews(session.session, &info, &state, views.size(), &count, views.data()),
         "xrLocateViews");
     std::vector<Eye> found;
-    for (const XrView& view : views) {
-        const auto eye = validEye(view, state.viewStateFlags);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto eye = validEye(views[i], state.viewStateFlags);
         if (!eye) return {};
-        found.push_back({eye->stageFromEye, eye->fov, {}, 0});
+        found.push_back({.stageFromEye = eye->stageFromEye,
+                         .fov = eye->fov,
+                         .size = {},
+                         .hidden = session.hidden[i]});
     }
     return found;
 }

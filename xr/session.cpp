@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "xr/session_impl.h"
+#include "xr/visibility_mask.h"
 
 namespace xr {
 namespace {
@@ -24,6 +25,7 @@ constexpr std::chrono::nanoseconds kPatienceToOpen = std::chrono::seconds(10);
 std::vector<const char*> extensionsFor(const Binding& binding) {
     std::vector<const char*> names{XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
                                    XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
+                                   XR_KHR_VISIBILITY_MASK_EXTENSION_NAME,
                                    kLocalFloorExtension};
     if (std::holds_alternative<EglBinding>(binding))
         names.push_back(XR_MNDX_EGL_ENABLE_EXTENSION_NAME);
@@ -131,6 +133,7 @@ Session::Impl::Impl(Runtime opened, const Binding& binding)
       head(createSpace(runtime, session, XR_REFERENCE_SPACE_TYPE_VIEW)),
       blendMode(chooseBlendMode(runtime)),
       eyes(createEyes(runtime, session)),
+      hidden{hiddenArea(runtime, session, 0), hiddenArea(runtime, session, 1)},
       actions(runtime, session),
       waiter(session) {}
 
@@ -178,6 +181,11 @@ void Session::Impl::handleEvents() {
             return;
         } else if (event.type == XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED) {
             bindings = actions.bindingsText();
+        } else if (event.type == XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR) {
+            XrEventDataVisibilityMaskChangedKHR change;
+            std::memcpy(&change, &event, sizeof change);
+            if (change.session == session && change.viewIndex < hidden.size())
+                hidden[change.viewIndex] = hiddenArea(runtime, session, change.viewIndex);
         } else if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
             onState(State::LossPending);
         }

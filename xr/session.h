@@ -12,6 +12,7 @@
 #include <string>
 #include <variant>
 
+#include "render/hidden_area.h"
 #include "xr/pose.h"
 #include "xr/session_state.h"
 
@@ -63,8 +64,9 @@ struct Hand {
 struct Eye {
     Pose stageFromEye;
     Fov fov;
-    glm::ivec2 size;  // pixels to draw now, the lower left of the image
+    glm::ivec2 size;  // pixels to draw now, the lower left of the image; an eye's own
     unsigned framebuffer = 0;
+    std::shared_ptr<const render::HiddenArea> hidden = {};  // behind the lens's rim, if it is known
 };
 
 class Session {

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,8 @@ struct Session::Impl {
     XrSession session;
     XrSpace stage, head;
     XrEnvironmentBlendMode blendMode;
-    std::vector<EyeImages> eyes;  // left, right
+    std::vector<EyeImages> eyes;                                      // left, right
+    std::array<std::shared_ptr<const render::HiddenArea>, 2> hidden;  // of each eye; may be null
     Actions actions;
     FrameWaiter waiter;
     SessionState state;

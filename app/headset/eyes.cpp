@@ -17,7 +17,9 @@ std::chrono::nanoseconds share(std::chrono::nanoseconds period) {
 }  // namespace
 
 render::View viewOf(const xr::Eye& eye, const xr::Placement& placement) {
-    return xr::viewOf(eye.stageFromEye, eye.fov, placement, kNear, kFar, eye.size);
+    render::View view = xr::viewOf(eye.stageFromEye, eye.fov, placement, kNear, kFar, eye.size);
+    view.hidden = eye.hidden;
+    return view;
 }
 
 void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,

@@ -23,7 +23,8 @@ render::View viewOf(const xr::Eye& eye, const xr::Placement& placement);
 // Needs a current GL context, from construction to destruction.
 class Eyes {
  public:
-    // Draws all eyes; none is left untouched. `shown`: null while there is nothing. `period`: the
+    // Draws all eyes, of any sizes; none is left untouched. What an eye does not see of its image
+    // becomes black. `shown`: null while there is nothing. `period`: the
     // runtime's; fewer splats are drawn where it would not be kept, or all of them without one.
     // `mirror` gets the first eye's light.
     void draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,

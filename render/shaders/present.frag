@@ -1,6 +1,6 @@
 // Linear premultiplied light -> a display's sRGB bytes; window space.
 // Variants: ENCODE, where the framebuffer's format does not encode by itself; DEPTH, where it takes
-// the opaque scene's depth.
+// the opaque scene's depth; what nobody sees (render/hidden_area_pass.h) is then black and far away.
 layout(binding = 0) uniform sampler2D light;
 #ifdef DEPTH
 layout(binding = 1) uniform sampler2D depth;
@@ -19,10 +19,13 @@ float encoded(float linear) {
 void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy) - lowerLeft;
     const vec4 premultiplied = texelFetch(light, at, 0);
+    vec3 linear = premultiplied.rgb / min(premultiplied.a, 1.0);
 #ifdef DEPTH
-    gl_FragDepth = texelFetch(depth, at, 0).r;
+    const float opaque = texelFetch(depth, at, 0).r;
+    const bool hidden = opaque == 0.0;
+    gl_FragDepth = hidden ? 1.0 : opaque;
+    if (hidden) linear = vec3(0.0);
 #endif
-    const vec3 linear = premultiplied.rgb / min(premultiplied.a, 1.0);
 #ifdef ENCODE
     shown = vec4(encoded(linear.r), encoded(linear.g), encoded(linear.b), 1.0);
 #else

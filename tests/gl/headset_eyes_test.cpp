@@ -100,6 +100,47 @@ TEST_F(HeadsetEyes, MayBeOfDifferentSizes) {
     }
 }
 
+// Of one eye alone, beneath a slope from corner to corner of its field of view, and a notch above.
+TEST_F(HeadsetEyes, WhatALensHidesIsBlackAndFarAndNothingElseChanges) {
+    const Shown shown = world_.shown();
+    const xr::Fov& fov = eyes_[1].fov;
+    const glm::dvec2 lo(std::tan(fov.left), std::tan(fov.down)),
+        hi(std::tan(fov.right), std::tan(fov.up));
+    const auto area = std::make_shared<render::HiddenArea>(
+        render::HiddenArea{{lo, {hi.x, lo.y}, hi, {-0.2, hi.y}, {0, 0.1}, {0.3, hi.y}}});
+    eyes_[1].hidden = area;
+    // A wall behind the volume, as large as the sight: also its depth is left out.
+    const Plate wall{{{1, 0, 0, 0}, {0, 1.6, -3}}, {9, 9}};
+    const std::array placards{
+        render::Placard{worldFromPlacard(wall, placement_), glm::vec3(0, 0, 1)}};
+    for (const bool withData : {true, false}) {
+        const auto draw = [&] {
+            view_.draw(withData ? &shown : nullptr, eyes_, placement_, placards, std::nullopt);
+            render::gl::throwOnError();
+            return std::array{images_[0].pixels(kDrawn), images_[1].pixels(kDrawn)};
+        };
+        eyes_[1].hidden = nullptr;
+        const auto whole = draw();
+        eyes_[1].hidden = area;
+        const auto masked = draw();
+        EXPECT_EQ(masked[0], whole[0]);
+        std::vector<bool> hidden(whole[1].size());
+        for (const auto& [at, size] : hiddenPixels(*area, viewOf(eyes_[1], placement_)))
+            for (int x = at.x; x < at.x + size.x; ++x)
+                hidden[std::size_t(kDrawn.y - 1 - at.y) * kDrawn.x + x] = true;
+        int lost = 0;
+        for (int y = 0; y < kDrawn.y; ++y)
+            for (int x = 0; x < kDrawn.x; ++x) {
+                const std::size_t i = std::size_t(kDrawn.y - 1 - y) * kDrawn.x + x;
+                lost += hidden[i] && whole[1][i].r > 100 ? 1 : 0;
+                ASSERT_EQ(masked[1][i], hidden[i] ? glm::u8vec4(0, 0, 0, 255) : whole[1][i])
+                    << x << ' ' << y;
+                ASSERT_EQ(images_[1].depthAt({x, y}) == 1.0f, hidden[i]) << x << ' ' << y;
+            }
+        EXPECT_EQ(lost > 100, withData) << "something of the volume is hidden";
+    }
+}
+
 TEST_F(HeadsetEyes, TheDepthIsThatOfTheOpaqueThings) {
     const Shown shown = world_.shown();
     // A wall 2 m ahead, as large as the sight.

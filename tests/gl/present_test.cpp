@@ -9,6 +9,7 @@
 #include "render/color.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
+#include "render/gl/pass.h"
 #include "render/png.h"
 #include "tests/support/files.h"
 
@@ -22,6 +23,8 @@ class Presented : public testing::Test {
     // Into a window of RGBA 9, 9, 9, 9; rows from the top.
     std::vector<glm::u8vec4> window(const Image& picture, glm::ivec2 at, Encoding encoding) {
         const Targets targets(picture.size);
+        gl::begin(
+            {.framebuffer = targets.lightFramebuffer(), .size = picture.size, .clearDepth = 1.0f});
         std::vector<glm::vec4> rows;  // GL's order
         for (int y = picture.size.y - 1; y >= 0; --y)
             for (int x = 0; x < picture.size.x; ++x) rows.push_back(picture.at(x, y));

@@ -91,6 +91,34 @@ TEST_F(SimulatedHeadset, ShowsTheEyesOfTheSwayingHead) {
     EXPECT_NEAR(highest, 1.65, 0.002);
 }
 
+// Monado's default (u_visibility_mask.c) cuts the corners off: an eighth of each side.
+TEST_F(SimulatedHeadset, TellsWhatItsLensesHide) {
+    const auto session = tests::openHeadset(context_);
+    ASSERT_TRUE(session);
+    ASSERT_TRUE(tests::framesUntilFocused(*session));
+    const auto frame = session->beginFrame();
+    ASSERT_TRUE(frame);
+    ASSERT_EQ(frame->eyes(1).size(), 2u);
+    for (const Eye& eye : frame->eyes(1)) {
+        ASSERT_TRUE(eye.hidden);
+        const render::View view = viewOf(eye.stageFromEye, eye.fov, {}, 0.1, 10, eye.size);
+        std::vector<bool> hidden(std::size_t(eye.size.x) * eye.size.y);
+        for (const auto& [at, size] : hiddenPixels(*eye.hidden, view))
+            for (int x = at.x; x < at.x + size.x; ++x)
+                hidden[std::size_t(at.y) * eye.size.x + x] = true;
+        for (int y = 0; y < eye.size.y; ++y)
+            for (int x = 0; x < eye.size.x; ++x) {
+                // Pixels from the nearest border, in eighths of the side.
+                const double beyond = 1 - 8.0 * std::min(x + 1, eye.size.x - x) / eye.size.x -
+                                      8.0 * std::min(y + 1, eye.size.y - y) / eye.size.y;
+                const double pixel = 8.0 / eye.size.x + 8.0 / eye.size.y;
+                const bool is = hidden[std::size_t(y) * eye.size.x + x];
+                ASSERT_TRUE(is ? beyond > 0 : beyond < pixel) << x << ' ' << y;
+            }
+    }
+    tests::submitColor(*frame);
+}
+
 TEST_F(SimulatedHeadset, DrawsAShareOfItsImages) {
     const auto session = tests::openHeadset(context_);
     ASSERT_TRUE(session);

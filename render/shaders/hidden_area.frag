@@ -1,0 +1,2 @@
+// Depth alone. Window space.
+void main() {}
