@@ -15,6 +15,7 @@ class RenderScale {
     void took(std::chrono::nanoseconds frame, std::chrono::nanoseconds period);
     // Of the recommended width and height.
     double scale() const { return scaleAfter(lowered_); }
+    bool lowest() const { return lowered_ == kMostLowered; }  // there is no less
 
     static constexpr int kLateFrames = 3, kQuickFrames = 60;  // in a row, before a step down or up
     static constexpr double kLate = 0.95, kQuick = 0.85;      // of the period

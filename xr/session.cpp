@@ -26,7 +26,7 @@ std::vector<const char*> extensionsFor(const Binding& binding) {
     std::vector<const char*> names{XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
                                    XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
                                    XR_KHR_VISIBILITY_MASK_EXTENSION_NAME,
-                                   kLocalFloorExtension};
+                                   XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME, kLocalFloorExtension};
     if (std::holds_alternative<EglBinding>(binding))
         names.push_back(XR_MNDX_EGL_ENABLE_EXTENSION_NAME);
     return names;
@@ -109,6 +109,18 @@ std::vector<EyeImages> createEyes(const Runtime& runtime, XrSession session) {
     return eyes;
 }
 
+// None where the runtime does not tell, also by an error: a display without a choice is no loss.
+std::vector<double> offeredRates(const Runtime& runtime, XrSession session) {
+    if (!runtime.has(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME)) return {};
+    const auto enumerate =
+        runtime.function<PFN_xrEnumerateDisplayRefreshRatesFB>("xrEnumerateDisplayRefreshRatesFB");
+    std::uint32_t count = 0;
+    if (XR_FAILED(enumerate(session, 0, &count, nullptr))) return {};
+    std::vector<float> rates(count);
+    if (XR_FAILED(enumerate(session, count, &count, rates.data()))) return {};
+    return {rates.begin(), rates.end()};
+}
+
 // Opaque where there is a choice; a see-through headset offers only others.
 XrEnvironmentBlendMode chooseBlendMode(const Runtime& runtime) {
     std::uint32_t count = 0;
@@ -134,6 +146,7 @@ Session::Impl::Impl(Runtime opened, const Binding& binding)
       blendMode(chooseBlendMode(runtime)),
       eyes(createEyes(runtime, session)),
       hidden{hiddenArea(runtime, session, 0), hiddenArea(runtime, session, 1)},
+      refreshRates(offeredRates(runtime, session)),
       actions(runtime, session),
       waiter(session) {}
 
@@ -281,6 +294,17 @@ void Session::requestExit() {
             return;
         }
         impl_->runtime.check(result, "xrRequestExitSession");
+    });
+}
+
+const std::vector<double>& Session::refreshRates() const { return impl_->refreshRates; }
+
+void Session::requestRefreshRate(double rate) {
+    if (std::exchange(impl_->requestedRate, rate) == rate) return;
+    impl_->orLost([&] {
+        // A rate that is refused leaves the one that is.
+        impl_->runtime.function<PFN_xrRequestDisplayRefreshRateFB>("xrRequestDisplayRefreshRateFB")(
+            impl_->session, static_cast<float>(rate));
     });
 }
 

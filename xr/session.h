@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "render/hidden_area.h"
 #include "xr/pose.h"
@@ -94,6 +95,12 @@ class Session {
     bool ended() const;
     // Asks the runtime to let the session end; go on with frames until ended().
     void requestExit();
+
+    // In Hz; empty where the runtime offers no choice (XR_FB_display_refresh_rate).
+    const std::vector<double>& refreshRates() const;
+    // Asks for one of them; the frames' period tells whether and when the runtime follows. Asking
+    // again for the same costs nothing.
+    void requestRefreshRate(double rate);
 
     // `hand` 0 or 1, amplitude in [0, 1]. Nothing without focus.
     void vibrate(int hand, double amplitude, std::chrono::nanoseconds duration);

@@ -46,6 +46,8 @@ struct Session::Impl {
     XrEnvironmentBlendMode blendMode;
     std::vector<EyeImages> eyes;                                      // left, right
     std::array<std::shared_ptr<const render::HiddenArea>, 2> hidden;  // of each eye; may be null
+    std::vector<double> refreshRates;
+    double requestedRate = 0;  // the last; 0 before the first
     Actions actions;
     FrameWaiter waiter;
     SessionState state;

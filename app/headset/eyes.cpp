@@ -49,6 +49,7 @@ void Eyes::took(std::chrono::nanoseconds frame, std::chrono::nanoseconds period)
         frame = std::max(frame, *report_.gpuTime);
     }
     scale_.took(frame, period);
+    rate_.took(frame, scale_);
 }
 
 }  // namespace app::headset

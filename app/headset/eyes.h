@@ -6,10 +6,13 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "app/canvas.h"
 #include "render/frame_pace.h"
 #include "render/present.h"
+#include "xr/refresh_rate.h"
 #include "xr/render_scale.h"
 #include "xr/session.h"
 
@@ -23,6 +26,9 @@ render::View viewOf(const xr::Eye& eye, const xr::Placement& placement);
 // Needs a current GL context, from construction to destruction.
 class Eyes {
  public:
+    // `refreshRates`: those that the display offers.
+    explicit Eyes(std::vector<double> refreshRates = {}) : rate_(std::move(refreshRates)) {}
+
     // Draws all eyes, of any sizes; none is left untouched. What an eye does not see of its image
     // becomes black. `shown`: null while there is nothing. `period`: the
     // runtime's; fewer splats are drawn where it would not be kept, or all of them without one.
@@ -36,6 +42,7 @@ class Eyes {
     void took(std::chrono::nanoseconds frame, std::chrono::nanoseconds period);
 
     double scale() const { return scale_.scale(); }  // of the recommended resolution
+    const xr::RefreshRate& refreshRate() const { return rate_; }
     Canvas& canvas() { return canvas_; }
     const render::Present& present() const { return present_; }
     const CanvasReport& report() const { return report_; }
@@ -45,6 +52,7 @@ class Eyes {
     render::Present present_;
     render::FramePace pace_{std::chrono::milliseconds(8)};
     xr::RenderScale scale_;
+    xr::RefreshRate rate_;
     CanvasReport report_;
 };
 

@@ -39,6 +39,7 @@ Headset::Headset(Exploration& exploration, std::unique_ptr<Graphics> graphics,
     : exploration_(exploration),
       graphics_(std::move(graphics)),
       session_(std::move(session)),
+      eyes_(session_->refreshRates()),
       panel_([] {}),
       errands_(exploration_, eyes_.canvas(),
                [this](const std::string& text) {
@@ -98,7 +99,10 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
 }
 
 void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
-    readout_.write(readoutText(exploration_, eyes_.scale()));
+    std::string text = readoutText(exploration_, eyes_.scale());
+    if (const std::string rate = eyes_.refreshRate().loweredText(); !rate.empty())
+        text += "\n" + rate;
+    readout_.write(text);
     if (!room_.panel()) return;
     const CanvasReport& report = eyes_.report();
     Panel::Around around{.offers = errands_.offers(),
@@ -141,6 +145,7 @@ void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
                [&](const render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
     checkDriver(exploration_);
     eyes_.took(Clock::now() - began, frame.period());
+    if (const auto rate = eyes_.refreshRate().wanted()) session_->requestRefreshRate(*rate);
     frame.submit(kNear, kFar);
 }
 

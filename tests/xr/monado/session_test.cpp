@@ -119,6 +119,22 @@ TEST_F(SimulatedHeadset, TellsWhatItsLensesHide) {
     tests::submitColor(*frame);
 }
 
+// Monado offers one, the period's; a rate that it does not have is refused, and no loss.
+TEST_F(SimulatedHeadset, OffersRefreshRatesAndMayRefuseOne) {
+    const auto session = tests::openHeadset(context_);
+    ASSERT_TRUE(session);
+    ASSERT_EQ(session->refreshRates().size(), 1u);
+    const double rate = session->refreshRates()[0];
+    for (const double asked : {rate, 7 * rate}) {
+        session->requestRefreshRate(asked);
+        std::chrono::duration<double> period{0};
+        ASSERT_TRUE(tests::framesUntil(
+            *session, [&](auto& frame) { period = frame.period(); },
+            [&] { return session->state().focused() && period.count() > 0; }));
+        EXPECT_NEAR(period.count() * rate, 1, 0.01);
+    }
+}
+
 TEST_F(SimulatedHeadset, DrawsAShareOfItsImages) {
     const auto session = tests::openHeadset(context_);
     ASSERT_TRUE(session);
