@@ -4,6 +4,7 @@
 
 #include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
+#include "render/row_splatter.h"
 #include "render/shader_sources.h"
 
 namespace render {
@@ -105,6 +106,7 @@ void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::d
 }
 
 void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer) {
+    opaqueDepth_.clear();
     flat_->drawDepth(occluders.behind, framebuffer, view.size);
     for (const Placard& placard : occluders.placards)
         placards_.drawDepth(placard, view, framebuffer);
@@ -115,10 +117,19 @@ void FrameRenderer::drawSplats(const GpuList& list, const View& view, const Occl
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const GLuint plane = targets_->clearedPlane(i, channels[i]);
         if (i == 0) drawDepth(occluders, view, plane);
-        splatter_.draw(list, view, channels[i], i, plane);
+        drawPlane(list, view, channels[i], i, i);
     }
     // The placards are drawn against it even if there are no splats.
     if (channels.empty()) drawDepth(occluders, view, targets_->lightFramebuffer());
+}
+
+void FrameRenderer::drawPlane(const GpuList& list, const View& view, Channels channels,
+                              std::size_t layer, std::size_t i) {
+    const bool summed = channels == Channels::Weight || channels == Channels::WeightedColor;
+    if (!onProcessor_ || !summed)
+        return splatter_.draw(list, view, channels, layer, targets_->planeFramebuffer(i));
+    if (opaqueDepth_.empty()) opaqueDepth_ = targets_->readDepth();
+    targets_->writePlane(i, sumRows(list.scene(), view, channels, layer, opaqueDepth_));
 }
 
 const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
@@ -153,8 +164,8 @@ std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& 
     const auto& layers = list.scene().layers;
     for (std::size_t k = 0; k < layers.size(); ++k) {
         const GLuint plane = targets_->clearedPlane(0, Channels::Weight);
-        if (k == 0) flat_->drawDepth(behind, plane, view.size);
-        splatter_.draw(list, view, Channels::Weight, k, plane);
+        if (k == 0) drawDepth({behind, {}}, view, plane);
+        drawPlane(list, view, Channels::Weight, k, 0);
         const std::vector<float> weight = targets_->readScalarPlane(0);
         const auto perWeight = static_cast<float>(opticalDepthPerWeight(layers[k].style.opacity));
         for (std::size_t i = 0; i < total.size(); ++i) total[i] += perWeight * weight[i];

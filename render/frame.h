@@ -11,6 +11,7 @@
 #include "render/axes.h"
 #include "render/covered.h"
 #include "render/flat_pass.h"
+#include "render/gl/driver.h"
 #include "render/gl_list.h"
 #include "render/image.h"
 #include "render/legend.h"
@@ -79,6 +80,9 @@ class FrameRenderer {
     // Leaves the depth attachment, which all planes and the light share, holding these alone.
     void drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer);
     void drawSplats(const GpuList& list, const View& view, const Occluders& occluders);
+    // Into plane i, which is cleared.
+    void drawPlane(const GpuList& list, const View& view, Channels channels, std::size_t layer,
+                   std::size_t i);
     void resolve(const Scene& scene, const PixelBox& covered);
     const gl::Program& resolveProgram(const Scene& scene);
     std::vector<float> opticalDepth(const GpuList& list, const View& view, const FlatMesh& behind);
@@ -91,6 +95,8 @@ class FrameRenderer {
     PlacardPass placards_;
     gl::VertexArray noVertices_;
     std::unique_ptr<Targets> targets_;
+    bool onProcessor_ = gl::drawsOnProcessor();
+    std::vector<float> opaqueDepth_;  // what drawDepth() left, once sumRows() has needed it
     std::uint64_t orders_ = 0, eyes_ = 0;
 };
 
