@@ -11,7 +11,7 @@ Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
       eyes_(eyes.begin(), eyes.end()),
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
       frame_(renderer.prepare(content_, onGpu, eyes_)),
-      cost_(eyes_.size() * render::FrameRenderer::cost(frame_)) {}
+      cost_(eyes_.size() * renderer.cost(frame_)) {}
 
 std::uint64_t Refinement::goOn(
     std::uint64_t splats,

@@ -14,21 +14,9 @@ void forEachPixel(const Splat<Real>& s, glm::ivec2 size, const LatticeView& view
     using Vec2 = glm::vec<2, Real>;
     const Vec2 axis(view.rays.centre), focal(view.rays.focal);
     const Real rayUnit = static_cast<Real>(view.rayLength);
-    // Pixels from..to-1 along an axis; pixel i has its centre at i + 0.5.
-    const auto span = [&](Real centre, int length) {
-        Real from = std::ceil(centre - s.extent - Real(0.5));
-        Real to = std::ceil(centre + s.extent - Real(0.5));
-        if (kernel == Kernel::Point) {
-            from = std::floor(centre - s.extent + Real(0.5));
-            to = from + 2 * s.extent;
-        }
-        const auto limit = static_cast<Real>(length);
-        return std::pair(static_cast<int>(std::clamp<Real>(from, 0, limit)),
-                         static_cast<int>(std::clamp<Real>(to, 0, limit)));
-    };
     const Vec2 window = axis + s.centre;
-    const auto [x0, x1] = span(window.x, size.x);
-    const auto [y0, y1] = span(window.y, size.y);
+    const auto [x0, x1] = pixelSpan(window.x, s.extent, kernel, size.x);
+    const auto [y0, y1] = pixelSpan(window.y, s.extent, kernel, size.y);
     for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x) {
             const Vec2 at =
@@ -45,12 +33,8 @@ struct Painter {
 };
 
 Painter painter(const Scene& scene, const Layer& layer, std::uint64_t point) {
-    const double tau = opticalDepthPerWeight(layer.style.opacity);
-    if (const auto* constant = std::get_if<Constant>(&layer.style.color))
-        return {constant->linearRgb, tau};
-    const auto& byValue = std::get<ByValue>(layer.style.color);
-    const double v = timeseries::toDouble(scene.step.value(point));
-    return {glm::dvec3(byValue.map.at(mapPosition(byValue, v))), tau};
+    return {colorOf(layer.style, timeseries::toDouble(scene.step.value(point))),
+            opticalDepthPerWeight(layer.style.opacity)};
 }
 
 template <typename Real>
@@ -84,7 +68,6 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     assert(scene.layers.size() <= into.channels.size() || into.channels[0] == Channels::Over ||
            into.channels[0] == Channels::Count);
     const LatticeView latticeView(scene.lattice, view);
-    const glm::dmat4& clip = view.clipFromView;
     const glm::uvec3 n = scene.lattice.size();
     std::vector<double> perSplat;
     for (const Layer& layer : scene.layers) perSplat.push_back(pointsPerSplat(layer, scene.stride));
@@ -95,9 +78,8 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
                                scene.footprint);
         if (!s.visible) return;
         s.weight *= static_cast<Real>(perSplat[layer]);
-        const double windowDepth =
-            (clip[3][2] - clip[2][2] * static_cast<double>(s.depth)) / static_cast<double>(s.depth);
-        if (windowDepth > 1) return;  // beyond the far plane
+        const double depth = windowDepth(view, static_cast<double>(s.depth));
+        if (depth > 1) return;  // beyond the far plane
         const bool alone =
             into.channels[0] == Channels::Over || into.channels[0] == Channels::Count;
         const std::size_t plane = alone ? 0 : layer;
@@ -106,8 +88,7 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
         const Painter paint = painter(scene, scene.layers[layer], point);
         const auto visit = [&](int x, int y, Real weight) {
             const std::size_t pixel = std::size_t(y) * view.size.x + x;
-            if (!opaqueDepth.empty() && windowDepth > static_cast<double>(opaqueDepth[pixel]))
-                return;
+            if (!opaqueDepth.empty() && depth > static_cast<double>(opaqueDepth[pixel])) return;
             deposit(channels, paint, weight, &into.planes[plane][pixel * floats]);
         };
         forEachPixel<Real>(s, view.size, latticeView, scene.footprint.kernel, visit);

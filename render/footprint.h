@@ -97,6 +97,25 @@ inline int pointSide(const Footprint& footprint) {
     return std::max(1, static_cast<int>(std::lround(footprint.size)));
 }
 
+// Pixels first to last - 1, along one side of a picture.
+struct PixelSpan {
+    int first = 0, last = 0;
+};
+// Those whose centres, at .5, a splat at this window position may reach, of a side so many pixels
+// long.
+template <typename Real>
+PixelSpan pixelSpan(Real window, Real extent, Kernel kernel, int length) {
+    Real first = std::ceil(window - extent - Real(0.5));
+    Real last = std::ceil(window + extent - Real(0.5));
+    if (kernel == Kernel::Point) {
+        first = std::floor(window - extent + Real(0.5));
+        last = first + 2 * extent;
+    }
+    const auto limit = static_cast<Real>(length);
+    return {static_cast<int>(std::clamp<Real>(first, 0, limit)),
+            static_cast<int>(std::clamp<Real>(last, 0, limit))};
+}
+
 // A view of a lattice's points.
 struct LatticeView {
     LatticeView(const Lattice& lattice, const View& view)

@@ -78,11 +78,14 @@ bool FrameRenderer::goOn(EyeInWork& work, std::uint64_t splats) {
     return true;
 }
 
-std::uint64_t FrameRenderer::cost(const Prepared& frame) {
+std::uint64_t FrameRenderer::cost(const Prepared& frame) const {
     const std::vector<Channels> channels = channelsFor(frame.content.scene);
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < channels.size(); ++i)
-        for (const Piece& piece : frame.list->pieces(channels[i], i)) sum += piece.cost;
+        if (byRows(channels[i]))
+            sum += splatCount(frame.content.scene.layers[i], frame.content.scene.stride);
+        else
+            for (const Piece& piece : frame.list->pieces(channels[i], i)) sum += piece.cost;
     return sum;
 }
 
@@ -163,18 +166,44 @@ bool FrameRenderer::drawSplats(EyeInWork& work, std::uint64_t splats) {
     for (; work.plane < channels.size(); ++work.plane, work.piece = 0) {
         if (work.cost >= until) return false;
         const Channels channel = channels[work.plane];
-        const GLuint plane = work.piece > 0 ? targets.planeFramebuffer(work.plane)
-                                            : targets.clearedPlane(work.plane, channel);
-        if (work.plane == 0 && work.piece == 0) drawDepth(occluders, work.eye, plane);
-        const auto left = work.frame.list->pieces(channel, work.plane).subspan(work.piece);
-        std::size_t now = 0;
-        while (now < left.size() && work.cost < until) work.cost += left[now++].cost;
-        splatter_.draw(*work.frame.list, work.eye, channel, left.first(now), plane);
-        work.piece += now;
-        if (now < left.size()) return false;
+        if (work.piece == 0 && !work.rows) {
+            const GLuint plane = targets.clearedPlane(work.plane, channel);
+            if (work.plane == 0) drawDepth(occluders, work.eye, plane);
+        }
+        if (!(byRows(channel) ? drawRows(work, channel, until) : drawPieces(work, channel, until)))
+            return false;
     }
     // The placards are drawn against it even if there are no splats.
     if (channels.empty()) drawDepth(occluders, work.eye, targets.lightFramebuffer());
+    return true;
+}
+
+bool FrameRenderer::drawPieces(EyeInWork& work, Channels channels, std::uint64_t until) {
+    const auto left = work.frame.list->pieces(channels, work.plane).subspan(work.piece);
+    std::size_t now = 0;
+    while (now < left.size() && work.cost < until) work.cost += left[now++].cost;
+    splatter_.draw(*work.frame.list, work.eye, channels, left.first(now),
+                   targets().planeFramebuffer(work.plane));
+    work.piece += now;
+    return now == left.size();
+}
+
+// A driver that draws on the processor takes several times longer for point sprites than the
+// program does for their pixels (tests/bench/RESULTS.md).
+bool FrameRenderer::byRows(Channels channels) const {
+    return onProcessor_ && (channels == Channels::Weight || channels == Channels::WeightedColor);
+}
+
+bool FrameRenderer::drawRows(EyeInWork& work, Channels channels, std::uint64_t until) {
+    Targets& targets = use(work.eye.size);
+    if (work.opaqueDepth.empty()) work.opaqueDepth = targets.readDepth();
+    if (!work.rows)
+        work.rows.emplace(work.frame.content.scene, work.eye, channels, work.plane,
+                          work.opaqueDepth);
+    work.cost += work.rows->add(until - work.cost);
+    if (!work.rows->done()) return false;
+    targets.writePlane(work.plane, work.rows->plane());
+    work.rows.reset();
     return true;
 }
 
@@ -207,12 +236,17 @@ void FrameRenderer::resolve(const Scene& scene, const PixelBox& covered) {
 std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view,
                                                const FlatMesh& behind) {
     Targets& targets = use(view.size);
-    std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
+    std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y)), depth;
     const auto& layers = list.scene().layers;
     for (std::size_t k = 0; k < layers.size(); ++k) {
         const GLuint plane = targets.clearedPlane(0, Channels::Weight);
-        if (k == 0) flat_->drawDepth(behind, plane, view.size);
-        splatter_.draw(list, view, Channels::Weight, k, plane);
+        if (k == 0) drawDepth({behind, {}}, view, plane);
+        if (byRows(Channels::Weight)) {
+            if (k == 0) depth = targets.readDepth();
+            targets.writePlane(0, sumRows(list.scene(), view, Channels::Weight, k, depth));
+        } else {
+            splatter_.draw(list, view, Channels::Weight, k, plane);
+        }
         const std::vector<float> weight = targets.readScalarPlane(0);
         const auto perWeight = static_cast<float>(opticalDepthPerWeight(layers[k].style.opacity));
         for (std::size_t i = 0; i < total.size(); ++i) total[i] += perWeight * weight[i];

@@ -5,17 +5,20 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "render/axes.h"
 #include "render/covered.h"
 #include "render/flat_pass.h"
+#include "render/gl/driver.h"
 #include "render/gl_list.h"
 #include "render/hidden_area_pass.h"
 #include "render/image.h"
 #include "render/legend.h"
 #include "render/placard.h"
+#include "render/row_splatter.h"
 #include "render/targets.h"
 
 namespace render {
@@ -69,12 +72,15 @@ class FrameRenderer {
         AxesMeshes axes;
         std::size_t plane = 0, piece = 0;  // to be drawn next
         std::uint64_t cost = 0;            // drawn so far, in splats
+        // Where the driver draws on the processor: the opaque scene, and the plane being summed.
+        std::vector<float> opaqueDepth = {};
+        std::optional<RowSum> rows = {};
     };
     EyeInWork begin(const Prepared& frame, const View& eye);
-    // Draws until `splats` are reached: one piece (render/pieces.h) at least. True when the light
-    // is in targets(); before, there is nothing to see.
+    // Draws until `splats` are reached: one piece (render/pieces.h) at least, or RowSum::kLeast.
+    // True when the light is in targets(); before, there is nothing to see.
     bool goOn(EyeInWork& work, std::uint64_t splats);
-    static std::uint64_t cost(const Prepared& frame);  // of a whole eye
+    std::uint64_t cost(const Prepared& frame) const;  // of a whole eye
     // An eye that sees nothing but placards. REQUIRES: makeRoom() for it.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                       const View& eye);
@@ -97,6 +103,10 @@ class FrameRenderer {
     // Leaves the depth attachment, which all planes and the light share, holding these alone.
     void drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer);
     bool drawSplats(EyeInWork& work, std::uint64_t splats);
+    // Of the plane that is next, until work.cost reaches `until`. True when it is whole.
+    bool drawPieces(EyeInWork& work, Channels channels, std::uint64_t until);
+    bool drawRows(EyeInWork& work, Channels channels, std::uint64_t until);
+    bool byRows(Channels channels) const;
     void drawLight(const EyeInWork& work);
     void resolve(const Scene& scene, const PixelBox& covered);
     const gl::Program& resolveProgram(const Scene& scene);
@@ -112,6 +122,7 @@ class FrameRenderer {
     gl::VertexArray noVertices_;
     std::vector<std::unique_ptr<Targets>> targets_;  // all of different sizes
     std::size_t current_ = 0;
+    bool onProcessor_ = gl::drawsOnProcessor();
     std::uint64_t orders_ = 0, eyes_ = 0;
 };
 

@@ -36,6 +36,13 @@ struct RangeStyle {
     double opacity = 0.5;  // of one unit length l of fully selected points, [0, 1]
 };
 
+// Linear, of a point of this value.
+inline glm::dvec3 colorOf(const RangeStyle& style, double value) {
+    if (const auto* constant = std::get_if<Constant>(&style.color)) return constant->linearRgb;
+    const auto& byValue = std::get<ByValue>(style.color);
+    return glm::dvec3(byValue.map.at(mapPosition(byValue, value)));
+}
+
 // Optical depth per unit of accumulated weight W. Opacity 1 stands for the 16 at which nothing
 // visible (1e-7) comes through: infinity would make 0 * inf of empty pixels.
 inline double opticalDepthPerWeight(double opacity) {

@@ -71,6 +71,16 @@ GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
     return framebuffer;
 }
 
+std::vector<float> Targets::readDepth() const {
+    return readPixels<float>(light_.id(), size_, GL_DEPTH_COMPONENT);
+}
+
+void Targets::writePlane(std::size_t i, std::span<const float> pixels) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(planes_[i]->texture.id(), 0, 0, 0, size_.x, size_.y,
+                        planes_[i]->format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, pixels.data());
+}
+
 Image Targets::readLight() const {
     Image image(size_);
     image.pixels = flipped(readPixels<glm::vec4>(light_.id(), size_, GL_RGBA), size_);

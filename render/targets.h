@@ -4,6 +4,7 @@
 
 #include <glm/vec4.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/gl/object.h"
@@ -29,6 +30,11 @@ class Targets {
     GLuint clearedPlane(std::size_t i, Channels channels);
     GLuint planeFramebuffer(std::size_t i) const { return planes_[i]->framebuffer.id(); }
     const gl::Texture& plane(std::size_t i) const { return planes_[i]->texture; }
+
+    // Of the opaque scene, row 0 at the bottom.
+    std::vector<float> readDepth() const;
+    // All of plane i, row 0 at the bottom.
+    void writePlane(std::size_t i, std::span<const float> pixels);
 
     Image readLight() const;
     // Row 0 at the top, as in Image. REQUIRES: plane i is Weight or Count.

@@ -21,6 +21,11 @@ struct View {
     friend bool operator==(const View&, const View&) = default;
 };
 
+// What GL's depth buffer has for a view depth > 0.
+inline double windowDepth(const View& view, double depth) {
+    return (view.clipFromView[3][2] - view.clipFromView[2][2] * depth) / depth;
+}
+
 // Tangents of the half angles, left and down negative: x / -z of the frustum's sides.
 struct Frustum {
     double left, right, down, up, near, far;

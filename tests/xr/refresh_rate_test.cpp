@@ -41,6 +41,16 @@ TEST(RefreshRate, FewerPixelsComeFirst) {
     loop.run(3, 12, kLong);  // 6 ms at the lowest scale
     EXPECT_LT(loop.scale.scale(), 1);
     EXPECT_EQ(loop.rate.wanted(), 90);
+    // A runtime that shows every second period by itself leaves pixels to lower.
+    RefreshRate rate({90, 72});
+    RenderScale whole;
+    for (int i = 0; i < kLong; ++i) {
+        constexpr nanoseconds kFrame(15'000'000), kToldPeriod(22'222'222);
+        whole.took(kFrame, kToldPeriod);
+        rate.took(kFrame, whole);
+    }
+    EXPECT_EQ(whole.scale(), 1);
+    EXPECT_EQ(rate.wanted(), 90);
 }
 
 TEST(RefreshRate, ComesToRestAtTheHighestThatCanBeHeld) {

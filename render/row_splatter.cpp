@@ -1,0 +1,217 @@
+#include "render/row_splatter.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+
+#include "render/footprint.h"
+
+namespace render {
+namespace {
+
+// A splat in the picture.
+struct Placed {
+    Splat<float> splat;
+    float windowDepth = 0;
+    PixelSpan x, y;
+    glm::vec4 color{1};  // what the four channels take for each W
+};
+
+// A layer as a view sees it.
+class SeenLayer {
+ public:
+    SeenLayer(const Scene& scene, const View& view, Channels channels, std::size_t layer)
+        : scene_(scene),
+          view_(view),
+          style_(scene.layers[layer].style),
+          colored_(channels == Channels::WeightedColor),
+          seen_(scene.lattice, view),
+          perSplat_(pointsPerSplat(scene.layers[layer], scene.stride) * seen_.rayLength),
+          axis_(seen_.rays.centre),
+          slope2_(1.0 / (seen_.rays.focal * seen_.rays.focal)) {}
+
+    // Spans no pixels when it is not drawn.
+    Placed place(std::uint64_t point) const;
+    // W of the splat's pixels in row y, 0 where the opaque scene hides it; its first pixel's first.
+    void weigh(const Placed& placed, int y, const float* opaqueRow, float* weights) const;
+
+ private:
+    const Scene& scene_;
+    const View& view_;
+    const RangeStyle& style_;
+    bool colored_;
+    LatticeView seen_;
+    double perSplat_;   // points that a splat stands for, times the length of the view axis' ray
+    glm::vec2 axis_;    // window position of the view axis
+    glm::vec2 slope2_;  // squares of x / -z and y / -z per pixel
+};
+
+Placed SeenLayer::place(std::uint64_t point) const {
+    Placed placed;
+    const std::uint32_t i = scene_.step.gridIndex()[point];
+    const glm::uvec3 n = scene_.lattice.size();
+    if (!scene_.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y})) return placed;
+    Splat<float>& s = placed.splat;
+    s = splatAt<float>(seen_, scene_.lattice.position(i), scene_.lattice.cell(i), scene_.footprint);
+    if (!s.visible) return placed;
+    s.weight *= static_cast<float>(perSplat_);
+    placed.windowDepth = static_cast<float>(windowDepth(view_, static_cast<double>(s.depth)));
+    if (placed.windowDepth > 1) return placed;  // beyond the far plane
+    const glm::vec2 window = axis_ + s.centre;
+    placed.x = pixelSpan(window.x, s.extent, scene_.footprint.kernel, view_.size.x);
+    placed.y = pixelSpan(window.y, s.extent, scene_.footprint.kernel, view_.size.y);
+    if (colored_)
+        placed.color = glm::vec4(
+            glm::vec3(colorOf(style_, timeseries::toDouble(scene_.step.value(point)))), 1);
+    return placed;
+}
+
+void SeenLayer::weigh(const Placed& placed, int y, const float* opaqueRow, float* weights) const {
+    const Splat<float>& s = placed.splat;
+    const float atY = static_cast<float>(y) + 0.5f - axis_.y;
+    const float oy = atY - s.centre.y;
+    // The quadratic forms of the row, in x alone. Those of a point splat give q = 0 and d = 1.
+    const float n0 = s.n.z * oy * oy, n1 = s.n.y * oy, n2 = s.n.x;
+    const float d0 = 1 + s.l.y * oy + s.d.z * oy * oy, d1 = s.l.x + s.d.y * oy, d2 = s.d.x;
+    const float ray0 = 1 + slope2_.y * atY * atY, ray2 = slope2_.x;
+    const float left = static_cast<float>(placed.x.first) + 0.5f - axis_.x;
+    const float centre = s.centre.x, weight = s.weight, depth = placed.windowDepth;
+    opaqueRow += placed.x.first;
+    const int count = placed.x.last - placed.x.first;
+    for (int i = 0; i < count; ++i) {
+        const float atX = left + static_cast<float>(i);
+        const float ox = atX - centre;
+        const float d = d0 + (d1 + d2 * ox) * ox;
+        const float q = (n0 + (n1 + n2 * ox) * ox) / d;
+        const float t = q < 1 ? 1 - q : 0;
+        const float u = t * t;
+        const float w = weight * std::sqrt((ray0 + ray2 * atX * atX) / d) * u * u;
+        weights[i] = depth <= opaqueRow[i] ? w : 0;
+    }
+}
+
+// work(k) for every k below `threads`, each on a thread.
+void together(unsigned threads, const std::function<void(unsigned)>& work) {
+    std::vector<std::jthread> others;
+    for (unsigned k = 1; k < threads; ++k) others.emplace_back(work, k);
+    work(0);
+}
+
+// Threads take the rows of a picture in turns, so many at a time.
+constexpr int kRows = 16;
+constexpr std::uint64_t kAtOnce = 1 << 15;
+
+}  // namespace
+
+struct RowSum::Work {
+    const Scene& scene;
+    const Layer& layer;
+    const std::uint32_t stride;
+    SeenLayer seen;
+    std::size_t width, floats;
+    std::span<const float> opaqueDepth;
+    unsigned threads;
+    std::vector<float> plane;
+    std::vector<float> rowWeights;  // a row a thread
+    // What is next: of this run, after so many of its points.
+    std::size_t run = 0;
+    std::uint64_t passed = 0;
+    std::vector<std::uint64_t> points;
+    std::vector<Placed> placed;
+
+    void gather(std::uint64_t atMost);
+    void sum();
+    void addRow(const Placed& splat, int y, float* weights);
+};
+
+void RowSum::Work::gather(std::uint64_t atMost) {
+    points.clear();
+    while (run < layer.runs.size() && points.size() < atMost) {
+        const timeseries::Run& whole = layer.runs[run];
+        timeseries::Run part{whole.first + passed, whole.count - passed};
+        part.count = std::min(part.count, (atMost - points.size()) * stride);
+        forEachInSubset(part, stride, [&](std::uint64_t point) { points.push_back(point); });
+        passed += part.count;
+        if (passed == whole.count) ++run, passed = 0;
+    }
+}
+
+void RowSum::Work::addRow(const Placed& splat, int y, float* weights) {
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    seen.weigh(splat, y, &opaqueDepth[first], weights);
+    float* to = &plane[(first + static_cast<std::size_t>(splat.x.first)) * floats];
+    const int count = splat.x.last - splat.x.first;
+    if (floats == 1)
+        for (int i = 0; i < count; ++i) to[i] += weights[i];
+    else
+        for (int i = 0; i < count; ++i)
+            for (int c = 0; c < 4; ++c) to[4 * i + c] += weights[i] * splat.color[c];
+}
+
+void RowSum::Work::sum() {
+    placed.resize(points.size());
+    together(threads, [&](unsigned k) {
+        const std::size_t end = points.size() * (k + 1) / threads;
+        for (std::size_t i = points.size() * k / threads; i < end; ++i)
+            placed[i] = seen.place(points[i]);
+    });
+    together(threads, [&](unsigned k) {
+        for (const Placed& p : placed) {
+            if (p.x.first >= p.x.last) continue;
+            for (int y = p.y.first; y < p.y.last;) {
+                const int strip = y / kRows;
+                const int last = std::min((strip + 1) * kRows, p.y.last);
+                if (static_cast<unsigned>(strip) % threads == k)
+                    for (; y < last; ++y) addRow(p, y, &rowWeights[width * k]);
+                y = last;
+            }
+        }
+    });
+}
+
+RowSum::RowSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
+               std::span<const float> opaqueDepth, unsigned threads) {
+    assert(channels == Channels::Weight || channels == Channels::WeightedColor);
+    threads = std::max(threads, 1u);
+    const auto width = static_cast<std::size_t>(view.size.x);
+    const std::size_t floats = channels == Channels::Weight ? 1 : 4;
+    work_.reset(new Work{.scene = scene,
+                         .layer = scene.layers[layer],
+                         .stride = strideOf(scene.layers[layer], scene.stride),
+                         .seen{scene, view, channels, layer},
+                         .width = width,
+                         .floats = floats,
+                         .opaqueDepth = opaqueDepth,
+                         .threads = threads,
+                         .plane = std::vector<float>(width * std::size_t(view.size.y) * floats),
+                         .rowWeights = std::vector<float>(width * threads),
+                         .points = {},
+                         .placed = {}});
+}
+
+RowSum::RowSum(RowSum&&) noexcept = default;
+RowSum::~RowSum() = default;
+
+std::uint64_t RowSum::add(std::uint64_t splats) {
+    std::uint64_t added = 0;
+    while (!done() && added < splats) {
+        work_->gather(std::clamp(splats - added, kLeast, kAtOnce));
+        work_->sum();
+        added += work_->points.size();
+    }
+    return added;
+}
+
+bool RowSum::done() const { return work_->run == work_->layer.runs.size(); }
+const std::vector<float>& RowSum::plane() const { return work_->plane; }
+
+std::vector<float> sumRows(const Scene& scene, const View& view, Channels channels,
+                           std::size_t layer, std::span<const float> opaqueDepth,
+                           unsigned threads) {
+    RowSum sum(scene, view, channels, layer, opaqueDepth, threads);
+    sum.add(splatCount(scene.layers[layer], scene.stride));
+    return sum.plane();
+}
+
+}  // namespace render
