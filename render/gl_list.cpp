@@ -90,8 +90,8 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
 std::span<const Piece> GpuList::pieces(Channels channels, std::size_t layer) const {
     const bool alone = channels == Channels::Over || channels == Channels::Count;
     if (alone || sorted_) return pieces_;
-    const auto found = std::ranges::equal_range(pieces_, layer, {}, &Piece::layer);
-    return {found.begin(), found.end()};
+    return {std::ranges::lower_bound(pieces_, layer, {}, &Piece::layer),
+            std::ranges::upper_bound(pieces_, layer, {}, &Piece::layer)};
 }
 
 void GpuList::draw(bool quads, std::span<const Piece> pieces) const {
