@@ -35,6 +35,10 @@ inline constexpr double kQuarticRadius = 8.771483815959954 / (2 * std::numbers::
 // Semi-axes are no smaller than this many pixels, for the same reason: the pixels are a lattice
 // too.
 inline constexpr double kSmallestRadiusPixels = kQuarticRadius;
+// Of d(o) below. Where a pixel's ray passes through the footprint, d is about (z / (z + a))^2 or
+// more, a being the largest semi-axis; less is what float's cancellation leaves of 0, of either
+// sign, on rays far beside a flat cell that is near the eye.
+inline constexpr float kLeastDenominator = 1e-6f;
 
 template <typename Real>
 struct Splat {
@@ -67,7 +71,7 @@ std::optional<Real> weightOn(const Splat<Real>& s, Kernel kernel, const glm::vec
     if (kernel == Kernel::Point) return s.weight * rayUnit * std::sqrt(ray2);
     const Real d = s.denominator(offset);
     const Real q = s.numerator(offset) / d;
-    if (q >= 1) return std::nullopt;
+    if (q >= 1 || !(d > Real(kLeastDenominator))) return std::nullopt;
     const Real u = (1 - q) * (1 - q);
     return s.weight * rayUnit * std::sqrt(ray2 / d) * u * u;
 }

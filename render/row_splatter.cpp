@@ -87,7 +87,7 @@ void SeenLayer::weigh(const Placed& placed, int y, const float* opaqueRow, float
         const float t = q < 1 ? 1 - q : 0;
         const float u = t * t;
         const float w = weight * std::sqrt((ray0 + ray2 * atX * atX) / d) * u * u;
-        weights[i] = depth <= opaqueRow[i] ? w : 0;
+        weights[i] = depth <= opaqueRow[i] && d > kLeastDenominator ? w : 0;
     }
 }
 

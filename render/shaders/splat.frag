@@ -40,7 +40,7 @@ void main() {
 #else
     const float d = 1.0 + dot(vec2(quadN.w, quadD.w), o) + dot(quadD.xyz, squares);
     const float q = dot(quadN.xyz, squares) / d;
-    if (q >= 1.0) discard;
+    if (q >= 1.0 || !(d > 1e-6)) discard;  // kLeastDenominator
     const float u = (1.0 - q) * (1.0 - q);
     const float w = centreAndWeight.z * sqrt(ray2 / d) * u * u;
 #endif
