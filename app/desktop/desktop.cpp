@@ -53,7 +53,7 @@ void Desktop::frame(std::chrono::nanoseconds dt) {
     exploration_.advance(dt);
     errands_.goOn(interface_.choices());  // before all is drawn: nothing else may wake it
     const glm::ivec2 size = window_.framebufferSize();
-    if (size.x == 0 || size.y == 0) return errands_.goOn(interface_.choices());  // minimised
+    if (size.x == 0 || size.y == 0) return;  // minimised
     gui_.setScale(static_cast<float>(
         interface_.choices().scale.value_or(static_cast<double>(window_.contentScale()))));
     interact(dt);

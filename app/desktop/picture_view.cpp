@@ -41,6 +41,7 @@ bool PictureView::isCurrent(const Shown& shown) const {
 void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place,
                        bool playing, std::chrono::nanoseconds frameBudget) {
     if (shown == nullptr) return render::showGround(window, kGroundColor);
+    playing_ = playing;
     const bool current = isCurrent(*shown);
     if (!current) changed_ = Clock::now();
     const bool resting = !playing && Clock::now() - changed_ >= kRest;
@@ -97,7 +98,7 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     if (!drawn_ || report_.whole) return std::nullopt;
-    const bool goesOn = report_.uploaded < 1 || report_.refined > 0;
+    const bool goesOn = report_.uploaded < 1 || (report_.refined > 0 && !playing_);
     return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }
 

@@ -64,8 +64,9 @@ class PictureView {
     glm::dmat3 boxHalfEdges_{0.5};
     std::optional<render::View> eye_;
     Clock::time_point changed_ = Clock::now();
-    double readNs_ = 10;  // of a read, a splat drawn, as the last one took
-    bool timed_ = true;   // what was drawn last has its time
+    bool playing_ = false;  // at the last draw(): a refinement stands still
+    double readNs_ = 10;    // of a read, a splat drawn, as the last one took
+    bool timed_ = true;     // what was drawn last has its time
 };
 
 }  // namespace app::desktop

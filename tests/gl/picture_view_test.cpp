@@ -1,0 +1,39 @@
+// When the window's picture is to be drawn again.
+#include "app/desktop/picture_view.h"
+
+#include <gtest/gtest.h>
+
+#include "render/gl/debug_output.h"
+#include "render/gl/headless_context.h"
+#include "tests/support/shown_steps.h"
+
+namespace app::desktop {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
+    const render::gl::HeadlessContext context;
+    tests::ShownSteps world(64);
+    PictureView view;
+    const auto draw = [&](bool playing) {
+        const Shown shown = world.shown();
+        const glm::ivec2 size = world.explorer.size;
+        view.draw(&shown, size, {glm::vec2(0), glm::vec2(size)}, playing, 1ms);
+        render::gl::takeRecordedError();  // there is no window to show it in
+    };
+    draw(false);
+    while (view.performance().refined == 0) draw(false);
+    ASSERT_FALSE(view.performance().whole);
+    EXPECT_EQ(view.untilNextDraw(), 0ns);
+    // Between two steps that play: nothing is drawn.
+    draw(true);
+    EXPECT_GT(view.untilNextDraw().value(), 0ns);
+    draw(false);
+    EXPECT_EQ(view.untilNextDraw(), 0ns);
+    while (!view.performance().whole) draw(false);
+    EXPECT_FALSE(view.untilNextDraw());
+}
+
+}  // namespace
+}  // namespace app::desktop
