@@ -53,7 +53,7 @@ void Desktop::frame(std::chrono::nanoseconds dt) {
     exploration_.advance(dt);
     errands_.goOn(interface_.choices());  // before all is drawn: nothing else may wake it
     const glm::ivec2 size = window_.framebufferSize();
-    if (size.x == 0 || size.y == 0) return errands_.goOn(interface_.choices());  // minimised
+    if (size.x == 0 || size.y == 0) return;  // minimised
     gui_.setScale(static_cast<float>(
         interface_.choices().scale.value_or(static_cast<double>(window_.contentScale()))));
     interact(dt);
@@ -100,8 +100,10 @@ void Desktop::serve(panels::Requests& requests) {
         if (command == panels::Command::Screenshot) errands_.screenshot();
         if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
     }
-    if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover));
-    if (requests.probe) interface_.takeReading(picture_.read(*requests.probe), requests.ruler);
+    const Explorer& shown = exploration_.explorer();
+    if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover, shown));
+    if (requests.probe)
+        interface_.takeReading(picture_.read(*requests.probe, shown), requests.ruler);
 }
 
 void Desktop::drawPicture() {

@@ -101,22 +101,22 @@ std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }
 
-std::optional<Reading> PictureView::readSoon(glm::vec2 at) {
+std::optional<Reading> PictureView::readSoon(glm::vec2 at, const Explorer& shown) {
     const auto splats = static_cast<double>(report_.drawn);
     if (splats * readNs_ > std::chrono::duration<double, std::nano>(kSoon).count()) {
         readNs_ *= 0.9;  // a machine that was slow once is tried again
         return std::nullopt;
     }
     const Clock::time_point begin = Clock::now();
-    const auto reading = read(at);
+    const auto reading = read(at, shown);
     // Few splats say little of what one costs.
     if (report_.drawn > 10'000)
         readNs_ = std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / splats;
     return reading;
 }
 
-std::optional<Reading> PictureView::read(glm::vec2 at) const {
-    if (!eye_) return std::nullopt;
+std::optional<Reading> PictureView::read(glm::vec2 at, const Explorer& shown) const {
+    if (!eye_ || !canvas_.shows(shown)) return std::nullopt;
     const glm::dvec2 window(static_cast<double>(at.x) + 0.5,
                             static_cast<double>(eye_->size.y) - static_cast<double>(at.y) - 0.5);
     const auto found = canvas_.probe(*eye_, window);
