@@ -57,10 +57,6 @@ std::optional<std::size_t> layerOf(const Explorer& e, std::size_t k) {
 }
 
 // Whether choices made for one step suit another: of the same variable, with the same values kept.
-bool sameData(const Explorer& a, const Explorer& b) {
-    return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
-}
-
 // What is on the screen, being refined.
 struct Resting {
     Screen of;
@@ -213,6 +209,10 @@ std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
     const Explorer& e = shown.explorer;
     return eyes(e.view, e.stereo, render::Lattice(shown.sorted->grid(), e.scale).boxHalfEdges(),
                 e.size);
+}
+
+bool Canvas::shows(const Explorer& data) const {
+    return state_->screen && sameData(state_->screen->explorer, data);
 }
 
 std::optional<Drawn> Canvas::drawn() const {

@@ -88,6 +88,8 @@ class Canvas {
 
     // The eyes of the shown explorer on a picture of its size (camera.h).
     std::vector<render::View> eyesOf(const Shown& shown) const;
+    // Whether what is on the screen is of these data, which may have come since it was drawn.
+    bool shows(const Explorer& data) const;
     // What is on the screen, until the next draw(); none before the first.
     std::optional<Drawn> drawn() const;
     // What an eye sees at a window position (pixels, y up), of what was drawn last; see pick.h.

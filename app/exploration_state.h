@@ -10,11 +10,6 @@
 
 namespace app {
 
-// Whether both are about the same sorted steps.
-inline bool sameData(const Explorer& a, const Explorer& b) {
-    return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
-}
-
 struct Exploration::Open {
     Open(Dataset opened, const Explorer& wish, const Settings& settings, const Wake& wake)
         : dataset(std::move(opened)),

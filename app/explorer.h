@@ -101,4 +101,9 @@ struct Explorer {
     friend bool operator==(const Explorer&, const Explorer&) = default;
 };
 
+// Whether both are about the same sorted steps.
+inline bool sameData(const Explorer& a, const Explorer& b) {
+    return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
+}
+
 }  // namespace app

@@ -100,8 +100,10 @@ void Desktop::serve(panels::Requests& requests) {
         if (command == panels::Command::Screenshot) errands_.screenshot();
         if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
     }
-    if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover));
-    if (requests.probe) interface_.takeReading(picture_.read(*requests.probe), requests.ruler);
+    const Explorer& shown = exploration_.explorer();
+    if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover, shown));
+    if (requests.probe)
+        interface_.takeReading(picture_.read(*requests.probe, shown), requests.ruler);
 }
 
 void Desktop::drawPicture() {

@@ -76,8 +76,7 @@ void Errands::settleLeft() {
     if (!goingOn_ || exploration_.opening()) return;
     const LeftSession left = *std::exchange(goingOn_, std::nullopt);
     const Explorer &now = exploration_.explorer(), &wished = left.explorer;
-    if (now.files == wished.files && now.variable == wished.variable && now.keep == wished.keep &&
-        now.layers == wished.layers && now.sweep == wished.sweep)
+    if (sameData(now, wished) && now.layers == wished.layers && now.sweep == wished.sweep)
         forgetLeft(left.file);
 }
 

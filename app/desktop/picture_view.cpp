@@ -102,22 +102,22 @@ std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }
 
-std::optional<Reading> PictureView::readSoon(glm::vec2 at) {
+std::optional<Reading> PictureView::readSoon(glm::vec2 at, const Explorer& shown) {
     const auto splats = static_cast<double>(report_.drawn);
     if (splats * readNs_ > std::chrono::duration<double, std::nano>(kSoon).count()) {
         readNs_ *= 0.9;  // a machine that was slow once is tried again
         return std::nullopt;
     }
     const Clock::time_point begin = Clock::now();
-    const auto reading = read(at);
+    const auto reading = read(at, shown);
     // Few splats say little of what one costs.
     if (report_.drawn > 10'000)
         readNs_ = std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / splats;
     return reading;
 }
 
-std::optional<Reading> PictureView::read(glm::vec2 at) const {
-    if (eyes_.empty()) return std::nullopt;
+std::optional<Reading> PictureView::read(glm::vec2 at, const Explorer& shown) const {
+    if (eyes_.empty() || !canvas_.shows(shown)) return std::nullopt;
     const glm::ivec2 size = eyes_.front().size;
     const glm::ivec2 tile = glm::clamp(glm::ivec2(at) / size, glm::ivec2(0), grid_ - 1);
     const render::View& eye = eyes_[static_cast<std::size_t>(tile.x + tile.y)];

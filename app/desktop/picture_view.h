@@ -28,10 +28,11 @@ class PictureView {
     // When it is to be drawn again although nothing changes; none when it is whole.
     std::optional<std::chrono::nanoseconds> untilNextDraw() const;
 
-    // What an eye sees at a place of the picture, y down; none there.
-    std::optional<Reading> read(glm::vec2 at) const;
+    // What an eye sees at a place of the picture, y down; none there, and where the picture is
+    // still of other data.
+    std::optional<Reading> read(glm::vec2 at, const Explorer& shown) const;
     // Likewise, where that keeps nobody waiting: none too where it would take kSoon or more.
-    std::optional<Reading> readSoon(glm::vec2 at);
+    std::optional<Reading> readSoon(glm::vec2 at, const Explorer& shown);
     static constexpr std::chrono::milliseconds kSoon{50};
 
     // How long the frame took that the last draw() belongs to, where the GPU did not tell.

@@ -94,8 +94,10 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
     RoomInput input{.hands = frame.hands(),
                     .head = frame.head(),
                     .dt = dt,
-                    .drawn = eyes_.canvas().drawn(),
+                    .drawn = {},
                     .asked = std::exchange(asked_, std::nullopt)};
+    // What is still before the eyes of other data is not there for hands.
+    if (eyes_.canvas().shows(exploration_.explorer())) input.drawn = eyes_.canvas().drawn();
     // What comes first is placed before it is drawn.
     std::optional<render::Lattice> first;
     if (const auto shown = exploration_.shown(); shown && !input.drawn) {

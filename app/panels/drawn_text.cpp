@@ -6,7 +6,7 @@
 
 namespace app::panels {
 
-std::string drawnText(const Drawn& drawn) {
+std::string drawnText(const DrawnCounts& drawn) {
     const bool shared = drawn.allSplats > drawn.points;
     if (drawn.splats < drawn.allSplats)
         return fmt::format("{} of {} {} drawn", withCommas(drawn.splats),

@@ -8,10 +8,10 @@ namespace app::panels {
 
 // What was drawn, and what all of it would be. A point of several layers is drawn in each: one
 // point, several splats.
-struct Drawn {
+struct DrawnCounts {
     std::uint64_t splats = 0, allSplats = 0, points = 0;  // `points`: selected, each counted once
 };
 // "100 points drawn", "100 points drawn, as 120 splats", "30 of 120 splats drawn".
-std::string drawnText(const Drawn& drawn);
+std::string drawnText(const DrawnCounts& drawn);
 
 }  // namespace app::panels

@@ -41,7 +41,7 @@ bool Focus::begin(const std::optional<KeyPress>& key, bool typing) {
     turn_ = {};
     untilTyping_ = std::max(0, untilTyping_ - 1);
     if (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))
-        has_ = false;
+        has_ = hadBehind_ = false;
     return key && !key->ctrl && press(*key, typing);
 }
 

@@ -57,6 +57,7 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
               .performance = around.performance};
     const std::size_t layers = exploration.explorer().layers.size();
     choices_.layer = std::min(choices_.layer, layers == 0 ? 0 : layers - 1);
+    forgetOtherData(exploration.explorer());
     takeKey(exploration, around.key, requests);
     popup_ = files_.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     ImGui::PushFont(around.theme.text);
@@ -71,6 +72,14 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
     focus_.end(around.theme.scale);
     ImGui::PopFont();
     if (ImGui::IsMouseReleased(0) || ImGui::IsMouseReleased(2)) exploration.endGesture();
+}
+
+// A value of other data, at a step that these may not have.
+void Interface::forgetOtherData(const Explorer& now) {
+    if (sameData(now, probed_)) return;
+    probe_.clear();
+    hover_.take({});
+    probed_ = now;
 }
 
 // The control that has the focus first; else a key is a command, but for what is typed.

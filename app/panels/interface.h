@@ -57,6 +57,7 @@ class Interface {
 
  private:
     void takeKey(Exploration& exploration, const std::optional<KeyPress>& key, Requests& requests);
+    void forgetOtherData(const Explorer& now);
     void drawPicture(Desk& desk, const Surroundings& around);
     void drawSide(Desk& desk, const Surroundings& around);
     void drawTabs(Desk& desk, const Rect& at);
@@ -72,6 +73,7 @@ class Interface {
     AnimationPage animation_;
     ViewPage view_;
     ProbePage probe_;
+    Explorer probed_;  // whose data the probe's readings are of
     PictureArea picture_;
     HoverTip hover_;
     Messages messages_;

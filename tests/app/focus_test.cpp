@@ -164,6 +164,20 @@ TEST_F(AFocus, IsNobodysAgainBehindAPopupThatWasOpenedWithoutIt) {
     EXPECT_FALSE(taken_);
 }
 
+TEST_F(AFocus, IsNobodysAgainWhereAPopupWasLeftWithTheMouse) {
+    press(Key::Tab);
+    popup_ = true;
+    frame();
+    ImGui::GetIO().MouseDown[0] = true;
+    frame();
+    ImGui::GetIO().MouseDown[0] = false;
+    popup_ = false;
+    frame();
+    EXPECT_EQ(frame(), 0u);
+    press(Key::Space);
+    EXPECT_FALSE(taken_) << "the picture's";
+}
+
 TEST_F(AFocus, GoesToTheNearestWhenItsControlIsGone) {
     for (int i = 0; i < 5; ++i) press(Key::Tab);
     gone_ = 5;

@@ -187,8 +187,10 @@ TEST_F(CanvasOfNoise, AnotherDatasetIsNotDrawnWithChoicesThatAreNotItsOwn) {
     other.explorer.layers = {tests::ShownSteps::layer("0:1", glm::dvec3(1))};
     EXPECT_EQ(draw(other.shown(0), {.uploadBytes = 64})[0], before);
     EXPECT_FALSE(report_.whole);
+    EXPECT_TRUE(canvas_.shows(world_.explorer) && !canvas_.shows(other.explorer));
     EXPECT_NE(draw(other.shown(0))[0], before);
     EXPECT_TRUE(report_.whole);
+    EXPECT_TRUE(canvas_.shows(other.explorer) && !canvas_.shows(world_.explorer));
 }
 
 TEST_F(CanvasOfNoise, StepsThatAreNotDrawnAreFreedBeyondTheBudget) {

@@ -61,5 +61,30 @@ TEST_F(PanelUnderARay, BeforeThereAreDataItHasNoButtons) {
                          .room);
 }
 
+// At a step that the others do not have, of a variable that is not theirs.
+TEST(PanelOfOtherData, KeepsNoReadingOfThoseBefore) {
+    const render::gl::HeadlessContext context;
+    tests::ExplorationDesk desk({{"long", {.steps = 10}}, {"short", {.steps = 1}}});
+    Panel panel([] {});
+    const auto draw = [&] { panel.draw(desk.exploration, {}, {}, std::chrono::milliseconds(10)); };
+    panel.interface().choices().page = panels::Page::Probe;
+    desk.open("long");
+    draw();
+    panel.interface().takeReading(Reading{.value = 3.0, .step = 9}, false);
+    draw();
+    EXPECT_TRUE(panel.interface().reading());
+    desk.open("short");
+    draw();
+    EXPECT_FALSE(panel.interface().reading());
+    desk.choose("P");
+    desk.untilOpened();
+    draw();
+    panel.interface().takeReading(Reading{.value = 3.0, .step = 0}, false);
+    desk.choose("T");
+    desk.untilOpened();
+    draw();
+    EXPECT_FALSE(panel.interface().reading());
+}
+
 }  // namespace
 }  // namespace app::headset

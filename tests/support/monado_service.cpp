@@ -150,9 +150,10 @@ void MonadoService::startDisplay() {
     const auto [read, write] = closedOnExec();
     const int log = openedLog(folder_ / "display.log");
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    // It ends with this process, however that ends; -terminate would end it with its first client.
+    // It ends with this process, however that ends; -terminate would end it with its first client,
+    // and without -noreset it turns away, for a moment, who comes just after its last one went.
     display_ = spawned({"setpriv", "--pdeathsig", "TERM", "Xvfb", "-displayfd", "3", "-screen", "0",
-                        "1600x1100x24", "-nolisten", "tcp"},
+                        "1600x1100x24", "-nolisten", "tcp", "-noreset"},
                        {}, {nothing, log, write});
     close(write), close(log), close(nothing);
     std::string number;
