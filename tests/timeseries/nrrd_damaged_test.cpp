@@ -68,6 +68,24 @@ TEST_F(DamagedNrrd, FilesCutAnywhereAreRefused) {
     }
 }
 
+TEST_F(DamagedNrrd, LaterCompressedStreamsThatAreCutOrDamagedAreRefused) {
+    const std::string header = "type: uchar\ndimension: 3\nsizes: 4 5 6\nencoding: ";
+    const std::string half = bytesOf(ramp<std::uint8_t>(60));
+    for (const std::string encoding : {"gzip", "bzip2"}) {
+        const std::string lines = header + encoding + "\n", one = encoded(encoding, half);
+        ASSERT_EQ(told(nrrd(lines, one + one)), "");
+        for (std::size_t length = 0; length < one.size(); ++length)
+            EXPECT_NE(told(nrrd(lines, one + one.substr(0, length))), "") << encoding << length;
+        EXPECT_THAT(told(nrrd(lines, one)), HasSubstr("expected 120 bytes of values, found 60"));
+        EXPECT_THAT(told(nrrd(lines, one + "plain" + half)),
+                    HasSubstr("expected 120 bytes of values, found 60"));
+        // The checksum of the last stream's values.
+        std::string wrong = one + one;
+        wrong[wrong.size() - 5] = static_cast<char>(wrong[wrong.size() - 5] ^ 0x10);
+        EXPECT_THAT(told(nrrd(lines, wrong)), HasSubstr("damaged or cut")) << encoding;
+    }
+}
+
 TEST_F(DamagedNrrd, HeadersWithWrongBytesAreReadOrRefused) {
     std::mt19937 random(5);
     for (const char* encoding : {"raw", "gzip", "ascii"}) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <random>
 
 #include "tests/support/nrrd_builder.h"
 
@@ -164,6 +165,34 @@ TEST(Nrrd, StepsLargerThanTheBufferAreReadWhole) {
                 if (directions[1] == '0') at = i / 2 + i % 2 * 70001 + 2 * 70001 * step;  // turned
                 if (directions[0] == 'n') at = i * 70001 + step;  // time fastest
                 ASSERT_EQ(values[i], at) << directions << ' ' << i;
+            }
+        }
+}
+
+TEST(Nrrd, CompressedStreamsBehindEachOtherAreOne) {
+    // Larger than the buffers of packed and of unpacked bytes; the parts end where no row does.
+    std::mt19937 random(3);
+    std::vector<std::uint8_t> stored(300 * 200 * 5);
+    for (std::uint8_t& value : stored) value = static_cast<std::uint8_t>(random());
+    const std::string bytes = bytesOf(stored);
+    for (const std::string encoding : {"gzip", "bzip2"})
+        for (const std::size_t part : {1001u, 65536u, 299999u}) {
+            std::string packed = encoded(encoding, "skip");
+            for (std::size_t at = 0; at < bytes.size(); at += part)
+                packed += encoded(encoding, bytes.substr(at, part));
+            for (const char* behind : {"", "BZ", "\n# not packed\n"}) {
+                const auto reader =
+                    openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 300 20 10 5\nbyte skip: 4\n"
+                                   "encoding: " +
+                                       encoding + "\n",
+                                   packed + behind));
+                for (const std::size_t step : {4u, 0u, 3u}) {
+                    const auto values = valuesOf<std::uint8_t>(*reader, step);
+                    ASSERT_EQ(values.size(), 60000u);
+                    EXPECT_TRUE(
+                        std::ranges::equal(values, std::span(stored).subspan(step * 60000, 60000)))
+                        << encoding << " in parts of " << part << " step " << step;
+                }
             }
         }
 }

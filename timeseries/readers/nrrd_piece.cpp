@@ -12,7 +12,7 @@
 namespace timeseries {
 namespace {
 
-constexpr std::size_t kMaxCall = std::size_t{1} << 30;  // zlib and bzip2 count in int
+constexpr std::size_t kMaxCall = std::size_t{1} << 30;  // zlib counts in int
 
 }  // namespace
 
@@ -40,7 +40,6 @@ NrrdStream::Piece::Piece(const NrrdHeader& header, const std::filesystem::path& 
                              size - std::min(size, offset_)));
     } catch (...) {
         if (gzip_) gzclose_r(gzip_);
-        if (bzip2_) BZ2_bzclose(bzip2_);
         ::close(file_);
         throw;
     }
@@ -48,7 +47,6 @@ NrrdStream::Piece::Piece(const NrrdHeader& header, const std::filesystem::path& 
 
 NrrdStream::Piece::~Piece() {
     if (gzip_) gzclose_r(gzip_);
-    if (bzip2_) BZ2_bzclose(bzip2_);
     ::close(file_);
 }
 
@@ -68,6 +66,15 @@ void NrrdStream::Piece::skipLines() {
     }
 }
 
+void NrrdStream::Piece::openGzip() {
+    const int own = ::dup(file_);  // zlib closes it
+    if (own < 0) fail("expected a file that can be read");
+    gzip_ = gzdopen(own, "rb");
+    if (gzip_) return;
+    ::close(own);
+    fail("expected memory to decode it");
+}
+
 void NrrdStream::Piece::openDecoder() {
     const bool gzip = header_.encoding == NrrdEncoding::Gzip;
     // zlib passes what is not compressed as it is.
@@ -77,16 +84,11 @@ void NrrdStream::Piece::openDecoder() {
                         (gzip ? start[0] == 0x1f && start[1] == 0x8b
                               : start[0] == 'B' && start[1] == 'Z' && start[2] == 'h');
     if (!begins) fail(fmt::format("expected {} data", gzip ? "gzip" : "bzip2"));
-    const int own = ::dup(file_);  // the decoder closes it
-    if (own < 0 || ::lseek(own, at, SEEK_SET) != at) fail("expected a file that can be read");
+    if (::lseek(file_, at, SEEK_SET) != at) fail("expected a file that can be read");
     if (gzip)
-        gzip_ = gzdopen(own, "rb");
+        openGzip();
     else
-        bzip2_ = BZ2_bzdopen(own, "rb");
-    if (!gzip_ && !bzip2_) {
-        ::close(own);
-        fail("expected memory to decode it");
-    }
+        bzip2_.emplace(file_);
     std::array<char, 4096> chunk;
     for (auto left = static_cast<std::uint64_t>(header_.byteSkip); left > 0;) {
         const std::size_t got = next(chunk.data(), std::min<std::uint64_t>(left, chunk.size()));
@@ -116,7 +118,7 @@ std::size_t NrrdStream::Piece::next(char* out, std::size_t bytes) {
         if (gzip_)
             got = gzread(gzip_, out + done, static_cast<unsigned>(want));
         else if (bzip2_)
-            got = BZ2_bzread(bzip2_, out + done, static_cast<int>(want));
+            got = bzip2_->read(out + done, want);
         else
             got = ::pread(file_, out + done, want, static_cast<off_t>(offset_ + position_));
         if (got < 0 && !gzip_ && !bzip2_ && errno == EINTR) continue;

@@ -1,12 +1,13 @@
 // One file that holds values of an NRRD file, decoded from its beginning on.
 #pragma once
 
-#include <bzlib.h>
 #include <zlib.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
+#include "timeseries/readers/bzip2_file.h"
 #include "timeseries/readers/nrrd_stream.h"
 
 namespace timeseries {
@@ -34,6 +35,7 @@ class NrrdStream::Piece {
  private:
     void skipLines();
     void openDecoder();
+    void openGzip();
 
     const NrrdHeader& header_;
     std::filesystem::path path_;
@@ -41,7 +43,7 @@ class NrrdStream::Piece {
     std::uint64_t bytes_, position_ = 0;
     int file_ = -1;
     gzFile gzip_ = nullptr;
-    BZFILE* bzip2_ = nullptr;
+    std::optional<Bzip2File> bzip2_;  // reads file_
 };
 
 }  // namespace timeseries
