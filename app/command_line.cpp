@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 
 #include "app/choice_text.h"
 #include "app/options.h"
 #include "app/paths.h"
+#include "timeseries/shell_word.h"
 
 namespace app {
 namespace {
@@ -97,25 +97,6 @@ void addSplats(const Explorer& e, Arguments& arguments) {
     if (e.scale) arguments.option("--scale", triple(*e.scale));
 }
 
-bool isSafe(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-+=:,./@%").find(c) != std::string_view::npos;
-}
-
-// POSIX shell, 2.2.2: between single quotes every character is itself; a single quote stands
-// outside.
-std::string quoted(const std::string& argument) {
-    if (!argument.empty() && std::ranges::all_of(argument, isSafe)) return argument;
-    std::string text = "'";
-    for (const char c : argument) {
-        if (c == '\'')
-            text += "'\\''";
-        else
-            text += c;
-    }
-    return text + "'";
-}
-
 }  // namespace
 
 std::vector<std::string> renderArguments(const Explorer& e, const fs::path& output,
@@ -136,7 +117,7 @@ std::vector<std::string> renderArguments(const Explorer& e, const fs::path& outp
 std::string shellText(const std::vector<std::string>& arguments) {
     std::string line;
     for (const std::string& argument : arguments)
-        line += (line.empty() ? "" : " ") + quoted(argument);
+        line += (line.empty() ? "" : " ") + timeseries::shellWord(argument);
     return line;
 }
 

@@ -12,6 +12,8 @@
 #include "timeseries/readers/sequence_reader.h"
 #ifdef ISOCHRON_VTK
 #include "timeseries/readers/vtk_reader.h"
+#else
+#include "timeseries/shell_word.h"
 #endif
 
 namespace timeseries {
@@ -46,7 +48,7 @@ struct Format {
 std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths) {
     throw FileError(
         fmt::format("{}: expected a build that reads VTK files, which `./run --with-vtk {}` makes",
-                    paths[0].string(), paths[0].string()));
+                    paths[0].string(), shellWord(paths[0].string())));
 }
 #endif
 

@@ -1,4 +1,5 @@
 // VTK files in a build without VTK.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/files.h"
@@ -22,6 +23,20 @@ TEST(WithoutVtk, ItsFilesAreRecognisedAndTheWayToReadThemIsTold) {
                                         "--with-vtk " +
                                         path.string() + "` makes");
         }
+    }
+}
+
+TEST(WithoutVtk, TheWayCanBePastedWhateverTheFilesName) {
+    const auto path = tests::testFolder() / "it's one.vti";
+    tests::writeBytes(path, "# vtk DataFile Version 3.0\n");
+    try {
+        openReader(std::span(&path, 1));
+        FAIL();
+    } catch (const FileError& error) {
+        EXPECT_THAT(
+            error.what(),
+            testing::HasSubstr("`./run --with-vtk '" +
+                               (tests::testFolder() / "it'\\''s one.vti").string() + "'` makes"));
     }
 }
 

@@ -93,16 +93,18 @@ struct Check {
 
     [[noreturn]] void fail(const std::string& what) const { failVtk(path, place, what); }
 
-    void plain(Source& source) const {
+    // The characters that the values take.
+    std::uint64_t plain(Source& source) const {
         std::uint64_t declared = 0;
         if (!source.number(encoding, declared)) fail("expected values, but the file ends");
         if (declared != bytes)
             fail(fmt::format("expected {} bytes of values, found {}", bytes, declared));
         if (bytes > available || characters(base64, encoding.headerBytes + bytes) > available)
             fail(fmt::format("expected {} bytes of values, but the file ends before", bytes));
+        return characters(base64, encoding.headerBytes + bytes);
     }
 
-    void compressed(Source& source) const {
+    std::uint64_t compressed(Source& source) const {
         std::uint64_t blocks = 0, blockBytes = 0, lastBytes = 0;
         if (!source.number(encoding, blocks) || !source.number(encoding, blockBytes) ||
             !source.number(encoding, lastBytes))
@@ -129,9 +131,10 @@ struct Check {
                                  unpacked, size));
         }
         // The sizes and the values are encoded apart.
-        if (characters(base64, (3 + blocks) * encoding.headerBytes) + characters(base64, packed) >
-            available)
-            fail("expected packed values, but the file ends before");
+        const std::uint64_t taken =
+            characters(base64, (3 + blocks) * encoding.headerBytes) + characters(base64, packed);
+        if (taken > available) fail("expected packed values, but the file ends before");
+        return taken;
     }
 };
 
@@ -158,15 +161,15 @@ VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& r
     return encoding;
 }
 
-void checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
-                    const VtkEncoding& encoding, const XmlElement& array, std::string_view place,
-                    std::uint64_t values, std::size_t valueBytes) {
+std::uint64_t checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
+                             const VtkEncoding& encoding, const XmlElement& array,
+                             std::string_view place, std::uint64_t values, std::size_t valueBytes) {
     const std::string_view format = array.has("format") ? array.attribute("format") : "ascii";
     Check check{path, encoding, place, true, array.characters, values * valueBytes};
     if (format == "ascii") {
         if (array.words != values)
             check.fail(fmt::format("expected {} values, found {}", values, array.words));
-        return;
+        return array.characters;
     }
     std::uint64_t at = array.textAt;
     if (format == "appended") {
@@ -184,12 +187,9 @@ void checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
         check.fail(
             fmt::format("expected the format ascii, binary or appended, found \"{}\"", format));
     }
-    if (check.bytes == 0) return;
+    if (check.bytes == 0) return 0;
     Source source(path, at, check.base64);
-    if (encoding.compressor.empty())
-        check.plain(source);
-    else
-        check.compressed(source);
+    return encoding.compressor.empty() ? check.plain(source) : check.compressed(source);
 }
 
 }  // namespace timeseries

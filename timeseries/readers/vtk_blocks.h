@@ -22,8 +22,9 @@ struct VtkEncoding {
 VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& root);
 
 // Throws FileError unless the file holds `values` values of `valueBytes` bytes for the DataArray.
-void checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
-                    const VtkEncoding& encoding, const XmlElement& array, std::string_view place,
-                    std::uint64_t values, std::size_t valueBytes);
+// Returns the bytes of the file that they take; other arrays may name the same ones.
+std::uint64_t checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
+                             const VtkEncoding& encoding, const XmlElement& array,
+                             std::string_view place, std::uint64_t values, std::size_t valueBytes);
 
 }  // namespace timeseries

@@ -14,11 +14,27 @@ namespace {
 
 constexpr std::uint64_t kMaxComponents = 1024;
 
+// The bytes of the file that all pieces of each array name.
+using Claims = std::map<std::pair<VtkPlace, std::string>, std::uint64_t>;
+
 struct Context {
     const XmlFile& file;
     VtkEncoding encoding;
     VtkHeader& header;
+    Claims& claims;
 };
+
+// Counts what one more of several, which VTK holds together, takes in the file. Each is there, but
+// all may name the same bytes, and so stand for far more values than the file has.
+void claim(const Context& context, std::uint64_t& claimed, std::string_view place,
+           std::uint64_t bytes) {
+    claimed += bytes;
+    if (claimed > context.file.bytes)
+        failVtk(context.header.path, place,
+                fmt::format("expected values of its own, but with those before it they are {} "
+                            "bytes in a file of {}",
+                            claimed, context.file.bytes));
+}
 
 std::vector<const XmlElement*> named(const XmlElement& parent, std::string_view name) {
     std::vector<const XmlElement*> found;
@@ -82,8 +98,9 @@ std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& elemen
     if (element.has("TimeStep"))
         failVtk(context.header.path, where,
                 "expected one time step in a file, found an array of one of several");
-    checkVtkValues(context.header.path, context.file, context.encoding, element, where,
-                   tuples * components, type->bytes);
+    claim(context, context.claims[{place, name}], where,
+          checkVtkValues(context.header.path, context.file, context.encoding, element, where,
+                         tuples * components, type->bytes));
     return VtkArray{std::move(name), place, type->type, components, {}, element.notNumber};
 }
 
@@ -139,6 +156,7 @@ void checkCoordinates(const Context& context, const XmlElement& piece, const Vtk
 
 // VTK 9.1 makes every array of the field data, and crashes when it knows its type not.
 void checkFieldData(const Context& context, const XmlElement& grid) {
+    std::uint64_t claimed = 0;
     for (const XmlElement* field : named(grid, "FieldData")) {
         checkArrayCount(context, *field);
         for (const XmlElement& array : field->children) {
@@ -152,8 +170,9 @@ void checkFieldData(const Context& context, const XmlElement& grid) {
             if (components < 1 || components > kMaxComponents)
                 failVtk(context.header.path, placeOf(array), "expected fewer components");
             if (type)
-                checkVtkValues(context.header.path, context.file, context.encoding, array,
-                               placeOf(array), tuples * components, type->bytes);
+                claim(context, claimed, placeOf(array),
+                      checkVtkValues(context.header.path, context.file, context.encoding, array,
+                                     placeOf(array), tuples * components, type->bytes));
             else if (tuples * components > context.file.bytes)
                 failVtk(context.header.path, placeOf(array),
                         fmt::format("expected values within the file, found {} of them",
@@ -288,7 +307,8 @@ VtkHeader readVtkXmlHeader(const std::filesystem::path& path) {
         take("Spacing", header.spacing);
         take("Direction", header.direction);
     }
-    const Context context{file, vtkEncodingOf(path, root), header};
+    Claims claims;
+    const Context context{file, vtkEncodingOf(path, root), header, claims};
     checkFieldData(context, grid);
     addPieces(context, grid);
     return header;
