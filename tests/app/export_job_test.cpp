@@ -111,15 +111,19 @@ TEST(ExportJob, IsCancelledBeforeItsFirstPicture) {
 
 TEST(ExportJob, DroppingItEndsTheChildAndLeavesNothingOfIt) {
     const auto folder = tests::freshFolder();
-    const auto half = folder / "out_3.png.part0", child = folder / "child";
-    const auto program = programOf("echo $$ > " + child.string() + "; echo half > " +
-                                   half.string() + "; echo picture 1 of 3; exec sleep 1000");
+    const auto half = folder / "out_3.png.part0", child = folder / "child",
+               session = folder / "session";
+    const auto program =
+        programOf("echo $$ > " + child.string() + "; printf %s \"$3\" > " + session.string() +
+                  "; echo half > " + half.string() + "; echo picture 1 of 3; exec sleep 1000");
     {
         ExportJob job(example(), into(folder / "out.png"), program);
         pollUntil(job, [&] { return job.done() == 1; });
         EXPECT_TRUE(std::filesystem::exists(half));
+        EXPECT_TRUE(std::filesystem::exists(tests::readBytes(session)));
     }
     EXPECT_FALSE(std::filesystem::exists(half));
+    EXPECT_FALSE(std::filesystem::exists(tests::readBytes(session)));
     EXPECT_EQ(kill(std::stoi(tests::readBytes(child)), 0), -1);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <thread>
 
 #include "tests/support/scripted_reader.h"
@@ -42,31 +43,52 @@ class NotingReader : public tests::ScriptedReader {
     std::shared_ptr<Freed> freed_;
 };
 
-TEST(LiveSteps, WhatTheBudgetDropsIsFreedByAnotherThreadWhoeverLooksAtItLast) {
-    const auto script = std::make_shared<tests::Script>();
-    const auto freed = std::make_shared<Freed>();
-    Dataset dataset = tests::scriptedDataset({}, script, "a", "");
-    dataset.reader = std::make_unique<NotingReader>(script, freed);
-    // A budget of one step.
-    LiveSteps steps(dataset, timeseries::RangeSet::everything(), 1, [script] { script->wake(); });
-    std::shared_ptr<const timeseries::SortedStep> shown;
-    std::size_t came = 0;
-    steps.want({3});
-    while (came < 10) {
-        for (const LiveSteps::Arrival& arrival : steps.poll()) {
-            if (arrival.step == 3) shown = arrival.sorted;
-            if (arrival.step == 3) steps.want({4});
-            ++came;
+// Ten steps and a budget of one. Once all have come, step 4 is in it and step 3, which it has
+// dropped, is shown; the others are freed.
+class LiveStepsDropping : public testing::Test {
+ protected:
+    void SetUp() override {
+        steps_->want({3});
+        for (std::size_t came = 0; came < 10;) {
+            for (const LiveSteps::Arrival& arrival : steps_->poll()) {
+                if (arrival.step == 3) shown_ = arrival.sorted;
+                if (arrival.step == 3) steps_->want({4});
+                ++came;
+            }
+            if (came < 10) script_->waitForWake();
         }
-        if (came < 10) script->waitForWake();
+        while (freed_->threads().size() < 8) steps_->poll();
     }
-    // All were dropped but 4, which is wished, and 3, which is shown.
-    while (freed->threads().size() < 8) steps.poll();
-    EXPECT_EQ(shown->size(), 64u);
-    shown.reset();
-    while (freed->threads().size() < 9) steps.poll();
-    for (const std::thread::id thread : freed->threads())
-        EXPECT_NE(thread, std::this_thread::get_id());
+    void expectFreedElsewhere() const {
+        for (const std::thread::id thread : freed_->threads())
+            EXPECT_NE(thread, std::this_thread::get_id());
+    }
+    Dataset dataset() const {
+        Dataset dataset = tests::scriptedDataset({}, script_, "a", "");
+        dataset.reader = std::make_unique<NotingReader>(script_, freed_);
+        return dataset;
+    }
+
+    std::shared_ptr<tests::Script> script_ = std::make_shared<tests::Script>();
+    std::shared_ptr<Freed> freed_ = std::make_shared<Freed>();
+    Dataset dataset_ = dataset();
+    std::optional<LiveSteps> steps_{std::in_place, dataset_, timeseries::RangeSet::everything(), 1,
+                                    [script = script_] { script->wake(); }};
+    std::shared_ptr<const timeseries::SortedStep> shown_;
+};
+
+TEST_F(LiveStepsDropping, FreesByAnotherThreadWhoeverLooksAtItLast) {
+    EXPECT_EQ(shown_->size(), 64u);
+    shown_.reset();
+    while (freed_->threads().size() < 9) steps_->poll();
+    expectFreedElsewhere();
+}
+
+TEST_F(LiveStepsDropping, EndsWithoutFreeingAnythingItself) {
+    shown_.reset();
+    steps_.reset();
+    while (freed_->threads().size() < 10) std::this_thread::yield();
+    expectFreedElsewhere();
 }
 
 }  // namespace

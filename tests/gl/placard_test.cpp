@@ -92,20 +92,25 @@ TEST_F(Placards, ThePointsAreBeforeOrBehind) {
         Order::None,
         {}};
     GpuStep onGpu(step, lattice);
-    const auto picture = [&](double y) {
+    const auto pictureOf = [&](const Scene& drawn, double y) {
         const std::vector<Placard> placards{{standing(y, {2, 2}), glm::vec3(0, 0, 1)}};
         return renderer_
-            .render({.scene = scene, .grid = step.grid(), .legend = {}, .placards = placards},
+            .render({.scene = drawn, .grid = step.grid(), .legend = {}, .placards = placards},
                     onGpu, std::array{eye_})
             .front()
             .image;
     };
+    const auto picture = [&](double y) { return pictureOf(scene, y); };
     const glm::vec4 hidden = picture(-1).at(kSize.x / 2, kSize.y / 2);
     EXPECT_EQ(hidden, glm::vec4(0, 0, 1, 1));
     EXPECT_GT(picture(1).at(kSize.x / 2, kSize.y / 2).r, 0.5f);
     // Nothing of box and axes is seen through it.
     const Image wall = picture(-1);
     for (const glm::vec4& pixel : wall.pixels) ASSERT_EQ(pixel, glm::vec4(0, 0, 1, 1));
+    // Nor does it hide one that stands farther in the next picture, where there are no points.
+    Scene empty = scene;
+    empty.layers.clear();
+    EXPECT_EQ(pictureOf(empty, 0.2).at(kSize.x / 2, kSize.y / 2), glm::vec4(0, 0, 1, 1));
 }
 
 }  // namespace

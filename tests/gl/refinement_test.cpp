@@ -42,19 +42,23 @@ class CanvasAtRest : public testing::Test {
         EXPECT_GT(report_.refined, 0);
     }
     // One call; what it showed.
-    std::vector<Image> refine(const Shown& shown) {
-        std::vector<Image> eyes;
-        report_ = canvas_.refine(
-            shown, canvas_.eyesOf(shown), kSlice,
-            [&](std::size_t, const render::Targets& light) { eyes.push_back(light.readLight()); });
+    std::vector<Image> refine(const Shown& shown, std::span<const render::View> eyes) {
+        std::vector<Image> images;
+        report_ =
+            canvas_.refine(shown, eyes, kSlice, [&](std::size_t eye, const render::Targets& light) {
+                images.push_back(light.readLight());
+                shownEyes_.push_back(eye);
+            });
         render::gl::throwOnError();
-        return eyes;
+        return images;
     }
+    std::vector<Image> refine(const Shown& shown) { return refine(shown, canvas_.eyesOf(shown)); }
     // All calls that it takes. Each draws a slice, and nothing but the first eye is shown before
     // the last call.
     std::vector<Image> refineWhole(const Shown& shown) {
         std::vector<Image> eyes;
         const std::size_t count = canvas_.eyesOf(shown).size();
+        shownEyes_.clear();
         for (double before = 0; eyes.size() < count; before = report_.refined) {
             for (Image& eye : refine(shown)) eyes.push_back(std::move(eye));
             const auto splats = static_cast<double>(report_.selected * count);
@@ -65,6 +69,7 @@ class CanvasAtRest : public testing::Test {
         }
         EXPECT_EQ(report_.refined, 1);
         EXPECT_EQ(report_.drawn, report_.selected);
+        EXPECT_EQ(shownEyes_, count == 1 ? Eyes{0} : (Eyes{0, 1}));
         return eyes;
     }
 
@@ -72,6 +77,8 @@ class CanvasAtRest : public testing::Test {
     tests::ShownSteps world_{64};
     Canvas canvas_;
     CanvasReport report_;
+    using Eyes = std::vector<std::size_t>;
+    Eyes shownEyes_;  // by refine()
 };
 
 TEST_F(CanvasAtRest, SlicesMakeThePictureOfAllPoints) {
@@ -125,6 +132,22 @@ TEST_F(CanvasAtRest, OtherEyesAndOtherDrawingBeginItAnew) {
     const auto turned = drawApart();
     EXPECT_EQ(refineWhole(world_.shown()), turned);
     EXPECT_NE(turned, whole);
+    // Also where nothing but the eyes is another.
+    const auto eyes = canvas_.eyesOf(world_.shown());
+    world_.explorer.view.azimuthDegrees -= 30;
+    refineALittle();
+    std::vector<Image> last;
+    while (!report_.whole) last = refine(world_.shown(), eyes);
+    EXPECT_EQ(last, turned);
+}
+
+TEST_F(CanvasAtRest, AnotherStepBeginsItAnewAlsoWhereTheFirstIsGone) {
+    draw(canvas_, world_.shown());
+    refineALittle();
+    world_.steps[0].reset();
+    Canvas apart;
+    const auto other = draw(apart, world_.shown(1));
+    EXPECT_EQ(refineWhole(world_.shown(1)), other);
 }
 
 TEST_F(CanvasAtRest, TimesAreOfItsOwnSlices) {
