@@ -61,15 +61,16 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     render::FramePace& pace = slices_ ? *slices_ : pace_;
     pace.setTarget(frameBudget);
     const CanvasLimits limits{.splats = pace.budget()};
-    const std::vector<render::View> eyes = canvas_.eyesOf(shown);
+    eyes_ = canvas_.eyesOf(shown);
+    grid_ = grid;
     const auto show = [&](std::size_t eye, const render::Targets& light) {
         // The first eye's picture is the left, or the upper one.
         const auto i = static_cast<int>(eye);
         const glm::ivec2 tile(i * (grid.x - 1), (1 - i) * (grid.y - 1));
         present_.draw(light, kept_->framebuffer(), tile * e.size);
     };
-    report_ = resting ? canvas_.refine(shown, eyes, limits, show)
-                      : canvas_.draw(shown, eyes, limits, true, show);
+    report_ = resting ? canvas_.refine(shown, eyes_, limits, show)
+                      : canvas_.draw(shown, eyes_, limits, true, show);
     timed_ = report_.gpuTime.has_value();
     if (report_.gpuTime) {
         pace.took(report_.gpuSplats, *report_.gpuTime);
@@ -88,7 +89,6 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
                     .picture = picture};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
     if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->lattice->boxHalfEdges();
-    eye_ = eyes.size() == 1 ? std::optional(eyes.front()) : std::nullopt;
 }
 
 void PictureView::took(std::chrono::nanoseconds frame) {
@@ -116,10 +116,13 @@ std::optional<Reading> PictureView::readSoon(glm::vec2 at) {
 }
 
 std::optional<Reading> PictureView::read(glm::vec2 at) const {
-    if (!eye_) return std::nullopt;
-    const glm::dvec2 window(static_cast<double>(at.x) + 0.5,
-                            static_cast<double>(eye_->size.y) - static_cast<double>(at.y) - 0.5);
-    const auto found = canvas_.probe(*eye_, window);
+    if (eyes_.empty()) return std::nullopt;
+    const glm::ivec2 size = eyes_.front().size;
+    const glm::ivec2 tile = glm::clamp(glm::ivec2(at) / size, glm::ivec2(0), grid_ - 1);
+    const render::View& eye = eyes_[static_cast<std::size_t>(tile.x + tile.y)];
+    const glm::dvec2 in = glm::dvec2(at) - glm::dvec2(tile * size);
+    const glm::dvec2 window(in.x + 0.5, static_cast<double>(size.y) - in.y - 0.5);
+    const auto found = canvas_.probe(eye, window);
     if (!found) return std::nullopt;
     return Reading{.index = found->index,
                    .value = found->value,

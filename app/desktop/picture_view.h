@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "app/canvas.h"
 #include "app/panels/desk.h"
@@ -27,7 +28,7 @@ class PictureView {
     // When it is to be drawn again although nothing changes; none when it is whole.
     std::optional<std::chrono::nanoseconds> untilNextDraw() const;
 
-    // What is seen at a place of the picture, y down; none there, and with two eyes.
+    // What an eye sees at a place of the picture, y down; none there.
     std::optional<Reading> read(glm::vec2 at) const;
     // Likewise, where that keeps nobody waiting: none too where it would take kSoon or more.
     std::optional<Reading> readSoon(glm::vec2 at);
@@ -39,7 +40,9 @@ class PictureView {
     Canvas& canvas() { return canvas_; }
     const panels::Performance& performance() const { return performance_; }
     const glm::dmat3& boxHalfEdges() const { return boxHalfEdges_; }
-    const std::optional<render::View>& eye() const { return eye_; }  // where there is one
+    std::optional<render::View> eye() const {  // where there is one
+        return eyes_.size() == 1 ? std::optional(eyes_.front()) : std::nullopt;
+    }
 
  private:
     using Clock = std::chrono::steady_clock;
@@ -62,7 +65,8 @@ class PictureView {
     CanvasReport report_;
     panels::Performance performance_;
     glm::dmat3 boxHalfEdges_{0.5};
-    std::optional<render::View> eye_;
+    std::vector<render::View> eyes_;
+    glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other
     Clock::time_point changed_ = Clock::now();
     double readNs_ = 10;  // of a read, a splat drawn, as the last one took
     bool timed_ = true;   // what was drawn last has its time

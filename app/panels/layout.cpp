@@ -103,7 +103,7 @@ TimeBarLayout timeBarLayout(const Rect& timeBar, float scale) {
     out.play = button(66, 18);
     out.forward = button(102, 14);
     const float now = timeBar.min.x + 128 * s, right = timeBar.max.x - kMargin * s;
-    const float width = std::clamp(0.16f * timeBar.size().x, 120 * s, 190 * s);
+    const float width = std::clamp(0.16f * timeBar.size().x, 165 * s, 190 * s);
     out.now = crisp(box(now, middle - 20 * s, now + width, middle + 20 * s));
     out.speed = crisp(box(right - 92 * s, middle - 14 * s, right, middle + 14 * s));
     out.ending = crisp(box(right - 128 * s, middle - 14 * s, right - 100 * s, middle + 14 * s));

@@ -90,7 +90,9 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     pointer_.reset();
     if (!exploration.shown()) return;
     const Looking looking{boxHalfEdges, exploration.explorer().size};
-    const glm::dvec2 cursor = vec(io.MousePos) - at.min;
+    // With two eyes, of the one that it is over.
+    const glm::dvec2 place = vec(io.MousePos) - at.min;
+    const glm::dvec2 cursor = glm::mod(place, glm::dvec2(looking.size));
     if (ImGui::IsItemActivated())
         grip_ =
             io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? Grip::Move : Grip::Turn;
@@ -103,14 +105,14 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
         });
     }
     if (!ImGui::IsItemHovered()) return;
-    if (!ImGui::IsItemActive()) pointer_ = cursor;
+    if (!ImGui::IsItemActive()) pointer_ = place;
     if (io.MouseWheel != 0)
         edit(desk, "zoom", [&](Explorer& e) {
             e.view =
                 zoomed(e.view, std::pow(0.88, static_cast<double>(io.MouseWheel)), cursor, looking);
         });
     if (ImGui::IsMouseDoubleClicked(0)) {
-        desk.requests.probe = glm::vec2(cursor);
+        desk.requests.probe = glm::vec2(place);
         desk.requests.ruler = io.KeyShift;
         desk.choices.page = Page::Probe;
     }

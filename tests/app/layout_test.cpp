@@ -69,6 +69,8 @@ TEST_P(EveryLayout, TheRailHasRoomBetweenButtonsAndSettings) {
     EXPECT_GT(bar.rail.min.x, bar.now.max.x);
     EXPECT_LT(bar.rail.max.x, bar.ending.min.x);
     EXPECT_GT(bar.rail.size().x, 250 * layout_.scale);
+    // A day and its hour, 19 characters of about 8 pixels.
+    EXPECT_GT(bar.now.size().x, 19 * 8 * layout_.scale);
 }
 
 TEST(Layout, TheColumnKeepsItsWidthWithinLimits) {

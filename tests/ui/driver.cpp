@@ -205,6 +205,13 @@ void Driver::click(glm::vec2 at) {
     up();
 }
 
+void Driver::doubleClick(glm::vec2 at) {
+    move(at);
+    for (const int isDown : {True, False, True, False})
+        XTestFakeButtonEvent(screen_.connection(), Button1, isDown, CurrentTime);
+    sync();
+}
+
 void Driver::drag(glm::vec2 from, glm::vec2 to, Button button) {
     move(from);
     down(button);

@@ -59,6 +59,7 @@ class Driver {
     void down(Button button = Button::Left);
     void up(Button button = Button::Left);
     void click(glm::vec2 at);
+    void doubleClick(glm::vec2 at);
     void drag(glm::vec2 from, glm::vec2 to, Button button = Button::Left);
     void wheel(int clicks);  // > 0 is away from the user
 

@@ -1,3 +1,5 @@
+#include <glm/common.hpp>
+
 #include "tests/ui/desk_test.h"
 
 namespace ui {
@@ -70,6 +72,34 @@ TEST_F(DeskView, TellsWhatThePointerRestsOn) {
     EXPECT_EQ(changed({clear.min, {found.x, clear.max.y}}), 0u);
     EXPECT_EQ(changed({clear.min, {clear.max.x, found.y}}), 0u);
     EXPECT_EQ(differing(picture(), before), 0u) << "gone with the pointer";
+}
+
+TEST_F(DeskView, ReadsThePointUnderTheCursorInEitherEyesPicture) {
+    const app::panels::Rect page = app::panels::sideLayout(at_.window, 1).page;
+    const app::panels::Rect& picture = at_.window.picture;
+    desk_->press("s");
+    desk_->doubleClick(picture.min + glm::vec2(8));  // nothing is there
+    const Shot nothing = desk_->settled(page);
+    for (const float eye : {0.25f, 0.75f}) {
+        desk_->doubleClick(picture.min + glm::vec2(eye, 0.5f) * picture.size());
+        EXPECT_GT(differing(desk_->settled(page), nothing), 1000u) << eye;
+    }
+    desk_->doubleClick(picture.min + glm::vec2(8));
+    EXPECT_EQ(differing(desk_->settled(page), nothing), 0u);
+}
+
+// Seen from either eye, the same place comes as much nearer.
+TEST_F(DeskView, ZoomsToTheCursorInEitherEyesPicture) {
+    const app::panels::Rect& picture = at_.window.picture;
+    desk_->press("s");
+    std::vector<Shot> zoomed;
+    for (const float eye : {0.15f, 0.65f}) {
+        desk_->press("f");
+        desk_->move(glm::floor(picture.min + glm::vec2(eye, 0.4f) * picture.size()));
+        desk_->wheel(4);
+        zoomed.push_back(this->picture());
+    }
+    EXPECT_EQ(differing(zoomed[0], zoomed[1]), 0u);
 }
 
 TEST_F(DeskView, ShowsItsKeysAndHidesThem) {
