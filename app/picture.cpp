@@ -41,6 +41,14 @@ Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
     return data;
 }
 
+// The least and the greatest value of a step; where that is infinite, or there is none,
+// `otherwise`.
+Extent valuesOf(const SortedStep& step, const Extent& otherwise) {
+    const double lo = timeseries::toDouble(step.statistics().min);
+    const double hi = timeseries::toDouble(step.statistics().max);
+    return {std::isfinite(lo) ? lo : otherwise.lo, std::isfinite(hi) ? hi : otherwise.hi};
+}
+
 std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
     std::uint64_t most = 0;
     for (const auto& [index, step] : sampled)
@@ -192,7 +200,9 @@ std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
             return timeseries::toDouble(b.value) == end && !b.open;
         };
         const bool down = isUnbounded(r.lo, -kInfinity), up = isUnbounded(r.hi, kInfinity);
-        const auto [lo, hi] = shortBounds(r, rounded);
+        const auto bounds = shortBounds(r, rounded);
+        const std::string lo = render::withMinusSigns(bounds.first);
+        const std::string hi = render::withMinusSigns(bounds.second);
         if (!text.empty()) text += ", ";
         if (down && up) return "all values";
         if (lo == hi)
@@ -230,12 +240,12 @@ Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::s
         const std::uint64_t points = step.statistics().points;
         const double percent =
             points == 0 ? 0 : 100 * static_cast<double>(selected) / static_cast<double>(points);
-        render::LegendLayer& told = picture.legend.layers.emplace_back(
-            render::LegendLayer{drawn.style, rangeLabel(ranges, about.units),
-                                fmt::format("{} {}, {:.3g} %", withCommas(selected),
-                                            selected == 1 ? "point" : "points", percent)});
+        render::LegendLayer& told = picture.legend.layers.emplace_back(render::LegendLayer{
+            drawn.style, rangeLabel(ranges, about.units),
+            fmt::format("{} {}, {} %", withCommas(selected), selected == 1 ? "point" : "points",
+                        render::withMinusSigns(fmt::format("{:.3g}", percent)))});
         if (const auto* byValue = std::get_if<render::ByValue>(&drawn.style.color)) {
-            const Extent ends = finiteEnds(ranges, {byValue->lo, byValue->hi});
+            const Extent ends = finiteEnds(ranges, valuesOf(step, {byValue->lo, byValue->hi}));
             told.shown.emplace(ends.lo, ends.hi);
         }
         picture.scene.layers.push_back(std::move(drawn));

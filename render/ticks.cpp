@@ -154,6 +154,12 @@ std::vector<std::string> tickTexts(std::span<const double> ticks) {
     return texts;
 }
 
+std::string withMinusSigns(std::string_view number) {
+    std::string text;
+    for (const char c : number) text += c == '-' ? std::string(kMinus) : std::string(1, c);
+    return text;
+}
+
 namespace {
 
 // "s-1" is s⁻¹, and "m2" m² for the few units that are commonly squared; CO2 stays.

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace render {
@@ -18,5 +19,8 @@ std::vector<double> niceTicks(double lo, double hi, int wanted);
 // Numbers written alike, as the labels of one axis: as many decimals as the one that needs most,
 // powers of ten where plain digits would be long: "0.5", "1.0", "−2×10⁻⁹".
 std::vector<std::string> tickTexts(std::span<const double> ticks);
+
+// A number's text with the minus sign that tickTexts() writes.
+std::string withMinusSigns(std::string_view number);
 
 }  // namespace render

@@ -61,7 +61,7 @@ TEST(RangeLabel, SaysARangeAsPeopleDo) {
     EXPECT_EQ(label("[600,1600)"), "[600, 1600) K");
     EXPECT_EQ(label("(600,1600]"), "(600, 1600] K");
     EXPECT_EQ(label("5"), "5 K");
-    EXPECT_EQ(label("-3:-1"), "-3 to -1 K");
+    EXPECT_EQ(label("-3:-1"), "−3 to −1 K") << "the minus sign of the colour bar";
     EXPECT_EQ(label("min:max"), "all values");
     EXPECT_EQ(label("0:1,5:6,9:max"), "0 to 1, 5 to 6, ≥ 9 K");
     EXPECT_EQ(label("0:1", ""), "0 to 1");
@@ -82,8 +82,8 @@ TEST(RangeLabel, LongDoublesAreRoundedAndSaidToBe) {
 
 TEST(RangeLabel, AnInfiniteValueAloneIsNotAllValues) {
     EXPECT_EQ(rangeLabel(RangeSet::parse("max:max"), "K"), "inf K");
-    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min"), "K"), "-inf K");
-    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min,max:max"), ""), "-inf, inf");
+    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min"), "K"), "−inf K");
+    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min,max:max"), ""), "−inf, inf");
 }
 
 bool nothingOpen(const Explorer& e) {
@@ -195,6 +195,25 @@ TEST_F(PictureOfARamp, TheLegendStatesTitleTimeLayersAndCounts) {
     ASSERT_EQ(p.scene.layers.size(), 5u);
     EXPECT_EQ(p.scene.layers[0].runs, (std::vector<timeseries::Run>{{100, 100}}));
     EXPECT_EQ(p.scene.layers[3].runs, (std::vector<timeseries::Run>{{0, 1}, {5, 1}, {9, 1}}));
+}
+
+// Whatever the map does beyond them, and whichever step it was chosen from.
+TEST_F(PictureOfARamp, TheColourBarIsOfValuesThatTheStepShows) {
+    using Ends = std::pair<double, double>;
+    const auto barOf = [&](const char* range, std::optional<MapChoice> map = {}) {
+        Explorer e = withRanges({range});
+        if (map) e.layers[0].color = *map;
+        e = resolved(e, steps_);
+        return makePicture(e, about_, 1, *step_, lattice_).legend.layers.at(0).shown;
+    };
+    EXPECT_EQ(barOf("min:max"), Ends(0, 999));
+    EXPECT_EQ(barOf("min:max", MapChoice{{}, -50, 100}), Ends(0, 999));
+    step_ = ramp(-7, RangeSet::everything());
+    EXPECT_EQ(barOf("min:max"), Ends(-7, 992));
+    EXPECT_EQ(barOf("min:100"), Ends(-7, 100));
+    EXPECT_EQ(barOf("900:max"), Ends(900, 992));
+    EXPECT_EQ(barOf("100:200"), Ends(100, 200));
+    EXPECT_EQ(barOf("min:-8"), Ends(-8, -8)) << "nothing is there";
 }
 
 TEST_F(PictureOfARamp, PercentsAreOfTheValidPointsKeptOrNot) {
