@@ -150,8 +150,13 @@ void ExplorerOptions::applyView(const CLI::App& app, Explorer& e) const {
 
 Explorer ExplorerOptions::explorer(const CLI::App& app) const {
     Explorer e;
-    if (given(app, "--session")) e = readSession(session_);
-    if (!files_.empty()) e.files.assign(files_.begin(), files_.end());
+    const bool named = given(app, "--session");
+    if (!named && files_.size() == 1 && holdsSession(files_.front())) {
+        e = readSession(files_.front());
+    } else {
+        if (named) e = readSession(session_);
+        if (!files_.empty()) e.files.assign(files_.begin(), files_.end());
+    }
     if (given(app, "--variable")) e.variable = variable_;
     if (given(app, "--step")) e.steps = parseSteps(steps_);
     if (given(app, "--keep")) e.keep = RangeSet::parse(keep_);

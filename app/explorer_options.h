@@ -18,8 +18,9 @@ class ExplorerOptions {
  public:
     // The command refers to this, which must stay where it is.
     void addTo(CLI::App& command);
-    // The session's, where one is named, but for what is given beside it. Throws
-    // std::invalid_argument (one sentence), timeseries::FileError for the session.
+    // The session's, where one is named (by --session or in a file's place), but for what is given
+    // beside it. Throws std::invalid_argument (one sentence), timeseries::FileError for the
+    // session.
     Explorer explorer(const CLI::App& command) const;
 
  private:

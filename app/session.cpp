@@ -305,6 +305,11 @@ json jsonOf(const std::filesystem::path& file) {
 
 }  // namespace
 
+bool holdsSession(const std::filesystem::path& file) {
+    const auto ending = file.extension();
+    return ending == ".json" || ending == ".png" || ending == ".exr";
+}
+
 Explorer readSession(const std::filesystem::path& file) {
     try {
         return fromJson(jsonOf(file), file.parent_path());

@@ -18,6 +18,8 @@ Explorer fromJson(const nlohmann::json& json, const std::filesystem::path& folde
 // Under which name a picture carries its session, as JSON text.
 inline constexpr const char* kSessionKey = "isochronSession";
 
+// Whether a file's name says that it is one that readSession() takes.
+bool holdsSession(const std::filesystem::path& file);
 // A session file, or a picture (.png, .exr) that carries its session; paths are relative to its
 // folder. Throws timeseries::FileError naming the file and, where it is JSON, the key.
 Explorer readSession(const std::filesystem::path& file);

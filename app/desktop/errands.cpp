@@ -34,11 +34,6 @@ fs::path findDemo() {
     return fs::exists(name, gone) ? fs::absolute(name) : fs::path();
 }
 
-bool holdsSession(const fs::path& file) {
-    const std::string extension = file.extension().string();
-    return extension == ".json" || extension == ".png" || extension == ".exr";
-}
-
 // What `work` cannot do becomes a message.
 template <typename Work>
 void telling(Exploration& exploration, const Work& work) {

@@ -469,6 +469,15 @@ class OptionsWithSession : public testing::Test {
 
 TEST_F(OptionsWithSession, AloneItIsTheSession) { EXPECT_TRUE(with({}) == saved_); }
 
+TEST_F(OptionsWithSession, ItMayStandWhereAFileDoes) {
+    EXPECT_TRUE(as<ViewOptions>({file_.string()}).explorer == saved_);
+    const std::vector<std::string> rendered{"render", file_.string(), "--step", "7", "-o", "o.exr"};
+    Explorer otherStep = saved_;
+    otherStep.steps = StepChoice{7, 7};
+    EXPECT_TRUE(as<RenderOptions>(rendered).explorer == otherStep);
+    EXPECT_THROW(parsed({"view", "/none.json"}), timeseries::FileError);
+}
+
 TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
     const auto expectOnly = [&](const std::vector<std::string>& more, auto change) {
         Explorer e = saved_;
