@@ -103,7 +103,10 @@ void Interface::drawPicture(Desk& desk, const Surroundings& around) {
         top += 40 * s;
     }
     drawPictureOverlay(desk, top, around.exporting);
-    messages_.draw(desk, around.dt);
+    const Rect& picture = desk.layout.picture;
+    messages_.draw(
+        desk, around.exporting ? exportPlace(picture, s).min.y - 8 * s : messagesBottom(picture, s),
+        around.dt);
     if (help_) drawHelp(desk);
     endRegion();
 }

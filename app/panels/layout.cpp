@@ -119,6 +119,13 @@ StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFile
     return {.first = box(left, top, left + width, top + 40 * s), .pitch = 46 * s};
 }
 
+float messagesBottom(const Rect& picture, float scale) { return picture.max.y - 76 * scale; }
+
+Rect exportPlace(const Rect& picture, float scale) {
+    const float bottom = messagesBottom(picture, scale), margin = kMargin * scale;
+    return crisp(box(picture.min.x + margin, bottom - 32 * scale, picture.max.x - margin, bottom));
+}
+
 LeftOfferLayout leftOfferLayout(const Rect& picture, float scale) {
     const float s = scale, half = std::min(170 * s, 0.5f * picture.size().x - 8 * s);
     const float x = picture.centre().x, y = picture.min.y + 14 * s, right = x + half;

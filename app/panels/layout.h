@@ -77,6 +77,11 @@ struct StartLayout {
 };
 StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFiles);
 
+// Over the picture, above the frame's figures at the lower right, messages stack upwards. While
+// something is exported, how far that is has the lowest place.
+float messagesBottom(const Rect& picture, float scale);
+Rect exportPlace(const Rect& picture, float scale);
+
 // Over the picture: a session that broke off, while other data are shown.
 struct LeftOfferLayout {
     Rect whole, goOn, discard;

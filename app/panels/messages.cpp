@@ -92,7 +92,7 @@ float Messages::card(Desk& desk, const Exploration::Message& message, float bott
     return at.min.y;
 }
 
-void Messages::draw(Desk& desk, std::chrono::nanoseconds dt) {
+void Messages::draw(Desk& desk, float bottom, std::chrono::nanoseconds dt) {
     const std::vector<Exploration::Message> messages = desk.exploration.messages();
     const auto isGone = [&](std::uint64_t number) {
         return std::none_of(messages.begin(), messages.end(),
@@ -101,7 +101,6 @@ void Messages::draw(Desk& desk, std::chrono::nanoseconds dt) {
     std::erase_if(shownFor_, [&](const auto& entry) { return isGone(entry.first); });
     std::erase_if(opened_, isGone);
     const float s = desk.theme.scale;
-    float bottom = desk.layout.picture.max.y - 76 * s;  // above the frame's figures
     for (std::size_t i = messages.size(); i-- > 0;) {
         bool closed = false;
         bottom = card(desk, messages[i], bottom, closed) - 8 * s;

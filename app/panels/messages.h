@@ -12,7 +12,8 @@ namespace app::panels {
 
 class Messages {
  public:
-    void draw(Desk& desk, std::chrono::nanoseconds dt);
+    // Upwards from `bottom`.
+    void draw(Desk& desk, float bottom, std::chrono::nanoseconds dt);
     // Until the next one goes by itself; none when none does.
     std::optional<std::chrono::nanoseconds> untilNextGoes() const;
 

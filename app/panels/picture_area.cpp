@@ -56,22 +56,23 @@ void lowerRight(const Desk& desk, std::span<const std::string> lines) {
     }
 }
 
-// A rounded label at the picture's top; returns where it is.
-Rect pill(const Desk& desk, float y, std::string_view what, ImU32 color, float room = 0) {
+// A rounded label, from `top` on; `align` as of text(). Returns where it is.
+Rect pill(const Desk& desk, glm::vec2 top, float align, std::string_view what, float room = 0) {
     const float s = desk.theme.scale, width = widthOf(*desk.theme.text, what) + 28 * s + room;
-    const float middle = desk.layout.picture.centre().x;
-    const Rect at{{middle - 0.5f * width, y}, {middle + 0.5f * width, y + 32 * s}};
+    const float left = top.x - align * width;
+    const Rect at{{left, top.y}, {left + width, top.y + 32 * s}};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.min), im(at.max), faded(kField, 0.95f), 16 * s);
     list.AddRect(im(at.min), im(at.max), kLine, 16 * s);
-    text(desk.theme, {at.min.x + 14 * s, at.centre().y}, what, color);
+    text(desk.theme, {at.min.x + 14 * s, at.centre().y}, what);
     return at;
 }
 
 // The same with a button; returns whether that was pressed.
-bool cancelPill(const Desk& desk, float y, std::string_view what, const char* id) {
+bool cancelPill(const Desk& desk, glm::vec2 top, float align, std::string_view what,
+                const char* id) {
     const float s = desk.theme.scale;
-    const Rect at = pill(desk, y, what, kText, 84 * s);
+    const Rect at = pill(desk, top, align, what, 84 * s);
     return textButton(desk.theme, id,
                       {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}},
                       "Cancel");
@@ -120,20 +121,24 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
 
 void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>& exporting) {
     Exploration& exploration = desk.exploration;
-    const float s = desk.theme.scale;
+    const Rect& picture = desk.layout.picture;
+    const float s = desk.theme.scale, middle = picture.centre().x;
     float y = top;
     if (const auto opening = exploration.opening()) {
-        const std::string what = fitting(*desk.theme.text, "Opening " + *opening,
-                                         desk.layout.picture.size().x - 140 * s);
-        if (cancelPill(desk, y, what, "##opening")) exploration.cancelOpening();
-        y += 40 * s;
-    }
-    if (exporting) {
-        if (cancelPill(desk, y, *exporting, "##exporting")) desk.requests.cancelExport = true;
+        const std::string what =
+            fitting(*desk.theme.text, "Opening " + *opening, picture.size().x - 140 * s);
+        if (cancelPill(desk, {middle, y}, 0.5f, what, "##opening")) exploration.cancelOpening();
         y += 40 * s;
     }
     if (const std::string waiting = waitingText(desk); !waiting.empty())
-        pill(desk, y, waiting, kText);
+        pill(desk, {middle, y}, 0.5f, waiting);
+    if (exporting) {
+        // For as long as it takes: not at the top, where the legend is.
+        const Rect place = exportPlace(picture, s);
+        const std::string what = fitting(*desk.theme.text, *exporting, place.size().x - 112 * s);
+        if (cancelPill(desk, {place.max.x, place.min.y}, 1, what, "##exporting"))
+            desk.requests.cancelExport = true;
+    }
     const PointCounts* counts = exploration.counts();
     if (counts == nullptr) return;
     const Performance& p = desk.performance;

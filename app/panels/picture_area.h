@@ -19,8 +19,8 @@ class PictureArea {
     std::optional<glm::vec2> pointer_;
 };
 
-// What is opening, what is shown instead of what is asked for, from `top` on; and how fast frames
-// come.
+// What is opening, what is shown instead of what is asked for, from `top` on; how far an export is;
+// and how fast frames come.
 void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>& exporting);
 
 }  // namespace app::panels

@@ -23,8 +23,7 @@ class DeskExports : public DeskTest {
         desk_->waitForTitle("pool_fire_T.nc · T");
         desk_->resize({900, 600});
         at_ = placesOf({900, 600});
-        top_ = at_.window.picture;
-        top_.max.y = top_.min.y + 60;
+        told_ = app::panels::exportPlace(at_.window.picture, 1);
         quiet_ = desk_->settled();
     }
 
@@ -56,30 +55,29 @@ class DeskExports : public DeskTest {
         EXPECT_TRUE(std::filesystem::is_empty(temporary()));
     }
     std::filesystem::path temporary() const { return folder() / "temporary"; }
-    // What stands at the picture's top now and did not before.
-    Shot top() { return desk_->shot(top_); }
+    Shot told() { return desk_->shot(told_); }
 
     std::optional<Driver> desk_;
     Places at_;
-    app::panels::Rect top_;
-    Shot quiet_;  // before
+    app::panels::Rect told_;  // where it is told how far an export is
+    Shot quiet_;              // before
 };
 
 TEST_F(DeskExports, TellsHowFarItIsAndIsCancelled) {
     const pid_t child = startExport();
-    const Shot quiet = part(quiet_, top_);
-    const Shot early = top();
-    ASSERT_GT(differing(early, quiet), 1000u);
-    desk_->waitFor("its progress changes", [&] { return top() != early; });
+    const Shot early = told();
+    ASSERT_GT(differing(early, part(quiet_, told_)), 1000u);
+    desk_->waitFor("its progress changes", [&] { return told() != early; });
+    // Nothing of it lies over the legend.
+    app::panels::Rect legend = at_.window.picture;
+    legend.max.y = told_.min.y - 200;
+    EXPECT_EQ(differing(desk_->shot(legend), part(quiet_, legend)), 0u);
     // The button lies at the right end of what is told.
-    int right = 0;
-    for (int y = 0; y < quiet.size.y; ++y)
-        for (int x = 0; x < quiet.size.x; ++x)
-            if (quiet.at({x, y}) != early.at({x, y})) right = std::max(right, x);
-    desk_->click(top_.min + glm::vec2(right - 42, 30));
-    desk_->waitFor("nothing is told any more", [&] { return top() == quiet; });
-    EXPECT_FALSE(isRunning(child));
-    EXPECT_GT(differing(desk_->shot(at_.messages), part(quiet_, at_.messages)), 1000u);
+    desk_->click({told_.max.x - 42, told_.centre().y});
+    waitUntil("the export ends", [&] { return !isRunning(child); });
+    desk_->waitFor("its end is told", [&] {
+        return differing(desk_->shot(at_.messages), part(quiet_, at_.messages)) > 1000;
+    });
     expectWholePictures();
 }
 

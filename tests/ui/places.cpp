@@ -18,7 +18,7 @@ Places placesOf(glm::ivec2 size, bool hasMap, float scale) {
     out.besideMessages = out.window.picture;
     out.besideMessages.max.x -= 460 * scale;
     out.messages.min.y = out.clear.max.y;
-    out.messages.max.y -= 76 * scale;
+    out.messages.max.y = app::panels::messagesBottom(out.window.picture, scale);
     return out;
 }
 
