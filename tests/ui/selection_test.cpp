@@ -57,6 +57,27 @@ TEST_F(DeskSelects, AndUndoRestoresPixelsAndCount) {
     EXPECT_EQ(differing(desk.settled(at.clear), after), 0u);
 }
 
+TEST_F(DeskSelects, TwoRangesThatDoNotTouch) {
+    Driver desk(screen(), folder(), {demo().string(), "--range", "600:800"});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const Places at = placesOf(desk.size());
+    waitUntilSeen(desk, 31);
+    desk.settled();
+    const app::panels::ValueAxis axis = axisOf(at);
+    const float x = at.instrument.histogram.centre().x;
+    desk.drag({x, axis.y(1000)}, {x, axis.y(1300)});
+    desk.settled();
+    const app::Explorer e = saved(desk, folder() / "two.json");
+    ASSERT_EQ(e.layers.size(), 1u);
+    const auto ranges = e.layers[0].ranges.ranges();
+    ASSERT_EQ(ranges.size(), 2u);
+    EXPECT_EQ(timeseries::toDouble(ranges[0].lo.value), 600);
+    EXPECT_EQ(timeseries::toDouble(ranges[0].hi.value), 800);
+    EXPECT_NEAR(timeseries::toDouble(ranges[1].lo.value), 1000, 3 * axis.perPixel());
+    EXPECT_NEAR(timeseries::toDouble(ranges[1].hi.value), 1300, 3 * axis.perPixel());
+    EXPECT_EQ(parse(desk.title()).points, countIn(e));
+}
+
 // The new layer's row takes room in the column, but not from under the hand.
 TEST_F(DeskSelects, AsANewLayerWhatWasDraggedAcrossWithShift) {
     Driver desk(screen(), folder(), {demo().string(), "--range", "1200:max"});
