@@ -6,6 +6,7 @@
 
 #include "app/edits.h"
 #include "app/first_choice.h"
+#include "app/panels/number_field.h"
 
 namespace app::panels {
 namespace {
@@ -101,7 +102,7 @@ void AnimationPage::time(Desk& desk, Form& form) {
     const bool even = now.pace == timeseries::Pace::Even;
     text(theme, {speed.min.x - 8 * s, speed.centre().y}, even ? "steps/s" : "units/s", kDim, 1,
          theme.small);
-    if (const auto value = numberField(theme, speed_, "##speed", speed,
+    if (const auto value = numberField(desk, speed_, "##speed", speed, even ? "steps/s" : "units/s",
                                        even ? now.stepsPerSecond : now.timeUnitsPerSecond))
         change([&](auto& t) {
             (even ? t.stepsPerSecond : t.timeUnitsPerSecond) = std::max(0.0, *value);
@@ -113,8 +114,8 @@ void AnimationPage::time(Desk& desk, Form& form) {
             segmented(theme, "way", way, kDirections, static_cast<std::size_t>(now.direction)))
         change([&](auto& t) { t.direction = static_cast<timeseries::Direction>(*chosen); });
     text(theme, {stride.min.x - 8 * s, stride.centre().y}, "every", kDim, 1, theme.small);
-    if (const auto value =
-            numberField(theme, stride_, "##stride", stride, static_cast<double>(now.stride)))
+    if (const auto value = numberField(desk, stride_, "##stride", stride, "every how many steps",
+                                       static_cast<double>(now.stride)))
         change([&](auto& t) {
             t.stride = static_cast<std::size_t>(std::clamp(std::round(*value), 1.0, 1e9));
         });
@@ -140,28 +141,31 @@ void AnimationPage::sweep(Desk& desk, Form& form) {
         editSweep(desk,
                   [&](auto& sweep) { sweep.animation = timeseries::RangeSet::parse(*entered); });
     const Rect window = form.row("Delta ±");
-    if (const auto value = numberField(theme, delta_, "##delta", part(window, 0, 2, s), now.delta))
+    if (const auto value =
+            numberField(desk, delta_, "##delta", part(window, 0, 2, s), "delta", now.delta))
         editSweep(desk, [&](auto& sweep) { sweep.delta = *value; });
     if (const auto path = segmented(theme, "path", part(window, 1, 2, s), kPaths,
                                     static_cast<std::size_t>(now.path)))
         editSweep(desk,
                   [&](auto& sweep) { sweep.path = static_cast<timeseries::SweepPath>(*path); });
-    const auto whole = [&](TextField& field, const char* id, const Rect& at, std::int64_t& value) {
-        const auto entered = numberField(theme, field, id, at, static_cast<double>(value));
+    const auto whole = [&](TextField& field, const char* id, const Rect& at, std::string_view what,
+                           std::int64_t& value) {
+        const auto entered = numberField(desk, field, id, at, what, static_cast<double>(value));
         if (!entered) return false;
         value = static_cast<std::int64_t>(std::clamp(std::round(*entered), 0.0, 2e9));
         return true;
     };
     std::int64_t timerSteps = now.timerSteps, step = now.step;
     const Rect timer = form.row("Timer steps");
-    if (whole(timerSteps_, "##timer", part(timer, 0, 3, s), timerSteps))
+    if (whole(timerSteps_, "##timer", part(timer, 0, 3, s), "timer steps", timerSteps))
         editSweep(desk, [&](auto& sweep) { sweep.timerSteps = timerSteps; });
     const Rect by = part(timer, 2, 3, s);
     text(theme, {by.min.x - 12 * s, by.centre().y}, "step", kDim, 1);
-    if (whole(step_, "##step", by, step)) editSweep(desk, [&](auto& sweep) { sweep.step = step; });
+    if (whole(step_, "##step", by, "timer step", step))
+        editSweep(desk, [&](auto& sweep) { sweep.step = step; });
     const Rect frequency = form.row("Cycles / s");
-    if (const auto value =
-            numberField(theme, frequency_, "##frequency", part(frequency, 0, 3, s), now.frequency))
+    if (const auto value = numberField(desk, frequency_, "##frequency", part(frequency, 0, 3, s),
+                                       "cycles/s", now.frequency))
         editSweep(desk, [&](auto& sweep) { sweep.frequency = *value; });
 }
 

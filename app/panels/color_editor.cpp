@@ -6,6 +6,7 @@
 #include "app/layer_colors.h"
 #include "app/panels/form.h"
 #include "app/panels/layer_style.h"
+#include "app/panels/number_field.h"
 
 namespace app::panels {
 namespace {
@@ -115,12 +116,14 @@ bool ColorEditor::drawMaps(Desk& desk, LayerChoice& layer, float width) {
     }
     const Rect row{at, at + glm::vec2(width, 28 * s)};
     const double least = choice.lo.value_or(0), most = choice.hi.value_or(0);
-    if (const auto lo = numberField(desk.theme, lo_, "##lo", part(row, 0, 2, s), least);
+    if (const auto lo =
+            numberField(desk, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
         lo && *lo < most) {
         choice.lo = lo;
         changed = true;
     }
-    if (const auto hi = numberField(desk.theme, hi_, "##hi", part(row, 1, 2, s), most);
+    if (const auto hi =
+            numberField(desk, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
         hi && *hi > least) {
         choice.hi = hi;
         changed = true;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "app/panels/number_field.h"
+
 namespace app::panels {
 namespace {
 
@@ -121,7 +123,8 @@ void speedField(Desk& desk, TextField& field, const Rect& at, const Dataset& dat
     const bool even = time.pace == timeseries::Pace::Even;
     const double shown = even ? time.stepsPerSecond : time.timeUnitsPerSecond;
     const Rect box{at.min, {at.min.x + 46 * s, at.max.y}};
-    if (const auto value = numberField(desk.theme, field, "##speed", box, shown))
+    if (const auto value =
+            numberField(desk, field, "##speed", box, even ? "steps/s" : "units/s", shown))
         edit(desk, {}, [&](Explorer& e) {
             (even ? e.play.time.stepsPerSecond : e.play.time.timeUnitsPerSecond) =
                 std::max(0.0, *value);

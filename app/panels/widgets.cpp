@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
 
-#include <charconv>
 #include <cmath>
 #include <glm/common.hpp>
-
-#include "timeseries/number.h"
 
 namespace app::panels {
 namespace {
@@ -222,17 +219,6 @@ std::optional<std::string> TextField::draw(const Theme& theme, const char* id, c
         ImGui::IsItemDeactivated() && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     if ((entered || left) && typed_ != shown) return typed_;
     return std::nullopt;
-}
-
-std::optional<double> numberField(const Theme& theme, TextField& field, const char* id,
-                                  const Rect& at, double shown) {
-    const auto entered = field.draw(theme, id, at, timeseries::toText(shown));
-    if (!entered) return std::nullopt;
-    double value = 0;
-    const char* end = entered->data() + entered->size();
-    const auto result = std::from_chars(entered->data(), end, value);
-    if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) return std::nullopt;
-    return value;
 }
 
 bool beginPopup(const char* id) {

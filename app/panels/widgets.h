@@ -64,10 +64,6 @@ class TextField {
     bool active_ = false;
 };
 
-// A number in a field: what was entered, when it is a finite number.
-std::optional<double> numberField(const Theme& theme, TextField& field, const char* id,
-                                  const Rect& at, double shown);
-
 // ImGui's, closed by Escape too, with the keys to itself.
 bool beginPopup(const char* id);
 void endPopup();
