@@ -116,18 +116,18 @@ bool ColorEditor::drawMaps(Desk& desk, LayerChoice& layer, float width) {
     }
     const Rect row{at, at + glm::vec2(width, 28 * s)};
     const double least = choice.lo.value_or(0), most = choice.hi.value_or(0);
-    if (const auto lo =
-            numberField(desk, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
-        lo && *lo < most) {
-        choice.lo = lo;
+    const auto take = [&](const std::optional<double>& entered, bool inOrder,
+                          std::optional<double>& end) {
+        if (!entered) return;
+        if (!inOrder)
+            return desk.exploration.tell("the map's low end has to lie below its high end", true);
+        end = entered;
         changed = true;
-    }
-    if (const auto hi =
-            numberField(desk, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
-        hi && *hi > least) {
-        choice.hi = hi;
-        changed = true;
-    }
+    };
+    const auto lo = numberField(desk, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
+    take(lo, lo < most, choice.lo);
+    const auto hi = numberField(desk, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
+    take(hi, hi > least, choice.hi);
     if (changed) layer.color = choice;
     return changed;
 }

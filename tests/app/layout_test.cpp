@@ -73,6 +73,15 @@ TEST_P(EveryLayout, TheRailHasRoomBetweenButtonsAndSettings) {
     EXPECT_GT(bar.now.size().x, 19 * 8 * layout_.scale);
 }
 
+// The legend's lines reach down to three fifths of the picture; the figures are three lines.
+TEST_P(EveryLayout, AnExportIsToldBetweenTheLegendAndTheFigures) {
+    const Rect& picture = layout_.picture;
+    const Rect place = exportPlace(picture, layout_.scale);
+    EXPECT_GT(place.min.y, picture.min.y + 0.6f * picture.size().y);
+    EXPECT_LT(place.max.y, picture.max.y - 3 * 18 * layout_.scale);
+    EXPECT_LE(place.max.y, messagesBottom(picture, layout_.scale));
+}
+
 TEST(Layout, TheColumnKeepsItsWidthWithinLimits) {
     const glm::vec2 window(1440, 900);
     EXPECT_EQ(layoutOf(window, 1, 10).side.size().x, 320);

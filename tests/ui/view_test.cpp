@@ -81,7 +81,12 @@ TEST_F(DeskView, ReadsThePointUnderTheCursorInEitherEyesPicture) {
     desk_->doubleClick(picture.min + glm::vec2(8));  // nothing is there
     const Shot nothing = desk_->settled(page);
     for (const float eye : {0.25f, 0.75f}) {
-        desk_->doubleClick(picture.min + glm::vec2(eye, 0.5f) * picture.size());
+        const Shot before = this->picture();
+        const glm::vec2 place = picture.min + glm::vec2(eye, 0.5f) * picture.size();
+        desk_->move(place);
+        desk_->waitFor("a card stands beside the pointer that rests",
+                       [&] { return differing(desk_->shot(at_.clear), before) > 1000; });
+        desk_->doubleClick(place);
         EXPECT_GT(differing(desk_->settled(page), nothing), 1000u) << eye;
     }
     desk_->doubleClick(picture.min + glm::vec2(8));
