@@ -3,6 +3,7 @@
 // render/footprint.h in float.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,6 +15,9 @@
 
 namespace render {
 
+// As many as the machine has, up to where starting more costs more than it saves.
+inline unsigned rowThreads() { return std::min(std::thread::hardware_concurrency(), 16u); }
+
 // What one layer of a scene adds up to in a view, over as many calls as one likes: not a bit
 // depends on their number, nor on that of the threads.
 class RowSum {
@@ -22,8 +26,7 @@ class RowSum {
     // splat whose centre lies behind it is not drawn there. It, scene and view must outlive this.
     // REQUIRES: Weight or WeightedColor.
     RowSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-           std::span<const float> opaqueDepth,
-           unsigned threads = std::thread::hardware_concurrency());
+           std::span<const float> opaqueDepth, unsigned threads = rowThreads());
     RowSum(RowSum&&) noexcept;
     ~RowSum();
 
@@ -43,6 +46,6 @@ class RowSum {
 // All of it at once.
 std::vector<float> sumRows(const Scene& scene, const View& view, Channels channels,
                            std::size_t layer, std::span<const float> opaqueDepth,
-                           unsigned threads = std::thread::hardware_concurrency());
+                           unsigned threads = rowThreads());
 
 }  // namespace render

@@ -3,8 +3,10 @@
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "app/still.h"
 #include "render/color.h"
@@ -108,6 +110,35 @@ TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
     headset_.reset();
     EXPECT_TRUE(world_.exploration.explorer() == before);
     world_.until([&] { return world_.exploration.shown()->step == 3; });
+}
+
+TEST_F(FrontEnd, WhatPlaysWaitsWhileAnotherProgramHasTheFocus) {
+    using Clock = std::chrono::steady_clock;
+    const tests::MonadoService service(tests::Monado::Null);
+    open();
+    Exploration& e = world_.exploration;
+    Explorer next = e.explorer();
+    next.sweep.emplace();
+    next.sweep->animation = timeseries::RangeSet::parse("0:63");
+    next.sweep->delta = 3;
+    e.edit(next);
+    e.togglePlay();
+    Clock::time_point moved = Clock::now();
+    std::int64_t last = 0;
+    const auto moves = [&] {
+        const bool has = std::exchange(last, e.explorer().play.tick) != last;
+        if (has) moved = Clock::now();
+        return has;
+    };
+    framesUntil(moves);
+    FILE* second = popen(SECOND_CLIENT, "w");
+    ASSERT_TRUE(second);
+    // It moves some ten times a second otherwise.
+    framesUntil([&] { return !moves() && Clock::now() - moved > 1s; });
+    EXPECT_TRUE(e.playback().playing);
+    EXPECT_EQ(pclose(second), 0);
+    framesUntil(moves);
+    headset_.reset();  // before its runtime goes
 }
 
 TEST_F(FrontEndWithHands, AGrabMovesTheVolumeByExactlyTheHandsMotion) {
