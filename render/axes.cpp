@@ -193,7 +193,8 @@ void chooseTicks(const Page& page, const Screen& screen, ShownAxis& shown) {
     const double pixels = glm::distance(glm::dvec2(screen.pixel(glm::mix(a, b, part->x))),
                                         glm::dvec2(screen.pixel(glm::mix(a, b, part->y))));
     const glm::dvec2 out = outward(page, screen, shown.edge, *part);
-    for (int wanted = std::clamp(static_cast<int>(pixels / (4.5 * page.line())), 2, 9); wanted >= 1;
+    // One number tells no scale; for 2, niceTicks would rather give 1 than 5.
+    for (int wanted = std::clamp(static_cast<int>(pixels / (4.5 * page.line())), 3, 9); wanted >= 1;
          --wanted) {
         shown.ticks = ticksOf(axis, lo, hi, wanted);
         shown.texts = tickTexts(shown.ticks);

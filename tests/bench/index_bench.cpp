@@ -134,17 +134,17 @@ void countByScan(benchmark::State& state) {
     countPoints(state, values.size());
 }
 
-BENCHMARK(build<float>)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(build<float>)->Arg(64)->Arg(128)->Arg(256)->Arg(512)->Unit(benchmark::kMillisecond);
 BENCHMARK(build<double>)->Arg(128)->Unit(benchmark::kMillisecond);
 BENCHMARK(build<std::int16_t>)->Arg(128)->Unit(benchmark::kMillisecond);
 BENCHMARK(buildByStdSort)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
-BENCHMARK(select<float>)->Arg(64)->Arg(128)->Arg(256);
+BENCHMARK(select<float>)->Arg(64)->Arg(128)->Arg(256)->Arg(512);
 BENCHMARK(select<double>)->Arg(128);
 BENCHMARK(select<std::int16_t>)->Arg(128);
-BENCHMARK(count<float>)->Arg(64)->Arg(128)->Arg(256);
+BENCHMARK(count<float>)->Arg(64)->Arg(128)->Arg(256)->Arg(512);
 BENCHMARK(count<double>)->Arg(128);
 BENCHMARK(count<std::int16_t>)->Arg(128);
-BENCHMARK(countByScan<float>)->Arg(64)->Arg(128)->Arg(256);
+BENCHMARK(countByScan<float>)->Arg(64)->Arg(128)->Arg(256)->Arg(512);
 BENCHMARK(countByScan<double>)->Arg(128);
 BENCHMARK(countByScan<std::int16_t>)->Arg(128);
 

@@ -248,6 +248,16 @@ TEST(Axes, WhatIsSeenOfAnEdgeIsNumbered) {
     EXPECT_FALSE(shown("900") || shown("1000"));
 }
 
+TEST(Axes, AShortAxisHasMoreThanOneNumberWhereTheyFit) {
+    // In steps of 0.2 there are five numbers, in steps of 0.5 only 10.
+    const Grid grid(
+        {axis("x", "m", 0, 0.9, 60), axis("y", "m", 9.55, 10.45, 60), axis("z", "m", 0, 0.9, 60)});
+    for (const double azimuth : {-65.0, -60.0, -55.0, -50.0, -45.0}) {
+        const Drawn d(grid, eyeAt(azimuth, 22, 3.4), {1200, 900});
+        EXPECT_TRUE(d.label("10.2") || d.label("9.8")) << azimuth;
+    }
+}
+
 TEST(Axes, NumbersStandBesideTheirPlaces) {
     const Drawn d(fire(), eyeAt(-60, 25, 3.2), {1024, 1024});
     const float line = static_cast<float>(labelStyle({1024, 1024}).linePixels);
