@@ -72,11 +72,10 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     };
     report_ = resting ? canvas_.refine(shown, eyes_, limits, show)
                       : canvas_.draw(shown, eyes_, limits, true, show);
-    timed_ = report_.gpuTime.has_value();
-    if (report_.gpuTime) {
-        pace.took(report_.gpuSplats, *report_.gpuTime);
-        performance_.frame = *report_.gpuTime;
-    }
+    // What is told is of an earlier frame: one that drew nothing says nothing of this one.
+    timed_ = report_.gpuTime && report_.gpuSplats > 0;
+    if (report_.gpuTime) pace.took(report_.gpuSplats, *report_.gpuTime);
+    if (timed_) performance_.frame = *report_.gpuTime;
     const std::uint64_t picture = performance_.picture + 1;
     performance_ = {.frame = performance_.frame,
                     .budget = frameBudget,

@@ -1,5 +1,7 @@
 #include "render/gl/gpu_timer.h"
 
+#include <algorithm>
+
 namespace render::gl {
 namespace {
 
@@ -12,14 +14,17 @@ std::uint64_t result(const Query& query, GLenum what) {
 }  // namespace
 
 GpuTimer::GpuTimer()
-    : ring_{Section{Query(GL_TIMESTAMP), Query(GL_TIMESTAMP)},
-            Section{Query(GL_TIMESTAMP), Query(GL_TIMESTAMP)},
-            Section{Query(GL_TIMESTAMP), Query(GL_TIMESTAMP)},
-            Section{Query(GL_TIMESTAMP), Query(GL_TIMESTAMP)}} {}
+    : ring_{Section{.from = Query(GL_TIMESTAMP), .to = Query(GL_TIMESTAMP)},
+            Section{.from = Query(GL_TIMESTAMP), .to = Query(GL_TIMESTAMP)},
+            Section{.from = Query(GL_TIMESTAMP), .to = Query(GL_TIMESTAMP)},
+            Section{.from = Query(GL_TIMESTAMP), .to = Query(GL_TIMESTAMP)}} {}
 
 void GpuTimer::begin() {
     timing_ = pending_ < ring_.size();
-    if (timing_) glQueryCounter(ring_[(first_ + pending_) % ring_.size()].from.id(), GL_TIMESTAMP);
+    if (!timing_) return;
+    Section& section = ring_[(first_ + pending_) % ring_.size()];
+    section.began = Clock::now();
+    glQueryCounter(section.from.id(), GL_TIMESTAMP);
 }
 
 void GpuTimer::end(std::uint64_t label) {
@@ -27,6 +32,7 @@ void GpuTimer::end(std::uint64_t label) {
     timing_ = false;
     Section& section = ring_[(first_ + pending_++) % ring_.size()];
     section.label = label;
+    section.here = Clock::now() - section.began;
     glQueryCounter(section.to.id(), GL_TIMESTAMP);
 }
 
@@ -37,7 +43,8 @@ std::optional<GpuTimer::Time> GpuTimer::poll() {
         const Section& done = ring_[first_];
         const std::uint64_t from = result(done.from, GL_QUERY_RESULT);
         const std::uint64_t to = result(done.to, GL_QUERY_RESULT);
-        newest = {done.label, std::chrono::nanoseconds(to > from ? to - from : 0)};
+        const std::chrono::nanoseconds there(to > from ? to - from : 0);
+        newest = {done.label, std::max(there, done.here)};
         first_ = (first_ + 1) % ring_.size();
         --pending_;
     }

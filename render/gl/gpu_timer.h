@@ -1,4 +1,5 @@
-// How long the GPU took for a part of a frame, told some frames later: asking never waits.
+// How long a part of a frame took, on the GPU or on this side of the driver, whichever was longer;
+// told some frames later: asking never waits.
 #pragma once
 
 #include <array>
@@ -29,8 +30,11 @@ class GpuTimer {
 
  private:
     static constexpr std::size_t kSections = 4;
+    using Clock = std::chrono::steady_clock;
     struct Section {
         Query from, to;
+        Clock::time_point began{};
+        std::chrono::nanoseconds here{0};  // between the calls of begin() and end()
         std::uint64_t label = 0;
     };
     std::array<Section, kSections> ring_;
