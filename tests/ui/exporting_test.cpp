@@ -78,6 +78,7 @@ TEST_F(DeskExports, TellsHowFarItIsAndIsCancelled) {
     desk_->waitFor("its end is told", [&] {
         return differing(desk_->shot(at_.messages), part(quiet_, at_.messages)) > 1000;
     });
+    waitUntil("it is cleared away", [&] { return std::filesystem::is_empty(temporary()); });
     expectWholePictures();
 }
 

@@ -14,6 +14,7 @@ TEST_F(DeskMeetsAGlError, AndTellsItAndGoesOn) {
     desk.waitForTitle("pool_fire_T.nc · T");
     const Places at = placesOf(desk.size());
     desk.drag({400, 300}, {520, 340});
+    desk.moveAway();
     const Shot before = desk.settled();
     standIn.glError(true);
     desk.sync();

@@ -22,7 +22,7 @@ class DeskScale : public DeskTest {
     }
     Seen seen(float scale) {
         const Places at = placesOf(kSize, true, scale);
-        desk_->move(at.clear.centre());
+        desk_->moveAway();
         const Shot shot = desk_->settled();
         return {part(shot, at.window.side), part(shot, at.clear)};
     }
