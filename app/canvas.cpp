@@ -56,7 +56,6 @@ std::optional<std::size_t> layerOf(const Explorer& e, std::size_t k) {
     return layer;
 }
 
-// Whether choices made for one step suit another: of the same variable, with the same values kept.
 // What is on the screen, being refined.
 struct Resting {
     Screen of;

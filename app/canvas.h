@@ -39,7 +39,7 @@ struct CanvasReport {
     double uploaded = 1;                    // share of what the picture asked for needs
     double refined = 0;                     // share that refine() has drawn; it shows all at once
     std::uint64_t gpuBytes = 0;             // of steps held there
-    // Of an earlier call of the same function, by timer query, and the splats of all its eyes: what
+    // Of an earlier call of the same function (gl::GpuTimer), and the splats of all its eyes: what
     // FramePace learns from. None in most frames of a GPU that is behind.
     std::optional<std::chrono::nanoseconds> gpuTime;
     std::uint64_t gpuSplats = 0;
