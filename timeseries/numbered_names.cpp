@@ -1,5 +1,8 @@
 #include "timeseries/numbered_names.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace timeseries {
@@ -34,6 +37,11 @@ Name cut(const Path& path) {
     }
     if (inDigits) name.texts.emplace_back();
     return name;
+}
+
+std::string shapeOf(const Path& file) {
+    const Name name = cut(file);
+    return fmt::format("{}{}", fmt::join(name.texts, "*"), name.extension);
 }
 
 std::string withoutZeros(const std::string& digits) {

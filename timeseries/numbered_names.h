@@ -18,6 +18,9 @@ struct Name {
 
 Name cut(const std::filesystem::path& path);
 
+// "a_*_*.nc": the name's texts, whatever its numbers.
+std::string shapeOf(const std::filesystem::path& path);
+
 std::string withoutZeros(const std::string& digits);
 // Natural order: texts as texts, digits as numbers.
 bool nameLess(const std::filesystem::path& a, const std::filesystem::path& b);
