@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "timeseries/decimal_names.h"
 #include "timeseries/numbered_names.h"
 #include "timeseries/reader.h"
 #include "timeseries/series_text.h"
@@ -39,6 +40,96 @@ std::optional<Paths> filesIn(const Path& folder) {
     return files;
 }
 
+// A file of a folder that is named as another is, but for these of its numbers.
+struct Sibling {
+    Path file;
+    std::vector<std::size_t> differences;  // places in Name::digits, ascending; not empty
+};
+
+// A number of a name, or the two at the dot of a decimal one.
+struct Place {
+    std::size_t first, last;
+    bool decimal() const { return first != last; }
+    bool holds(const Sibling& sibling) const {
+        return sibling.differences.front() >= first && sibling.differences.back() <= last;
+    }
+};
+
+// Where a name may be numbered, the last place first. Before another number that varies, what may
+// be decimal may also be a version.
+std::vector<Place> placesOf(const Name& name, std::span<const Sibling> siblings) {
+    std::size_t lastVaried = 0;
+    for (const Sibling& sibling : siblings)
+        lastVaried = std::max(lastVaried, sibling.differences.back());
+    const std::vector<std::size_t> decimals = decimalPlaces(name);
+    std::vector<Place> places;
+    for (std::size_t at = name.digits.size(); at-- > 0;) {
+        if (at >= lastVaried && std::ranges::find(decimals, at - 1) != decimals.end())
+            places.push_back({at - 1, at});
+        places.push_back({at, at});
+    }
+    return places;
+}
+
+// The file first, then those that differ from it there alone.
+Paths alikeBut(Place place, const Path& file, std::span<const Sibling> siblings) {
+    Paths files{file};
+    for (const Sibling& sibling : siblings)
+        if (place.holds(sibling)) files.push_back(sibling.file);
+    return files;
+}
+
+// a_1 and a_01 alone are no series.
+bool varies(std::span<const Path> files, Place place) {
+    const Name first = cut(files.front());
+    return std::ranges::any_of(files, [&](const Path& file) {
+        const Name name = cut(file);
+        for (std::size_t at = place.first; at <= place.last; ++at)
+            if (withoutZeros(name.digits[at]) != withoutZeros(first.digits[at])) return true;
+        return false;
+    });
+}
+
+ExpandedSeries joined(const Path& file, const Numbered& series, const Paths& others) {
+    ExpandedSeries result;
+    describe(series, result);
+    tellOthers(others, result);
+    result.files = series.files;
+    result.here =
+        static_cast<std::size_t>(std::ranges::find(series.files, file) - series.files.begin());
+    return result;
+}
+
+// The file's series: by the last number that varies.
+ExpandedSeries seriesOf(const Path& file, std::span<const Sibling> siblings) {
+    ExpandedSeries alone{{file}, {}, "", {}};
+    const Name name = cut(file);
+    for (const Place place : placesOf(name, siblings)) {
+        const Paths files = alikeBut(place, file, siblings);
+        if (!varies(files, place)) continue;
+        if (place.decimal() && readingOf(files, place.first) == Dotted::Whole) continue;
+        if (const auto series = numbered(files)) {
+            Paths others;
+            for (const Sibling& sibling : siblings)
+                if (!place.holds(sibling)) others.push_back(sibling.file);
+            return joined(file, *series, others);
+        }
+        tellUnclear(files, place.last, alone);
+        return alone;
+    }
+    Paths others;
+    for (const Sibling& sibling : siblings)
+        if (sibling.differences.size() > 1)
+            others.push_back(sibling.file);
+        else
+            alone.notes.push_back(
+                fmt::format("number {} stands twice: {} and {}; only the file named is opened",
+                            withoutZeros(name.digits[sibling.differences.front()]),
+                            file.filename().string(), sibling.file.filename().string()));
+    tellOthers(std::move(others), alone);
+    return alone;
+}
+
 ExpandedSeries member(const Path& file) {
     ExpandedSeries alone{{file}, {}, "", {}};
     const Name name = cut(file);
@@ -51,62 +142,23 @@ ExpandedSeries member(const Path& file) {
         return alone;
     }
     if (!listed) {
-        alone.notes.push_back(
-            fmt::format("only this file is opened: its folder holds more than {} "
-                        "files",
-                        kMaxSeriesFiles));
+        alone.notes.push_back(fmt::format(
+            "only this file is opened: its folder holds more than {} files", kMaxSeriesFiles));
         return alone;
     }
-    std::map<std::size_t, Paths> siblings;  // by the number in which they differ
-    Paths further;                          // in several numbers
+    std::vector<Sibling> siblings;
+    Paths otherDots;
     for (const Path& other : *listed) {
         const Name its = cut(other);
-        if (its.texts != name.texts || its.extension != name.extension || its.digits == name.digits)
-            continue;
-        if (const auto at = onlyDifference(name, its))
-            siblings[*at].push_back(other);
-        else
-            further.push_back(other);
+        if (auto places = differences(name, its)) {
+            if (!places->empty()) siblings.push_back({other, std::move(*places)});
+        } else if (withoutFractions(its).texts == withoutFractions(name).texts &&
+                   its.extension == name.extension) {
+            otherDots.push_back(other);
+        }
     }
-
-    // The last number that takes another value: a_1 and a_01 alone are no series.
-    const auto varies = std::find_if(siblings.rbegin(), siblings.rend(), [&](const auto& each) {
-        return std::ranges::any_of(each.second, [&](const Path& other) {
-            return withoutZeros(cut(other).digits[each.first]) !=
-                   withoutZeros(name.digits[each.first]);
-        });
-    });
-    if (varies == siblings.rend()) {
-        for (const auto& [at, files] : siblings)
-            alone.notes.push_back(
-                fmt::format("number {} stands twice: {} and {}; only the file "
-                            "named is opened",
-                            withoutZeros(name.digits[at]), file.filename().string(),
-                            files.front().filename().string()));
-        tellOthers(std::move(further), alone);
-        return alone;
-    }
-    const std::size_t at = varies->first;
-    Paths files = varies->second;
-    files.push_back(file);
-    std::vector<std::string> digits;
-    for (const Path& each : files) digits.push_back(cut(each).digits[at]);
-    if (ambiguous(name, at, digits)) {
-        alone.notes.push_back(fmt::format(
-            "only this file is opened: the numbers of {} and {} may be decimal or whole; name the "
-            "files in their order",
-            file.filename().string(), files.front().filename().string()));
-        return alone;
-    }
-    const Numbered series = byNumber(std::move(files), at);
-    ExpandedSeries result;
-    describe(series, result);
-    for (const auto& [number, others] : siblings)
-        if (number != at) further.insert(further.end(), others.begin(), others.end());
-    tellOthers(std::move(further), result);
-    result.files = series.files;
-    result.here =
-        static_cast<std::size_t>(std::ranges::find(series.files, file) - series.files.begin());
+    ExpandedSeries result = seriesOf(file, siblings);
+    tellOtherDots(std::move(otherDots), result);
     return result;
 }
 

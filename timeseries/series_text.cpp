@@ -16,17 +16,38 @@ using Paths = std::vector<Path>;
 
 constexpr std::size_t kMostTold = 8;  // numbers, files or gaps, in one sentence
 
-// Null beyond 18 digits.
-std::optional<std::vector<std::int64_t>> integers(const std::vector<std::string>& numbers) {
+// Numbers times the power of ten that makes all of them whole.
+struct Scaled {
     std::vector<std::int64_t> values;
-    for (const std::string& number : numbers) {
-        if (number.size() > 18) return std::nullopt;
-        values.push_back(std::stoll(number));
+    std::size_t decimals = 0;  // the power
+
+    std::string text(std::int64_t value) const {
+        std::string digits = fmt::format("{:0{}}", value, decimals + 1);
+        if (decimals > 0) digits.insert(digits.size() - decimals, ".");
+        return digits;
     }
-    return values;
+};
+
+// None beyond 18 digits.
+std::optional<Scaled> scaled(const std::vector<std::string>& numbers) {
+    const auto decimalsOf = [](const std::string& number) {
+        const std::size_t dot = number.find('.');
+        return dot == number.npos ? 0 : number.size() - dot - 1;
+    };
+    Scaled result;
+    for (const std::string& number : numbers)
+        result.decimals = std::max(result.decimals, decimalsOf(number));
+    for (const std::string& number : numbers) {
+        std::string digits = number + std::string(result.decimals - decimalsOf(number), '0');
+        std::erase(digits, '.');
+        if (digits.size() > 18) return std::nullopt;
+        result.values.push_back(std::stoll(digits));
+    }
+    return result;
 }
 
-std::string missingText(const std::vector<std::int64_t>& values, std::int64_t every) {
+std::string missingText(const Scaled& numbers, std::int64_t every) {
+    const auto& values = numbers.values;
     std::string text;
     std::size_t told = 0;
     std::int64_t missing = 0, untold = 0;
@@ -38,8 +59,9 @@ std::string missingText(const std::vector<std::int64_t>& values, std::int64_t ev
             untold += gap;
             continue;
         }
-        const std::int64_t from = values[i - 1] + every, to = values[i] - every;
-        text += (text.empty() ? "" : ", ") + (gap == 1   ? fmt::format("{}", from)
+        const std::string from = numbers.text(values[i - 1] + every),
+                          to = numbers.text(values[i] - every);
+        text += (text.empty() ? "" : ", ") + (gap == 1   ? from
                                               : gap == 2 ? fmt::format("{}, {}", from, to)
                                                          : fmt::format("{} to {}", from, to));
     }
@@ -84,15 +106,25 @@ Spacing spacingOf(const std::vector<std::int64_t>& values) {
 }
 
 // "0 to 20 every 5, with gaps".
-std::string spacingText(const std::vector<std::int64_t>& values, const Spacing& spacing,
-                        const std::string& ends) {
-    if (spacing.uneven && values.size() <= kMostTold)
-        return fmt::format("{}: uneven", fmt::join(values, ", "));
+std::string spacingText(const Scaled& numbers, const Spacing& spacing, const std::string& ends) {
+    if (spacing.uneven && numbers.values.size() <= kMostTold) {
+        std::vector<std::string> all;
+        for (const std::int64_t value : numbers.values) all.push_back(numbers.text(value));
+        return fmt::format("{}: uneven", fmt::join(all, ", "));
+    }
     if (spacing.uneven) return ends + ": uneven";
     std::string text = ends;
-    if (spacing.every > 1) text += fmt::format(" every {}", spacing.every);
+    if (spacing.every > 1 || numbers.decimals > 0) text += " every " + numbers.text(spacing.every);
     if (spacing.gaps) text += ", with gaps";
     return text;
+}
+
+// "a.nc is not taken: it", "2 files a.nc to b.nc are not taken: they".
+std::string notTaken(Paths others) {
+    std::ranges::sort(others, nameLess);
+    return others.size() == 1
+               ? fmt::format("{} is not taken: it", others.front().filename().string())
+               : namesText(others) + " are not taken: they";
 }
 
 std::string candidate(const Paths& files) {
@@ -116,26 +148,41 @@ void describe(const Numbered& series, ExpandedSeries& into) {
     const bool twice = tellTwice(series, into);
     const std::string &first = series.numbers.front(), &last = series.numbers.back();
     std::string shape = fmt::format("{} to {}", first, last);
-    if (auto values = integers(series.numbers)) {
-        values->erase(std::unique(values->begin(), values->end()), values->end());
-        const Spacing spacing = spacingOf(*values);
-        shape = values->size() == 2 && !twice ? fmt::format("{} and {}", first, last)
-                                              : spacingText(*values, spacing, shape);
-        if (spacing.gaps) into.notes.push_back(missingText(*values, spacing.every));
+    if (auto numbers = scaled(series.numbers)) {
+        auto& values = numbers->values;
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+        const Spacing spacing = spacingOf(values);
+        shape = values.size() == 2 && !twice ? fmt::format("{} and {}", first, last)
+                                             : spacingText(*numbers, spacing, shape);
+        if (spacing.gaps) into.notes.push_back(missingText(*numbers, spacing.every));
     }
     into.recognised = fmt::format("{}, numbers {}", namesText(series.files), shape);
 }
 
 void tellOthers(Paths others, ExpandedSeries& into) {
     if (others.empty()) return;
-    std::ranges::sort(others, nameLess);
-    const std::string first = others.front().filename().string();
-    into.notes.push_back(
-        others.size() == 1
-            ? fmt::format("{} is not taken: it differs in another number, or in several", first)
-            : fmt::format("{} files {} to {} are not taken: they differ in another number, or in "
-                          "several; a folder or a pattern opens them together",
-                          others.size(), first, others.back().filename().string()));
+    const bool one = others.size() == 1;
+    into.notes.push_back(notTaken(std::move(others)) +
+                         (one ? " differs in another number, or in several"
+                              : " differ in another number, or in several; a folder or a pattern "
+                                "opens them together"));
+}
+
+void tellOtherDots(Paths others, ExpandedSeries& into) {
+    if (others.empty()) return;
+    const bool one = others.size() == 1;
+    into.notes.push_back(notTaken(std::move(others)) + (one ? " has" : " have") +
+                         " another number of dots; name the files in their order");
+}
+
+void tellUnclear(const Paths& files, std::size_t at, ExpandedSeries& into) {
+    const std::size_t length = cut(files.front()).digits[at].size();
+    const auto other = std::ranges::find_if(
+        files, [&](const Path& file) { return cut(file).digits[at].size() != length; });
+    into.notes.push_back(fmt::format(
+        "only this file is opened: the numbers of {} and {} may be decimal or whole; name the "
+        "files in their order",
+        files.front().filename().string(), other->filename().string()));
 }
 
 void tellFractions(const Paths& files, ExpandedSeries& into) {

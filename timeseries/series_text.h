@@ -2,6 +2,7 @@
 // passed over.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -20,6 +21,15 @@ void describe(const Numbered& series, ExpandedSeries& into);
 
 // A note of the files named alike that are no part of the series; none when there are none.
 void tellOthers(std::vector<std::filesystem::path> others, ExpandedSeries& into);
+
+// A note of the files whose names have a dot in a number where those of the series have none, or
+// the other way round; none when there are none.
+void tellOtherDots(std::vector<std::filesystem::path> others, ExpandedSeries& into);
+
+// Why only the first of these files is opened: digits at this place of their names may be a
+// fraction or a count. REQUIRES: they are not of one length.
+void tellUnclear(const std::vector<std::filesystem::path>& files, std::size_t at,
+                 ExpandedSeries& into);
 
 // Files found together are ordered by whole numbers, which fractions need not follow: a note where
 // the orders may differ.
