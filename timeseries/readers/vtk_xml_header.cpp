@@ -216,15 +216,19 @@ void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkP
                             all, place == VtkPlace::Points ? "points" : "cells"));
 }
 
+// What parallel writers leave for a process that has nothing of the grid. VTK is not shown it.
+bool isEmpty(const std::array<std::array<std::int64_t, 2>, 3>& extent) {
+    return std::ranges::any_of(extent, [](const auto& axis) { return axis[1] < axis[0]; });
+}
+
 void addPieces(const Context& context, const XmlElement& grid) {
     VtkHeader& header = context.header;
-    const auto pieces = named(grid, "Piece");
-    if (pieces.empty()) failVtk(header.path, placeOf(grid), "expected a Piece, found none");
     std::vector<VtkHeader> shapes;
-    for (const XmlElement* piece : pieces) {
-        VtkHeader& shape = shapes.emplace_back();
+    for (const XmlElement* piece : named(grid, "Piece")) {
+        VtkHeader shape;
         shape.path = header.path;
         shape.extent = extentOf(header, *piece, "Extent");
+        if (isEmpty(shape.extent)) continue;
         checkVtkExtent(shape, placeOf(*piece));
         for (std::size_t i = 0; i < 3; ++i)
             if (shape.extent[i][0] < header.extent[i][0] ||
@@ -239,14 +243,17 @@ void addPieces(const Context& context, const XmlElement& grid) {
             return a.name == b.name && a.place == b.place && a.type == b.type &&
                    a.components == b.components;
         };
-        if (piece == pieces.front())
+        if (shapes.empty())
             header.arrays = arrays;
         else if (!std::ranges::equal(arrays, header.arrays, same))
             failVtk(header.path, placeOf(*piece), "expected the arrays of the first piece");
+        shapes.push_back(std::move(shape));
         for (std::size_t i = 0; i < arrays.size(); ++i)
             if (header.arrays[i].notNumber.empty())
                 header.arrays[i].notNumber = arrays[i].notNumber;
     }
+    if (shapes.empty())
+        failVtk(header.path, placeOf(grid), "expected a Piece that holds points, found none");
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
         if (std::ranges::any_of(header.arrays, [&](const auto& a) { return a.place == place; }))
             checkCover(header, shapes, place);
