@@ -275,8 +275,27 @@ const XmlElement& rootOf(const std::filesystem::path& path, const XmlFile& file)
     return file.root;
 }
 
-bool before(const VtkMember& a, const VtkMember& b) {
-    return a.time.value_or(0) < b.time.value_or(0);
+// A DataSet of a collection.
+struct Listed {
+    VtkMember member;
+    std::pair<std::string, std::string> part;  // its group, and its part of that
+};
+
+bool before(const Listed& a, const Listed& b) {
+    return a.member.time.value_or(0) < b.member.time.value_or(0);
+}
+
+// Several parts of one time are one step together, and several without a time may be.
+// REQUIRES: ascending.
+void checkParts(const std::filesystem::path& path, std::span<const Listed> all) {
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+        std::set<std::pair<std::string, std::string>> parts;
+        for (end = first; end < all.size() && !before(all[first], all[end]); ++end)
+            parts.insert(all[end].part);
+        if (parts.size() > 1)
+            failVtk(path, "Collection",
+                    fmt::format("expected one part a time step, found {} parts", parts.size()));
+    }
 }
 
 }  // namespace
@@ -332,8 +351,7 @@ std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path) {
     if (collections.size() != 1) failVtk(path, "VTKFile", "expected one Collection");
     VtkHeader header;
     header.path = path;
-    std::vector<VtkMember> members;
-    std::set<std::pair<std::string, std::string>> parts;
+    std::vector<Listed> listed;
     for (const XmlElement* set : named(*collections[0], "DataSet")) {
         const std::string_view name = set->attribute("file");
         if (name.empty()) failVtk(path, placeOf(*set), "expected the name of a file");
@@ -341,19 +359,21 @@ std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path) {
         if (set->has("timestep"))
             member.time =
                 vtkNumbers(header, placeOf(*set) + " timestep", set->attribute("timestep"), 1)[0];
-        parts.emplace(set->attribute("group"), set->attribute("part"));
-        members.push_back(std::move(member));
+        listed.push_back(
+            {std::move(member),
+             {std::string(set->attribute("group")), std::string(set->attribute("part"))}});
     }
-    if (members.empty()) failVtk(path, "Collection", "expected a DataSet, found none");
-    if (parts.size() > 1)
-        failVtk(path, "Collection",
-                fmt::format("expected one part a time step, found {} parts", parts.size()));
-    const auto timed = std::ranges::count_if(members, [](const auto& m) { return !!m.time; });
-    if (timed != 0 && static_cast<std::size_t>(timed) != members.size())
+    if (listed.empty()) failVtk(path, "Collection", "expected a DataSet, found none");
+    const auto timed =
+        std::ranges::count_if(listed, [](const Listed& each) { return !!each.member.time; });
+    if (timed != 0 && static_cast<std::size_t>(timed) != listed.size())
         failVtk(path, "Collection", "expected a timestep of each DataSet or of none");
-    std::ranges::stable_sort(members, before);
+    std::ranges::stable_sort(listed, before);
+    checkParts(path, listed);
+    std::vector<VtkMember> members;
+    for (Listed& each : listed) members.push_back(std::move(each.member));
     for (std::size_t i = 1; timed && i < members.size(); ++i)
-        if (!before(members[i - 1], members[i]))
+        if (*members[i - 1].time == *members[i].time)
             failVtk(path, "Collection",
                     fmt::format("expected times that differ, found {} twice ({} and {})",
                                 *members[i].time, members[i - 1].path.string(),
