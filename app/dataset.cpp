@@ -8,8 +8,9 @@ namespace app {
 
 using timeseries::FileError;
 
-OpenedSeries openSeries(std::span<const std::filesystem::path> named) {
-    timeseries::ExpandedSeries series = timeseries::expandSeries(named);
+namespace {
+
+OpenedSeries joinedOrAlone(timeseries::ExpandedSeries series) {
     try {
         auto reader = timeseries::openReader(series.files);
         return {std::move(reader), std::move(series)};
@@ -23,9 +24,20 @@ OpenedSeries openSeries(std::span<const std::filesystem::path> named) {
     }
 }
 
+}  // namespace
+
+OpenedSeries openSeries(std::span<const std::filesystem::path> named) {
+    OpenedSeries opened = joinedOrAlone(timeseries::expandSeries(named));
+    for (const timeseries::DamagedVariable& each : opened.reader->damaged())
+        opened.series.notes.push_back(fmt::format("'{}' is left out: {}", each.name, each.why));
+    return opened;
+}
+
 Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable) {
     auto [reader, series] = openSeries(named);
     Dataset dataset{std::move(reader), std::move(series), 0, {}, named.front().string(), 0, {}};
+    for (const timeseries::DamagedVariable& each : dataset.reader->damaged())
+        if (each.name == variable) throw FileError(each.why);
     const auto variables = dataset.reader->variables();
     std::string names;
     bool found = variable.empty();

@@ -21,8 +21,8 @@ struct OpenedSeries {
 };
 
 // A member of a numbered series, a folder, a pattern, or several files. Files that were found
-// beside the one named, but cannot be joined with it, are left out with a note that tells why.
-// Throws FileError.
+// beside the one named, but cannot be joined with it, are left out with a note that tells why; so
+// are damaged variables. Throws FileError.
 OpenedSeries openSeries(std::span<const std::filesystem::path> named);
 
 struct Dataset {
@@ -38,7 +38,8 @@ struct Dataset {
     std::size_t stepCount() const { return about.time->points.size(); }
 };
 
-// `variable`: by name; "" is the first. Throws FileError, also for a name that is not there.
+// `variable`: by name; "" is the first. Throws FileError, also for a name that is not there or of
+// what is damaged.
 Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable);
 
 // The chosen steps, all there; throws FileError when one is not.

@@ -1,77 +1,54 @@
 #include "timeseries/numbered_names.h"
 
 #include <algorithm>
+#include <set>
+
+#include "timeseries/decimal_names.h"
 
 namespace timeseries {
 
 using Path = std::filesystem::path;
-using Paths = std::vector<Path>;
 
 namespace {
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-}  // namespace
-
-Name cut(const Path& path) {
-    const std::string whole = path.filename().string();
-    Name name;
-    name.extension = path.extension().string();
-    // "plt.0041": the number stands where an extension would.
-    if (name.extension.size() > 1 &&
-        std::all_of(name.extension.begin() + 1, name.extension.end(), isDigit))
-        name.extension.clear();
-    bool inDigits = false;
-    for (const char c : std::string_view(whole).substr(0, whole.size() - name.extension.size())) {
-        if (isDigit(c)) {
-            if (!inDigits) name.digits.emplace_back();
-            name.digits.back() += c;
-        } else {
-            if (inDigits) name.texts.emplace_back();
-            name.texts.back() += c;
-        }
-        inDigits = isDigit(c);
+// Ascending by the number at a place of their names, and by the fraction at the next, if any.
+Numbered ascending(std::span<const Path> files, std::size_t at, bool decimal) {
+    struct Member {
+        Path file;
+        std::string whole, fraction;
+    };
+    std::vector<Member> members;
+    for (const Path& file : files) {
+        const Name name = cut(file);
+        members.push_back({file, name.digits[at], decimal ? '.' + name.digits[at + 1] : ""});
     }
-    if (inDigits) name.texts.emplace_back();
-    return name;
+    std::ranges::stable_sort(members, [](const Member& a, const Member& b) {
+        if (numberLess(a.whole, b.whole)) return true;
+        if (numberLess(b.whole, a.whole)) return false;
+        return a.fraction != b.fraction ? a.fraction < b.fraction : a.file < b.file;
+    });
+    Numbered series;
+    for (Member& member : members) {
+        series.files.push_back(std::move(member.file));
+        series.numbers.push_back(withoutZeros(member.whole) + member.fraction);
+    }
+    return series;
 }
 
-std::string withoutZeros(const std::string& digits) {
-    const std::size_t first = digits.find_first_not_of('0');
-    return first == std::string::npos ? "0" : digits.substr(first);
-}
-
-namespace {
-
-// Of any length: simulations number their steps with more digits than an integer has.
-bool numberLess(const std::string& a, const std::string& b) {
-    const std::string x = withoutZeros(a), y = withoutZeros(b);
-    return x.size() != y.size() ? x.size() < y.size() : x < y;
+// The places at which names differ; none when they differ elsewhere, or lie in other folders.
+std::optional<std::set<std::size_t>> variedPlaces(std::span<const Path> paths) {
+    const Name first = cut(paths.front());
+    std::set<std::size_t> places;
+    for (const Path& path : paths) {
+        if (path.parent_path() != paths.front().parent_path()) return std::nullopt;
+        const auto differ = differences(first, cut(path));
+        if (!differ) return std::nullopt;
+        places.insert(differ->begin(), differ->end());
+    }
+    return places;
 }
 
 }  // namespace
-
-bool nameLess(const Path& a, const Path& b) {
-    const Name x = cut(a), y = cut(b);
-    for (std::size_t i = 0; i < std::min(x.texts.size(), y.texts.size()); ++i) {
-        if (x.texts[i] != y.texts[i]) return x.texts[i] < y.texts[i];
-        if (i >= x.digits.size() || i >= y.digits.size()) break;
-        if (numberLess(x.digits[i], y.digits[i])) return true;
-        if (numberLess(y.digits[i], x.digits[i])) return false;
-    }
-    return a.filename() < b.filename();
-}
-
-std::optional<std::size_t> onlyDifference(const Name& a, const Name& b) {
-    if (a.texts != b.texts || a.extension != b.extension) return std::nullopt;
-    std::optional<std::size_t> at;
-    for (std::size_t i = 0; i < a.digits.size(); ++i) {
-        if (a.digits[i] == b.digits[i]) continue;
-        if (at) return std::nullopt;
-        at = i;
-    }
-    return at;
-}
 
 bool ambiguous(const Name& name, std::size_t at, std::span<const std::string> numbers) {
     return at > 0 && name.texts[at] == "." &&
@@ -80,44 +57,23 @@ bool ambiguous(const Name& name, std::size_t at, std::span<const std::string> nu
            });
 }
 
-Numbered byNumber(Paths files, std::size_t at) {
-    struct Member {
-        Path file;
-        std::string digits;
-    };
-    std::vector<Member> members;
-    for (Path& file : files) {
-        std::string digits = cut(file).digits[at];
-        members.push_back({std::move(file), std::move(digits)});
-    }
-    std::ranges::stable_sort(members, [](const Member& a, const Member& b) {
-        return numberLess(a.digits, b.digits) ||
-               (!numberLess(b.digits, a.digits) && a.file < b.file);
-    });
-    Numbered series;
-    for (Member& member : members) {
-        series.files.push_back(std::move(member.file));
-        series.numbers.push_back(withoutZeros(member.digits));
-    }
-    return series;
-}
-
 std::optional<Numbered> numbered(std::span<const Path> paths) {
     if (paths.size() < 2) return std::nullopt;
-    const Name first = cut(paths.front());
-    std::optional<std::size_t> at;
-    for (const Path& path : paths) {
-        if (path.parent_path() != paths.front().parent_path()) return std::nullopt;
-        if (path.filename() == paths.front().filename()) continue;
-        const auto difference = onlyDifference(first, cut(path));
-        if (!difference || (at && at != difference)) return std::nullopt;
-        at = difference;
+    const auto places = variedPlaces(paths);
+    if (!places || places->empty()) return std::nullopt;
+    const std::size_t firstPlace = *places->begin(), lastPlace = *places->rbegin();
+    const Name name = cut(paths.front());
+    for (const std::size_t at : decimalPlaces(name)) {
+        if (firstPlace < at || lastPlace > at + 1) continue;
+        const Dotted reading = readingOf(paths, at);
+        if (reading == Dotted::Decimal) return ascending(paths, at, true);
+        if (reading == Dotted::Unclear) return std::nullopt;
     }
-    if (!at) return std::nullopt;
+    if (firstPlace != lastPlace) return std::nullopt;
     std::vector<std::string> digits;
-    for (const Path& path : paths) digits.push_back(cut(path).digits[*at]);
-    if (ambiguous(first, *at, digits)) return std::nullopt;
-    return byNumber({paths.begin(), paths.end()}, *at);
+    for (const Path& path : paths) digits.push_back(cut(path).digits[firstPlace]);
+    if (ambiguous(name, firstPlace, digits)) return std::nullopt;
+    return ascending(paths, firstPlace, false);
 }
 
 }  // namespace timeseries

@@ -46,6 +46,12 @@ struct Variable {
         notes;  // what a user must know: "drawn in index space: lon(y,x) is 2-D"
 };
 
+// A variable that cannot be read for what its file says of it.
+struct DamagedVariable {
+    std::string name;
+    std::string why;  // a FileError's sentence
+};
+
 // Consecutive steps.
 struct StepSpan {
     std::size_t first, count;
@@ -58,6 +64,8 @@ class Reader {
     virtual std::string format() const = 0;  // "NetCDF-4"
     virtual std::span<const std::filesystem::path> files() const = 0;
     virtual std::span<const Variable> variables() const = 0;  // at least one
+    // Those that are no part of variables().
+    virtual std::span<const DamagedVariable> damaged() const { return {}; }
     // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
     virtual Field read(std::size_t variable, std::size_t step) = 0;
     // Which steps of a variable files()[file] holds; none where the reader does not know. A reader

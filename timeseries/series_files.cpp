@@ -1,18 +1,16 @@
 #include "timeseries/series_files.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glob.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <map>
 #include <memory>
-#include <numeric>
 
+#include "timeseries/decimal_names.h"
 #include "timeseries/numbered_names.h"
 #include "timeseries/reader.h"
+#include "timeseries/series_text.h"
 
 namespace timeseries {
 namespace {
@@ -20,106 +18,7 @@ namespace {
 using Path = std::filesystem::path;
 using Paths = std::vector<Path>;
 
-constexpr std::size_t kMostTold = 8;  // numbers, files or gaps, in one sentence
 constexpr std::string_view kByName = "in the order of their names";
-
-// Null beyond 18 digits.
-std::optional<std::vector<std::int64_t>> integers(const std::vector<std::string>& numbers) {
-    std::vector<std::int64_t> values;
-    for (const std::string& number : numbers) {
-        if (number.size() > 18) return std::nullopt;
-        values.push_back(std::stoll(number));
-    }
-    return values;
-}
-
-std::string missingText(const std::vector<std::int64_t>& values, std::int64_t every) {
-    std::string text;
-    std::size_t told = 0;
-    std::int64_t missing = 0, untold = 0;
-    for (std::size_t i = 1; i < values.size(); ++i) {
-        const std::int64_t gap = (values[i] - values[i - 1]) / every - 1;
-        if (gap <= 0) continue;
-        missing += gap;
-        if (told++ >= kMostTold) {
-            untold += gap;
-            continue;
-        }
-        const std::int64_t from = values[i - 1] + every, to = values[i] - every;
-        text += (text.empty() ? "" : ", ") + (gap == 1   ? fmt::format("{}", from)
-                                              : gap == 2 ? fmt::format("{}, {}", from, to)
-                                                         : fmt::format("{} to {}", from, to));
-    }
-    if (untold > 0) text += fmt::format(" and {} more", untold);
-    return missing == 1 ? fmt::format("number {} is missing", text)
-                        : fmt::format("{} numbers are missing: {}", missing, text);
-}
-
-std::string namesText(const Paths& files) {
-    return fmt::format("{} files {} to {}", files.size(), files.front().filename().string(),
-                       files.back().filename().string());
-}
-
-// Returns whether any number stands twice.
-bool tellTwice(const Numbered& series, ExpandedSeries& into) {
-    std::size_t told = 0;
-    bool twice = false;
-    for (std::size_t i = 1; i < series.numbers.size(); ++i) {
-        if (series.numbers[i] != series.numbers[i - 1]) continue;
-        twice = true;
-        if (told++ < kMostTold)
-            into.notes.push_back(fmt::format("number {} stands twice: {} and {}", series.numbers[i],
-                                             series.files[i - 1].filename().string(),
-                                             series.files[i].filename().string()));
-    }
-    return twice;
-}
-
-// How ascending numbers follow each other.
-struct Spacing {
-    std::int64_t every = 0;  // divides all distances
-    bool uneven = false;     // none of them is just that
-    bool gaps = false;       // some of them are more
-};
-Spacing spacingOf(const std::vector<std::int64_t>& values) {
-    std::int64_t least = 0;
-    Spacing spacing;
-    for (std::size_t i = 1; i < values.size(); ++i) {
-        const std::int64_t step = values[i] - values[i - 1];
-        least = i == 1 ? step : std::min(least, step);
-        spacing.every = std::gcd(spacing.every, step);
-    }
-    spacing.uneven = least != spacing.every;
-    spacing.gaps = !spacing.uneven && spacing.every > 0 &&
-                   (values.back() - values.front()) / spacing.every + 1 > std::ssize(values);
-    return spacing;
-}
-
-// "0 to 20 every 5, with gaps".
-std::string spacingText(const std::vector<std::int64_t>& values, const Spacing& spacing,
-                        const std::string& ends) {
-    if (spacing.uneven && values.size() <= kMostTold)
-        return fmt::format("{}: uneven", fmt::join(values, ", "));
-    if (spacing.uneven) return ends + ": uneven";
-    std::string text = ends;
-    if (spacing.every > 1) text += fmt::format(" every {}", spacing.every);
-    if (spacing.gaps) text += ", with gaps";
-    return text;
-}
-
-void describe(const Numbered& series, ExpandedSeries& into) {
-    const bool twice = tellTwice(series, into);
-    const std::string &first = series.numbers.front(), &last = series.numbers.back();
-    std::string shape = fmt::format("{} to {}", first, last);
-    if (auto values = integers(series.numbers)) {
-        values->erase(std::unique(values->begin(), values->end()), values->end());
-        const Spacing spacing = spacingOf(*values);
-        shape = values->size() == 2 && !twice ? fmt::format("{} and {}", first, last)
-                                              : spacingText(*values, spacing, shape);
-        if (spacing.gaps) into.notes.push_back(missingText(*values, spacing.every));
-    }
-    into.recognised = fmt::format("{}, numbers {}", namesText(series.files), shape);
-}
 
 // The ordinary files of a folder, hidden ones left out. None when there are too many.
 std::optional<Paths> filesIn(const Path& folder) {
@@ -141,17 +40,94 @@ std::optional<Paths> filesIn(const Path& folder) {
     return files;
 }
 
-// Files named alike that are no part of the series.
-void tellOthers(Paths others, ExpandedSeries& into) {
-    if (others.empty()) return;
-    std::ranges::sort(others, nameLess);
-    const std::string first = others.front().filename().string();
-    into.notes.push_back(
-        others.size() == 1
-            ? fmt::format("{} is not taken: it differs in another number, or in several", first)
-            : fmt::format("{} files {} to {} are not taken: they differ in another number, or in "
-                          "several; a folder or a pattern opens them together",
-                          others.size(), first, others.back().filename().string()));
+// A file of a folder that is named as another is, but for these of its numbers.
+struct Sibling {
+    Path file;
+    std::vector<std::size_t> differences;  // places in Name::digits, ascending; not empty
+};
+
+// A number of a name, or the two at the dot of a decimal one.
+struct Place {
+    std::size_t first, last;
+    bool decimal() const { return first != last; }
+    bool holds(const Sibling& sibling) const {
+        return sibling.differences.front() >= first && sibling.differences.back() <= last;
+    }
+};
+
+// Where a name may be numbered, the last place first. Before another number that varies, what may
+// be decimal may also be a version.
+std::vector<Place> placesOf(const Name& name, std::span<const Sibling> siblings) {
+    std::size_t lastVaried = 0;
+    for (const Sibling& sibling : siblings)
+        lastVaried = std::max(lastVaried, sibling.differences.back());
+    const std::vector<std::size_t> decimals = decimalPlaces(name);
+    std::vector<Place> places;
+    for (std::size_t at = name.digits.size(); at-- > 0;) {
+        if (at >= lastVaried && std::ranges::find(decimals, at - 1) != decimals.end())
+            places.push_back({at - 1, at});
+        places.push_back({at, at});
+    }
+    return places;
+}
+
+// The file first, then those that differ from it there alone.
+Paths alikeBut(Place place, const Path& file, std::span<const Sibling> siblings) {
+    Paths files{file};
+    for (const Sibling& sibling : siblings)
+        if (place.holds(sibling)) files.push_back(sibling.file);
+    return files;
+}
+
+// a_1 and a_01 alone are no series.
+bool varies(std::span<const Path> files, Place place) {
+    const Name first = cut(files.front());
+    return std::ranges::any_of(files, [&](const Path& file) {
+        const Name name = cut(file);
+        for (std::size_t at = place.first; at <= place.last; ++at)
+            if (withoutZeros(name.digits[at]) != withoutZeros(first.digits[at])) return true;
+        return false;
+    });
+}
+
+ExpandedSeries joined(const Path& file, const Numbered& series, const Paths& others) {
+    ExpandedSeries result;
+    describe(series, result);
+    tellOthers(others, result);
+    result.files = series.files;
+    result.here =
+        static_cast<std::size_t>(std::ranges::find(series.files, file) - series.files.begin());
+    return result;
+}
+
+// The file's series: by the last number that varies.
+ExpandedSeries seriesOf(const Path& file, std::span<const Sibling> siblings) {
+    ExpandedSeries alone{{file}, {}, "", {}};
+    const Name name = cut(file);
+    for (const Place place : placesOf(name, siblings)) {
+        const Paths files = alikeBut(place, file, siblings);
+        if (!varies(files, place)) continue;
+        if (place.decimal() && readingOf(files, place.first) == Dotted::Whole) continue;
+        if (const auto series = numbered(files)) {
+            Paths others;
+            for (const Sibling& sibling : siblings)
+                if (!place.holds(sibling)) others.push_back(sibling.file);
+            return joined(file, *series, others);
+        }
+        tellUnclear(files, place.last, alone);
+        return alone;
+    }
+    Paths others;
+    for (const Sibling& sibling : siblings)
+        if (sibling.differences.size() > 1)
+            others.push_back(sibling.file);
+        else
+            alone.notes.push_back(
+                fmt::format("number {} stands twice: {} and {}; only the file named is opened",
+                            withoutZeros(name.digits[sibling.differences.front()]),
+                            file.filename().string(), sibling.file.filename().string()));
+    tellOthers(std::move(others), alone);
+    return alone;
 }
 
 ExpandedSeries member(const Path& file) {
@@ -166,80 +142,24 @@ ExpandedSeries member(const Path& file) {
         return alone;
     }
     if (!listed) {
-        alone.notes.push_back(
-            fmt::format("only this file is opened: its folder holds more than {} "
-                        "files",
-                        kMaxSeriesFiles));
+        alone.notes.push_back(fmt::format(
+            "only this file is opened: its folder holds more than {} files", kMaxSeriesFiles));
         return alone;
     }
-    std::map<std::size_t, Paths> siblings;  // by the number in which they differ
-    Paths further;                          // in several numbers
+    std::vector<Sibling> siblings;
+    Paths otherDots;
     for (const Path& other : *listed) {
         const Name its = cut(other);
-        if (its.texts != name.texts || its.extension != name.extension || its.digits == name.digits)
-            continue;
-        if (const auto at = onlyDifference(name, its))
-            siblings[*at].push_back(other);
-        else
-            further.push_back(other);
-    }
-
-    // The last number that takes another value: a_1 and a_01 alone are no series.
-    const auto varies = std::find_if(siblings.rbegin(), siblings.rend(), [&](const auto& each) {
-        return std::ranges::any_of(each.second, [&](const Path& other) {
-            return withoutZeros(cut(other).digits[each.first]) !=
-                   withoutZeros(name.digits[each.first]);
-        });
-    });
-    if (varies == siblings.rend()) {
-        for (const auto& [at, files] : siblings)
-            alone.notes.push_back(
-                fmt::format("number {} stands twice: {} and {}; only the file "
-                            "named is opened",
-                            withoutZeros(name.digits[at]), file.filename().string(),
-                            files.front().filename().string()));
-        tellOthers(std::move(further), alone);
-        return alone;
-    }
-    const std::size_t at = varies->first;
-    Paths files = varies->second;
-    files.push_back(file);
-    std::vector<std::string> digits;
-    for (const Path& each : files) digits.push_back(cut(each).digits[at]);
-    if (ambiguous(name, at, digits)) {
-        alone.notes.push_back(fmt::format(
-            "only this file is opened: the numbers of {} and {} may be decimal or whole; name the "
-            "files in their order",
-            file.filename().string(), files.front().filename().string()));
-        return alone;
-    }
-    const Numbered series = byNumber(std::move(files), at);
-    ExpandedSeries result;
-    describe(series, result);
-    for (const auto& [number, others] : siblings)
-        if (number != at) further.insert(further.end(), others.begin(), others.end());
-    tellOthers(std::move(further), result);
-    result.files = series.files;
-    result.here =
-        static_cast<std::size_t>(std::ranges::find(series.files, file) - series.files.begin());
-    return result;
-}
-
-// Files found together are ordered by whole numbers, which fractions need not follow.
-void tellFractions(const Paths& files, ExpandedSeries& into) {
-    const Name first = cut(files.front());
-    for (std::size_t at = 1; at < first.digits.size(); ++at)
-        for (const Path& file : files) {
-            const Name name = cut(file);
-            if (name.texts != first.texts ||
-                !ambiguous(name, at, std::array{first.digits[at], name.digits[at]}))
-                continue;
-            into.notes.push_back(fmt::format(
-                "the numbers of {} and {} may be decimal or whole, and are taken as whole; name "
-                "the files in their order",
-                files.front().filename().string(), file.filename().string()));
-            return;
+        if (auto places = differences(name, its)) {
+            if (!places->empty()) siblings.push_back({other, std::move(*places)});
+        } else if (withoutFractions(its).texts == withoutFractions(name).texts &&
+                   its.extension == name.extension) {
+            otherDots.push_back(other);
         }
+    }
+    ExpandedSeries result = seriesOf(file, siblings);
+    tellOtherDots(std::move(otherDots), result);
+    return result;
 }
 
 // Files that were named or found together.
@@ -261,32 +181,10 @@ ExpandedSeries together(Paths files, std::string_view order) {
     return result;
 }
 
-// "a_#_#": the name's texts, whatever its numbers.
-std::string shapeOf(const Path& file) {
-    const Name name = cut(file);
-    return fmt::format("{}{}", fmt::join(name.texts, "*"), name.extension);
-}
-
-std::string candidate(const Paths& files) {
-    const std::string name = files.front().filename().string();
-    if (files.size() == 1) return name;
-    const std::string shape = shapeOf(files.front());
-    const bool alike =
-        std::ranges::all_of(files, [&](const Path& file) { return shapeOf(file) == shape; });
-    return fmt::format("{} ({} files)", alike ? shape : "*" + cut(files.front()).extension,
-                       files.size());
-}
-
-[[noreturn]] void refuseCandidates(const Path& folder, const std::vector<Paths>& candidates) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(candidates.size(), kMostTold); ++i)
-        text += (text.empty() ? "" : ", ") + candidate(candidates[i]);
-    if (candidates.size() > kMostTold)
-        text += fmt::format(" and {} more", candidates.size() - kMostTold);
+[[noreturn]] void refuseCandidates(const Path& folder, std::span<const Paths> candidates) {
     throw FileError(
-        fmt::format("{}: expected a folder that holds one series, found {}; name one "
-                    "of them",
-                    folder.string(), text));
+        fmt::format("{}: expected a folder that holds one series, found {}; name one of them",
+                    folder.string(), candidatesText(candidates)));
 }
 
 ExpandedSeries folder(const Path& folder) {

@@ -23,9 +23,11 @@ struct ExpandedSeries {
 // The most files that are listed of a folder or a pattern.
 inline constexpr std::size_t kMaxSeriesFiles = 100'000;
 
-// Numbers are whole runs of digits in the name before its extension; leading zeros do not count. A
-// series is of one folder, and its names differ in one number only: the last one that varies, where
-// several do each by itself. A .pvd lists its files itself and stays alone.
+// Numbers are whole runs of digits in the name before its extension, or decimal where nothing
+// speaks against it (decimal_names.h); leading zeros do not count. A series is of one folder, and
+// its names differ in one number only: the last one that varies, where several do each by itself.
+// Where it is unclear whether it is decimal, a file named stays alone, and files found together are
+// ordered by whole numbers; a note tells. A .pvd lists its files itself and stays alone.
 // A path that does not exist, and is no pattern, is returned as it is.
 // Throws FileError for a pattern without a match, and for a folder that does not hold one series.
 ExpandedSeries expandSeries(std::span<const std::filesystem::path> named);

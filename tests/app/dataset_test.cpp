@@ -106,6 +106,27 @@ TEST(Dataset, AnUnknownVariableIsToldWithThoseThereAre) {
     }
 }
 
+TEST(Dataset, ADamagedVariableIsToldAndCannotBeChosen) {
+    tests::NetcdfBuilder file("damaged.nc");
+    const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+    const int bad = file.variable("bad", NC_FLOAT, {y, x});
+    file.variable("good", NC_FLOAT, {y, x});
+    file.text(bad, "scale_factor", "two");
+    const auto path = file.close();
+    const std::string why = path.string() +
+                            ": variable 'bad': scale_factor: expected a number, found the text "
+                            "\"two\"";
+    const Dataset dataset = open(path, "");
+    EXPECT_EQ(dataset.about.name, "good");
+    EXPECT_THAT(dataset.series.notes, testing::ElementsAre("'bad' is left out: " + why));
+    try {
+        open(path, "bad");
+        ADD_FAILURE();
+    } catch (const FileError& error) {
+        EXPECT_EQ(error.what(), why);
+    }
+}
+
 TEST(Dataset, AMemberOpensItsSeriesAtItsOwnSteps) {
     const auto folder = tests::freshFolder();
     // By their times the files follow each other backwards.

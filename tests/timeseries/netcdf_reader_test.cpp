@@ -363,6 +363,61 @@ TEST(NetcdfReader, MalformedAttributesAreOneSentence) {
     }
 }
 
+// good(y, x), bad(y, x) and level(z, y, x), with attributes of bad and of the coordinate z.
+std::filesystem::path threeVariables(const std::string& name, const std::string& badScale,
+                                     double zScale) {
+    NetcdfBuilder file(name);
+    const auto z = file.coordinate("z", 2, "m");
+    const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+    const int bad = file.variable("bad", NC_FLOAT, {y, x});
+    const int good = file.variable("good", NC_FLOAT, {y, x});
+    const int level = file.variable("level", NC_FLOAT, {z.dimension, y, x});
+    if (!badScale.empty()) file.text(bad, "scale_factor", badScale);
+    file.number(z.variable, "scale_factor", zScale);
+    file.write(z.variable, std::vector<double>{1, 2});
+    file.write(bad, std::vector<float>{1, 2, 3, 4});
+    file.write(good, std::vector<float>{5, 6, 7, 8});
+    file.write(level, std::vector<float>(8, 9));
+    return file.close();
+}
+
+std::vector<std::string> namesOf(const Reader& reader) {
+    std::vector<std::string> names;
+    for (const Variable& variable : reader.variables()) names.push_back(variable.name);
+    return names;
+}
+
+TEST(NetcdfReader, AMalformedAttributeCostsTheVariablesThatNeedIt) {
+    const auto path = threeVariables("a.nc", "two", std::numeric_limits<double>::infinity());
+    const auto reader = open(path);
+    EXPECT_THAT(namesOf(*reader), ElementsAre("good"));
+    EXPECT_EQ(valuesOf<float>(reader->read(0, 0)), (std::vector<float>{5, 6, 7, 8}));
+    ASSERT_EQ(reader->damaged().size(), 2u);
+    EXPECT_EQ(reader->damaged()[0].name, "bad");
+    EXPECT_EQ(reader->damaged()[0].why,
+              path.string() +
+                  ": variable 'bad': scale_factor: expected a number, found the text \"two\"");
+    EXPECT_EQ(reader->damaged()[1].name, "level");
+    EXPECT_EQ(reader->damaged()[1].why,
+              path.string() + ": variable 'z': scale_factor: expected a finite number, found inf");
+    EXPECT_TRUE(open(threeVariables("whole.nc", "", 1))->damaged().empty());
+}
+
+TEST(NetcdfReader, AVariableThatIsDamagedInOneFileOfASeriesIsLeftOutOfAll) {
+    const std::vector<std::filesystem::path> paths{threeVariables("a_1.nc", "", 1),
+                                                   threeVariables("a_2.nc", "two", 1),
+                                                   threeVariables("a_3.nc", "three", 1)};
+    const auto reader = openReader(paths);
+    EXPECT_THAT(namesOf(*reader), ElementsAre("good", "level"));
+    EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
+    EXPECT_EQ(valuesOf<float>(reader->read(1, 2)), std::vector<float>(8, 9));
+    ASSERT_EQ(reader->damaged().size(), 1u);
+    EXPECT_EQ(reader->damaged()[0].name, "bad");
+    EXPECT_THAT(reader->damaged()[0].why,
+                HasSubstr(paths[1].string() + ": variable 'bad': scale_factor: expected a number, "
+                                              "found the text \"two\""));
+}
+
 TEST(NetcdfReader, FormatsAreNamed) {
     const std::vector<std::pair<int, std::string>> formats{
         {0, "NetCDF classic"},

@@ -127,6 +127,11 @@ TEST_F(Sequence, FilesWithoutTimesAreNumberedAsTheirNamesAre) {
     EXPECT_EQ(reader->stepsOf(0, 1)->count, 1u);
 }
 
+TEST_F(Sequence, DecimalNumbersOfTheNamesAreTimes) {
+    files_ = {{"t_0.25.f", {}}, {"t_0.50.f", {}}, {"t_1.10.f", {}}};
+    EXPECT_THAT(timesOf(*open()), ElementsAre(.25, .5, 1.1));
+}
+
 TEST_F(Sequence, FilesWithoutTimesAndNumbersAreCounted) {
     files_ = {{"friday.f", {}}, {"monday.f", {}}};
     const auto reader = open();

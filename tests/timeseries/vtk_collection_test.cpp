@@ -100,6 +100,22 @@ TEST(VtkCollection, WithoutTimesStepsAreCountedAsTheyStand) {
         EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values)[0], value);
 }
 
+TEST(VtkCollection, OnePartAtEachTimeIsAStepWhicheverItIs) {
+    std::string sets;
+    for (const auto& [time, part] : {std::pair{2, 0}, std::pair{0, 1}, std::pair{1, 0}}) {
+        const Path file = tests::write(
+            fmt::format("{}.vti", time),
+            imageText({.points = dataArray("Int32", "p", std::vector<int>(12, time))}));
+        sets += member(std::to_string(time), file, fmt::format("group=\"g\" part=\"{}\"", part));
+    }
+    const auto reader = open(collection(sets));
+    ASSERT_EQ(reader->variables()[0].time->points.size(), 3u);
+    for (const std::size_t step : {0u, 1u, 2u}) {
+        EXPECT_EQ(reader->variables()[0].time->points[step].value, step);
+        EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values)[3], step);
+    }
+}
+
 TEST(VtkCollection, WhatDiffersIsTold) {
     const Path good = tests::write(
         "a.vti", imageText({.points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
@@ -117,6 +133,12 @@ TEST(VtkCollection, WhatDiffersIsTold) {
     EXPECT_THAT(
         refusal(collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
         HasSubstr("expected one part a time step, found 2 parts"));
+    EXPECT_THAT(refusal(collection(member("0", good) + member("1", good, "part=\"0\"") +
+                                   member("1", finer, "part=\"1\""))),
+                HasSubstr("expected one part a time step, found 2 parts"));
+    EXPECT_THAT(refusal(collection("<DataSet part=\"0\" file=\"a.vti\"/>"
+                                   "<DataSet part=\"1\" file=\"b.vti\"/>")),
+                HasSubstr("expected one part a time step, found 2 parts"));
     EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected 1 finite numbers"));
     EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
     const Path gap = collection(member("0", good) + member("1", "none.vti"));

@@ -168,6 +168,13 @@ TEST(DamagedVtk, PiecesThatLeaveSomethingOutAreRefused) {
                 HasSubstr("found 3 of its 1073741824 points"));
 }
 
+TEST(DamagedVtk, EmptyPiecesFillNothing) {
+    EXPECT_THAT(refusal(piecesText("0 9 0 0 0 0", {{0, -1}, {0, 2}, {5, 4}}, false)),
+                HasSubstr("fill WholeExtent, found 3 of its 10 points"));
+    EXPECT_THAT(refusal(piecesText("0 9 0 0 0 0", {{0, -1}}, false)),
+                HasSubstr("expected a Piece that holds points, found none"));
+}
+
 TEST(DamagedVtk, PackedBlocksThatLieAreRefused) {
     const auto packed = [](const std::vector<std::uint32_t>& header) {
         std::string text = imageText(
@@ -262,7 +269,7 @@ TEST(DamagedVtk, ArraysThatTheFileLacksAreToldOf) {
         refusal(rectilinear("0 1 0 0 0 0", "<Coordinates>" + one + one + one + "</Coordinates>")),
         HasSubstr("expected 2 values, found 1"));
     EXPECT_THAT(refusal(start + "0 1 0 0 0 0\"/></VTKFile>"),
-                HasSubstr("expected a Piece, found none"));
+                HasSubstr("expected a Piece that holds points, found none"));
 }
 
 TEST(DamagedVtk, MoreArraysThanAnyUseNeedsAreRefused) {

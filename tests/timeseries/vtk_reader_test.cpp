@@ -289,6 +289,43 @@ TEST(VtkImage, PiecesAreJoined) {
     EXPECT_EQ(valuesOf<std::int32_t>(*openText(text), "p"), upTo<std::int32_t>(6));
 }
 
+// Of three points, in two pieces that share one, with an empty one at this place among them.
+std::string withAnEmptyPiece(const std::string& kind, const std::string& empty, std::size_t at) {
+    const auto piece = [&](const std::string& extent, const std::vector<double>& values) {
+        const std::vector<double> flat{7};
+        return "<Piece Extent=\"" + extent + "\"><PointData>" + dataArray("Float64", "p", values) +
+               "</PointData><CellData>" +
+               dataArray("UInt8", "c", std::vector<std::uint8_t>(values.size() - 1, 3)) +
+               "</CellData><Coordinates>" + dataArray("Float64", "x", values) +
+               dataArray("Float64", "y", flat) + dataArray("Float64", "z", flat) +
+               "</Coordinates></Piece>";
+    };
+    std::vector<std::string> pieces{piece("0 1 0 0 0 0", {1, 2}), piece("1 2 0 0 0 0", {2, 4})};
+    pieces.insert(pieces.begin() + static_cast<std::ptrdiff_t>(at), empty);
+    return fmt::format("<VTKFile type=\"{0}\"><{0} WholeExtent=\"0 2 0 0 0 0\">{1}</{0}></VTKFile>",
+                       kind, fmt::join(pieces, ""));
+}
+
+TEST(VtkXml, PiecesOfEmptyExtentArePassedOver) {
+    const std::string arrays =
+        "<PointData><DataArray type=\"Int8\" Name=\"other\" format=\"ascii\"/></PointData>";
+    for (const std::string kind : {"ImageData", "RectilinearGrid"})
+        for (const std::string extent : {"0 -1 0 -1 0 -1", "3 2 0 0 0 0", "0 2 0 0 1 0"})
+            for (const std::string& inside : {std::string(), arrays})
+                for (const std::size_t at : {0u, 1u, 2u}) {
+                    SCOPED_TRACE(fmt::format("{} {} at {}", kind, extent, at));
+                    const auto reader = openText(withAnEmptyPiece(
+                        kind, "<Piece Extent=\"" + extent + "\">" + inside + "</Piece>", at));
+                    EXPECT_THAT(namesOf(*reader), ElementsAre("p", "c"));
+                    EXPECT_THAT(valuesOf<double>(*reader, "p"), ElementsAre(1, 2, 4));
+                    EXPECT_THAT(valuesOf<std::uint8_t>(*reader, "c"), ElementsAre(3, 3));
+                    if (kind == "RectilinearGrid") {
+                        EXPECT_THAT(variableOf(*reader, "p").grid->axes()[0].coordinates,
+                                    ElementsAre(1, 2, 4));
+                    }
+                }
+}
+
 std::string rectilinearText(const std::string& xs, const std::string& arrays) {
     return "<VTKFile type=\"RectilinearGrid\"><RectilinearGrid WholeExtent=\"0 2 0 1 0 0\"><Piece "
            "Extent=\"0 2 0 1 0 0\"><PointData>" +

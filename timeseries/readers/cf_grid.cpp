@@ -17,9 +17,8 @@ constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
 constexpr std::size_t kShownCoordinates = 8;
 
 std::vector<double> coordinatesOf(const NetcdfFile& file, const NcVariable& coordinate) {
-    const Packing packing = packingOf(coordinate, [&](const std::string& what) {
-        file.fail("variable '" + coordinate.name + "'", what);
-    });
+    const Packing packing = packingOf(
+        coordinate, [&](const std::string& what) { file.failAttribute(coordinate, what); });
     std::vector<double> values;
     for (const Number& stored : file.numbers(coordinate)) {
         const bool missing = std::ranges::any_of(

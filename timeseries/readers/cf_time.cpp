@@ -29,8 +29,8 @@ const NcVariable* scalarTime(const NcHeader& header, const NcVariable& variable)
 }
 
 void readCoordinate(const NetcdfFile& file, const NcVariable& time, StoredTimes& times) {
-    const Packing packing = packingOf(
-        time, [&](const std::string& what) { file.fail("variable '" + time.name + "'", what); });
+    const Packing packing =
+        packingOf(time, [&](const std::string& what) { file.failAttribute(time, what); });
     times.name = time.baseName();
     times.units = time.text("units");
     times.calendar = time.text("calendar");

@@ -74,9 +74,8 @@ FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const 
         result.lengths.push_back(header.dimension(variable, i).length);
     result.type = *variable.type;
     result.roles = roles;
-    result.packing = packingOf(variable, [&](const std::string& what) {
-        file.fail("variable '" + variable.name + "'", what);
-    });
+    result.packing =
+        packingOf(variable, [&](const std::string& what) { file.failAttribute(variable, what); });
     result.times = timesOf(file, variable, roles);
     result.axes = axesOf(file, variable, roles, geographic, result.notes);
     return result;
@@ -84,12 +83,12 @@ FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const 
 
 }  // namespace
 
-std::vector<FileVariable> contentsOf(const NetcdfFile& file) {
+FileContents contentsOf(const NetcdfFile& file) {
     const NcHeader& header = file.header();
     if (exodus(header))
         file.fail("", "expected fields on a grid, found a finite-element mesh (Exodus II)");
     const std::set<std::string> named = auxiliaries(header);
-    std::vector<FileVariable> contents;
+    FileContents contents;
     const std::vector<const NcVariable*> geographic = geographicOf(header);
     std::string passedOver;
     for (const NcVariable& variable : header.variables) {
@@ -99,17 +98,20 @@ std::vector<FileVariable> contentsOf(const NetcdfFile& file) {
         const Roles roles = rolesOf(header, variable);
         if (roles.spatial() < 2) continue;
         const std::string why = obstacle(file, variable, roles);
-        if (why.empty())
-            contents.push_back(describe(file, variable, roles, geographic));
-        else
+        if (!why.empty()) {
             passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
+            continue;
+        }
+        try {
+            contents.variables.push_back(describe(file, variable, roles, geographic));
+        } catch (const AttributeError& error) {
+            contents.damaged.push_back({variable.name, error.what()});
+        }
     }
-    if (contents.empty())
-        file.fail("",
-                  "expected a numeric variable with at least two spatial dimensions, found "
-                  "none" +
+    if (!contents.variables.empty()) return contents;
+    if (!contents.damaged.empty()) throw FileError(contents.damaged.front().why);
+    file.fail("", "expected a numeric variable with at least two spatial dimensions, found none" +
                       passedOver);
-    return contents;
 }
 
 }  // namespace timeseries

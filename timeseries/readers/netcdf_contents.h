@@ -24,8 +24,13 @@ struct FileVariable {
     std::vector<std::string> notes;
 };
 
-// In the file's order. Throws FileError when a listed variable has malformed attributes, and when
-// there is none: then it says which were passed over and why.
-std::vector<FileVariable> contentsOf(const NetcdfFile& file);
+struct FileContents {
+    std::vector<FileVariable> variables;   // in the file's order; not empty
+    std::vector<DamagedVariable> damaged;  // for malformed attributes, of coordinates too
+};
+
+// Throws FileError when no variable is left: of one that is damaged, else with those that were
+// passed over and why.
+FileContents contentsOf(const NetcdfFile& file);
 
 }  // namespace timeseries

@@ -96,12 +96,20 @@ std::vector<Number> asNumbers(const std::vector<T>& values) {
 
 }  // namespace
 
-void NetcdfFile::fail(std::string_view place, std::string_view what) const {
+std::string NetcdfFile::sentence(std::string_view place, std::string_view what) const {
     // Names and texts come from the file: whatever they hold, it stays one line.
     std::string sentence = fmt::format("{}{}{}", place, place.empty() ? "" : ": ", what);
     for (char& c : sentence)
         if (c >= '\0' && c < ' ') c = ' ';
-    throw FileError(path_.string() + ": " + sentence);
+    return path_.string() + ": " + sentence;
+}
+
+void NetcdfFile::fail(std::string_view place, std::string_view what) const {
+    throw FileError(sentence(place, what));
+}
+
+void NetcdfFile::failAttribute(const NcVariable& variable, std::string_view what) const {
+    throw AttributeError(sentence("variable '" + variable.name + "'", what));
 }
 
 void NetcdfFile::check(int status, std::string_view place, std::string_view expected) const {

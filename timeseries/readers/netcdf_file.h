@@ -8,9 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "timeseries/reader.h"
 #include "timeseries/readers/netcdf_header.h"
 
 namespace timeseries {
+
+// An attribute that is not what it must be, which costs only the variables that need it.
+struct AttributeError : FileError {
+    using FileError::FileError;
+};
 
 class NetcdfFile {
  public:
@@ -41,6 +47,8 @@ class NetcdfFile {
 
     // "path: place: what"
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
+    // As an AttributeError.
+    [[noreturn]] void failAttribute(const NcVariable& variable, std::string_view what) const;
 
  private:
     void open();
@@ -48,6 +56,7 @@ class NetcdfFile {
     void readGroup(int group, const std::string& name, int depth);
     void readVariable(int group, const std::string& groupName, int id);
     void readAttribute(NcVariable& variable, int number) const;
+    std::string sentence(std::string_view place, std::string_view what) const;
     void check(int status, std::string_view place, std::string_view expected) const;
 
     std::filesystem::path path_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "timeseries/readers/netcdf_contents.h"
 
@@ -17,8 +18,13 @@ class NetcdfReader final : public Reader {
         : paths_(paths.begin(), paths.end()) {
         // Backwards, so that the first file is the one left open.
         contents_.resize(paths_.size());
-        for (std::size_t i = paths_.size(); i-- > 0;) contents_[i] = contentsOf(open(i));
+        for (std::size_t i = paths_.size(); i-- > 0;) {
+            FileContents contents = contentsOf(open(i));
+            contents_[i] = std::move(contents.variables);
+            addDamaged(std::move(contents.damaged));
+        }
         format_ = file_->header().format;
+        leaveOutDamaged();
         expectSameVariables();
         for (std::size_t v = 0; v < contents_[0].size(); ++v) addVariable(v);
         for (auto& contents : contents_)  // told by variables_ now
@@ -28,11 +34,14 @@ class NetcdfReader final : public Reader {
     std::string format() const override { return format_; }
     std::span<const std::filesystem::path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
+    std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 
  private:
     NetcdfFile& open(std::size_t index);
+    void addDamaged(std::vector<DamagedVariable> damaged);
+    void leaveOutDamaged();
     void expectSameVariables() const;
     void addVariable(std::size_t v);
     [[noreturn]] void differ(std::size_t file, const std::string& what) const;
@@ -41,6 +50,7 @@ class NetcdfReader final : public Reader {
     std::string format_;
     std::vector<std::vector<FileVariable>> contents_;  // [file][variable], the same order in each
     std::vector<Variable> variables_;
+    std::vector<DamagedVariable> damaged_;
     std::vector<std::vector<Segment>> segments_;  // [variable]
     std::unique_ptr<NetcdfFile> file_;  // one at a time: a series may have more files than handles
     std::size_t openIndex_ = 0;
@@ -59,6 +69,24 @@ NetcdfFile& NetcdfReader::open(std::size_t index) {
 
 void NetcdfReader::differ(std::size_t file, const std::string& what) const {
     throw FileError(fmt::format("{} and {}: {}", paths_[0].string(), paths_[file].string(), what));
+}
+
+// Of a file before those that were added: its sentences stay.
+void NetcdfReader::addDamaged(std::vector<DamagedVariable> damaged) {
+    std::set<std::string> names;
+    for (const DamagedVariable& each : damaged) names.insert(each.name);
+    for (DamagedVariable& later : damaged_)
+        if (!names.contains(later.name)) damaged.push_back(std::move(later));
+    damaged_ = std::move(damaged);
+}
+
+// What is damaged in one file is no variable of the series.
+void NetcdfReader::leaveOutDamaged() {
+    std::set<std::string> names;
+    for (const DamagedVariable& each : damaged_) names.insert(each.name);
+    for (auto& contents : contents_)
+        std::erase_if(contents, [&](const FileVariable& v) { return names.contains(v.name); });
+    if (contents_[0].empty()) throw FileError(damaged_.front().why);
 }
 
 void NetcdfReader::expectSameVariables() const {

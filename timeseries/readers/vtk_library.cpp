@@ -16,6 +16,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
+#include <vtkXMLDataElement.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
 
@@ -80,12 +81,38 @@ auto withVtk(const VtkHeader& header, std::string_view place, Read read) {
     }
 }
 
+// VTK takes the arrays' names and types from the first piece, also where that is empty.
+template <typename Base>
+class WithoutEmptyPieces final : public Base {
+ public:
+    static WithoutEmptyPieces* New() { VTK_STANDARD_NEW_BODY(WithoutEmptyPieces); }
+
+ protected:
+    int ReadPrimaryElement(vtkXMLDataElement* primary) override {
+        std::vector<vtkSmartPointer<vtkXMLDataElement>> kept;
+        for (int i = 0; i < primary->GetNumberOfNestedElements(); ++i)
+            if (vtkXMLDataElement* element = primary->GetNestedElement(i); !isEmpty(*element))
+                kept.emplace_back(element);
+        primary->RemoveAllNestedElements();
+        for (const auto& element : kept) primary->AddNestedElement(element);
+        return Base::ReadPrimaryElement(primary);
+    }
+
+ private:
+    static bool isEmpty(vtkXMLDataElement& element) {
+        int extent[6];
+        return std::string_view(element.GetName()) == "Piece" &&
+               element.GetVectorAttribute("Extent", 6, extent) == 6 &&
+               (extent[1] < extent[0] || extent[3] < extent[2] || extent[5] < extent[4]);
+    }
+};
+
 vtkSmartPointer<vtkDataSet> readXml(const VtkHeader& header, const VtkArray* wanted) {
     vtkSmartPointer<vtkXMLReader> reader;
     if (header.kind == VtkKind::XmlImage)
-        reader = vtkSmartPointer<vtkXMLImageDataReader>::New();
+        reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLImageDataReader>>::New();
     else
-        reader = vtkSmartPointer<vtkXMLRectilinearGridReader>::New();
+        reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLRectilinearGridReader>>::New();
     reader->SetFileName(header.path.c_str());
     reader->UpdateInformation();
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {

@@ -216,15 +216,19 @@ void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkP
                             all, place == VtkPlace::Points ? "points" : "cells"));
 }
 
+// What parallel writers leave for a process that has nothing of the grid. VTK is not shown it.
+bool isEmpty(const std::array<std::array<std::int64_t, 2>, 3>& extent) {
+    return std::ranges::any_of(extent, [](const auto& axis) { return axis[1] < axis[0]; });
+}
+
 void addPieces(const Context& context, const XmlElement& grid) {
     VtkHeader& header = context.header;
-    const auto pieces = named(grid, "Piece");
-    if (pieces.empty()) failVtk(header.path, placeOf(grid), "expected a Piece, found none");
     std::vector<VtkHeader> shapes;
-    for (const XmlElement* piece : pieces) {
-        VtkHeader& shape = shapes.emplace_back();
+    for (const XmlElement* piece : named(grid, "Piece")) {
+        VtkHeader shape;
         shape.path = header.path;
         shape.extent = extentOf(header, *piece, "Extent");
+        if (isEmpty(shape.extent)) continue;
         checkVtkExtent(shape, placeOf(*piece));
         for (std::size_t i = 0; i < 3; ++i)
             if (shape.extent[i][0] < header.extent[i][0] ||
@@ -239,14 +243,17 @@ void addPieces(const Context& context, const XmlElement& grid) {
             return a.name == b.name && a.place == b.place && a.type == b.type &&
                    a.components == b.components;
         };
-        if (piece == pieces.front())
+        if (shapes.empty())
             header.arrays = arrays;
         else if (!std::ranges::equal(arrays, header.arrays, same))
             failVtk(header.path, placeOf(*piece), "expected the arrays of the first piece");
+        shapes.push_back(std::move(shape));
         for (std::size_t i = 0; i < arrays.size(); ++i)
             if (header.arrays[i].notNumber.empty())
                 header.arrays[i].notNumber = arrays[i].notNumber;
     }
+    if (shapes.empty())
+        failVtk(header.path, placeOf(grid), "expected a Piece that holds points, found none");
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
         if (std::ranges::any_of(header.arrays, [&](const auto& a) { return a.place == place; }))
             checkCover(header, shapes, place);
@@ -268,8 +275,27 @@ const XmlElement& rootOf(const std::filesystem::path& path, const XmlFile& file)
     return file.root;
 }
 
-bool before(const VtkMember& a, const VtkMember& b) {
-    return a.time.value_or(0) < b.time.value_or(0);
+// A DataSet of a collection.
+struct Listed {
+    VtkMember member;
+    std::pair<std::string, std::string> part;  // its group, and its part of that
+};
+
+bool before(const Listed& a, const Listed& b) {
+    return a.member.time.value_or(0) < b.member.time.value_or(0);
+}
+
+// Several parts of one time are one step together, and several without a time may be.
+// REQUIRES: ascending.
+void checkParts(const std::filesystem::path& path, std::span<const Listed> all) {
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+        std::set<std::pair<std::string, std::string>> parts;
+        for (end = first; end < all.size() && !before(all[first], all[end]); ++end)
+            parts.insert(all[end].part);
+        if (parts.size() > 1)
+            failVtk(path, "Collection",
+                    fmt::format("expected one part a time step, found {} parts", parts.size()));
+    }
 }
 
 }  // namespace
@@ -325,8 +351,7 @@ std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path) {
     if (collections.size() != 1) failVtk(path, "VTKFile", "expected one Collection");
     VtkHeader header;
     header.path = path;
-    std::vector<VtkMember> members;
-    std::set<std::pair<std::string, std::string>> parts;
+    std::vector<Listed> listed;
     for (const XmlElement* set : named(*collections[0], "DataSet")) {
         const std::string_view name = set->attribute("file");
         if (name.empty()) failVtk(path, placeOf(*set), "expected the name of a file");
@@ -334,19 +359,21 @@ std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path) {
         if (set->has("timestep"))
             member.time =
                 vtkNumbers(header, placeOf(*set) + " timestep", set->attribute("timestep"), 1)[0];
-        parts.emplace(set->attribute("group"), set->attribute("part"));
-        members.push_back(std::move(member));
+        listed.push_back(
+            {std::move(member),
+             {std::string(set->attribute("group")), std::string(set->attribute("part"))}});
     }
-    if (members.empty()) failVtk(path, "Collection", "expected a DataSet, found none");
-    if (parts.size() > 1)
-        failVtk(path, "Collection",
-                fmt::format("expected one part a time step, found {} parts", parts.size()));
-    const auto timed = std::ranges::count_if(members, [](const auto& m) { return !!m.time; });
-    if (timed != 0 && static_cast<std::size_t>(timed) != members.size())
+    if (listed.empty()) failVtk(path, "Collection", "expected a DataSet, found none");
+    const auto timed =
+        std::ranges::count_if(listed, [](const Listed& each) { return !!each.member.time; });
+    if (timed != 0 && static_cast<std::size_t>(timed) != listed.size())
         failVtk(path, "Collection", "expected a timestep of each DataSet or of none");
-    std::ranges::stable_sort(members, before);
+    std::ranges::stable_sort(listed, before);
+    checkParts(path, listed);
+    std::vector<VtkMember> members;
+    for (Listed& each : listed) members.push_back(std::move(each.member));
     for (std::size_t i = 1; timed && i < members.size(); ++i)
-        if (!before(members[i - 1], members[i]))
+        if (*members[i - 1].time == *members[i].time)
             failVtk(path, "Collection",
                     fmt::format("expected times that differ, found {} twice ({} and {})",
                                 *members[i].time, members[i - 1].path.string(),
