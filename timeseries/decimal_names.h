@@ -27,9 +27,8 @@ enum class Dotted {
 
 // Decimal where both readings give the same order, and
 // - the fractions are of one length, or none ends in a needless 0, as "1.50" does beside "0.5";
-// - what stands before the dot varies, or is 0: "Re100.0001" to "Re100.0050" are counted. Of
-// another
-//   number it is unclear where the lengths differ;
+// - what stands before the dot varies, or is 0. After any other number they are counted, as
+//   "Re100.0001" to "Re100.0050" are; where their lengths differ it is unclear;
 // - the numbers after the dot do not begin anew at each before it, as the steps of several runs do
 //   and the months of years.
 // REQUIRES: files not empty; their names have the decimal place `at`, and differ there alone.
