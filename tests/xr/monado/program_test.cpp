@@ -1,19 +1,16 @@
 // `isochron FILE --display headset` as a user starts it.
-#include <fcntl.h>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <thread>
+#include <stdexcept>
 
 #include "tests/support/files.h"
 #include "tests/support/monado_service.h"
+#include "tests/ui/process.h"
+#include "tests/ui/waiting.h"
 
 namespace {
-
-using namespace std::chrono_literals;
 
 enum class Screen { None, OfTheService };
 
@@ -21,32 +18,14 @@ enum class Screen { None, OfTheService };
 class Program {
  public:
     explicit Program(const char* display, Screen screen = Screen::None)
-        : folder_(tests::freshFolder()) {
-        pid_ = fork();
-        if (pid_ != 0) return;
-        if (screen == Screen::None) unsetenv("DISPLAY");
-        setenv("XDG_STATE_HOME", folder_.c_str(), 1);
-        setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
-        const int said = open((folder_ / "said").c_str(), O_WRONLY | O_CREAT, 0600);
-        dup2(said, STDERR_FILENO);
-        execl(PROGRAM, PROGRAM, SOURCE_DIR "/datasets/pool_fire_T.nc", "--display", display,
-              nullptr);
-        _exit(127);
-    }
-    ~Program() {
-        if (pid_ == 0) return;
-        kill(pid_, SIGKILL);
-        waitpid(pid_, nullptr, 0);
-    }
-    Program(const Program&) = delete;
-    Program& operator=(const Program&) = delete;
+        : folder_(tests::freshFolder()), process_(startOf(display, screen)) {}
 
     // Once data are shown, the session is saved for a crash.
-    bool savesItsSession() const {
-        return comes([&] { return saved(); });
+    void untilItSavesItsSession() {
+        ui::waitUntil("the session is saved", [&] { return saved() || hasEnded(); });
     }
-    bool says(const char* what) const {
-        return comes([&] { return said().find(what) != std::string::npos; });
+    void untilItSays(const char* what) {
+        ui::waitUntil(what, [&] { return said().find(what) != std::string::npos || hasEnded(); });
     }
     bool saved() const {
         const auto state = folder_ / "isochron";
@@ -58,31 +37,33 @@ class Program {
                 return true;
         return false;
     }
-    void signal(int number) const { kill(pid_, number); }
-    int exitCode() {
-        int status = 0;
-        waitpid(std::exchange(pid_, 0), &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    }
-    std::string said() const { return tests::readBytes(folder_ / "said"); }
+    void signal(int number) const { process_.signal(number); }
+    int exitCode() { return process_.exitCode(); }
+    std::string said() const { return process_.errors(); }
 
  private:
-    template <typename Holds>
-    static bool comes(const Holds& holds) {
-        for (const auto end = std::chrono::steady_clock::now() + 30s;
-             std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(20ms))
-            if (holds()) return true;
-        return false;
+    ui::Process::Start startOf(const char* display, Screen screen) const {
+        ui::Process::Start start{
+            .program = PROGRAM,
+            .arguments = {SOURCE_DIR "/datasets/pool_fire_T.nc", "--display", display},
+            .folder = folder_,
+            .environment = {{"XDG_STATE_HOME", folder_}, {"XDG_CONFIG_HOME", folder_}}};
+        if (screen == Screen::None) start.environment["DISPLAY"] = std::nullopt;
+        return start;
+    }
+    bool hasEnded() {
+        if (process_.isRunning()) return false;
+        throw std::runtime_error("the program has ended: " + said());
     }
 
     std::filesystem::path folder_;
-    pid_t pid_ = 0;
+    ui::Process process_;
 };
 
 TEST(HeadsetProgram, EndsInGoodOrderOnASignal) {
     const tests::MonadoService service(tests::Monado::Null);
     Program program("headset");
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    program.untilItSavesItsSession();
     program.signal(SIGTERM);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
     EXPECT_FALSE(program.saved()) << "nothing is left to be offered";
@@ -91,7 +72,7 @@ TEST(HeadsetProgram, EndsInGoodOrderOnASignal) {
 TEST(HeadsetProgram, AutoIsAHeadsetWhereOneAnswers) {
     const tests::MonadoService service(tests::Monado::Null);
     Program program("auto");
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    program.untilItSavesItsSession();
     program.signal(SIGINT);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
 }
@@ -99,7 +80,7 @@ TEST(HeadsetProgram, AutoIsAHeadsetWhereOneAnswers) {
 TEST(HeadsetProgram, LostWithoutADisplayItSaysSoAndLeavesItsSession) {
     tests::MonadoService service(tests::Monado::Null);
     Program program("headset");
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    program.untilItSavesItsSession();
     service.kill();
     EXPECT_EQ(program.exitCode(), 1);
     EXPECT_THAT(program.said(), testing::HasSubstr("no display"));
@@ -110,9 +91,9 @@ TEST(HeadsetProgram, LostWithoutADisplayItSaysSoAndLeavesItsSession) {
 TEST(HeadsetProgram, LostWithADisplayItGoesOnInAWindow) {
     tests::MonadoService service(tests::Monado::Window);
     Program program("auto", Screen::OfTheService);
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    program.untilItSavesItsSession();
     service.kill();
-    ASSERT_TRUE(program.says("in a window, because")) << program.said();
+    program.untilItSays("in a window, because");
     EXPECT_TRUE(program.saved());
     program.signal(SIGTERM);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
