@@ -1,77 +1,31 @@
-// `isochron FILE --display headset` as a user starts it.
+// `isochron FILE --display headset` as a user starts it, with a runtime that may go.
 #include <gmock/gmock.h>
+#include <stdlib.h>
 
 #include <csignal>
-#include <filesystem>
-#include <stdexcept>
+#include <functional>
 
-#include "tests/support/files.h"
 #include "tests/support/monado_service.h"
-#include "tests/ui/process.h"
-#include "tests/ui/waiting.h"
+#include "tests/ui/slow_file.h"
+#include "tests/xr/monado/api_layer.h"
+#include "tests/xr/monado/program.h"
 
 namespace {
 
-enum class Screen { None, OfTheService };
-
-// The program on the shipped demo, its user's files in the test's folder.
-class Program {
- public:
-    explicit Program(const char* display, Screen screen = Screen::None)
-        : folder_(tests::freshFolder()), process_(startOf(display, screen)) {}
-
-    // Once data are shown, the session is saved for a crash.
-    void untilItSavesItsSession() {
-        ui::waitUntil("the session is saved", [&] { return saved() || hasEnded(); });
-    }
-    void untilItSays(const char* what) {
-        ui::waitUntil(what, [&] { return said().find(what) != std::string::npos || hasEnded(); });
-    }
-    bool saved() const {
-        const auto state = folder_ / "isochron";
-        if (!std::filesystem::exists(state)) return false;
-        for (const auto& file : std::filesystem::directory_iterator(state))
-            if (file.path().extension() == ".json" &&
-                tests::readBytes(file.path()).find("pool_fire_T.nc\"") != std::string::npos &&
-                tests::readBytes(file.path()).find("\"layers\"") != std::string::npos)
-                return true;
-        return false;
-    }
-    void signal(int number) const { process_.signal(number); }
-    int exitCode() { return process_.exitCode(); }
-    std::string said() const { return process_.errors(); }
-
- private:
-    ui::Process::Start startOf(const char* display, Screen screen) const {
-        ui::Process::Start start{
-            .program = PROGRAM,
-            .arguments = {SOURCE_DIR "/datasets/pool_fire_T.nc", "--display", display},
-            .folder = folder_,
-            .environment = {{"XDG_STATE_HOME", folder_}, {"XDG_CONFIG_HOME", folder_}}};
-        if (screen == Screen::None) start.environment["DISPLAY"] = std::nullopt;
-        return start;
-    }
-    bool hasEnded() {
-        if (process_.isRunning()) return false;
-        throw std::runtime_error("the program has ended: " + said());
-    }
-
-    std::filesystem::path folder_;
-    ui::Process process_;
-};
+using tests::Program;
 
 TEST(HeadsetProgram, EndsInGoodOrderOnASignal) {
     const tests::MonadoService service(tests::Monado::Null);
-    Program program("headset");
+    Program program({.display = "headset"});
     program.untilItSavesItsSession();
     program.signal(SIGTERM);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
-    EXPECT_FALSE(program.saved()) << "nothing is left to be offered";
+    EXPECT_EQ(program.session(), "") << "nothing is left to be offered";
 }
 
 TEST(HeadsetProgram, AutoIsAHeadsetWhereOneAnswers) {
     const tests::MonadoService service(tests::Monado::Null);
-    Program program("auto");
+    Program program({.display = "auto"});
     program.untilItSavesItsSession();
     program.signal(SIGINT);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
@@ -79,33 +33,52 @@ TEST(HeadsetProgram, AutoIsAHeadsetWhereOneAnswers) {
 
 TEST(HeadsetProgram, LostWithoutADisplayItSaysSoAndLeavesItsSession) {
     tests::MonadoService service(tests::Monado::Null);
-    Program program("headset");
+    Program program({.display = "headset"});
     program.untilItSavesItsSession();
     service.kill();
     EXPECT_EQ(program.exitCode(), 1);
     EXPECT_THAT(program.said(), testing::HasSubstr("no display"));
     EXPECT_THAT(program.said(), testing::HasSubstr("Monado"));
-    EXPECT_TRUE(program.saved());
+    EXPECT_NE(program.session(), "");
 }
 
 TEST(HeadsetProgram, LostWithADisplayItGoesOnInAWindow) {
     tests::MonadoService service(tests::Monado::Window);
-    Program program("auto", Screen::OfTheService);
+    Program program({.display = "auto", .screen = getenv("DISPLAY")});
     program.untilItSavesItsSession();
     service.kill();
     program.untilItSays("in a window, because");
-    EXPECT_TRUE(program.saved());
+    EXPECT_NE(program.session(), "");
     program.signal(SIGTERM);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
-    EXPECT_FALSE(program.saved());
+    EXPECT_EQ(program.session(), "");
 }
 
-TEST(HeadsetProgram, WithoutAServiceItSaysWhy) {
-    tests::MonadoService service(tests::Monado::Null);
-    service.kill();
-    Program program("headset");
-    EXPECT_EQ(program.exitCode(), 1);
-    EXPECT_THAT(program.said(), testing::HasSubstr("service"));
+// `end` ends the service while a file is read that takes many seconds.
+void goesOnInAWindowAsItReads(const std::function<void(tests::MonadoService&)>& end) {
+    tests::MonadoService service(tests::Monado::Window);
+    const tests::ApiLayer layer;
+    Program program({.display = "auto",
+                     .screen = getenv("DISPLAY"),
+                     .more = {"--step", "400"},
+                     .file = ui::writeSlowFile(tests::testFolder() / "slow.nrrd")});
+    program.until("the headset gets pictures", [&] { return layer.submitted().size() >= 4; });
+    ASSERT_EQ(program.session(), "") << "it still reads";
+    end(service);
+    program.untilItSays("in a window, because the headset's runtime Monado");
+    program.untilItSavesItsSession();
+    EXPECT_THAT(program.session(), testing::HasSubstr("slow.nrrd"));
+    EXPECT_THAT(program.session(), testing::HasSubstr("\"steps\": \"400\""));
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.exitCode(), 0) << program.said();
+}
+
+TEST(HeadsetProgram, GoesOnInAWindowWhenTheServiceIsKilledAsItReads) {
+    goesOnInAWindowAsItReads([](tests::MonadoService& service) { service.kill(); });
+}
+
+TEST(HeadsetProgram, GoesOnInAWindowWhenTheServiceIsStoppedAsItReads) {
+    goesOnInAWindowAsItReads([](tests::MonadoService& service) { service.stop(); });
 }
 
 }  // namespace
