@@ -4,6 +4,11 @@
 
 #include <csignal>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/support/monado_service.h"
 #include "tests/ui/screen.h"
@@ -64,7 +69,7 @@ class Fallback : public testing::Test {
 TEST_F(Fallback, WithoutARuntime) {
     if (std::filesystem::exists("/etc/openxr/1/active_runtime.json"))
         GTEST_SKIP() << "this machine has a runtime for all its users";
-    expectAWindow("no OpenXR runtime is active on this machine .*",
+    expectAWindow("no OpenXR runtime is active on this machine [^\n]*",
                   {{"XR_RUNTIME_JSON", std::nullopt}, {"XDG_CONFIG_DIRS", folder_}});
 }
 
@@ -101,7 +106,7 @@ TEST_F(Fallback, WithoutAService) {
 TEST_F(Fallback, WithoutAHeadset) {
     const tests::MonadoService service(tests::Monado::Null);
     const tests::ApiLayer layer(tests::kNoHeadset);
-    expectAWindow("the OpenXR runtime Monado.* finds no headset");
+    expectAWindow("the OpenXR runtime Monado[^\n]* finds no headset");
 }
 
 }  // namespace
