@@ -10,9 +10,10 @@ namespace timeseries {
 
 // How `work` ends in a forked copy of this process: "" when it returns or throws, else "crashes",
 // or "does not end within 20 s" of computing. Nothing that it changes is seen here, and nothing
-// that it prints. "" too when no copy can be made: then the work is untried. REQUIRES: `work` takes
-// no lock that another thread may hold, other than malloc's: in the copy that thread is not there
-// to give it back. Forking takes 0.2 ms, and 40 ms for each GB that is in use.
+// that it prints. "" too when the work stays untried: no copy can be made, or for as long as
+// `limit` it neither ends nor computes. So it does when it waits for a lock that another thread
+// held: in the copy that thread is not there to give it back (malloc's locks are free there, but
+// not those of a sanitizer). Forking takes 0.2 ms, and 40 ms for each GB that is in use.
 std::string trialOf(const std::function<void()>& work, std::chrono::seconds limit);
 
 }  // namespace timeseries

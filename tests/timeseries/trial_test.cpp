@@ -43,6 +43,29 @@ TEST(Trial, WorkThatNeverEndsIsStopped) {
               "does not end within 1 s");
 }
 
+// As for a lock whose owner is not in the copy.
+TEST(Trial, WorkThatWaitsForNobodyIsGivenUp) {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(trialOf(
+                  [] {
+                      while (true) pause();
+                  },
+                  1s),
+              "");
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 60s);
+}
+
+// It computes less than it waits, in each second of the limit something.
+TEST(Trial, WorkThatWaitsNowAndThenIsNotGivenUp) {
+    EXPECT_EQ(trialOf(
+                  [] {
+                      for (int i = 0; i < 30; ++i) std::this_thread::sleep_for(100ms);
+                      std::raise(SIGSEGV);
+                  },
+                  1s),
+              "crashes");
+}
+
 TEST(Trial, WorkMayAllocateWhileOtherThreadsDo) {
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
