@@ -15,7 +15,8 @@ namespace tests {
 
 class ApiLayer {
  public:
-    // `pretence`: kNoHeadset, kNoFloor, or "" to look on only.
+    static bool isBuilt() { return std::filesystem::exists(API_LAYER_FOLDER "/layer.json"); }
+    // REQUIRES: isBuilt(). `pretence`: kNoHeadset, kNoFloor, or "" to look on only.
     explicit ApiLayer(const char* pretence = "")
         : record_(testFolder() / "submitted"), pretence_(kPretenceVariable, pretence) {}
 

@@ -53,6 +53,10 @@ std::optional<double> distanceOf(const Plate& plate, const tests::SubmittedView&
 
 class Depth : public FrontEndWithHands {
  protected:
+    void SetUp() override {
+        if (!tests::ApiLayer::isBuilt()) GTEST_SKIP();
+        FrontEndWithHands::SetUp();
+    }
     tests::ApiLayer layer_;
 };
 

@@ -19,6 +19,10 @@ TEST_F(FrontEndWithHands, TheVolumeStandsBeforeEyesThatAreAboveTheFloor) {
 }
 
 class WithoutAFloor : public FrontEndWithHands {
+    void SetUp() override {
+        if (!tests::ApiLayer::isBuilt()) GTEST_SKIP();
+        FrontEndWithHands::SetUp();
+    }
     tests::ApiLayer layer_{tests::kNoFloor};
 };
 

@@ -56,6 +56,7 @@ TEST(HeadsetProgram, LostWithADisplayItGoesOnInAWindow) {
 
 // `end` ends the service while a file is read that takes many seconds.
 void goesOnInAWindowAsItReads(const std::function<void(tests::MonadoService&)>& end) {
+    if (!tests::ApiLayer::isBuilt()) GTEST_SKIP();
     tests::MonadoService service(tests::Monado::Window);
     const tests::ApiLayer layer;
     Program program({.display = "auto",
