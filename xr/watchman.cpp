@@ -64,7 +64,8 @@ Watchman::Watch::~Watch() {
 
 bool Watchman::Watch::fired() const {
     const std::lock_guard lock(watchman_.mutex_);
-    return watchman_.fired_;
+    // Also where its thread has not come to do it yet.
+    return watchman_.fired_ || Clock::now() >= *watchman_.deadline_;
 }
 
 }  // namespace xr

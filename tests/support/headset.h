@@ -9,6 +9,7 @@
 
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
+#include "tests/ui/waiting.h"
 #include "xr/session.h"
 
 namespace tests {
@@ -36,9 +37,8 @@ inline void submitColor(xr::Session::Frame& frame, const glm::vec4& color = {0, 
 
 // Frames, each given to `look` before it is drawn, until `done` holds; false when it never did.
 template <typename Look, typename Done>
-bool framesUntil(xr::Session& session, Look look, Done done,
-                 std::chrono::seconds limit = std::chrono::seconds(20)) {
-    const auto end = std::chrono::steady_clock::now() + limit;
+bool framesUntil(xr::Session& session, Look look, Done done) {
+    const auto end = std::chrono::steady_clock::now() + ui::kDeadline;
     while (!done()) {
         if (session.ended() || std::chrono::steady_clock::now() > end) return done();
         const auto frame = session.beginFrame();

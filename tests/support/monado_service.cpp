@@ -6,18 +6,23 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "tests/ui/waiting.h"
 
 extern char** environ;
 
@@ -96,6 +101,23 @@ void endProcess(pid_t child) {
     }
 }
 
+// One service starts at a time on this machine, also of tests that run beside this one. While it
+// does, its shared memory has a name that is the same for all (Monado 25's ipc_shmem.c), and two
+// would share one; and nobody else's port is the one that it is about to take.
+class AloneInStarting {
+ public:
+    AloneInStarting() : file_(open("/dev/shm", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        while (flock(file_, LOCK_EX) != 0)
+            if (errno != EINTR) throw std::runtime_error("/dev/shm cannot be locked");
+    }
+    ~AloneInStarting() { close(file_); }
+    AloneInStarting(const AloneInStarting&) = delete;
+    AloneInStarting& operator=(const AloneInStarting&) = delete;
+
+ private:
+    int file_;
+};
+
 }  // namespace
 
 MonadoService::MonadoService(Monado mode) {
@@ -123,9 +145,7 @@ void MonadoService::start(Monado mode) {
     for (const auto& driver : fs::directory_iterator("/usr/share/vulkan/icd.d"))
         if (driver.path().filename().string().starts_with("lvp_icd"))
             environment["VK_DRIVER_FILES"] = driver.path().string();
-    if (mode == Monado::Remote) {
-        configureRemote();
-    } else {
+    if (mode != Monado::Remote) {
         environment["SIMULATED_ENABLE"] = "1";
         environment["SIMULATED_LEFT"] = environment["SIMULATED_RIGHT"] = "simple";
     }
@@ -135,13 +155,16 @@ void MonadoService::start(Monado mode) {
     } else {
         environment["XRT_COMPOSITOR_NULL"] = "1";
     }
-    startService(environment);
+    const AloneInStarting alone;
+    if (mode == Monado::Remote)
+        startRemote(environment);
+    else
+        startService(environment);
 }
 
 void MonadoService::end() {
-    endProcess(service_);
+    endService();
     endProcess(display_);
-    if (serviceInput_ >= 0) close(serviceInput_);
     std::error_code left;
     fs::remove_all(folder_, left);
 }
@@ -164,8 +187,27 @@ void MonadoService::startDisplay() {
     setenv("DISPLAY", (":" + number).c_str(), 1);
 }
 
+// On a port that was free; a service that finds it taken since goes on without it, and gets
+// another.
+void MonadoService::startRemote(const std::map<std::string, std::string>& environment) {
+    for (int tries = 0; tries < 10; ++tries) {
+        configureRemote();
+        startService(environment);
+        const auto says = [this](const char* what) {
+            return log().find(what) != std::string::npos;
+        };
+        bool listens = false;
+        ui::waitUntil("the remote devices listen", [&] {
+            listens = says("Listening on port");
+            return listens || says("Leaving thread");
+        });
+        if (listens) return;
+        endService();
+    }
+    throw std::runtime_error("every port is taken that was free for Monado's remote devices");
+}
+
 void MonadoService::configureRemote() {
-    // A port that is free now: a service that finds it taken would go on without it.
     const int probe = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -182,17 +224,24 @@ void MonadoService::configureRemote() {
 
 void MonadoService::startService(const std::map<std::string, std::string>& environment) {
     const auto [read, write] = closedOnExec();
+    for (const char* left : {"service.log", "monado_comp_ipc"})  // by one that got no port
+        fs::remove(folder_ / left);
     const int log = openedLog(folder_ / "service.log");
     serviceInput_ = write;
     service_ = spawned({MONADO_SERVICE}, environment, {read, log});
     close(read), close(log);
-    const bool serves = within(20s, [&] {
+    const bool serves = within(ui::kDeadline, [&] {
         return waitpid(service_, nullptr, WNOHANG) == service_ ||
                (MonadoService::log().find("The Monado service has started") != std::string::npos &&
                 fs::exists(folder_ / "monado_comp_ipc"));
     });
     if (!serves || ::kill(service_, 0) != 0)
         throw std::runtime_error("monado-service does not start: " + MonadoService::log());
+}
+
+void MonadoService::endService() {
+    endProcess(std::exchange(service_, 0));
+    if (serviceInput_ >= 0) close(std::exchange(serviceInput_, -1));
 }
 
 void MonadoService::kill() {

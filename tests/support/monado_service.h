@@ -33,8 +33,10 @@ class MonadoService {
     void start(Monado mode);
     void end();
     void startDisplay();
+    void startRemote(const std::map<std::string, std::string>& environment);
     void configureRemote();
     void startService(const std::map<std::string, std::string>& environment);
+    void endService();
 
     std::filesystem::path folder_;
     pid_t service_ = 0, display_ = 0;

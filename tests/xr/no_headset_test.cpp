@@ -1,38 +1,18 @@
 // Why there is no headset, where no runtime is needed to find out.
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "tests/support/files.h"
+#include "tests/support/variable.h"
 #include "xr/session.h"
 
 namespace xr {
 namespace {
 
-// The environment as it was, after the test.
-class Variable {
- public:
-    Variable(const char* name, const std::optional<std::string>& value) : name_(name) {
-        if (const char* was = getenv(name)) before_ = was;
-        set(value);
-    }
-    ~Variable() { set(before_); }
-    Variable(const Variable&) = delete;
-    Variable& operator=(const Variable&) = delete;
-
- private:
-    void set(const std::optional<std::string>& value) {
-        if (value)
-            setenv(name_, value->c_str(), 1);
-        else
-            unsetenv(name_);
-    }
-    const char* name_;
-    std::optional<std::string> before_;
-};
+using tests::Variable;
 
 std::string whyNone() {
     const auto none = Session::whyNone();

@@ -11,6 +11,7 @@
 #include "tests/support/monado_service.h"
 #include "tests/support/remote_devices.h"
 #include "tests/support/scripted_exploration.h"
+#include "tests/ui/waiting.h"
 
 namespace app::headset {
 
@@ -23,7 +24,7 @@ class FrontEnd : public testing::Test {
     }
     template <typename Holds>
     void framesUntil(const Holds& holds) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        const auto end = std::chrono::steady_clock::now() + ui::kDeadline;
         while (!holds()) {
             ASSERT_TRUE(headset_->frame());
             ASSERT_LT(std::chrono::steady_clock::now(), end);

@@ -1,130 +1,85 @@
-// `isochron FILE --display headset` as a user starts it.
-#include <fcntl.h>
+// `isochron FILE --display headset` as a user starts it, with a runtime that may go.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
+#include <stdlib.h>
 
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <thread>
+#include <functional>
 
-#include "tests/support/files.h"
 #include "tests/support/monado_service.h"
+#include "tests/ui/slow_file.h"
+#include "tests/xr/monado/api_layer.h"
+#include "tests/xr/monado/program.h"
 
 namespace {
 
-using namespace std::chrono_literals;
-
-enum class Screen { None, OfTheService };
-
-// The program on the shipped demo, its user's files in the test's folder.
-class Program {
- public:
-    explicit Program(const char* display, Screen screen = Screen::None)
-        : folder_(tests::freshFolder()) {
-        pid_ = fork();
-        if (pid_ != 0) return;
-        if (screen == Screen::None) unsetenv("DISPLAY");
-        setenv("XDG_STATE_HOME", folder_.c_str(), 1);
-        setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
-        const int said = open((folder_ / "said").c_str(), O_WRONLY | O_CREAT, 0600);
-        dup2(said, STDERR_FILENO);
-        execl(PROGRAM, PROGRAM, SOURCE_DIR "/datasets/pool_fire_T.nc", "--display", display,
-              nullptr);
-        _exit(127);
-    }
-    ~Program() {
-        if (pid_ == 0) return;
-        kill(pid_, SIGKILL);
-        waitpid(pid_, nullptr, 0);
-    }
-    Program(const Program&) = delete;
-    Program& operator=(const Program&) = delete;
-
-    // Once data are shown, the session is saved for a crash.
-    bool savesItsSession() const {
-        return comes([&] { return saved(); });
-    }
-    bool says(const char* what) const {
-        return comes([&] { return said().find(what) != std::string::npos; });
-    }
-    bool saved() const {
-        const auto state = folder_ / "isochron";
-        if (!std::filesystem::exists(state)) return false;
-        for (const auto& file : std::filesystem::directory_iterator(state))
-            if (file.path().extension() == ".json" &&
-                tests::readBytes(file.path()).find("pool_fire_T.nc\"") != std::string::npos &&
-                tests::readBytes(file.path()).find("\"layers\"") != std::string::npos)
-                return true;
-        return false;
-    }
-    void signal(int number) const { kill(pid_, number); }
-    int exitCode() {
-        int status = 0;
-        waitpid(std::exchange(pid_, 0), &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    }
-    std::string said() const { return tests::readBytes(folder_ / "said"); }
-
- private:
-    template <typename Holds>
-    static bool comes(const Holds& holds) {
-        for (const auto end = std::chrono::steady_clock::now() + 30s;
-             std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(20ms))
-            if (holds()) return true;
-        return false;
-    }
-
-    std::filesystem::path folder_;
-    pid_t pid_ = 0;
-};
+using tests::Program;
 
 TEST(HeadsetProgram, EndsInGoodOrderOnASignal) {
     const tests::MonadoService service(tests::Monado::Null);
-    Program program("headset");
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    Program program({.display = "headset"});
+    program.untilItSavesItsSession();
     program.signal(SIGTERM);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
-    EXPECT_FALSE(program.saved()) << "nothing is left to be offered";
+    EXPECT_EQ(program.session(), "") << "nothing is left to be offered";
 }
 
 TEST(HeadsetProgram, AutoIsAHeadsetWhereOneAnswers) {
     const tests::MonadoService service(tests::Monado::Null);
-    Program program("auto");
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    Program program({.display = "auto"});
+    program.untilItSavesItsSession();
     program.signal(SIGINT);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
 }
 
 TEST(HeadsetProgram, LostWithoutADisplayItSaysSoAndLeavesItsSession) {
     tests::MonadoService service(tests::Monado::Null);
-    Program program("headset");
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    Program program({.display = "headset"});
+    program.untilItSavesItsSession();
     service.kill();
     EXPECT_EQ(program.exitCode(), 1);
     EXPECT_THAT(program.said(), testing::HasSubstr("no display"));
     EXPECT_THAT(program.said(), testing::HasSubstr("Monado"));
-    EXPECT_TRUE(program.saved());
+    EXPECT_NE(program.session(), "");
 }
 
 TEST(HeadsetProgram, LostWithADisplayItGoesOnInAWindow) {
     tests::MonadoService service(tests::Monado::Window);
-    Program program("auto", Screen::OfTheService);
-    ASSERT_TRUE(program.savesItsSession()) << program.said();
+    Program program({.display = "auto", .screen = getenv("DISPLAY")});
+    program.untilItSavesItsSession();
     service.kill();
-    ASSERT_TRUE(program.says("in a window, because")) << program.said();
-    EXPECT_TRUE(program.saved());
+    program.untilItSays("in a window, because");
+    EXPECT_NE(program.session(), "");
     program.signal(SIGTERM);
     EXPECT_EQ(program.exitCode(), 0) << program.said();
-    EXPECT_FALSE(program.saved());
+    EXPECT_EQ(program.session(), "");
 }
 
-TEST(HeadsetProgram, WithoutAServiceItSaysWhy) {
-    tests::MonadoService service(tests::Monado::Null);
-    service.kill();
-    Program program("headset");
-    EXPECT_EQ(program.exitCode(), 1);
-    EXPECT_THAT(program.said(), testing::HasSubstr("service"));
+// `end` ends the service while a file is read that takes many seconds.
+void goesOnInAWindowAsItReads(const std::function<void(tests::MonadoService&)>& end) {
+    if (!tests::ApiLayer::isBuilt()) GTEST_SKIP();
+    tests::MonadoService service(tests::Monado::Window);
+    const tests::ApiLayer layer;
+    Program program({.display = "auto",
+                     .screen = getenv("DISPLAY"),
+                     .more = {"--step", "400"},
+                     .file = ui::writeSlowFile(tests::testFolder() / "slow.nrrd")});
+    program.until("the headset gets pictures", [&] { return layer.submitted().size() >= 4; });
+    ASSERT_EQ(program.session(), "") << "it still reads";
+    end(service);
+    program.untilItSays("in a window, because the headset's runtime Monado");
+    program.untilItSavesItsSession();
+    EXPECT_THAT(program.session(), testing::HasSubstr("slow.nrrd"));
+    EXPECT_THAT(program.session(), testing::HasSubstr("\"steps\": \"400\""));
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.exitCode(), 0) << program.said();
+}
+
+TEST(HeadsetProgram, GoesOnInAWindowWhenTheServiceIsKilledAsItReads) {
+    goesOnInAWindowAsItReads([](tests::MonadoService& service) { service.kill(); });
+}
+
+TEST(HeadsetProgram, GoesOnInAWindowWhenTheServiceIsStoppedAsItReads) {
+    goesOnInAWindowAsItReads([](tests::MonadoService& service) { service.stop(); });
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST_F(SimulatedHeadset, GoesThroughItsStatesInOrder) {
     ASSERT_TRUE(session);
     std::vector<State> states{State::Unknown};
     int frames = 0;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    const auto end = std::chrono::steady_clock::now() + ui::kDeadline;
     while (!session->ended() && std::chrono::steady_clock::now() < end) {
         const auto frame = session->beginFrame();
         if (session->state().state() != states.back()) states.push_back(session->state().state());
@@ -56,11 +56,9 @@ TEST_F(SimulatedHeadset, ShowsTheEyesOfTheSwayingHead) {
     ASSERT_TRUE(session);
     ASSERT_TRUE(tests::framesUntilFocused(*session));
     EXPECT_THAT(session->runtimeName(), testing::HasSubstr("Monado"));
-    int frames = 0;
     std::chrono::nanoseconds last{0};
     double lowest = 10, highest = 0;
     const auto look = [&](Session::Frame& frame) {
-        ++frames;
         EXPECT_GT(frame.displayTime(), last);
         last = frame.displayTime();
         ASSERT_TRUE(frame.shouldRender());
@@ -85,10 +83,11 @@ TEST_F(SimulatedHeadset, ShowsTheEyesOfTheSwayingHead) {
             EXPECT_GT(eye.fov.up, 0);
         }
     };
-    ASSERT_TRUE(tests::framesUntil(*session, look, [&] { return frames == 120; }));
-    // 6 s of 1.6 m + 5 cm sin(pi t / 2).
-    EXPECT_NEAR(lowest, 1.55, 0.002);
-    EXPECT_NEAR(highest, 1.65, 0.002);
+    // 1.6 m + 5 cm sin(pi t / 2), to its ends and not beyond.
+    EXPECT_TRUE(
+        tests::framesUntil(*session, look, [&] { return lowest < 1.552 && highest > 1.648; }));
+    EXPECT_GT(lowest, 1.5499);
+    EXPECT_LT(highest, 1.6501);
 }
 
 // Monado's default (u_visibility_mask.c) cuts the corners off: an eighth of each side.
@@ -188,10 +187,9 @@ TEST_F(SimulatedHeadset, TellsWhatASimpleControllerDoes) {
     ASSERT_TRUE(session);
     ASSERT_TRUE(tests::framesUntilFocused(*session));
     std::array<Hand, 2> hands;
-    int frames = 0;
     ASSERT_TRUE(tests::framesUntil(
-        *session, [&](auto& frame) { hands = frame.hands(), ++frames; },
-        [&] { return frames == 3; }));
+        *session, [&](auto& frame) { hands = frame.hands(); },
+        [&] { return hands[0].grip && hands[1].grip && !session->bindingsText().empty(); }));
     // Monado's simulated controllers rest at (-/+0.2, 1.3, -0.5), and sway a little.
     for (int h = 0; h < 2; ++h) {
         ASSERT_TRUE(hands[h].grip && hands[h].aim);
