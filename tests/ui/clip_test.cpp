@@ -1,6 +1,7 @@
 // The clip box.
 #include <glm/common.hpp>
 #include <limits>
+#include <utility>
 
 #include "app/camera.h"
 #include "render/lattice.h"

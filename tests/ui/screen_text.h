@@ -1,6 +1,8 @@
 // Reads what a panel says: the interface's own glyphs, looked for pixel by pixel.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,8 +34,8 @@ class ScreenText {
         float at(int x, int y) const;
     };
 
-    // The line whose first glyph's box has its upper left corner there; it ends where no glyph of
-    // the font stands.
+    // The line whose first glyph's box has its upper left corner there. What is no glyph is a
+    // space, and five of them are the line's end.
     std::string line(const Ink& ink, glm::ivec2 corner) const;
     // The glyph that stands there, the pen being `pen` pixels right of the corner.
     const ImFontGlyph* glyphAt(const Ink& ink, glm::ivec2 corner, float pen) const;
