@@ -4,7 +4,12 @@
 # skipped.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-data=${1:-}
+# Under a name of the project's own: a picture keeps its file's path, which then says nothing of the
+# machine that it was made on.
+data=out/gallery_data
+mkdir -p out
+rm -f "$data"
+if (($# > 0)); then ln -s "$(realpath "$1")" "$data"; fi
 picture() {
     local file=$1 out=app/gallery/$2; shift 2
     if [[ -f $file ]]; then ./run --with-vtk render "$file" -o "$out" "$@"; else echo "skipped: $out needs $file"; fi

@@ -56,6 +56,14 @@ struct ExplorationDesk {
         next.variable = variable;
         exploration.edit(next);
     }
+    // A window of values plus or minus delta begins to go through the ranges.
+    void sweep(const char* ranges, double delta = 0,
+               timeseries::SweepPath path = timeseries::SweepPath::Swing) {
+        app::Explorer next = exploration.explorer();
+        next.sweep = timeseries::SweepSettings{
+            .animation = timeseries::RangeSet::parse(ranges), .delta = delta, .path = path};
+        exploration.edit(next);
+    }
     std::size_t asked() const { return exploration.explorer().steps->first; }
     std::size_t shownStep() const { return exploration.shown()->step; }
     std::vector<std::string> errors() const {

@@ -9,11 +9,24 @@
 
 namespace ui {
 
+constexpr std::size_t kDemoSteps = 31;
+
+inline std::unique_ptr<timeseries::Reader> demoReader() {
+    const std::filesystem::path file = demo();
+    return timeseries::openReader(std::span(&file, 1));
+}
+
 // The demo's values at one step, as the reader gives them.
 inline std::vector<float> valuesAt(std::size_t step) {
-    const std::filesystem::path file = demo();
-    const auto reader = timeseries::openReader(std::span(&file, 1));
-    return std::get<std::vector<float>>(reader->read(0, step).values);
+    return std::get<std::vector<float>>(demoReader()->read(0, step).values);
+}
+
+// The time of each step, in seconds.
+inline std::vector<double> demoTimes() {
+    const auto axis = demoReader()->variables()[0].time;
+    std::vector<double> times;
+    for (const timeseries::TimePoint& point : axis->points) times.push_back(point.value);
+    return times;
 }
 
 // What the first layer selects, by comparing every value.
@@ -24,17 +37,25 @@ inline std::uint64_t countIn(const app::Explorer& e) {
     return count;
 }
 
-// The values between which the instrument stands, once all steps are seen.
-inline app::panels::ValueAxis axisOf(const Places& at) {
+// The least and the greatest value of all steps.
+inline std::pair<double, double> demoExtent() {
     float lo = INFINITY, hi = -INFINITY;
-    for (std::size_t step = 0; step < 31; ++step)
+    for (std::size_t step = 0; step < kDemoSteps; ++step)
         for (const float value : valuesAt(step)) {
             lo = std::min(lo, value);
             hi = std::max(hi, value);
         }
-    const auto [bottom, top] =
-        app::panels::withRoom(static_cast<double>(lo), static_cast<double>(hi));
-    return {bottom, top, at.instrument.histogram.min.y, at.instrument.histogram.max.y};
+    return {lo, hi};
+}
+
+// The values between which the instrument stands, once all steps are seen; waits for that.
+inline app::panels::ValueAxis axisOf(Driver& desk) {
+    waitUntilSeen(desk, kDemoSteps);
+    desk.settled();
+    const auto [lo, hi] = demoExtent();
+    const auto [bottom, top] = app::panels::withRoom(lo, hi);
+    const app::panels::Rect bars = placesOf(desk.size()).instrument.histogram;
+    return {bottom, top, bars.min.y, bars.max.y};
 }
 
 }  // namespace ui

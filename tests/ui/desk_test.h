@@ -60,4 +60,56 @@ inline app::Explorer saved(Driver& desk, const std::filesystem::path& file) {
     return app::readSession(file);
 }
 
+// The demo in a window: a layer of 600 to 1000 K, or what the options say.
+class DeskWithFire : public DeskTest {
+ protected:
+    explicit DeskWithFire(std::vector<std::string> options = {"--range", "600:1000"})
+        : arguments_(std::move(options)) {
+        arguments_.insert(arguments_.begin(), demo().string());
+    }
+    void SetUp() override {
+        DeskTest::SetUp();
+        if (IsSkipped()) return;
+        desk_.emplace(screen(), folder(), arguments_);
+        desk_->waitForTitle("pool_fire_T.nc · T");
+        look(1);
+    }
+    // Finds out where things are, with so many rows of layers.
+    void look(std::size_t layerRows) {
+        at_ = placesOf(desk_->size());
+        side_ = app::panels::sideLayout(at_.window, layerRows);
+    }
+
+    double seconds() const { return std::stod(parse(desk_->title()).time); }
+    std::uint64_t points() const { return parse(desk_->title()).points; }
+    // At rest, without what stands beside a pointer.
+    Shot picture() {
+        desk_->moveAway();
+        return desk_->settled(at_.clear);
+    }
+    // The session, read from a file of its own. What is told of that is put away: messages lie over
+    // the picture, and go when they will.
+    app::Explorer now() {
+        app::Explorer e = saved(*desk_, newFile());
+        desk_->press("Escape");
+        return e;
+    }
+    std::filesystem::path newFile() { return folder() / fmt::format("{}.json", ++saves_); }
+    // In place of what a field says.
+    void enter(glm::vec2 field, std::string_view text) {
+        desk_->click(field);
+        desk_->press("ctrl+a");
+        desk_->type(text);
+        desk_->press("Return");
+    }
+
+    std::optional<Driver> desk_;
+    Places at_;
+    app::panels::SideLayout side_;
+
+ private:
+    std::vector<std::string> arguments_;
+    int saves_ = 0;
+};
+
 }  // namespace ui

@@ -32,35 +32,20 @@ void tabTo(Driver& desk, const Rect& at, std::string_view keys = "Tab") {
     FAIL() << "no ring at " << at.min.x << ", " << at.min.y;
 }
 
-class DeskKeyboard : public DeskTest {
- protected:
-    void SetUp() override {
-        DeskTest::SetUp();
-        if (IsSkipped()) return;
-        desk_.emplace(screen(), folder(),
-                      std::vector<std::string>{demo().string(), "--range", "600:1000"});
-        desk_->waitForTitle("pool_fire_T.nc · T");
-        at_ = placesOf(desk_->size());
-    }
-    double seconds() { return std::stod(parse(desk_->title()).time); }
-
-    std::optional<Driver> desk_;
-    Places at_;
-};
+class DeskKeyboard : public DeskWithFire {};
 
 TEST_F(DeskKeyboard, ReachesAndChangesALayersOpacity) {
-    const app::panels::SideLayout side = app::panels::sideLayout(at_.window, 1);
     const Rect opacity =
-        app::panels::layerRow(side.layers, side.layers.min.y + app::panels::kLayersTitle, 1)
+        app::panels::layerRow(side_.layers, side_.layers.min.y + app::panels::kLayersTitle, 1)
             .opacity;
-    const auto before = saved(*desk_, folder() / "before.json").layers.at(0).opacity;
+    const auto before = saved(*desk_, newFile()).layers.at(0).opacity;
     tabTo(*desk_, opacity);
     desk_->press("shift+Right");
-    const auto after = saved(*desk_, folder() / "after.json").layers.at(0).opacity;
+    const auto after = saved(*desk_, newFile()).layers.at(0).opacity;
     EXPECT_GT(*after, *before);
     EXPECT_TRUE(isRinged(*desk_, opacity)) << "back from the files";
     desk_->press("Left");
-    EXPECT_LT(*saved(*desk_, folder() / "less.json").layers.at(0).opacity, *after);
+    EXPECT_LT(*saved(*desk_, newFile()).layers.at(0).opacity, *after);
     // The picture's keys again.
     desk_->press("Escape");
     EXPECT_FALSE(isRinged(*desk_, opacity));
@@ -82,36 +67,34 @@ TEST_F(DeskKeyboard, ReachesAndChangesTheStep) {
 }
 
 TEST_F(DeskKeyboard, ReachesAndMovesTheEndOfARange) {
-    waitUntilSeen(*desk_, 31);
-    desk_->settled();
-    const app::panels::ValueAxis axis = axisOf(at_);
+    const app::panels::ValueAxis axis = axisOf(*desk_);
     const auto hi = [&](const app::Explorer& e) {
         return timeseries::toDouble(e.layers.at(0).ranges.ranges()[0].hi.value);
     };
-    const std::uint64_t points = parse(desk_->title()).points;
+    const std::uint64_t before = points();
     tabTo(*desk_, app::panels::endHandle(at_.instrument, 1, axis.y(1000), true));
     desk_->press("Up");
-    const app::Explorer once = saved(*desk_, folder() / "once.json");
+    const app::Explorer once = saved(*desk_, newFile());
     EXPECT_GT(hi(once), 1000);
     EXPECT_NEAR(hi(once), 1000 + axis.perPixel(), axis.perPixel());
-    EXPECT_EQ(parse(desk_->title()).points, countIn(once));
-    EXPECT_GT(countIn(once), points);
+    EXPECT_EQ(points(), countIn(once));
+    EXPECT_GT(countIn(once), before);
     desk_->press("shift+Up");
-    const app::Explorer more = saved(*desk_, folder() / "more.json");
+    const app::Explorer more = saved(*desk_, newFile());
     EXPECT_NEAR(hi(more), hi(once) + 10 * axis.perPixel(), 2 * axis.perPixel());
-    EXPECT_EQ(parse(desk_->title()).points, countIn(more));
+    EXPECT_EQ(points(), countIn(more));
     EXPECT_EQ(timeseries::toDouble(more.layers.at(0).ranges.ranges()[0].lo.value), 600);
     // Each press is a step of undo.
     desk_->press("ctrl+z");
     desk_->press("ctrl+z");
-    EXPECT_EQ(parse(desk_->title()).points, points);
+    EXPECT_EQ(points(), before);
 }
 
 TEST_F(DeskKeyboard, OpensAFileFromTheMenu) {
     tests::writeBytes(folder() / "ramp.nrrd",
                       tests::nrrd("type: uint8\ndimension: 3\nsizes: 8 8 8\nencoding: raw\n",
                                   tests::bytesOf(tests::ramp<std::uint8_t>(512))));
-    const Rect header = app::panels::sideLayout(at_.window, 1).header;
+    const Rect header = side_.header;
     const float right = header.max.x - app::panels::kMargin;
     tabTo(*desk_, {{right - 28, header.min.y + 12}, {right, header.min.y + 40}});
     desk_->press("Return");

@@ -9,36 +9,7 @@ namespace {
 
 using app::panels::Rect;
 
-class DeskPages : public DeskTest {
- protected:
-    void SetUp() override {
-        DeskTest::SetUp();
-        if (IsSkipped()) return;
-        desk_.emplace(screen(), folder(),
-                      std::vector<std::string>{demo().string(), "--range", "600:1000"});
-        desk_->waitForTitle("pool_fire_T.nc · T");
-        at_ = placesOf(desk_->size());
-        side_ = app::panels::sideLayout(at_.window, 1);
-    }
-    // The middle of a page's row, of which all have the same height.
-    float row(std::size_t i) const { return side_.page.min.y + 24 + 36 * static_cast<float>(i); }
-    void enter(glm::vec2 field, std::string_view text) {
-        desk_->click(field);
-        desk_->press("ctrl+a");
-        desk_->type(text);
-        desk_->press("Return");
-    }
-    app::Explorer now() { return saved(*desk_, folder() / fmt::format("{}.json", ++saves_)); }
-    Shot picture() {
-        desk_->moveAway();
-        return desk_->settled(at_.clear);
-    }
-
-    std::optional<Driver> desk_;
-    Places at_;
-    app::panels::SideLayout side_;
-    int saves_ = 0;
-};
+class DeskPages : public DeskWithFire {};
 
 TEST_F(DeskPages, AFieldOfANumberSaysWhatItExpected) {
     const glm::vec2 speed(at_.timeBar.speed.min.x + 20, at_.timeBar.speed.centre().y);
@@ -57,26 +28,23 @@ TEST_F(DeskPages, PlayKeepsToItsInAndOutPointsAndStride) {
     desk_->press("i");
     for (int i = 0; i < 5; ++i) desk_->press("period");
     desk_->press("o");
-    enter({side_.page.max.x - app::panels::kMargin - 28, row(2)}, "2");
+    const Rect steps = pageRow(side_, 2);
+    enter({steps.max.x - 28, steps.centre().y}, "2");
     const timeseries::CursorSettings set = now().play.time;
     ASSERT_EQ(set.first, 3u);
     ASSERT_EQ(set.last, 8u);
     ASSERT_EQ(set.stride, 2u);
     ASSERT_EQ(set.ending, timeseries::Ending::Loop);
-    const std::filesystem::path file = demo();
-    const auto reader = timeseries::openReader(std::span(&file, 1));
-    const auto& times = reader->variables()[0].time->points;
+    const std::vector<double> times = demoTimes();
     // Steps 3, 5 and 7, and no other.
-    const std::vector<double> wanted = {times[3].value, times[5].value, times[7].value};
+    const std::vector<double> wanted = {times[3], times[5], times[7]};
     std::vector<double> seen;
     const auto look = [&] {
-        const double time = std::stod(parse(desk_->title()).time);
+        const double time = seconds();
         if (seen.empty() || seen.back() != time) seen.push_back(time);
     };
     desk_->press("space");
-    desk_->waitFor("the in point", [&] {
-        return std::abs(std::stod(parse(desk_->title()).time) - wanted[0]) < 1e-3;
-    });
+    desk_->waitFor("the in point", [&] { return std::abs(seconds() - wanted[0]) < 1e-3; });
     desk_->waitFor("it has gone round twice", [&] {
         look();
         return seen.size() > 2 * wanted.size();

@@ -22,6 +22,19 @@ Places placesOf(glm::ivec2 size, bool hasMap, float scale) {
     return out;
 }
 
+glm::vec2 tabPlace(const app::panels::SideLayout& side, Tab which) {
+    const float left = side.tabs.min.x + app::panels::kMargin,
+                width = (side.tabs.size().x - 2 * app::panels::kMargin) / 4;
+    return {left + (static_cast<float>(which) + 0.5f) * width, side.tabs.centre().y};
+}
+
+Rect pageRow(const app::panels::SideLayout& side, std::size_t i, std::size_t gaps) {
+    const float top =
+        side.page.min.y + 10 + 36 * static_cast<float>(i) + 6 * static_cast<float>(gaps);
+    return {{side.page.min.x + app::panels::kMargin + 104, top},
+            {side.page.max.x - app::panels::kMargin, top + 28}};
+}
+
 glm::vec2 startOffer(glm::ivec2 window, std::size_t which, std::size_t recent) {
     const app::panels::Layout all = app::panels::layoutOf(glm::vec2(window), 1);
     return app::panels::startLayout(all.window, 1, recent).offer(which).centre();

@@ -17,6 +17,12 @@ struct Places {
 };
 Places placesOf(glm::ivec2 size, bool hasMap = true, float scale = 1);
 
+// The middle of a tab, and where the control is of a page's i-th row, all being equally high; the
+// page has so many gaps between groups of rows above it.
+enum class Tab { Animation, View, Quality, Probe };
+glm::vec2 tabPlace(const app::panels::SideLayout& side, Tab which);
+app::panels::Rect pageRow(const app::panels::SideLayout& side, std::size_t i, std::size_t gaps = 0);
+
 // Where the start screen makes its N-th offer (0 is the file panel); `recent`: files it knows.
 glm::vec2 startOffer(glm::ivec2 window, std::size_t which, std::size_t recent);
 

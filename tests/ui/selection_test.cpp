@@ -4,97 +4,77 @@
 namespace ui {
 namespace {
 
-class DeskSelects : public DeskTest {
+class DeskSelects : public DeskWithFire {
  protected:
-    // Drags the upper end of 600:1000 to about 1300.
-    void dragEnd(Driver& desk) {
-        const Places at = placesOf(desk.size());
-        const float x = at.instrument.histogram.centre().x;
-        waitUntilSeen(desk, 31);
-        desk.settled();
-        const app::panels::ValueAxis axis = axisOf(at);
-        perPixel_ = axis.perPixel();
-        desk.drag({x, axis.y(1000)}, {x, axis.y(1300)});
+    // Along the middle of the histogram's bars.
+    void drag(const app::panels::ValueAxis& axis, double from, double to) {
+        const float x = at_.instrument.histogram.centre().x;
+        desk_->drag({x, axis.y(from)}, {x, axis.y(to)});
     }
-    double perPixel_ = 0;
+    static double lo(const app::Explorer& e, std::size_t layer, std::size_t range) {
+        return timeseries::toDouble(e.layers.at(layer).ranges.ranges()[range].lo.value);
+    }
+    static double hi(const app::Explorer& e, std::size_t layer, std::size_t range) {
+        return timeseries::toDouble(e.layers.at(layer).ranges.ranges()[range].hi.value);
+    }
 };
 
 TEST_F(DeskSelects, ByTheDraggedEndOfARange) {
-    Driver desk(screen(), folder(), {demo().string(), "--range", "600:1000"});
-    desk.waitForTitle("pool_fire_T.nc · T");
-    const Places at = placesOf(desk.size());
-    const Shot before = desk.settled(at.clear);
-    const std::uint64_t points = parse(desk.title()).points;
-    dragEnd(desk);
-    const Shot after = desk.settled(at.clear);
-    const app::Explorer e = saved(desk, folder() / "dragged.json");
-    const auto range = e.layers.at(0).ranges.ranges()[0];
-    EXPECT_EQ(timeseries::toDouble(range.lo.value), 600);
-    EXPECT_NEAR(timeseries::toDouble(range.hi.value), 1300, 3 * perPixel_);
-    EXPECT_EQ(parse(desk.title()).points, countIn(e));
-    EXPECT_GT(parse(desk.title()).points, points);
+    const Shot before = picture();
+    const std::uint64_t count = points();
+    const app::panels::ValueAxis axis = axisOf(*desk_);
+    drag(axis, 1000, 1300);
+    const Shot after = picture();
+    const app::Explorer e = now();
+    EXPECT_EQ(lo(e, 0, 0), 600);
+    EXPECT_NEAR(hi(e, 0, 0), 1300, 3 * axis.perPixel());
+    EXPECT_EQ(points(), countIn(e));
+    EXPECT_GT(points(), count);
     EXPECT_GT(differing(before, after), 1000u);
 }
 
 TEST_F(DeskSelects, AndUndoRestoresPixelsAndCount) {
-    Driver desk(screen(), folder(), {demo().string(), "--range", "600:1000"});
-    desk.waitForTitle("pool_fire_T.nc · T");
-    const Places at = placesOf(desk.size());
-    const Shot before = desk.settled(at.clear);
-    const std::string title = desk.title();
-    dragEnd(desk);
-    const Shot after = desk.settled(at.clear);
-    const std::string dragged = desk.title();
+    const Shot before = picture();
+    const std::string title = desk_->title();
+    drag(axisOf(*desk_), 1000, 1300);
+    const Shot after = picture();
+    const std::string dragged = desk_->title();
     ASSERT_NE(dragged, title);
-    desk.press("ctrl+z");
-    EXPECT_EQ(differing(desk.settled(at.clear), before), 0u);
-    EXPECT_EQ(desk.title(), title);
-    desk.press("ctrl+y");
-    EXPECT_EQ(differing(desk.settled(at.clear), after), 0u);
-    EXPECT_EQ(desk.title(), dragged);
-    desk.press("ctrl+z");
-    desk.press("ctrl+shift+z");
-    EXPECT_EQ(differing(desk.settled(at.clear), after), 0u);
+    desk_->press("ctrl+z");
+    EXPECT_EQ(differing(picture(), before), 0u);
+    EXPECT_EQ(desk_->title(), title);
+    desk_->press("ctrl+y");
+    EXPECT_EQ(differing(picture(), after), 0u);
+    EXPECT_EQ(desk_->title(), dragged);
+    desk_->press("ctrl+z");
+    desk_->press("ctrl+shift+z");
+    EXPECT_EQ(differing(picture(), after), 0u);
 }
 
 TEST_F(DeskSelects, TwoRangesThatDoNotTouch) {
-    Driver desk(screen(), folder(), {demo().string(), "--range", "600:800"});
-    desk.waitForTitle("pool_fire_T.nc · T");
-    const Places at = placesOf(desk.size());
-    waitUntilSeen(desk, 31);
-    desk.settled();
-    const app::panels::ValueAxis axis = axisOf(at);
-    const float x = at.instrument.histogram.centre().x;
-    desk.drag({x, axis.y(1000)}, {x, axis.y(1300)});
-    desk.settled();
-    const app::Explorer e = saved(desk, folder() / "two.json");
+    const app::panels::ValueAxis axis = axisOf(*desk_);
+    drag(axis, 1150, 1300);
+    desk_->settled();
+    const app::Explorer e = now();
     ASSERT_EQ(e.layers.size(), 1u);
-    const auto ranges = e.layers[0].ranges.ranges();
-    ASSERT_EQ(ranges.size(), 2u);
-    EXPECT_EQ(timeseries::toDouble(ranges[0].lo.value), 600);
-    EXPECT_EQ(timeseries::toDouble(ranges[0].hi.value), 800);
-    EXPECT_NEAR(timeseries::toDouble(ranges[1].lo.value), 1000, 3 * axis.perPixel());
-    EXPECT_NEAR(timeseries::toDouble(ranges[1].hi.value), 1300, 3 * axis.perPixel());
-    EXPECT_EQ(parse(desk.title()).points, countIn(e));
+    ASSERT_EQ(e.layers[0].ranges.ranges().size(), 2u);
+    EXPECT_EQ(lo(e, 0, 0), 600);
+    EXPECT_EQ(hi(e, 0, 0), 1000);
+    EXPECT_NEAR(lo(e, 0, 1), 1150, 3 * axis.perPixel());
+    EXPECT_NEAR(hi(e, 0, 1), 1300, 3 * axis.perPixel());
+    EXPECT_EQ(points(), countIn(e));
 }
 
 // The new layer's row takes room in the column, but not from under the hand.
 TEST_F(DeskSelects, AsANewLayerWhatWasDraggedAcrossWithShift) {
-    Driver desk(screen(), folder(), {demo().string(), "--range", "1200:max"});
-    desk.waitForTitle("pool_fire_T.nc · T");
-    const Places at = placesOf(desk.size());
-    waitUntilSeen(desk, 31);
-    desk.settled();
-    const app::panels::ValueAxis axis = axisOf(at);
-    const float x = at.instrument.histogram.centre().x;
-    desk.hold("shift");
-    desk.drag({x, axis.y(600)}, {x, axis.y(900)});
-    desk.release("shift");
-    const app::Explorer e = saved(desk, folder() / "added.json");
+    const app::panels::ValueAxis axis = axisOf(*desk_);
+    desk_->hold("shift");
+    drag(axis, 1150, 1300);
+    desk_->release("shift");
+    const app::Explorer e = now();
     ASSERT_EQ(e.layers.size(), 2u);
-    const auto range = e.layers[1].ranges.ranges()[0];
-    EXPECT_NEAR(timeseries::toDouble(range.lo.value), 600, 3 * axis.perPixel());
-    EXPECT_NEAR(timeseries::toDouble(range.hi.value), 900, 3 * axis.perPixel());
+    EXPECT_NEAR(lo(e, 1, 0), 1150, 3 * axis.perPixel());
+    EXPECT_NEAR(hi(e, 1, 0), 1300, 3 * axis.perPixel());
 }
 
 }  // namespace

@@ -16,6 +16,16 @@ int shell(const std::filesystem::path& folder, const std::string& line) {
 
 class DeskTakesAway : public DeskTest {
  protected:
+    // The screenshot, which is also what the copied command line makes.
+    Shot checkedScreenshot(Driver& desk) {
+        desk.press("F12");
+        const auto file = folder() / "pool_fire_T_0000.png";
+        desk.waitFor("the screenshot is written", [&] { return std::filesystem::exists(file); });
+        desk.press("ctrl+c");
+        EXPECT_EQ(shell(folder(), desk.clipboard()), 0) << desk.clipboard();
+        EXPECT_EQ(differing(readShot(folder() / "picture.png"), readShot(file)), 0u);
+        return readShot(file);
+    }
     // The command line of the picture shown, with another option or value in place of one.
     std::string commandLine(Driver& desk, std::string_view from, std::string_view to) {
         desk.press("ctrl+c");
@@ -50,15 +60,9 @@ TEST_F(DeskTakesAway, TheScreenshotThatTheCopiedCommandLineMakes) {
     desk.waitForTitle("2 s");
     const Places at = placesOf(desk.size());
     const Shot seen = desk.settled(at.clear);
-    desk.press("F12");
-    const auto screenshot = folder() / "pool_fire_T_0000.png";
-    desk.waitFor("the screenshot is written", [&] { return std::filesystem::exists(screenshot); });
-    desk.press("ctrl+c");
-    ASSERT_EQ(shell(folder(), desk.clipboard()), 0) << desk.clipboard();
-    EXPECT_EQ(differing(readShot(folder() / "picture.png"), readShot(screenshot)), 0u);
+    const Shot written = part(checkedScreenshot(desk), at.clear);
     // The screen's bytes may be one off where the light lies at the border of two
     // (render/present.h).
-    const Shot written = part(readShot(screenshot), at.clear);
     EXPECT_LE(greatestDifference(written, seen), 1);
     EXPECT_LE(differing(written, seen), seen.pixels.size() / 100);
 }
@@ -132,12 +136,7 @@ TEST_F(DeskTakesAway, TheCommandLineOfASweptPicture) {
     desk.waitFor("the window of values moves", [&] { return desk.title() != title; });
     desk.press("space");
     desk.settled();
-    desk.press("F12");
-    const auto screenshot = folder() / "pool_fire_T_0000.png";
-    desk.waitFor("the screenshot is written", [&] { return std::filesystem::exists(screenshot); });
-    desk.press("ctrl+c");
-    ASSERT_EQ(shell(folder(), desk.clipboard()), 0) << desk.clipboard();
-    EXPECT_EQ(differing(readShot(folder() / "picture.png"), readShot(screenshot)), 0u);
+    checkedScreenshot(desk);
 }
 
 }  // namespace

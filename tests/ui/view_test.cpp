@@ -5,23 +5,9 @@
 namespace ui {
 namespace {
 
-class DeskView : public DeskTest {
+class DeskView : public DeskWithFire {
  protected:
-    void SetUp() override {
-        DeskTest::SetUp();
-        if (IsSkipped()) return;
-        desk_.emplace(screen(), folder(), std::vector{demo().string()});
-        desk_->waitForTitle("pool_fire_T.nc · T");
-        at_ = placesOf(desk_->size());
-    }
-    // Without what stands beside a pointer that rests.
-    Shot picture() {
-        desk_->moveAway();
-        return desk_->settled(at_.clear);
-    }
-
-    std::optional<Driver> desk_;
-    Places at_;
+    DeskView() : DeskWithFire({}) {}  // with the program's first choice
 };
 
 TEST_F(DeskView, TurnsMovesZoomsAndFits) {
@@ -75,7 +61,7 @@ TEST_F(DeskView, TellsWhatThePointerRestsOn) {
 }
 
 TEST_F(DeskView, ReadsThePointUnderTheCursorInEitherEyesPicture) {
-    const app::panels::Rect page = app::panels::sideLayout(at_.window, 1).page;
+    const app::panels::Rect& page = side_.page;
     const app::panels::Rect& picture = at_.window.picture;
     desk_->press("s");
     desk_->doubleClick(picture.min + glm::vec2(8));  // nothing is there
@@ -143,7 +129,6 @@ TEST_F(DeskView, ComesBackFromBeingMinimised) {
 }
 
 TEST_F(DeskView, PlayAdvancesTheRealTime) {
-    const auto seconds = [&] { return std::stod(parse(desk_->title()).time); };
     const double begin = seconds();
     desk_->press("space");
     double last = begin;

@@ -30,11 +30,7 @@ TEST(Readout, SaysWhatIsShown) {
 TEST(Readout, FollowsTheSweptWindow) {
     tests::ScriptedExploration world;
     Exploration& e = world.exploration;
-    Explorer next = e.explorer();
-    next.sweep.emplace();
-    next.sweep->animation = timeseries::RangeSet::parse("10:20");
-    next.sweep->delta = 2;
-    e.edit(next);
+    world.sweep("10:20", 2);
     e.seekTick(0);
     EXPECT_THAT(readoutText(e, {}, 1), HasSubstr("T 8 to 12"));
 }

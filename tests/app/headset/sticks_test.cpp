@@ -43,14 +43,7 @@ class SticksOfAnExploration : public testing::Test {
         }
         return ends;
     }
-    void sweep(timeseries::SweepPath path) {
-        Explorer next = e_.explorer();
-        next.sweep.emplace();
-        next.sweep->animation = RangeSet::parse("0:63");
-        next.sweep->delta = 2;
-        next.sweep->path = path;
-        e_.edit(next);
-    }
+    void sweep(timeseries::SweepPath path) { world_.sweep("0:63", 2, path); }
     double contour() const { return e_.playback().sweep->contour(); }
     void choose(const char* ranges) {
         Explorer next = e_.explorer();

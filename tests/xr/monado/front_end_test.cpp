@@ -117,11 +117,7 @@ TEST_F(FrontEnd, WhatPlaysWaitsWhileAnotherProgramHasTheFocus) {
     const tests::MonadoService service(tests::Monado::Null);
     open();
     Exploration& e = world_.exploration;
-    Explorer next = e.explorer();
-    next.sweep.emplace();
-    next.sweep->animation = timeseries::RangeSet::parse("0:63");
-    next.sweep->delta = 3;
-    e.edit(next);
+    world_.sweep("0:63", 3);
     e.togglePlay();
     Clock::time_point moved = Clock::now();
     std::int64_t last = 0;
@@ -182,11 +178,7 @@ TEST_F(FrontEndWithHands, TheTriggerPlaysAndTheStickMovesTime) {
 
 TEST_F(FrontEndWithHands, TheStickMovesTheWindowAndTheCountFollows) {
     Exploration& e = world_.exploration;
-    Explorer next = e.explorer();
-    next.sweep.emplace();
-    next.sweep->animation = timeseries::RangeSet::parse("0:63");
-    next.sweep->delta = 3;
-    e.edit(next);
+    world_.sweep("0:63", 3);
     const double before = e.playback().sweep->contour();
     devices_.hand(1).stick = {1, 0};
     devices_.send();
