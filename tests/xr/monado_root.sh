@@ -99,7 +99,7 @@ built() {
         cd "$build" && exec "${@:2}"' built "$@"
 }
 
-tests() { built xr_tests ctest --no-tests=error --output-on-failure -j2 -L xr "$@"; }
+tests() { built xr_tests ctest --no-tests=error --output-on-failure -j3 -L xr "$@"; }
 bench() { built headset_frames tests/headset_frames; }
 
 remove() {
