@@ -18,8 +18,10 @@ class RefreshRate {
     // In Hz, in any order. None: there is no choice, and nothing to ask for.
     explicit RefreshRate(std::vector<double> offered = {});
 
-    // A frame took so long, after which the scale is this.
-    void took(std::chrono::nanoseconds frame, const RenderScale& scale);
+    // A frame took so long, after which the scale is this. `fitted`: how much of that was fitted to
+    // the period, and would be to another.
+    void took(std::chrono::nanoseconds frame, const RenderScale& scale,
+              std::chrono::nanoseconds fitted = std::chrono::nanoseconds(0));
     // To be asked of the runtime.
     std::optional<double> wanted() const;
     // "72 of 90 Hz"; empty at the highest.
@@ -29,7 +31,7 @@ class RefreshRate {
 
  private:
     // Of the period at this rate.
-    double share(std::chrono::nanoseconds frame, std::size_t rate) const;
+    double share(std::chrono::nanoseconds time, std::size_t rate) const;
 
     std::vector<double> rates_;  // descending
     std::size_t rate_ = 0;

@@ -49,7 +49,9 @@ void Eyes::took(std::chrono::nanoseconds frame, std::chrono::nanoseconds period)
         frame = std::max(frame, *report_.gpuTime);
     }
     scale_.took(frame, period);
-    rate_.took(frame, scale_);
+    // Where not all splats are drawn, those that are fill what draw() lets them have.
+    const bool fits = report_.gpuTime && !report_.whole;
+    rate_.took(frame, scale_, fits ? *report_.gpuTime : std::chrono::nanoseconds(0));
 }
 
 }  // namespace app::headset

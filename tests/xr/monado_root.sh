@@ -4,6 +4,7 @@
 #   tests/xr/monado_root.sh make                 makes it, when it is not there: a few minutes, 1.3 GB
 #   tests/xr/monado_root.sh test [CTEST ARGS]    builds the tests in it and runs them
 #   tests/xr/monado_root.sh bench                builds and runs what measures against Monado, some minutes
+#   tests/xr/monado_root.sh picture              makes the README's picture of it again
 #   tests/xr/monado_root.sh run COMMAND...       any command, in its copy of the source tree
 #   tests/xr/monado_root.sh there                succeeds when it is there
 #   tests/xr/monado_root.sh --remove             removes it
@@ -101,6 +102,10 @@ built() {
 
 tests() { built xr_tests ctest --no-tests=error --output-on-failure -j3 -L xr "$@"; }
 bench() { built headset_frames tests/headset_frames; }
+picture() {
+    built headset_picture tests/headset_picture headset.png
+    cp "$folder$inside/build/headset.png" app/gallery/headset.png
+}
 
 remove() {
     if [[ ! -e $folder ]]; then return; fi
@@ -115,6 +120,7 @@ case $command in
     make) make ;;
     test) tests "$@" ;;
     bench) bench ;;
+    picture) picture ;;
     run) run "$@" ;;
     there) isComplete ;;
     --remove) remove ;;
