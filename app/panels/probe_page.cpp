@@ -11,20 +11,20 @@ void line(const Theme& theme, Form& form, std::string_view label, std::string_vi
     text(theme, {row.min.x, row.centre().y}, fitting(*theme.text, what, row.size().x));
 }
 
-// Along each axis, and as one length where all axes have one unit.
+// As one length where all axes have one unit, and along each axis.
 void ruler(Desk& desk, Form& form, const Reading& a, const Reading& b,
            const timeseries::Grid& grid) {
     const glm::dvec3 apart = b.position - a.position;
     const auto& axes = grid.axes();
+    if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
+        line(desk.theme, form, "Distance",
+             withUnit(fmt::format("{:.6g}", glm::length(apart)), axes[0].units));
     for (int i = 0; i < 3; ++i) {
         const timeseries::Axis& axis = axes[static_cast<std::size_t>(i)];
         if (axis.coordinates.size() > 1)
             line(desk.theme, form, "Δ " + axis.name,
                  withUnit(fmt::format("{:.6g}", apart[i]), axis.units));
     }
-    if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
-        line(desk.theme, form, "Distance",
-             withUnit(fmt::format("{:.6g}", glm::length(apart)), axes[0].units));
 }
 
 }  // namespace
