@@ -69,7 +69,8 @@ std::optional<std::string> Autosave::save(const Explorer& explorer, Clock::time_
         writeWhole(file_, jsonText(toJson(explorer, file_.parent_path()), 2) + "\n");
     } catch (const std::exception& error) {
         if (!std::exchange(failed_, true))
-            return fmt::format("the session is not saved for a crash: {}", error.what());
+            return fmt::format("the session cannot be kept in case the program ends: {}",
+                               error.what());
     }
     return std::nullopt;
 }

@@ -8,6 +8,8 @@
 #include "app/refinement.h"
 #include "app/still.h"
 #include "render/gl/gpu_timer.h"
+#include "render/mean_depth.h"
+#include "render/splat_cost.h"
 
 namespace app {
 namespace {
@@ -18,19 +20,27 @@ std::uint64_t drawnSplats(const std::vector<render::Layer>& layers, std::uint32_
     return sum;
 }
 
-// The least stride that keeps to the limit.
-std::uint32_t strideFor(const std::vector<render::Layer>& layers, std::uint64_t limit) {
-    std::uint32_t stride = 1;
-    while (stride < render::kMaxStride && drawnSplats(layers, stride) > limit) stride *= 2;
-    return stride;
-}
-
 // A splat of a subset fills the place of the points that it stands for: at equal cost that is
 // nearer to the whole than more, smaller splats (tests/bench/canvas_bench.cpp). Points keep their
 // pixels.
 render::Footprint footprintFor(render::Footprint footprint, std::uint32_t stride) {
     if (footprint.kernel != render::Kernel::Point) footprint.size *= std::cbrt(stride);
     return footprint;
+}
+
+double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
+    double sum = 0;
+    for (const render::View& eye : eyes) sum += render::sceneCost(scene, eye);
+    return sum;
+}
+
+// The least stride whose frame keeps to the limit.
+void thinOut(render::Scene& scene, std::span<const render::View> eyes, std::uint64_t limit) {
+    const render::Footprint whole = scene.footprint;
+    while (scene.stride < render::kMaxStride && costOf(scene, eyes) > static_cast<double>(limit)) {
+        scene.stride *= 2;
+        scene.footprint = footprintFor(whole, scene.stride);
+    }
 }
 
 // What is drawn: a step, and choices of which all that they select is on the GPU.
@@ -42,10 +52,46 @@ struct Screen {
     std::size_t step;
 };
 
-Picture pictureOf(const Screen& screen) {
-    return makePicture(screen.explorer, screen.about, screen.step, *screen.sorted,
-                       screen.held->lattice, screen.explorer.play.tick);
+render::Scene sceneOf(const Screen& screen) {
+    return makeScene(screen.explorer, *screen.sorted, screen.held->lattice,
+                     screen.explorer.play.tick);
 }
+
+// The legend of what is on the screen. Whether colours are mixed is worked out for a picture at
+// rest alone; a moving one says what the one before it said of the same data.
+class Telling {
+ public:
+    render::Legend legend(const Screen& screen, const render::Scene& scene, bool atRest) {
+        Explorer e = screen.explorer;
+        e.view = {};  // nothing is said of it
+        if (!legend_ || of_ != e || step_.lock() != screen.sorted) {
+            if (!sameData(of_, e)) mixed_ = false;
+            legend_ = makeLegend(screen.explorer, screen.about, screen.step, scene,
+                                 screen.explorer.play.tick);
+            of_ = std::move(e);
+            step_ = screen.sorted;
+            view_.reset();
+        }
+        if (atRest && view_ != screen.explorer.view) {
+            mixed_ = isMixed(screen.explorer, scene);
+            view_ = screen.explorer.view;
+        }
+        render::Legend legend = *legend_;
+        if (mixed_ && render::mixesColors(scene)) legend.notes.emplace_back(kMixedColors);
+        return legend;
+    }
+    // Whether that was worked out for this picture. REQUIRES: its legend was asked for last.
+    bool isOf(const Screen& screen, const render::Scene& scene) const {
+        return view_ == screen.explorer.view || !render::mixesColors(scene);
+    }
+
+ private:
+    std::optional<render::Legend> legend_;
+    Explorer of_;
+    std::weak_ptr<const timeseries::SortedStep> step_;
+    std::optional<ViewChoice> view_;  // for which `mixed_` is known
+    bool mixed_ = false;
+};
 
 // Which layer of the explorer is the scene's k-th: hidden ones are not in the scene, and the swept
 // window comes first.
@@ -61,9 +107,9 @@ struct Resting {
     Screen of;
     Refinement refinement;
 
-    Resting(render::FrameRenderer& renderer, const Screen& screen,
+    Resting(render::FrameRenderer& renderer, const Screen& screen, Picture picture,
             std::span<const render::View> eyes)
-        : of(screen), refinement(renderer, pictureOf(screen), screen.held->onGpu, eyes) {}
+        : of(screen), refinement(renderer, std::move(picture), screen.held->onGpu, eyes) {}
     bool is(const Screen& screen, std::span<const render::View> eyes) const {
         return of.sorted == screen.sorted && of.explorer == screen.explorer &&
                std::ranges::equal(refinement.eyes(), eyes);
@@ -73,20 +119,26 @@ struct Resting {
 }  // namespace
 
 struct Canvas::State {
+    explicit State(render::SplatterChoice splatter) : renderer(splatter) {}
+
     render::FrameRenderer renderer;
     render::gl::GpuTimer timer, refineTimer;
     GpuSteps steps;
     std::optional<Screen> screen;
     std::uint32_t stride = 1;        // of what was shown last
     std::optional<Resting> resting;  // uses the renderer alone
+    Telling telling;
 
     // What every frame begins with: brings what is shown and tells of it.
     CanvasReport begin(const Shown& shown, const CanvasLimits& limits, render::gl::GpuTimer& of);
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
     GpuSteps::Held& bring(const Shown& shown, std::uint64_t uploadBytes, CanvasReport& report);
-    // The step on the screen takes other choices, if all that they select is on the GPU.
+    // The step on the screen takes other choices, if all that they select is there to be drawn.
     void choose(const Explorer& choices);
+    bool isThere(const GpuSteps::Held& held, const render::Scene& scene) const {
+        return !renderer.takesPointsFromGpu(scene) || held.onGpu.ready(scene);
+    }
     // What of the layers is on the screen.
     void tell(CanvasReport& report, const std::vector<render::Layer>& layers) const;
 };
@@ -94,7 +146,7 @@ struct Canvas::State {
 void Canvas::State::choose(const Explorer& choices) {
     Screen changed = *screen;
     changed.explorer = choices;
-    if (!changed.held->onGpu.ready(pictureOf(changed).scene)) return;
+    if (!isThere(*changed.held, sceneOf(changed))) return;
     changed.held->stretch(choices.scale);
     screen = std::move(changed);
 }
@@ -103,17 +155,19 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
                                      CanvasReport& report) {
     GpuSteps::Held& held = steps.use(shown.sorted, shown.explorer.scale);
     Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
-    const Picture picture = pictureOf(next);
-    std::optional<render::ValueScale> scale = render::neededScale(picture.scene);
-    if (scale) scale = held.onGpu.serving(*scale);
+    const render::Scene scene = sceneOf(next);
     const bool onScreen = screen && screen->held == &held;
-    constexpr std::uint64_t kOnScreen = 8;
-    held.onGpu.upload(picture.scene, scale, onScreen ? kOnScreen * uploadBytes : uploadBytes);
-    if (const std::uint64_t missing = held.onGpu.missingBytes(picture.scene, scale); missing > 0)
-        report.uploaded =
-            1 - static_cast<double>(missing) /
-                    static_cast<double>(render::GpuStep::neededBytes(picture.scene, scale));
-    if (held.onGpu.ready(picture.scene)) {
+    if (renderer.takesPointsFromGpu(scene)) {
+        std::optional<render::ValueScale> scale = render::neededScale(scene);
+        if (scale) scale = held.onGpu.serving(*scale);
+        constexpr std::uint64_t kOnScreen = 8;
+        held.onGpu.upload(scene, scale, onScreen ? kOnScreen * uploadBytes : uploadBytes);
+        if (const std::uint64_t missing = held.onGpu.missingBytes(scene, scale); missing > 0)
+            report.uploaded =
+                1 - static_cast<double>(missing) /
+                        static_cast<double>(render::GpuStep::neededBytes(scene, scale));
+    }
+    if (isThere(held, scene)) {
         screen.emplace(std::move(next));
     } else if (onScreen) {
         screen->explorer.scale = shown.explorer.scale;  // which use() has taken over
@@ -123,7 +177,7 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
     return held;
 }
 
-Canvas::Canvas() : state_(std::make_unique<State>()) {}
+Canvas::Canvas(render::SplatterChoice splatter) : state_(std::make_unique<State>(splatter)) {}
 Canvas::~Canvas() = default;
 
 CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits,
@@ -142,6 +196,7 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
 
 void Canvas::State::tell(CanvasReport& report, const std::vector<render::Layer>& layers) const {
     report.selected = drawnSplats(layers, 1);
+    report.counts = pointCounts(screen->explorer, *screen->sorted);
     report.stride = stride;
     report.drawn = drawnSplats(layers, stride);
     report.whole = stride == 1 && report.uploaded == 1;
@@ -155,22 +210,25 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     auto& screen = state_->screen;
     if (!screen) return report;
 
-    Picture picture = pictureOf(*screen);
-    if (moving) picture.scene.stride = strideFor(picture.scene.layers, limits.splats / eyes.size());
-    picture.scene.footprint = footprintFor(screen->explorer.footprint, picture.scene.stride);
-    state_->stride = picture.scene.stride;
-    state_->tell(report, picture.scene.layers);
+    render::Scene drawn = sceneOf(*screen);
+    render::Legend legend;
+    if (scene.legend) {
+        legend = state_->telling.legend(*screen, drawn, !moving);
+        report.told = state_->telling.isOf(*screen, drawn);
+    }
+    if (moving) thinOut(drawn, eyes, limits.splats);
+    state_->stride = drawn.stride;
+    state_->tell(report, drawn.layers);
 
     state_->timer.begin();
-    const render::FrameContent content{picture.scene, screen->sorted->grid(),
-                                       scene.legend ? picture.legend : render::Legend{},
+    const render::FrameContent content{drawn, screen->sorted->grid(), std::move(legend),
                                        kBackground, scene.placards};
     const auto frame = state_->renderer.prepare(content, screen->held->onGpu, eyes);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         state_->renderer.drawEye(frame, eyes[i]);
         show(i, state_->renderer.targets());
     }
-    state_->timer.end(report.drawn * eyes.size());
+    state_->timer.end(static_cast<std::uint64_t>(costOf(drawn, eyes)));
     return report;
 }
 
@@ -180,11 +238,16 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     auto& screen = state_->screen;
     if (!screen) return report;
     auto& resting = state_->resting;
-    if (!resting || !resting->is(*screen, eyes)) resting.emplace(state_->renderer, *screen, eyes);
+    if (!resting || !resting->is(*screen, eyes)) {
+        render::Scene scene = sceneOf(*screen);
+        render::Legend legend = state_->telling.legend(*screen, scene, true);
+        resting.emplace(state_->renderer, *screen, Picture{std::move(scene), std::move(legend)},
+                        eyes);
+    }
     Refinement& refinement = resting->refinement;
     state_->refineTimer.begin();
-    const std::uint64_t splats = refinement.goOn(limits.splats, show);
-    state_->refineTimer.end(splats);
+    const double cost = refinement.goOn(static_cast<double>(limits.splats), show);
+    state_->refineTimer.end(static_cast<std::uint64_t>(cost));
     const bool done = refinement.done();
     if (done) state_->stride = 1;
     state_->tell(report, refinement.scene().layers);
@@ -221,11 +284,10 @@ std::optional<Drawn> Canvas::drawn() const {
 
 std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& window) const {
     if (!state_->screen) return std::nullopt;
-    Picture picture = pictureOf(*state_->screen);
-    picture.scene.stride = state_->stride;
-    picture.scene.footprint =
-        footprintFor(state_->screen->explorer.footprint, picture.scene.stride);
-    const auto picked = render::pick(picture.scene, eye, window);
+    render::Scene scene = sceneOf(*state_->screen);
+    scene.stride = state_->stride;
+    scene.footprint = footprintFor(state_->screen->explorer.footprint, scene.stride);
+    const auto picked = render::pick(scene, eye, window);
     if (!picked) return std::nullopt;
     const timeseries::SortedStep& step = *state_->screen->sorted;
     const auto size = step.grid().size();

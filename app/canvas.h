@@ -22,7 +22,8 @@
 namespace app {
 
 struct CanvasLimits {
-    std::uint64_t splats = 1'000'000;  // in one frame, all layers and eyes; see FramePace
+    // In one frame, all layers and eyes, in ordinary splats (render/splat_cost.h); see FramePace.
+    std::uint64_t splats = 1'000'000;
     // In one frame, of a step that comes; eight times as many of the step on the screen, so that
     // another selection of it is seen at once.
     std::uint64_t uploadBytes = std::uint64_t{16} << 20;
@@ -34,12 +35,15 @@ struct CanvasLimits {
 struct CanvasReport {
     std::size_t step = 0;                   // the step on the screen
     std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
-    std::uint32_t stride = 1;               // one of so many points stands for its neighbours
-    bool whole = false;                     // nothing is missing: all points, all uploaded
-    double uploaded = 1;                    // share of what the picture asked for needs
-    double refined = 0;                     // share that refine() has drawn; it shows all at once
-    std::uint64_t gpuBytes = 0;             // of steps held there
-    // Of an earlier call of the same function (gl::GpuTimer), and the splats of all its eyes: what
+    // Of that step, under the choices on the screen; none before the first picture.
+    std::optional<PointCounts> counts = {};
+    std::uint32_t stride = 1;  // one of so many points stands for its neighbours
+    bool whole = false;        // nothing is missing: all points, all uploaded
+    bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
+    double uploaded = 1;  // share of what the picture asked for needs
+    double refined = 0;   // share that refine() has drawn; it shows all at once
+    std::uint64_t gpuBytes = 0;  // of steps held there
+    // Of an earlier call of the same function (gl::GpuTimer), and what its splats cost: what
     // FramePace learns from. None in most frames of a GPU that is behind.
     std::optional<std::chrono::nanoseconds> gpuTime;
     std::uint64_t gpuSplats = 0;
@@ -63,7 +67,7 @@ struct Probe {
 // Needs a current GL context, from construction to destruction.
 class Canvas {
  public:
-    Canvas();
+    explicit Canvas(render::SplatterChoice splatter = render::SplatterChoice::ByDevice);
     ~Canvas();
 
     using Show = std::function<void(std::size_t eye, const render::Targets&)>;

@@ -13,6 +13,8 @@
 namespace app {
 namespace {
 
+constexpr std::string_view kAxes = "xyz";
+
 template <typename T>
 std::optional<T> numberIn(std::string_view text) {
     T value{};
@@ -162,10 +164,40 @@ std::string clipText(const ClipBox& clip) {
     return fmt::format("{},{},{}", side(0), side(1), side(2));
 }
 
+std::array<bool, 3> parseFlips(std::string_view text) {
+    std::array<bool, 3> flips{};
+    if (text == "none") return flips;
+    for (const std::string_view part : split(text, ',')) {
+        const std::size_t a = part.size() == 1 ? kAxes.find(part) : std::string_view::npos;
+        if (a == std::string_view::npos || flips[a])
+            throw ChoiceError(fmt::format(
+                "flip '{}' is none of x, y, z, several of them with commas, or none", text));
+        flips[a] = true;
+    }
+    return flips;
+}
+
+std::string flipsText(const std::array<AxisChoice, 3>& axes) {
+    std::string text;
+    for (std::size_t a = 0; a < 3; ++a)
+        if (axes[a].flip) text += fmt::format("{}{}", text.empty() ? "" : ",", kAxes[a]);
+    return text.empty() ? "none" : text;
+}
+
+std::pair<std::size_t, std::string> parseAxisName(std::string_view text) {
+    const std::size_t a = text.empty() ? std::string_view::npos : kAxes.find(text.front());
+    if (a == std::string_view::npos || text.size() < 3 || text[1] != '=')
+        throw ChoiceError(
+            fmt::format("name-axis '{}' is not of the form x=NAME, y=NAME or z=NAME", text));
+    return {a, std::string(text.substr(2))};
+}
+
 glm::dvec3 parseScale(std::string_view text) {
     const auto n = numbers(text);
-    if (!n || n->size() != 3 || !((*n)[0] > 0 && (*n)[1] > 0 && (*n)[2] > 0))
-        throw ChoiceError(fmt::format("scale '{}' is not three positive numbers x,y,z", text));
+    const auto isStretch = [](double x) { return x >= kLeastStretch && x <= kMostStretch; };
+    if (!n || n->size() != 3 || !std::ranges::all_of(*n, isStretch))
+        throw ChoiceError(fmt::format("scale '{}' is not three numbers x,y,z, each from {} to {}",
+                                      text, kLeastStretch, kMostStretch));
     return {(*n)[0], (*n)[1], (*n)[2]};
 }
 

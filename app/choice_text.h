@@ -2,9 +2,11 @@
 // ChoiceError: one sentence that quotes the text and says what was expected.
 #pragma once
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "app/explorer.h"
 
@@ -24,7 +26,15 @@ std::string colorText(const glm::dvec3& srgb);
 ClipBox parseClip(std::string_view text);  // "x0:x1,y0:y1,z0:z1", min and max allowed
 std::string clipText(const ClipBox& clip);
 
-glm::dvec3 parseScale(std::string_view text);  // "1,1,20", each > 0
+// How much an axis may be stretched: units differ by as much, and beyond it no picture has room.
+inline constexpr double kLeastStretch = 1e-12, kMostStretch = 1e12;
+// "z", "x,z", "none": which axes are drawn the other way round.
+std::array<bool, 3> parseFlips(std::string_view text);
+std::string flipsText(const std::array<AxisChoice, 3>& axes);
+// "z=depth".
+std::pair<std::size_t, std::string> parseAxisName(std::string_view text);
+
+glm::dvec3 parseScale(std::string_view text);  // "1,1,20", each within these
 ViewChoice parseView(std::string_view text);   // "30,20" or "30,20,4.5"
 // What an eye's distance may be, to the centre and to zero parallax, in half diagonals: beyond, the
 // box has no depth left.

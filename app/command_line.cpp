@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <cstdlib>
+#include <sstream>
 
 #include "app/choice_text.h"
 #include "app/options.h"
@@ -41,6 +43,14 @@ class Arguments {
 
 std::string triple(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
+void addAxes(const Explorer& e, Arguments& arguments) {
+    if (const std::string flips = flipsText(e.axes); flips != "none")
+        arguments.option("--flip", flips);
+    for (std::size_t a = 0; a < 3; ++a)
+        if (!e.axes[a].name.empty())
+            arguments.option("--name-axis", fmt::format("{}={}", "xyz"[a], e.axes[a].name));
+}
+
 void addStyle(const LayerChoice& layer, Arguments& arguments) {
     if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color))
         arguments.option("--color", colorText(*rgb));
@@ -65,11 +75,16 @@ void addLayers(const Explorer& e, Arguments& arguments) {
         arguments.option("--timer-step", std::to_string(s.step));
         arguments.number("--frequency", s.frequency);
         arguments.flag("--swing", s.path == timeseries::SweepPath::Swing);
+        if (e.oneTick) arguments.option("--tick", std::to_string(e.play.tick));
         add(e.sweepLayer);
     }
     for (const LayerChoice& layer : e.layers) {
         arguments.option("--range", layer.ranges.text());
         add(layer);
+    }
+    if (e.layers.empty() && !e.sweep) {  // no layer, or a hidden one: the same picture
+        arguments.option("--range", "min:max");
+        arguments.option("--hide", "1");
     }
 }
 
@@ -101,17 +116,39 @@ void addSplats(const Explorer& e, Arguments& arguments) {
 
 std::vector<std::string> renderArguments(const Explorer& e, const fs::path& output,
                                          const fs::path& folder) {
-    assert(!e.layers.empty() || e.sweep);
+    assert(!e.layers.empty() || e.sweep || e.noLayers);
     Arguments arguments({"render"});
     for (const fs::path& file : e.files) arguments.file(relativeTo(folder, file));
     if (!e.variable.empty()) arguments.option("--variable", e.variable);
     if (e.steps) arguments.option("--step", stepsText(*e.steps));
     if (e.keep) arguments.option("--keep", e.keep->text());
+    addAxes(e, arguments);
     addLayers(e, arguments);
     addSplats(e, arguments);
     addView(e, arguments);
     arguments.option("--output", relativeTo(folder, output).generic_string());
     return arguments.take();
+}
+
+// /proc/self/exe is what runs; whether a shell finds the same under a bare name is PATH's.
+std::string callOfProgram() {
+    // ./run sets it to its own name, as the user's shell sees it.
+    if (const char* run = std::getenv("ISOCHRON_RUN"); run != nullptr && *run != '\0')
+        return timeseries::shellWord(run);
+    std::error_code gone;
+    const fs::path program = fs::read_symlink("/proc/self/exe", gone);
+    const std::string name = program.filename().string();
+    const char* const path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const fs::path found = fs::path(folder) / name;
+        // What is relative to where the shell stands now is elsewhere after its next cd.
+        if (found.is_absolute() && fs::exists(found, gone))
+            // The first is the one that a shell takes.
+            return timeseries::shellWord(fs::equivalent(found, program, gone) ? name
+                                                                              : program.string());
+    }
+    return timeseries::shellWord(program.string());
 }
 
 std::string shellText(const std::vector<std::string>& arguments) {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "render/ticks.h"
 
 namespace app {
@@ -33,12 +36,23 @@ OpenedSeries openSeries(std::span<const std::filesystem::path> named) {
     return opened;
 }
 
+std::size_t defaultVariable(std::span<const timeseries::Variable> variables) {
+    const auto worth = [](const timeseries::Variable& v) {
+        const auto [nx, ny, nz] = v.grid->size();
+        // A section of one column or row has levels too, but is no volume.
+        return std::tuple(nx > 1 && ny > 1 ? nz : 1, v.time->points.size(), v.grid->count());
+    };
+    return static_cast<std::size_t>(std::ranges::max_element(variables, {}, worth) -
+                                    variables.begin());
+}
+
 Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable) {
     auto [reader, series] = openSeries(named);
     Dataset dataset{std::move(reader), std::move(series), 0, {}, named.front().string(), 0, {}};
     for (const timeseries::DamagedVariable& each : dataset.reader->damaged())
         if (each.name == variable) throw FileError(each.why);
     const auto variables = dataset.reader->variables();
+    dataset.variable = defaultVariable(variables);
     std::string names;
     bool found = variable.empty();
     for (std::size_t i = 0; i < variables.size(); ++i) {

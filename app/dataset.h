@@ -38,8 +38,12 @@ struct Dataset {
     std::size_t stepCount() const { return about.time->points.size(); }
 };
 
-// `variable`: by name; "" is the first. Throws FileError, also for a name that is not there or of
-// what is damaged.
+// Which variable is meant when none is named: the one of the most levels, then of the most steps,
+// then of the most points; of equals the first. REQUIRES: one at least.
+std::size_t defaultVariable(std::span<const timeseries::Variable> variables);
+
+// `variable`: by name; "" is the default one. Throws FileError, also for a name that is not there
+// or of what is damaged.
 Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable);
 
 // The chosen steps, all there; throws FileError when one is not.

@@ -4,7 +4,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace app {
 namespace {
@@ -30,6 +33,24 @@ double roundedTo(double value, double resolution) {
     // log10 is not exact at powers of ten.
     if (powerOfTen(1 - decimals) <= resolution) --decimals;
     return toDecimals(value, decimals);
+}
+
+double shortestIn(timeseries::ValueType type, double value) {
+    const bool isFloat = type == timeseries::ValueType::F32;
+    if (!isFloat || !(std::abs(value) <= std::numeric_limits<float>::max())) return value;
+    return numberOf(fmt::format("{}", static_cast<float>(value)), value);
+}
+
+timeseries::RangeSet shortestIn(timeseries::ValueType type, const timeseries::RangeSet& ranges) {
+    std::vector<timeseries::Range> shorter;
+    for (timeseries::Range range : ranges.ranges()) {
+        for (timeseries::Bound* end : {&range.lo, &range.hi})
+            if (const auto* value = std::get_if<double>(&end->value))
+                end->value = shortestIn(type, *value);
+        shorter.push_back(range);
+    }
+    timeseries::RangeSet told(std::move(shorter));
+    return told.ranges().size() == ranges.ranges().size() ? told : ranges;
 }
 
 }  // namespace app

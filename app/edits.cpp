@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,8 @@
 #include <string>
 #include <type_traits>
 
+#include "app/choice_text.h"
+#include "app/clip_flaw.h"
 #include "app/first_choice.h"
 #include "app/layer_colors.h"
 
@@ -86,6 +89,12 @@ std::optional<double> valuePassed(const std::vector<T>& values, double from, End
     // As it is written: the shortest text that means it.
     return std::stod(fmt::format("{}", *next));
 }
+
+std::pair<double, double> endsOf(const timeseries::Axis& axis) {
+    return std::minmax(axis.coordinates.front(), axis.coordinates.back());
+}
+// Short enough for a field; floats that were stored as such read as they were written.
+std::string sideText(double coordinate) { return fmt::format("{:.7g}", coordinate); }
 
 bool isBounded(const Bound& bound) { return std::isfinite(timeseries::toDouble(bound.value)); }
 
@@ -165,6 +174,80 @@ std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const tim
     return box == open ? std::nullopt : std::optional(box);
 }
 
+std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
+                                    const timeseries::Grid& grid, std::size_t axis,
+                                    std::string_view text) {
+    const timeseries::Axis& along = grid.axes()[axis];
+    const auto [least, most] = endsOf(along);
+    const auto isBlank = [](char c) { return c == ' '; };
+    Range range{{-kInfinity}, {kInfinity}};
+    if (!std::ranges::all_of(text, isBlank)) {
+        try {
+            const RangeSet set = RangeSet::parse(text);
+            if (set.ranges().size() != 1)
+                throw ChoiceError(fmt::format("clip '{}': one side of a box is one range", text));
+            range = set.ranges().front();
+            if (range.lo.open || range.hi.open)
+                throw ChoiceError(
+                    fmt::format("clip '{}': a box has closed ends, without brackets", text));
+        } catch (const timeseries::RangeSyntaxError& error) {
+            throw ChoiceError(fmt::format("clip '{}': {}", text, error.what()));
+        }
+    }
+    double lo = timeseries::toDouble(range.lo.value), hi = timeseries::toDouble(range.hi.value);
+    if (lo == hi && std::isfinite(lo)) {
+        lo = hi = *std::ranges::min_element(along.coordinates, {},
+                                            [&](double plane) { return std::abs(plane - lo); });
+    } else {
+        if (sideText(lo) == sideText(least)) lo = -kInfinity;
+        if (sideText(hi) == sideText(most)) hi = kInfinity;
+    }
+    const ClipBox open{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+    ClipBox box = clip.value_or(open);
+    box.lo[static_cast<int>(axis)] = lo;
+    box.hi[static_cast<int>(axis)] = hi;
+    if (const std::string flaw = clipFlaw(box, grid); !flaw.empty()) throw ChoiceError(flaw);
+    return box == open ? std::nullopt : std::optional(box);
+}
+
+std::string clipSideText(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
+                         std::size_t axis) {
+    const auto [least, most] = endsOf(grid.axes()[axis]);
+    const int i = static_cast<int>(axis);
+    const double lo = clip ? std::max(clip->lo[i], least) : least,
+                 hi = clip ? std::min(clip->hi[i], most) : most;
+    return lo == hi ? sideText(lo) : fmt::format("{}:{}", sideText(lo), sideText(hi));
+}
+
+void removeLayer(Explorer& explorer, std::size_t layer) {
+    explorer.layers.erase(explorer.layers.begin() + static_cast<std::ptrdiff_t>(layer));
+    explorer.noLayers = explorer.layers.empty();
+}
+
+RangeSet newRanges(const Explorer& explorer, const SortedStep& step) {
+    constexpr std::array kShares = {"top 1 %",     "bottom 1 %",  "top 5 %",     "bottom 5 %",
+                                    "45 % : 55 %", "70 % : 80 %", "20 % : 30 %", "80 % : 95 %",
+                                    "5 % : 20 %",  "55 % : 70 %", "30 % : 45 %"};
+    if (step.size() == 0) return RangeSet::everything();
+    std::vector<RangeSet> taken;
+    for (const LayerChoice& layer : explorer.layers) taken.push_back(step.keptPart(layer.ranges));
+    const std::uint64_t before = step.count(timeseries::unionOf(taken));
+    const auto addsPoints = [&](const RangeSet& ranges) {
+        std::vector<RangeSet> all = taken;
+        all.push_back(ranges);
+        return step.count(timeseries::unionOf(all)) > before;
+    };
+    std::vector<RangeSet> offered;
+    for (const char* share : kShares) offered.push_back(parseSelection(share, step));
+    if (const auto found = std::ranges::find_if(offered, addsPoints); found != offered.end())
+        return *found;
+    const auto isOther = [&](const RangeSet& ranges) {
+        return std::ranges::find(taken, ranges) == taken.end();
+    };
+    const auto other = std::ranges::find_if(offered, isOther);
+    return other != offered.end() ? *other : offered.front();
+}
+
 std::size_t addLayer(Explorer& explorer, RangeSet ranges, const SortedStep& step) {
     assert(explorer.layers.size() + (explorer.sweep ? 1 : 0) < render::kMaxLayers);
     const auto isTaken = [&](const glm::dvec3& color) {
@@ -180,6 +263,7 @@ std::size_t addLayer(Explorer& explorer, RangeSet ranges, const SortedStep& step
     layer.opacity = opacityFor(step.count(step.keptPart(ranges)));
     layer.ranges = std::move(ranges);
     explorer.layers.push_back(std::move(layer));
+    explorer.noLayers = false;
     return explorer.layers.size() - 1;
 }
 

@@ -36,6 +36,23 @@ timeseries::RangeSet with(const timeseries::RangeSet& ranges, const timeseries::
 std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
                                    std::size_t axis, End end, double coordinate);
 
+// One side of the clip box as it is typed: "2:5.5", "min:3", "" for all of the axis; a value alone
+// is a slice, the grid's plane nearest to it. An end that reads as the axis's own does is that end,
+// whatever digits it was told with. Throws ChoiceError where that is none of these or holds no
+// point of the grid.
+std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
+                                    const timeseries::Grid& grid, std::size_t axis,
+                                    std::string_view text);
+// What stands for that side in a field, unbounded ends as the axis's.
+std::string clipSideText(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
+                         std::size_t axis);
+
+// The layer at this place taken away. The last one leaves none: no first choice takes its place.
+void removeLayer(Explorer& explorer, std::size_t layer);
+// What a layer that is added to these is to show: values at the end of the data, or else among
+// them, of which a point is in no layer yet, hidden ones included; other ranges than the layers'
+// where every point is in one.
+timeseries::RangeSet newRanges(const Explorer& explorer, const timeseries::SortedStep& step);
 // A new layer, last; its colour is the next that no layer has (constant colours by place, as for
 // several --range), its opacity that of a lump of so many points (opacityFor). Layers that were
 // coloured by value stay so. Returns its place. REQUIRES: fewer than render::kMaxLayers layers, the

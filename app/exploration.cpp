@@ -108,11 +108,23 @@ void Exploration::arrive(const Explorer& from) {
 
 void Exploration::togglePlay() {
     if (!open_) return;
+    const bool played = playback_.playing;
     playback_.toggle();
-    if (!playback_.playing) return keepPlayed();
+    if (played) return keepPlayed();
+    if (!playback_.playing) return tell(whyNothingPlays());
     playedFrom_ = explorer().steps;
     // The step asked for may have lain outside what plays.
     play(std::chrono::nanoseconds(0));
+}
+
+std::string Exploration::whyNothingPlays() const {
+    const std::string why = "Nothing to play: ";
+    const bool one = open_->dataset.stepCount() == 1;
+    if ((playback_.sweep && playback_.sweepMoves) || (!one && playback_.timeMoves))
+        return why + "the speed is 0";
+    if (playback_.sweep) return why + "neither time nor values move";
+    return why + (one ? "there is one step only" : "time does not move") +
+           "; Sweep values, on the Animation page, plays through its values";
 }
 
 void Exploration::play(std::chrono::nanoseconds dt) {

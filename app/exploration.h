@@ -131,6 +131,7 @@ class Exploration {
     int move(int by);
     void arrive(const Explorer& from);
     void play(std::chrono::nanoseconds dt);
+    std::string whyNothingPlays() const;
     void keepPlayed();
     void takeArrivals();
     void show(std::size_t step, std::shared_ptr<const timeseries::SortedStep> sorted);

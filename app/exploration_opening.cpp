@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/chosen_axes.h"
+#include "app/clip_flaw.h"
 #include "app/exploration_state.h"
 #include "app/followed_playback.h"
 #include "app/picture.h"
@@ -40,17 +42,22 @@ void Exploration::openEdited(Explorer next, std::string_view gesture) {
     if (next.files == now.files && next.variable == now.variable) {
         Explorer wish = next;
         next.keep = now.keep;
+        next.axes = now.axes;
         change(std::move(next), gesture);
         begin({.wish = std::move(wish), .rest = Pending::Rest::AllOfNow});
         return;
     }
-    if (next.layers == now.layers) next.layers.clear();
+    if (next.layers == now.layers) {
+        next.layers.clear();
+        next.noLayers = false;
+    }
     if (next.sweep == now.sweep) {
         next.sweep.reset();
         next.sweepLayer = {};
     }
     if (next.keep == now.keep) next.keep.reset();
     if (next.files != now.files && next.clip == now.clip) next.clip.reset();
+    if (next.files != now.files && next.axes == now.axes) next.axes = {};
     begin({.wish = std::move(next), .rest = Pending::Rest::LookOfNow});
 }
 
@@ -84,6 +91,7 @@ void Exploration::takeOpened() {
     auto& dataset = std::get<Dataset>(*result);
     Explorer& wish = pending_->wish;
     wish.variable = dataset.about.name;
+    chooseAxes(dataset, wish.axes);
     const std::size_t last = dataset.stepCount() - 1;
     const StepChoice asked =
         wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});
@@ -96,6 +104,7 @@ void Exploration::takeOpened() {
         play.stride = asked.stride;
     }
     wish.steps = StepChoice{first, first};
+    wish.oneTick = false;
     if (!open_ || wish.files != explorer().files)
         for (const std::string& note : dataset.series.notes) tell(note);
     pending_->opened = std::make_unique<Open>(std::move(dataset), wish, settings_, wake_);
@@ -128,6 +137,7 @@ Explorer Exploration::restOf(const Pending& pending) const {
         case Pending::Rest::AllOfNow:
             next = explorer();
             next.keep = pending.wish.keep;
+            next.axes = pending.wish.axes;
     }
     if (pending.travel != 0) {  // as History::undo()
         next.size = explorer().size;
@@ -139,6 +149,12 @@ Explorer Exploration::restOf(const Pending& pending) const {
 void Exploration::adopt(LiveSteps::Arrival first) {
     Explorer next = restOf(*pending_);
     Open& opened = *pending_->opened;
+    // Nothing would be seen, and nothing would say why.
+    if (next.clip)
+        if (std::string flaw = clipFlaw(*next.clip, first.sorted->grid()); !flaw.empty()) {
+            tell(std::move(flaw), true);
+            next.clip.reset();
+        }
     timeseries::Playback playback;
     try {
         if (needsSamples(next)) next = resolved(next, {{first.step, first.sorted}});

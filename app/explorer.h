@@ -2,6 +2,7 @@
 // The command line makes one, a session file holds one, a front end changes one.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -48,6 +49,13 @@ struct ClipBox {
     friend bool operator==(const ClipBox&, const ClipBox&) = default;
 };
 
+// What a user says of an axis where the file does not. Its coordinates stay the file's.
+struct AxisChoice {
+    bool flip = false;  // drawn the other way round
+    std::string name;   // "": the file's
+    friend bool operator==(const AxisChoice&, const AxisChoice&) = default;
+};
+
 // Orthographic is drawn as a perspective from very far (see camera.h): one path of projection.
 enum class Projection { Perspective, Orthographic };
 
@@ -85,10 +93,15 @@ struct Explorer {
     std::string variable;             // "": the file's first
     std::optional<StepChoice> steps;  // absent: the middle one
     std::optional<timeseries::RangeSet> keep;
-    std::vector<LayerChoice> layers;  // empty: a first choice from the data
+    std::array<AxisChoice, 3> axes;   // x, y, z
+    std::vector<LayerChoice> layers;  // empty: a first choice from the data, but for `noLayers`
+    bool noLayers = false;            // the last one was taken away: none are wanted
     // The swept window is a layer of its own, before the others; its ranges are ignored.
     std::optional<timeseries::SweepSettings> sweep;
     LayerChoice sweepLayer;
+    // One picture of the sweep, where it stands (play.tick), instead of its whole cycle. A window
+    // shows one at a time anyway and has no use for it.
+    bool oneTick = false;
     render::Footprint footprint;
     render::Order order = render::Order::None;
     std::optional<ClipBox> clip;
@@ -103,7 +116,7 @@ struct Explorer {
 
 // Whether both are about the same sorted steps.
 inline bool sameData(const Explorer& a, const Explorer& b) {
-    return a.files == b.files && a.variable == b.variable && a.keep == b.keep;
+    return a.files == b.files && a.variable == b.variable && a.keep == b.keep && a.axes == b.axes;
 }
 
 }  // namespace app

@@ -9,6 +9,7 @@
 #include "app/choice_text.h"
 #include "app/option_checks.h"
 #include "app/session.h"
+#include "timeseries/reader.h"
 
 namespace app {
 
@@ -18,12 +19,18 @@ void ExplorerOptions::addTo(CLI::App& app) {
     app.add_option("FILE", files_, kFileHelp)->check(notEmpty());
     app.add_option("--session", session_,
                    "A session file, or a picture that carries one; options given beside it win");
-    app.add_option("--variable", variable_, "Which variable; the file's first without it");
+    app.add_option("--variable", variable_,
+                   "Which variable; without it the one of the most levels, then steps");
     app.add_option("--step", steps_,
                    "A step counted from 0, A:B, A:B:S for every S-th, or all; the middle one "
                    "without it");
     app.add_option("--range", ranges_, kRangeHelp)->allow_extra_args(false);
     app.add_option("--keep", keep_, "Values to keep when the sorted list is built");
+    app.add_option("--flip", flips_,
+                   "Axes drawn the other way round, for files that do not say which way is down: "
+                   "x, y, z, several with commas, or none");
+    app.add_option("--name-axis", axisNames_, "x=NAME, y=NAME or z=NAME: what an axis is called")
+        ->allow_extra_args(false);
     app.add_option("--color", colors_, "#rrggbb of the next layer")->allow_extra_args(false);
     app.add_option("--colormap", colormaps_,
                    fmt::format("Colour by value of the next layer, NAME or NAME=LO:HI for the "
@@ -50,6 +57,8 @@ void ExplorerOptions::addTo(CLI::App& app) {
     app.add_option("--timer-step", timerStep_, "The timer counts by this many (1)")
         ->check(CLI::Range(1, 1 << 30));
     app.add_option("--frequency", frequency_, "Cycles a second (0.1)")->check(between(0, kMost));
+    app.add_option("--tick", tick_, "Only this picture of the sweep, counted from 0")
+        ->check(CLI::Range(0, 1 << 30));
     app.add_flag("--swing", swing_, "There and back on a cosine, instead of a loop");
     app.add_option("--clip", clip_, "x0:x1,y0:y1,z0:z1 in the file's coordinates");
     app.add_option("--scale", scale_, "x,y,z: stretch of the axes");
@@ -83,6 +92,7 @@ std::vector<std::variant<glm::dvec3, MapChoice>> ExplorerOptions::colorsInOrder(
 void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
     if (given(app, "--range")) {
         e.layers.clear();
+        e.noLayers = false;
         for (const std::string& range : ranges_)
             e.layers.push_back({RangeSet::parse(range), {}, {}});
     }
@@ -94,6 +104,7 @@ void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
     if (layers.empty() && (styles == 1 || !hidden_.empty())) {
         // A style for the first choice, whose range is not known yet.
         e.layers.push_back({RangeSet(), {}, {}});
+        e.noLayers = false;
         layers.push_back(&e.layers.back());
     }
     if (styles > layers.size())
@@ -119,9 +130,10 @@ void ExplorerOptions::applySweep(const CLI::App& app, Explorer& e) const {
         e.sweep.emplace();
         e.sweep->path = timeseries::SweepPath::Loop;
         e.sweep->animation = RangeSet::parse(sweep_);
+        e.oneTick = false;
     }
     for (const char* option :
-         {"--delta", "--timer-steps", "--timer-step", "--frequency", "--swing"})
+         {"--delta", "--timer-steps", "--timer-step", "--frequency", "--swing", "--tick"})
         if (given(app, option) && !e.sweep)
             throw ChoiceError(fmt::format("{} needs --sweep beside it", option));
     if (given(app, "--delta")) e.sweep->delta = parseNumber("delta", delta_);
@@ -129,6 +141,26 @@ void ExplorerOptions::applySweep(const CLI::App& app, Explorer& e) const {
     if (given(app, "--timer-step")) e.sweep->step = timerStep_;
     if (given(app, "--frequency")) e.sweep->frequency = parseNumber("frequency", frequency_);
     if (swing_) e.sweep->path = timeseries::SweepPath::Swing;
+    if (given(app, "--tick")) {
+        e.oneTick = true;
+        e.play.tick = tick_;
+    }
+    if (!e.oneTick) return;
+    const std::int64_t ticks = ticksOf(*e.sweep);
+    if (e.play.tick >= ticks)
+        throw ChoiceError(
+            fmt::format("--tick {}: the sweep has ticks 0 to {}", e.play.tick, ticks - 1));
+}
+
+void ExplorerOptions::applyAxes(const CLI::App& app, Explorer& e) const {
+    if (given(app, "--flip")) {
+        const auto flips = parseFlips(flips_);
+        for (std::size_t a = 0; a < 3; ++a) e.axes[a].flip = flips[a];
+    }
+    for (const std::string& each : axisNames_) {
+        auto [a, name] = parseAxisName(each);
+        e.axes[a].name = std::move(name);
+    }
 }
 
 void ExplorerOptions::applyView(const CLI::App& app, Explorer& e) const {
@@ -151,15 +183,18 @@ void ExplorerOptions::applyView(const CLI::App& app, Explorer& e) const {
 Explorer ExplorerOptions::explorer(const CLI::App& app) const {
     Explorer e;
     const bool named = given(app, "--session");
-    if (!named && files_.size() == 1 && holdsSession(files_.front())) {
-        e = readSession(files_.front());
-    } else {
-        if (named) e = readSession(session_);
-        if (!files_.empty()) e.files.assign(files_.begin(), files_.end());
-    }
+    const bool inPlace = !named && files_.size() == 1 && holdsSession(files_.front());
+    if (named || inPlace) e = readSession(named ? session_ : files_.front());
+    if (!inPlace && !files_.empty())
+        e.files.assign(files_.begin(), files_.end());
+    else if (const auto missing = missingFile(e))
+        throw timeseries::FileError(fmt::format(
+            "{0}: its data are not there any more: expected {1}; name them beside --session {0}",
+            inPlace ? files_.front() : session_, missing->string()));
     if (given(app, "--variable")) e.variable = variable_;
     if (given(app, "--step")) e.steps = parseSteps(steps_);
     if (given(app, "--keep")) e.keep = RangeSet::parse(keep_);
+    applyAxes(app, e);
     applySweep(app, e);
     applyLayers(app, e);
     if (given(app, "--splat")) e.footprint.kernel = parseKernel(splat_);

@@ -125,8 +125,7 @@ std::string lastLine(std::string_view text) {
 Explorer animationOf(const Shown& shown) {
     const PlayChoice& play = shown.explorer.play;
     Explorer e = shown.explorer;
-    if (e.sweep && !play.sweepMoves) e = onlyThis(e, shown.step, *shown.sorted, play.tick);
-    e.steps = shown.explorer.steps;
+    e.oneTick = e.sweep && !play.sweepMoves;
     if (play.timeMoves)
         e.steps =
             StepChoice{play.time.first, std::min(play.time.last, shown.dataset.stepCount() - 1),
@@ -192,6 +191,12 @@ void ExportJob::cancel() {
     if (state_ != State::Running) return;
     cancelled_ = true;
     kill(child_, SIGTERM);
+}
+
+std::string ExportJob::end() {
+    poll();
+    cancel();
+    return outcome();
 }
 
 void ExportJob::poll() {

@@ -35,6 +35,8 @@ class ExportJob {
     void poll();
     // The pictures that are done stay.
     void cancel();
+    // Cancels what still runs. How far it has come, as outcome() says it.
+    std::string end();
 
     State state() const { return state_; }
     std::size_t done() const { return done_; }  // pictures, of frames().size()

@@ -57,6 +57,21 @@ double rounded(double value, double middle, double scale) {
     return isInside(next) ? next : value;
 }
 
+// The tenth that lies farthest from the middle to either side; of fewer, all but the middle.
+RangeSet farFrom(const std::vector<double>& sorted, double middle, double scale) {
+    std::vector<double> distances;
+    for (const double value : sorted) distances.push_back(std::abs(value - middle));
+    std::ranges::sort(distances);
+    const double least = quantile(distances, 1 - kShare);
+    const double low = rounded(middle - least, middle, scale),
+                 high = rounded(middle + least, middle, scale);
+    const bool tied = !(low < middle && middle < high);
+    std::vector<Range> sides;
+    if (tied || sorted.front() <= low) sides.push_back({{-kInfinity}, {tied ? middle : low, tied}});
+    if (tied || sorted.back() >= high) sides.push_back({{tied ? middle : high, tied}, {kInfinity}});
+    return RangeSet(std::move(sides));
+}
+
 }  // namespace
 
 LayerChoice firstChoice(const Quantiles& sampled) {
@@ -78,13 +93,9 @@ LayerChoice firstChoice(const Quantiles& sampled) {
                                 std::clamp(to, -kMost, kMost)};
     };
     if (std::min(above, below) > kTwoSided * scale) {
-        const double low = rounded(quantile(sorted, kShare / 2), middle, scale);
-        const double high = rounded(quantile(sorted, 1 - kShare / 2), middle, scale);
-        if (low < high) {
-            layer.ranges = RangeSet({Range{{-kInfinity}, {low}}, Range{{high}, {kInfinity}}});
-            mapped("cool-warm", middle - scale, middle + scale);
-            return layer;
-        }
+        layer.ranges = farFrom(sorted, middle, scale);
+        mapped("cool-warm", middle - scale, middle + scale);
+        return layer;
     }
     if (above >= below) {
         const double from = rounded(quantile(sorted, 1 - kShare), middle, scale);

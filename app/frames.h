@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ struct FrameAt {
     std::filesystem::path file;
 };
 
-// A frame a step; with a sweep a frame a tick of one cycle, over which the steps pass once. Told
-// one by one: a cycle may have 2^30 ticks.
+// A frame a step; with a sweep that does not stand a frame a tick of one cycle, over which the
+// steps pass once. Told one by one: a cycle may have 2^30 ticks.
 class Frames {
  public:
     // `output`: OUT.png or OUT.exr; of several frames each has its step, or with a sweep its tick,
@@ -33,10 +34,18 @@ class Frames {
     // "OUT.png", "OUT_left.png and OUT_right.png", "OUT_03.png to OUT_12.png".
     std::string names() const;
 
+    // How many files the pictures go into, two of a picture with an eye each, and how many of these
+    // there are by now.
+    std::size_t fileCount() const;
+    std::size_t existing() const;
+
  private:
+    // Which picture the number in a file's name is about.
+    std::optional<std::size_t> numbered(std::size_t number) const;
     std::filesystem::path output_;
     std::vector<std::size_t> steps_;
     bool swept_;
+    std::int64_t standing_;  // the tick of a sweep that stands
     Stereo stereo_;
     std::size_t count_ = 0, digits_ = 0;
 };

@@ -2,14 +2,18 @@
 #include <fmt/format.h>
 
 #include "app/choice_text.h"
+#include "app/chosen_axes.h"
+#include "app/clip_flaw.h"
 #include "app/commands.h"
 #include "app/dataset.h"
 #include "app/frames.h"
 #include "app/picture.h"
 #include "app/progress.h"
+#include "app/say.h"
 #include "app/step_source.h"
 #include "app/still.h"
 #include "render/gl/headless_context.h"
+#include "render/mean_depth.h"
 
 namespace app {
 namespace {
@@ -34,8 +38,7 @@ void tellStyle(const Explorer& e, const timeseries::Variable& about) {
             const auto& map = std::get<MapChoice>(*layer.color);
             color = fmt::format("{} from {:g} to {:g}", map.map.name(), *map.lo, *map.hi);
         }
-        fmt::print("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, about.units), color,
-                   *layer.opacity);
+        say("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, about.units), color, *layer.opacity);
     };
     if (e.sweep) tell(e.sweep->animation, e.sweepLayer);
     for (const LayerChoice& layer : e.layers) tell(layer.ranges, layer);
@@ -44,18 +47,20 @@ void tellStyle(const Explorer& e, const timeseries::Variable& about) {
 void tellFiles(const Frames& frames, const timeseries::Variable& about) {
     std::string times = timeText(*about.time, frames.front().step);
     if (frames.size() > 1) times += " to " + timeText(*about.time, frames.back().step);
-    fmt::print("{}: {}, {}\n", frames.names(), about.name, times);
+    say("{}: {}, {}\n", frames.names(), about.name, times);
 }
 
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
-// the GPU.
-void drawFrames(const RenderOptions& options, const Explorer& e, const timeseries::Variable& about,
-                const Frames& frames, StepSource& source) {
-    render::FrameRenderer renderer;
+// the GPU. Returns how many say that their colours are mixed.
+std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
+                       const timeseries::Variable& about, const Frames& frames,
+                       StepSource& source) {
+    render::FrameRenderer renderer(options.splatter);
     std::shared_ptr<const SortedStep> shown;
     std::optional<render::Lattice> lattice;
     std::optional<render::GpuStep> onGpu;
-    const Progress progress("picture", frames.size());
+    Progress progress("picture", frames.size());
+    std::size_t mixed = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         progress.at(i);
         const FrameAt frame = frames[i];
@@ -65,13 +70,19 @@ void drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
             lattice.emplace(step->grid(), e.scale);
             onGpu.emplace(*step, *lattice);
         }
-        writeStill({e, about, frame.step, *step, *lattice, frame.tick}, renderer, *onGpu,
-                   {.opticalDepth = options.opticalDepth, .splatCount = options.splatCount},
-                   frame.file);
+        const bool isMixed = writeStill({e, about, frame.step, *step, *lattice, frame.tick,
+                                         options.portable ? Paths::Relative : Paths::Both},
+                                        renderer, *onGpu,
+                                        {.opticalDepth = options.opticalDepth,
+                                         .splatCount = options.splatCount,
+                                         .progress = [&](double share) { progress.drawn(share); }},
+                                        frame.file);
+        if (isMixed) ++mixed;
         if (!options.progress) continue;
-        fmt::print("picture {} of {}\n", i + 1, frames.size());
+        say("picture {} of {}\n", i + 1, frames.size());
         std::fflush(stdout);  // a pipe is not flushed by itself
     }
+    return mixed;
 }
 
 }  // namespace
@@ -80,21 +91,31 @@ int renderHeadless(const RenderOptions& options) {
     Explorer e = options.explorer;
     Dataset dataset = openDataset(e.files, e.variable);
     e.variable = dataset.about.name;
+    chooseAxes(dataset, e.axes);
+    if (e.clip)
+        if (const std::string flaw = clipFlaw(*e.clip, *dataset.about.grid); !flaw.empty())
+            throw ChoiceError(flaw);
     if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     const auto steps = stepsOf(dataset, *e.steps);
     StepSource source(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
     if (needsSamples(e)) e = resolved(e, sample(source, steps));
     const render::gl::HeadlessContext context(options.device);
     const Frames frames(options.output, e, steps);
-    drawFrames(options, e, dataset.about, frames, source);
+    const std::size_t mixed = drawFrames(options, e, dataset.about, frames, source);
     tellFiles(frames, dataset.about);
-    if (!dataset.series.recognised.empty()) fmt::print("  {}\n", dataset.series.recognised);
-    for (const std::string& note : dataset.series.notes) fmt::print("  note: {}\n", note);
+    if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
+    for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
+    if (mixed > 0)
+        say("  note: colours are mixed{}: the mean optical depth is more than {}; --order depth "
+            "draws what is in front over what is behind\n",
+            mixed == frames.size() ? ""
+                                   : fmt::format(" in {} of {} pictures", mixed, frames.size()),
+            render::kMixedDepth);
     tellStyle(e, dataset.about);
-    if (e.sweep && e.sweep->frequency > 0)
-        fmt::print("  {:.4g} pictures a second show it at {:g} cycles a second\n",
-                   static_cast<double>(frames.size()) * e.sweep->frequency, e.sweep->frequency);
-    fmt::print("  drawn by {}\n", context.renderer());
+    if (e.sweep && !e.oneTick && e.sweep->frequency > 0)
+        say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
+            static_cast<double>(frames.size()) * e.sweep->frequency, e.sweep->frequency);
+    say("  drawn by {}\n", context.renderer());
     return 0;
 }
 

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/dataset.h"
 #include "app/json_text.h"
+#include "app/say.h"
 
 namespace app {
 namespace {
@@ -108,41 +109,43 @@ std::string unevenText(const timeseries::TimeAxis& time) {
     return even ? "" : ", uneven";
 }
 
-void print(const Variable& v) {
-    fmt::print("\n{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
-               v.units.empty() ? "" : " (" + v.units + ")");
-    fmt::print("  type     {}{}\n", timeseries::typeName(v.type),
-               v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
-    if (!v.missing.empty()) fmt::print("  missing  {}\n", v.missing);
+void print(const Variable& v, bool shownFirst) {
+    say("\n{}{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
+        v.units.empty() ? "" : " (" + v.units + ")", shownFirst ? "  * shown first" : "");
+    say("  type     {}{}\n", timeseries::typeName(v.type),
+        v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
+    if (!v.missing.empty()) say("  missing  {}\n", v.missing);
     const auto n = v.grid->size();
-    fmt::print("  grid     {}, {} x {} x {} = {} points\n", kindOf(*v.grid), n[0], n[1], n[2],
-               withCommas(v.grid->count()));
-    for (const Axis& axis : v.grid->axes()) fmt::print("           {}\n", axisText(axis));
-    if (!v.grid->frame().aligned()) fmt::print("           {}\n", frameText(v.grid->frame()));
+    say("  grid     {}, {} x {} x {} = {} points\n", kindOf(*v.grid), n[0], n[1], n[2],
+        withCommas(v.grid->count()));
+    for (const Axis& axis : v.grid->axes()) say("           {}\n", axisText(axis));
+    if (!v.grid->frame().aligned()) say("           {}\n", frameText(v.grid->frame()));
     const std::size_t steps = v.time->points.size();
     if (steps == 1) {
-        fmt::print("  time     1 step: {}\n", timeText(*v.time, 0));
+        say("  time     1 step: {}\n", timeText(*v.time, 0));
     } else {
-        fmt::print("  time     {} steps, {} to {}{}{}\n", steps, timeText(*v.time, 0),
-                   timeText(*v.time, steps - 1), unevenText(*v.time),
-                   v.time->calendar.empty() ? "" : ", calendar " + v.time->calendar);
+        say("  time     {} steps, {} to {}{}{}\n", steps, timeText(*v.time, 0),
+            timeText(*v.time, steps - 1), unevenText(*v.time),
+            v.time->calendar.empty() ? "" : ", calendar " + v.time->calendar);
     }
-    for (const std::string& note : v.notes) fmt::print("  note     {}\n", note);
+    for (const std::string& note : v.notes) say("  note     {}\n", note);
 }
 
 // All of a few files, else the first and the last: what was recognised tells the rest.
 void printFiles(const std::vector<std::string>& files) {
     constexpr std::size_t kFew = 6;
     if (files.size() <= kFew)
-        fmt::print("{}\n", fmt::join(files, "\n"));
+        say("{}\n", fmt::join(files, "\n"));
     else
-        fmt::print("{}\n...\n{}\n", files.front(), files.back());
+        say("{}\n...\n{}\n", files.front(), files.back());
 }
 
 }  // namespace
 
 int info(const InfoOptions& options) {
     const auto [reader, series] = openSeries(options.files);
+    const auto variables = reader->variables();
+    const std::size_t shownFirst = defaultVariable(variables);
     std::vector<std::string> files;
     for (const auto& file : reader->files()) files.push_back(file.string());
     if (options.json) {
@@ -150,16 +153,18 @@ int info(const InfoOptions& options) {
         if (!series.recognised.empty()) out["series"] = series.recognised;
         if (series.here) out["named"] = files[*series.here];
         if (!series.notes.empty()) out["notes"] = series.notes;
-        for (const Variable& v : reader->variables()) out["variables"].push_back(variableJson(v));
-        fmt::print("{}\n", jsonText(out, 2));
+        out["shownFirst"] = variables[shownFirst].name;
+        for (const Variable& v : variables) out["variables"].push_back(variableJson(v));
+        say("{}\n", jsonText(out, 2));
         return 0;
     }
     printFiles(files);
-    if (!series.recognised.empty()) fmt::print("{}\n", series.recognised);
-    if (series.here) fmt::print("named: {}\n", fs::path(files[*series.here]).filename().string());
-    for (const std::string& note : series.notes) fmt::print("note: {}\n", note);
-    fmt::print("{}\n", reader->format());
-    for (const Variable& v : reader->variables()) print(v);
+    if (!series.recognised.empty()) say("{}\n", series.recognised);
+    if (series.here) say("named: {}\n", fs::path(files[*series.here]).filename().string());
+    for (const std::string& note : series.notes) say("note: {}\n", note);
+    say("{}\n", reader->format());
+    for (std::size_t i = 0; i < variables.size(); ++i)
+        print(variables[i], variables.size() > 1 && i == shownFirst);
     return 0;
 }
 

@@ -1,11 +1,11 @@
 // isochron: parses the command line, runs one command, and turns failures into one sentence.
-#include <fmt/core.h>
-
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
 
+#include "app/choice_text.h"
 #include "app/commands.h"
+#include "app/say.h"
 #include "timeseries/sorted_step.h"
 
 namespace {
@@ -16,8 +16,10 @@ struct Run {
     int operator()(const app::RenderOptions& options) const { return app::renderHeadless(options); }
     int operator()(const app::ViewOptions& options) const { return app::view(options); }
     int operator()(const app::Exit& exit) const {
-        fmt::print(exit.code == 0 ? stdout : stderr, "{}{}\n",
-                   exit.code == 0 ? "" : "isochron: ", exit.text);
+        if (exit.code == 0)
+            app::say("{}\n", exit.text);
+        else
+            app::sayTo(stderr, "isochron: {}\n", exit.text);
         return exit.code;
     }
 };
@@ -31,12 +33,14 @@ int main(int argc, char** argv) {
         // A full disk behind a redirection shows only now.
         if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
         return code;
-    } catch (const timeseries::OutsideKeptError& error) {
-        fmt::print(stderr, "isochron: {}\n",
-                   error.what());  // --range and --keep contradict each other
+    } catch (const timeseries::OutsideKeptError& error) {  // --range and --keep contradict
+        app::sayTo(stderr, "isochron: {}\n", error.what());
+        return 2;
+    } catch (const app::ChoiceError& error) {  // what only the data tell to be wrong
+        app::sayTo(stderr, "isochron: {}\n", error.what());
         return 2;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "isochron: {}\n", error.what());
+        app::sayTo(stderr, "isochron: {}\n", error.what());
         return 1;
     }
 }

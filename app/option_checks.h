@@ -12,8 +12,8 @@
 namespace app {
 
 inline constexpr const char* kRangeHelp =
-    "lo:hi, [lo,hi) with open ends, c~d for c plus or minus d, min, max; commas in one layer, "
-    "repeat the option for a new layer";
+    "lo:hi, [lo,hi) with open ends, c~d for c plus or minus d, '>c', '<=c', min, max; commas in "
+    "one layer, repeat the option for a new layer";
 
 inline constexpr const char* kFileHelp =
     "A file, any file of a numbered series, a folder, a pattern, or several files that make one "

@@ -32,7 +32,8 @@ struct CountText {
 
 void addCount(CLI::App& app, CountText& into) {
     app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
-    app.add_option("--variable", into.variable, "Which variable; the file's first without it");
+    app.add_option("--variable", into.variable,
+                   "Which variable; without it the one of the most levels, then steps");
     app.add_option("--range", into.ranges, kRangeHelp)->required()->allow_extra_args(false);
     app.add_option("--keep", into.keep, "Values to keep when the sorted list is built");
     app.add_option("--step", into.steps,
@@ -54,17 +55,22 @@ CountOptions countOptions(const CLI::App& app, const CountText& text) {
 // What `render` takes beside the choices of a picture.
 struct OutputText {
     std::vector<std::string> channels;
-    std::string output, device = "any";
-    bool progress = false;
+    std::string output, device = "any", splatter = "any";
+    bool portable = false, progress = false;
 };
 
 void addOutput(CLI::App& app, OutputText& into) {
     app.add_option("--channel", into.channels, "A further EXR channel: opticalDepth, splatCount")
         ->allow_extra_args(false)
         ->check(CLI::IsMember({"opticalDepth", "splatCount"}));
+    app.add_flag("--portable", into.portable,
+                 "The picture's session keeps no absolute path: for pictures that are published");
     app.add_flag("--progress", into.progress, "Print 'picture I of N' after each picture");
     app.add_option("--device", into.device, "any (default), gpu or cpu")
         ->check(CLI::IsMember({"any", "gpu", "cpu"}));
+    app.add_option("--splatter", into.splatter,
+                   "Who sums splats: any (default: gl on a GPU, else cpu), gl or cpu")
+        ->check(CLI::IsMember({"any", "gl", "cpu"}));
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
 
@@ -94,6 +100,9 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
         (channel == "opticalDepth" ? options.opticalDepth : options.splatCount) = true;
     options.output = text.output;
     options.device = text.device;
+    if (text.splatter == "gl") options.splatter = render::SplatterChoice::Gl;
+    if (text.splatter == "cpu") options.splatter = render::SplatterChoice::Cpu;
+    options.portable = text.portable;
     options.progress = text.progress;
     checkOutput(options);
     return options;
@@ -147,6 +156,7 @@ Command parse(std::span<const char* const> arguments) {
     CLI::App app{"isochron: explore time-varying 3D scalar fields by value and by time",
                  "isochron"};
     app.footer(kFooter);
+    app.set_version_flag("--version", "isochron " ISOCHRON_VERSION);
     app.require_subcommand(1);
     InfoOptions info;
     CountText countText;
@@ -178,6 +188,8 @@ Command parse(std::span<const char* const> arguments) {
         return renderOptions(renderText.explorer(*renderApp), outputText);
     } catch (const CLI::CallForHelp&) {
         return Exit{0, app.help()};  // of the command, where one was given
+    } catch (const CLI::CallForVersion& version) {
+        return Exit{0, version.what()};
     } catch (const CLI::ParseError& error) {
         if (app.get_subcommands().empty())
             return Exit{2, fmt::format("'{}' is neither a file nor a command: expected {} (see "

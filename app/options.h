@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/explorer.h"
+#include "render/splatter.h"
 
 namespace app {
 
@@ -32,6 +33,8 @@ struct RenderOptions {
     std::filesystem::path output;
     bool opticalDepth = false, splatCount = false;  // further EXR channels
     std::string device = "any";
+    render::SplatterChoice splatter = render::SplatterChoice::ByDevice;
+    bool portable = false;  // pictures keep no absolute path
     bool progress = false;  // "picture 3 of 31" on stdout after each
 };
 

@@ -1,7 +1,9 @@
-// Paths as they are written down: from the folder that they are read in.
+// Paths as they are written down, and what they lead to.
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <system_error>
 
 namespace app {
 
@@ -14,6 +16,16 @@ inline std::filesystem::path relativeTo(const std::filesystem::path& folder,
     };
     const auto near = normal(file).lexically_relative(normal(folder));
     return near.empty() ? file : near;
+}
+
+// A pattern is there while the folder is in which its names are looked for.
+inline bool isThere(std::filesystem::path path) {
+    std::error_code gone;
+    while (!std::filesystem::exists(path.empty() ? "." : path, gone)) {
+        if (path.string().find_first_of("*?[") == std::string::npos) return false;
+        path = path.parent_path();
+    }
+    return true;
 }
 
 }  // namespace app

@@ -4,12 +4,16 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <map>
 
+#include "app/camera.h"
 #include "app/choice_text.h"
+#include "app/clip_counts.h"
+#include "app/decimals.h"
 #include "app/first_choice.h"
 #include "app/layer_colors.h"
 #include "render/color.h"
+#include "render/mean_depth.h"
 #include "render/ticks.h"
 
 namespace app {
@@ -20,6 +24,7 @@ using timeseries::RangeSet;
 using timeseries::SortedStep;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLeastResolution = std::numeric_limits<double>::min();
 
 Quantiles quantilesOf(const Steps& sampled) {
     constexpr std::size_t kQuantiles = 1025;
@@ -28,25 +33,19 @@ Quantiles quantilesOf(const Steps& sampled) {
     return rows;
 }
 
-// Ends of a layer in doubles, in order; infinite ones are the samples', or, where the layer lies
+// Ends of a layer in doubles, in order; infinite ones are those of `data`, or, where the layer lies
 // beyond these, its other end.
 Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
     if (ranges.empty()) return data;
     const double lo = timeseries::toDouble(ranges.ranges().front().lo.value);
-    const double hi = timeseries::toDouble(ranges.ranges().back().hi.value);
+    double hi = -kInfinity;
+    for (const Range& range : ranges.ranges())
+        hi = std::max(hi, timeseries::toDouble(range.hi.value));
     const bool low = std::isfinite(lo), high = std::isfinite(hi);
     if (low && high) return {lo, hi};
     if (low) return {lo, std::max(data.hi, lo)};
     if (high) return {std::min(data.lo, hi), hi};
     return data;
-}
-
-// The least and the greatest value of a step; where that is infinite, or there is none,
-// `otherwise`.
-Extent valuesOf(const SortedStep& step, const Extent& otherwise) {
-    const double lo = timeseries::toDouble(step.statistics().min);
-    const double hi = timeseries::toDouble(step.statistics().max);
-    return {std::isfinite(lo) ? lo : otherwise.lo, std::isfinite(hi) ? hi : otherwise.hi};
 }
 
 std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
@@ -98,25 +97,32 @@ render::RangeStyle rangeStyle(const LayerChoice& layer) {
     return out;
 }
 
-// The texts of a range's bounds. Doubles of many digits, as a swept window has, are rounded to as
-// few (at least seven) as tell the two apart; `rounded` then becomes true.
-std::pair<std::string, std::string> shortBounds(const Range& range, bool& rounded) {
-    const auto text = [](const timeseries::Number& number, int digits) {
-        const auto* real = std::get_if<double>(&number);
-        std::string exact = timeseries::toText(number);
-        if (real == nullptr || !std::isfinite(*real)) return exact;
-        std::string few = fmt::format("{:.{}g}", *real, digits);
-        return few.size() < exact.size() ? few : exact;
-    };
-    const std::string exactLo = timeseries::toText(range.lo.value);
-    const std::string exactHi = timeseries::toText(range.hi.value);
-    for (int digits = 7; digits < 17; ++digits) {
-        const std::string lo = text(range.lo.value, digits), hi = text(range.hi.value, digits);
-        if (lo == hi && exactLo != exactHi) continue;
-        rounded = rounded || lo != exactLo || hi != exactHi;
-        return {lo, hi};
+// The text of a bound. Doubles of many digits, as a swept window has, are rounded to these.
+std::string boundText(const timeseries::Number& number, int digits) {
+    const auto* real = std::get_if<double>(&number);
+    std::string exact = timeseries::toText(number);
+    if (real == nullptr || !std::isfinite(*real)) return exact;
+    std::string few = fmt::format("{:.{}g}", *real, digits);
+    return few.size() < exact.size() ? few : exact;
+}
+
+// As few digits (at least seven) as tell all bounds apart that differ.
+int digitsOf(const RangeSet& ranges) {
+    constexpr int kFew = 7, kExact = 17;
+    std::vector<timeseries::Number> bounds;
+    for (const Range& range : ranges.ranges()) {
+        bounds.push_back(range.lo.value);
+        bounds.push_back(range.hi.value);
     }
-    return {exactLo, exactHi};
+    for (int digits = kFew; digits < kExact; ++digits) {
+        std::map<std::string, std::string> exact;  // of each rounded text
+        const bool apart = std::ranges::all_of(bounds, [&](const timeseries::Number& bound) {
+            const std::string text = timeseries::toText(bound);
+            return exact.emplace(boundText(bound, digits), text).first->second == text;
+        });
+        if (apart) return digits;
+    }
+    return kExact;
 }
 
 }  // namespace
@@ -126,14 +132,14 @@ bool needsSamples(const Explorer& e) {
     const auto open = [](const LayerChoice& layer) {
         return layer.ranges.empty() || openStyle(layer);
     };
-    return std::ranges::any_of(e.layers, open) || (e.layers.empty() && !e.sweep);
+    return std::ranges::any_of(e.layers, open) || (e.layers.empty() && !e.sweep && !e.noLayers);
 }
 
 Explorer resolved(const Explorer& explorer, const Steps& sampled) {
     Explorer e = explorer;
     const Quantiles quantiles = quantilesOf(sampled);
     const Extent data = extentOf(quantiles);
-    if (e.layers.empty() && !e.sweep) e.layers.push_back({});
+    if (e.layers.empty() && !e.sweep && !e.noLayers) e.layers.push_back({});
     const std::size_t count = e.layers.size() + (e.sweep ? 1 : 0);
     std::size_t place = 0;
     if (e.sweep) {
@@ -145,9 +151,8 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
         }
         const RangeSet within(std::move(finite));
         if (within.empty())
-            throw std::invalid_argument(
-                fmt::format("sweep {} reaches none of the data's values, {} to {}",
-                            e.sweep->animation.text(), data.lo, data.hi));
+            throw ChoiceError(fmt::format("sweep {} reaches none of the data's values, {} to {}",
+                                          e.sweep->animation.text(), data.lo, data.hi));
         e.sweep->animation = within;
         style(e.sweepLayer, finiteEnds(e.sweep->animation, data), place++, count);
         // A swept window holds about its share of the animation's points.
@@ -158,13 +163,13 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
         if (layer.ranges.empty()) {
             const LayerChoice first = firstChoice(quantiles);
             layer.ranges = first.ranges;
-            // A map alone was asked for: it spans what was chosen.
+            // A map alone was asked for: where it says nothing else, it spans what was chosen.
             auto* map = layer.color ? std::get_if<MapChoice>(&*layer.color) : nullptr;
             const auto* chosen = first.color ? std::get_if<MapChoice>(&*first.color) : nullptr;
             if (!layer.color)
                 layer.color = first.color;
             else if (map && chosen)
-                *map = {map->map, chosen->lo, chosen->hi};
+                *map = {map->map, map->lo ? map->lo : chosen->lo, map->hi ? map->hi : chosen->hi};
             if (!sampled.empty()) layer.ranges = sampled.begin()->second->keptPart(layer.ranges);
         }
         style(layer, finiteEnds(layer.ranges, data), place++, count);
@@ -177,32 +182,29 @@ RangeSet sweptRanges(const Explorer& e, const SortedStep& step, std::int64_t tic
     return step.keptPart(RangeSet(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)}));
 }
 
-Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, const SortedStep& step,
-                  std::int64_t tick) {
+Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, std::int64_t tick) {
     Explorer e = explorer;
     e.steps = StepChoice{stepIndex, stepIndex};
-    if (!e.sweep) return e;
-    LayerChoice swept = e.sweepLayer;
-    swept.ranges = sweptRanges(e, step, tick);
-    // A layer without ranges would be the first choice: such a picture keeps its sweep.
-    if (swept.ranges.empty()) return e;
-    e.layers.insert(e.layers.begin(), std::move(swept));
-    e.sweep.reset();
-    e.sweepLayer = {};
+    e.oneTick = e.sweep.has_value();
+    if (e.sweep) e.play.tick = tick;
     return e;
 }
 
 std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
     std::string text;
     bool rounded = false;
+    const int digits = digitsOf(ranges);
     for (const Range& r : ranges.ranges()) {
         const auto isUnbounded = [](const timeseries::Bound& b, double end) {
             return timeseries::toDouble(b.value) == end && !b.open;
         };
         const bool down = isUnbounded(r.lo, -kInfinity), up = isUnbounded(r.hi, kInfinity);
-        const auto bounds = shortBounds(r, rounded);
-        const std::string lo = render::withMinusSigns(bounds.first);
-        const std::string hi = render::withMinusSigns(bounds.second);
+        const auto shown = [&](const timeseries::Number& bound) {
+            const std::string number = boundText(bound, digits);
+            rounded = rounded || number != timeseries::toText(bound);
+            return render::withMinusSigns(number);
+        };
+        const std::string lo = shown(r.lo.value), hi = shown(r.hi.value);
         if (!text.empty()) text += ", ";
         if (down && up) return "all values";
         if (lo == hi)
@@ -222,53 +224,117 @@ std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
     return unit.empty() ? text : text + " " + unit;
 }
 
-Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::size_t stepIndex,
-                    const SortedStep& step, const render::Lattice& lattice, std::int64_t tick) {
-    Picture picture{{.step = step,
-                     .lattice = lattice,
-                     .layers = {},
-                     .footprint = e.footprint,
-                     .order = e.order,
-                     .clip = {}},
-                    {}};
-    if (e.clip) picture.scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
+std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick) {
+    const double delta = sweep.settings().delta, contour = sweep.contour(tick);
+    // As many decimals at every tick: the text does not tremble while it plays.
+    const double resolution =
+        delta > 0 ? delta / 50 : std::max(1e-6 * std::abs(contour), kLeastResolution);
+    const int decimals = static_cast<int>(std::ceil(-std::log10(resolution)));
+    const bool isPlain = decimals <= 9 && std::abs(contour) < 1e9;
+    const std::string centre =
+        isPlain ? fmt::format("{:.{}f}", roundedTo(contour, resolution), std::max(0, decimals))
+                : timeseries::toText(roundedTo(contour, resolution));
+    return render::withMinusSigns(centre) + " ± " + timeseries::toText(delta);
+}
+
+render::Scene makeScene(const Explorer& e, const SortedStep& step, const render::Lattice& lattice,
+                        std::int64_t tick) {
+    render::Scene scene{.step = step,
+                        .lattice = lattice,
+                        .layers = {},
+                        .footprint = e.footprint,
+                        .order = e.order,
+                        .clip = {}};
+    if (e.clip) scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
-        if (!layer.visible) return;
-        render::Layer drawn{step.select(ranges), rangeStyle(layer)};
-        std::uint64_t selected = 0;
-        for (const timeseries::Run& run : drawn.runs) selected += run.count;
-        const std::uint64_t points = step.statistics().points;
-        const double percent =
-            points == 0 ? 0 : 100 * static_cast<double>(selected) / static_cast<double>(points);
-        render::LegendLayer& told = picture.legend.layers.emplace_back(render::LegendLayer{
-            drawn.style, rangeLabel(ranges, about.units),
-            fmt::format("{} {}, {} %", withCommas(selected), selected == 1 ? "point" : "points",
-                        render::withMinusSigns(fmt::format("{:.3g}", percent)))});
-        if (const auto* byValue = std::get_if<render::ByValue>(&drawn.style.color)) {
-            const Extent ends = finiteEnds(ranges, valuesOf(step, {byValue->lo, byValue->hi}));
-            told.shown.emplace(ends.lo, ends.hi);
-        }
-        picture.scene.layers.push_back(std::move(drawn));
+        if (layer.visible) scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
     };
     if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
+    return scene;
+}
 
-    picture.legend.title = about.longName.empty() ? about.name : about.longName;
-    if (const std::string unit = render::shownUnit(about.units); !unit.empty())
-        picture.legend.title += " (" + unit + ")";
+namespace {
+
+// "1,204 points, 6.2 %", "1 point in the clip box, 0.01 % of all".
+std::vector<std::string> amounts(const render::Scene& scene, bool isClipped) {
+    std::vector<std::uint64_t> points;
+    if (isClipped) {
+        std::vector<std::vector<timeseries::Run>> sets;
+        for (const render::Layer& layer : scene.layers) sets.push_back(layer.runs);
+        points = countsInside(scene.step, scene.clip, sets);
+    } else {
+        for (const render::Layer& layer : scene.layers) points.push_back(render::pointCount(layer));
+    }
+    const auto all = static_cast<double>(scene.step.statistics().points);
+    std::vector<std::string> texts;
+    for (const std::uint64_t count : points) {
+        const double percent = all > 0 ? 100 * static_cast<double>(count) / all : 0;
+        texts.push_back(fmt::format(
+            "{} {}{}, {} %{}", withCommas(count), count == 1 ? "point" : "points",
+            isClipped ? " in the clip box" : "",
+            render::withMinusSigns(fmt::format("{:.3g}", percent)), isClipped ? " of all" : ""));
+    }
+    return texts;
+}
+
+}  // namespace
+
+render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
+                          std::size_t stepIndex, const render::Scene& scene, std::int64_t tick) {
+    render::Legend legend;
+    const std::vector<std::string> amountOf = amounts(scene, e.clip.has_value());
+    const std::string unit = render::shownUnit(about.units);
+    // A colour bar's ends come from what was chosen alone, not from the step: they stand still
+    // while time and sweep play, and an export, which sees one step at a time, has the same. An
+    // open end of a range is the map's, which was taken from the data when the layer was made.
+    const auto add = [&](std::string range, const RangeSet& span) {
+        const std::size_t k = legend.layers.size();
+        render::LegendLayer& told = legend.layers.emplace_back(
+            render::LegendLayer{scene.layers[k].style, std::move(range), amountOf[k]});
+        if (const auto* byValue = std::get_if<render::ByValue>(&told.style.color)) {
+            const Extent ends = finiteEnds(span, {byValue->lo, byValue->hi});
+            told.shown.emplace(ends.lo, ends.hi);
+        }
+    };
+    if (e.sweep && e.sweepLayer.visible)
+        add(sweptText(timeseries::ValueSweep(*e.sweep), tick) + (unit.empty() ? "" : " " + unit),
+            e.sweep->animation);
+    for (const LayerChoice& layer : e.layers)
+        if (layer.visible) add(rangeLabel(layer.ranges, about.units), layer.ranges);
+
+    legend.title = about.longName.empty() ? about.name : about.longName;
+    if (!unit.empty()) legend.title += " (" + unit + ")";
     const std::size_t steps = about.time->points.size();
     const bool timed = !about.time->counted;
-    if (timed) picture.legend.time = timeText(*about.time, stepIndex);
+    if (timed) legend.time = timeText(*about.time, stepIndex);
     if (steps > 1)
-        picture.legend.time +=
+        legend.time +=
             fmt::format("{}step {} of 0\u2013{}", timed ? ", " : "", stepIndex, steps - 1);
-    picture.legend.notes = about.notes;
-    if (const std::string stretch = render::stretchText(step.grid(), lattice); !stretch.empty())
-        picture.legend.notes.push_back(stretch);
-    if (e.clip)
-        picture.legend.notes.push_back("drawn inside " + clipText(*e.clip) +
-                                       " only; counts are of the whole step");
-    return picture;
+    if (scene.step.statistics().points == 0)
+        legend.emptiness = fmt::format("all {} points of this step are missing",
+                                       withCommas(scene.step.statistics().missing));
+    legend.notes = about.notes;
+    if (legend.layers.empty())
+        legend.notes.push_back(e.layers.empty() ? "nothing is drawn: there is no layer"
+                                                : "nothing is drawn: every layer is hidden");
+    if (const std::string stretch = render::stretchText(scene.step.grid(), scene.lattice);
+        !stretch.empty())
+        legend.notes.push_back(stretch);
+    if (e.clip) legend.notes.push_back("drawn inside " + clipText(*e.clip) + " only");
+    return legend;
+}
+
+bool isMixed(const Explorer& e, const render::Scene& scene) {
+    return render::isMixed(scene,
+                           eyes(e.view, e.stereo, scene.lattice.boxHalfEdges(), e.size).front());
+}
+
+Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::size_t stepIndex,
+                    const SortedStep& step, const render::Lattice& lattice, std::int64_t tick) {
+    render::Scene scene = makeScene(e, step, lattice, tick);
+    render::Legend legend = makeLegend(e, about, stepIndex, scene, tick);
+    return {std::move(scene), std::move(legend)};
 }
 
 }  // namespace app

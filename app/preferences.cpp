@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/json_text.h"
+#include "app/paths.h"
 #include "app/user_files.h"
 
 namespace app {
@@ -22,16 +23,6 @@ double number(const json& object, const char* key, double lo, double hi) {
     if (!value.is_number() || !(value.get<double>() >= lo && value.get<double>() <= hi))
         throw std::invalid_argument(fmt::format("{} is not a number from {} to {}", key, lo, hi));
     return value.get<double>();
-}
-
-// A pattern is there while the folder is in which its names are looked for.
-bool isThere(fs::path path) {
-    std::error_code gone;
-    while (!fs::exists(path, gone)) {
-        if (path.string().find_first_of("*?[") == std::string::npos) return false;
-        path = path.parent_path();
-    }
-    return true;
 }
 
 // One is a text, several are a list of texts.

@@ -1,5 +1,7 @@
 #include "app/refinement.h"
 
+#include <algorithm>
+
 #include "app/still.h"
 
 namespace app {
@@ -10,27 +12,25 @@ Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
       picture_(std::move(picture)),
       eyes_(eyes.begin(), eyes.end()),
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
-      frame_(renderer.prepare(content_, onGpu, eyes_)),
-      cost_(eyes_.size() * renderer.cost(frame_)) {}
+      frame_(renderer.prepare(content_, onGpu, eyes_)) {
+    for (const render::View& eye : eyes_) cost_ += renderer.cost(frame_, eye);
+}
 
-std::uint64_t Refinement::goOn(
-    std::uint64_t splats,
-    const std::function<void(std::size_t eye, const render::Targets&)>& show) {
-    const std::uint64_t before = drawn_;
+double Refinement::goOn(double cost,
+                        const std::function<void(std::size_t eye, const render::Targets&)>& show) {
+    const double before = drawn_;
     do {
         if (!work_) work_.emplace(renderer_.begin(frame_, eyes_[eye_]));
-        const std::uint64_t of = work_->cost;
-        const bool whole = renderer_.goOn(*work_, splats - (drawn_ - before));
+        const double of = work_->cost;
+        const bool whole = renderer_.goOn(*work_, cost - (drawn_ - before));
         drawn_ += work_->cost - of;
         if (!whole) break;
         show(eye_++, renderer_.targets());
         work_.reset();
-    } while (!done() && drawn_ - before < splats);
+    } while (!done() && drawn_ - before < cost);
     return drawn_ - before;
 }
 
-double Refinement::share() const {
-    return cost_ == 0 ? 1 : static_cast<double>(drawn_) / static_cast<double>(cost_);
-}
+double Refinement::share() const { return cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1; }
 
 }  // namespace app

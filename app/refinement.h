@@ -23,10 +23,10 @@ class Refinement {
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
 
-    // Draws until `splats` are reached, a little more than that, and hands each eye's light to
-    // `show` once it is whole. Returns the splats. REQUIRES: it is not done.
-    std::uint64_t goOn(std::uint64_t splats,
-                       const std::function<void(std::size_t eye, const render::Targets&)>& show);
+    // Draws until `cost` is reached (render/splat_cost.h), a little more than that, and hands each
+    // eye's light to `show` once it is whole. Returns what it cost. REQUIRES: it is not done.
+    double goOn(double cost,
+                const std::function<void(std::size_t eye, const render::Targets&)>& show);
     bool done() const { return eye_ == eyes_.size(); }
     double share() const;  // that is drawn, [0, 1]
     const render::Scene& scene() const { return picture_.scene; }
@@ -38,9 +38,8 @@ class Refinement {
     const std::vector<render::View> eyes_;
     const render::FrameContent content_;
     const render::FrameRenderer::Prepared frame_;
-    const std::uint64_t cost_;  // of all eyes, in splats
-    std::uint64_t drawn_ = 0;
-    std::size_t eye_ = 0;  // to go on with
+    double cost_ = 0, drawn_ = 0;  // of all eyes, and of what is drawn
+    std::size_t eye_ = 0;          // to go on with
     std::optional<render::FrameRenderer::EyeInWork> work_;
 };
 

@@ -49,6 +49,14 @@ std::uint64_t atMost(double share, std::uint64_t points) {
     return std::min(points, static_cast<std::uint64_t>(std::floor(exact * (1 + kSlack))));
 }
 
+// A point's value; a float in the fewest digits of which it is the nearest float, so that a field
+// shows -1.8312 for it and not -1.8312000036239624.
+timeseries::Number valueAt(const SortedStep& step, std::uint64_t point) {
+    const timeseries::Number value = step.value(point);
+    if (step.type() != timeseries::ValueType::F32) return value;
+    return std::stod(fmt::format("{}", static_cast<float>(timeseries::toDouble(value))));
+}
+
 // The quantiles as a range of values; none where the text is not one. REQUIRES: a point.
 std::optional<Range> quantiles(std::string_view text, const SortedStep& step) {
     const std::uint64_t points = step.size();
@@ -58,15 +66,16 @@ std::optional<Range> quantiles(std::string_view text, const SortedStep& step) {
         if (!share || *share == 0) return std::nullopt;
         return std::max<std::uint64_t>(1, atLeast(*share, points));
     };
-    if (const auto top = sideOf("top")) return Range{{step.value(points - *top)}, {kInfinity}};
-    if (const auto bottom = sideOf("bottom")) return Range{{-kInfinity}, {step.value(*bottom - 1)}};
+    if (const auto top = sideOf("top")) return Range{{valueAt(step, points - *top)}, {kInfinity}};
+    if (const auto bottom = sideOf("bottom"))
+        return Range{{-kInfinity}, {valueAt(step, *bottom - 1)}};
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos) return std::nullopt;
     const auto from = shareIn(text.substr(0, colon)), to = shareIn(text.substr(colon + 1));
     if (!from || !to || *from > *to) return std::nullopt;
     const std::uint64_t first = std::min(atMost(*from, points), points - 1);
     const std::uint64_t end = std::max(atLeast(*to, points), first + 1);
-    return Range{{step.value(first)}, {step.value(end - 1)}};
+    return Range{{valueAt(step, first)}, {valueAt(step, end - 1)}};
 }
 
 }  // namespace
@@ -82,10 +91,10 @@ RangeSet parseSelection(std::string_view text, const SortedStep& step) {
     const auto range = quantiles(bare, step);
     if (!range)
         throw std::invalid_argument(fmt::format(
-            "selection '{}' is none of 'top 5 %', 'bottom 5 %' and '25 % : 75 %', shares ascending "
-            "from 0 to 100",
+            "selection '{}' is none of 'top 5 %', 'bottom 0.5 %' and '25 % : 75 %', shares "
+            "ascending from 0 to 100, decimals behind a point",
             text));
-    return intersectionOf(RangeSet(std::vector{*range}), step.kept());
+    return step.keptPart(RangeSet(std::vector{*range}));
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 
 #include <fmt/ranges.h>
 
+#include <array>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,7 @@ using timeseries::FileError;
 using timeseries::RangeSet;
 
 constexpr int kVersion = 1;
+constexpr std::array kAxes = {"x", "y", "z"};
 
 double within(double value, const char* what, double lo, double hi) {
     if (!(value >= lo && value <= hi))
@@ -72,6 +74,7 @@ json sweepJson(const Explorer& explorer) {
     json out{{"animation", s.animation.text()}, {"delta", s.delta},
              {"timerSteps", s.timerSteps},      {"timerStep", s.step},
              {"frequency", s.frequency},        {"swing", s.path == timeseries::SweepPath::Swing}};
+    if (explorer.oneTick) out["tick"] = explorer.play.tick;
     writeStyle(out, explorer.sweepLayer);
     return out;
 }
@@ -89,14 +92,30 @@ void readSweep(const json& value, const std::string& where, Explorer& explorer) 
     object.read<bool>("swing", [&](bool b) {
         s.path = b ? timeseries::SweepPath::Swing : timeseries::SweepPath::Loop;
     });
+    object.read<std::int64_t>("tick", [&](std::int64_t n) {
+        explorer.oneTick = true;
+        explorer.play.tick = n;
+    });
     explorer.sweepLayer = readStyle(object);
     object.refuseOthers();
     if (s.animation.empty()) throw ChoiceError("has no animation");
-    // The settings as the sweep itself checks them; unbounded ends become finite later.
-    timeseries::SweepSettings finite = s;
-    finite.animation = RangeSet::parse("0");
-    timeseries::ValueSweep{finite};
+    const std::int64_t ticks = ticksOf(s);
+    if (explorer.oneTick && !(explorer.play.tick >= 0 && explorer.play.tick < ticks))
+        throw ChoiceError(fmt::format("tick {} is none of 0 to {}", explorer.play.tick, ticks - 1));
     explorer.sweep = s;
+}
+
+void readAxes(const json& value, const std::string& where, Explorer& explorer) {
+    JsonObject object(value, where);
+    for (std::size_t a = 0; a < 3; ++a)
+        object.read<json>(kAxes[a], [&](const json& axis) {
+            JsonObject each(axis, object.place(kAxes[a]));
+            each.read<bool>("flip", [&](bool b) { explorer.axes[a].flip = b; });
+            each.read<std::string>("name",
+                                   [&](const std::string& n) { explorer.axes[a].name = n; });
+            each.refuseOthers();
+        });
+    object.refuseOthers();
 }
 
 json viewJson(const ViewChoice& view) {
@@ -124,8 +143,9 @@ ViewChoice readView(const json& value, const std::string& where) {
     return view;
 }
 
-// Only what differs from a play that nobody has touched; nothing at all, if so.
-json playJson(const PlayChoice& play) {
+// Only what differs from a play that nobody has touched; nothing at all, if so. The tick of a sweep
+// that stands is the sweep's.
+json playJson(const PlayChoice& play, bool oneTick) {
     json out = json::object();
     const auto put = [&out](const char* key, const auto& value, const auto& untouched) {
         if (value != untouched) out[key] = value;
@@ -142,7 +162,7 @@ json playJson(const PlayChoice& play) {
     put("timeUnitsPerSecond", time.timeUnitsPerSecond, plain.timeUnitsPerSecond);
     put("timeMoves", play.timeMoves, untouched.timeMoves);
     put("sweepMoves", play.sweepMoves, untouched.sweepMoves);
-    put("tick", play.tick, untouched.tick);
+    if (!oneTick) put("tick", play.tick, untouched.tick);
     return out;
 }
 
@@ -207,19 +227,28 @@ StereoChoice readStereo(const json& value, const std::string& where) {
 
 }  // namespace
 
-json toJson(const Explorer& e, const std::filesystem::path& folder) {
+json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths) {
     json out{{"isochron", kVersion}};
-    for (const auto& file : e.files)
+    for (const auto& file : e.files) {
         out["files"].push_back(relativeTo(folder, file).generic_string());
+        if (paths == Paths::Both)
+            out["filesWere"].push_back(
+                std::filesystem::absolute(file).lexically_normal().generic_string());
+    }
     if (!e.variable.empty()) out["variable"] = e.variable;
     if (e.steps) out["steps"] = stepsText(*e.steps);
     if (e.keep) out["keep"] = e.keep->text();
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (e.axes[a].flip) out["axes"][kAxes[a]]["flip"] = true;
+        if (!e.axes[a].name.empty()) out["axes"][kAxes[a]]["name"] = e.axes[a].name;
+    }
     for (const LayerChoice& layer : e.layers) {
         json each = json::object();
         if (!layer.ranges.empty()) each["range"] = layer.ranges.text();
         writeStyle(each, layer);
         out["layers"].push_back(each);
     }
+    if (e.layers.empty() && e.noLayers) out["layers"] = json::array();
     if (e.sweep) out["sweep"] = sweepJson(e);
     out["splat"] = kernelName(e.footprint.kernel);
     out["splatSize"] = e.footprint.size;
@@ -229,7 +258,7 @@ json toJson(const Explorer& e, const std::filesystem::path& folder) {
     out["view"] = viewJson(e.view);
     out["stereo"] = stereoJson(e.stereo);
     out["size"] = fmt::format("{}x{}", e.size.x, e.size.y);
-    if (json play = playJson(e.play); !play.empty()) out["play"] = std::move(play);
+    if (json play = playJson(e.play, e.oneTick); !play.empty()) out["play"] = std::move(play);
     return out;
 }
 
@@ -244,11 +273,20 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
     object.read<std::vector<std::string>>("files", [&](const auto& files) {
         for (const std::string& file : files) e.files.push_back((folder / file).lexically_normal());
     });
+    object.read<std::vector<std::string>>("filesWere", [&](const auto& were) {
+        if (were.size() != e.files.size())
+            throw ChoiceError(
+                fmt::format("has {} paths for {} files", were.size(), e.files.size()));
+        for (std::size_t i = 0; i < were.size(); ++i)
+            if (isThere(were[i]) || !isThere(e.files[i])) e.files[i] = were[i];
+    });
     object.read<std::string>("variable", [&](const std::string& v) { e.variable = v; });
     object.read<std::string>("steps", [&](const std::string& s) { e.steps = parseSteps(s); });
     object.read<std::string>("keep", [&](const std::string& k) { e.keep = RangeSet::parse(k); });
+    object.read<json>("axes", [&](const json& a) { readAxes(a, object.place("axes"), e); });
     object.read<json>("layers", [&](const json& layers) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
+        e.noLayers = layers.empty();
         for (std::size_t i = 0; i < layers.size(); ++i) {
             JsonObject each(layers[i], fmt::format("session.layers[{}]", i));
             LayerChoice layer = readStyle(each);
@@ -274,10 +312,24 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
     object.read<json>("view", [&](const json& v) { e.view = readView(v, object.place("view")); });
     object.read<json>("stereo",
                       [&](const json& v) { e.stereo = readStereo(v, object.place("stereo")); });
-    object.read<json>("play", [&](const json& p) { e.play = readPlay(p, object.place("play")); });
+    object.read<json>("play", [&](const json& p) {
+        const std::int64_t standing = e.play.tick;
+        e.play = readPlay(p, object.place("play"));
+        if (e.oneTick) e.play.tick = standing;
+    });
     object.read<std::string>("size", [&](const std::string& s) { e.size = parseSize(s); });
     object.refuseOthers();
     return e;
+}
+
+std::int64_t ticksOf(timeseries::SweepSettings settings) {
+    settings.animation = RangeSet::parse("0");  // unbounded ends become finite later
+    return timeseries::ValueSweep(settings).ticksPerCycle();
+}
+
+std::optional<std::filesystem::path> missingFile(const Explorer& session) {
+    const auto missing = std::ranges::find_if_not(session.files, isThere);
+    return missing == session.files.end() ? std::nullopt : std::optional(*missing);
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "app/dataset.h"
 #include "app/explorer.h"
+#include "app/session.h"
 #include "render/frame.h"
 
 namespace app {
@@ -21,11 +22,13 @@ struct Still {
     const timeseries::SortedStep& step;
     const render::Lattice& lattice;  // of the explorer's scale
     std::int64_t tick;               // of the explorer's sweep, if it has one
+    Paths paths = Paths::Both;       // that its session keeps
 };
 
-// By the file's ending; two files where the stereo mode makes two. `onGpu` holds the step. Throws
-// ImageError; std::runtime_error on a GL error.
-void writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
+// Whether the picture says that its colours are mixed. By the file's ending; two files where the
+// stereo mode makes two. `onGpu` holds the step. Throws ImageError; std::runtime_error on a GL
+// error.
+bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
                 const render::Extras& extras, const std::filesystem::path& file);
 
 }  // namespace app

@@ -26,7 +26,9 @@ glm::dvec3 bounded(const glm::dvec3& target) { return glm::clamp(target, -kFarth
 }  // namespace
 
 ViewChoice orbited(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
-    view.distance = standOf(view, at.boxHalfEdges, at.size).distance;
+    const Stand stand = standOf(view, at.boxHalfEdges, at.size);
+    view.distance = stand.distance;
+    view.target = stand.target;
     const double degreesPerPixel = 180.0 / std::min(at.size.x, at.size.y);
     view.azimuthDegrees = wrapped(view.azimuthDegrees - pixels.x * degreesPerPixel);
     view.elevationDegrees =
@@ -38,7 +40,7 @@ ViewChoice panned(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
     const Stand stand = standOf(view, at.boxHalfEdges, at.size);
     const glm::dvec2 by = onTarget(stand, at, pixels);
     view.distance = stand.distance;
-    view.target = bounded(view.target - by.x * stand.axes[0] - by.y * stand.axes[1]);
+    view.target = bounded(stand.target - by.x * stand.axes[0] - by.y * stand.axes[1]);
     return view;
 }
 
@@ -47,7 +49,7 @@ ViewChoice zoomed(ViewChoice view, double factor, glm::dvec2 cursor, const Looki
     view.distance = std::clamp(stand.distance * factor, kNearest, kFarthest);
     const glm::dvec2 offset = onTarget(stand, at, cursor - 0.5 * glm::dvec2(at.size)) *
                               (1 - *view.distance / stand.distance);
-    view.target = bounded(view.target + offset.x * stand.axes[0] + offset.y * stand.axes[1]);
+    view.target = bounded(stand.target + offset.x * stand.axes[0] + offset.y * stand.axes[1]);
     return view;
 }
 

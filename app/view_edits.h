@@ -1,5 +1,5 @@
 // What a user does to the camera with a mouse, as functions of plain values. A view without a
-// distance gets the one that it has, so that nothing changes its size under the hand.
+// distance gets the one and the target that it has, so that nothing moves but by the hand.
 #pragma once
 
 #include <glm/mat3x3.hpp>

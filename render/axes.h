@@ -12,19 +12,19 @@ namespace render {
 FontStyle labelStyle(glm::ivec2 pictureSize);
 FontStyle titleStyle(glm::ivec2 pictureSize);
 
-// Lines carry the window depth of what they show; labels stand at depth 0 and hide nothing. Edges
-// are cut at the near plane and stand before ticks, six vertices a line.
+// All carry the window depth of what they show or stand beside. Edges are cut at the near plane and
+// stand before ticks, six vertices a line; where a text stands, lines are left out.
 struct AxesMeshes {
-    FlatMesh behind;  // edges behind all that the box holds: drawn before the volume
-    FlatMesh before;  // edges before it or on its outline, and ticks: drawn over it
+    FlatMesh behind;   // edges behind all that the box holds: drawn before the volume
+    FlatMesh before;   // edges before it or on its outline, and ticks: drawn over it
+    FlatMesh grounds;  // of the labels
     FlatMesh labels;
 };
-// Which edges carry the axes, and which ticks, is chosen from `midEye` (world), so that both eyes
-// label the same ones. Labels lie inside the picture, outside the box, and apart from each other
-// and from what `legend` draws; where there is no such place, they are left out. An axis that is
-// nowhere on the box's outline (seen end on, or from inside) has none. REQUIRES: `font` has
-// labelStyle(view.size).
+// Labels lie inside the picture, apart from each other and from what `legend` draws: render/
+// axis_labels.h has the rules. All is chosen for the middle, `midEye` (world), so that both eyes
+// have the same labels. REQUIRES: `font` has labelStyle(view.size).
 AxesMeshes axesMeshes(const timeseries::Grid& grid, const Lattice& lattice, const View& view,
-                      const glm::dvec3& midEye, const Font& font, const FlatMesh& legend = {});
+                      const glm::dvec3& midEye, const Font& font, const FlatMesh& legend = {},
+                      const glm::dvec3& background = glm::dvec3(0));
 
 }  // namespace render

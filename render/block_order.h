@@ -18,7 +18,7 @@ std::vector<std::uint16_t> blockOrder(std::span<const std::uint32_t> gridIndex, 
 
 // The largest power of four up to `stride`: its subset, which holds that of `stride`, is a block's
 // beginning. A level for every power of two would make drawing all points slower by a tenth: the
-// points of a level are farther apart (tests/bench/RESULTS.md).
+// points of a level are farther apart (tests/bench/NOTES.md).
 constexpr std::uint32_t prefixStride(std::uint32_t stride) {
     return std::countr_zero(stride) % 2 == 0 ? stride : stride / 2;
 }

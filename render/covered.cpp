@@ -10,11 +10,34 @@
 namespace render {
 namespace {
 
-std::array<glm::dvec3, 8> corners(const Lattice& lattice) {
-    std::array<glm::dvec3, 8> at;
+using Corners = std::array<glm::dvec3, 8>;
+
+Corners corners(const Lattice& lattice, const Lattice::Box& box) {
+    Corners at;
     for (std::size_t i = 0; i < 8; ++i)
-        at[i] = lattice.boxHalfEdges() * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+        at[i] = lattice.worldFromAxes() * glm::dvec3(i & 1 ? box.hi.x : box.lo.x,
+                                                     i & 2 ? box.hi.y : box.lo.y,
+                                                     i & 4 ? box.hi.z : box.lo.z);
     return at;
+}
+
+Lattice::Box pointsBox(const Lattice& lattice) { return {-lattice.boxHalf(), lattice.boxHalf()}; }
+
+// How far splats of this radius along the axes, or the least one, reach in pixels, their centres
+// being between the corners.
+double reachOf(double widest, const Corners& centres, const LatticeView& view) {
+    double nearest = std::numeric_limits<double>::infinity(), steepest = 0;
+    for (const glm::dvec3& at : centres) {
+        const glm::dvec4 p = view.viewFromWorld * glm::dvec4(at, 1.0);
+        nearest = std::min(nearest, -p.z);
+        if (-p.z > 0) steepest = std::max(steepest, glm::length(glm::dvec2(p)) / -p.z);
+    }
+    if (!(nearest > view.rays.near)) return std::numeric_limits<double>::infinity();
+    const double radius =
+        std::max(widest, nearest * view.smallestRadius) * view.lengthening.most / view.rayLength;
+    const double reach = sphereExtent(nearest, radius, steepest);
+    const double focal = std::max(view.rays.focal.x, view.rays.focal.y);
+    return reach < 0 ? std::numeric_limits<double>::infinity() : reach * focal;
 }
 
 }  // namespace
@@ -24,34 +47,26 @@ double farthestReach(const Scene& scene, const LatticeView& view) {
     double widest = 0;
     for (const auto& widths : scene.lattice.widths())
         widest = std::max(widest, *std::ranges::max_element(widths));
-    double nearest = std::numeric_limits<double>::infinity(), steepest = 0;
-    for (const glm::dvec3& at : corners(scene.lattice)) {
-        const glm::dvec4 p = view.viewFromWorld * glm::dvec4(at, 1.0);
-        nearest = std::min(nearest, -p.z);
-        if (-p.z > 0) steepest = std::max(steepest, glm::length(glm::dvec2(p)) / -p.z);
-    }
-    if (!(nearest > view.rays.near)) return std::numeric_limits<double>::infinity();
-    const double radius =
-        std::max(scene.footprint.size * kQuarticRadius * widest, nearest * view.smallestRadius) *
-        view.lengthening.most / view.rayLength;
-    const double reach = sphereExtent(nearest, radius, steepest);
-    const double focal = std::max(view.rays.focal.x, view.rays.focal.y);
-    return reach < 0 ? std::numeric_limits<double>::infinity() : reach * focal;
+    return reachOf(scene.footprint.size * kQuarticRadius * widest,
+                   corners(scene.lattice, pointsBox(scene.lattice)), view);
 }
 
 PixelBox coveredPixels(const Scene& scene, const View& view) {
     const PixelBox whole{{0, 0}, view.size};
     const LatticeView seen(scene.lattice, view);
+    // Splats of long cells end at the domain's faces, or the least radius beyond the points.
+    const bool cut = scene.lattice.longCells() && scene.footprint.kernel != Kernel::Point;
+    const Corners at = corners(scene.lattice, cut ? seen.domain : pointsBox(scene.lattice));
     // What the rasteriser's rounding may add; a point splat is moved to whole pixels, too.
-    const double reach = farthestReach(scene, seen) + 2;
+    const double reach = (cut ? reachOf(0, at, seen) : farthestReach(scene, seen)) + 2;
     if (!std::isfinite(reach)) return whole;
     constexpr double kFar = std::numeric_limits<double>::infinity();
     glm::dvec2 lo(kFar), hi(-kFar);
-    for (const glm::dvec3& corner : corners(scene.lattice)) {
-        const Projected at = project(view, corner);
-        if (!(at.depth > seen.rays.near)) return whole;
-        lo = glm::min(lo, at.window);
-        hi = glm::max(hi, at.window);
+    for (const glm::dvec3& corner : at) {
+        const Projected seenAt = project(view, corner);
+        if (!(seenAt.depth > seen.rays.near)) return whole;
+        lo = glm::min(lo, seenAt.window);
+        hi = glm::max(hi, seenAt.window);
     }
     const glm::dvec2 size(view.size);
     const glm::ivec2 first(glm::clamp(glm::floor(lo - reach), glm::dvec2(0), size));

@@ -15,8 +15,8 @@ void forEachPixel(const Splat<Real>& s, glm::ivec2 size, const LatticeView& view
     const Vec2 axis(view.rays.centre), focal(view.rays.focal);
     const Real rayUnit = static_cast<Real>(view.rayLength);
     const Vec2 window = axis + s.centre;
-    const auto [x0, x1] = pixelSpan(window.x, s.extent, kernel, size.x);
-    const auto [y0, y1] = pixelSpan(window.y, s.extent, kernel, size.y);
+    const auto [x0, x1] = pixelSpan(window.x, s.lo.x, s.hi.x, kernel, size.x);
+    const auto [y0, y1] = pixelSpan(window.y, s.lo.y, s.hi.y, kernel, size.y);
     for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x) {
             const Vec2 at =
@@ -68,14 +68,12 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     assert(scene.layers.size() <= into.channels.size() || into.channels[0] == Channels::Over ||
            into.channels[0] == Channels::Count);
     const LatticeView latticeView(scene.lattice, view);
-    const glm::uvec3 n = scene.lattice.size();
     std::vector<double> perSplat;
     for (const Layer& layer : scene.layers) perSplat.push_back(pointsPerSplat(layer, scene.stride));
     const auto draw = [&](std::size_t layer, std::uint64_t point) {
         const std::uint32_t i = scene.step.gridIndex()[point];
-        if (!scene.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y})) return;
-        auto s = splatAt<Real>(latticeView, scene.lattice.position(i), scene.lattice.cell(i),
-                               scene.footprint);
+        if (!scene.clip.holds(scene.lattice.indices(i))) return;
+        auto s = splatAt<Real>(latticeView, i, scene.footprint);
         if (!s.visible) return;
         s.weight *= static_cast<Real>(perSplat[layer]);
         const double depth = windowDepth(view, static_cast<double>(s.depth));

@@ -4,46 +4,84 @@
 #include <numeric>
 
 #include "render/scene.h"
+#include "render/together.h"
 
 namespace render {
 namespace {
+
+// Fewer are ordered before another thread has begun.
+constexpr std::size_t kWorthAThread = 1 << 15;
 
 struct Distances {
     Sorted list;               // unordered: layer by layer, ascending by value
     std::vector<double> away;  // squared would do for comparing; keys want it linear
 };
 
-Distances distances(const Scene& scene, const glm::dvec3& midEye) {
-    Distances d;
-    const auto index = scene.step.gridIndex();
-    const glm::uvec3 n = scene.lattice.size();
-    const auto& at = scene.lattice.positions();
-    const glm::dmat3& worldFromAxes = scene.lattice.worldFromAxes();
+Sorted candidates(const Scene& scene) {
+    Sorted list;
+    std::uint64_t count = 0;
+    for (const Layer& layer : scene.layers) count += splatCount(layer, scene.stride);
+    list.point.reserve(count);
+    list.layer.reserve(count);
     for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
         const std::uint32_t stride = strideOf(scene.layers[layer], scene.stride);
-        for (const timeseries::Run& run : scene.layers[layer].runs) {
+        for (const timeseries::Run& run : scene.layers[layer].runs)
             forEachInSubset(run, stride, [&](std::uint64_t p) {
-                const std::uint32_t i = index[p];
-                const glm::uvec3 ijk(i % n.x, i / n.x % n.y, i / n.x / n.y);
-                if (!scene.clip.holds(ijk)) return;
-                d.list.point.push_back(static_cast<std::uint32_t>(p));
-                d.list.layer.push_back(static_cast<std::uint8_t>(layer));
-                const glm::dvec3 along(at[0][ijk.x], at[1][ijk.y], at[2][ijk.z]);
-                d.away.push_back(glm::distance(worldFromAxes * along, midEye));
+                list.point.push_back(static_cast<std::uint32_t>(p));
+                list.layer.push_back(static_cast<std::uint8_t>(layer));
             });
-        }
     }
+    return list;
+}
+
+// Of a point's centre, or a negative number outside of the clip box.
+double distanceOf(const Scene& scene, std::uint32_t i, const glm::dvec3& midEye) {
+    const glm::uvec3 n = scene.lattice.size();
+    const std::uint32_t row = i / n.x, slice = row / n.y;
+    const glm::uvec3 ijk(i - row * n.x, row - slice * n.y, slice);
+    if (!scene.clip.holds(ijk)) return -1;
+    const auto& at = scene.lattice.positions();
+    const glm::dvec3 along(at[0][ijk.x], at[1][ijk.y], at[2][ijk.z]);
+    return glm::distance(scene.lattice.worldFromAxes() * along, midEye);
+}
+
+void dropClipped(Distances& d) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < d.away.size(); ++i) {
+        if (d.away[i] < 0) continue;
+        d.list.point[kept] = d.list.point[i];
+        d.list.layer[kept] = d.list.layer[i];
+        d.away[kept++] = d.away[i];
+    }
+    d.list.point.resize(kept);
+    d.list.layer.resize(kept);
+    d.away.resize(kept);
+}
+
+Distances distances(const Scene& scene, const glm::dvec3& midEye) {
+    Distances d{candidates(scene), {}};
+    d.away.resize(d.list.point.size());
+    const auto index = scene.step.gridIndex();
+    inParts(d.away.size(), threadsFor(d.away.size(), kWorthAThread),
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i)
+                    d.away[i] = distanceOf(scene, index[d.list.point[i]], midEye);
+            });
+    dropClipped(d);
     return d;
 }
 
 Sorted permuted(const Sorted& list, const std::vector<std::uint32_t>& order) {
     Sorted out;
-    out.point.reserve(order.size());
-    out.layer.reserve(order.size());
-    for (const std::uint32_t i : order) {
-        out.point.push_back(list.point[i]);
-        out.layer.push_back(list.layer[i]);
-    }
+    out.point.resize(order.size());
+    out.layer.resize(order.size());
+    inParts(order.size(), threadsFor(order.size(), kWorthAThread),
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    out.point[i] = list.point[order[i]];
+                    out.layer[i] = list.layer[order[i]];
+                }
+            });
     return out;
 }
 
@@ -64,12 +102,15 @@ DrawList order(const Scene& scene, const glm::dvec3& midEye) {
     if (scene.order == Order::None) return Runs{};
     const Distances d = distances(scene, midEye);
     if (d.away.empty()) return Sorted{};
-    const auto [nearest, farthest] = std::minmax_element(d.away.begin(), d.away.end());
-    const double span = *farthest - *nearest;
+    const auto ends = std::minmax_element(d.away.begin(), d.away.end());
+    const double farthest = *ends.second, span = farthest - *ends.first;
     const double perUnit = span > 0 ? 65535 / span : 0;
     std::vector<std::uint16_t> keys(d.away.size());
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        keys[i] = static_cast<std::uint16_t>((*farthest - d.away[i]) * perUnit + 0.5);
+    inParts(keys.size(), threadsFor(keys.size(), kWorthAThread),
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i)
+                    keys[i] = static_cast<std::uint16_t>((farthest - d.away[i]) * perUnit + 0.5);
+            });
     return permuted(d.list, orderOfKeys(keys));
 }
 

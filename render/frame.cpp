@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
 #include "render/shader_sources.h"
+#include "render/splat_cost.h"
 
 namespace render {
 namespace {
 
-constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+constexpr double kAll = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t kAllSplats = std::numeric_limits<std::uint64_t>::max();
 
 std::array<FontStyle, 2> stylesFor(glm::ivec2 size) { return {labelStyle(size), titleStyle(size)}; }
 
@@ -25,7 +29,13 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer() : styles_(stylesFor({64, 64})), font_(styles_) {}
+// A driver that draws on the processor takes several times longer for point sprites than the
+// program does for their pixels (tests/bench/NOTES.md).
+FrameRenderer::FrameRenderer(SplatterChoice splatter)
+    : styles_(stylesFor({64, 64})),
+      font_(styles_),
+      sums_(splatter == SplatterChoice::Cpu ||
+            (splatter == SplatterChoice::ByDevice && gl::drawsOnProcessor())) {}
 
 void FrameRenderer::makeRoom(std::span<const View> eyes) {
     for (const View& eye : eyes)
@@ -55,8 +65,19 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     makeRoom(eyes);
     const glm::dvec3 midEye = midway(eyes);
     ++orders_;
-    const DrawList list = order(content.scene, midEye);
-    return {content, splatter_.upload(content.scene, list, step), midEye};
+    const Scene& scene = content.scene;
+    // GL's own upload does it.
+    if (!takesPointsFromGpu(scene)) gl_.setLayers(scene, ValueScale::of(scene.layers));
+    return {content, splatterFor(scene).prepare(scene, order(scene, midEye), step), midEye};
+}
+
+Splatter& FrameRenderer::splatterFor(const Scene& scene) {
+    if (takesPointsFromGpu(scene)) return gl_;
+    return processor_;
+}
+
+bool FrameRenderer::takesPointsFromGpu(const Scene& scene) const {
+    return !(sums_ && ProcessorSplatter::canDraw(scene));
 }
 
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
@@ -66,26 +87,49 @@ void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
 
 FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View& eye) {
     ++eyes_;
-    FlatMesh legend = legendMesh(frame.content.legend, font_, eye.size);
-    AxesMeshes axes = axesMeshes(frame.content.grid, frame.content.scene.lattice, eye, frame.midEye,
-                                 font_, legend);
-    return {frame, eye, std::move(legend), std::move(axes)};
+    const FrameContent& content = frame.content;
+    FlatMesh legend = legendMesh(content.legend, font_, eye.size);
+    AxesMeshes axes = axesMeshes(content.grid, content.scene.lattice, eye, frame.midEye, font_,
+                                 legend, content.background);
+    return {frame, eye, std::move(legend), std::move(axes), splatCosts(content.scene, eye)};
 }
 
-bool FrameRenderer::goOn(EyeInWork& work, std::uint64_t splats) {
-    if (!drawSplats(work, splats)) return false;
+bool FrameRenderer::goOn(EyeInWork& work, double cost) {
+    if (!drawSplats(work, cost)) return false;
     drawLight(work);
     return true;
 }
 
-std::uint64_t FrameRenderer::cost(const Prepared& frame) const {
-    const std::vector<Channels> channels = channelsFor(frame.content.scene);
-    std::uint64_t sum = 0;
+void FrameRenderer::drawWhole(const Prepared& frame, const View& eye,
+                              const std::function<void(double)>& progress) {
+    constexpr double kAtOnce = 1 << 18;  // half a second on two cores without a GPU
+    if (!progress) return drawEye(frame, eye);
+    const double whole = cost(frame, eye);
+    EyeInWork work = begin(frame, eye);
+    while (!goOn(work, kAtOnce)) progress(std::min(work.cost / whole, 1.0));
+}
+
+// Of the planes in turn; one that takes every layer has their mean.
+std::vector<double> FrameRenderer::splatCosts(const Scene& scene, const View& eye) const {
+    std::vector<double> costs;
+    if (scene.order == Order::None) {
+        for (std::size_t k = 0; k < scene.layers.size(); ++k)
+            costs.push_back(splatCost(scene, k, eye));
+        return costs;
+    }
+    std::uint64_t splats = 0;
+    for (const Layer& layer : scene.layers) splats += splatCount(layer, scene.stride);
+    const auto count = static_cast<double>(std::max(splats, std::uint64_t{1}));
+    return {std::max(1.0, sceneCost(scene, eye) / count)};
+}
+
+double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
+    const Scene& scene = frame.content.scene;
+    const std::vector<Channels> channels = channelsFor(scene);
+    const std::vector<double> each = splatCosts(scene, eye);
+    double sum = 0;
     for (std::size_t i = 0; i < channels.size(); ++i)
-        if (byRows(channels[i]))
-            sum += splatCount(frame.content.scene.layers[i], frame.content.scene.stride);
-        else
-            for (const Piece& piece : frame.list->pieces(channels[i], i)) sum += piece.cost;
+        sum += each[i] * static_cast<double>(frame.splats->splats(channels[i], i));
     return sum;
 }
 
@@ -98,28 +142,35 @@ void FrameRenderer::drawLight(const EyeInWork& work) {
                .size = work.eye.size,
                .clearColor = glm::vec4(glm::vec3(content.background), 1)});
     flat_->draw(work.axes.behind, light, work.eye.size);
-    flat_->draw(work.axes.labels, light, work.eye.size);
     for (const Placard& placard : content.placards) placards_.draw(placard, work.eye, light);
     resolve(content.scene, coveredPixels(content.scene, work.eye));
     // Lines before the volume have soft edges: blended over it, not under with a depth of their
     // own.
-    flat_->draw(work.axes.before, light, work.eye.size,
-                content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test);
+    const gl::DepthTest behindPlacards =
+        content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test;
+    for (const FlatMesh* mesh : {&work.axes.before, &work.axes.grounds, &work.axes.labels})
+        flat_->draw(*mesh, light, work.eye.size, behindPlacards);
+    flat_->draw(legendGround(work.legend, work.eye.size, content.background), light, work.eye.size);
     flat_->draw(work.legend, light, work.eye.size);
 }
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
-    step.upload(content.scene, neededScale(content.scene));
+    if (takesPointsFromGpu(content.scene)) step.upload(content.scene, neededScale(content.scene));
+    // A sorted list brings its own points; made before prepare(), whose layers then hold.
+    Scene sorted = content.scene;
+    sorted.order = Order::BackToFront;
+    std::unique_ptr<GpuList> counted;
+    if (extras.splatCount) counted = gl_.upload(sorted, order(sorted, midway(eyes)), step);
     const Prepared frame = prepare(content, step, eyes);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
-        drawEye(frame, eye);
+        drawWhole(frame, eye, extras.progress);
         EyePicture& picture = pictures.emplace_back();
         picture.image = targets().readLight();
         if (extras.splatCount) {
-            splatter_.draw(*frame.list, eye, Channels::Count, 0,
-                           use(eye.size).clearedPlane(0, Channels::Count));
+            gl_.draw(*counted, eye, Channels::Count, 0,
+                     use(eye.size).clearedPlane(0, Channels::Count));
             picture.splatCount = targets().readScalarPlane(0);
         }
     }
@@ -127,12 +178,13 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         // An ordered list interleaves the layers; their weights are added from the runs.
         Scene unordered = content.scene;
         unordered.order = Order::None;
-        step.upload(unordered, neededScale(unordered));
-        const auto runs = splatter_.upload(unordered, Runs{}, step);
+        if (takesPointsFromGpu(unordered)) step.upload(unordered, neededScale(unordered));
+        const auto splats = splatterFor(unordered).prepare(unordered, Runs{}, step);
         for (std::size_t i = 0; i < eyes.size(); ++i) {
             const AxesMeshes axes =
-                axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_);
-            pictures[i].opticalDepth = opticalDepth(*runs, eyes[i], axes.behind);
+                axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_,
+                           legendMesh(content.legend, font_, eyes[i].size));
+            pictures[i].opticalDepth = opticalDepth(unordered, *splats, eyes[i], axes.behind);
         }
     }
     gl::throwOnError();
@@ -157,53 +209,27 @@ void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLui
     hidden_.drawDepth(view, framebuffer);
 }
 
-bool FrameRenderer::drawSplats(EyeInWork& work, std::uint64_t splats) {
+bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
     const FrameContent& content = work.frame.content;
-    const Occluders occluders{work.axes.behind, content.placards};
     const std::vector<Channels> channels = channelsFor(content.scene);
     Targets& targets = use(work.eye.size);
-    const std::uint64_t until = work.cost + std::clamp<std::uint64_t>(splats, 1, kAll - work.cost);
-    for (; work.plane < channels.size(); ++work.plane, work.piece = 0) {
+    if (work.plane == 0 && !work.sum)
+        drawDepth({work.axes.behind, content.placards}, work.eye, targets.lightFramebuffer());
+    const double until = work.cost + std::max(cost, 1.0);
+    for (; work.plane < channels.size(); ++work.plane, work.sum.reset()) {
         if (work.cost >= until) return false;
-        const Channels channel = channels[work.plane];
-        if (work.piece == 0 && !work.rows) {
-            const GLuint plane = targets.clearedPlane(work.plane, channel);
-            if (work.plane == 0) drawDepth(occluders, work.eye, plane);
+        if (!work.sum)
+            work.sum =
+                work.frame.splats->begin(work.eye, channels[work.plane], work.plane, targets);
+        const double each = work.splatCosts[work.plane];
+        constexpr double kMost = 1e18;
+        while (!work.sum->done() && work.cost < until) {
+            const double splats = std::min(std::ceil((until - work.cost) / each), kMost);
+            work.cost +=
+                each * static_cast<double>(work.sum->add(static_cast<std::uint64_t>(splats)));
         }
-        if (!(byRows(channel) ? drawRows(work, channel, until) : drawPieces(work, channel, until)))
-            return false;
+        if (!work.sum->done()) return false;
     }
-    // The placards are drawn against it even if there are no splats.
-    if (channels.empty()) drawDepth(occluders, work.eye, targets.lightFramebuffer());
-    return true;
-}
-
-bool FrameRenderer::drawPieces(EyeInWork& work, Channels channels, std::uint64_t until) {
-    const auto left = work.frame.list->pieces(channels, work.plane).subspan(work.piece);
-    std::size_t now = 0;
-    while (now < left.size() && work.cost < until) work.cost += left[now++].cost;
-    splatter_.draw(*work.frame.list, work.eye, channels, left.first(now),
-                   targets().planeFramebuffer(work.plane));
-    work.piece += now;
-    return now == left.size();
-}
-
-// A driver that draws on the processor takes several times longer for point sprites than the
-// program does for their pixels (tests/bench/RESULTS.md).
-bool FrameRenderer::byRows(Channels channels) const {
-    return onProcessor_ && (channels == Channels::Weight || channels == Channels::WeightedColor);
-}
-
-bool FrameRenderer::drawRows(EyeInWork& work, Channels channels, std::uint64_t until) {
-    Targets& targets = use(work.eye.size);
-    if (work.opaqueDepth.empty()) work.opaqueDepth = targets.readDepth();
-    if (!work.rows)
-        work.rows.emplace(work.frame.content.scene, work.eye, channels, work.plane,
-                          work.opaqueDepth);
-    work.cost += work.rows->add(until - work.cost);
-    if (!work.rows->done()) return false;
-    targets.writePlane(work.plane, work.rows->plane());
-    work.rows.reset();
     return true;
 }
 
@@ -226,29 +252,25 @@ void FrameRenderer::resolve(const Scene& scene, const PixelBox& covered) {
                .at = covered.at,
                .blend = gl::Blend::Premultiplied});
     glUseProgram(resolveProgram(scene).id());
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, splatter_.layerBlock().id());
+    glBindBufferBase(GL_UNIFORM_BUFFER, 1, gl_.layerBlock().id());
     for (std::size_t i = 0; i < channelsFor(scene).size(); ++i)
         glBindTextureUnit(static_cast<GLuint>(i), targets().plane(i).id());
     glBindVertexArray(noVertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-std::vector<float> FrameRenderer::opticalDepth(const GpuList& list, const View& view,
-                                               const FlatMesh& behind) {
+std::vector<float> FrameRenderer::opticalDepth(const Scene& scene, SplatFrame& splats,
+                                               const View& view, const FlatMesh& behind) {
     Targets& targets = use(view.size);
-    std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y)), depth;
-    const auto& layers = list.scene().layers;
-    for (std::size_t k = 0; k < layers.size(); ++k) {
-        const GLuint plane = targets.clearedPlane(0, Channels::Weight);
-        if (k == 0) drawDepth({behind, {}}, view, plane);
-        if (byRows(Channels::Weight)) {
-            if (k == 0) depth = targets.readDepth();
-            targets.writePlane(0, sumRows(list.scene(), view, Channels::Weight, k, depth));
-        } else {
-            splatter_.draw(list, view, Channels::Weight, k, plane);
-        }
-        const std::vector<float> weight = targets.readScalarPlane(0);
-        const auto perWeight = static_cast<float>(opticalDepthPerWeight(layers[k].style.opacity));
+    drawDepth({behind, {}}, view, targets.lightFramebuffer());
+    std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
+    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+        targets.clearedPlane(k, Channels::Weight);
+        const auto sum = splats.begin(view, Channels::Weight, k, targets);
+        while (!sum->done()) sum->add(kAllSplats);
+        const std::vector<float> weight = targets.readScalarPlane(k);
+        const auto perWeight =
+            static_cast<float>(opticalDepthPerWeight(scene.layers[k].style.opacity));
         for (std::size_t i = 0; i < total.size(); ++i) total[i] += perWeight * weight[i];
     }
     return total;

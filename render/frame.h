@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,7 +19,7 @@
 #include "render/image.h"
 #include "render/legend.h"
 #include "render/placard.h"
-#include "render/row_splatter.h"
+#include "render/processor_splatter.h"
 #include "render/targets.h"
 
 namespace render {
@@ -40,12 +41,14 @@ struct EyePicture {
 };
 struct Extras {
     bool opticalDepth = false, splatCount = false;
+    // Told now and then which share of a picture's splats is drawn, [0, 1].
+    std::function<void(double)> progress = {};
 };
 
 // Needs a current GL context, from construction to destruction.
 class FrameRenderer {
  public:
-    FrameRenderer();
+    explicit FrameRenderer(SplatterChoice splatter = SplatterChoice::ByDevice);
 
     // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
     // picture does not depend on what was drawn before. Order is taken from the point midway
@@ -53,11 +56,13 @@ class FrameRenderer {
     std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
+    // Whether drawing the scene takes its points from the GPU; else the program sums them itself.
+    bool takesPointsFromGpu(const Scene& scene) const;
     // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
-    // step that is ready for the scene.
+    // step that is ready for the scene, if its points are taken from it.
     struct Prepared {
         const FrameContent& content;
-        std::unique_ptr<GpuList> list;
+        std::unique_ptr<SplatFrame> splats;
         glm::dvec3 midEye;
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
@@ -70,17 +75,16 @@ class FrameRenderer {
         const View& eye;
         FlatMesh legend;
         AxesMeshes axes;
-        std::size_t plane = 0, piece = 0;  // to be drawn next
-        std::uint64_t cost = 0;            // drawn so far, in splats
-        // Where the driver draws on the processor: the opaque scene, and the plane being summed.
-        std::vector<float> opaqueDepth = {};
-        std::optional<RowSum> rows = {};
+        std::vector<double> splatCosts;  // of each plane; render/splat_cost.h
+        std::size_t plane = 0;           // to go on with
+        std::unique_ptr<PlaneSum> sum = {};
+        double cost = 0;  // of what is drawn so far, in ordinary splats
     };
     EyeInWork begin(const Prepared& frame, const View& eye);
-    // Draws until `splats` are reached: one piece (render/pieces.h) at least, or RowSum::kLeast.
+    // Draws until this cost is reached, or a little more: what a splatter adds at least.
     // True when the light is in targets(); before, there is nothing to see.
-    bool goOn(EyeInWork& work, std::uint64_t splats);
-    std::uint64_t cost(const Prepared& frame) const;  // of a whole eye
+    bool goOn(EyeInWork& work, double cost);
+    double cost(const Prepared& frame, const View& eye) const;  // of the whole eye
     // An eye that sees nothing but placards. REQUIRES: makeRoom() for it.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                       const View& eye);
@@ -89,9 +93,9 @@ class FrameRenderer {
     const Targets& targets() const { return *targets_[current_]; }  // of the eye drawn last
 
     struct Counts {
-        std::uint64_t orders = 0, uploads = 0, eyes = 0;
+        std::uint64_t orders = 0, eyes = 0;
     };
-    Counts counts() const { return {orders_, splatter_.counts().uploads, eyes_}; }
+    Counts counts() const { return {orders_, eyes_}; }
 
  private:
     Targets& use(glm::ivec2 size);  // which targets() then are
@@ -102,27 +106,30 @@ class FrameRenderer {
     };
     // Leaves the depth attachment, which all planes and the light share, holding these alone.
     void drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer);
-    bool drawSplats(EyeInWork& work, std::uint64_t splats);
-    // Of the plane that is next, until work.cost reaches `until`. True when it is whole.
-    bool drawPieces(EyeInWork& work, Channels channels, std::uint64_t until);
-    bool drawRows(EyeInWork& work, Channels channels, std::uint64_t until);
-    bool byRows(Channels channels) const;
+    bool drawSplats(EyeInWork& work, double cost);
+    std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
+    void drawWhole(const Prepared& frame, const View& eye,
+                   const std::function<void(double)>& progress);
+    Splatter& splatterFor(const Scene& scene);
     void drawLight(const EyeInWork& work);
     void resolve(const Scene& scene, const PixelBox& covered);
     const gl::Program& resolveProgram(const Scene& scene);
-    std::vector<float> opticalDepth(const GpuList& list, const View& view, const FlatMesh& behind);
+    // Of an unordered scene.
+    std::vector<float> opticalDepth(const Scene& scene, SplatFrame& splats, const View& view,
+                                    const FlatMesh& behind);
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
     std::unique_ptr<FlatPass> flat_;
-    GlSplatter splatter_;
+    GlSplatter gl_;
+    ProcessorSplatter processor_;
     std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
     PlacardPass placards_;
     HiddenAreaPass hidden_;
     gl::VertexArray noVertices_;
     std::vector<std::unique_ptr<Targets>> targets_;  // all of different sizes
     std::size_t current_ = 0;
-    bool onProcessor_ = gl::drawsOnProcessor();
+    bool sums_;  // planes itself, where it can
     std::uint64_t orders_ = 0, eyes_ = 0;
 };
 

@@ -40,6 +40,10 @@ void FramePace::took(std::uint64_t splats, std::chrono::nanoseconds time) {
     follow();
 }
 
+std::chrono::nanoseconds FramePace::costOf(std::uint64_t splats) const {
+    return std::chrono::nanoseconds(std::llround(perSplatNs_ * static_cast<double>(splats)));
+}
+
 void FramePace::fit() {
     std::vector<double> slopes, fixed, shares;
     for (std::size_t i = 1; i < recent_.size(); ++i)

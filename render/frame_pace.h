@@ -23,6 +23,9 @@ class FramePace {
     // more.
     std::uint64_t budget() const { return budget_; }
 
+    // What so many splats take, as is known so far.
+    std::chrono::nanoseconds costOf(std::uint64_t splats) const;
+
     static constexpr std::uint64_t kFewest = 20'000, kFirst = 100'000,
                                    kMost = std::uint64_t{1} << 31;
 

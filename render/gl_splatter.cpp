@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
@@ -21,6 +22,7 @@ namespace {
 struct SplatViewBlock {
     glm::mat4 viewFromAxes;
     glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slopeAndLengths;
+    glm::vec4 domainLo, domainHi, boxHalf;
     glm::uvec4 lattice, clipLo, clipHi;
 };
 
@@ -46,6 +48,9 @@ SplatViewBlock viewBlock(const Scene& scene, const View& view, const LatticeView
                 static_cast<float>(pointSide(footprint))};
     b.slopeAndLengths = glm::vec4(glm::dvec4(
         1.0 / (rays.focal * rays.focal), seen.lengthening.most / seen.rayLength, seen.pixelArea));
+    b.domainLo = glm::vec4(glm::dvec4(seen.domain.lo, kQuarticRadius));
+    b.domainHi = glm::vec4(glm::dvec4(seen.domain.hi, 0));
+    b.boxHalf = glm::vec4(glm::dvec4(scene.lattice.boxHalf(), 0));
     b.lattice = {scene.lattice.size(), 0};
     b.clipLo = {scene.clip.lo, 0};
     b.clipHi = {scene.clip.hi, 0};
@@ -77,6 +82,58 @@ glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
 
 constexpr int kMapEntries = 257;  // the most that a ColorMap has
 
+class GlPlane final : public PlaneSum {
+ public:
+    GlPlane(GlSplatter& splatter, const GpuList& list, const View& view, Channels channels,
+            std::size_t layer, GLuint framebuffer)
+        : splatter_(splatter),
+          list_(list),
+          view_(view),
+          channels_(channels),
+          framebuffer_(framebuffer),
+          left_(list.pieces(channels, layer)) {}
+
+    std::uint64_t add(std::uint64_t splats) override {
+        std::size_t pieces = 0;
+        std::uint64_t added = 0;
+        while (pieces < left_.size() && added < std::max(splats, std::uint64_t{1}))
+            added += left_[pieces++].cost;
+        splatter_.draw(list_, view_, channels_, left_.first(pieces), framebuffer_);
+        left_ = left_.subspan(pieces);
+        return added;
+    }
+    bool done() const override { return left_.empty(); }
+
+ private:
+    GlSplatter& splatter_;
+    const GpuList& list_;
+    const View& view_;
+    Channels channels_;
+    GLuint framebuffer_;
+    std::span<const Piece> left_;
+};
+
+class GlFrame final : public SplatFrame {
+ public:
+    GlFrame(GlSplatter& splatter, std::unique_ptr<GpuList> list)
+        : splatter_(splatter), list_(std::move(list)) {}
+
+    std::uint64_t splats(Channels channels, std::size_t layer) const override {
+        std::uint64_t sum = 0;
+        for (const Piece& piece : list_->pieces(channels, layer)) sum += piece.cost;
+        return sum;
+    }
+    std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
+                                    Targets& targets) override {
+        return std::make_unique<GlPlane>(splatter_, *list_, view, channels, layer,
+                                         targets.clearedPlane(layer, channels));
+    }
+
+ private:
+    GlSplatter& splatter_;
+    std::unique_ptr<GpuList> list_;
+};
+
 }  // namespace
 
 GlSplatter::GlSplatter()
@@ -95,6 +152,7 @@ const gl::Program& GlSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
     std::string defines = define(variant.channels);
     if (variant.quads) defines += "#define QUADS\n";
+    if (variant.cut) defines += "#define CUT\n";
     if (variant.cubes) defines += "#define CUBES\n";
     if (variant.kernel == Kernel::Point) defines += "#define KERNEL_POINT\n";
     return programs_
@@ -103,13 +161,8 @@ const gl::Program& GlSplatter::program(const Variant& variant) {
         .first->second;
 }
 
-std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& list,
-                                            const GpuStep& step) {
-    ++counts_.uploads;
+void GlSplatter::setLayers(const Scene& scene, const ValueScale& scale) {
     LayerBlock block{};
-    // A sorted list brings its own values.
-    const bool own = std::holds_alternative<Sorted>(list) || step.values() == nullptr;
-    const ValueScale scale = own ? ValueScale::of(scene.layers) : step.valueScale();
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
         const RangeStyle& style = scene.layers[k].style;
         const double tau = opticalDepthPerWeight(style.opacity);
@@ -129,7 +182,21 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
                             static_cast<GLsizei>(row.size()), 1, GL_RGBA, GL_FLOAT, row.data());
     }
     layers_.write(0, sizeof block, &block);
+}
+
+std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& list,
+                                            const GpuStep& step) {
+    ++counts_.uploads;
+    // A sorted list brings its own values.
+    const bool own = std::holds_alternative<Sorted>(list) || step.values() == nullptr;
+    const ValueScale scale = own ? ValueScale::of(scene.layers) : step.valueScale();
+    setLayers(scene, scale);
     return std::make_unique<GpuList>(scene, list, step, scale);
+}
+
+std::unique_ptr<SplatFrame> GlSplatter::prepare(const Scene& scene, DrawList list,
+                                                const GpuStep& step) {
+    return std::make_unique<GlFrame>(*this, upload(scene, list, step));
 }
 
 void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
@@ -145,14 +212,17 @@ void GlSplatter::draw(const GpuList& list, const View& view, Channels channels,
     // A point sprite whose centre leaves the clip volume vanishes whole, so the viewport is wider
     // than the picture by the farthest reach; sprites also have a largest size, as has a viewport.
     const double sides = 2 * (reach + 2);
-    const bool quads =
-        !(sides <= static_cast<double>(largestPoint_) &&
-          view.size.x + sides <= largestViewport_.x && view.size.y + sides <= largestViewport_.y);
+    // Slim footprints fill little of a sprite.
+    const bool cut =
+        list.scene().lattice.longCells() && list.scene().footprint.kernel != Kernel::Point;
+    const bool quads = cut || !(sides <= static_cast<double>(largestPoint_) &&
+                                view.size.x + sides <= largestViewport_.x &&
+                                view.size.y + sides <= largestViewport_.y);
     const int guard = quads ? 0 : static_cast<int>(std::ceil(reach)) + 1;
     const SplatViewBlock block = viewBlock(list.scene(), view, seen, guard);
     view_.write(0, sizeof block, &block);
     const gl::Program& with =
-        program({channels, list.scene().footprint.kernel, quads, list.cubes()});
+        program({channels, list.scene().footprint.kernel, quads, list.cubes(), cut});
     gl::begin({.framebuffer = framebuffer,
                .size = view.size,
                .guard = guard,

@@ -7,20 +7,23 @@
 #include <span>
 
 #include "render/gl/object.h"
-#include "render/gpu_step.h"
 #include "render/pieces.h"
-#include "render/scene.h"
-#include "render/view.h"
+#include "render/splatter.h"
 
 namespace render {
 
 // One frame's list, ready to draw for any number of eyes.
 class GpuList;
 
-class GlSplatter {
+class GlSplatter final : public Splatter {
  public:
     GlSplatter();
-    ~GlSplatter();
+    ~GlSplatter() override;
+
+    std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
+                                        const GpuStep& step) override;
+    // What resolving a frame's planes needs, whoever sums them; upload() does it.
+    void setLayers(const Scene& scene, const ValueScale& scale);
 
     // Once a frame. `step` holds the scene's step and is ready for it. The list refers to both.
     std::unique_ptr<GpuList> upload(const Scene& scene, const DrawList& list, const GpuStep& step);
@@ -45,7 +48,7 @@ class GlSplatter {
     struct Variant {
         Channels channels;
         Kernel kernel;
-        bool quads, cubes;
+        bool quads, cubes, cut;
         auto operator<=>(const Variant&) const = default;
     };
     const gl::Program& program(const Variant& variant);

@@ -63,16 +63,21 @@ void write(gl::Buffer& buffer, std::uint64_t first, const std::vector<T>& what) 
 }  // namespace
 
 GpuStep::GpuStep(const timeseries::SortedStep& step, const Lattice& lattice)
-    : gridIndex_(drawable(step).size() * sizeof(std::uint32_t)),
-      placeInBlock_(step.size() * sizeof(std::uint16_t)),
-      axisPoints_(std::span<const glm::vec2>(axisTable(lattice))),
+    : axisPoints_(std::span<const glm::vec2>(axisTable(lattice))),
       axisTexture_(GL_RG32F, axisPoints_),
       present_(blockCount(step.size())) {}
+
+void GpuStep::makeRoom(const timeseries::SortedStep& step) {
+    if (gridIndex_ && placeInBlock_) return;
+    gridIndex_.emplace(drawable(step).size() * sizeof(std::uint32_t));
+    placeInBlock_.emplace(step.size() * sizeof(std::uint16_t));
+}
 
 void GpuStep::place(const Lattice& lattice) { write(axisPoints_, 0, axisTable(lattice)); }
 
 void GpuStep::upload(const Scene& scene, const std::optional<ValueScale>& scale,
                      std::uint64_t bytes) {
+    makeRoom(scene.step);
     ScaledValues* const values = valuesOn(scale, scene.step.size());
     const auto blocks = neededBlocks(scene);
     std::uint64_t sent = 0;
@@ -110,8 +115,8 @@ std::uint64_t GpuStep::send(const Scene& scene, std::uint64_t block, ScaledValue
         std::vector<std::uint32_t> ordered;
         ordered.reserve(count);
         for (const std::uint16_t place : places) ordered.push_back(index[place]);
-        write(gridIndex_, first, ordered);
-        write(placeInBlock_, first, places);
+        write(*gridIndex_, first, ordered);
+        write(*placeInBlock_, first, places);
         present_[block] = true;
     }
     if (sendValues) {
@@ -164,7 +169,9 @@ ValueScale GpuStep::serving(const ValueScale& wanted) const {
 }
 
 std::uint64_t GpuStep::bytes() const {
-    std::uint64_t bytes = gridIndex_.bytes() + placeInBlock_.bytes() + axisPoints_.bytes();
+    std::uint64_t bytes = axisPoints_.bytes();
+    for (const auto* held : {&gridIndex_, &placeInBlock_})
+        if (*held) bytes += (*held)->bytes();
     for (const auto* held : {&values_, &coming_})
         if (*held) bytes += (*held)->buffer.bytes();
     return bytes;

@@ -16,8 +16,9 @@ namespace render {
 // follow each other fall on near pixels, which is quicker than order of value, and a subset lies in
 // the beginnings of blocks. Each point knows its place in the sorted block, so a run is drawn
 // exactly: all of a block that it touches, or its beginning, is sent to the vertex shader, which
-// passes only the points whose place lies in the run and the subset. Room is taken at once; blocks
-// come when a scene needs them, in slices, so that frames keep their pace.
+// passes only the points whose place lies in the run and the subset. Room is taken with the first
+// upload(), for all points; blocks come when a scene needs them, in slices, so that frames keep
+// their pace.
 //
 // A scene here is of the step and the grid that this was made for. One that is ordered needs
 // nothing: its list brings its own points.
@@ -25,13 +26,13 @@ class GpuStep {
  public:
     static constexpr std::uint64_t kBlock = kSubsetPeriod;
 
-    // Holds no points yet. Throws std::length_error for 2^31 points or more, the most that one draw
-    // call can count, and std::runtime_error when the driver has no room.
+    // Holds no points yet, nor room for them.
     GpuStep(const timeseries::SortedStep& step, const Lattice& lattice);
 
     // Sends blocks that the scene's runs touch and that are not there, with their values on `scale`
     // if there is one, until `bytes` are reached: one block at least. While values on another scale
-    // come, those that are there stay in use.
+    // come, those that are there stay in use. Throws std::length_error for 2^31 points or more, the
+    // most that one draw call can count, and std::runtime_error when the driver has no room.
     static constexpr std::uint64_t kAll = ~std::uint64_t{0};
     void upload(const Scene& scene, const std::optional<ValueScale>& scale,
                 std::uint64_t bytes = kAll);
@@ -46,9 +47,10 @@ class GpuStep {
     // Draws the points where this lattice, of the same grid, has them.
     void place(const Lattice& lattice);
 
-    // [points] each: grid index, 4 bytes; place in the block, 2 bytes; scaled value, 4 bytes.
-    const gl::Buffer& gridIndex() const { return gridIndex_; }
-    const gl::Buffer& placeInBlock() const { return placeInBlock_; }
+    // REQUIRES: upload() was called. [points] each: grid index, 4 bytes; place in the block, 2
+    // bytes; scaled value, 4 bytes.
+    const gl::Buffer& gridIndex() const { return *gridIndex_; }
+    const gl::Buffer& placeInBlock() const { return *placeInBlock_; }
     const gl::Buffer* values() const { return values_ ? &values_->buffer : nullptr; }
     // Of values(). REQUIRES: they are there.
     const ValueScale& valueScale() const { return values_->scale; }
@@ -67,7 +69,10 @@ class GpuStep {
     // Returns the bytes sent. `values`: those to fill as well, or null.
     std::uint64_t send(const Scene& scene, std::uint64_t block, ScaledValues* values);
 
-    gl::Buffer gridIndex_, placeInBlock_, axisPoints_;
+    void makeRoom(const timeseries::SortedStep& step);
+
+    std::optional<gl::Buffer> gridIndex_, placeInBlock_;
+    gl::Buffer axisPoints_;
     gl::BufferTexture axisTexture_;
     Blocks present_;                               // of gridIndex_ and placeInBlock_
     std::optional<ScaledValues> values_, coming_;  // in use; not all that a scene needs yet

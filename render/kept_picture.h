@@ -1,7 +1,9 @@
 // A finished picture kept on the GPU, to be shown again while only what lies over it changes.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "render/gl/object.h"
 
@@ -14,6 +16,7 @@ class KeptPicture {
     glm::ivec2 size() const { return texture_.size(); }
     // sRGB bytes, row 0 at the bottom; to draw into.
     GLuint framebuffer() const { return framebuffer_.id(); }
+    void write(std::span<const std::uint8_t> rgba);  // all of it, row 0 at the bottom
     // Clears the window's own framebuffer to `ground` (sRGB) and copies the picture into it, lower
     // left corner at `at`.
     void show(glm::ivec2 window, glm::ivec2 at, const glm::vec3& ground) const;

@@ -30,9 +30,9 @@ std::string comparableUnit(const Axis& axis) {
     return axis.units.starts_with("degree") ? "degree" : axis.units;
 }
 
-// An axis of other units, or far shorter than the longest, would be drawn as a sheet or a needle.
+// Lengths of other units cannot be compared: such an axis might be drawn as a sheet or a needle.
 std::array<Wide, 3> fittedStretch(const Grid& grid) {
-    constexpr Wide kFlattest = 20, kFittedShare = 0.5;
+    constexpr Wide kFittedShare = 0.5;
     const auto& axes = grid.axes();
     // The axes that share the first axis's unit keep their proportions and lead.
     const std::string leading = comparableUnit(axes[0]);
@@ -45,8 +45,7 @@ std::array<Wide, 3> fittedStretch(const Grid& grid) {
     for (std::size_t a = 0; a < 3; ++a) {
         const Wide length = extent(axes[a]);
         if (length == 0) continue;
-        if (comparableUnit(axes[a]) != leading || length * kFlattest < longest)
-            stretch[a] = kFittedShare * longest / length;
+        if (comparableUnit(axes[a]) != leading) stretch[a] = kFittedShare * longest / length;
     }
     return stretch;
 }
@@ -107,6 +106,11 @@ Lattice::Lattice(const Grid& grid, std::optional<glm::dvec3> stretch)
         if (widths_[a].size() == 1) widths_[a][0] = thinnest;
     unitLength_ = std::cbrt(mean(widths_[0]) * mean(widths_[1]) * mean(widths_[2]) *
                             std::abs(glm::determinant(worldFromAxes_)));
+    constexpr double kLong = 3;
+    double longest = 0;
+    for (const auto& widths : widths_)
+        longest = std::max(longest, *std::ranges::max_element(widths));
+    longCells_ = longest > kLong * thinnest;
 }
 
 glm::uvec3 Lattice::size() const {
@@ -168,22 +172,34 @@ bool Lattice::cubes() const {
     return true;
 }
 
-namespace {
+Lattice::Box Lattice::domain() const {
+    Box box{};
+    for (int a = 0; a < 3; ++a) {
+        const auto &at = positions_[a], &width = widths_[a];
+        const bool down = at.front() > at.back();
+        const auto [lo, hi] = std::pair(down ? at.size() - 1 : 0, down ? 0 : at.size() - 1);
+        box.lo[a] = at[lo] - width[lo] / 2;
+        box.hi[a] = at[hi] + width[hi] / 2;
+    }
+    return box;
+}
 
-glm::uvec3 unravel(std::uint64_t index, const glm::uvec3& n) {
+glm::uvec3 Lattice::indices(std::uint64_t index) const {
+    const glm::uvec3 n = size();
     return {index % n.x, index / n.x % n.y, index / n.x / n.y};
 }
 
-}  // namespace
-
 glm::dvec3 Lattice::position(std::uint64_t index) const {
-    const glm::uvec3 at = unravel(index, size());
-    return worldFromAxes_ *
-           glm::dvec3(positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]);
+    return worldFromAxes_ * alongAxes(index);
+}
+
+glm::dvec3 Lattice::alongAxes(std::uint64_t index) const {
+    const glm::uvec3 at = indices(index);
+    return {positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]};
 }
 
 glm::dvec3 Lattice::cell(std::uint64_t index) const {
-    const glm::uvec3 at = unravel(index, size());
+    const glm::uvec3 at = indices(index);
     return {widths_[0][at.x], widths_[1][at.y], widths_[2][at.z]};
 }
 

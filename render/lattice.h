@@ -24,16 +24,17 @@ namespace render {
 class Lattice {
  public:
     // `stretch` multiplies the grid's units, each along its axis, before the uniform scaling.
-    // Without it axes of one unit keep their proportions, and axes of other units (or more than 20
-    // times shorter) are fitted to half the length of the longest. Axes that count downwards are
-    // drawn downwards.
+    // Without it axes of one unit keep their proportions, however flat, and axes of other units are
+    // fitted to half the length of the longest. Axes that count downwards are drawn downwards.
     explicit Lattice(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch = {});
 
     glm::uvec3 size() const;
     // In the world.
     glm::dvec3 position(std::uint64_t index) const;
+    glm::dvec3 alongAxes(std::uint64_t index) const;  // in axis coordinates
     // Lengths of the cell's sides, all > 0.
     glm::dvec3 cell(std::uint64_t index) const;
+    glm::uvec3 indices(std::uint64_t index) const;  // along the axes
     // Per axis, by index along it, in axis coordinates.
     const std::array<std::vector<double>, 3>& positions() const { return positions_; }
     const std::array<std::vector<double>, 3>& widths() const { return widths_; }
@@ -53,6 +54,14 @@ class Lattice {
     double unitLength() const { return unitLength_; }
     // All cells are cubes of one size, to 1e-12.
     bool cubes() const;
+    // Cells along some axis are more than 3 times as long as those of another are in the mean:
+    // their splats end where the cells do (render/footprint.h).
+    bool longCells() const { return longCells_; }
+    // What the cells fill, the half ones around the outermost points included; in axis coordinates.
+    struct Box {
+        glm::dvec3 lo, hi;
+    };
+    Box domain() const;
     // Half sides of the points' box, in axis coordinates; all zero for a single point.
     glm::dvec3 boxHalf() const { return boxHalf_; }
     // The same in the world: columns from the centre of the box to the middles of its faces.
@@ -70,6 +79,7 @@ class Lattice {
     glm::dmat3 worldFromAxes_{1.0};
     glm::dvec3 boxHalf_{0};
     double unitLength_ = 1;
+    bool longCells_ = false;
 };
 
 // How much the axes are stretched against each other, in words: "5.6 m depth drawn as 1° lon";

@@ -9,6 +9,7 @@
 
 #include "render/axes.h"
 #include "render/color.h"
+#include "render/fitted_text.h"
 #include "render/ticks.h"
 
 namespace render {
@@ -18,34 +19,22 @@ glm::vec3 light(int red, int green, int blue) {
     return glm::vec3(linearFromSrgb(glm::dvec3(red, green, blue) / 255.0));
 }
 const glm::vec3 kText = light(230, 233, 239), kQuiet = light(148, 157, 172),
-                kFaint = light(112, 121, 136), kFrame = light(58, 66, 79);
-
-// The longest beginning that fits, ended by an ellipsis; empty where not even that fits.
-std::string shortened(const Font& font, FontStyle style, std::string text, float width) {
-    if (font.measure(text, style).x <= width) return text;
-    const std::string ellipsis = "\u2026";
-    while (!text.empty()) {
-        // A character's last byte, and those that continue it.
-        while ((static_cast<unsigned char>(text.back()) & 0xC0) == 0x80 && text.size() > 1)
-            text.pop_back();
-        text.pop_back();
-        while (!text.empty() && text.back() == ' ') text.pop_back();
-        if (!text.empty() && font.measure(text + ellipsis, style).x <= width)
-            return text + ellipsis;
-    }
-    return {};
-}
+                kFaint = light(128, 137, 152), kFrame = light(58, 66, 79);
 
 // What is said, from everything to the least; a picture takes the first that fits it.
 struct Detail {
-    bool notes, scales, amounts, layers, time;
+    std::size_t notes;  // lines of each, at most
+    bool scales, amounts, layers, time;
 };
+constexpr std::size_t kNote = 3;
 constexpr std::array kDetails = {
-    Detail{true, true, true, true, true},     Detail{false, true, true, true, true},
-    Detail{true, false, true, true, true},    Detail{false, false, true, true, true},
-    Detail{true, false, false, true, true},   Detail{false, false, false, true, true},
-    Detail{true, false, false, false, true},  Detail{false, false, false, false, true},
-    Detail{false, false, false, false, false}};
+    Detail{kNote, true, true, true, true},   Detail{1, true, true, true, true},
+    Detail{0, true, true, true, true},       Detail{kNote, false, true, true, true},
+    Detail{1, false, true, true, true},      Detail{0, false, true, true, true},
+    Detail{kNote, false, false, true, true}, Detail{1, false, false, true, true},
+    Detail{0, false, false, true, true},     Detail{kNote, false, false, false, true},
+    Detail{1, false, false, false, true},    Detail{0, false, false, false, true},
+    Detail{0, false, false, false, false}};
 
 class Writer {
  public:
@@ -73,8 +62,18 @@ class Writer {
     float titleHeight() const {
         return legend_.title.empty() ? 0 : static_cast<float>(title_.linePixels);
     }
-    float timeHeight() const { return legend_.time.empty() ? 0 : 1.2f * line_; }
-    float notesHeight() const { return line_ * static_cast<float>(legend_.notes.size()); }
+    // Time, and that there is nothing at it.
+    float timeHeight() const {
+        return ((legend_.time.empty() ? 0 : 1.2f) + (legend_.emptiness.empty() ? 0 : 1.2f)) * line_;
+    }
+    std::vector<std::string> noteLines(const Detail& detail) const {
+        std::vector<std::string> lines;
+        for (const std::string& note : legend_.notes)
+            for (std::string& line : wrapped(font_, label_, note, wide(), detail.notes))
+                lines.push_back(std::move(line));
+        return lines;
+    }
+    float wide() const { return size_.x - 2 * margin_; }
     bool byValue(const LegendLayer& layer) const {
         return std::holds_alternative<ByValue>(layer.style.color);
     }
@@ -127,7 +126,10 @@ class Writer {
         if (detail.layers == least.layers && detail.time == least.time)
             return titleHeight() <= room;
         const float used = columnHeight(detail);
-        if (used + (detail.notes ? notesHeight() + line_ : 0) > room) return false;
+        const auto notes = static_cast<float>(noteLines(detail).size());
+        // Wrapped notes, too, leave the middle to the field.
+        if (detail.notes > 1 && notes * line_ > 0.25f * room) return false;
+        if (used + (notes > 0 ? (notes + 1) * line_ : 0) > room) return false;
         // The middle of the picture is the field's.
         return !detail.layers || used <= (detail.amounts ? 0.4f : 0.6f) * room;
     }
@@ -139,13 +141,13 @@ class Writer {
     }
 
     void draw(const Detail& detail) {
-        const float wide = static_cast<float>(size_.x) - 2 * margin_;
         float y = margin_;
-        text(title_, legend_.title, {margin_, y}, wide, kText);
+        text(title_, legend_.title, {margin_, y}, wide(), kText);
         y += titleHeight();
         if (detail.time) {
-            text(label_, legend_.time, {margin_, y + 0.1f * line_}, wide, kQuiet);
+            text(label_, legend_.time, {margin_, y + 0.1f * line_}, wide(), kQuiet);
             y += timeHeight();
+            text(label_, legend_.emptiness, {margin_, y - 1.1f * line_}, wide(), kText);
         }
         y += 0.45f * line_;
         if (detail.layers) {
@@ -154,10 +156,10 @@ class Writer {
                 y += height(layer, detail);
             }
         }
-        if (!detail.notes) return;
-        y = static_cast<float>(size_.y) - margin_ - notesHeight();
-        for (const std::string& note : legend_.notes) {
-            text(label_, note, {margin_, y}, wide, kFaint);
+        const auto notes = noteLines(detail);
+        y = size_.y - margin_ - line_ * static_cast<float>(notes.size());
+        for (const std::string& line : notes) {
+            text(label_, line, {margin_, y}, wide(), kFaint);
             y += line_;
         }
     }
@@ -234,14 +236,19 @@ class Writer {
         const auto widthOf = [&](const std::string& words) {
             return font_.measure(words, label_).x;
         };
-        const std::string lo = endText(shown, shown.lo), hi = endText(shown, shown.hi);
+        const std::string lo = endText(shown, shown.lo);
+        // Where the bar is too short for both, the upper's last digits still tell them apart.
+        const std::string hi =
+            withoutCommonStart({lo, endText(shown, shown.hi)}, [&](const auto& end) {
+                return end == lo || widthOf(end) + 0.5f * gap + widthOf(lo) <= width;
+            })[1];
         if (!(shown.hi > shown.lo)) {
             text(label_, lo, {from.x, below}, width, kQuiet);
             return;
         }
         text(label_, lo, {from.x, below}, width, kQuiet);
         const float right = std::round(to.x - widthOf(hi));
-        if (right < from.x + widthOf(lo) + gap) return;
+        if (right < from.x + widthOf(lo) + 0.5f * gap) return;
         text(label_, hi, {right, below}, to.x - right + 1, kQuiet);
         const double middle = roundMiddle(shown);
         const std::string words = tickTexts(std::array{middle})[0];
@@ -287,6 +294,26 @@ class Writer {
 
 FlatMesh legendMesh(const Legend& legend, const Font& font, glm::ivec2 pictureSize) {
     return Writer(legend, font, pictureSize).write();
+}
+
+FlatMesh legendGround(const FlatMesh& legend, glm::ivec2 pictureSize,
+                      const glm::dvec3& background) {
+    const auto line = static_cast<float>(labelStyle(pictureSize).linePixels);
+    std::vector<PixelRect> plates;
+    for (PixelRect plate : legend.covers()) {
+        plate = plate.grown(0.35 * static_cast<double>(line));
+        // It may join plates that were apart.
+        for (std::size_t i = plates.size(); i-- > 0;) {
+            if (!overlap(plate, plates[i])) continue;
+            plate = around(plate, plates[i]);
+            plates.erase(plates.begin() + static_cast<std::ptrdiff_t>(i));
+            i = plates.size();
+        }
+        plates.push_back(plate);
+    }
+    FlatMesh ground;
+    for (const PixelRect& plate : plates) ground.plate(plate, 0.4f * line, groundColor(background));
+    return ground;
 }
 
 }  // namespace render

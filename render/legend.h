@@ -24,8 +24,11 @@ struct Legend {
     std::string time;                 // "1.10 s, step 13 of 31"
     std::vector<LegendLayer> layers;  // in the order of the scene's
     std::vector<std::string> notes;   // "depth drawn stretched", "drawn in index space"
+    std::string emptiness = {};       // "all 8 points of this step are missing"; "" when not
 };
 
 FlatMesh legendMesh(const Legend& legend, const Font& font, glm::ivec2 pictureSize);
+// What is drawn under it: one plate under texts that stand close to each other.
+FlatMesh legendGround(const FlatMesh& legend, glm::ivec2 pictureSize, const glm::dvec3& background);
 
 }  // namespace render

@@ -1,6 +1,8 @@
 #include "render/pick.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "render/footprint.h"
 
@@ -38,8 +40,7 @@ class Ray {
     std::optional<Met> meet(std::uint32_t gridIndex) const {
         const glm::dvec3 world = scene_.lattice.position(gridIndex);
         if (!near(world) || !inClip(gridIndex)) return std::nullopt;
-        const auto s =
-            splatAt<double>(latticeView_, world, scene_.lattice.cell(gridIndex), scene_.footprint);
+        const auto s = splatAt<double>(latticeView_, gridIndex, scene_.footprint);
         const glm::dmat4& clip = view_.clipFromView;
         const bool beyond = clip[3][2] - clip[2][2] * s.depth > s.depth;  // the far plane
         if (!s.visible || beyond || !inSquare(s)) return std::nullopt;
@@ -67,11 +68,9 @@ class Ray {
     // As the splatters place a point's square on whole pixels.
     bool inSquare(const Splat<double>& s) const {
         if (scene_.footprint.kernel != Kernel::Point) return true;
-        const glm::dvec2 first = glm::floor(rays_.centre + s.centre - s.extent + 0.5);
-        const glm::dvec2 pixel = glm::floor(window_);
-        const double side = 2 * s.extent;
-        return pixel.x >= first.x && pixel.y >= first.y && pixel.x < first.x + side &&
-               pixel.y < first.y + side;
+        const glm::dvec2 first = glm::floor(rays_.centre + s.centre + s.lo + 0.5);
+        const glm::dvec2 pixel = glm::floor(window_), past = first + s.hi - s.lo;
+        return pixel.x >= first.x && pixel.y >= first.y && pixel.x < past.x && pixel.y < past.y;
     }
 
     const Scene& scene_;
@@ -86,7 +85,26 @@ struct Hit {
     std::uint64_t point;
     std::size_t layer;
     double depth, opticalDepth;
+    double light = 0;  // what it adds to the pixel, as bright as it is
 };
+
+// As bright as a linear colour looks; a little, so that black in front of a ground counts, too.
+double brightness(const glm::dvec3& rgb) {
+    constexpr double kBlack = 0.01;
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)) + kBlack;
+}
+
+// What is in front hides what is behind, and so it looks in a picture of one colour in any order;
+// an unordered picture of several shows all that a ray passes alike.
+bool hides(const Scene& scene) {
+    if (scene.order == Order::BackToFront) return true;
+    const auto* first =
+        scene.layers.empty() ? nullptr : std::get_if<Constant>(&scene.layers.front().style.color);
+    return first && std::ranges::all_of(scene.layers, [&](const Layer& layer) {
+               const auto* other = std::get_if<Constant>(&layer.style.color);
+               return other && other->linearRgb == first->linearRgb;
+           });
+}
 
 std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& window) {
     const Ray ray(scene, view, window);
@@ -107,16 +125,22 @@ std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& wi
 }  // namespace
 
 std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window) {
-    constexpr double kMostInFront = 0.5;
     std::vector<Hit> met = hits(scene, view, window);
     std::ranges::stable_sort(met, {}, &Hit::depth);
-    double whole = 0;
-    for (const Hit& hit : met) whole += hit.opticalDepth;
+    const bool hiding = hides(scene);
+    double whole = 0, passed = 0, before = 0;  // light, and the optical depth in front
+    for (Hit& hit : met) {
+        const double value = timeseries::toDouble(scene.step.value(hit.point));
+        const double seen =
+            hiding ? std::exp(-before) * -std::expm1(-hit.opticalDepth) : hit.opticalDepth;
+        hit.light = seen * brightness(colorOf(scene.layers[hit.layer].style, value));
+        before += hit.opticalDepth;
+        whole += hit.light;
+    }
     if (!(whole > 0)) return std::nullopt;
-    double passed = 0;
     const auto half = std::ranges::find_if(met, [&](const Hit& hit) {
-        passed += hit.opticalDepth;
-        return passed >= std::min(whole / 2, kMostInFront);
+        passed += hit.light;
+        return passed >= whole / 2;
     });
     const std::uint32_t at = scene.step.gridIndex()[half->point];
     return Picked{half->point, half->layer, at, scene.lattice.position(at), half->depth};

@@ -18,9 +18,12 @@ struct Picked {
 };
 
 // Of the splats whose footprint covers the window position (pixel coordinates, y up), the one at
-// which the optical depth summed from the eye passes half of the ray's, at most 0.5: the front of
-// what is opaque, the middle of what is thin. None where the ray meets nothing that is seen. Costs
-// a pass over the points that the scene draws, some 30 ns each.
+// which the light summed from the eye passes half of the ray's. A splat's light is how opaque it
+// is, less what stands before it, times how bright it is: the front of what is opaque, the middle
+// of what is thin, and a bright column rather than the faint haze before it. Where an unordered
+// picture mixes several colours nothing hides anything, and optical depth counts instead of
+// opacity. None where the ray meets nothing that is seen. Costs a pass over the points that the
+// scene draws, some 30 ns each.
 std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window);
 
 }  // namespace render

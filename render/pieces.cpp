@@ -7,7 +7,7 @@
 namespace render {
 namespace {
 
-// What passing over a point costs, in splats: a thirtieth on llvmpipe (tests/bench/RESULTS.md).
+// What passing over a point costs, in splats: a thirtieth on llvmpipe (tests/bench/NOTES.md).
 constexpr double kPassedOver = 1.0 / 32;
 
 // `splats` among them, evenly.

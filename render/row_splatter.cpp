@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
+#include <utility>
 
 #include "render/footprint.h"
+#include "render/together.h"
 
 namespace render {
 namespace {
@@ -32,9 +33,12 @@ class SeenLayer {
           slope2_(1.0 / (seen_.rays.focal * seen_.rays.focal)) {}
 
     // Spans no pixels when it is not drawn.
-    Placed place(std::uint64_t point) const;
-    // W of the splat's pixels in row y, 0 where the opaque scene hides it; its first pixel's first.
-    void weigh(const Placed& placed, int y, const float* opaqueRow, float* weights) const;
+    Placed place(std::uint64_t point, const PixelBox& box) const;
+    // The pixels of row y that the splat may touch: fewer than its whole width where it is slim.
+    PixelSpan spanIn(const Placed& placed, int y) const;
+    // W of these pixels in row y, 0 where the opaque scene hides it; the first one's first.
+    void weigh(const Placed& placed, int y, PixelSpan x, const float* opaqueRow,
+               float* weights) const;
 
  private:
     const Scene& scene_;
@@ -47,27 +51,49 @@ class SeenLayer {
     glm::vec2 slope2_;  // squares of x / -z and y / -z per pixel
 };
 
-Placed SeenLayer::place(std::uint64_t point) const {
+PixelSpan within(PixelSpan span, int first, int size) {
+    return {std::max(span.first, first), std::min(span.last, first + size)};
+}
+
+Placed SeenLayer::place(std::uint64_t point, const PixelBox& box) const {
     Placed placed;
     const std::uint32_t i = scene_.step.gridIndex()[point];
-    const glm::uvec3 n = scene_.lattice.size();
-    if (!scene_.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y})) return placed;
+    if (!scene_.clip.holds(scene_.lattice.indices(i))) return placed;
     Splat<float>& s = placed.splat;
-    s = splatAt<float>(seen_, scene_.lattice.position(i), scene_.lattice.cell(i), scene_.footprint);
+    s = splatAt<float>(seen_, i, scene_.footprint);
     if (!s.visible) return placed;
     s.weight *= static_cast<float>(perSplat_);
     placed.windowDepth = static_cast<float>(windowDepth(view_, static_cast<double>(s.depth)));
     if (placed.windowDepth > 1) return placed;  // beyond the far plane
     const glm::vec2 window = axis_ + s.centre;
-    placed.x = pixelSpan(window.x, s.extent, scene_.footprint.kernel, view_.size.x);
-    placed.y = pixelSpan(window.y, s.extent, scene_.footprint.kernel, view_.size.y);
+    const Kernel kernel = scene_.footprint.kernel;
+    placed.x =
+        within(pixelSpan(window.x, s.lo.x, s.hi.x, kernel, view_.size.x), box.at.x, box.size.x);
+    placed.y =
+        within(pixelSpan(window.y, s.lo.y, s.hi.y, kernel, view_.size.y), box.at.y, box.size.y);
     if (colored_)
         placed.color = glm::vec4(
             glm::vec3(colorOf(style_, timeseries::toDouble(scene_.step.value(point)))), 1);
     return placed;
 }
 
-void SeenLayer::weigh(const Placed& placed, int y, const float* opaqueRow, float* weights) const {
+PixelSpan SeenLayer::spanIn(const Placed& placed, int y) const {
+    if (!scene_.lattice.longCells() || scene_.footprint.kernel == Kernel::Point) return placed.x;
+    // n - d <= 0, a quadratic in the offset along the row; a pixel more on both sides for rounding.
+    const Splat<float>& s = placed.splat;
+    const float oy = static_cast<float>(y) + 0.5f - axis_.y - s.centre.y;
+    const float a = s.n.x - s.d.x, half = ((s.n.y - s.d.y) * oy - s.l.x) / 2;
+    const float c = (s.n.z - s.d.z) * oy * oy - s.l.y * oy - 1;
+    if (!(a > 1e-3f * s.n.x)) return placed.x;
+    const float root = std::sqrt(std::max(half * half - a * c, 0.0f));
+    const float middle = axis_.x + s.centre.x - 0.5f, limit = 1e6f;
+    const auto pixel = [&](float at) { return static_cast<int>(std::clamp(at, -limit, limit)); };
+    return {std::max(placed.x.first, pixel(std::floor(middle + (-half - root) / a)) - 1),
+            std::min(placed.x.last, pixel(std::ceil(middle + (-half + root) / a)) + 2)};
+}
+
+void SeenLayer::weigh(const Placed& placed, int y, PixelSpan x, const float* opaqueRow,
+                      float* weights) const {
     const Splat<float>& s = placed.splat;
     const float atY = static_cast<float>(y) + 0.5f - axis_.y;
     const float oy = atY - s.centre.y;
@@ -75,10 +101,10 @@ void SeenLayer::weigh(const Placed& placed, int y, const float* opaqueRow, float
     const float n0 = s.n.z * oy * oy, n1 = s.n.y * oy, n2 = s.n.x;
     const float d0 = 1 + s.l.y * oy + s.d.z * oy * oy, d1 = s.l.x + s.d.y * oy, d2 = s.d.x;
     const float ray0 = 1 + slope2_.y * atY * atY, ray2 = slope2_.x;
-    const float left = static_cast<float>(placed.x.first) + 0.5f - axis_.x;
+    const float left = static_cast<float>(x.first) + 0.5f - axis_.x;
     const float centre = s.centre.x, weight = s.weight, depth = placed.windowDepth;
-    opaqueRow += placed.x.first;
-    const int count = placed.x.last - placed.x.first;
+    opaqueRow += x.first;
+    const int count = x.last - x.first;
     for (int i = 0; i < count; ++i) {
         const float atX = left + static_cast<float>(i);
         const float ox = atX - centre;
@@ -89,13 +115,12 @@ void SeenLayer::weigh(const Placed& placed, int y, const float* opaqueRow, float
         const float w = weight * std::sqrt((ray0 + ray2 * atX * atX) / d) * u * u;
         weights[i] = depth <= opaqueRow[i] && d > kLeastDenominator ? w : 0;
     }
-}
-
-// work(k) for every k below `threads`, each on a thread.
-void together(unsigned threads, const std::function<void(unsigned)>& work) {
-    std::vector<std::jthread> others;
-    for (unsigned k = 1; k < threads; ++k) others.emplace_back(work, k);
-    work(0);
+    if (!s.cut) return;
+    for (int i = 0; i < count; ++i) {
+        if (!(weights[i] > 0)) continue;
+        const glm::vec2 o(left + static_cast<float>(i) - centre, oy);
+        weights[i] *= s.insideShare(o, s.numerator(o) / s.denominator(o));
+    }
 }
 
 // Threads take the rows of a picture in turns, so many at a time.
@@ -109,7 +134,9 @@ struct RowSum::Work {
     const Layer& layer;
     const std::uint32_t stride;
     SeenLayer seen;
-    std::size_t width, floats;
+    PixelBox box;
+    std::size_t width, floats;  // of the box's rows
+    std::size_t pictureWidth;
     std::span<const float> opaqueDepth;
     unsigned threads;
     std::vector<float> plane;
@@ -138,10 +165,12 @@ void RowSum::Work::gather(std::uint64_t atMost) {
 }
 
 void RowSum::Work::addRow(const Placed& splat, int y, float* weights) {
-    const std::size_t first = static_cast<std::size_t>(y) * width;
-    seen.weigh(splat, y, &opaqueDepth[first], weights);
-    float* to = &plane[(first + static_cast<std::size_t>(splat.x.first)) * floats];
-    const int count = splat.x.last - splat.x.first;
+    const PixelSpan x = seen.spanIn(splat, y);
+    if (x.first >= x.last) return;
+    seen.weigh(splat, y, x, &opaqueDepth[static_cast<std::size_t>(y) * pictureWidth], weights);
+    const auto row = static_cast<std::size_t>(y - box.at.y);
+    float* to = &plane[(row * width + static_cast<std::size_t>(x.first - box.at.x)) * floats];
+    const int count = x.last - x.first;
     if (floats == 1)
         for (int i = 0; i < count; ++i) to[i] += weights[i];
     else
@@ -154,7 +183,7 @@ void RowSum::Work::sum() {
     together(threads, [&](unsigned k) {
         const std::size_t end = points.size() * (k + 1) / threads;
         for (std::size_t i = points.size() * k / threads; i < end; ++i)
-            placed[i] = seen.place(points[i]);
+            placed[i] = seen.place(points[i], box);
     });
     together(threads, [&](unsigned k) {
         for (const Placed& p : placed) {
@@ -171,20 +200,24 @@ void RowSum::Work::sum() {
 }
 
 RowSum::RowSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-               std::span<const float> opaqueDepth, unsigned threads) {
+               std::span<const float> opaqueDepth, unsigned threads, std::vector<float> memory) {
     assert(channels == Channels::Weight || channels == Channels::WeightedColor);
     threads = std::max(threads, 1u);
-    const auto width = static_cast<std::size_t>(view.size.x);
+    const PixelBox box = coveredPixels(scene, view);
+    const auto width = static_cast<std::size_t>(box.size.x);
     const std::size_t floats = channels == Channels::Weight ? 1 : 4;
+    memory.assign(width * static_cast<std::size_t>(box.size.y) * floats, 0);
     work_.reset(new Work{.scene = scene,
                          .layer = scene.layers[layer],
                          .stride = strideOf(scene.layers[layer], scene.stride),
                          .seen{scene, view, channels, layer},
+                         .box = box,
                          .width = width,
                          .floats = floats,
+                         .pictureWidth = static_cast<std::size_t>(view.size.x),
                          .opaqueDepth = opaqueDepth,
                          .threads = threads,
-                         .plane = std::vector<float>(width * std::size_t(view.size.y) * floats),
+                         .plane = std::move(memory),
                          .rowWeights = std::vector<float>(width * threads),
                          .points = {},
                          .placed = {}});
@@ -204,14 +237,24 @@ std::uint64_t RowSum::add(std::uint64_t splats) {
 }
 
 bool RowSum::done() const { return work_->run == work_->layer.runs.size(); }
+const PixelBox& RowSum::box() const { return work_->box; }
 const std::vector<float>& RowSum::plane() const { return work_->plane; }
+std::vector<float> RowSum::takeMemory() { return std::move(work_->plane); }
 
 std::vector<float> sumRows(const Scene& scene, const View& view, Channels channels,
                            std::size_t layer, std::span<const float> opaqueDepth,
                            unsigned threads) {
     RowSum sum(scene, view, channels, layer, opaqueDepth, threads);
     sum.add(splatCount(scene.layers[layer], scene.stride));
-    return sum.plane();
+    const std::size_t floats = channels == Channels::Weight ? 1 : 4;
+    const auto width = static_cast<std::ptrdiff_t>(view.size.x * floats);
+    std::vector<float> whole(static_cast<std::size_t>(width) * std::size_t(view.size.y));
+    const auto row = static_cast<std::ptrdiff_t>(sum.box().size.x * floats);
+    auto to = whole.begin() + sum.box().at.y * width + sum.box().at.x * std::ptrdiff_t(floats);
+    auto from = sum.plane().begin();
+    for (int y = 0; y < sum.box().size.y; ++y, from += row)
+        std::copy(from, from + row, to + y * width);
+    return whole;
 }
 
 }  // namespace render

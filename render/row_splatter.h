@@ -3,20 +3,17 @@
 // render/footprint.h in float.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <thread>
 #include <vector>
 
+#include "render/covered.h"
 #include "render/scene.h"
+#include "render/together.h"
 #include "render/view.h"
 
 namespace render {
-
-// As many as the machine has, up to where starting more costs more than it saves.
-inline unsigned rowThreads() { return std::min(std::thread::hardware_concurrency(), 16u); }
 
 // What one layer of a scene adds up to in a view, over as many calls as one likes: not a bit
 // depends on their number, nor on that of the threads.
@@ -25,27 +22,32 @@ class RowSum {
     // `opaqueDepth` is the depth [0, 1] of the opaque scene, a pixel each, row 0 at the bottom: a
     // splat whose centre lies behind it is not drawn there. It, scene and view must outlive this.
     // REQUIRES: Weight or WeightedColor.
+    // `memory` is what a plane before was made of, if any: pages that are new cost much.
     RowSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-           std::span<const float> opaqueDepth, unsigned threads = rowThreads());
+           std::span<const float> opaqueDepth, unsigned threads = sharingThreads(),
+           std::vector<float> memory = {});
     RowSum(RowSum&&) noexcept;
     ~RowSum();
 
     // Adds that many splats, or kLeast if that is more, or what is left, give or take the
     // unevenness of a subset (render/subset.h). Returns how many.
     std::uint64_t add(std::uint64_t splats);
-    static constexpr std::uint64_t kLeast = 1 << 12;
+    static constexpr std::uint64_t kLeast = 1 << 10;
     bool done() const;
-    // [y][x][1 or 4], row 0 at the bottom.
+    // The part of the picture that is summed, and what it sums to: [y][x][1 or 4], row 0 at the
+    // bottom. Beside it there is nothing.
+    const PixelBox& box() const;
     const std::vector<float>& plane() const;
+    std::vector<float> takeMemory();  // the last thing asked for
 
  private:
     struct Work;
     std::unique_ptr<Work> work_;
 };
 
-// All of it at once.
+// All of it at once, for the whole picture.
 std::vector<float> sumRows(const Scene& scene, const View& view, Channels channels,
                            std::size_t layer, std::span<const float> opaqueDepth,
-                           unsigned threads = rowThreads());
+                           unsigned threads = sharingThreads());
 
 }  // namespace render

@@ -35,12 +35,12 @@ std::vector<T> flipped(std::vector<T> rows, glm::ivec2 size) {
 }
 
 template <typename T>
-std::vector<T> readPixels(GLuint framebuffer, glm::ivec2 size, GLenum format) {
-    std::vector<T> pixels(std::size_t(size.x) * std::size_t(size.y));
+void readPixels(GLuint framebuffer, glm::ivec2 size, GLenum format, std::vector<T>& into) {
+    into.resize(std::size_t(size.x) * std::size_t(size.y) * (format == GL_RGBA ? 4 : 1) *
+                sizeof(float) / sizeof(T));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, size.x, size.y, format, GL_FLOAT, pixels.data());
-    return pixels;
+    glReadPixels(0, 0, size.x, size.y, format, GL_FLOAT, into.data());
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ Targets::Targets(glm::ivec2 size) try
         fmt::format("no room for a picture of {} x {} pixels: {}", size.x, size.y, error.what()));
 }
 
-GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
+GLuint Targets::plane(std::size_t i, Channels channels) {
     const bool scalar = channels == Channels::Weight || channels == Channels::Count;
     const GLenum format = scalar ? GL_R32F : GL_RGBA32F;
     if (planes_.size() <= i) planes_.resize(i + 1);
@@ -66,29 +66,40 @@ GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
         gl::Framebuffer framebuffer(ids(texture), depth_.id());
         planes_[i].emplace(Plane{format, std::move(texture), std::move(framebuffer)});
     }
-    const GLuint framebuffer = planes_[i]->framebuffer.id();
+    return planes_[i]->framebuffer.id();
+}
+
+GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
+    const GLuint framebuffer = plane(i, channels);
     gl::begin({.framebuffer = framebuffer, .size = size_, .clearColor = glm::vec4(0)});
     return framebuffer;
 }
 
-std::vector<float> Targets::readDepth() const {
-    return readPixels<float>(light_.id(), size_, GL_DEPTH_COMPONENT);
+void Targets::readDepth(std::vector<float>& rows) const {
+    readPixels(light_.id(), size_, GL_DEPTH_COMPONENT, rows);
 }
 
-void Targets::writePlane(std::size_t i, std::span<const float> pixels) {
+void Targets::writePlane(std::size_t i, const PixelBox& part, std::span<const float> pixels) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(planes_[i]->texture.id(), 0, 0, 0, size_.x, size_.y,
+    glTextureSubImage2D(planes_[i]->texture.id(), 0, part.at.x, part.at.y, part.size.x, part.size.y,
                         planes_[i]->format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, pixels.data());
 }
 
 Image Targets::readLight() const {
     Image image(size_);
-    image.pixels = flipped(readPixels<glm::vec4>(light_.id(), size_, GL_RGBA), size_);
+    readPixels(light_.id(), size_, GL_RGBA, image.pixels);
+    image.pixels = flipped(std::move(image.pixels), size_);
     return image;
 }
 
+void Targets::readLight(std::vector<float>& rows) const {
+    readPixels(light_.id(), size_, GL_RGBA, rows);
+}
+
 std::vector<float> Targets::readScalarPlane(std::size_t i) const {
-    return flipped(readPixels<float>(planes_[i]->framebuffer.id(), size_, GL_RED), size_);
+    std::vector<float> rows;
+    readPixels(planes_[i]->framebuffer.id(), size_, GL_RED, rows);
+    return flipped(std::move(rows), size_);
 }
 
 }  // namespace render

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "render/covered.h"
 #include "render/gl/object.h"
 #include "render/image.h"
 #include "render/scene.h"
@@ -28,15 +29,19 @@ class Targets {
     // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
     // opaque scene's.
     GLuint clearedPlane(std::size_t i, Channels channels);
+    // The same, holding whatever it held.
+    GLuint plane(std::size_t i, Channels channels);
     GLuint planeFramebuffer(std::size_t i) const { return planes_[i]->framebuffer.id(); }
     const gl::Texture& plane(std::size_t i) const { return planes_[i]->texture; }
 
-    // Of the opaque scene, row 0 at the bottom.
-    std::vector<float> readDepth() const;
-    // All of plane i, row 0 at the bottom.
-    void writePlane(std::size_t i, std::span<const float> pixels);
+    // Of the opaque scene, row 0 at the bottom; into memory that may be used again.
+    void readDepth(std::vector<float>& rows) const;
+    // A part of plane i, row 0 at the bottom.
+    void writePlane(std::size_t i, const PixelBox& part, std::span<const float> pixels);
 
     Image readLight() const;
+    // As GL has it, row 0 at the bottom, four floats a pixel; into memory that may be used again.
+    void readLight(std::vector<float>& rows) const;
     // Row 0 at the top, as in Image. REQUIRES: plane i is Weight or Count.
     std::vector<float> readScalarPlane(std::size_t i) const;
 

@@ -154,6 +154,44 @@ std::vector<std::string> tickTexts(std::span<const double> ticks) {
     return texts;
 }
 
+std::vector<std::string> withoutCommonStart(std::vector<std::string> texts,
+                                            const std::function<bool(const std::string&)>& fits) {
+    if (texts.empty() || std::ranges::all_of(texts, fits)) return texts;
+    const auto all = [&](const auto& have) { return std::ranges::all_of(texts, have); };
+    const bool negative = all([](const std::string& text) { return text.starts_with(kMinus); });
+    const std::size_t sign = negative ? std::string_view(kMinus).size() : 0;
+    std::vector<std::string> shorter = texts;
+    for (std::size_t left = 1;; ++left) {  // bytes are digits and points behind the sign
+        const auto sameDigit = [&](const std::string& text) {
+            const std::size_t at = sign + left - 1;
+            return text.size() > at + 1 && text[at] == texts[0][at] &&
+                   static_cast<unsigned char>(text[at]) < 0x80;
+        };
+        if (!all(sameDigit)) return shorter;
+        for (std::size_t i = 0; i < texts.size(); ++i)
+            shorter[i] = texts[i].substr(0, sign) + "\u2026" + texts[i].substr(sign + left);
+        if (std::ranges::all_of(shorter, fits)) return shorter;
+    }
+}
+
+LabelledTicks fittingTicks(double lo, double hi, int wanted,
+                           const std::function<bool(const std::string&)>& fits) {
+    LabelledTicks best;
+    std::ptrdiff_t most = -1;
+    for (int n = wanted; n >= 1; --n) {
+        LabelledTicks labels{niceTicks(lo, hi, n), {}};
+        labels.texts = withoutCommonStart(tickTexts(labels.ticks), fits);
+        const std::ptrdiff_t fitting = std::ranges::count_if(labels.texts, fits);
+        if (fitting > 1 && fitting == std::ssize(labels.texts)) return labels;
+        if (fitting <= most) continue;
+        most = fitting;
+        best = std::move(labels);
+    }
+    for (std::string& text : best.texts)
+        if (!fits(text)) text.clear();
+    return best;
+}
+
 std::string withMinusSigns(std::string_view number) {
     std::string text;
     for (const char c : number) text += c == '-' ? std::string(kMinus) : std::string(1, c);

@@ -42,4 +42,16 @@ std::u32string codePoints(std::string_view utf8) {
     return points;
 }
 
+std::string wellFormed(std::string_view text) {
+    constexpr std::string_view kReplacement = "\uFFFD";
+    std::string out;
+    while (!text.empty()) {
+        const auto [point, length] = decodeFirst(text);
+        const bool isMalformed = point == U'\uFFFD' && length == 1;
+        out += isMalformed ? kReplacement : text.substr(0, length);
+        text.remove_prefix(length);
+    }
+    return out;
+}
+
 }  // namespace render

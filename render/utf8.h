@@ -8,5 +8,7 @@ namespace render {
 
 // Each byte that belongs to no well-formed sequence becomes U+FFFD.
 std::u32string codePoints(std::string_view utf8);
+// The text with each such byte replaced by U+FFFD: always well-formed.
+std::string wellFormed(std::string_view text);
 
 }  // namespace render

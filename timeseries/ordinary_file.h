@@ -8,7 +8,8 @@
 
 namespace timeseries {
 
-// "expected a file, but there is none"; "" for an ordinary file, or a link to one.
+// "expected a file, but there is none", or what the system says against it; "" for an ordinary file
+// that may be read, or a link to one.
 std::string flawOfFile(const std::filesystem::path& path);
 
 }  // namespace timeseries

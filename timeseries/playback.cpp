@@ -1,12 +1,18 @@
 #include "timeseries/playback.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace timeseries {
 
 void Playback::play() {
-    if (timeMoves && time && time->finished()) time->restart();
-    playing = true;
+    Playback begun = *this;
+    begun.playing = true;
+    if (timeMoves && time) {
+        if (time->finished()) begun.time->restart();
+        begun.time->enter();
+    }
+    if (begun.untilNextChange()) *this = std::move(begun);
 }
 
 Playback::Change Playback::advance(std::chrono::nanoseconds dt) {
@@ -22,8 +28,7 @@ Playback::Change Playback::advance(std::chrono::nanoseconds dt) {
         sweep->advance(dt);
         change.window = sweep->tick() != before;
     }
-    const bool sweeping = sweepMoves && sweep;
-    if (!sweeping && timeMoves && time && time->finished()) pause();
+    if (!untilNextChange()) pause();
     return change;
 }
 

@@ -26,12 +26,13 @@ struct Playback {
     bool sweepMoves = true;
     bool playing = false;
 
-    // A time cursor that had finished begins again.
+    // A time cursor that had finished begins again, one that stands aside enters. Nothing happens
+    // where nothing would ever move.
     void play();
     void pause() { playing = false; }
     void toggle() { playing ? pause() : play(); }
 
-    // Says what is now another step or another window. Pauses when all that moves has finished.
+    // Says what is now another step or another window. Pauses when nothing will move any more.
     // Exact: advance(a) then advance(b) is advance(a + b). A negative dt counts as none.
     Change advance(std::chrono::nanoseconds dt);
     // When advance() next changes what is seen; none when it will not: a window may sleep so long.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace timeseries {
 namespace {
@@ -15,41 +16,76 @@ bool holdsNothing(const Range& range) {
     return order != std::partial_ordering::equivalent || range.lo.open || range.hi.open;
 }
 
-bool startsBefore(const Range& a, const Range& b) {
-    const auto order = compare(a.lo.value, b.lo.value);
-    return order == std::partial_ordering::less ||
-           (order == std::partial_ordering::equivalent && !a.lo.open && b.lo.open);
+// By the low ends, of the same ones by the high ends.
+bool comesBefore(const Range& a, const Range& b) {
+    const auto lo = compare(a.lo.value, b.lo.value);
+    if (lo != std::partial_ordering::equivalent) return lo == std::partial_ordering::less;
+    if (a.lo.open != b.lo.open) return b.lo.open;
+    const auto hi = compare(a.hi.value, b.hi.value);
+    if (hi != std::partial_ordering::equivalent) return hi == std::partial_ordering::less;
+    return a.hi.open && !b.hi.open;
 }
 
-bool endsBefore(const Bound& a, const Bound& b) {
-    const auto order = compare(a.value, b.value);
-    return order == std::partial_ordering::less ||
-           (order == std::partial_ordering::equivalent && a.open && !b.open);
+template <typename T>
+T nearestFloat(const Number& number) {
+    const double d = toDouble(number);
+    if (std::isfinite(d) && std::abs(d) > static_cast<double>(std::numeric_limits<T>::max()))
+        return static_cast<T>(std::copysign(std::numeric_limits<T>::infinity(), d));
+    // Integers go to T directly: a detour by double would round twice.
+    return std::visit([](auto x) { return static_cast<T>(x); }, number);
 }
 
-// REQUIRES: b does not start before a.
-bool overlapOrTouch(const Range& a, const Range& b) {
-    const auto order = compare(b.lo.value, a.hi.value);
-    return order == std::partial_ordering::less ||
-           (order == std::partial_ordering::equivalent && !(b.lo.open && a.hi.open));
+// a < b, and no type rounds them to one value.
+bool apart(const Number& a, const Number& b) {
+    return nearestFloat<float>(a) < nearestFloat<float>(b) &&
+           nearestFloat<double>(a) < nearestFloat<double>(b);
+}
+
+// What follows holds in every type, not of the exact numbers alone: of two bounds that are rounded
+// to one value, an open one lies inside a closed one, however they stand to each other.
+
+bool startsFirst(const Bound& a, const Bound& b) {
+    return compare(a.value, b.value) <= 0 && (!a.open || b.open || apart(a.value, b.value));
+}
+
+bool endsLast(const Bound& a, const Bound& b) {
+    return compare(a.value, b.value) >= 0 && (!a.open || b.open || apart(b.value, a.value));
+}
+
+// Nothing lies between the end of one range and the begin of another.
+bool reaches(const Bound& end, const Bound& begin) {
+    return compare(begin.value, end.value) <= 0 &&
+           (!end.open || !begin.open || apart(begin.value, end.value));
+}
+
+// The one range that holds in every type what a or b holds there; nothing where there is none.
+std::optional<Range> joined(const Range& a, const Range& b) {
+    if (!reaches(a.hi, b.lo) || !reaches(b.hi, a.lo)) return std::nullopt;
+    const Bound *lo = nullptr, *hi = nullptr;
+    for (const Range* each : {&a, &b}) {
+        if (startsFirst(each->lo, a.lo) && startsFirst(each->lo, b.lo)) lo = &each->lo;
+        if (endsLast(each->hi, a.hi) && endsLast(each->hi, b.hi)) hi = &each->hi;
+    }
+    if (!lo || !hi) return std::nullopt;
+    return Range{*lo, *hi};
 }
 
 // Both ends of a range in a float type; see toInterval.
 template <typename T>
 bool floatInterval(const Range& range, Interval<T>& out) {
     constexpr T kMax = std::numeric_limits<T>::max(), kInf = std::numeric_limits<T>::infinity();
-    const auto nearest = [](const Number& n, T above, T below, bool& beyond) {
-        const double d = toDouble(n);
-        beyond = std::isfinite(d) && std::abs(d) > static_cast<double>(kMax);
-        if (beyond) return d > 0 ? above : below;
-        // Integers go to T directly: a detour by double would round twice.
-        return std::visit([](auto x) { return static_cast<T>(x); }, n);
+    const auto isBeyond = [](const Number& number) {
+        return std::isinf(nearestFloat<T>(number)) && std::isfinite(toDouble(number));
     };
-    bool beyond = false;
-    T lo = nearest(range.lo.value, kInf, -kMax, beyond);
-    if (range.lo.open && !beyond) lo = std::nextafter(lo, kInf);
-    T hi = nearest(range.hi.value, kMax, -kInf, beyond);
-    if (range.hi.open && !beyond) hi = std::nextafter(hi, -kInf);
+    T lo = nearestFloat<T>(range.lo.value), hi = nearestFloat<T>(range.hi.value);
+    if (isBeyond(range.lo.value))
+        lo = std::max(lo, -kMax);
+    else if (range.lo.open)
+        lo = std::nextafter(lo, kInf);
+    if (isBeyond(range.hi.value))
+        hi = std::min(hi, kMax);
+    else if (range.hi.open)
+        hi = std::nextafter(hi, -kInf);
     out = {lo, hi};
     return lo <= hi;  // false for NaN
 }
@@ -76,10 +112,9 @@ Wide floorOf(const Number& value, bool open) {
     return whole - (open ? 1 : 0);
 }
 
+// REQUIRES: no NaN.
 template <typename T>
 bool integerInterval(const Range& range, Interval<T>& out) {
-    const auto nan = [](const Number& n) { return std::isnan(toDouble(n)); };
-    if (nan(range.lo.value) || nan(range.hi.value)) return false;
     const Wide lowest = std::numeric_limits<T>::min(), highest = std::numeric_limits<T>::max();
     const Wide lo = std::max(ceiling(range.lo.value, range.lo.open), lowest);
     const Wide hi = std::min(floorOf(range.hi.value, range.hi.open), highest);
@@ -113,13 +148,17 @@ bool toInterval(const Range& range, Interval<T>& out) {
 
 RangeSet::RangeSet(std::vector<Range> ranges) {
     std::erase_if(ranges, holdsNothing);
-    std::sort(ranges.begin(), ranges.end(), startsBefore);
-    for (const Range& range : ranges) {
-        if (ranges_.empty() || !overlapOrTouch(ranges_.back(), range)) {
-            ranges_.push_back(range);
-        } else if (endsBefore(ranges_.back().hi, range.hi)) {
-            ranges_.back().hi = range.hi;
+    std::sort(ranges.begin(), ranges.end(), comesBefore);
+    for (Range& range : ranges) {
+        // What it grew to may join those that it did not.
+        for (std::size_t i = ranges_.size(); i-- > 0;) {
+            const auto both = joined(ranges_[i], range);
+            if (!both) continue;
+            range = *both;
+            ranges_.erase(ranges_.begin() + static_cast<std::ptrdiff_t>(i));
+            i = ranges_.size();
         }
+        ranges_.insert(std::ranges::upper_bound(ranges_, range, comesBefore), range);
     }
 }
 
@@ -129,17 +168,18 @@ RangeSet RangeSet::everything() {
 
 template <typename T>
 std::vector<Interval<T>> RangeSet::toIntervals() const {
-    std::vector<Interval<T>> intervals;
-    for (const Range& range : ranges_) {
-        Interval<T> next;
-        if (!toInterval(range, next)) continue;
-        if (!intervals.empty() && adjacent(intervals.back(), next)) {
-            intervals.back().hi = std::max(intervals.back().hi, next.hi);
-        } else {
-            intervals.push_back(next);
-        }
+    std::vector<Interval<T>> all, merged;
+    for (const Range& range : ranges_)
+        if (Interval<T> next; toInterval(range, next)) all.push_back(next);
+    // The order of the rounded bounds may be another than that of the exact ones.
+    std::ranges::sort(all, {}, &Interval<T>::lo);
+    for (const Interval<T>& next : all) {
+        if (!merged.empty() && adjacent(merged.back(), next))
+            merged.back().hi = std::max(merged.back().hi, next.hi);
+        else
+            merged.push_back(next);
     }
-    return intervals;
+    return merged;
 }
 
 bool operator==(const RangeSet& a, const RangeSet& b) {
@@ -156,18 +196,6 @@ RangeSet unionOf(std::span<const RangeSet> sets) {
     for (const RangeSet& set : sets)
         all.insert(all.end(), set.ranges().begin(), set.ranges().end());
     return RangeSet(std::move(all));
-}
-
-RangeSet intersectionOf(const RangeSet& a, const RangeSet& b) {
-    std::vector<Range> common;
-    for (const Range& x : a.ranges()) {
-        for (const Range& y : b.ranges()) {
-            const Bound& lo = startsBefore(x, y) ? y.lo : x.lo;
-            const Bound& hi = endsBefore(x.hi, y.hi) ? x.hi : y.hi;
-            common.push_back({lo, hi});  // empty ones are dropped
-        }
-    }
-    return RangeSet(std::move(common));
 }
 
 #define ISOCHRON_INSTANTIATE(T)                              \

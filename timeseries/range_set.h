@@ -1,7 +1,8 @@
-// What is selected: disjoint ranges of values, with open or closed ends, in exact numbers.
+// What is selected: ranges of values, with open or closed ends, in exact numbers.
 //
 // A RangeSet knows no data type. toIntervals<T> turns it, once, into closed intervals of a field's
-// own type T; from there a selection is nothing but lo <= v && v <= hi in T.
+// own type T; from there a selection is nothing but lo <= v && v <= hi in T. Rounding comes before
+// the union: a set holds in T what any of its ranges holds there.
 #pragma once
 
 #include <cstdint>
@@ -44,20 +45,22 @@ struct RangeSyntaxError : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-// Ascending, disjoint and not touching: [1,2) and [2,3] are one range, [1,2) and (2,3] are two.
+// Ascending. What overlaps or touches is one range, [1,2) with [2,3], where that is so in every
+// type: [1,2) and (2,3] are two, and so are [1,2.5) and [2,2.4999999999], of which float rounds
+// 2.5 out of the first and into the second.
 class RangeSet {
  public:
     RangeSet() = default;
-    // Sorts, merges what overlaps or touches, drops what is empty (lo > hi, NaN, lo = hi with an
-    // open end).
+    // Sorts, merges, drops what is empty (lo > hi, NaN, lo = hi with an open end).
     explicit RangeSet(std::vector<Range> ranges);
 
     static RangeSet everything();
 
     // "lo:hi" closed; "[lo,hi)" and "lo:hi" with brackets for open ends, the separator being ':'
-    // or, inside brackets, ','; "c~d" for [c-d, c+d]; "min" and "max" for unbounded ends; a lone
-    // number for [v, v]; commas between ranges. Integers without '.', 'e' or 'inf' stay integers.
-    // Throws RangeSyntaxError, also for lo > hi, NaN, a negative d, and text without a range.
+    // or, inside brackets, ','; "lo to hi"; "c~d" for [c-d, c+d]; "> v", ">= v", "< v", "<= v";
+    // "min" and "max" for unbounded ends; a lone number for [v, v]; commas between ranges. Integers
+    // without '.', 'e' or 'inf' stay integers. Throws RangeSyntaxError, also for lo > hi, NaN, a
+    // negative d, text without a range, and what may be a decimal comma ("600,5:700").
     static RangeSet parse(std::string_view text);
 
     // Text that parses back to the same set; "" when empty.
@@ -77,6 +80,5 @@ class RangeSet {
 };
 
 RangeSet unionOf(std::span<const RangeSet> sets);
-RangeSet intersectionOf(const RangeSet& a, const RangeSet& b);
 
 }  // namespace timeseries

@@ -1,7 +1,11 @@
 // The text form of a RangeSet, both ways.
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -33,22 +37,69 @@ std::optional<T> whole(std::string_view text, std::errc& error) {
     return value;
 }
 
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+// Legends have a minus sign of their own (U+2212), which may come back by way of the clipboard.
+constexpr std::string_view kMinusSign = "\u2212";
+
+// A number of the data; none where the text is not one. NaN is told apart by the caller.
+std::optional<Number> finiteOrNot(std::string_view text, std::errc& error) {
+    std::string ascii;
+    if (text.starts_with(kMinusSign)) {
+        ascii = fmt::format("-{}", text.substr(kMinusSign.size()));
+        text = ascii;
+    }
+    if (text.starts_with('+')) {
+        text.remove_prefix(1);
+        if (text.starts_with('+') || text.starts_with('-')) return std::nullopt;
+    }
+    if (const auto i = whole<std::int64_t>(text, error)) return *i;
+    if (const auto u = whole<std::uint64_t>(text, error)) return *u;
+    if (const auto d = whole<double>(text, error)) return *d;
+    return std::nullopt;
+}
+
+bool isNumber(std::string_view text) {
+    std::errc ignored{};
+    return finiteOrNot(trimmed(text), ignored).has_value();
+}
+
+// "800" of "800 K": a number before what may be a unit; "" of another text.
+std::string_view beforeUnit(std::string_view text) {
+    constexpr std::size_t kLongest = 80;
+    for (std::size_t end = std::min(text.size(), kLongest); end-- > 1;) {
+        const std::string_view rest = text.substr(end), unit = trimmed(rest);
+        if (unit.empty() || !isDigit(text[end - 1]) || !isNumber(text.substr(0, end))) continue;
+        const auto first = static_cast<unsigned char>(unit.front());
+        const bool isWord = std::isalpha(first) || first == '%' || first >= 0x80;
+        // 1e, 0x and 1to2 are other slips.
+        const bool isSlip = unit.starts_with("to") ||
+                            (unit.size() == rest.size() && unit.find_first_of("eExX") == 0);
+        return isWord && !isSlip ? text.substr(0, end) : std::string_view();
+    }
+    return {};
+}
+
 // `piece` is what the user wrote around the number: it is quoted when the number cannot be read.
 Number number(std::string_view text, std::string_view piece) {
     text = trimmed(text);
     if (text == "min") return -kInfinity;
     if (text == "max") return kInfinity;
-    std::string_view digits = text;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
     std::errc error{};
-    if (const auto i = whole<std::int64_t>(digits, error)) return *i;
-    if (const auto u = whole<std::uint64_t>(digits, error)) return *u;
-    const auto d = whole<double>(digits, error);
-    if (!d && error == std::errc::result_out_of_range)
+    const auto n = finiteOrNot(text, error);
+    if (!n && error == std::errc::result_out_of_range)
         fail(piece, fmt::format("'{}' is too large or too small for a double", text));
-    if (!d || digits.starts_with('+')) fail(piece, fmt::format("'{}' is not a number", text));
-    if (std::isnan(*d)) fail(piece, "NaN bounds nothing");
-    return *d;
+    if (!n) {
+        const bool hasComma =
+            piece.find(',') != piece.npos && text.find_first_of(",:") != text.npos;
+        if (const std::string_view alone = beforeUnit(text); !alone.empty())
+            fail(piece,
+                 fmt::format("'{}' is not a number: units are left out, write {}", text, alone));
+        fail(piece, fmt::format("'{}' is not a number{}", text,
+                                hasComma ? ", for decimals stand behind a point" : ""));
+    }
+    if (std::isnan(toDouble(*n))) fail(piece, "NaN bounds nothing");
+    return *n;
 }
 
 // Exact for integers: 2^60 ~ 1 has integer ends. Past the 64-bit types the ends are doubles.
@@ -76,7 +127,63 @@ Range around(std::string_view inner, std::size_t tilde, std::string_view piece) 
     return {{sum(centre, delta, -1)}, {sum(centre, delta, +1)}};
 }
 
-Range range(std::string_view piece) {
+// ">600", "<= 5": open or closed at its number, without bound on the other side. None without a
+// sign.
+std::optional<Range> comparison(std::string_view piece) {
+    struct Sign {
+        std::string_view text;
+        bool above, open;
+    };
+    static constexpr std::array<Sign, 6> kSigns = {{{">=", true, false},
+                                                    {"\u2265", true, false},
+                                                    {">", true, true},
+                                                    {"<=", false, false},
+                                                    {"\u2264", false, false},
+                                                    {"<", false, true}}};
+    for (const Sign& sign : kSigns) {
+        if (!piece.starts_with(sign.text)) continue;
+        const Bound at{number(piece.substr(sign.text.size()), piece), sign.open};
+        return sign.above ? Range{at, {kInfinity}} : Range{{-kInfinity}, at};
+    }
+    return std::nullopt;
+}
+
+// Where lo ends and hi begins; none where nothing stands between them.
+struct Separator {
+    std::size_t at, length;
+};
+std::optional<Separator> separatorIn(std::string_view inner, bool bracketed) {
+    if (const auto at = inner.find_first_of(bracketed ? ":," : ":"); at != std::string_view::npos)
+        return Separator{at, 1};
+    constexpr std::string_view kTo = " to ";
+    if (const auto at = inner.find(kTo); at != std::string_view::npos)
+        return Separator{at, kTo.size()};
+    return std::nullopt;
+}
+
+// "600-800" and "600..800" as they are to be spelt; none where the text does not look like these.
+// They are not read: after a number, a minus may as well be a sign.
+std::optional<std::string> respelt(std::string_view text) {
+    for (const std::string_view between : {"..", "\u2013", "-"})
+        for (auto at = text.find(between, 1); at < text.size(); at = text.find(between, at + 1)) {
+            const std::string_view lo = trimmed(text.substr(0, at));
+            const std::string_view hi = trimmed(text.substr(at + between.size()));
+            if (isNumber(lo) && isNumber(hi)) return fmt::format("{}:{}", lo, hi);
+        }
+    return std::nullopt;
+}
+
+Range alone(std::string_view text, std::string_view piece) {
+    text = trimmed(text);
+    if (text.empty() || text == "min" || text == "max")
+        fail(piece, "expected lo:hi, [lo,hi), c~d or a number");
+    if (!isNumber(text))
+        if (const auto spelling = respelt(text)) fail(piece, "a range is written " + *spelling);
+    return {{number(text, piece)}, {number(text, piece)}};
+}
+
+Range bounds(std::string_view piece) {
+    if (const auto compared = comparison(piece)) return *compared;
     std::string_view inner = piece;
     bool loOpen = false, hiOpen = false;
     const bool bracket = inner.starts_with('[') || inner.starts_with('(');
@@ -90,30 +197,30 @@ Range range(std::string_view piece) {
     if (inner.find_first_of("[]()") != std::string_view::npos)
         fail(piece, "a bracket stands where none is expected");
     Range out;
-    if (const auto tilde = inner.find('~'); tilde != std::string_view::npos) {
+    if (const auto tilde = inner.find('~'); tilde != std::string_view::npos)
         out = around(inner, tilde, piece);
-    } else if (const auto at = inner.find_first_of(bracket ? ":," : ":");
-               at != std::string_view::npos) {
-        out = {{number(inner.substr(0, at), piece)}, {number(inner.substr(at + 1), piece)}};
-    } else {
-        const std::string_view only = trimmed(inner);
-        if (only.empty() || only == "min" || only == "max")
-            fail(piece, "expected lo:hi, [lo,hi), c~d or a number");
-        out = {{number(only, piece)}, {number(only, piece)}};
-    }
+    else if (const auto between = separatorIn(inner, bracket))
+        out = {{number(inner.substr(0, between->at), piece)},
+               {number(inner.substr(between->at + between->length), piece)}};
+    else
+        out = alone(inner, piece);
     out.lo.open = loOpen;
     out.hi.open = hiOpen;
+    return out;
+}
+
+Range range(std::string_view piece) {
+    const Range out = bounds(piece);
     const auto order = compare(out.lo.value, out.hi.value);
     if (order == std::partial_ordering::greater) fail(piece, "the low end lies above the high end");
-    if (order == std::partial_ordering::equivalent && (loOpen || hiOpen))
+    if (order == std::partial_ordering::equivalent && (out.lo.open || out.hi.open))
         fail(piece, "both ends are the same and one is open, so it holds no value");
     return out;
 }
 
-}  // namespace
-
-RangeSet RangeSet::parse(std::string_view text) {
-    std::vector<Range> ranges;
+// The parts between the commas that stand outside brackets, as they were written.
+std::vector<std::string_view> piecesOf(std::string_view text) {
+    std::vector<std::string_view> pieces;
     std::size_t begin = 0;
     int depth = 0;
     for (std::size_t i = 0; i <= text.size(); ++i) {
@@ -122,11 +229,80 @@ RangeSet RangeSet::parse(std::string_view text) {
             if (text[i] == ']' || text[i] == ')') --depth;
             if (text[i] != ',' || depth > 0) continue;
         }
-        const std::string_view piece = trimmed(text.substr(begin, i - begin));
-        if (piece.empty()) fail(text, "expected lo:hi, [lo,hi), c~d or a number");
-        ranges.push_back(range(piece));
+        pieces.push_back(text.substr(begin, i - begin));
         begin = i + 1;
     }
+    return pieces;
+}
+
+bool isRangeText(std::string_view text) {
+    try {
+        RangeSet::parse(text);
+        return true;
+    } catch (const RangeSyntaxError&) {
+        return false;
+    }
+}
+
+// A comma directly between digits beside a whole number that stands alone may be a decimal one:
+// 600,5:700 and 600:700,5. Not so 300:400,900:max, nor three numbers or more, which are a list of
+// values. What may be either is asked for in other words.
+void refuseDecimalCommas(std::string_view text, const std::vector<std::string_view>& pieces) {
+    if (pieces.size() > 2 && std::ranges::all_of(pieces, isNumber)) return;
+    const auto isWhole = [](std::string_view piece) {
+        if (piece.starts_with('-') || piece.starts_with('+')) piece.remove_prefix(1);
+        return !piece.empty() && std::ranges::all_of(piece, isDigit);
+    };
+    const auto mayBeOne = [&](std::string_view before, std::string_view after) {
+        return !before.empty() && isDigit(before.back()) && !after.empty() &&
+               isDigit(after.front()) && (isWhole(before) || isWhole(after));
+    };
+    bool decimal = false;
+    std::string joined, apart;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const bool maybe = i > 0 && mayBeOne(pieces[i - 1], pieces[i]);
+        decimal = decimal || maybe;
+        joined += i == 0 ? "" : maybe ? "." : ",";
+        joined += pieces[i];
+        apart += i == 0 ? "" : ",";
+        apart += isWhole(pieces[i]) ? fmt::format("{0}:{0}", pieces[i]) : std::string(pieces[i]);
+    }
+    if (!decimal) return;
+    std::vector<std::string> spellings{joined, apart};
+    std::erase_if(spellings, [](const std::string& s) { return !isRangeText(s); });
+    if (!spellings.empty())
+        fail(text, fmt::format("a comma stands between ranges, a point before decimals; write {}",
+                               fmt::join(spellings, " or ")));
+}
+
+// Together, values above one number and values below a greater one are all there are.
+void refuseAllFromBothSides(std::string_view text, const std::vector<std::string_view>& pieces,
+                            const std::vector<Range>& ranges) {
+    if (pieces.size() != 2) return;
+    const bool first = pieces[0].starts_with('>') || pieces[0].starts_with("\u2265");
+    const Range &above = ranges[first ? 0 : 1], &below = ranges[first ? 1 : 0];
+    if (!comparison(pieces[0]) || !comparison(pieces[1]) || toDouble(above.hi.value) != kInfinity ||
+        toDouble(below.lo.value) != -kInfinity ||
+        compare(above.lo.value, below.hi.value) != std::partial_ordering::less)
+        return;
+    fail(text, fmt::format("a comma joins ranges, so that these hold every value; write {}{},{}{} "
+                           "for the values between",
+                           above.lo.open ? '(' : '[', toText(above.lo.value),
+                           toText(below.hi.value), below.hi.open ? ')' : ']'));
+}
+
+}  // namespace
+
+RangeSet RangeSet::parse(std::string_view text) {
+    std::vector<std::string_view> pieces = piecesOf(text);
+    refuseDecimalCommas(text, pieces);
+    std::vector<Range> ranges;
+    for (std::string_view& piece : pieces) {
+        piece = trimmed(piece);
+        if (piece.empty()) fail(text, "expected lo:hi, [lo,hi), c~d or a number");
+        ranges.push_back(range(piece));
+    }
+    refuseAllFromBothSides(text, pieces, ranges);
     return RangeSet(std::move(ranges));
 }
 

@@ -81,5 +81,7 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
 
 // Whether the file begins as one of the formats does that are read.
 bool isReadable(const std::filesystem::path& path);
+// "a NIfTI file": what a file is that begins otherwise; "" where that is not known.
+std::string formatNotRead(const std::filesystem::path& path);
 
 }  // namespace timeseries

@@ -53,8 +53,9 @@ Series::Steps Series::loaded(std::size_t step, std::shared_ptr<const SortedStep>
     Steps left;
     if (auto before = drop(step)) left.push_back(std::move(before));
     Slot& slot = slots_[step];
-    slot.summary = std::make_unique<const StepSummary>(StepSummary{
-        sorted->quantiles(kQuantiles), sorted->statistics(), sorted->size(), sorted->bytes()});
+    slot.summary = std::make_unique<const StepSummary>(
+        StepSummary{sorted->quantiles(kQuantiles), sorted->statistics(), sorted->size(),
+                    sorted->finite(), sorted->bytes()});
     slot.state = SlotState::Loaded;
     slot.sorted = std::move(sorted);
     slot.lastUse = ++uses_;

@@ -18,10 +18,12 @@ enum class SlotState { Empty, Loading, Loaded, Failed };
 
 // What stays known of a step after it has left memory.
 struct StepSummary {
-    // At the fractions 0, 1/1024, ..., 1 of the kept points; empty when there is none.
+    // At the fractions 0, 1/1024, ..., 1 of the kept points that are finite; empty when there is
+    // none.
     std::vector<double> quantiles;
     StepStatistics statistics;  // of the whole step, before anything was dropped
     std::uint64_t points = 0;   // kept
+    Run finite;                 // of these; before it stand those at -inf, behind it at +inf
     std::uint64_t bytes = 0;    // that the step takes when loaded
 };
 

@@ -9,6 +9,7 @@
 
 #include "timeseries/decimal_names.h"
 #include "timeseries/numbered_names.h"
+#include "timeseries/other_formats.h"
 #include "timeseries/reader.h"
 #include "timeseries/series_text.h"
 
@@ -181,6 +182,26 @@ ExpandedSeries together(Paths files, std::string_view order) {
     return result;
 }
 
+// Those that begin as a format does that is read.
+std::vector<Paths> readableOf(const Path& folder, const std::vector<Paths>& candidates) {
+    std::vector<Paths> readable;
+    for (const Paths& files : candidates)
+        if (isReadable(files.front())) readable.push_back(files);
+    if (!readable.empty()) return readable;
+    constexpr std::size_t kMostTold = 8;
+    std::string found;
+    for (const Paths& files : std::span(candidates).first(std::min(candidates.size(), kMostTold))) {
+        const std::string format = formatNotRead(files.front());
+        found += (found.empty() ? "" : "; ") + candidatesText(std::span(&files, 1)) +
+                 (format.empty() ? "" : ", " + format);
+    }
+    if (candidates.size() > kMostTold)
+        found += fmt::format("; and {} more", candidates.size() - kMostTold);
+    throw FileError(fmt::format(
+        "{}: expected a folder that holds NetCDF, NRRD or VTK files that are read, found {}",
+        folder.string(), found));
+}
+
 [[noreturn]] void refuseCandidates(const Path& folder, std::span<const Paths> candidates) {
     throw FileError(
         fmt::format("{}: expected a folder that holds one series, found {}; name one of them",
@@ -188,6 +209,8 @@ ExpandedSeries together(Paths files, std::string_view order) {
 }
 
 ExpandedSeries folder(const Path& folder) {
+    if (const std::string other = otherFolder(folder); !other.empty())
+        throw FileError(notReadSentence(folder, other));
     std::optional<Paths> listed = filesIn(folder);
     if (!listed)
         throw FileError(fmt::format("{}: expected a folder of at most {} files, found more",
@@ -202,10 +225,7 @@ ExpandedSeries folder(const Path& folder) {
     std::vector<Paths> candidates;
     for (auto& [extension, files] : byExtension) candidates.push_back(std::move(files));
     if (candidates.size() > 1) {  // beside a readme, beside the raw data of detached headers
-        std::vector<Paths> readable;
-        for (const Paths& files : candidates)
-            if (isReadable(files.front())) readable.push_back(files);
-        if (!readable.empty()) candidates = std::move(readable);
+        candidates = readableOf(folder, candidates);
         // A collection lists the others, with their times.
         for (const Paths& files : candidates)
             if (files.size() == 1 && files.front().extension() == ".pvd") {
@@ -225,7 +245,12 @@ ExpandedSeries folder(const Path& folder) {
     if (byShape.size() > 1 && series) {
         candidates.clear();
         for (auto& [shape, each] : byShape) candidates.push_back(std::move(each));
-        refuseCandidates(folder, candidates);
+        readableOf(folder, candidates);  // one at least
+        // What is damaged stays beside it: it may be what was meant.
+        std::erase_if(candidates,
+                      [](const Paths& each) { return !formatNotRead(each.front()).empty(); });
+        if (candidates.size() > 1) refuseCandidates(folder, candidates);
+        files = candidates.front();
     }
     ExpandedSeries result = together(std::move(files), kByName);
     if (result.files.size() == 1)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "timeseries/run_search.h"
 #include "timeseries/value_sort.h"
@@ -43,12 +45,27 @@ class KeptTest {
     std::vector<Interval<T>> intervals_;
 };
 
+// The least and the greatest of those that count.
+template <typename T, typename Counts>
+std::pair<Number, Number> extentOf(std::span<const T> values, const Counts& counts) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    bool any = false;
+    T lo{}, hi{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!counts(i)) continue;
+        lo = any ? std::min(lo, values[i]) : values[i];
+        hi = any ? std::max(hi, values[i]) : values[i];
+        any = true;
+    }
+    return any ? std::pair{numberOf(lo), numberOf(hi)} : std::pair<Number, Number>{kNan, kNan};
+}
+
+// Adds to `kept` how many of the points that count are in what is kept.
 template <typename T, typename Valid, typename InKept>
 StepStatistics measure(std::span<const T> values, const Valid& valid, const InKept& inKept,
                        std::size_t& kept) {
     StepStatistics s;
     T lo{}, hi{};
-    kept = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const T v = values[i];
         if (!valid(i) || isNan(v)) continue;
@@ -64,6 +81,11 @@ StepStatistics measure(std::span<const T> values, const Valid& valid, const InKe
         s.min = numberOf(lo);
         s.max = numberOf(hi);
     }
+    s.finiteMin = s.min;
+    s.finiteMax = s.max;
+    if (std::isinf(lo) || std::isinf(hi))  // rare: the others are spared the look
+        std::tie(s.finiteMin, s.finiteMax) =
+            extentOf(values, [&](std::size_t i) { return valid(i) && std::isfinite(values[i]); });
     return s;
 }
 
@@ -89,15 +111,15 @@ void forEachRun(std::span<const T> ascending, const RangeSet& ranges, const Rang
     }
 }
 
-// The values of T that both ranges hold, by the bounds as they are written where these say it.
+// The values of T that both ranges hold, by the bounds as they are written where these say it. A
+// range that holds nothing, or none, where there are no such values.
 template <typename T>
 std::optional<Range> commonPart(const Range& a, const Range& b) {
     Interval<T> x, y, both;
     if (!toInterval(a, x) || !toInterval(b, y)) return std::nullopt;
     const Interval<T> common{std::max(x.lo, y.lo), std::min(x.hi, y.hi)};
-    if (!(common.lo <= common.hi)) return std::nullopt;
     const Range written{x.lo < y.lo ? b.lo : a.lo, y.hi < x.hi ? b.hi : a.hi};
-    if (toInterval(written, both) && both == common) return written;
+    if (toInterval(written, both)) return written;  // no, if its bounds cross though T joins them
     return Range{{numberOf(common.lo)}, {numberOf(common.hi)}};
 }
 
@@ -175,14 +197,29 @@ std::uint64_t SortedStep::bytes() const {
     return std::visit(valueBytes, values_) + index_.capacity() * sizeof(index_[0]);
 }
 
+Run SortedStep::finite() const {
+    return std::visit(
+        [&]<typename T>(const std::vector<T>& values) {
+            if constexpr (std::is_floating_point_v<T>) {
+                constexpr T kMost = std::numeric_limits<T>::max();
+                return findRun(std::span<const T>(values), Interval<T>{-kMost, kMost});
+            } else {
+                return Run{0, values.size()};
+            }
+        },
+        values_);
+}
+
 std::vector<double> SortedStep::quantiles(std::size_t n) const {
     std::vector<double> out;
-    if (size() == 0 || n == 0) return out;
+    const Run among = finite();
+    if (among.count == 0) return out;
     out.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double fraction = n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
-        out.push_back(toDouble(value(
-            static_cast<std::uint64_t>(std::llround(fraction * static_cast<double>(size() - 1))))));
+        const double rank = fraction * static_cast<double>(among.count - 1);
+        out.push_back(
+            toDouble(value(among.first + static_cast<std::uint64_t>(std::llround(rank)))));
     }
     return out;
 }

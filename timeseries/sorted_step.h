@@ -30,6 +30,7 @@ struct StepStatistics {
     std::uint64_t points = 0;   // valid: neither missing nor NaN
     std::uint64_t missing = 0;  // marked missing, or NaN
     Number min, max;            // of the valid points, infinities included; NaN when there is none
+    Number finiteMin, finiteMax;  // infinities aside; NaN when there is none
 };
 
 // Immutable; every member is safe to call from any thread. Memory: sizeof(value) + 4 bytes a kept
@@ -62,8 +63,11 @@ class SortedStep {
     const StepStatistics& statistics() const { return statistics_; }
     std::uint64_t bytes() const;  // of memory held, the grid aside
 
-    // Value at the fractions 0, 1/(n-1), ..., 1 of the kept points (nearest rank); empty when there
-    // is no point.
+    // The points between the infinities: all but the first and the last ones that are infinite.
+    Run finite() const;
+
+    // Value at the fractions 0, 1/(n-1), ..., 1 of the kept points that are finite (nearest rank);
+    // empty when there is none.
     std::vector<double> quantiles(std::size_t n) const;
 
  private:

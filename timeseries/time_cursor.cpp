@@ -56,9 +56,10 @@ std::optional<std::string> whyUnusable(const std::vector<double>& times, std::si
 // offsets[k]: when shown step k begins, in any unit, from 0; the last one is the end of the way.
 // Scaled to nanoseconds, each step at least one.
 std::vector<std::int64_t> toNanoseconds(const std::vector<double>& offsets, double perSecond) {
-    // A speed of 0 stands still: what the places last is never asked, only that there are some.
+    // A speed of 0 stands still: its places are those of the slowest, so that a step keeps how much
+    // of it has gone.
     const double slowest = static_cast<double>(kLongestCycle) / offsets.back();
-    const double nsPerUnit = perSecond > 0 ? std::min(1e9 / perSecond, slowest) : 0;
+    const double nsPerUnit = std::min(1e9 / std::abs(perSecond), slowest);  // 0 may be negative
     std::vector<std::int64_t> begins{0};
     for (std::size_t k = 1; k < offsets.size(); ++k) {
         const double ns = std::min(offsets[k] * nsPerUnit, static_cast<double>(kLongestCycle));
@@ -107,8 +108,8 @@ void TimeCursor::layOut() {
                                                   : durations[k - 1];
     }
     if (direction == Direction::Backward) std::reverse(durations.begin(), durations.end());
-    if (ending == Ending::PingPong && shown > 2)
-        for (std::size_t k = shown - 2; k > 0; --k) durations.push_back(durations[k]);
+    if (ending == Ending::PingPong)
+        for (std::size_t back = shown; back > 2; --back) durations.push_back(durations[back - 2]);
 
     std::vector<double> offsets{0.0};
     for (const double d : durations) offsets.push_back(offsets.back() + d);
@@ -126,8 +127,9 @@ std::size_t TimeCursor::placeOf(std::size_t shownStep, bool onWayBack) const {
     const std::size_t shown = shownCount();
     const std::size_t out =
         settings_.direction == Direction::Forward ? shownStep : shown - 1 - shownStep;
-    const bool isEnd = out == 0 || out + 1 == shown;
-    return onWayBack && settings_.ending == Ending::PingPong && !isEnd ? 2 * shown - 2 - out : out;
+    // The first place of the way out is none of the way back, and the last of both is one.
+    const bool back = onWayBack && settings_.ending == Ending::PingPong && out > 0;
+    return back ? 2 * shown - 2 - out : out;
 }
 
 std::size_t TimeCursor::stepOfPlace(std::size_t place) const {
@@ -141,7 +143,8 @@ bool TimeCursor::standsStill() const {
 }
 
 bool TimeCursor::finished() const {
-    return settings_.ending == Ending::Once && position_.into.count() == duration(position_.place);
+    return !aside_ && settings_.ending == Ending::Once &&
+           position_.into.count() == duration(position_.place);
 }
 
 void TimeCursor::set(CursorSettings settings) {
@@ -152,32 +155,50 @@ void TimeCursor::set(CursorSettings settings) {
     changed.seek(stepBefore);
     std::size_t& place = changed.position_.place;
     place = changed.placeOf(changed.shownOfPlace(place), returning());
-    if (changed.step() == stepBefore)
+    if (!changed.aside_)  // aside, nothing of a step has gone
         changed.position_.into = nanoseconds(
             static_cast<std::int64_t>(into * changed.duration(place) / duration(position_.place)));
     *this = std::move(changed);
 }
 
+void TimeCursor::goTo(CursorPosition position) {
+    position_ = position;
+    aside_.reset();
+}
+
 void TimeCursor::seek(std::size_t step) {
+    step = std::min(step, steps_ - 1);
     const std::size_t inPlay = std::clamp(step, settings_.first, settings_.last) - settings_.first;
     std::size_t shown = inPlay / settings_.stride;
     const std::size_t past = inPlay % settings_.stride;
     if (past > settings_.stride - past && shown + 1 < shownCount()) ++shown;
-    position_ = {placeOf(shown, returning()), nanoseconds(0)};
+    goTo({placeOf(shown, returning()), nanoseconds(0)});
+    if (this->step() != step) aside_ = step;
 }
 
-void TimeCursor::stepBy(int by) {
+void TimeCursor::stepTo(Side side) {
+    const std::size_t from = step();
+    if (from < settings_.first || from > settings_.last) {
+        if (side == Side::Earlier && from == 0) return;
+        return seek(side == Side::Earlier ? from - 1 : from + 1);
+    }
     const std::size_t shown = shownCount();
     const std::size_t now = shownOfPlace(position_.place);
+    // From between two shown steps, the nearest may be the next.
+    const std::size_t nearest = stepOfPlace(position_.place);
+    if (aside_ && (nearest > from) == (side == Side::Later))
+        return goTo({position_.place, nanoseconds(0)});
     const bool wraps = settings_.ending == Ending::Loop;
-    std::size_t next = now;
-    if (by > 0) next = now + 1 < shown ? now + 1 : (wraps ? 0 : now);
-    if (by < 0) next = now > 0 ? now - 1 : (wraps ? shown - 1 : now);
-    position_ = {placeOf(next, returning()), nanoseconds(0)};
+    const std::size_t end = side == Side::Later ? shown - 1 : 0, other = shown - 1 - end;
+    const std::size_t next = now != end ? (side == Side::Later ? now + 1 : now - 1)
+                             : wraps    ? other
+                                        : now;
+    if (aside_ && next == now && !wraps) return;
+    goTo({placeOf(next, returning()), nanoseconds(0)});
 }
 
 CursorPosition TimeCursor::positionAt(std::int64_t phase) const {
-    const auto after = std::upper_bound(begins_->begin() + 1, begins_->end() - 1, phase);
+    const auto after = std::upper_bound(begins_->begin(), begins_->end() - 1, phase);
     const auto place = static_cast<std::size_t>(after - begins_->begin()) - 1;
     return {place, nanoseconds(phase - (*begins_)[place])};
 }
@@ -188,7 +209,7 @@ void TimeCursor::advance(nanoseconds dt) {
     const std::int64_t cycle = begins_->back();
     const Wide inCycle =
         settings_.ending == Ending::Once ? std::min<Wide>(phase, cycle) : phase % cycle;
-    position_ = positionAt(static_cast<std::int64_t>(inCycle));
+    goTo(positionAt(static_cast<std::int64_t>(inCycle)));
 }
 
 std::size_t TimeCursor::stepAt(nanoseconds elapsed) const {
@@ -205,14 +226,16 @@ std::optional<nanoseconds> TimeCursor::cycle() const {
 
 std::optional<nanoseconds> TimeCursor::untilNextStep() const {
     const bool never = settings_.ending == Ending::Once ? finished() : placesPerCycle() == 1;
-    if (standsStill() || never) return std::nullopt;
+    if (standsStill()) return std::nullopt;
+    if (aside_) return nanoseconds(1);
+    if (never) return std::nullopt;
     return nanoseconds(duration(position_.place)) - position_.into;
 }
 
 std::vector<std::size_t> TimeCursor::upcoming(std::size_t count) const {
     const std::size_t places = placesPerCycle();
-    count = std::min(count, shownCount());
     std::vector<std::size_t> steps;
+    if (aside_ && count > 0) steps.push_back(*aside_);
     const std::size_t end = settings_.ending == Ending::Once ? places - position_.place : places;
     for (std::size_t i = 0; i < end && steps.size() < count; ++i) {
         const std::size_t s = stepOfPlace((position_.place + i) % places);
@@ -232,7 +255,7 @@ bool operator==(const TimeCursor& a, const TimeCursor& b) {
                });
     };
     return a.steps_ == b.steps_ && a.settings_ == b.settings_ && a.position_ == b.position_ &&
-           sameTimes(a.times_, b.times_);
+           a.aside_ == b.aside_ && sameTimes(a.times_, b.times_);
 }
 
 }  // namespace timeseries

@@ -43,7 +43,9 @@ struct CursorPosition {
     friend bool operator==(const CursorPosition&, const CursorPosition&) = default;
 };
 
-// The shown steps, in the order of one cycle, are the places 0, 1, ... placesPerCycle() - 1.
+// The shown steps, in the order of one cycle, are the places 0, 1, ... placesPerCycle() - 1. By
+// hand a cursor goes to any step of the series: it then stands aside of what plays, and its
+// position is that of the shown step nearest to it, the earlier of two, where play goes on.
 //
 // In real times a step stays until the time of the step `stride` after it; where the series ends
 // before that, as long as the shown step before it. Times that are NaN, infinite or not increasing
@@ -63,7 +65,8 @@ class TimeCursor {
     explicit TimeCursor(const std::vector<double>& times, CursorSettings settings = {},
                         CursorPosition position = {});
 
-    std::size_t step() const { return stepOfPlace(position_.place); }
+    std::size_t step() const { return aside_.value_or(stepOfPlace(position_.place)); }
+    bool isAside() const { return aside_.has_value(); }
     std::size_t stepCount() const { return steps_; }
     const CursorSettings& settings() const { return settings_; }  // `last` as cut
     const CursorPosition& position() const { return position_; }
@@ -73,25 +76,28 @@ class TimeCursor {
     const std::optional<std::string>& whyEven() const { return whyEven_; }
     bool finished() const;  // Once only
 
-    // Keeps the step shown, or goes to the nearest that is now in play. Throws as the constructors
-    // do.
+    // Keeps the step; aside where it does not play any more. Throws as the constructors do.
     void set(CursorSettings settings);
-    // To the beginning of the shown step nearest to `step`, the earlier of two; on the way that is
-    // being played.
+    // To the beginning of a step, on the way that is being played; beyond the last is the last.
     void seek(std::size_t step);
     // By hand, to the shown step next later or earlier whichever way is played. Past an end: Loop
-    // goes round, the others stay.
-    void stepForward() { stepBy(+1); }
-    void stepBackward() { stepBy(-1); }
-    void restart() { position_ = {}; }
+    // goes round, the others stay. Before the in point and after the out point to the very next
+    // step, as far as the series goes.
+    void stepForward() { stepTo(Side::Later); }
+    void stepBackward() { stepTo(Side::Earlier); }
+    void restart() { goTo({}); }
+    // From aside to the beginning of the shown step nearest to it.
+    void enter() { aside_.reset(); }
 
-    // Exact: advance(a) then advance(b) is advance(a + b). A negative dt counts as none.
+    // Enters, if it stands aside and does not stand still. Exact: advance(a) then advance(b) is
+    // advance(a + b). A negative dt counts as none.
     void advance(std::chrono::nanoseconds dt);
     // The closed form: the step shown when `elapsed` has been played from the beginning of a cycle.
     std::size_t stepAt(std::chrono::nanoseconds elapsed) const;
     // How long one whole cycle plays; none when it stands still.
     std::optional<std::chrono::nanoseconds> cycle() const;
-    // Until another step is shown or, in Once, the last has had its time. None when neither comes.
+    // Until another step is shown or, in Once, the last has had its time; 1 ns aside. None when
+    // neither comes.
     std::optional<std::chrono::nanoseconds> untilNextStep() const;
     // The step shown and those that playing would show next, in that order, each once, at most
     // `count`: what to load, most urgent first.
@@ -113,7 +119,9 @@ class TimeCursor {
         return (*begins_)[place + 1] - (*begins_)[place];
     }
     CursorPosition positionAt(std::int64_t phase) const;
-    void stepBy(int steps);
+    enum class Side { Earlier, Later };
+    void stepTo(Side side);
+    void goTo(CursorPosition position);
     void layOut();
 
     std::size_t steps_ = 1;
@@ -124,6 +132,7 @@ class TimeCursor {
     std::shared_ptr<const std::vector<std::int64_t>> begins_;
     std::optional<std::string> whyEven_;
     CursorPosition position_;
+    std::optional<std::size_t> aside_;  // not a shown step
 };
 
 }  // namespace timeseries

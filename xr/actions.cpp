@@ -53,38 +53,56 @@ Actions::Actions(const Runtime& runtime, XrSession session)
     }
 }
 
+// A part of a controller that means an action: of both hands' controllers, or of one.
+struct Actions::Part {
+    XrAction action;
+    const char* source;
+    enum class Of { Both, Left, Right } of = Of::Both;
+};
+
+void Actions::suggest(const char* profile, std::span<const Part> parts) const {
+    std::vector<XrActionSuggestedBinding> suggested;
+    for (const Part& part : parts) {
+        const auto add = [&](const char* hand) {
+            suggested.push_back(
+                {part.action, runtime_->path(fmt::format("{}{}", hand, part.source))});
+        };
+        if (part.of != Part::Of::Right) add("/user/hand/left");
+        if (part.of != Part::Of::Left) add("/user/hand/right");
+    }
+    auto info =
+        typed<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
+    info.interactionProfile = runtime_->path(profile);
+    info.countSuggestedBindings = static_cast<std::uint32_t>(suggested.size());
+    info.suggestedBindings = suggested.data();
+    runtime_->check(xrSuggestInteractionProfileBindings(runtime_->instance(), &info),
+                    "xrSuggestInteractionProfileBindings");
+}
+
+// The fullest first: a runtime that maps one controller to another may take the first that fits.
 void Actions::suggestBindings() const {
-    using Part = std::pair<XrAction, const char*>;
-    const auto suggest = [&](const char* profile, const std::vector<Part>& bindings) {
-        std::vector<XrActionSuggestedBinding> suggested;
-        for (const auto& [action, source] : bindings)
-            for (const char* hand : {"/user/hand/left", "/user/hand/right"})
-                suggested.push_back({action, runtime_->path(fmt::format("{}{}", hand, source))});
-        auto info = typed<XrInteractionProfileSuggestedBinding>(
-            XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
-        info.interactionProfile = runtime_->path(profile);
-        info.countSuggestedBindings = static_cast<std::uint32_t>(suggested.size());
-        info.suggestedBindings = suggested.data();
-        runtime_->check(xrSuggestInteractionProfileBindings(runtime_->instance(), &info),
-                        "xrSuggestInteractionProfileBindings");
-    };
-    // One button holds and clicks: who draws knows what the ray is on.
-    suggest("/interaction_profiles/khr/simple_controller", {{grab_, "/input/select/click"},
-                                                            {select_, "/input/select/click"},
-                                                            {menu_, "/input/menu/click"},
-                                                            {grip_, "/input/grip/pose"},
-                                                            {aim_, "/input/aim/pose"},
-                                                            {vibration_, "/output/haptic"}});
+    using enum Part::Of;
     // The force, not the value, of a squeeze: a hand that only rests on the controller has a value.
-    suggest("/interaction_profiles/valve/index_controller", {{grab_, "/input/squeeze/force"},
-                                                             {select_, "/input/trigger/click"},
-                                                             {menu_, "/input/a/click"},
-                                                             {swing_, "/input/b/click"},
-                                                             {bring_, "/input/thumbstick/click"},
-                                                             {stick_, "/input/thumbstick"},
-                                                             {grip_, "/input/grip/pose"},
-                                                             {aim_, "/input/aim/pose"},
-                                                             {vibration_, "/output/haptic"}});
+    suggest("/interaction_profiles/valve/index_controller",
+            std::array{Part{grab_, "/input/squeeze/force"}, Part{select_, "/input/trigger/click"},
+                       Part{menu_, "/input/a/click"}, Part{swing_, "/input/b/click"},
+                       Part{bring_, "/input/thumbstick/click"}, Part{stick_, "/input/thumbstick"},
+                       Part{grip_, "/input/grip/pose"}, Part{aim_, "/input/aim/pose"},
+                       Part{vibration_, "/output/haptic"}});
+    // What WiVRn and most others give; A and X, B and Y lie alike.
+    suggest(
+        "/interaction_profiles/oculus/touch_controller",
+        std::array{Part{grab_, "/input/squeeze/value"}, Part{select_, "/input/trigger/value"},
+                   Part{menu_, "/input/x/click", Left}, Part{menu_, "/input/a/click", Right},
+                   Part{menu_, "/input/menu/click", Left}, Part{swing_, "/input/y/click", Left},
+                   Part{swing_, "/input/b/click", Right}, Part{bring_, "/input/thumbstick/click"},
+                   Part{stick_, "/input/thumbstick"}, Part{grip_, "/input/grip/pose"},
+                   Part{aim_, "/input/aim/pose"}, Part{vibration_, "/output/haptic"}});
+    // One button holds and clicks: who draws knows what the ray is on.
+    suggest("/interaction_profiles/khr/simple_controller",
+            std::array{Part{grab_, "/input/select/click"}, Part{select_, "/input/select/click"},
+                       Part{menu_, "/input/menu/click"}, Part{grip_, "/input/grip/pose"},
+                       Part{aim_, "/input/aim/pose"}, Part{vibration_, "/output/haptic"}});
 }
 
 XrSpace Actions::poseSpace(XrAction action, XrPath hand) const {
@@ -142,29 +160,38 @@ std::array<Hand, 2> Actions::read(XrSpace stage, XrTime time) {
     return hands;
 }
 
-std::string Actions::bindingsText() const {
-    std::string text;
+std::vector<XrPath> Actions::sources(XrAction action) const {
+    auto info = typed<XrBoundSourcesForActionEnumerateInfo>(
+        XR_TYPE_BOUND_SOURCES_FOR_ACTION_ENUMERATE_INFO);
+    info.action = action;
+    std::uint32_t count = 0;
+    runtime_->check(xrEnumerateBoundSourcesForAction(session_, &info, 0, &count, nullptr),
+                    "xrEnumerateBoundSourcesForAction");
+    std::vector<XrPath> found(count);
+    if (count > 0)
+        runtime_->check(
+            xrEnumerateBoundSourcesForAction(session_, &info, count, &count, found.data()),
+            "xrEnumerateBoundSourcesForAction");
+    return found;
+}
+
+Controls Actions::controls() const {
+    Controls controls;
     const std::pair<const char*, XrAction> actions[] = {
         {"Grab the volume", grab_},        {"Play, pause, click", select_},
         {"Help and panel", menu_},         {"Swing the sweep", swing_},
         {"Bring the volume here", bring_}, {"Move value or time", stick_}};
     for (const auto& [title, action] : actions) {
-        auto info = typed<XrBoundSourcesForActionEnumerateInfo>(
-            XR_TYPE_BOUND_SOURCES_FOR_ACTION_ENUMERATE_INFO);
-        info.action = action;
-        std::uint32_t count = 0;
-        runtime_->check(xrEnumerateBoundSourcesForAction(session_, &info, 0, &count, nullptr),
-                        "xrEnumerateBoundSourcesForAction");
-        if (count == 0) continue;
-        std::vector<XrPath> sources(count);
-        runtime_->check(
-            xrEnumerateBoundSourcesForAction(session_, &info, count, &count, sources.data()),
-            "xrEnumerateBoundSourcesForAction");
         std::set<std::string> parts;  // the same of both hands are named once
-        for (const XrPath source : sources) parts.insert(partName(source));
-        text += fmt::format("{}: {}\n", title, fmt::join(parts, ", "));
+        for (const XrPath source : sources(action)) parts.insert(partName(source));
+        if (parts.empty()) continue;
+        if (!controls.text.empty()) controls.text += '\n';
+        controls.text += fmt::format("{}: {}", title, fmt::join(parts, ", "));
     }
-    return text;
+    controls.sticks = !sources(stick_).empty();
+    const std::vector<XrPath> grabs = sources(grab_);
+    controls.oneButton = !grabs.empty() && grabs == sources(select_);
+    return controls;
 }
 
 std::string Actions::partName(XrPath source) const {

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <chrono>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "xr/api.h"
 #include "xr/runtime.h"
@@ -19,13 +21,16 @@ class Actions {
 
     // The hands at `time`, in `stage`. Nothing but poses without focus.
     std::array<Hand, 2> read(XrSpace stage, XrTime time);
-    // After the runtime said that the profile changed. One action a line: "Grab: Squeeze".
-    std::string bindingsText() const;
+    // After the runtime said that the profile changed.
+    Controls controls() const;
     void vibrate(int hand, double amplitude, std::chrono::nanoseconds duration) const;
 
  private:
     XrAction made(const char* name, const char* localizedName, XrActionType type);
+    struct Part;
     void suggestBindings() const;
+    void suggest(const char* profile, std::span<const Part> parts) const;
+    std::vector<XrPath> sources(XrAction action) const;
     XrSpace poseSpace(XrAction action, XrPath hand) const;
     bool pressed(XrAction action, XrPath hand) const;
     glm::dvec2 position(XrAction action, XrPath hand) const;

@@ -58,7 +58,7 @@ Session::Frame::Frame(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Session::Frame::~Frame() {
     if (!impl_->open || impl_->session.lost) return;
     try {
-        impl_->session.orLost([&] { impl_->end({}); }, kPatienceWithDrawing);
+        impl_->session.orLost([&] { impl_->end({}); }, impl_->session.patience.withDrawing);
     } catch (const LostError&) {
         // The session remembers, and the next call tells.
     }
@@ -67,9 +67,7 @@ Session::Frame::~Frame() {
 std::chrono::nanoseconds Session::Frame::displayTime() const {
     return std::chrono::nanoseconds(impl_->timing.predictedDisplayTime);
 }
-std::chrono::nanoseconds Session::Frame::period() const {
-    return std::chrono::nanoseconds(impl_->timing.predictedDisplayPeriod);
-}
+std::chrono::nanoseconds Session::Frame::period() const { return impl_->session.period.now(); }
 bool Session::Frame::shouldRender() const { return impl_->timing.shouldRender; }
 const std::array<Hand, 2>& Session::Frame::hands() const { return impl_->hands; }
 const std::optional<Pose>& Session::Frame::head() const { return impl_->head; }
@@ -120,7 +118,7 @@ void Session::Frame::submit(double near, double far) {
     std::vector<const XrCompositionLayerBaseHeader*> layers;
     if (!impl_->eyes.empty())
         layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer));
-    impl_->session.orLost([&] { impl_->end(layers); }, kPatienceWithDrawing);
+    impl_->session.orLost([&] { impl_->end(layers); }, impl_->session.patience.withDrawing);
 }
 
 }  // namespace xr

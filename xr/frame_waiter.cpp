@@ -4,7 +4,6 @@
 #include <mutex>
 #include <thread>
 
-#include "xr/session.h"
 #include "xr/watchman.h"
 
 namespace xr {
@@ -36,7 +35,8 @@ struct FrameWaiter::Desk {
     }
 };
 
-FrameWaiter::FrameWaiter(XrSession session) : desk_(std::make_shared<Desk>(session)) {
+FrameWaiter::FrameWaiter(XrSession session, std::chrono::nanoseconds patience)
+    : patience_(patience), desk_(std::make_shared<Desk>(session)) {
     std::thread thread([desk = desk_] { desk->serve(); });
     thread_ = thread.native_handle();
     // Joining one that never comes back would hang the program instead.
@@ -55,7 +55,7 @@ std::optional<FrameWaiter::Answer> FrameWaiter::wait() {
     desk_->asked = true;
     desk_->changed.notify_all();
     const auto answered = [&] { return desk_->answer.has_value(); };
-    desk_->changed.wait_for(lock, kPatience, answered);
+    desk_->changed.wait_for(lock, patience_, answered);
     // A second for what lies between the interrupted system call and here.
     for (auto left = std::chrono::seconds(1) / kInterruptAgain; !answered() && left > 0; --left) {
         interrupt(thread_);

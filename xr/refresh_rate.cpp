@@ -17,14 +17,11 @@ double RefreshRate::share(std::chrono::nanoseconds time, std::size_t rate) const
     return std::chrono::duration<double>(time).count() * rates_[rate];
 }
 
-void RefreshRate::took(std::chrono::nanoseconds frame, const RenderScale& scale,
-                       std::chrono::nanoseconds fitted) {
+void RefreshRate::took(std::chrono::nanoseconds frame, const RenderScale& scale) {
     if (rates_.empty()) return;
     const bool late = scale.lowest() && share(frame, rate_) > RenderScale::kLate;
-    // What is fitted has the same share of every period.
     const bool quick =
-        rate_ > 0 && scale.scale() == 1 &&
-        share(frame - fitted, rate_ - 1) + share(fitted, rate_) < RenderScale::kQuick;
+        rate_ > 0 && scale.scale() == 1 && share(frame, rate_ - 1) < RenderScale::kQuick;
     lateFrames_ = late ? lateFrames_ + 1 : 0;
     quickFrames_ = quick ? quickFrames_ + 1 : 0;
     if (lateFrames_ == kLateFrames) {

@@ -18,10 +18,9 @@ class RefreshRate {
     // In Hz, in any order. None: there is no choice, and nothing to ask for.
     explicit RefreshRate(std::vector<double> offered = {});
 
-    // A frame took so long, after which the scale is this. `fitted`: how much of that was fitted to
-    // the period, and would be to another.
-    void took(std::chrono::nanoseconds frame, const RenderScale& scale,
-              std::chrono::nanoseconds fitted = std::chrono::nanoseconds(0));
+    // A frame takes so long at least, whatever can be left out of it, after which the scale is
+    // this.
+    void took(std::chrono::nanoseconds frame, const RenderScale& scale);
     // To be asked of the runtime.
     std::optional<double> wanted() const;
     // "72 of 90 Hz"; empty at the highest.

@@ -9,9 +9,9 @@ void RenderScale::took(std::chrono::nanoseconds frame, std::chrono::nanoseconds 
     if (lateFrames_ == kLateFrames) lateFrames_ = 0;
     // Time grows with the pixels at most: what is quick after a step up will not go down again.
     const double growth = lowered_ > 0 ? scaleAfter(lowered_ - 1) / scale() : 1;
-    quickFrames_ = share * growth * growth < kQuick ? quickFrames_ + 1 : 0;
-    if (quickFrames_ < kQuickFrames) return;
-    quickFrames_ = 0;
+    quickTime_ = share * growth * growth < kQuick ? quickTime_ + period : period * 0;
+    if (quickTime_ < kQuickTime) return;
+    quickTime_ = {};
     if (lowered_ > 0) --lowered_;
 }
 

@@ -17,8 +17,10 @@ class RenderScale {
     double scale() const { return scaleAfter(lowered_); }
     bool lowest() const { return lowered_ == kMostLowered; }  // there is no less
 
-    static constexpr int kLateFrames = 3, kQuickFrames = 60;  // in a row, before a step down or up
-    static constexpr double kLate = 0.95, kQuick = 0.85;      // of the period
+    static constexpr int kLateFrames = 3;  // in a row, before a step down
+    // Of quick frames in a row, before a step up: as long on a slow display as on a quick one.
+    static constexpr std::chrono::nanoseconds kQuickTime = std::chrono::milliseconds(400);
+    static constexpr double kLate = 0.95, kQuick = 0.85;  // of the period
 
  private:
     // Integer steps of 1/20, so that equal scales are the same number.
@@ -26,7 +28,8 @@ class RenderScale {
     static double scaleAfter(int lowered) { return static_cast<double>(kSteps - lowered) / kSteps; }
 
     int lowered_ = 0;
-    int lateFrames_ = 0, quickFrames_ = 0;
+    int lateFrames_ = 0;
+    std::chrono::nanoseconds quickTime_{0};
 };
 
 }  // namespace xr

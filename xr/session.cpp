@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "xr/forked_answer.h"
+#include "xr/manifest.h"
 #include "xr/session_impl.h"
 #include "xr/visibility_mask.h"
 
@@ -21,6 +23,8 @@ constexpr float kGuessedEyeHeight = 1.5f;
 
 // A session's images are made when it opens.
 constexpr std::chrono::nanoseconds kPatienceToOpen = std::chrono::seconds(10);
+// To let go of a runtime.
+constexpr std::chrono::nanoseconds kPatienceToClose = std::chrono::seconds(3);
 
 std::vector<const char*> extensionsFor(const Binding& binding) {
     std::vector<const char*> names{XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
@@ -30,6 +34,10 @@ std::vector<const char*> extensionsFor(const Binding& binding) {
     if (std::holds_alternative<EglBinding>(binding))
         names.push_back(XR_MNDX_EGL_ENABLE_EXTENSION_NAME);
     return names;
+}
+
+std::string noOpenGl(const Runtime& runtime) {
+    return fmt::format("the OpenXR runtime {} takes no OpenGL", runtime.name());
 }
 
 XrSession createSession(const Runtime& runtime, const void* graphics) {
@@ -138,8 +146,9 @@ XrEnvironmentBlendMode chooseBlendMode(const Runtime& runtime) {
 
 }  // namespace
 
-Session::Impl::Impl(Runtime opened, const Binding& binding)
-    : runtime(std::move(opened)),
+Session::Impl::Impl(Runtime opened, const Binding& binding, const Patience& with)
+    : patience(with),
+      runtime(std::move(opened)),
       session(createSession(runtime, binding)),
       stage(createStage(runtime, session)),
       head(createSpace(runtime, session, XR_REFERENCE_SPACE_TYPE_VIEW)),
@@ -148,14 +157,24 @@ Session::Impl::Impl(Runtime opened, const Binding& binding)
       hidden{hiddenArea(runtime, session, 0), hiddenArea(runtime, session, 1)},
       refreshRates(offeredRates(runtime, session)),
       actions(runtime, session),
-      waiter(session) {}
+      waiter(session, patience.calls) {
+    takeRate();
+}
 
 Session::Impl::~Impl() {
     // The framebuffers go before the images they are of.
     eyes.clear();
     // Once is enough to have waited for a runtime that does not answer.
-    const Watchman::Watch watch(watchman, lost ? std::chrono::nanoseconds(0) : kPatience);
+    const Watchman::Watch watch(watchman, lost ? std::chrono::nanoseconds(0) : kPatienceToClose);
     runtime.close();
+}
+
+void Session::Impl::takeRate() {
+    if (!runtime.has(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME)) return;
+    float rate = 0;
+    if (XR_SUCCEEDED(runtime.function<PFN_xrGetDisplayRefreshRateFB>("xrGetDisplayRefreshRateFB")(
+            session, &rate)))
+        period.told(static_cast<double>(rate));
 }
 
 void Session::Impl::onState(State next) {
@@ -193,33 +212,36 @@ void Session::Impl::handleEvents() {
             onState(static_cast<State>(change.state));  // the numbers are the same
             return;
         } else if (event.type == XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED) {
-            bindings = actions.bindingsText();
+            controls = actions.controls();
         } else if (event.type == XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR) {
             XrEventDataVisibilityMaskChangedKHR change;
             std::memcpy(&change, &event, sizeof change);
             if (change.session == session && change.viewIndex < hidden.size())
                 hidden[change.viewIndex] = hiddenArea(runtime, session, change.viewIndex);
+        } else if (event.type == XR_TYPE_EVENT_DATA_DISPLAY_REFRESH_RATE_CHANGED_FB) {
+            period.forget();
+            takeRate();
         } else if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
             onState(State::LossPending);
         }
     }
 }
 
-std::string Session::Impl::unanswered(std::chrono::nanoseconds patience) const {
+std::string Session::Impl::unanswered(std::chrono::nanoseconds limit) const {
     return fmt::format("the headset's runtime {} has not answered for {:.0f} s", runtime.name(),
-                       std::chrono::duration<double>(patience).count());
+                       std::chrono::duration<double>(limit).count());
 }
 
-void Session::Impl::orLost(const std::function<void()>& calls, std::chrono::nanoseconds patience) {
+void Session::Impl::orLost(const std::function<void()>& calls, std::chrono::nanoseconds limit) {
     if (lost) throw LostError(*lost);
-    const Watchman::Watch watch(watchman, patience);
+    const Watchman::Watch watch(watchman, limit);
     try {
         calls();
     } catch (const LostError& error) {
         lost = error.what();
     }
     // Also where nothing has failed: Monado locates things with success when it was interrupted.
-    if (watch.fired()) lost = unanswered(patience);
+    if (watch.fired()) lost = unanswered(limit);
     if (lost) throw LostError(*lost);
 }
 
@@ -227,36 +249,53 @@ XrFrameState Session::Impl::waitFrame() {
     const auto answer = waiter.wait();
     if (!answer) {
         runtime.abandon();
-        throw LostError(unanswered(kPatience));
+        throw LostError(unanswered(patience.calls));
     }
     runtime.check(answer->result, "xrWaitFrame");
     return answer->frame;
 }
 
-std::optional<NoHeadset> Session::whyNone() {
-    Watchman watchman;
-    const Watchman::Watch watch(watchman, kPatience);
-    auto runtime = Runtime::open({});
-    if (auto* none = std::get_if<NoHeadset>(&runtime)) return std::move(*none);
-    return std::nullopt;
+std::variant<Session::Offer, NoHeadset> Session::ask(std::chrono::seconds patience) {
+    // The answer's first letter says what it is; why there is no headset follows.
+    constexpr char kNone = 'n', kEgl = 'e', kXlib = 'x';
+    const auto answer = forkedAnswer(
+        [&] {
+            auto runtime = Runtime::open(
+                {XR_KHR_OPENGL_ENABLE_EXTENSION_NAME, XR_MNDX_EGL_ENABLE_EXTENSION_NAME});
+            if (const auto* none = std::get_if<NoHeadset>(&runtime)) return kNone + none->why;
+            const auto& opened = std::get<Runtime>(runtime);
+            if (!opened.has(XR_KHR_OPENGL_ENABLE_EXTENSION_NAME)) return kNone + noOpenGl(opened);
+            return std::string(1, opened.has(XR_MNDX_EGL_ENABLE_EXTENSION_NAME) ? kEgl : kXlib);
+        },
+        patience);
+    if (const auto* text = std::get_if<std::string>(&answer)) {
+        if (text->front() == kNone) return NoHeadset{text->substr(1)};
+        return Offer{text->front() == kEgl};
+    }
+    const auto manifest = runtimeManifest();
+    return NoHeadset{fmt::format("the OpenXR runtime{} {} when it is asked for a headset",
+                                 manifest ? " of " + manifest->string() : "",
+                                 std::get<NoAnswer>(answer) == NoAnswer::Crashed
+                                     ? "crashes"
+                                     : fmt::format("does not answer for {} s", patience.count()))};
 }
 
-std::variant<std::unique_ptr<Session>, NoHeadset> Session::open(const Binding& binding) {
+std::variant<std::unique_ptr<Session>, NoHeadset> Session::open(const Binding& binding,
+                                                                const Patience& patience) {
     Watchman watchman;
     const Watchman::Watch watch(watchman, kPatienceToOpen);
     const auto extensions = extensionsFor(binding);
     auto runtime = Runtime::open(extensions);
     if (auto* none = std::get_if<NoHeadset>(&runtime)) return std::move(*none);
     auto& opened = std::get<Runtime>(runtime);
-    if (!opened.has(XR_KHR_OPENGL_ENABLE_EXTENSION_NAME))
-        return NoHeadset{fmt::format("the OpenXR runtime {} takes no OpenGL", opened.name())};
+    if (!opened.has(XR_KHR_OPENGL_ENABLE_EXTENSION_NAME)) return NoHeadset{noOpenGl(opened)};
     if (std::holds_alternative<EglBinding>(binding) &&
         !opened.has(XR_MNDX_EGL_ENABLE_EXTENSION_NAME))
         return NoHeadset{fmt::format("the OpenXR runtime {} takes OpenGL from Xlib, not from EGL",
                                      opened.name())};
     try {
         return std::unique_ptr<Session>(
-            new Session(std::make_unique<Impl>(std::move(opened), binding)));
+            new Session(std::make_unique<Impl>(std::move(opened), binding, patience)));
     } catch (const std::runtime_error& error) {
         return NoHeadset{error.what()};
     }
@@ -267,7 +306,7 @@ Session::~Session() = default;
 
 const std::string& Session::runtimeName() const { return impl_->runtime.name(); }
 const SessionState& Session::state() const { return impl_->state; }
-const std::string& Session::bindingsText() const { return impl_->bindings; }
+const Controls& Session::controls() const { return impl_->controls; }
 bool Session::ended() const { return impl_->ended; }
 
 std::unique_ptr<Session::Frame> Session::beginFrame() {
@@ -276,6 +315,7 @@ std::unique_ptr<Session::Frame> Session::beginFrame() {
         impl_->handleEvents();
         if (impl_->ended || !impl_->state.running()) return;
         const XrFrameState timing = impl_->waitFrame();
+        impl_->period.predicted(std::chrono::nanoseconds(timing.predictedDisplayPeriod));
         const auto begin = typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
         impl_->runtime.check(xrBeginFrame(impl_->session, &begin), "xrBeginFrame");
         // From here on it must be ended, which is its destructor's work.

@@ -19,8 +19,12 @@
 
 namespace xr {
 
-// A runtime that answers nothing for so long is lost.
-inline constexpr std::chrono::nanoseconds kPatience = std::chrono::seconds(3);
+// How long a runtime may answer nothing before it is lost: it may be busy, or stopped for a moment.
+struct Patience {
+    std::chrono::nanoseconds calls = std::chrono::seconds(10);
+    // The end of a frame also waits for what was drawn, which may be much.
+    std::chrono::nanoseconds withDrawing = std::chrono::seconds(20);
+};
 
 // One sentence: no runtime, a broken manifest, no service, no headset.
 struct NoHeadset {
@@ -70,26 +74,38 @@ struct Eye {
     std::shared_ptr<const render::HiddenArea> hidden = {};  // behind the lens's rim, if it is known
 };
 
+// What the controllers in force have.
+struct Controls {
+    // "Grab the volume: Squeeze", one a line; empty before the runtime has bound any.
+    std::string text = {};
+    bool sticks = false;
+    bool oneButton = false;  // it grabs and selects
+};
+
 class Session {
  public:
-    // Looks for a runtime and a headset without any GL context; says why there is none.
-    static std::optional<NoHeadset> whyNone();
+    // Looks for a runtime and a headset without any GL context; says why there is none. In a copy
+    // of this process, which alone goes down when the runtime's library crashes; a window waits.
+    struct Offer {
+        bool takesEgl;  // EglBinding, too; all take XlibBinding
+    };
+    static std::variant<Offer, NoHeadset> ask(
+        std::chrono::seconds patience = std::chrono::seconds(3));
 
     // REQUIRES: the binding's context is current now and in every call that follows, until
     // destruction.
-    static std::variant<std::unique_ptr<Session>, NoHeadset> open(const Binding& binding);
+    static std::variant<std::unique_ptr<Session>, NoHeadset> open(const Binding& binding,
+                                                                  const Patience& patience = {});
     ~Session();
 
     const std::string& runtimeName() const;
     const SessionState& state() const;
-    // What the profile in force binds, for the help panel: "Grab the volume: Squeeze", one a line.
-    // Empty before the runtime has chosen one.
-    const std::string& bindingsText() const;
+    const Controls& controls() const;
 
     // Handles events, at most one change of state, waits for the runtime's next frame (at most
-    // kPatience) and begins it. None while the session does not run, after a hundredth of a second:
-    // call again. Throws LostError, from then on each time. After an event that ends the session,
-    // ended() is true.
+    // Patience::calls) and begins it. None while the session does not run, after a hundredth of a
+    // second: call again. Throws LostError, from then on each time. After an event that ends the
+    // session, ended() is true.
     class Frame;
     std::unique_ptr<Frame> beginFrame();
     bool ended() const;
@@ -120,7 +136,8 @@ class Session::Frame {
     Frame& operator=(const Frame&) = delete;
 
     std::chrono::nanoseconds displayTime() const;  // predicted; monotonic
-    std::chrono::nanoseconds period() const;       // from one frame to the next, predicted
+    // The display's own (display_period.h), however slow the program is; 0 where it is not known.
+    std::chrono::nanoseconds period() const;
     bool shouldRender() const;
     // Left, right. Empty when nothing is to be drawn or the eyes' poses are not valid. `scale` in
     // (0, 1]: the share of the recommended size to draw, per side; of the first call, which the

@@ -11,6 +11,7 @@
 
 #include "xr/actions.h"
 #include "xr/api.h"
+#include "xr/display_period.h"
 #include "xr/frame_waiter.h"
 #include "xr/runtime.h"
 #include "xr/session.h"
@@ -20,11 +21,8 @@
 
 namespace xr {
 
-// The end of a frame also waits for what was drawn, which may be much.
-inline constexpr std::chrono::nanoseconds kPatienceWithDrawing = std::chrono::seconds(10);
-
 struct Session::Impl {
-    Impl(Runtime opened, const Binding& binding);
+    Impl(Runtime opened, const Binding& binding, const Patience& patience);
     ~Impl();
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -34,11 +32,15 @@ struct Session::Impl {
     void onState(State next);
     // Throws LostError when none comes in time.
     XrFrameState waitFrame();
-    std::string unanswered(std::chrono::nanoseconds patience) const;
+    // The rate that the runtime tells of its display, if it does.
+    void takeRate();
+    std::string unanswered(std::chrono::nanoseconds limit) const;
     // Makes `calls` into the runtime, which may take so long together. Throws LostError when one
     // fails or they take longer; that is the end of the session, and is kept.
-    void orLost(const std::function<void()>& calls, std::chrono::nanoseconds patience = kPatience);
+    void orLost(const std::function<void()>& calls, std::chrono::nanoseconds limit);
+    void orLost(const std::function<void()>& calls) { orLost(calls, patience.calls); }
 
+    const Patience patience;
     Watchman watchman;
     Runtime runtime;
     XrSession session;
@@ -48,12 +50,13 @@ struct Session::Impl {
     std::array<std::shared_ptr<const render::HiddenArea>, 2> hidden;  // of each eye; may be null
     std::vector<double> refreshRates;
     double requestedRate = 0;  // the last; 0 before the first
+    DisplayPeriod period;
     Actions actions;
     FrameWaiter waiter;
     SessionState state;
     bool ended = false;
     std::optional<std::string> lost;  // why
-    std::string bindings;
+    Controls controls;
 };
 
 struct Session::Frame::Impl {

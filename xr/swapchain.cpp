@@ -45,7 +45,7 @@ GLuint ImageChain::acquire() {
     runtime_->check(xrAcquireSwapchainImage(handle_, &acquire, &index), "xrAcquireSwapchainImage");
     acquired_ = true;
     auto wait = typed<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
-    wait.timeout = kPatience.count();
+    wait.timeout = Patience{}.calls.count();
     const XrResult result = xrWaitSwapchainImage(handle_, &wait);
     // A time-out is not a failure by its number, but an image that never comes is one.
     runtime_->check(result == XR_TIMEOUT_EXPIRED ? XR_ERROR_RUNTIME_FAILURE : result,

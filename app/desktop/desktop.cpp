@@ -18,12 +18,12 @@ constexpr glm::ivec2 kWindowSize{1440, 900};
 
 }  // namespace
 
-Desktop::Desktop(Exploration& exploration)
+Desktop::Desktop(Exploration& exploration, std::optional<ExportJob>& exporting)
     : window_(kWindowSize, "isochron"),
       gui_(window_, window_.contentScale()),
       exploration_(exploration),
       interface_([] { Window::wake(); }),
-      errands_(exploration_, picture_.canvas(),
+      errands_(exploration_, picture_.canvas(), exporting,
                [this](const std::string& text) { window_.setClipboard(text); }),
       signals_([this] {
           stopped_ = true;
@@ -35,27 +35,48 @@ Desktop::Desktop(Exploration& exploration)
         std::chrono::nanoseconds(std::llround(1e6 * errands_.preferences().frameMilliseconds));
 }
 
-void Desktop::run() {
+Desktop::End Desktop::run() {
     try {
         while (!window_.shouldClose() && !stopped_) {
             sleep();
             const Clock::time_point now = Clock::now();
             frame(now - std::exchange(last_, now));
+            if (headsetAnswers()) return End::ToHeadset;
         }
     } catch (...) {
         errands_.rescue();
         throw;
     }
     errands_.finish();
+    return End::Closed;
+}
+
+void Desktop::askForHeadset() {
+    if (asked_.valid()) return;
+    asked_ = std::async(std::launch::async, [] {
+        auto answer = xr::Session::ask();
+        Window::wake();
+        return answer;
+    });
+}
+
+bool Desktop::headsetAnswers() {
+    if (!asked_.valid() || asked_.wait_for(0s) != std::future_status::ready) return false;
+    const auto answer = asked_.get();
+    const auto* none = std::get_if<xr::NoHeadset>(&answer);
+    if (none != nullptr) exploration_.tell("No headset: " + none->why, true);
+    return none == nullptr;
 }
 
 void Desktop::frame(std::chrono::nanoseconds dt) {
     exploration_.advance(dt);
-    errands_.goOn(interface_.choices());  // before all is drawn: nothing else may wake it
+    errands_.prefer(interface_.choices());
+    errands_.goOn();  // before all is drawn: nothing else may wake it
     const glm::ivec2 size = window_.framebufferSize();
     if (size.x == 0 || size.y == 0) return;  // minimised
-    gui_.setScale(static_cast<float>(
-        interface_.choices().scale.value_or(static_cast<double>(window_.contentScale()))));
+    const auto wanted = static_cast<float>(
+        interface_.choices().scale.value_or(static_cast<double>(window_.contentScale())));
+    gui_.setScale(panels::scaleWithRoom(glm::vec2(size), wanted));
     interact(dt);
     const Clock::time_point begin = Clock::now();
     drawPicture();
@@ -89,17 +110,9 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
     }
 }
 
-void Desktop::serve(panels::Requests& requests) {
-    if (!requests.open.empty()) errands_.open(requests.open);
-    if (requests.save) errands_.save(*requests.save);
-    if (requests.exportTo) errands_.exportTo(*requests.exportTo);
-    if (requests.cancelExport) errands_.cancelExport();
-    if (requests.discardLeft) errands_.discardLeft();
-    for (const panels::Command command : requests.commands) {
-        if (interface_.obey(exploration_, command)) continue;
-        if (command == panels::Command::Screenshot) errands_.screenshot();
-        if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
-    }
+void Desktop::serve(const panels::Requests& requests) {
+    errands_.serve(requests, interface_);
+    if (std::ranges::count(requests.commands, panels::Command::Headset) > 0) askForHeadset();
     const Explorer& shown = exploration_.explorer();
     if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover, shown));
     if (requests.probe)
@@ -108,15 +121,16 @@ void Desktop::serve(panels::Requests& requests) {
 
 void Desktop::drawPicture() {
     const glm::ivec2 window = window_.framebufferSize();
-    const panels::Rect place =
-        panels::layoutOf(glm::vec2(window), gui_.theme().scale, interface_.choices().sideWidth)
-            .picture;
+    const panels::Layout layout =
+        panels::layoutOf(glm::vec2(window), gui_.theme().scale, interface_.choices().sideWidth);
+    const panels::Rect& place = layout.picture;
     const Explorer& e = exploration_.explorer();
     const glm::ivec2 size = PictureView::eyeSize(place, e.stereo.mode);
     if (size != e.size) exploration_.resize(size);
     const auto shown = exploration_.shown();
     picture_.draw(shown ? &*shown : nullptr, window, place, exploration_.playback().playing,
                   interface_.choices().frameBudget);
+    panels::drawFigures(gui_.theme(), layout, picture_.performance(), exploration_.series());
 }
 
 void Desktop::title() {
@@ -124,11 +138,13 @@ void Desktop::title() {
     std::string text = "isochron";
     if (shown) {
         const PointCounts* counts = exploration_.counts();
-        text = fmt::format("{} · {} · {} · {} points",
+        const bool clipped = counts != nullptr && counts->inClipBox;
+        text = fmt::format("{} · {} · {} · {} points{}",
                            std::filesystem::path(shown->dataset.name).filename().string(),
                            shown->dataset.about.name,
                            timeText(*shown->dataset.about.time, shown->step),
-                           withCommas(counts != nullptr ? counts->selected : 0));
+                           withCommas(counts != nullptr ? counts->selected : 0),
+                           clipped ? " in the clip box" : "");
     }
     if (const auto opening = exploration_.opening()) text += " · opening " + *opening;
     window_.setTitle(text);
@@ -146,7 +162,7 @@ void Desktop::sleep() {
     if (const glm::ivec2 size = window_.framebufferSize(); size.x > 0 && size.y > 0)
         within(picture_.untilNextDraw());
     within(errands_.untilKept());
-    if (errands_.exporting()) within(100ms);
+    if (errands_.exporting() || asked_.valid()) within(100ms);
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
     const Clock::time_point before = Clock::now();
     window_.wait(atMost);

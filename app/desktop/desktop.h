@@ -4,34 +4,42 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
+#include <optional>
+#include <variant>
 
 #include "app/desktop/errands.h"
 #include "app/desktop/gui.h"
 #include "app/desktop/picture_view.h"
 #include "app/desktop/stop_signals.h"
 #include "app/desktop/window.h"
+#include "app/desktop/x_errors.h"
 #include "app/exploration.h"
 #include "app/panels/interface.h"
+#include "xr/session.h"
 
 namespace app::desktop {
 
 class Desktop {
  public:
-    // `exploration` must outlive this; its Settings::wake is Window::wake. Throws
+    // Both must outlive this; `exporting` as Errands has it, Settings::wake is Window::wake. Throws
     // std::runtime_error when there is no window to be had.
-    explicit Desktop(Exploration& exploration);
-    // Until the window is closed or a signal ends it.
-    void run();
+    Desktop(Exploration& exploration, std::optional<ExportJob>& exporting);
+    // Until the window is closed or a signal ends it; or until a headset is asked for that answers.
+    enum class End { Closed, ToHeadset };
+    End run();
 
  private:
     using Clock = std::chrono::steady_clock;
 
     void frame(std::chrono::nanoseconds dt);
     void interact(std::chrono::nanoseconds dt);
-    void serve(panels::Requests& requests);
+    void serve(const panels::Requests& requests);
     void drawPicture();
     void title();
     void sleep();
+    void askForHeadset();
+    bool headsetAnswers();
 
     std::atomic<bool> stopped_ = false;
     Window window_;
@@ -43,6 +51,9 @@ class Desktop {
     Clock::time_point last_ = Clock::now();
     // Frames until the loop may sleep: the interface shows what the exploration was a frame ago.
     int restless_ = 2;
+    // While a runtime is asked: it may take its time.
+    std::future<std::variant<xr::Session::Offer, xr::NoHeadset>> asked_;
+    AtConnectionsEnd atConnectionsEnd_{[this] { errands_.rescue(); }};
     StopSignals signals_;  // last: its thread uses what stands above
 };
 

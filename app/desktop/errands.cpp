@@ -46,26 +46,59 @@ void telling(Exploration& exploration, const Work& work) {
 
 }  // namespace
 
-Errands::Errands(Exploration& exploration, Canvas& canvas,
+Errands::Errands(Exploration& exploration, Canvas& canvas, std::optional<ExportJob>& exporting,
                  std::function<void(const std::string&)> copy)
     : exploration_(exploration),
       canvas_(canvas),
       copy_(std::move(copy)),
       autosave_(stateFolder()),
       left_(leftSessions(stateFolder())),
-      demo_(findDemo()) {
+      demo_(findDemo()),
+      export_(exporting) {
     ReadPreferences read = readPreferences(preferencesFile());
     if (!read.problem.empty()) exploration_.tell(read.problem, true);
     preferences_ = kept_ = std::move(read.preferences);
 }
 
+void Errands::serve(const panels::Requests& requests, panels::Interface& interface) {
+    if (!requests.open.empty()) open(requests.open);
+    if (requests.save) save(*requests.save);
+    if (requests.exportTo) exportTo(*requests.exportTo);
+    if (requests.cancelExport) cancelExport();
+    if (requests.discardLeft) discardLeft();
+    for (const panels::Command command : requests.commands) {
+        if (interface.obey(exploration_, command)) continue;
+        if (command == panels::Command::Screenshot) screenshot();
+        if (command == panels::Command::CopyCommandLine) copyCommandLine();
+    }
+}
+
 void Errands::open(const std::vector<fs::path>& named) {
-    if (!holdsSession(named.front())) return exploration_.open(named);
+    if (!holdsSession(named.front())) return openData(named);
     telling(exploration_, [&] { openSession(named.front()); });
 }
 
+// A session whose data are gone waits for them: a file of the same name is taken for them.
+void Errands::openData(const std::vector<fs::path>& named) {
+    std::optional<Explorer> waiting = std::exchange(waiting_, std::nullopt);
+    if (!waiting || waiting->files.front().filename() != named.front().filename())
+        return exploration_.open(named);
+    waiting->files = named;
+    exploration_.open(std::move(*waiting));
+}
+
 void Errands::openSession(const fs::path& file) {
-    exploration_.open(readSession(file));
+    Explorer session = readSession(file);
+    waiting_.reset();
+    if (const auto missing = missingFile(session)) {
+        exploration_.tell(fmt::format("{}: its data are not there any more: open {}, where it is "
+                                      "now, or drop it here",
+                                      file.filename().string(), missing->filename().string()),
+                          true);
+        waiting_ = std::move(session);
+        return;
+    }
+    exploration_.open(std::move(session));
     const auto left = std::ranges::find(left_, file, &LeftSession::file);
     goingOn_ = left == left_.end() ? std::nullopt : std::optional(*left);
 }
@@ -110,11 +143,10 @@ void Errands::screenshot() {
 void Errands::copyCommandLine() {
     const auto shown = exploration_.shown();
     if (!shown) return;
-    const Explorer picture =
-        onlyThis(shown->explorer, shown->step, *shown->sorted, shown->explorer.play.tick);
+    const Explorer picture = onlyThis(shown->explorer, shown->step, shown->explorer.play.tick);
     const std::vector<std::string> arguments =
         renderArguments(picture, "picture.png", fs::current_path());
-    copy_("isochron " + shellText(arguments));
+    copy_(callOfProgram() + " " + shellText(arguments));
     exploration_.tell("Copied: the command line that makes this picture");
 }
 
@@ -147,19 +179,22 @@ void Errands::attendExport() {
     export_.reset();
 }
 
-void Errands::goOn(const panels::Choices& choices) {
+void Errands::prefer(const panels::Choices& choices) {
+    preferences_.uiScale = choices.scale;
+    preferences_.frameMilliseconds =
+        std::chrono::duration<double, std::milli>(choices.frameBudget).count();
+}
+
+void Errands::goOn() {
     attendExport();
     settleLeft();
     if (!exploration_.shown()) return;
     if (const auto problem = autosave_.save(exploration_.explorer(), Autosave::Clock::now()))
         exploration_.tell(*problem, true);
-    keep(choices);
+    keepPreferences();
 }
 
-void Errands::keep(const panels::Choices& choices) {
-    preferences_.uiScale = choices.scale;
-    preferences_.frameMilliseconds =
-        std::chrono::duration<double, std::milli>(choices.frameBudget).count();
+void Errands::keepPreferences() {
     const std::vector<fs::path>& files = exploration_.explorer().files;
     if (files != remembered_ && !files.empty()) {
         remember(preferences_, files);

@@ -20,8 +20,12 @@ namespace app::desktop {
 // Failures become messages of the exploration. The references must outlive it.
 class Errands {
  public:
-    // `copy`: puts a text on the clipboard.
-    Errands(Exploration& exploration, Canvas& canvas, std::function<void(const std::string&)> copy);
+    // `exporting`: goes on from one front end to the next. `copy`: puts a text on the clipboard.
+    Errands(Exploration& exploration, Canvas& canvas, std::optional<ExportJob>& exporting,
+            std::function<void(const std::string&)> copy);
+
+    // Does what panels ask for, but for readings of the picture, which whoever draws it has.
+    void serve(const panels::Requests& requests, panels::Interface& interface);
 
     // A member of a series, a folder, several files; a session, or a picture that carries one.
     void open(const std::vector<std::filesystem::path>& named);
@@ -31,8 +35,10 @@ class Errands {
     void exportTo(const std::filesystem::path& output);
     void cancelExport();
 
+    // What a window's user prefers from now on: a headset's panel is as large as it is.
+    void prefer(const panels::Choices& choices);
     // Once a frame: what is to be kept is kept, and a child's progress is told.
-    void goOn(const panels::Choices& choices);
+    void goOn();
     // Until goOn() has something to keep, though nothing happens any more.
     std::optional<std::chrono::nanoseconds> untilKept() const;
     // At a clean end.
@@ -51,7 +57,8 @@ class Errands {
 
  private:
     void attendExport();
-    void keep(const panels::Choices& choices);
+    void keepPreferences();
+    void openData(const std::vector<std::filesystem::path>& named);
     void openSession(const std::filesystem::path& file);
     void settleLeft();
     void forgetLeft(const std::filesystem::path& file);
@@ -63,8 +70,9 @@ class Errands {
     Autosave autosave_;
     std::vector<LeftSession> left_;
     std::optional<LeftSession> goingOn_;  // on its way to be shown
+    std::optional<Explorer> waiting_;     // whose data were not there
     std::filesystem::path demo_;
-    std::optional<ExportJob> export_;
+    std::optional<ExportJob>& export_;
     std::vector<std::filesystem::path> remembered_;  // the files that were last remembered
 };
 

@@ -99,7 +99,7 @@ class Feed {
         return moved_ = true;
     }
     bool operator()(const KeyChanged& e) {
-        if (key_) return false;
+        if (key_ || button_) return false;  // a field may have been pressed
         io_.KeysDown[e.key] = e.down;
         const bool own = e.key >= GLFW_KEY_LEFT_SHIFT;  // GLFW tells modifiers before their change
         io_.KeyCtrl = own ? held(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) : e.ctrl;

@@ -46,7 +46,7 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
     if (!current) changed_ = Clock::now();
     const bool resting = !playing && Clock::now() - changed_ >= kRest;
     const bool arriving = current && report_.uploaded < 1;
-    if (!current || arriving || (!report_.whole && resting))
+    if (!current || arriving || (!isDone() && resting))
         redraw(*shown, resting && !arriving, frameBudget);
     kept_->show(window, {0, window.y - static_cast<int>(place.max.y)}, kGroundColor);
 }
@@ -82,6 +82,7 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
                     .drawn = report_.drawn,
                     .selected = report_.selected,
                     .gpuBytes = report_.gpuBytes,
+                    .counts = report_.counts,
                     .whole = report_.whole,
                     .uploaded = report_.uploaded,
                     .refined = report_.refined,
@@ -96,7 +97,7 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 }
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
-    if (!drawn_ || report_.whole) return std::nullopt;
+    if (!drawn_ || isDone()) return std::nullopt;
     const bool goesOn = report_.uploaded < 1 || (report_.refined > 0 && !playing_);
     return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }

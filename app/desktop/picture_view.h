@@ -54,6 +54,7 @@ class PictureView {
     };
 
     bool isCurrent(const Shown& shown) const;
+    bool isDone() const { return report_.whole && report_.told; }  // nothing more comes at rest
     void redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget);
 
     Canvas canvas_;

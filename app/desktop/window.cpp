@@ -11,6 +11,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "app/desktop/x_errors.h"
+
 namespace app::desktop {
 namespace {
 
@@ -39,8 +41,12 @@ Awake& awake() {
 
 // GLFW is process-wide.
 struct Library {
-    Library() {
+    explicit Library([[maybe_unused]] Platform platform) {
         glfwSetErrorCallback([](int, const char* what) { lastError() = what; });
+#ifdef GLFW_PLATFORM  // 3.4; before, a GLFW is built for X11 or for Wayland
+        glfwInitHint(GLFW_PLATFORM,
+                     platform == Platform::X11 ? GLFW_PLATFORM_X11 : GLFW_ANY_PLATFORM);
+#endif
         if (glfwInit() == GLFW_FALSE)
             throw std::runtime_error(
                 fmt::format("no display: {}; {}",
@@ -102,8 +108,8 @@ struct Window::State {
     std::string title;
     std::deque<Event> events;
 
-    State(glm::ivec2 size, const std::string& name)
-        : window(createWindow(size, name)), title(name) {
+    State(glm::ivec2 size, const std::string& name, Platform platform)
+        : library(platform), window(createWindow(size, name)), title(name) {
         for (std::size_t i = 0; i < cursors.size(); ++i)
             cursors[i] = glfwCreateStandardCursor(kCursorShapes[i]);
     }
@@ -167,20 +173,33 @@ void Window::State::listenToKeys() {
     });
 }
 
-Window::Window(glm::ivec2 size, const std::string& title)
-    : state_(std::make_unique<State>(size, title)) {
+Window::Window(glm::ivec2 size, const std::string& title, Platform platform)
+    : state_(std::make_unique<State>(size, title, platform)) {
     state_->listen();
+    surviveXErrors();
     glfwMakeContextCurrent(state_->window);
     glfwSwapInterval(1);
 }
 Window::~Window() = default;
 
-void Window::poll() { glfwPollEvents(); }
+void Window::throwIfGone() const {
+    if (isGone(state_->window))
+        throw std::runtime_error(
+            "another program has destroyed the window; what was open is offered at the next start");
+}
+
+void Window::poll() {
+    glfwPollEvents();
+    throwIfGone();
+}
 
 void Window::wait(std::optional<std::chrono::nanoseconds> atMost) {
-    if (!atMost) return glfwWaitEvents();
-    const double seconds = std::chrono::duration<double>(*atMost).count();
-    seconds > 0 ? glfwWaitEventsTimeout(seconds) : glfwPollEvents();
+    const double seconds = atMost ? std::chrono::duration<double>(*atMost).count() : 0;
+    if (!atMost)
+        glfwWaitEvents();
+    else
+        seconds > 0 ? glfwWaitEventsTimeout(seconds) : glfwPollEvents();
+    throwIfGone();
 }
 
 std::deque<Event>& Window::events() { return state_->events; }
@@ -195,6 +214,7 @@ glm::ivec2 Window::framebufferSize() const {
     glm::ivec2 size{0};
     if (glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) == GLFW_TRUE) return size;
     glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+    throwIfGone();
     return size;
 }
 
@@ -221,6 +241,9 @@ void Window::setClipboard(const std::string& text) {
 }
 const char* Window::clipboard() const { return glfwGetClipboardString(state_->window); }
 void Window::waitForScreen(bool waits) { glfwSwapInterval(waits ? 1 : 0); }
-void Window::swap() { glfwSwapBuffers(state_->window); }
+void Window::swap() {
+    glfwSwapBuffers(state_->window);
+    throwIfGone();
+}
 
 }  // namespace app::desktop

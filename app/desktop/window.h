@@ -45,16 +45,22 @@ using Event =
 
 enum class Cursor { Arrow, Hand, Text, LeftRight, UpDown, Cross };
 
+// Which displays will do: any, or only X11's (also a Wayland session's, if it has one), whose
+// context is GLX's. A GLFW that knows but one kind of display takes that.
+enum class Platform { Any, X11 };
+
 class Window {
  public:
     // Throws std::runtime_error (one sentence) when there is no display or its OpenGL is too old;
     // both name the headless way.
-    explicit Window(glm::ivec2 size, const std::string& title);
+    Window(glm::ivec2 size, const std::string& title, Platform platform = Platform::Any);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Takes in what has come; waits for something when told to, at most so long.
+    // Takes in what has come; waits for something when told to, at most so long. Both, and what
+    // asks or draws below, throw std::runtime_error (one sentence) once somebody else has destroyed
+    // the window.
     void poll();
     void wait(std::optional<std::chrono::nanoseconds> atMost);
     std::deque<Event>& events();
@@ -76,6 +82,8 @@ class Window {
     void waitForScreen(bool waits);
 
  private:
+    void throwIfGone() const;
+
     struct State;
     std::unique_ptr<State> state_;
 };

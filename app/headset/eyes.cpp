@@ -1,20 +1,15 @@
 #include "app/headset/eyes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
+#include "render/gl/driver.h"
+
 namespace app::headset {
-namespace {
 
-// Of the period: what the volume may take. The rest is for the panel, the mirror and the runtime.
-constexpr double kShare = 0.7;
-
-std::chrono::nanoseconds share(std::chrono::nanoseconds period) {
-    return std::chrono::nanoseconds(std::llround(kShare * static_cast<double>(period.count())));
-}
-
-}  // namespace
+Eyes::Eyes(std::vector<double> refreshRates)
+    : governor_(std::move(refreshRates)), onProcessor_(render::gl::drawsOnProcessor()) {}
 
 render::View viewOf(const xr::Eye& eye, const xr::Placement& placement) {
     render::View view = xr::viewOf(eye.stageFromEye, eye.fov, placement, kNear, kFar, eye.size);
@@ -23,9 +18,9 @@ render::View viewOf(const xr::Eye& eye, const xr::Placement& placement) {
 }
 
 void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,
-                std::span<const render::Placard> placards,
-                std::optional<std::chrono::nanoseconds> period,
+                std::span<const render::Placard> placards, Splats splats,
                 const std::function<void(const render::Targets&)>& mirror) {
+    eyes_ = eyes.size();
     std::vector<render::View> views;
     for (const xr::Eye& eye : eyes) views.push_back(viewOf(eye, placement));
     bool drawn = false;
@@ -35,23 +30,26 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
         drawn = true;
     };
     report_ = {};
-    if (shown != nullptr) {
-        if (period) pace_.setTarget(share(*period));
-        report_ = canvas_.draw(*shown, views, {.splats = pace_.budget()}, period.has_value(), show,
-                               {.legend = false, .placards = placards});
-    }
+    if (shown != nullptr)
+        report_ =
+            canvas_.draw(*shown, views, {.splats = governor_.splats()}, splats == Splats::Governed,
+                         show, {.legend = false, .placards = placards});
     if (!drawn) canvas_.drawPlacards(placards, views, show);
 }
 
-void Eyes::took(std::chrono::nanoseconds frame, std::chrono::nanoseconds period) {
-    if (report_.gpuTime) {
-        pace_.took(report_.gpuSplats, *report_.gpuTime);
-        frame = std::max(frame, *report_.gpuTime);
+void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanoseconds period) {
+    // A GPU goes on after the calls; what it took is told some frames later.
+    if (onProcessor_) render::gl::finishDrawing();
+    Governor::Frame frame{period, std::chrono::steady_clock::now() - began, {}};
+    const std::uint64_t fewest = report_.drawn * report_.stride / render::kMaxStride * eyes_;
+    if (onProcessor_ && report_.drawn > 0) {
+        frame.splats = {report_.drawn * eyes_, fewest, frame.work};
+    } else if (report_.gpuTime) {
+        frame.splats = {report_.gpuSplats, fewest, *report_.gpuTime};
+        frame.work = std::max(frame.work, *report_.gpuTime);
     }
-    scale_.took(frame, period);
-    // Where not all splats are drawn, those that are fill what draw() lets them have.
-    const bool fits = report_.gpuTime && !report_.whole;
-    rate_.took(frame, scale_, fits ? *report_.gpuTime : std::chrono::nanoseconds(0));
+    work_ = frame.work;
+    governor_.took(frame);
 }
 
 }  // namespace app::headset

@@ -6,14 +6,11 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "app/canvas.h"
-#include "render/frame_pace.h"
+#include "app/headset/governor.h"
 #include "render/present.h"
-#include "xr/refresh_rate.h"
-#include "xr/render_scale.h"
 #include "xr/session.h"
 
 namespace app::headset {
@@ -27,22 +24,22 @@ render::View viewOf(const xr::Eye& eye, const xr::Placement& placement);
 class Eyes {
  public:
     // `refreshRates`: those that the display offers.
-    explicit Eyes(std::vector<double> refreshRates = {}) : rate_(std::move(refreshRates)) {}
+    explicit Eyes(std::vector<double> refreshRates = {});
 
     // Draws all eyes, of any sizes; none is left untouched. What an eye does not see of its image
-    // becomes black. `shown`: null while there is nothing. `period`: the
-    // runtime's; fewer splats are drawn where it would not be kept, or all of them without one.
-    // `mirror` gets the first eye's light.
+    // becomes black. `shown`: null while there is nothing. With `Splats::Governed`, no more of
+    // them than keep the pace. `mirror` gets the first eye's light.
+    enum class Splats { Governed, All };
     void draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,
-              std::span<const render::Placard> placards,
-              std::optional<std::chrono::nanoseconds> period,
+              std::span<const render::Placard> placards, Splats splats,
               const std::function<void(const render::Targets&)>& mirror = {});
-    // After a frame: what drawing took on this side of the driver. Where the GPU tells a longer
-    // time, that counts.
-    void took(std::chrono::nanoseconds frame, std::chrono::nanoseconds period);
+    // All that is drawn for a frame is asked for, also what other parts of the program draw: it
+    // began then, and the display's period is this.
+    void took(std::chrono::steady_clock::time_point began, std::chrono::nanoseconds period);
 
-    double scale() const { return scale_.scale(); }  // of the recommended resolution
-    const xr::RefreshRate& refreshRate() const { return rate_; }
+    std::chrono::nanoseconds work() const { return work_; }  // of the last frame, with its GPU's
+    double scale() const { return governor_.scale(); }       // of the recommended resolution
+    const xr::RefreshRate& refreshRate() const { return governor_.refreshRate(); }
     Canvas& canvas() { return canvas_; }
     const render::Present& present() const { return present_; }
     const CanvasReport& report() const { return report_; }
@@ -50,10 +47,11 @@ class Eyes {
  private:
     Canvas canvas_;
     render::Present present_;
-    render::FramePace pace_{std::chrono::milliseconds(8)};
-    xr::RenderScale scale_;
-    xr::RefreshRate rate_;
+    Governor governor_;
+    bool onProcessor_;  // drawing is, so that its end can be waited for
     CanvasReport report_;
+    std::chrono::nanoseconds work_{0};
+    std::size_t eyes_ = 0;  // drawn last
 };
 
 }  // namespace app::headset

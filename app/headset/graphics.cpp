@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "render/gl/current_egl.h"
 #include "render/gl/current_glx.h"
 #include "render/gl/debug_output.h"
 #include "render/kept_picture.h"
@@ -13,9 +14,11 @@ constexpr glm::ivec2 kMirrorSize{900, 900};
 
 }  // namespace
 
-Graphics::Graphics() {
+Graphics::Graphics(const xr::Session::Offer& offer) : takesEgl_(offer.takesEgl) {
+    using desktop::Platform;
     try {
-        window_.emplace(kMirrorSize, "isochron in the headset");
+        window_.emplace(kMirrorSize, "isochron in the headset",
+                        takesEgl_ ? Platform::Any : Platform::X11);
         window_->waitForScreen(false);
         render::gl::recordErrors();
     } catch (const std::runtime_error&) {
@@ -28,9 +31,13 @@ xr::Binding Graphics::binding() const {
         const auto [display, context] = headless_->eglNames();
         return xr::EglBinding{display, nullptr, context};
     }
-    const auto glx = render::gl::currentGlx();
-    if (!glx) throw std::runtime_error("the window's OpenGL is not GLX's, which a headset needs");
-    return xr::XlibBinding{glx->display, glx->visual, glx->config, glx->drawable, glx->context};
+    if (const auto glx = render::gl::currentGlx())
+        return xr::XlibBinding{glx->display, glx->visual, glx->config, glx->drawable, glx->context};
+    const auto egl = takesEgl_ ? render::gl::currentEgl() : std::nullopt;
+    if (!egl)
+        throw std::runtime_error(
+            "the headset's runtime takes OpenGL from X11 only, and this display is another");
+    return xr::EglBinding{egl->display, egl->config, egl->context};
 }
 
 void Graphics::mirror(const render::Present& present, const render::Targets& light) {
@@ -38,7 +45,8 @@ void Graphics::mirror(const render::Present& present, const render::Targets& lig
     const glm::ivec2 size = window_->framebufferSize();
     if (size.x == 0 || size.y == 0) return;
     render::showGround(size, glm::vec3(0));
-    present.draw(light, 0, (size - light.size()) / 2);
+    const render::Fitted fitted = render::fittedInto(size, light.size());
+    present.drawScaled(light, 0, fitted.at, fitted.size);
     window_->swap();
 }
 

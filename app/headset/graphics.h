@@ -13,17 +13,19 @@ namespace app::headset {
 
 class Graphics {
  public:
-    // Throws std::runtime_error when there is neither.
-    Graphics();
+    // Of a display that the runtime takes. Throws std::runtime_error when there is neither.
+    explicit Graphics(const xr::Session::Offer& offer);
 
+    // Throws std::runtime_error where the display's OpenGL is not the runtime's.
     xr::Binding binding() const;
     // Null without a display.
     desktop::Window* window() { return window_ ? &*window_ : nullptr; }
-    // The middle of an eye's picture into the window, without waiting for its screen; nothing
-    // where there is none, or it is hidden.
+    // All of an eye's picture into the window, as large as it fits, without waiting for its screen;
+    // nothing where there is none, or it is hidden.
     void mirror(const render::Present& present, const render::Targets& light);
 
  private:
+    bool takesEgl_;
     std::optional<desktop::Window> window_;
     std::optional<render::gl::HeadlessContext> headless_;
 };

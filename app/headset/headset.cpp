@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "app/check_driver.h"
+#include "app/headset/help_text.h"
 #include "app/headset/placards.h"
 #include "app/headset/readout.h"
+#include "render/gl/debug_output.h"
 
 namespace app::headset {
 namespace {
@@ -15,63 +17,65 @@ using namespace std::chrono_literals;
 
 constexpr auto kLongestFrame = 100ms;  // after a pause of the runtime, play goes on, not ahead
 
-std::string helpText(const xr::Session& session) {
-    const std::string& bound = session.bindingsText();
-    std::string text = "In " + session.runtimeName();
-    if (!bound.empty()) text += "\n" + bound;
-    while (text.ends_with('\n')) text.pop_back();
-    return text +
-           "\nBoth hands: scale and turn\nRight stick: values · left stick: time\n"
-           "Stick of a hand that holds the volume: turn it\n"
-           "Tip in the volume: what is there; the trigger, or a tap, keeps it";
-}
-
 }  // namespace
 
-std::variant<std::unique_ptr<Headset>, xr::NoHeadset> Headset::open(Exploration& exploration) {
-    auto graphics = std::make_unique<Graphics>();
+std::variant<std::unique_ptr<Headset>, xr::NoHeadset> Headset::open(
+    Exploration& exploration, std::optional<ExportJob>& exporting) {
+    // Cheap, and no window comes up for it.
+    const auto offer = xr::Session::ask();
+    if (const auto* none = std::get_if<xr::NoHeadset>(&offer)) return *none;
+    auto graphics = std::make_unique<Graphics>(std::get<xr::Session::Offer>(offer));
     auto session = xr::Session::open(graphics->binding());
     if (auto* none = std::get_if<xr::NoHeadset>(&session)) return std::move(*none);
+    render::gl::forgetErrors();  // the runtime's
     return std::unique_ptr<Headset>(
-        new Headset(exploration, std::move(graphics),
+        new Headset(exploration, exporting, std::move(graphics),
                     std::get<std::unique_ptr<xr::Session>>(std::move(session))));
 }
 
-Headset::Headset(Exploration& exploration, std::unique_ptr<Graphics> graphics,
-                 std::unique_ptr<xr::Session> session)
+Headset::Headset(Exploration& exploration, std::optional<ExportJob>& exporting,
+                 std::unique_ptr<Graphics> graphics, std::unique_ptr<xr::Session> session)
     : exploration_(exploration),
       graphics_(std::move(graphics)),
       session_(std::move(session)),
       eyes_(session_->refreshRates()),
       panel_([] {}),
-      errands_(exploration_, eyes_.canvas(),
+      errands_(exploration_, eyes_.canvas(), exporting,
                [this](const std::string& text) {
                    if (desktop::Window* window = graphics_->window()) window->setClipboard(text);
                }),
       signals_([this] { stopped_ = true; }) {}
 
 void Headset::run() {
-    while (frame()) {
+    try {
+        while (frame()) {
+        }
+    } catch (...) {
+        errands_.rescue();
+        throw;
     }
     errands_.finish();
 }
 
+// The runtime draws with the same context: its errors are no complaint about our picture.
 bool Headset::frame() {
     if (stopped_.exchange(false)) session_->requestExit();
     attendWindow();
     const std::unique_ptr<xr::Session::Frame> frame = session_->beginFrame();
+    render::gl::forgetErrors();  // the runtime's
     if (session_->ended()) return false;
     const Clock::time_point began = Clock::now();
     const std::chrono::nanoseconds dt = frame ? since(frame->displayTime()) : 0ns;
     // What plays, plays for who can stop it.
     exploration_.advance(session_->state().focused() ? dt : 0ns);
     if (!frame) return true;
+    timing_ = {frame->displayTime(), frame->period(), frame->shouldRender()};
     act(*frame, dt);
     if (frame->shouldRender()) {
         drawBoards(*frame, dt);
         drawEyes(*frame, began);
     }
-    errands_.goOn(panel_.interface().choices());
+    errands_.goOn();
     return true;
 }
 
@@ -119,35 +123,36 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
         text += "\n" + rate;
     readout_.write(text);
     if (!room_.panel()) return;
-    const CanvasReport& report = eyes_.report();
     Panel::Around around{
         .offers = errands_.offers(),
-        .help = helpText(*session_),
+        .help = helpText(session_->runtimeName(), session_->controls()),
         .exporting = errands_.exporting(),
-        .performance = {.budget = frame.period(),
-                        .drawn = report.drawn,
-                        .selected = report.selected,
-                        .gpuBytes = report.gpuBytes,
-                        .whole = report.whole,
-                        .uploaded = report.uploaded,
-                        .step = report.step},
+        .performance = performance(frame),
         .buttons = {.canUndo = room_.canUndoMove(), .clipsByHand = room_.clipsByHand()}};
-    if (report.gpuTime) around.performance.frame = *report.gpuTime;
     const Panel::Asked asked = panel_.draw(exploration_, room_.pointer(), around, dt);
     asked_ = asked.room;
-    serve(asked.requests);
+    errands_.serve(asked.requests, panel_.interface());
 }
 
-void Headset::serve(const panels::Requests& requests) {
-    if (!requests.open.empty()) errands_.open(requests.open);
-    if (requests.save) errands_.save(*requests.save);
-    if (requests.exportTo) errands_.exportTo(*requests.exportTo);
-    if (requests.cancelExport) errands_.cancelExport();
-    for (const panels::Command command : requests.commands) {
-        if (panel_.interface().obey(exploration_, command)) continue;
-        if (command == panels::Command::Screenshot) errands_.screenshot();
-        if (command == panels::Command::CopyCommandLine) errands_.copyCommandLine();
-    }
+// Of now and then: numbers that change with every frame cannot be read, and the panel would be
+// drawn for each.
+const panels::Performance& Headset::performance(const xr::Session::Frame& frame) {
+    const CanvasReport& report = eyes_.report();
+    const bool waits = frame.displayTime() - performanceOf_ < 500ms;
+    if (waits && performance_.whole == report.whole && performance_.step == report.step &&
+        performance_.selected == report.selected)
+        return performance_;
+    performanceOf_ = frame.displayTime();
+    performance_ = {.frame = eyes_.work(),
+                    .budget = frame.period(),
+                    .drawn = report.drawn,
+                    .selected = report.selected,
+                    .gpuBytes = report.gpuBytes,
+                    .counts = report.counts,
+                    .whole = report.whole,
+                    .uploaded = report.uploaded,
+                    .step = report.step};
+    return performance_;
 }
 
 std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) const {
@@ -159,13 +164,16 @@ std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) 
 }
 
 void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
+    checkDriver(exploration_);
     const std::span<const xr::Eye> eyes = frame.eyes(eyes_.scale());
+    render::gl::forgetErrors();  // the runtime's
     if (eyes.empty() || !frame.head()) return;
     const auto shown = exploration_.shown();
-    eyes_.draw(shown ? &*shown : nullptr, eyes, room_.placement(), placards(frame), frame.period(),
+    eyes_.draw(shown ? &*shown : nullptr, eyes, room_.placement(), placards(frame),
+               Eyes::Splats::Governed,
                [&](const render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
     checkDriver(exploration_);
-    eyes_.took(Clock::now() - began, frame.period());
+    eyes_.took(began, frame.period());
     if (const auto rate = eyes_.refreshRate().wanted()) session_->requestRefreshRate(*rate);
     frame.submit(kNear, kFar);
 }

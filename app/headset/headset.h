@@ -9,6 +9,7 @@
 
 #include "app/desktop/errands.h"
 #include "app/desktop/stop_signals.h"
+#include "app/desktop/x_errors.h"
 #include "app/exploration.h"
 #include "app/headset/eyes.h"
 #include "app/headset/graphics.h"
@@ -21,28 +22,37 @@ namespace app::headset {
 
 class Headset {
  public:
-    // `exploration` must outlive it. Throws std::runtime_error when there is no GL to draw with.
-    static std::variant<std::unique_ptr<Headset>, xr::NoHeadset> open(Exploration& exploration);
+    // Both must outlive it; `exporting` as Errands has it. Throws std::runtime_error when there is
+    // no GL to draw with.
+    static std::variant<std::unique_ptr<Headset>, xr::NoHeadset> open(
+        Exploration& exploration, std::optional<ExportJob>& exporting);
 
     // Until the user or the runtime ends the session, or a signal the program. Throws
-    // xr::LostError; the exploration is then as it was in the last frame.
+    // xr::LostError; the exploration is then as it was in the last frame, and kept as that.
     void run();
     // One round of it, which the runtime paces; false when the session has ended.
     bool frame();
 
     const Room& room() const { return room_; }
     const Panel& panel() const { return panel_; }
+    const Eyes& eyes() const { return eyes_; }
+    // When what was drawn last is seen, and the display's period; for who measures.
+    struct Timing {
+        std::chrono::nanoseconds displayTime{0}, period{0};
+        bool drawn = false;
+    };
+    const Timing& timing() const { return timing_; }
 
  private:
     using Clock = std::chrono::steady_clock;
 
-    Headset(Exploration& exploration, std::unique_ptr<Graphics> graphics,
-            std::unique_ptr<xr::Session> session);
+    Headset(Exploration& exploration, std::optional<ExportJob>& exporting,
+            std::unique_ptr<Graphics> graphics, std::unique_ptr<xr::Session> session);
     void attendWindow();
     std::chrono::nanoseconds since(std::chrono::nanoseconds displayTime);
     void act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt);
     void drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt);
-    void serve(const panels::Requests& requests);
+    const panels::Performance& performance(const xr::Session::Frame& frame);
     std::vector<render::Placard> placards(const xr::Session::Frame& frame) const;
     void drawEyes(xr::Session::Frame& frame, Clock::time_point began);
 
@@ -57,7 +67,11 @@ class Headset {
     TextBoard readout_;
     desktop::Errands errands_;
     std::optional<std::chrono::nanoseconds> lastDisplay_;
-    bool leaving_ = false;          // the window is closed, and the runtime was told
+    panels::Performance performance_;
+    std::chrono::nanoseconds performanceOf_{0};  // when it was taken, as display time
+    Timing timing_;
+    bool leaving_ = false;  // the window is closed, and the runtime was told
+    desktop::AtConnectionsEnd atConnectionsEnd_{[this] { errands_.rescue(); }};
     desktop::StopSignals signals_;  // last: its thread uses what stands above
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <stdexcept>
+#include <utility>
 
 namespace app::headset {
 
@@ -57,19 +58,43 @@ Panel::Asked Panel::draw(Exploration& exploration, const std::optional<Pointer>&
                      .dt = dt,
                      .performance = around.performance},
                     asked.requests);
-    if (exploration.shown())
-        asked.room = drawRoomButtons(
-            context_.theme,
-            panels::layoutOf(size, context_.theme.scale, interface_.choices().sideWidth),
-            around.buttons);
+    const panels::Layout layout =
+        panels::layoutOf(size, context_.theme.scale, interface_.choices().sideWidth);
+    if (exploration.shown()) asked.room = drawRoomButtons(context_.theme, layout, around.buttons);
+    panels::drawFigures(context_.theme, layout, around.performance, exploration.series());
     if (pointer)
         ImGui::GetForegroundDrawList()->AddCircleFilled(
             io.MousePos, 5 * kPanelScale, pointer->pressed ? panels::kAccent : panels::kText);
     ImGui::Render();
-    board_.beginDrawing();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    board_.drawn();
+    if (isNew(*ImGui::GetDrawData())) {
+        board_.beginDrawing();
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        board_.drawn();
+        ++timesDrawn_;
+    }
     return asked;
+}
+
+bool Panel::isNew(const ImDrawData& drawing) {
+    drawing_.clear();
+    const auto add = [&](const auto* from, std::size_t count) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(from);
+        drawing_.insert(drawing_.end(), bytes, bytes + count * sizeof *from);
+    };
+    for (int i = 0; i < drawing.CmdListsCount; ++i) {
+        const ImDrawList& list = *drawing.CmdLists[i];
+        add(list.VtxBuffer.Data, static_cast<std::size_t>(list.VtxBuffer.Size));
+        add(list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.Size));
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            const ImTextureID texture = command.TextureId;
+            add(&command.ClipRect, 1);
+            add(&texture, 1);
+            add(&command.ElemCount, 1);
+        }
+    }
+    if (drawing_ == onBoard_) return false;
+    std::swap(drawing_, onBoard_);
+    return true;
 }
 
 }  // namespace app::headset

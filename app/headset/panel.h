@@ -2,12 +2,17 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "app/headset/room_buttons.h"
 #include "app/panels/interface.h"
 #include "render/placard.h"
+
+struct ImDrawData;
 
 namespace app::headset {
 
@@ -36,11 +41,12 @@ class Panel {
         panels::Requests requests;
         std::optional<RoomCommand> room;
     };
-    // A frame of the interface.
+    // A frame of the interface; its picture is drawn only when it is another than before.
     Asked draw(Exploration& exploration, const std::optional<Pointer>& pointer,
                const Around& around, std::chrono::nanoseconds dt);
 
     const render::Board& board() const { return board_; }
+    std::uint64_t timesDrawn() const { return timesDrawn_; }
     panels::Interface& interface() { return interface_; }
     const panels::Interface& interface() const { return interface_; }
 
@@ -51,8 +57,13 @@ class Panel {
         panels::Theme theme;
     };
 
+    // Whether the board shows something else than these.
+    bool isNew(const ImDrawData& drawing);
+
     Context context_;
     render::Board board_;
+    std::vector<std::byte> onBoard_, drawing_;  // what Dear ImGui draws there; room for the next
+    std::uint64_t timesDrawn_ = 0;
     panels::Interface interface_;
 };
 

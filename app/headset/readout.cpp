@@ -47,7 +47,8 @@ std::string readoutText(const Exploration& exploration, const std::optional<TipP
         fmt::format("\n{}, step {} of 0\u2013{}", timeText(*shown->dataset.about.time, shown->step),
                     shown->step, shown->dataset.stepCount() - 1);
     if (const PointCounts* counts = exploration.counts())
-        text += fmt::format("\n{} points", withCommas(counts->selected));
+        text += fmt::format("\n{} points{}", withCommas(counts->selected),
+                            counts->inClipBox ? " in the clip box" : "");
     if (const std::string waiting = exploration.waiting(); !waiting.empty()) text += "\n" + waiting;
     if (exploration.playback().playing) text += "\nplaying";
     if (renderScale < 1) text += fmt::format("\nresolution {} %", std::lround(100 * renderScale));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/edits.h"
 
@@ -12,6 +13,9 @@ using timeseries::SweepPath;
 using timeseries::ValueSweep;
 
 constexpr double kRest = 0.15;
+// A tap goes so far, and lasts no longer than this.
+constexpr double kTapped = 0.5;
+constexpr std::chrono::milliseconds kTap(250);
 
 // Takes the whole part of what is still to be moved.
 int whole(double& rest) {
@@ -30,9 +34,9 @@ struct Extent {
     double lo, hi;
 };
 std::optional<Extent> extentOf(const timeseries::SortedStep& step) {
-    const double lo = timeseries::toDouble(step.statistics().min),
-                 hi = timeseries::toDouble(step.statistics().max);
-    if (!std::isfinite(lo) || !std::isfinite(hi) || lo >= hi) return std::nullopt;
+    const double lo = timeseries::toDouble(step.statistics().finiteMin),
+                 hi = timeseries::toDouble(step.statistics().finiteMax);
+    if (!(lo < hi)) return std::nullopt;
     return Extent{lo, hi};
 }
 
@@ -49,17 +53,18 @@ Sticks::Ends Sticks::move(Exploration& exploration, double value, double time,
     const double seconds = std::chrono::duration<double>(dt).count();
     const double valueRate = rateOf(value), timeRate = rateOf(time);
     if (valueRate == 0) ticks_ = 0;
-    if (timeRate == 0) steps_ = 0;
+    const double side = timeRate == 0 ? 0 : std::copysign(1, timeRate);
+    if (side != timeWay_.side) {
+        timeWay_ = {.side = side};
+        steps_ = 0;
+    }
     if (dragging_ && (valueRate == 0 || !shown)) {
         exploration.endGesture();
         dragging_ = false;
     }
     if (!shown) return {};
     Ends ends;
-    if (timeRate != 0) {
-        const auto steps = static_cast<double>(exploration.series()->stepCount());
-        ends.time = moveTime(exploration, timeRate * seconds * std::clamp(steps / 4, 2.0, 60.0));
-    }
+    if (timeRate != 0) ends.time = moveTime(exploration, time, dt);
     if (valueRate != 0) {
         const double ways = valueRate * seconds / kValueSeconds;
         ends.value = exploration.playback().sweep ? moveWindow(exploration, ways)
@@ -104,8 +109,15 @@ bool Sticks::moveLayer(Exploration& exploration, double ways) {
     return by != wanted;
 }
 
-bool Sticks::moveTime(Exploration& exploration, double steps) {
-    steps_ += steps;
+bool Sticks::moveTime(Exploration& exploration, double time, std::chrono::nanoseconds dt) {
+    timeWay_.held += dt;
+    if (timeWay_.held > kTap) {
+        const auto steps = static_cast<double>(exploration.series()->stepCount());
+        steps_ += rateOf(time) * std::chrono::duration<double>(dt).count() *
+                  std::clamp(steps / 4, 2.0, 60.0);
+    } else if (std::abs(time) >= kTapped && !std::exchange(timeWay_.tapped, true)) {
+        steps_ = timeWay_.side;
+    }
     const int by = whole(steps_);
     if (by == 0) return false;
     const auto before = exploration.explorer().steps;

@@ -7,6 +7,7 @@
 #include "app/edits.h"
 #include "app/first_choice.h"
 #include "app/panels/number_field.h"
+#include "app/sweep_edits.h"
 
 namespace app::panels {
 namespace {
@@ -22,59 +23,49 @@ Extent seen(const timeseries::Series& series) {
     return extentOf(rows);
 }
 
-// Applies a change of the sweep that may be refused.
+// Applies a change of the sweep, which the field that it was entered in may have to refuse.
 template <typename Change>
-void editSweep(Desk& desk, const Change& change) {
+void editSweep(Desk& desk, TextField& field, const Change& change) {
     Explorer next = desk.exploration.explorer();
     try {
         change(*next.sweep);
         timeseries::ValueSweep{*next.sweep};
         desk.exploration.edit(std::move(next));
     } catch (const std::invalid_argument& error) {
-        desk.exploration.tell(error.what(), true);
+        field.refuse(error.what());
     }
 }
 
-}  // namespace
+bool timePlays(const Desk& desk) { return desk.exploration.series()->stepCount() > 1; }
 
-void toggleSweep(Desk& desk) {
-    const timeseries::Series* series = desk.exploration.series();
-    const auto shown = desk.exploration.shown();
-    if (series == nullptr || !shown) return;
-    edit(desk, {}, [&](Explorer& e) {
-        if (e.sweep) {
-            e.sweep.reset();
-            return;
-        }
-        const Extent extent = seen(*series);
-        const double width = extent.hi - extent.lo, resolution = width > 0 ? width / 1000 : 1;
-        timeseries::SweepSettings sweep;
-        sweep.animation = timeseries::RangeSet(
-            std::vector{timeseries::Range{{extent.lo, false}, {extent.hi, false}}});
-        sweep.delta = roundedTo(0.04 * width, resolution);
-        MapChoice map{.map = {}, .lo = extent.lo, .hi = extent.hi};
-        e.sweepLayer = {.ranges = {}, .color = map, .opacity = 0.3, .visible = true};
-        if (!e.layers.empty() && e.layers.front().opacity)
-            e.sweepLayer.opacity = e.layers.front().opacity;
-        e.sweep = sweep;
-        e.play.sweepMoves = true;
-        e.play.tick = 0;
-    });
+void sweepNow(const Desk& desk, Explorer& e) {
+    startSweep(e, seen(*desk.exploration.series()), *desk.exploration.shown()->sorted,
+               timePlays(desk));
 }
+
+enum What : std::size_t { Time, Values, Both, Nothing };
+
+// What plays: of one step, values alone, and those only while they are swept.
+What playing(const Desk& desk, const Explorer& e) {
+    const bool time = timePlays(desk) && e.play.timeMoves;
+    const bool values = e.sweep && e.play.sweepMoves;
+    if (time) return values ? Both : Time;
+    return values ? Values : Nothing;
+}
+
+}  // namespace
 
 void AnimationPage::draw(Desk& desk, const Rect& at) {
     if (!desk.exploration.shown()) return;
     Form form(desk.theme, "##animation", at);
     constexpr std::array kWhat = {"Time", "Values", "Both"};
-    const Explorer& e = desk.exploration.explorer();
-    const std::size_t now = e.play.timeMoves ? (e.play.sweepMoves && e.sweep ? 2 : 0) : 1;
-    if (const auto what = segmented(desk.theme, "what", form.row("Play"), kWhat, now)) {
-        if (*what != 0 && !e.sweep) toggleSweep(desk);
+    const What now = playing(desk, desk.exploration.explorer());
+    if (const auto what = segmented(desk.theme, "what", form.row("Play"), kWhat, now))
         edit(desk, {}, [&](Explorer& next) {
-            next.play.timeMoves = *what != 1;
-            next.play.sweepMoves = *what != 0;
+            if (*what != Time && !next.sweep) sweepNow(desk, next);
+            next.play.timeMoves = *what != Values;
+            next.play.sweepMoves = *what != Time || !timePlays(desk);
         });
-    }
     time(desk, form);
     form.space(6);
     sweep(desk, form);
@@ -114,7 +105,7 @@ void AnimationPage::time(Desk& desk, Form& form) {
             segmented(theme, "way", way, kDirections, static_cast<std::size_t>(now.direction)))
         change([&](auto& t) { t.direction = static_cast<timeseries::Direction>(*chosen); });
     text(theme, {stride.min.x - 8 * s, stride.centre().y}, "every", kDim, 1, theme.small);
-    if (const auto value = numberField(desk, stride_, "##stride", stride, "every how many steps",
+    if (const auto value = numberField(desk, stride_, "##stride", stride, "the number of steps",
                                        static_cast<double>(now.stride)))
         change([&](auto& t) {
             t.stride = static_cast<std::size_t>(std::clamp(std::round(*value), 1.0, 1e9));
@@ -129,7 +120,7 @@ void AnimationPage::sweep(Desk& desk, Form& form) {
     constexpr std::array kPaths = {"Loop", "Swing"};
     const bool on = desk.exploration.explorer().sweep.has_value();
     if (segmented(desk.theme, "sweep", form.row("Sweep values"), kOnOff, on ? 1 : 0)) {
-        toggleSweep(desk);
+        edit(desk, {}, [&](Explorer& e) { on ? stopSweep(e) : sweepNow(desk, e); });
         return;
     }
     if (!on) return;
@@ -137,17 +128,17 @@ void AnimationPage::sweep(Desk& desk, Form& form) {
     const Theme& theme = desk.theme;
     const float s = theme.scale;
     if (const auto entered =
-            range_.draw(theme, "##range", form.row("From, to"), now.animation.text()))
-        editSweep(desk,
+            range_.draw(theme, "##range", form.row("From, to"), rangesText(desk, now.animation)))
+        editSweep(desk, range_,
                   [&](auto& sweep) { sweep.animation = timeseries::RangeSet::parse(*entered); });
-    const Rect window = form.row("Delta ±");
-    if (const auto value =
-            numberField(desk, delta_, "##delta", part(window, 0, 2, s), "delta", now.delta))
-        editSweep(desk, [&](auto& sweep) { sweep.delta = *value; });
+    const Rect window = form.row("Half width ±");
+    if (const auto value = numberField(desk, delta_, "##delta", part(window, 0, 2, s),
+                                       "the half width", now.delta))
+        editSweep(desk, delta_, [&](auto& sweep) { sweep.delta = *value; });
     if (const auto path = segmented(theme, "path", part(window, 1, 2, s), kPaths,
                                     static_cast<std::size_t>(now.path)))
-        editSweep(desk,
-                  [&](auto& sweep) { sweep.path = static_cast<timeseries::SweepPath>(*path); });
+        edit(desk, {},
+             [&](Explorer& e) { e.sweep->path = static_cast<timeseries::SweepPath>(*path); });
     const auto whole = [&](TextField& field, const char* id, const Rect& at, std::string_view what,
                            std::int64_t& value) {
         const auto entered = numberField(desk, field, id, at, what, static_cast<double>(value));
@@ -156,17 +147,17 @@ void AnimationPage::sweep(Desk& desk, Form& form) {
         return true;
     };
     std::int64_t timerSteps = now.timerSteps, step = now.step;
-    const Rect timer = form.row("Timer steps");
-    if (whole(timerSteps_, "##timer", part(timer, 0, 3, s), "timer steps", timerSteps))
-        editSweep(desk, [&](auto& sweep) { sweep.timerSteps = timerSteps; });
+    const Rect timer = form.row("Steps a cycle");
+    if (whole(timerSteps_, "##timer", part(timer, 0, 3, s), "the number of steps", timerSteps))
+        editSweep(desk, timerSteps_, [&](auto& sweep) { sweep.timerSteps = timerSteps; });
     const Rect by = part(timer, 2, 3, s);
-    text(theme, {by.min.x - 12 * s, by.centre().y}, "step", kDim, 1);
-    if (whole(step_, "##step", by, "timer step", step))
-        editSweep(desk, [&](auto& sweep) { sweep.step = step; });
+    text(theme, {by.min.x - 12 * s, by.centre().y}, "by", kDim, 1);
+    if (whole(step_, "##step", by, "the step", step))
+        editSweep(desk, step_, [&](auto& sweep) { sweep.step = step; });
     const Rect frequency = form.row("Cycles / s");
     if (const auto value = numberField(desk, frequency_, "##frequency", part(frequency, 0, 3, s),
-                                       "cycles/s", now.frequency))
-        editSweep(desk, [&](auto& sweep) { sweep.frequency = *value; });
+                                       "the number of cycles a second", now.frequency))
+        editSweep(desk, frequency_, [&](auto& sweep) { sweep.frequency = *value; });
 }
 
 }  // namespace app::panels

@@ -15,7 +15,4 @@ class AnimationPage {
     TextField speed_, stride_, range_, delta_, timerSteps_, step_, frequency_;
 };
 
-// Begins a sweep over all values seen, or ends it.
-void toggleSweep(Desk& desk);
-
 }  // namespace app::panels

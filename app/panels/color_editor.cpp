@@ -45,6 +45,7 @@ bool ColorEditor::draw(Desk& desk, LayerChoice& layer) {
     const bool byValue = layer.color && std::holds_alternative<MapChoice>(*layer.color);
     const glm::vec2 at = vec(ImGui::GetCursorScreenPos());
     bool changed = false;
+    if (ImGui::IsWindowAppearing()) hex_ = lo_ = hi_ = {};  // of another layer, perhaps
     if (const auto kind = segmented(desk.theme, "kind", {at, at + glm::vec2(width, 28 * s)}, kKinds,
                                     byValue ? 1 : 0)) {
         if (*kind == 1)
@@ -84,7 +85,7 @@ bool ColorEditor::drawConstant(Desk& desk, LayerChoice& layer, float width) {
             layer.color = parseColor(hex);
             changed = true;
         } catch (const ChoiceError& error) {
-            desk.exploration.tell(error.what(), true);
+            hex_.refuse(error.what());
         }
     };
     ImGui::SetNextItemWidth(width);
@@ -117,17 +118,16 @@ bool ColorEditor::drawMaps(Desk& desk, LayerChoice& layer, float width) {
     const Rect row{at, at + glm::vec2(width, 28 * s)};
     const double least = choice.lo.value_or(0), most = choice.hi.value_or(0);
     const auto take = [&](const std::optional<double>& entered, bool inOrder,
-                          std::optional<double>& end) {
+                          std::optional<double>& end, TextField& field) {
         if (!entered) return;
-        if (!inOrder)
-            return desk.exploration.tell("the map's low end has to lie below its high end", true);
+        if (!inOrder) return field.refuse("the map's low end has to lie below its high end");
         end = entered;
         changed = true;
     };
-    const auto lo = numberField(desk, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
-    take(lo, lo < most, choice.lo);
-    const auto hi = numberField(desk, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
-    take(hi, hi > least, choice.hi);
+    const auto lo = valueField(desk, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
+    take(lo, lo < most, choice.lo, lo_);
+    const auto hi = valueField(desk, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
+    take(hi, hi > least, choice.hi, hi_);
     if (changed) layer.color = choice;
     return changed;
 }

@@ -19,10 +19,11 @@ namespace app::panels {
 
 enum class Page { Animation, View, Quality, Probe };
 
-// How the last frame went.
+// The picture on the screen, and how long it took: all of one frame.
 struct Performance {
     std::chrono::nanoseconds frame{0}, budget{0};
     std::uint64_t drawn = 0, selected = 0, gpuBytes = 0;
+    std::optional<PointCounts> counts = {};  // none before the first picture
     bool whole = true;
     double uploaded = 1;        // share of the step shown that is on the GPU
     double refined = 0;         // share of all points that is drawn and not shown yet
@@ -59,6 +60,7 @@ struct Desk {
     Choices& choices;
     Requests& requests;
     const Performance& performance;
+    bool inHeadset = false;  // where there is none to go into
 };
 
 // Applies `change` to a copy of the explorer, as one edit; see History::edit for `gesture`.

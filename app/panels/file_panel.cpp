@@ -1,8 +1,12 @@
 #include "app/panels/file_panel.h"
 
+#include <fmt/format.h>
 #include <imgui_stdlib.h>
 
 #include <cstdlib>
+
+#include "app/export_job.h"
+#include "app/frames.h"
 
 namespace app::panels {
 namespace {
@@ -80,16 +84,34 @@ void FilePanel::take(Desk& desk, const fs::path& path) {
         desk.requests.open = {path};
         return close();
     }
-    std::error_code gone;
-    if (fs::exists(path, gone) && warnedOf_ != path.string()) {
+    if (warnedOf_ != path.string()) {
+        warning_ = warning(desk, path);
         warnedOf_ = path.string();
-        return;
+        if (!warning_.empty()) return;
     }
     if (*for_ == For::Save)
         desk.requests.save = path;
     else
         desk.requests.exportTo = path;
     close();
+}
+
+std::string FilePanel::warning(const Desk& desk, const fs::path& path) const {
+    const auto shown = desk.exploration.shown();
+    std::size_t files = 1, existing = 0;
+    if (*for_ == For::Export && shown) {
+        const Explorer animation = animationOf(*shown);
+        const Frames frames(path, animation, stepsOf(shown->dataset, *animation.steps));
+        files = frames.fileCount();
+        existing = frames.existing();
+    } else {
+        std::error_code gone;
+        existing = fs::exists(path, gone) ? 1 : 0;
+    }
+    if (existing == 0) return "";
+    if (files == 1) return "It exists: again to replace it";
+    return fmt::format("{} of its {} files {}: again to replace {}", existing, files,
+                       existing == 1 ? "exists" : "exist", existing == 1 ? "it" : "them");
 }
 
 void FilePanel::draw(Desk& desk) {
@@ -108,8 +130,6 @@ void FilePanel::draw(Desk& desk) {
     ImGui::SetNextWindowFocus();
     beginRegion("##files", window, faded(kGround, 0.6f), Depth::Front);
     focus().enterFront();
-    area("##behind", window);
-    ImGui::SetItemAllowOverlap();
     ImDrawList& drawn = *ImGui::GetWindowDrawList();
     drawn.AddRectFilled(im(at.min), im(at.max), kPanel, 8 * s);
     drawn.AddRect(im(at.min), im(at.max), kLine, 8 * s);
@@ -143,7 +163,8 @@ void FilePanel::draw(Desk& desk) {
             list(folder_);
         }
     } else if (!warnedOf_.empty() && warnedOf_ == chosen().string()) {
-        text(theme, {left, y + 15 * s}, "It exists: again to replace it", kError);
+        text(theme, {left, y + 15 * s}, fitting(*theme.text, warning_, right - 220 * s - left),
+             kError);
     }
     if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}},
                    "Cancel"))

@@ -22,6 +22,7 @@ class FilePanel {
     void ask(For what, const std::filesystem::path& path);
     void close() { for_.reset(); }
     bool isOpen() const { return for_.has_value(); }
+    bool isListing() const { return isOpen() && listing_.has_value(); }
     void draw(Desk& desk);
 
  private:
@@ -30,13 +31,15 @@ class FilePanel {
     void list(const std::filesystem::path& folder);
     void drawList(Desk& desk, const Rect& at);
     void take(Desk& desk, const std::filesystem::path& path);
+    // What would be replaced, asked as one line; "" when nothing would.
+    std::string warning(const Desk& desk, const std::filesystem::path& path) const;
 
     std::function<void()> wake_;
     std::optional<For> for_;
     std::filesystem::path folder_;
     std::optional<FolderListing> listing_;
     FolderContents contents_;
-    std::string typed_, warnedOf_;
+    std::string typed_, warnedOf_, warning_;
     bool all_ = false, focus_ = false;
 };
 

@@ -178,6 +178,10 @@ void Focus::end(float scale) {
         has_ = hadBehind_;
     }
     const bool opened = front > std::exchange(front_, front);
+    if (const ImGuiID begun = std::exchange(begun_, 0); opened && begun != 0) {
+        place_ = begun;
+        if (const Control* first = here(); first != nullptr && has_) go(first);
+    }
     if (!has_ || shown_.empty()) return;
     const Control* now = here();
     // What had it is gone, or lies behind what has just opened.

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "app/panels/keys.h"
@@ -31,6 +32,16 @@ class Focus {
         int toEnd = 0;  // Home −1, End 1
     };
 
+    // One, as it was drawn: what of it the ImGui window shows, and how many things that stand
+    // before all else hold it.
+    struct Control {
+        ImGuiID id;
+        Rect at, clip;
+        Takes takes;
+        bool isStop;
+        int depth;
+    };
+
     // Begins a frame. True when the key was meant for controls. `typing`: a field takes the text.
     bool begin(const std::optional<KeyPress>& key, bool typing);
     // REQUIRES: between begin() and end(), within the ImGui window that shows the control. Tab
@@ -38,6 +49,8 @@ class Focus {
     Turn control(ImGuiID id, const Rect& at, Takes takes = Takes::Nothing, bool isStop = true);
     // It was pressed with the mouse: Tab goes on from there.
     void touch(ImGuiID id) { place_ = id; }
+    // What opens in front with it begins at it, not at its first.
+    void beginAt(ImGuiID id) { begun_ = id; }
     // Between these two is drawn what stands before all else, as a popup: keys reach nothing behind
     // it.
     void enterFront() { ++depth_; }
@@ -48,18 +61,17 @@ class Focus {
     // The control that has it lies in what the current ImGui window shows of a place.
     bool in(const Rect& place) const;
 
+    // Those of the last whole frame that keys can reach, in the order of Tab.
+    std::span<const Control> controls() const { return shown_; }
+    // The control that has the keys.
+    std::optional<ImGuiID> holder() const { return has_ ? std::optional(place_) : std::nullopt; }
+    // Likewise, or that was pressed last: where Tab goes on from.
+    ImGuiID place() const { return place_; }
+
     // Text may come before the field that has just got the focus has begun to take it.
     bool expectsText() const { return untilTyping_ > 0; }
 
  private:
-    struct Control {
-        ImGuiID id;
-        Rect at, clip;
-        Takes takes;
-        bool isStop;
-        int depth;
-    };
-
     bool press(const KeyPress& key, bool typing);
     void tab(bool back);
     bool arrow(Key key, bool shift);
@@ -76,6 +88,7 @@ class Focus {
     Rect at_;                         // of place_
     Turn turn_;
     bool came_ = false;  // and place_ was not drawn since
+    ImGuiID begun_ = 0;  // of this frame, as beginAt() has it
     int depth_ = 0, front_ = 0;
     int untilTyping_ = 0;  // frames
 };

@@ -8,8 +8,9 @@ Form::Form(const Theme& theme, const char* id, const Rect& at)
     : theme_(theme),
       left_(at.min.x + kMargin * theme.scale),
       right_(at.max.x - kMargin * theme.scale) {
-    ImGui::SetCursorScreenPos(im(at.min));
-    ImGui::BeginChild(id, im(at.size()));
+    const glm::vec2 grip(kGrip * theme.scale, 0);
+    ImGui::SetCursorScreenPos(im(at.min + grip));
+    ImGui::BeginChild(id, im(at.size() - grip));
     origin_ = vec(ImGui::GetCursorScreenPos());
     y_ = origin_.y + 10 * theme.scale;
 }
@@ -37,7 +38,8 @@ void Form::note(std::string_view what, ImU32 color) {
     ImGui::PushFont(theme_.small);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(right_ - ImGui::GetWindowPos().x);
-    ImGui::TextUnformatted(what.data(), what.data() + what.size());
+    const Characters c(what);
+    ImGui::TextUnformatted(c.begin, c.end);
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     ImGui::PopFont();

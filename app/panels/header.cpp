@@ -25,7 +25,9 @@ bool popupRow(const Theme& theme, std::string_view label, float width, std::stri
     const glm::vec2 from = vec(ImGui::GetCursorScreenPos());
     const Rect at{from, from + glm::vec2(width, 28 * s)};
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-    const Pressing p = enabled ? button(std::string(label).c_str(), at) : Pressing{};
+    const std::string id(label);
+    if (now) focus().beginAt(ImGui::GetID(id.c_str()));
+    const Pressing p = enabled ? button(id.c_str(), at) : Pressing{};
     ImGui::SetCursorScreenPos(im(from));
     ImGui::Dummy(im(at.size()));
     ImGui::PopStyleVar();
@@ -64,6 +66,7 @@ void menu(Desk& desk, std::span<const Named> recent) {
     item("Undo", "Ctrl+Z", Command::Undo, desk.exploration.canUndo());
     item("Redo", "Ctrl+Y", Command::Redo, desk.exploration.canRedo());
     separator();
+    if (!desk.inHeadset) item("Into the headset", "Ctrl+H", Command::Headset);
     item("All keys", "H", Command::Help);
     if (recent.empty()) return;
     separator();

@@ -4,37 +4,44 @@
 
 namespace app::panels {
 
+namespace {
+
+// In this font at another size; its vertical middle at y.
+void write(ImFont& font, float size, glm::vec2 at, std::string_view what, ImU32 color) {
+    const Characters c(what);
+    ImGui::GetWindowDrawList()->AddText(&font, size, im(glm::round(at - glm::vec2(0, 0.5f * size))),
+                                        color, c.begin, c.end);
+}
+
+}  // namespace
+
 void drawHelp(const Desk& desk) {
-    const float s = desk.theme.scale, line = 23 * s, group = 14 * s;
     std::size_t groups = 0;
     std::string_view last;
     for (const HelpLine& help : helpLines()) {
         groups += help.group != last ? 1 : 0;
         last = help.group;
     }
-    const float wanted =
-        56 * s + static_cast<float>(helpLines().size()) * line + static_cast<float>(groups) * group;
     const Rect& picture = desk.layout.picture;
-    const float squeeze = std::min(1.0f, (picture.size().y - 24 * s) / wanted);
-    const float width = std::min(620 * s, picture.size().x - 24 * s);
-    const glm::vec2 half(0.5f * width, 0.5f * wanted * squeeze);
-    const Rect at{glm::floor(picture.centre() - half), glm::floor(picture.centre() + half)};
+    const auto [at, s] = helpLayout(picture, desk.theme.scale, helpLines().size(), groups);
+    ImFont &font = *desk.theme.text, &strong = *desk.theme.strong;
+    const float size = font.FontSize * s / desk.theme.scale, width = at.size().x;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(picture.min), im(picture.max), faded(kGround, 0.6f));
     list.AddRectFilled(im(at.min), im(at.max), faded(kPanel, 0.98f), 8 * s);
     list.AddRect(im(at.min), im(at.max), kLine, 8 * s);
-    float y = at.min.y + 18 * s * squeeze;
+    float y = at.min.y + 18 * s;
     last = {};
     for (const HelpLine& help : helpLines()) {
         if (help.group != last) {
-            y += group * squeeze;
-            text(desk.theme, {at.min.x + 24 * s, y}, help.group, kAccent, 0, desk.theme.strong);
+            y += kHelpGroup * s;
+            write(strong, size, {at.min.x + 24 * s, y}, help.group, kAccent);
             last = help.group;
         }
-        text(desk.theme, {at.min.x + 100 * s, y}, help.keys, kText);
-        text(desk.theme, {at.min.x + 0.47f * width, y},
-             fitting(*desk.theme.text, help.does, 0.53f * width - 20 * s), kDim);
-        y += line * squeeze;
+        write(font, size, {at.min.x + 100 * s, y}, help.keys, kText);
+        const float room = (0.53f * width - 20 * s) * desk.theme.scale / s;
+        write(font, size, {at.min.x + 0.47f * width, y}, fitting(font, help.does, room), kDim);
+        y += kHelpLine * s;
     }
 }
 

@@ -4,11 +4,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 
 #include "app/panels/widgets.h"
 
 namespace app::panels {
+
+float nameColumn(ImFont& font, std::span<const std::string> names, float scale) {
+    constexpr float kMost = 160;
+    float widest = 0;
+    for (const std::string& name : names) widest = std::max(widest, widthOf(font, name));
+    return std::min(std::ceil(widest), kMost * scale);
+}
 
 void HoverTip::follow(Desk& desk, const std::optional<glm::vec2>& cursor,
                       std::chrono::nanoseconds dt) {
@@ -49,11 +57,13 @@ void HoverTip::draw(const Desk& desk) const {
     const float s = theme.scale, line = 19 * s;
     const std::string value =
         fmt::format("{}  {}", shown->dataset.about.name, valueText(*reading_, *shown));
-    std::array<std::string, 3> places;
+    std::array<std::string, 3> places, names;
+    for (std::size_t i = 0; i < 3; ++i) names[i] = shown->sorted->grid().axes()[i].name;
+    const float column = nameColumn(*theme.small, names, s);
     float width = widthOf(*theme.strong, value);
     for (std::size_t i = 0; i < 3; ++i) {
         places[i] = positionText(*reading_, *shown, i);
-        width = std::max(width, 24 * s + widthOf(*theme.small, places[i]));
+        width = std::max(width, column + 14 * s + widthOf(*theme.small, places[i]));
     }
     // Below and right of the pointer; on its other side where the picture ends.
     const Rect& picture = desk.layout.picture;
@@ -69,8 +79,7 @@ void HoverTip::draw(const Desk& desk) const {
     text(theme, at, value, kText, 0, theme.strong);
     for (std::size_t i = 0; i < 3; ++i) {
         at.y += line;
-        const timeseries::Axis& axis = shown->sorted->grid().axes()[i];
-        text(theme, at, fitting(*theme.small, axis.name, 30 * s), kFaint, 0, theme.small);
+        text(theme, at, fitting(*theme.small, names[i], column), kFaint, 0, theme.small);
         text(theme, at + glm::vec2(size.x - 22 * s, 0), places[i], kDim, 1, theme.small);
     }
 }

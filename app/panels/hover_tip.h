@@ -4,10 +4,16 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "app/panels/desk.h"
 
 namespace app::panels {
+
+// How wide the names of axes are that stand one below the other: as the longest, within what leaves
+// room for the numbers beside them.
+float nameColumn(ImFont& font, std::span<const std::string> names, float scale);
 
 class HoverTip {
  public:

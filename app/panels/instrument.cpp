@@ -7,7 +7,6 @@
 
 #include "app/edits.h"
 #include "app/panels/instrument_frame.h"
-#include "app/value_map.h"
 
 namespace app::panels {
 namespace {
@@ -31,11 +30,8 @@ std::pair<double, double> allValues(const Exploration& exploration) {
     for (std::size_t i = 0; i < series.stepCount(); ++i) {
         const timeseries::StepSummary* summary = series.summary(i);
         if (summary == nullptr) continue;
-        take(timeseries::toDouble(summary->statistics.min));
-        take(timeseries::toDouble(summary->statistics.max));
-        if (summary->quantiles.empty()) continue;
-        take(summary->quantiles.front());
-        take(summary->quantiles.back());
+        take(timeseries::toDouble(summary->statistics.finiteMin));
+        take(timeseries::toDouble(summary->statistics.finiteMax));
     }
     if (lo > hi) return {0, 1};
     return withRoom(lo, hi);
@@ -118,6 +114,7 @@ void Instrument::refresh(const Frame& f) {
     if (!sameAxis || counts_.size() != bins || countedStep_.lock() != f.shown.sorted) {
         countedStep_ = f.shown.sorted;
         counts_ = histogram(*f.shown.sorted, f.axis.lo, f.axis.hi, bins);
+        infinite_ = atInfinity(*f.shown.sorted, f.axis.lo, f.axis.hi);
     }
     if (!f.hasMap()) return;
     const auto fit = static_cast<std::size_t>(std::max(1.0f, f.at.map.size().x / (2 * f.s)));
@@ -154,6 +151,12 @@ std::string Instrument::hoverText(const Frame& f, glm::vec2 mouse) const {
             "{}   {}   ≈ {}", when, number,
             withCommas(static_cast<std::uint64_t>(std::llround(column.counts[bin]))));
     }
+    const std::uint64_t infinite = bin == 0                    ? infinite_.below
+                                   : bin + 1 == counts_.size() ? infinite_.above
+                                                               : 0;
+    if (infinite > 0 && infinite == counts_[bin])
+        return fmt::format("{}   {} points", bin == 0 ? kBelowAll : kAboveAll,
+                           withCommas(infinite));
     return fmt::format("{}   {} points", number, withCommas(counts_[bin]));
 }
 

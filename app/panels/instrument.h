@@ -12,6 +12,7 @@
 #include "app/edits.h"
 #include "app/panels/desk.h"
 #include "app/panels/widgets.h"
+#include "app/value_map.h"
 
 namespace app::panels {
 
@@ -60,6 +61,7 @@ class Instrument {
     using ColorOfValue = std::function<ImU32(double value)>;
     using Painter = std::function<void(const ColorOfValue&)>;
     void drawInColors(const Frame& f, const Painter& paint) const;
+    void drawCounts(const Frame& f, double most) const;
     void drawHistogram(const Frame& f) const;
     void drawMap(const Frame& f) const;
     void drawColumn(const Frame& f, const Rect& strip, const std::vector<double>& counts,
@@ -90,6 +92,7 @@ class Instrument {
     };
     std::weak_ptr<const timeseries::SortedStep> countedStep_;
     std::vector<std::uint64_t> counts_;
+    AtInfinity infinite_;  // of the counted step; in its outer counts
     std::vector<Column> columns_;
     ValueAxis axis_;
     std::string of_;  // file, variable and what is kept of it

@@ -5,24 +5,40 @@
 
 #include "app/panels/instrument_frame.h"
 #include "app/panels/layer_style.h"
+#include "app/value_map.h"
 
 namespace app::panels {
 
 using timeseries::Range;
 using timeseries::toDouble;
 
+namespace {
+
+// How far a bar of so many points reaches.
+float countLength(double count, double most, bool linear, float whole) {
+    const double t = linear ? count / most : std::log1p(count) / std::log1p(most);
+    return static_cast<float>(t) * whole;
+}
+
+}  // namespace
+
 void Instrument::drawTitle(const Frame& f) {
     constexpr std::array kCounts = {"log", "linear"};
     const Rect& at = f.at.title;
     const float y = at.centre().y;
-    text(f.desk.theme, {at.min.x, y}, "Values", kText, 0, f.desk.theme.strong);
     const float left = at.max.x - 100 * f.s;
+    const std::string unit = render::shownUnit(f.shown.dataset.about.units);
+    const std::string title =
+        fitting(*f.desk.theme.strong, unit.empty() ? "Values" : "Values, " + unit,
+                0.5f * (left - at.min.x));
+    const float past = widthOf(*f.desk.theme.strong, title) + 18 * f.s;
+    text(f.desk.theme, {at.min.x, y}, title, kText, 0, f.desk.theme.strong);
     if (const auto chosen =
             segmented(f.desk.theme, "counts", {{left, y - 11 * f.s}, {at.max.x, y + 11 * f.s}},
                       kCounts, linear_ ? 1 : 0))
         linear_ = *chosen == 1;
     text(f.desk.theme, {left - 12 * f.s, y},
-         fitting(*f.desk.theme.small, readout_, left - at.min.x - 74 * f.s), kDim, 1,
+         fitting(*f.desk.theme.small, readout_, left - at.min.x - past), kDim, 1,
          f.desk.theme.small);
 }
 
@@ -43,17 +59,34 @@ void Instrument::drawInColors(const Frame& f, const Painter& paint) const {
         if (f.explorer().sweepLayer.visible) within(sweep->window(), f.explorer().sweepLayer);
 }
 
+// Numbers of points below the bars, from 0 at their foot, and fine lines up from them.
+void Instrument::drawCounts(const Frame& f, double most) const {
+    const Rect& at = f.at.histogram;
+    ImFont& font = *f.desk.theme.small;
+    const float y = f.at.times.centre().y;
+    float free = at.max.x + 0.5f * (f.at.axis.max.x - f.at.axis.min.x);  // from here leftwards
+    for (const double count : countTicks(most, linear_)) {
+        const float x = at.max.x - countLength(count, most, linear_, at.size().x - 4 * f.s);
+        const std::string number = shortCount(count);
+        const float half = 0.5f * widthOf(font, number);
+        if (x + half > free || x - half < at.min.x - 12 * f.s) continue;
+        free = x - half - 8 * f.s;
+        f.list.AddRectFilled({x - 0.5f * f.s, at.min.y}, {x + 0.5f * f.s, at.max.y + 3 * f.s},
+                             faded(kLine, 0.9f));
+        text(f.desk.theme, {x, y}, number, kFaint, 0.5f, &font);
+    }
+}
+
 void Instrument::drawHistogram(const Frame& f) const {
     const Rect& at = f.at.histogram;
     f.list.AddRectFilled(im(at.min), im(at.max), kGround);
     const std::uint64_t most = *std::max_element(counts_.begin(), counts_.end());
     if (most == 0) return;
     const auto length = [&](std::uint64_t count) {
-        const double t = linear_ ? static_cast<double>(count) / static_cast<double>(most)
-                                 : std::log1p(static_cast<double>(count)) /
-                                       std::log1p(static_cast<double>(most));
-        return static_cast<float>(t) * (at.size().x - 4 * f.s);
+        return countLength(static_cast<double>(count), static_cast<double>(most), linear_,
+                           at.size().x - 4 * f.s);
     };
+    drawCounts(f, static_cast<double>(most));
     const float height = at.size().y / static_cast<float>(counts_.size());
     drawInColors(f, [&](const ColorOfValue& color) {
         for (std::size_t i = 0; i < counts_.size(); ++i) {
@@ -143,13 +176,14 @@ void Instrument::drawSweep(const Frame& f) const {
     if (const auto& keep = f.explorer().keep) {  // what lies outside was dropped
         double below = -INFINITY;
         const auto gap = [&](double lo, double hi) {
+            if (!(lo < hi)) return;
             const Rect r{{across.min.x, f.axis.y(hi)}, {across.max.x, f.axis.y(lo)}};
             f.list.AddRectFilled(im(r.min), im(r.max), faded(kPanel, 0.75f));
             hatch(f.list, {glm::max(r.min, across.min), glm::min(r.max, across.max)}, f.s, kLine);
         };
         for (const Range& range : keep->ranges()) {
             gap(below, toDouble(range.lo.value));
-            below = toDouble(range.hi.value);
+            below = std::max(below, toDouble(range.hi.value));
         }
         gap(below, INFINITY);
     }
@@ -179,21 +213,22 @@ void Instrument::drawAxis(const Frame& f) const {
     const Rect& at = f.at.axis;
     ImFont& font = *f.desk.theme.small;
     const int wanted = std::max(2, static_cast<int>(at.size().y / (38 * f.s)));
-    const std::vector<double> ticks = render::niceTicks(f.axis.lo, f.axis.hi, wanted);
-    const std::vector<std::string> texts = render::tickTexts(ticks);
+    const auto [ticks, texts] = render::fittingTicks(
+        f.axis.lo, f.axis.hi, wanted,
+        [&](const std::string& tick) { return widthOf(font, tick) <= at.size().x; });
+    // Infinities have the room of a label at their end.
+    const float room = 6 * f.s, taken = 20 * f.s;
+    const float top = at.min.y + (infinite_.above > 0 ? taken : room),
+                bottom = at.max.y - (infinite_.below > 0 ? taken : room);
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         const float y = f.axis.y(ticks[i]);
-        if (y < at.min.y + 6 * f.s || y > at.max.y - 6 * f.s) continue;
-        text(f.desk.theme, {at.centre().x, y}, fitting(font, texts[i], at.size().x), kDim, 0.5f,
-             &font);
+        if (y < top || y > bottom) continue;
+        text(f.desk.theme, {at.centre().x, y}, texts[i], kDim, 0.5f, &font);
     }
-    const std::string unit = render::shownUnit(f.shown.dataset.about.units);
-    const float y = f.at.times.centre().y, right = at.max.x - 2 * f.s;
-    if (widthOf(font, unit) < at.size().x)
-        text(f.desk.theme, {at.centre().x, y}, unit, kFaint, 0.5f, &font);
-    else  // there is room on the left, and the times stand on the right
-        text(f.desk.theme, {right, y}, fitting(font, unit, right - f.at.histogram.min.x), kFaint, 1,
-             &font);
+    if (infinite_.above > 0)
+        text(f.desk.theme, {at.centre().x, at.min.y + room}, kAboveAll, kText, 0.5f, &font);
+    if (infinite_.below > 0)
+        text(f.desk.theme, {at.centre().x, at.max.y - room}, kBelowAll, kText, 0.5f, &font);
 }
 
 void Instrument::drawTime(const Frame& f) const {

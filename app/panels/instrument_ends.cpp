@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "app/panels/instrument_frame.h"
 #include "app/panels/layer_style.h"
@@ -12,6 +13,17 @@ namespace {
 
 const timeseries::Bound& boundOf(const timeseries::Range& range, End end) {
     return end == End::Lo ? range.lo : range.hi;
+}
+
+// A tab at the line's end with a grip to take it by.
+void drawHandle(ImDrawList& list, const Rect& at, End end, ImU32 color, float s) {
+    list.AddRectFilled(
+        im(at.min), im(at.max), color, 4 * s,
+        end == End::Hi ? ImDrawFlags_RoundCornersTop : ImDrawFlags_RoundCornersBottom);
+    const glm::vec2 middle = glm::floor(at.centre());
+    for (const float y : {-2.0f, 1.0f})
+        list.AddRectFilled({middle.x - 4 * s, middle.y + y * s},
+                           {middle.x + 4 * s, middle.y + (y + 1) * s}, faded(kGround, 0.8f));
 }
 
 }  // namespace
@@ -55,10 +67,8 @@ void Instrument::drawEnds(const Frame& f, const Grab& hovered) const {
             if (f.hasMap())
                 f.list.AddRectFilled({f.at.map.min.x, y - half}, {f.at.map.max.x, y + half}, color);
         }
-        const Rect handle = handleOf(f, value, end);
-        f.list.AddRectFilled(
-            im(handle.min), im(handle.max), inView ? color : faded(color, 0.4f), 4 * f.s,
-            end == End::Hi ? ImDrawFlags_RoundCornersTopLeft : ImDrawFlags_RoundCornersBottomLeft);
+        drawHandle(f.list, handleOf(f, value, end), end,
+                   inView ? color : mixed(kPanel, color, 0.4f), f.s);
     });
 }
 
@@ -75,9 +85,13 @@ void Instrument::moveEndsByKeys(const Frame& f) {
         const std::array<int, 3> place = {static_cast<int>(layer), static_cast<int>(range),
                                           static_cast<int>(end)};
         for (const int part : place) ImGui::PushID(part);
-        const Focus::Turn turn =
-            focus().control(ImGui::GetID("##end"), handleOf(f, value, end), Focus::Takes::UpDown);
+        const ImGuiID own = ImGui::GetID("##end");
         for (std::size_t i = 0; i < place.size(); ++i) ImGui::PopID();
+        const Focus::Turn turn =
+            focus().control(own, handleOf(f, value, end), Focus::Takes::UpDown);
+        if (grab_.grip == (end == End::Lo ? Grip::Lo : Grip::Hi) && grab_.layer == layer &&
+            grab_.range == range)
+            focus().touch(own);
         if (turn.has) {
             desk.choices.layer = layer;
             readout_ = f.withUnit(std::isfinite(value) ? timeseries::toText(value)

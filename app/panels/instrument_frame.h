@@ -27,6 +27,9 @@ struct Instrument::Frame {
     }
 };
 
+// What stands at the ends of the axis where values are infinite.
+constexpr const char *kBelowAll = "\u2212\u221e", *kAboveAll = "+\u221e";
+
 // The finite values of all steps seen, with a little room.
 std::pair<double, double> allValues(const Exploration& exploration);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/panels/header.h"
 #include "app/panels/help.h"
 #include "app/panels/left_offer.h"
@@ -54,12 +56,13 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
               .layout = layoutOf(around.window, around.theme.scale, choices_.sideWidth),
               .choices = choices_,
               .requests = requests,
-              .performance = around.performance};
+              .performance = around.performance,
+              .inHeadset = !around.hasPicture};
     const std::size_t layers = exploration.explorer().layers.size();
     choices_.layer = std::min(choices_.layer, layers == 0 ? 0 : layers - 1);
     forgetOtherData(exploration.explorer());
-    takeKey(exploration, around.key, requests);
     popup_ = files_.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    takeKey(exploration, around.key, requests);
     ImGui::PushFont(around.theme.text);
     const bool started = exploration.shown().has_value();
     if (!started) desk.layout.picture = desk.layout.window;
@@ -82,12 +85,14 @@ void Interface::forgetOtherData(const Explorer& now) {
     probed_ = now;
 }
 
-// The control that has the focus first; else a key is a command, but for what is typed.
+// The control that has the focus first; else a key is a command, but for what is typed, and what
+// may be meant for the fields of something that stands in front.
 void Interface::takeKey(Exploration& exploration, const std::optional<KeyPress>& key,
                         Requests& requests) {
     setFocus(focus_);
     const bool typing = ImGui::GetIO().WantTextInput;
-    const bool typed = typing || focus_.expectsText();
+    const bool typed = typing || focus_.expectsText() || files_.isOpen() ||
+                       (popup_ && key && !key->ctrl && key->key != Key::F12);
     if (focus_.begin(key, typing)) {
         if (!key->repeated) exploration.endGesture();  // a held key is one gesture, as a drag
     } else if (key && !typed) {
@@ -97,17 +102,12 @@ void Interface::takeKey(Exploration& exploration, const std::optional<KeyPress>&
 
 void Interface::drawPicture(Desk& desk, const Surroundings& around) {
     beginRegion("##picture", desk.layout.picture, kClear);
-    if (desk.exploration.shown()) {
-        if (around.hasPicture) picture_.handle(desk, around.boxHalfEdges);
-        if (around.eye) drawMarks(desk, *around.eye);
-        hover_.follow(desk, help_ || popup_ ? std::nullopt : picture_.pointer(), around.dt);
-        hover_.draw(desk);
-    } else if (!desk.exploration.opening()) {
-        drawStartScreen(desk, around.offers);
-    }
+    const bool shown = desk.exploration.shown().has_value();
+    if (shown && around.eye) drawMarks(desk, *around.eye);
+    if (!shown && !desk.exploration.opening()) drawStartScreen(desk, around.offers);
     const float s = around.theme.scale;
     float top = desk.layout.picture.min.y + 14 * s;
-    if (desk.exploration.shown() && !around.offers.autosave.empty()) {
+    if (shown && !around.offers.autosave.empty()) {
         drawLeftOffer(desk, around.offers.autosave);
         top += 40 * s;
     }
@@ -117,6 +117,12 @@ void Interface::drawPicture(Desk& desk, const Surroundings& around) {
         desk, around.exporting ? exportPlace(picture, s).min.y - 8 * s : messagesBottom(picture, s),
         around.dt);
     if (help_) drawHelp(desk);
+    // Last: ImGui gives the mouse to the first that lies under it.
+    if (shown) {
+        if (around.hasPicture) picture_.handle(desk, around.boxHalfEdges);
+        hover_.follow(desk, help_ || popup_ ? std::nullopt : picture_.pointer(), around.dt);
+        hover_.draw(desk);
+    }
     endRegion();
 }
 
@@ -125,7 +131,9 @@ void Interface::drawSide(Desk& desk, const Surroundings& around) {
     const Rect& side = desk.layout.side;
     ImGui::GetWindowDrawList()->AddLine({side.min.x + 0.5f, side.min.y},
                                         {side.min.x + 0.5f, side.max.y}, kLine);
-    if (!instrument_.isHeld()) layerRows_ = LayersPanel::rows(desk.exploration.explorer());
+    // Where there is no layer, a sentence has its row.
+    if (!instrument_.isHeld())
+        layerRows_ = std::max<std::size_t>(1, LayersPanel::rows(desk.exploration.explorer()));
     const SideLayout parts = sideLayout(desk.layout, layerRows_);
     drawHeader(desk, parts.header, around.offers.recent);
     hairline(side.min.x, side.max.x, parts.layers.min.y);
@@ -181,7 +189,7 @@ void Interface::drawTabs(Desk& desk, const Rect& at) {
 void Interface::drawEdge(Desk& desk) {
     const Rect& side = desk.layout.side;
     const float s = desk.theme.scale;
-    const Rect at{side.min, {side.min.x + 5 * s, side.max.y}};
+    const Rect at{side.min, {side.min.x + kGrip * s, side.max.y}};
     const Pressing p = area("##edge", at);
     const Focus::Turn turn = focus_.control(ImGui::GetID("##edge"), at, Focus::Takes::LeftRight);
     if (p.pressed) focus_.touch(ImGui::GetID("##edge"));
@@ -218,6 +226,8 @@ bool Interface::obey(Exploration& exploration, Command command) {
             return help_ = !help_, true;
         case Command::Close:
             return close(exploration);
+        case Command::Headset:
+            return false;
         case Command::Open:
             return files_.ask(FilePanel::For::Open, {}), true;
         case Command::Undo:

@@ -52,6 +52,8 @@ class Interface {
     void takeHover(const std::optional<Reading>& reading) { hover_.take(reading); }
 
     Choices& choices() { return choices_; }
+    // A folder is being read, to be shown.
+    bool isListing() const { return files_.isListing(); }
     // Until the interface changes by itself.
     std::optional<std::chrono::nanoseconds> untilNextChange() const;
 

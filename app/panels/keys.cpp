@@ -20,8 +20,8 @@ constexpr std::array kBindings = {
     Binding{Command::Redo, key('Y'), true},    Binding{Command::Redo, key('Z'), true, true},
     Binding{Command::Open, key('O'), true},    Binding{Command::Save, key('S'), true},
     Binding{Command::Export, key('E'), true},  Binding{Command::CopyCommandLine, key('C'), true},
-    Binding{Command::Screenshot, Key::F12},    Binding{Command::Help, key('H')},
-    Binding{Command::Close, Key::Escape},
+    Binding{Command::Headset, key('H'), true}, Binding{Command::Screenshot, Key::F12},
+    Binding{Command::Help, key('H')},          Binding{Command::Close, Key::Escape},
 };
 
 constexpr std::array kHelp = {
@@ -54,6 +54,7 @@ constexpr std::array kHelp = {
     HelpLine{"File", "F12", "screenshot"},
     HelpLine{"File", "Ctrl+E", "export the animation"},
     HelpLine{"File", "Ctrl+C", "copy the command line of this picture"},
+    HelpLine{"File", "Ctrl+H", "into the headset"},
     HelpLine{"File", "H  Esc", "this help, close it"},
 };
 

@@ -33,6 +33,7 @@ enum class Command {
     Screenshot,
     CopyCommandLine,
     Export,
+    Headset,
     Help,
     Close
 };

@@ -5,7 +5,9 @@
 #include "app/choice_text.h"
 #include "app/edits.h"
 #include "app/panels/layer_style.h"
+#include "app/panels/number_field.h"
 #include "app/picture.h"
+#include "app/sweep_edits.h"
 
 namespace app::panels {
 namespace {
@@ -23,28 +25,23 @@ std::string percent(std::uint64_t count, std::uint64_t of) {
     return fmt::format("{:.{}f} %", share, share >= 10 ? 1 : share >= 0.1 ? 2 : 4);
 }
 
-// Where the swept window stands, in as many digits as its width needs.
-std::string sweptText(const std::optional<timeseries::ValueSweep>& sweep) {
-    if (!sweep) return {};
-    const double delta = sweep->settings().delta, contour = sweep->contour();
-    const double resolution = delta > 0 ? delta / 100 : std::max(1e-6 * std::abs(contour), 1e-300);
-    return fmt::format("swept  {} ± {}", timeseries::toText(roundedTo(contour, resolution)),
-                       timeseries::toText(delta));
+std::string sweptText(const Desk& desk) {
+    const auto& sweep = desk.exploration.playback().sweep;
+    return sweep ? "swept  " + app::sweptText(*sweep, sweep->tick()) : "";
 }
 
 void remove(Desk& desk, std::size_t row) {
     edit(desk, {}, [&](Explorer& e) {
         if (isSwept(e, row))
-            e.sweep.reset();
+            stopSweep(e);
         else
-            e.layers.erase(e.layers.begin() + static_cast<std::ptrdiff_t>(row - (e.sweep ? 1 : 0)));
+            removeLayer(e, row - (e.sweep ? 1 : 0));
     });
 }
 
 void add(Desk& desk, const timeseries::SortedStep& step) {
-    edit(desk, {}, [&](Explorer& e) {
-        desk.choices.layer = addLayer(e, parseSelection("top 1 %", step), step);
-    });
+    edit(desk, {},
+         [&](Explorer& e) { desk.choices.layer = addLayer(e, newRanges(e, step), step); });
 }
 
 void amountText(Desk& desk, const Rect& at, std::size_t row) {
@@ -54,9 +51,12 @@ void amountText(Desk& desk, const Rect& at, std::size_t row) {
     const std::size_t layer = row - (swept ? 1 : 0);
     if (!(swept && row == 0) && layer >= counts->layers.size()) return;
     const std::uint64_t count = swept && row == 0 ? counts->swept : counts->layers[layer];
-    text(desk.theme, {at.min.x, at.centre().y},
-         fmt::format("{}  ·  {}", withCommas(count), percent(count, counts->total)), kDim, 0,
-         desk.theme.small);
+    const std::string amount =
+        withCommas(count) + (counts->inClipBox ? " in the clip box" : " points");
+    const std::string share = "  ·  " + percent(count, counts->total);
+    ImFont& font = *desk.theme.small;
+    const bool fits = widthOf(font, amount + share) <= at.size().x;
+    text(desk.theme, {at.min.x, at.centre().y}, fits ? amount + share : amount, kDim, 0, &font);
 }
 
 void opacitySlider(Desk& desk, const Rect& at, std::size_t row) {
@@ -91,8 +91,12 @@ void LayersPanel::draw(Desk& desk, const Rect& at) {
         add(desk, *shown->sorted);
 
     const Rect list{{at.min.x, at.min.y + kLayersTitle * s}, at.max};
-    ImGui::SetCursorScreenPos(im(list.min));
-    ImGui::BeginChild("##rows", im(list.size()));
+    const glm::vec2 grip(kGrip * s, 0);
+    ImGui::SetCursorScreenPos(im(list.min + grip));
+    ImGui::BeginChild("##rows", im(list.size() - grip));
+    if (shown && count == 0)
+        text(desk.theme, {left, list.min.y + 10 * s}, "No layer: nothing is drawn. + adds one.",
+             kDim, 0, desk.theme.small);
     const bool grown = count > texts_.size();
     texts_.resize(count);
     const glm::vec2 top = vec(ImGui::GetCursorScreenPos());
@@ -118,8 +122,9 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool selected = !swept && index == desk.choices.layer;
     if (selected && e.layers.size() > 1) {
-        list.AddRectFilled(im(at.row.min), im(at.row.max), faded(kField, 0.6f));
-        list.AddRectFilled(im(at.row.min), {at.row.min.x + 3 * s, at.row.max.y}, kAccent);
+        const ImVec2 from(at.row.min.x + kGrip * s, at.row.min.y);
+        list.AddRectFilled(from, im(at.row.max), faded(kField, 0.6f));
+        list.AddRectFilled(from, {from.x + 3 * s, at.row.max.y}, kAccent);
     }
     const Pressing pressing = button("##swatch", at.swatch);
     drawSwatch(list, at.swatch, layer, s);
@@ -129,9 +134,7 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
 
     if (swept)
         text(desk.theme, {at.text.min.x + 8 * s, at.text.centre().y},
-             fitting(*desk.theme.text, sweptText(desk.exploration.playback().sweep),
-                     at.text.size().x - 8 * s),
-             kAccent);
+             fitting(*desk.theme.text, sweptText(desk), at.text.size().x - 8 * s), kAccent);
     else
         editText(desk, at, row);
     if (iconButton(desk.theme, "##eye", at.eye, layer.visible ? Icon::Eye : Icon::EyeClosed,
@@ -159,16 +162,18 @@ void LayersPanel::colorPopup(Desk& desk, const Rect& swatch, std::size_t row) {
 void LayersPanel::editText(Desk& desk, const LayerRowLayout& at, std::size_t row) {
     const Explorer& e = desk.exploration.explorer();
     Explorer now = e;
-    const auto entered = texts_[row].draw(desk.theme, "##ranges", at.text,
-                                          layerOf(now, row).ranges.text(), "600:1600 or top 1 %");
+    const auto entered =
+        texts_[row].draw(desk.theme, "##ranges", at.text,
+                         rangesText(desk, layerOf(now, row).ranges), "600:1600 or top 1 %");
     if (!entered) return;
     const auto shown = desk.exploration.shown();
     if (!shown) return;
     try {
         const timeseries::RangeSet ranges = parseSelection(*entered, *shown->sorted);
+        shown->sorted->select(ranges);  // throws where they were not kept
         edit(desk, {}, [&](Explorer& next) { layerOf(next, row).ranges = ranges; });
     } catch (const std::invalid_argument& error) {
-        desk.exploration.tell(error.what(), true);
+        texts_[row].refuse(error.what());
     }
 }
 

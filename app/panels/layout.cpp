@@ -10,18 +10,37 @@ Rect box(float x0, float y0, float x1, float y1) { return {{x0, y0}, {x1, y1}}; 
 // Whole pixels keep lines and text crisp.
 Rect crisp(const Rect& r) { return {glm::floor(r.min), glm::floor(r.max)}; }
 
+constexpr float kStatusLine = 18, kStatusRoom = 8;
+// What the figures say is about 1000 long in one line, 600 in two.
+std::size_t statusLinesFor(float width) { return width >= 1000 ? 1 : width >= 600 ? 2 : 3; }
+
 }  // namespace
+
+float scaleWithRoom(glm::vec2 window, float wanted) {
+    // What the bar below needs across, and the column from top to bottom.
+    constexpr glm::vec2 kLeast(720, 450);
+    const glm::vec2 room = glm::floor(8.0f * window / kLeast) / 8.0f;
+    return std::min(wanted, std::max(1.0f, std::min(room.x, room.y)));
+}
 
 Layout layoutOf(glm::vec2 window, float scale, float sideWidth) {
     const float side = std::clamp(sideWidth * scale, std::min(320 * scale, 0.5f * window.x),
                                   std::max(320 * scale, 0.5f * window.x));
     const float column = std::floor(std::max(0.0f, window.x - side));
     const float bar = std::floor(std::max(0.0f, window.y - kTimeBarHeight * scale));
+    const auto lines = static_cast<float>(statusLinesFor(column / scale));
+    const float status =
+        std::floor(std::max(0.0f, bar - (kStatusLine * lines + kStatusRoom) * scale));
     return {.scale = scale,
             .window = {{0, 0}, window},
-            .picture = box(0, 0, column, bar),
+            .picture = box(0, 0, column, status),
+            .status = box(0, status, column, bar),
             .side = box(column, 0, window.x, bar),
             .timeBar = box(0, bar, window.x, window.y)};
+}
+
+std::size_t statusLines(const Layout& layout) {
+    return statusLinesFor(layout.status.size().x / layout.scale);
 }
 
 SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
@@ -86,10 +105,10 @@ InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasM
 
 Rect endHandle(const InstrumentLayout& instrument, float scale, float y, bool isUpper) {
     const Rect& bars = instrument.histogram;
-    const float size = 9 * scale, right = bars.min.x - 2 * scale;
-    const float top =
-        std::clamp(y - (isUpper ? size : 0), bars.min.y, std::max(bars.min.y, bars.max.y - size));
-    return crisp({{right - size, top}, {right, top + size}});
+    const float height = 11 * scale, right = bars.min.x - scale;
+    const float top = std::clamp(y - (isUpper ? height : 0), bars.min.y,
+                                 std::max(bars.min.y, bars.max.y - height));
+    return crisp({{right - (kMargin - kGrip - 1) * scale, top}, {right, top + height}});
 }
 
 TimeBarLayout timeBarLayout(const Rect& timeBar, float scale) {
@@ -124,6 +143,15 @@ float messagesBottom(const Rect& picture, float scale) { return picture.max.y - 
 Rect exportPlace(const Rect& picture, float scale) {
     const float bottom = messagesBottom(picture, scale), margin = kMargin * scale;
     return crisp(box(picture.min.x + margin, bottom - 32 * scale, picture.max.x - margin, bottom));
+}
+
+HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups) {
+    const float wanted =
+        56 + static_cast<float>(lines) * kHelpLine + static_cast<float>(groups) * kHelpGroup;
+    const float s = std::min(scale, (picture.size().y - 24 * scale) / wanted);
+    const float width = std::min(620 * scale, picture.size().x - 24 * scale);
+    const glm::vec2 half(0.5f * width, 0.5f * wanted * s);
+    return {{glm::floor(picture.centre() - half), glm::floor(picture.centre() + half)}, s};
 }
 
 LeftOfferLayout leftOfferLayout(const Rect& picture, float scale) {

@@ -21,18 +21,28 @@ struct Rect {
     friend bool operator==(const Rect&, const Rect&) = default;
 };
 
-// The picture, the column beside it and the bar below both.
+// The picture, the figures of its frame below it, the column beside both and the bar below all.
 struct Layout {
     float scale = 1;
-    Rect window, picture, side, timeBar;
+    Rect window, picture, status, side, timeBar;
 };
 
 constexpr float kSideWidth = 400;  // as the program starts; in units of the design, as all below
 constexpr float kTimeBarHeight = 60;
 constexpr float kMargin = 16;
+// Of the column, at its left edge, which is dragged to another width: nothing else lies there.
+constexpr float kGrip = 5;
+
+// The scale of the interface, of which so much is wanted: as much of it as leaves every part its
+// room in the window, in eighths; at least 1, below which little can be read.
+float scaleWithRoom(glm::vec2 window, float wanted);
 
 // `sideWidth` as the user dragged it; kept between 320 and half of the window.
 Layout layoutOf(glm::vec2 window, float scale, float sideWidth = kSideWidth);
+
+// Below the picture, not over it: nothing of it is hidden, and no text of it met. In a narrow
+// window the figures take more lines.
+std::size_t statusLines(const Layout& layout);
 
 // The side column from top to bottom. It shows all layers while there is room, and scrolls them
 // where there is not.
@@ -77,10 +87,19 @@ struct StartLayout {
 };
 StartLayout startLayout(const Rect& picture, float scale, std::size_t recentFiles);
 
-// Over the picture, above the frame's figures at the lower right, messages stack upwards. While
-// something is exported, how far that is has the lowest place.
+// Over the picture, above the notes at its lower edge, messages stack upwards. While something is
+// exported, how far that is has the lowest place.
 float messagesBottom(const Rect& picture, float scale);
 Rect exportPlace(const Rect& picture, float scale);
+
+// The card of all keys over the picture, so many lines in groups. `scale` is its own: all of it,
+// type too, is drawn smaller where the picture is low, so that no line lies over another.
+struct HelpLayout {
+    Rect whole;
+    float scale = 1;
+};
+constexpr float kHelpLine = 23, kHelpGroup = 14;
+HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups);
 
 // Over the picture: a session that broke off, while other data are shown.
 struct LeftOfferLayout {

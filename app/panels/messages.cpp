@@ -1,8 +1,11 @@
 #include "app/panels/messages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include "app/panels/widgets.h"
 
@@ -19,8 +22,9 @@ struct Card {
     bool isLong = false;
 };
 
-// Upwards from `bottom`.
-Card cardOf(const Desk& desk, const std::string& message, float bottom, bool opened) {
+// Upwards from `bottom`; `hasButtons` below its text in any case.
+Card cardOf(const Desk& desk, const std::string& message, float bottom, bool opened,
+            bool hasButtons) {
     const float s = desk.theme.scale;
     const Rect& picture = desk.layout.picture;
     const float width = std::min(420 * s, picture.size().x - 2 * kMargin * s);
@@ -28,8 +32,8 @@ Card cardOf(const Desk& desk, const std::string& message, float bottom, bool ope
     const ImFont& font = *desk.theme.text;
     const float line = font.FontSize;
     const auto heightOf = [&](std::string_view text) {
-        const char* begin = text.data();
-        return font.CalcTextSizeA(line, FLT_MAX, wrap, begin, begin + text.size()).y;
+        const Characters c(text);
+        return font.CalcTextSizeA(line, FLT_MAX, wrap, c.begin, c.end).y;
     };
     const auto isFew = [&](std::string_view text) {
         return heightOf(text) < (kLines + 0.5f) * line;
@@ -38,7 +42,7 @@ Card cardOf(const Desk& desk, const std::string& message, float bottom, bool ope
     if (!opened) card.text = shortened(message, isFew);
     const float most = std::min(kMostLines * line, 0.4f * picture.size().y);
     const float height = std::min(heightOf(card.text), most);
-    const float top = std::floor(bottom - height - (card.isLong ? 56 : 22) * s);
+    const float top = std::floor(bottom - height - (card.isLong || hasButtons ? 56 : 22) * s);
     card.at = {{left, top}, {right, bottom}};
     card.inner = {{left + 16 * s, top + 11 * s}, {left + 16 * s + wrap, top + 11 * s + height}};
     return card;
@@ -57,7 +61,8 @@ void drawText(const Theme& theme, const Card& card) {
     ImGui::SetCursorScreenPos(im(card.inner.min));
     ImGui::BeginChild("##text", {card.inner.size().x + 14 * theme.scale, card.inner.size().y});
     ImGui::PushTextWrapPos(card.inner.size().x);
-    ImGui::TextUnformatted(card.text.data(), card.text.data() + card.text.size());
+    const Characters c(card.text);
+    ImGui::TextUnformatted(c.begin, c.end);
     ImGui::PopTextWrapPos();
     ImGui::EndChild();
 }
@@ -65,29 +70,40 @@ void drawText(const Theme& theme, const Card& card) {
 }  // namespace
 
 // Draws upwards from `bottom`; returns its top.
-float Messages::card(Desk& desk, const Exploration::Message& message, float bottom, bool& closed) {
+float Messages::card(Desk& desk, const Exploration::Message& message, float bottom,
+                     const Others& others, Pressed& pressed) {
     const Theme& theme = desk.theme;
     const float s = theme.scale;
     const bool opened = opened_.contains(message.number);
-    const Card place = cardOf(desk, message.text, bottom, opened);
+    const Card place = cardOf(desk, message.text, bottom, opened, others.count > 0);
     const Rect& at = place.at;
     ImGui::PushID(static_cast<int>(message.number));
     drawGround(theme, at, message.isError);
     drawText(theme, place);
+    const float row = at.max.y - 34 * s;
+    float left = place.inner.min.x;
+    const auto inRow = [&](const char* id, std::string_view label, float width) {
+        const Rect button{{left, row}, {left + width * s, row + 24 * s}};
+        left += (width + 8) * s;
+        return textButton(theme, id, button, label);
+    };
     if (place.isLong) {
-        const float top = at.max.y - 34 * s, left = place.inner.min.x;
-        const Rect more{{left, top}, {left + 64 * s, top + 24 * s}};
-        const Rect copy{{left + 72 * s, top}, {left + 136 * s, top + 24 * s}};
-        if (textButton(theme, "more", more, opened ? "Less" : "More")) {
+        if (inRow("more", opened ? "Less" : "More", 64)) {
             if (opened)
                 opened_.erase(message.number);
             else
                 opened_.insert(message.number);
         }
-        if (textButton(theme, "copy", copy, "Copy")) ImGui::SetClipboardText(message.text.c_str());
+        if (inRow("copy", "Copy", 64)) ImGui::SetClipboardText(message.text.c_str());
+    }
+    if (others.count > 0) {
+        const std::string label =
+            others.shown ? std::string("Only the last") : fmt::format("{} earlier", others.count);
+        if (inRow("others", label, 104)) areAllShown_ = !others.shown;
+        pressed.closeAll = inRow("all", "Close all", 88);
     }
     const Rect close{{at.max.x - 34 * s, at.min.y + 6 * s}, {at.max.x - 8 * s, at.min.y + 32 * s}};
-    closed = iconButton(theme, "##close", close, Icon::Remove, "Close");
+    pressed.close = iconButton(theme, "##close", close, Icon::Remove, "Close");
     ImGui::PopID();
     return at.min.y;
 }
@@ -100,16 +116,28 @@ void Messages::draw(Desk& desk, float bottom, std::chrono::nanoseconds dt) {
     };
     std::erase_if(shownFor_, [&](const auto& entry) { return isGone(entry.first); });
     std::erase_if(opened_, isGone);
+    const auto errors = static_cast<std::size_t>(
+        std::ranges::count(messages, true, &Exploration::Message::isError));
+    if (errors < 2) areAllShown_ = false;
+    const bool all = areAllShown_;
     const float s = desk.theme.scale;
+    bool isLast = true;  // of the errors
     for (std::size_t i = messages.size(); i-- > 0;) {
-        bool closed = false;
-        bottom = card(desk, messages[i], bottom, closed) - 8 * s;
-        if (!messages[i].isError) {
-            auto& shown = shownFor_[messages[i].number];
+        const Exploration::Message& message = messages[i];
+        if (message.isError && !isLast && !all) continue;
+        Others others;
+        if (message.isError && std::exchange(isLast, false))
+            others = {.count = errors - 1, .shown = all};
+        Pressed pressed;
+        bottom = card(desk, message, bottom, others, pressed) - 8 * s;
+        if (!message.isError) {
+            auto& shown = shownFor_[message.number];
             shown += dt;
-            closed = closed || shown >= kStay;
+            pressed.close = pressed.close || shown >= kStay;
         }
-        if (closed) desk.exploration.forgetMessage(messages[i].number);
+        for (const Exploration::Message& each : messages)
+            if (pressed.closeAll && each.isError) desk.exploration.forgetMessage(each.number);
+        if (pressed.close) desk.exploration.forgetMessage(message.number);
         if (bottom < desk.layout.picture.centre().y) break;  // the picture stays in sight
     }
 }

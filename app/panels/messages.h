@@ -1,5 +1,6 @@
 // What the program has to say: quiet cards over the picture's lower half. Errors stay until they
-// are closed; a long text is cut, and opened on demand.
+// are closed, the last one in sight and the earlier ones behind a counter; a long text is cut, and
+// opened on demand.
 #pragma once
 
 #include <chrono>
@@ -19,9 +20,18 @@ class Messages {
 
  private:
     static constexpr std::chrono::nanoseconds kStay = std::chrono::seconds(7);
-    float card(Desk& desk, const Exploration::Message& message, float bottom, bool& closed);
+    struct Others {  // errors before this one
+        std::size_t count = 0;
+        bool shown = false;
+    };
+    struct Pressed {
+        bool close = false, closeAll = false;
+    };
+    float card(Desk& desk, const Exploration::Message& message, float bottom, const Others& others,
+               Pressed& pressed);
     std::map<std::uint64_t, std::chrono::nanoseconds> shownFor_;  // of those that go by themselves
     std::set<std::uint64_t> opened_;                              // long ones, shown whole
+    bool areAllShown_ = false;                                    // of the errors
 };
 
 }  // namespace app::panels

@@ -1,9 +1,18 @@
 #include "app/panels/number_field.h"
 
 #include "app/choice_text.h"
+#include "app/decimals.h"
 #include "timeseries/number.h"
 
 namespace app::panels {
+namespace {
+
+timeseries::ValueType typeOf(const Desk& desk) {
+    const auto shown = desk.exploration.shown();
+    return shown ? shown->sorted->type() : timeseries::ValueType::F64;
+}
+
+}  // namespace
 
 std::optional<double> numberField(Desk& desk, TextField& field, const char* id, const Rect& at,
                                   std::string_view what, double shown) {
@@ -12,9 +21,18 @@ std::optional<double> numberField(Desk& desk, TextField& field, const char* id, 
     try {
         return parseNumber(what, *entered);
     } catch (const ChoiceError& error) {
-        desk.exploration.tell(error.what(), true);
+        field.refuse(error.what());
         return std::nullopt;
     }
+}
+
+std::optional<double> valueField(Desk& desk, TextField& field, const char* id, const Rect& at,
+                                 std::string_view what, double shown) {
+    return numberField(desk, field, id, at, what, shortestIn(typeOf(desk), shown));
+}
+
+std::string rangesText(const Desk& desk, const timeseries::RangeSet& ranges) {
+    return shortestIn(typeOf(desk), ranges).text();
 }
 
 }  // namespace app::panels

@@ -1,4 +1,4 @@
-// A number in a field: what was entered, when it is a finite number; else it is told what was
+// A number in a field: what was entered, when it is a finite number; else the field says what was
 // expected.
 #pragma once
 
@@ -10,5 +10,10 @@ namespace app::panels {
 // `what` names the number to its user. Keeps what is being typed in `field`.
 std::optional<double> numberField(Desk& desk, TextField& field, const char* id, const Rect& at,
                                   std::string_view what, double shown);
+// The same of a value of the field that is explored, told with the digits of its own type.
+std::optional<double> valueField(Desk& desk, TextField& field, const char* id, const Rect& at,
+                                 std::string_view what, double shown);
+// As the text of a field of ranges.
+std::string rangesText(const Desk& desk, const timeseries::RangeSet& ranges);
 
 }  // namespace app::panels

@@ -39,23 +39,6 @@ std::string waitingText(const Desk& desk) {
     return waiting;
 }
 
-// Lines of small text over the picture, the last at the bottom. On the right: the picture's own
-// notes stand on the left.
-void lowerRight(const Desk& desk, std::span<const std::string> lines) {
-    const float s = desk.theme.scale;
-    ImFont& font = *desk.theme.small;
-    const float half = 9 * s, most = desk.layout.picture.size().x - 2 * kMargin * s;
-    glm::vec2 at(desk.layout.picture.max.x - kMargin * s, desk.layout.picture.max.y - 16 * s);
-    for (std::size_t i = lines.size(); i-- > 0; at.y -= 2 * half) {
-        const std::string line = fitting(font, lines[i], most);
-        // Axes may run below: no more of their labels is covered than the line needs.
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x - widthOf(font, line) - 6 * s, at.y - half},
-                                                  {at.x + 6 * s, at.y + half},
-                                                  faded(kGround, 0.75f));
-        text(desk.theme, at, line, i + 1 == lines.size() ? kFaint : kDim, 1, &font);
-    }
-}
-
 // A rounded label, from `top` on; `align` as of text(). Returns where it is.
 Rect pill(const Desk& desk, glm::vec2 top, float align, std::string_view what, float room = 0) {
     const float s = desk.theme.scale, width = widthOf(*desk.theme.text, what) + 28 * s + room;
@@ -87,9 +70,7 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     ImGui::SetCursorScreenPos(im(at.min));
     ImGui::InvisibleButton("##picture", im(glm::max(at.size(), glm::vec2(1))),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
-    ImGui::SetItemAllowOverlap();
     pointer_.reset();
-    if (!exploration.shown()) return;
     const Looking looking{boxHalfEdges, exploration.explorer().size};
     // With two eyes, of the one that it is over.
     const glm::dvec2 place = vec(io.MousePos) - at.min;
@@ -139,28 +120,52 @@ void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>&
         if (cancelPill(desk, {place.max.x, place.min.y}, 1, what, "##exporting"))
             desk.requests.cancelExport = true;
     }
-    const PointCounts* counts = exploration.counts();
-    if (counts == nullptr) return;
-    const Performance& p = desk.performance;
+}
+
+std::vector<std::string> figuresOf(const Performance& p, const timeseries::Series* series) {
+    if (series == nullptr || !p.counts) return {};
+    const PointCounts& counts = *p.counts;
     std::vector<std::string> lines;
-    // What is counted may be a step that is not on the screen yet.
-    const auto shown = exploration.shown();
-    const bool counted = shown && p.uploaded == 1 && p.step == shown->step;
-    lines.push_back(drawnText({.splats = p.drawn,
-                               .allSplats = p.selected,
-                               .points = counted ? counts->selected : p.selected}));
+    // Of the splats nobody knows which are in the box; where all are drawn, its points are.
+    if (counts.inClipBox && p.whole)
+        lines.push_back(withCommas(counts.selected) + " points drawn");
+    else
+        lines.push_back(drawnText({.splats = p.drawn,
+                                   .allSplats = p.selected,
+                                   .points = counts.inClipBox ? p.selected : counts.selected}) +
+                        (counts.inClipBox ? ", before clipping" : ""));
     lines.push_back(fmt::format(
-        "{} selected  ·  {}{}", withCommas(counts->selected),
-        counts->kept == counts->total ? std::string() : withCommas(counts->kept) + " kept  ·  ",
-        withCommas(counts->total) + " in all"));
+        "{} selected{}  ·  {}{}", withCommas(counts.selected),
+        counts.inClipBox ? " in the clip box" : "",
+        counts.kept == counts.total ? std::string() : withCommas(counts.kept) + " kept  ·  ",
+        withCommas(counts.total) + " in all"));
     std::string last =
-        fmt::format("{:.1f} of {:.0f} ms", milliseconds(p.frame), milliseconds(p.budget));
-    if (const timeseries::Series* series = exploration.series())
-        last += fmt::format("  ·  {} memory  ·  {} GPU", bytesText(series->bytes()),
-                            bytesText(p.gpuBytes));
+        fmt::format("{:.1f} of {:.0f} ms  ·  {} memory  ·  {} GPU", milliseconds(p.frame),
+                    milliseconds(p.budget), bytesText(series->bytes()), bytesText(p.gpuBytes));
     if (const std::string limit = limitText(p); !limit.empty()) last += "  ·  " + limit;
     lines.push_back(last);
-    lowerRight(desk, lines);
+    return lines;
+}
+
+// One below the other, or joined where there is room for fewer lines.
+void drawFigures(const Theme& theme, const Layout& layout, const Performance& performance,
+                 const timeseries::Series* series) {
+    std::vector<std::string> lines = figuresOf(performance, series);
+    if (lines.empty()) return;
+    while (lines.size() > statusLines(layout)) {
+        lines[0] += "  ·  " + lines[1];
+        lines.erase(lines.begin() + 1);
+    }
+    const float s = theme.scale;
+    const Rect& at = layout.status;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled(im(at.min), im(at.max), kGround);
+    glm::vec2 place(at.min.x + kMargin * s, at.min.y + 13 * s);
+    for (const std::string& line : lines) {
+        const std::string shown = fitting(*theme.small, line, at.size().x - 2 * kMargin * s);
+        text(list, place, shown, kDim, 0, *theme.small);
+        place.y += 18 * s;
+    }
 }
 
 }  // namespace app::panels

@@ -7,8 +7,8 @@ namespace app::panels {
 
 class PictureArea {
  public:
-    // Takes the mouse over the picture. `boxHalfEdges`: Lattice::boxHalfEdges() of what is drawn
-    // there.
+    // Takes the mouse over the picture, where nothing drawn before has it. `boxHalfEdges`:
+    // Lattice::boxHalfEdges() of what is drawn there. REQUIRES: something is shown.
     void handle(Desk& desk, const glm::dmat3& boxHalfEdges);
     // The pointer's place on the picture, in its pixels; none where it is elsewhere or drags.
     const std::optional<glm::vec2>& pointer() const { return pointer_; }
@@ -19,8 +19,15 @@ class PictureArea {
     std::optional<glm::vec2> pointer_;
 };
 
-// What is opening, what is shown instead of what is asked for, from `top` on; how far an export is;
-// and how fast frames come.
+// What is opening, what is shown instead of what is asked for, from `top` on; how far an export is.
 void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>& exporting);
+
+// How many points the picture has, and how fast it came; nothing before the first.
+std::vector<std::string> figuresOf(const Performance& performance,
+                                   const timeseries::Series* series);
+// The same below the picture, under all panels. After the picture is drawn that they are of, and
+// before ImGui renders.
+void drawFigures(const Theme& theme, const Layout& layout, const Performance& performance,
+                 const timeseries::Series* series);
 
 }  // namespace app::panels

@@ -44,8 +44,8 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     Form form(desk.theme, "##probe", at);
     if (!first_) {
         form.note(
-            "Double click on the picture keeps what is read there. Shift and double click then "
-            "measures to another point.");
+            "Double click on the picture keeps the point that is seen there, at half of the light. "
+            "Shift and double click then measures to another point.");
         return;
     }
     const timeseries::Grid& grid = shown->sorted->grid();

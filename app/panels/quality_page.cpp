@@ -70,6 +70,10 @@ void drawQualityPage(Desk& desk, const Rect& at) {
     if (const auto order = segmented(desk.theme, "order", form.row("Order"), kOrders,
                                      static_cast<std::size_t>(e.order)))
         edit(desk, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });
+    form.note(e.order == render::Order::None ? "Colours mix along the line of sight. By depth, "
+                                               "what is in front hides what is behind."
+                                             : "What is in front hides what is behind.");
+    if (desk.inHeadset) return;  // the display's rate, and a panel as large as it is
     form.space(6);
     budget(desk, form);
     interfaceScale(desk, form);

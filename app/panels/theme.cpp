@@ -47,7 +47,7 @@ void setColors(ImGuiStyle& style) {
     set(ImGuiCol_TextDisabled, kFaint);
     set(ImGuiCol_WindowBg, kPanel);
     set(ImGuiCol_ChildBg, kClear);
-    set(ImGuiCol_PopupBg, rgb(0x1a2129, 250));
+    set(ImGuiCol_PopupBg, kPopup);
     set(ImGuiCol_Border, rgb(0x2e3945));
     set(ImGuiCol_FrameBg, kField);
     set(ImGuiCol_FrameBgHovered, kRaised);

@@ -62,6 +62,7 @@ void ViewPage::draw(Desk& desk, const Rect& at) {
     clip(desk, form);
     form.space(6);
     scale(desk, form);
+    axes(desk, form);
 }
 
 void ViewPage::clip(Desk& desk, Form& form) {
@@ -82,7 +83,7 @@ void ViewPage::clip(Desk& desk, Form& form) {
         const std::string unit = render::shownUnit(axis.units);
         const Rect row = form.row(fmt::format("Clip {}{}", axis.name,
                                               unit.empty() || unit == "index" ? "" : ", " + unit));
-        const Rect bar{row.min, {row.max.x - 116 * s, row.max.y}};
+        const Rect bar{row.min, {row.max.x - (kSideField + kSideGap) * s, row.max.y}};
         ImGui::PushID(i);
         if (rangeSlider(desk.theme, "##clip", bar, lo, hi))
             edit(desk, "clip", [&](Explorer& e) {
@@ -93,25 +94,52 @@ void ViewPage::clip(Desk& desk, Form& form) {
                 e.clip = withClipEnd(e.clip, grid, place, End::Lo, lo > 0 ? at(lo) : -kInfinity);
                 e.clip = withClipEnd(e.clip, grid, place, End::Hi, hi < 1 ? at(hi) : kInfinity);
             });
+        const Rect field{{row.max.x - kSideField * s, row.min.y}, row.max};
+        const auto entered =
+            clip_[place].draw(desk.theme, "##side", field,
+                              clipSideText(desk.exploration.explorer().clip, grid, place));
         ImGui::PopID();
-        text(desk.theme, {row.max.x, row.centre().y},
-             fmt::format("{:.4g} – {:.4g}", std::max(now.lo[i], least), std::min(now.hi[i], most)),
-             kDim, 1, desk.theme.small);
+        if (!entered) continue;
+        try {
+            edit(desk, {},
+                 [&](Explorer& e) { e.clip = withClipSide(e.clip, grid, place, *entered); });
+        } catch (const ChoiceError& error) {
+            clip_[place].refuse(error.what());
+        }
     }
+    form.note("From : to, or one value for a slice. Only what lies between is drawn.");
 }
 
 void ViewPage::scale(Desk& desk, Form& form) {
     const auto& now = desk.exploration.explorer().scale;
     const std::string text = now ? fmt::format("{:g},{:g},{:g}", now->x, now->y, now->z) : "";
     const auto entered = scale_.draw(desk.theme, "##scale", form.row("Axes' scale"), text,
-                                     "fitted; or x,y,z: 1,1,20");
+                                     "fitted, or x,y,z: 1,1,20");
     if (!entered) return;
     try {
         edit(desk, {}, [&](Explorer& e) {
             e.scale = entered->empty() ? std::nullopt : std::optional(parseScale(*entered));
         });
     } catch (const ChoiceError& error) {
-        desk.exploration.tell(error.what(), true);
+        scale_.refuse(error.what());
+    }
+}
+
+// For files that do not say which way an axis runs, or what it is. The file is read again.
+void ViewPage::axes(Desk& desk, Form& form) {
+    constexpr std::array kLabels = {"x", "y", "z"};
+    const float s = desk.theme.scale;
+    const auto now = desk.exploration.explorer().axes;
+    const auto& shown = desk.exploration.shown()->sorted->grid().axes();
+    const Rect flips = form.row("Flip"), names = form.row("Names");
+    for (std::size_t a = 0; a < 3; ++a) {
+        ImGui::PushID(kLabels[a]);
+        if (textButton(desk.theme, "##flip", part(flips, a, 3, s), kLabels[a], now[a].flip))
+            edit(desk, {}, [&](Explorer& e) { e.axes[a].flip = !now[a].flip; });
+        if (const auto name = names_[a].draw(desk.theme, "##name", part(names, a, 3, s),
+                                             now[a].name, shown[a].name.c_str()))
+            edit(desk, {}, [&](Explorer& e) { e.axes[a].name = *name; });
+        ImGui::PopID();
     }
 }
 

@@ -9,12 +9,18 @@ namespace app::panels {
 
 class ViewPage {
  public:
+    // Of a side of the clip box, right of its slider; in units of the design.
+    static constexpr float kSideField = 124, kSideGap = 8;
+
     void draw(Desk& desk, const Rect& at);
 
  private:
     void clip(Desk& desk, Form& form);
     void scale(Desk& desk, Form& form);
+    void axes(Desk& desk, Form& form);
     TextField scale_;
+    std::array<TextField, 3> clip_;  // a side an axis
+    std::array<TextField, 3> names_;
 };
 
 }  // namespace app::panels

@@ -12,7 +12,8 @@ namespace {
 ImDrawList& list() { return *ImGui::GetWindowDrawList(); }
 
 ImVec2 sizeOf(ImFont& font, std::string_view what) {
-    return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, what.data(), what.data() + what.size());
+    const Characters c(what);
+    return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, c.begin, c.end);
 }
 
 // Where keys take a fraction; true when that is elsewhere.
@@ -28,10 +29,15 @@ bool moved(const Focus::Turn& turn, double& fraction, double step) {
 
 void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color, float align,
           ImFont* font) {
-    ImFont& used = *(font != nullptr ? font : theme.text);
-    const ImVec2 size = sizeOf(used, what);
+    text(list(), at, what, color, align, *(font != nullptr ? font : theme.text));
+}
+
+void text(ImDrawList& target, glm::vec2 at, std::string_view what, ImU32 color, float align,
+          ImFont& font) {
+    const ImVec2 size = sizeOf(font, what);
     const glm::vec2 corner = glm::round(at - glm::vec2(align * size.x, 0.5f * size.y));
-    list().AddText(&used, used.FontSize, im(corner), color, what.data(), what.data() + what.size());
+    const Characters c(what);
+    target.AddText(&font, font.FontSize, im(corner), color, c.begin, c.end);
 }
 
 float widthOf(ImFont& font, std::string_view what) { return sizeOf(font, what).x; }
@@ -165,7 +171,13 @@ bool rangeSlider(const Theme& theme, const char* id, const Rect& at, double& lo,
         static_cast<double>((ImGui::GetIO().MousePos.x - left) / (right - left)), 0.0, 1.0);
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     const ImGuiID key = ImGui::GetID(id);
-    if (p.pressed) storage.SetBool(key, std::abs(mouse - hi) < std::abs(mouse - lo) || mouse > hi);
+    if (p.pressed) {
+        const bool isHi = std::abs(mouse - hi) < std::abs(mouse - lo) || mouse > hi;
+        storage.SetBool(key, isHi);
+        ImGui::PushID(id);
+        focus().touch(ImGui::GetID(isHi ? "##hi" : "##lo"));
+        ImGui::PopID();
+    }
     bool changed = false;
     if (p.held) {
         double& end = storage.GetBool(key) ? hi : lo;
@@ -200,7 +212,11 @@ bool takesText(const char* id, const Rect& at) {
 
 std::optional<std::string> TextField::draw(const Theme& theme, const char* id, const Rect& at,
                                            std::string_view shown, const char* hint) {
-    if (!active_) typed_ = shown;
+    const bool isLeft = !active_ && focus().place() == ImGui::GetID(id) &&
+                        ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    if (shown != shown_ || isLeft) why_.clear();
+    shown_ = shown;
+    if (!active_ && why_.empty()) typed_ = shown;
     ImGui::SetCursorScreenPos(im(at.min));
     ImGui::SetNextItemWidth(at.size().x);
     const float pad = 0.5f * (at.size().y - theme.text->FontSize);
@@ -212,13 +228,43 @@ std::optional<std::string> TextField::draw(const Theme& theme, const char* id, c
     ImGui::PopStyleVar();
     if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID(id));
     active_ = ImGui::IsItemActive();
-    if (active_)
-        list().AddRect(im(at.min), im(at.max), faded(kAccent, 0.8f), 4 * theme.scale, 0,
-                       theme.scale);
-    const bool left =
-        ImGui::IsItemDeactivated() && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    if ((entered || left) && typed_ != shown) return typed_;
-    return std::nullopt;
+    if (typed_ != refused_) why_.clear();
+    list().AddRect(im(at.min), im(at.max),
+                   !why_.empty() ? kError
+                   : active_     ? kAccent
+                                 : kEdge,
+                   4 * theme.scale, 0, theme.scale);
+    if (!why_.empty() && ImGui::IsItemVisible()) drawRefusal(theme, at);
+    if (!ImGui::IsItemDeactivated() && !entered) return std::nullopt;
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+        why_.clear();
+        return std::nullopt;
+    }
+    if (typed_ == shown) return std::nullopt;
+    return typed_;
+}
+
+void TextField::refuse(std::string why) {
+    why_ = std::move(why);
+    refused_ = typed_;
+}
+
+// Over what lies below, or above where the window ends.
+void TextField::drawRefusal(const Theme& theme, const Rect& at) const {
+    ImFont& font = *theme.small;
+    const float s = theme.scale, pad = 7 * s, gap = 3 * s;
+    const glm::vec2 window = vec(ImGui::GetIO().DisplaySize);
+    const float width = std::min(std::max(at.size().x, 300 * s), window.x - 2 * pad);
+    const char *begin = why_.data(), *end = begin + why_.size();
+    const glm::vec2 size =
+        vec(font.CalcTextSizeA(font.FontSize, FLT_MAX, width - 2 * pad, begin, end)) + 2 * pad;
+    const bool isBelow = at.max.y + gap + size.y <= window.y;
+    const glm::vec2 from(std::clamp(at.min.x, 0.0f, std::max(0.0f, window.x - size.x)),
+                         isBelow ? at.max.y + gap : at.min.y - gap - size.y);
+    ImDrawList& front = *ImGui::GetForegroundDrawList();
+    front.AddRectFilled(im(from), im(from + size), kPopup, 4 * s);
+    front.AddRect(im(from), im(from + size), kError, 4 * s, 0, s);
+    front.AddText(&font, font.FontSize, im(from + pad), kText, begin, end, width - 2 * pad);
 }
 
 bool beginPopup(const char* id) {
@@ -251,7 +297,8 @@ void tip(const Theme& theme, std::string_view what) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {9 * theme.scale, 6 * theme.scale});
     ImGui::PushFont(theme.small);
     ImGui::BeginTooltip();
-    ImGui::TextUnformatted(what.data(), what.data() + what.size());
+    const Characters c(what);
+    ImGui::TextUnformatted(c.begin, c.end);
     ImGui::EndTooltip();
     ImGui::PopFont();
     ImGui::PopStyleVar();

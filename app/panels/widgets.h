@@ -14,10 +14,19 @@
 
 namespace app::panels {
 
+// A text as ImGui takes one: never null, as an empty view's pointer may be, which ImGui reads.
+struct Characters {
+    explicit Characters(std::string_view what)
+        : begin(what.empty() ? "" : what.data()), end(begin + what.size()) {}
+    const char *begin, *end;
+};
+
 // Text at a point; `align` 0 begins there, 0.5 is centred, 1 ends there. y is the middle of the
 // line.
 void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color = kText,
           float align = 0, ImFont* font = nullptr);
+void text(ImDrawList& list, glm::vec2 at, std::string_view what, ImU32 color, float align,
+          ImFont& font);
 // The text, cut in its middle with an ellipsis to what fits; in one line of a width.
 std::string shortened(std::string_view what, const std::function<bool(std::string_view)>& fits);
 std::string fitting(ImFont& font, std::string_view what, float width);
@@ -58,10 +67,16 @@ class TextField {
     std::optional<std::string> draw(const Theme& theme, const char* id, const Rect& at,
                                     std::string_view shown, const char* hint = "");
     bool active() const { return active_; }
+    // What was entered cannot be, as one sentence says: both stay, the sentence below the field,
+    // until the text is changed, given up with Escape, or another is to be shown.
+    void refuse(std::string why);
 
  private:
-    std::string typed_;
+    void drawRefusal(const Theme& theme, const Rect& at) const;
+
+    std::string typed_, shown_;
     bool active_ = false;
+    std::string why_, refused_;  // the sentence, and the text that it is about; "": none
 };
 
 // ImGui's, closed by Escape too, with the keys to itself.

@@ -31,6 +31,13 @@ void throwOnError() {
     if (const auto error = takeRecordedError()) throw std::runtime_error("GL: " + *error);
 }
 
+void forgetErrors() {
+    // A context that is lost answers errors for ever.
+    for (int left = 16; glGetError() != GL_NO_ERROR && left > 0; --left) {
+    }
+    firstError.reset();
+}
+
 std::optional<std::string> takeRecordedError() { return std::exchange(firstError, std::nullopt); }
 
 }  // namespace render::gl

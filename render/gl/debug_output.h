@@ -12,6 +12,8 @@ void recordErrors();
 // Throws std::runtime_error with the driver's message when an error was recorded since the last
 // call.
 void throwOnError();
+// For errors that somebody else's calls on this context have left.
+void forgetErrors();
 // The recorded error itself, forgotten thereby; needs no context any more.
 std::optional<std::string> takeRecordedError();
 

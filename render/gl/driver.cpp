@@ -11,4 +11,6 @@ bool drawsOnProcessor() {
     return name.starts_with("llvmpipe") || name.starts_with("softpipe");
 }
 
+void finishDrawing() { glFinish(); }
+
 }  // namespace render::gl

@@ -5,5 +5,7 @@ namespace render::gl {
 
 // Whether it draws on the processor, as Mesa's llvmpipe and softpipe do.
 bool drawsOnProcessor();
+// Returns when all that was asked for is drawn.
+void finishDrawing();
 
 }  // namespace render::gl

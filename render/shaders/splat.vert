@@ -2,7 +2,8 @@
 // Axis coordinates (render/lattice.h) to window offsets from the view axis, in pixels; formulas:
 // render/footprint.h.
 // Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT, CUBES (all cells are equal
-// cubes: |d / a| is |d| / a, and the form in d needs no coefficients).
+// cubes: |d / a| is |d| / a, and the form in d needs no coefficients), CUT (with QUADS: long cells,
+// whose slim splats end at the domain's faces).
 
 // C++ mirror: SplatViewBlock in render/gl_splatter.cpp.
 layout(std140, binding = 0) uniform SplatView {
@@ -14,6 +15,7 @@ layout(std140, binding = 0) uniform SplatView {
     vec4 depths;    // near; window depth = (y d + z) / d of view depth d: y, z; guard in pixels
     vec4 kernel;    // radius in cells, smallest radius at unit depth, mass of a cell with sides 1, point's side in pixels
     vec4 slopeAndLengths;  // squares of x / -z and y / -z per pixel; view length of an axis length, at most; a pixel's area at unit depth
+    vec4 domainLo, domainHi, boxHalf;  // in axis coordinates; w: of a splat of size 1, radius over width
     uvec4 lattice;  // points along x, y, z
     uvec4 clipLo, clipHi;  // inclusive index box
 } view;
@@ -45,6 +47,48 @@ layout(location = 3) flat out vec3 color;
 // a tenth of all that a frame of splats does.
 layout(location = 4) flat out vec4 windowAndSlopes;
 
+#ifdef CUT
+// In kernel space: the centre's ray, and its depth; what a pixel adds to the ray; the faces as seen
+// from the centre, and whether one cuts the splat.
+layout(location = 5) flat out vec4 kernelC;
+layout(location = 6) flat out vec3 kernelX;
+layout(location = 7) flat out vec3 kernelY;
+layout(location = 8) flat out vec4 loFace;
+layout(location = 9) flat out vec3 hiFace;
+
+// kAcrossPlanes in render/footprint.h.
+vec3 shareBelow(vec3 at) {
+    const vec3 u = clamp(at, -1.0, 1.0), v = u * u;
+    return u * (2.5868989965218416 + v * (-3.8803104512271367 + v * (4.073761886268686 +
+           v * (-2.421745329506627 + v * (0.6981470154212479 + v * (-0.04600672580023147 +
+           v * -0.010745391677797065))))));
+}
+
+// Where n - d <= 0, if that is the inside of an ellipse: along which direction it is longest, from
+// where to where along it and across. Else the square of this half side.
+struct Slim {
+    vec2 along, lo, hi;
+};
+Slim slim(vec3 n, vec3 d, vec2 l, float extent) {
+    Slim s = Slim(vec2(1.0, 0.0), vec2(-extent), vec2(extent));
+    const vec3 m = n - d;
+    const float det = m.x * m.z - 0.25 * m.y * m.y;
+    if (!(m.x > 1e-3 * n.x && m.z > 1e-3 * n.z && det > 1e-4 * m.x * m.z)) return s;
+    const vec2 middle = vec2(m.z * l.x - 0.5 * m.y * l.y, m.x * l.y - 0.5 * m.y * l.x) / (2.0 * det);
+    const float level = 1.0 + 0.5 * dot(l, middle);
+    // The eigenvectors of the form.
+    const float mean = 0.5 * (m.x + m.z), apart = 0.5 * (m.x - m.z);
+    const float root = sqrt(apart * apart + 0.25 * m.y * m.y);
+    const float angle = root > 0.0 ? 0.5 * atan(0.5 * m.y, apart) : 0.0;  // of the shortest
+    s.along = vec2(-sin(angle), cos(angle));
+    const vec2 halfSides = 1.001 * sqrt(level * vec2((mean + root) / det, 1.0 / (mean + root))) + 0.01;
+    const vec2 at = vec2(dot(middle, s.along), dot(middle, vec2(s.along.y, -s.along.x)));
+    s.lo = at - halfSides;
+    s.hi = at + halfSides;
+    return s;
+}
+#endif
+
 vec3 mapColor(uint row, float position) {
     const int last = int(layers.map[row].z) - 1;
     const float at = clamp(position, 0.0, 1.0) * float(last);
@@ -64,20 +108,24 @@ float sphereExtent(float depth, float radius, float tanTheta) {
     return cosSum > 0.0 ? sinPhi / (cosTheta * cosSum) : -1.0;
 }
 
-void place(vec2 offset, float extent, float depth) {
-    // Window depth as the opaque scene has it; window x and y over the guarded viewport.
+// Window depth as the opaque scene has it; window x and y over the guarded viewport.
+void placeAt(vec2 at, float depth) {
     const float guard = view.depths.w;
-    const vec2 span = view.window.zw + 2.0 * guard;
     const float windowDepth = (depth * view.depths.y + view.depths.z) / depth;
+    gl_Position = vec4((at + view.window.xy + guard) / (view.window.zw + 2.0 * guard) * 2.0 - 1.0,
+                       windowDepth, 1.0);
+}
+
+void place(vec2 offset, float extent, float depth) {
 #ifdef QUADS
     const vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     // Half a pixel more than the footprint; never farther than the picture is wide.
-    const vec2 at = offset + corner * min(extent + 0.5, 4.0 * (span.x + span.y));
+    const float most = 4.0 * (view.window.z + view.window.w + 4.0 * view.depths.w);
+    placeAt(offset + corner * min(extent + 0.5, most), depth);
 #else
-    const vec2 at = offset;
     gl_PointSize = extent;
+    placeAt(offset, depth);
 #endif
-    gl_Position = vec4((at + view.window.xy + guard) / span * 2.0 - 1.0, windowDepth, 1.0);
 }
 
 void main() {
@@ -143,7 +191,12 @@ void main() {
     centreAndWeight = vec4(centre, 1.5915494309189535 * mass / (a * a), depthPerWeight);
     const float widest = a;
 #else
+#ifdef CUT
+    const vec3 longest = view.domainLo.w * (view.domainHi.xyz - view.domainLo.xyz);
+    const vec3 a = max(min(cell * view.kernel.x, longest), vec3(smallest));
+#else
     const vec3 a = max(cell * view.kernel.x, vec3(smallest));
+#endif
     const vec3 c = C / a, x = X / a, y = Y / a;
     const vec3 e = cross(c, x), f = cross(c, y);
     const float perC2 = 1.0 / dot(c, c);
@@ -151,14 +204,32 @@ void main() {
     quadN = vec4(depth * depth * perC2 * vec3(dot(e, e), 2.0 * dot(e, f), dot(f, f)), linear.x);
     quadD = vec4(perC2 * vec3(dot(x, x), 2.0 * dot(x, y), dot(y, y)), linear.y);
     // 5 / pi, and |ray| = |axis| sqrt(1 + slope^2) left to the fragment but for |axis|.
-    const float weight = 1.5915494309189535 * mass / (a.x * a.y * a.z) * sqrt(perC2) * view.rayAxis.w;
+    float weight = 1.5915494309189535 * mass / (a.x * a.y * a.z) * sqrt(perC2) * view.rayAxis.w;
+#ifdef CUT
+    const vec3 along = vec3(px.x, py.x, pz.x);
+    const vec3 lo = (min(view.domainLo.xyz, -view.boxHalf.xyz - smallest) - along) / a;
+    const vec3 hi = (max(view.domainHi.xyz, view.boxHalf.xyz + smallest) - along) / a;
+    const vec3 inside = 0.5 * (shareBelow(hi) - shareBelow(lo));
+    weight /= inside.x * inside.y * inside.z;
+    kernelC = vec4(c, depth);
+    kernelX = x;
+    kernelY = y;
+    loFace = vec4(lo, any(greaterThan(lo, vec3(-1.0))) || any(lessThan(hi, vec3(1.0))) ? 1.0 : 0.0);
+    hiFace = hi;
+#endif
     centreAndWeight = vec4(centre, weight, depthPerWeight);
     const float widest = max(a.x, max(a.y, a.z));
 #endif
     const float onUnitPlane =
         sphereExtent(depth, widest * view.slopeAndLengths.z, length(centre / focal));
     const float extent = onUnitPlane < 0.0 ? 1e9 : onUnitPlane * max(focal.x, focal.y);
-#ifdef QUADS
+#if defined(CUT)
+    const Slim s = slim(quadN.xyz, quadD.xyz, linear, extent);
+    const vec2 most = vec2(4.0 * (view.window.z + view.window.w));
+    const vec2 corner = mix(max(s.lo - 0.5, -most), min(s.hi + 0.5, most),
+                            vec2(gl_VertexID & 1, gl_VertexID >> 1));
+    placeAt(centre + corner.x * s.along + corner.y * vec2(s.along.y, -s.along.x), depth);
+#elif defined(QUADS)
     place(centre, extent, depth);
 #else
     // A little more than the diameter: the rasteriser snaps centres to a fraction of a pixel.

@@ -78,6 +78,59 @@ TEST(Camera, WithoutADistanceEveryBoxIsInsideThePicture) {
     }
 }
 
+TEST(Camera, WithoutADistanceTheBoxSpansItsShareOfTheFreeArea) {
+    std::mt19937 random(18);
+    std::uniform_real_distribution<double> turn(-360, 360), tilt(-90, 90);
+    for (int i = 0; i < 2000; ++i) {
+        const ivec2 size(100 + static_cast<int>(random() % 2000),
+                         100 + static_cast<int>(random() % 1500));
+        ViewChoice view{turn(random), tilt(random), {}};
+        view.projection = i % 3 == 0 ? Projection::Orthographic : Projection::Perspective;
+        const dmat3 half = randomBox(random);
+        const View eye = eyes(view, {}, half, size)[0];
+        const glm::dvec2 free = freeAreaOf(size);
+        glm::dvec2 lo(1e9), hi(-1e9);  // in half pictures
+        for (const dvec3& corner : corners(half)) {
+            const glm::dvec2 at = 2.0 * project(eye, corner).window / glm::dvec2(size) - 1.0;
+            lo = glm::min(lo, at);
+            hi = glm::max(hi, at);
+        }
+        const glm::dvec2 share = 0.5 * (hi - lo) / free;
+        const int along = share.x > share.y ? 0 : 1;
+        EXPECT_LE(share[along], kBoxShare + 2e-4) << "case " << i;
+        // A needle seen end on, or a point, is only as large as it may be near.
+        const Stand stand = standOf(view, half, size);
+        double nearest = stand.distance;
+        if (view.projection == Projection::Perspective)
+            for (const dvec3& corner : corners(half))
+                nearest = std::min(nearest, project(eye, corner).depth);
+        if (nearest > 0.601 && half != dmat3(0)) {
+            EXPECT_NEAR(share[along], kBoxShare, 2e-4) << "case " << i;
+            EXPECT_NEAR(lo[along] + hi[along], 0, 4e-4) << "case " << i << ": in the middle";
+        }
+        for (int k = 0; k < 2; ++k) {
+            EXPECT_GE(lo[k], -free[k]);
+            EXPECT_LE(hi[k], free[k]);
+        }
+        if (HasFailure()) return;
+    }
+}
+
+TEST(Camera, TheFreeAreaIsMostOfAPicture) {
+    for (const ivec2 size : {ivec2(1200, 900), ivec2(400, 580), ivec2(2160, 1380), ivec2(64, 48)}) {
+        EXPECT_GE(freeAreaOf(size).x, 0.8 - 1e-9);
+        EXPECT_GE(freeAreaOf(size).y, 0.8 - 1e-9);
+    }
+}
+
+// A session or a command that says a distance is drawn as ever.
+TEST(Camera, AViewWithADistanceLooksAtItsTarget) {
+    const ViewChoice view{30, 20, 4.0};
+    const Stand stand = standOf(view, kCube, {1200, 900});
+    EXPECT_EQ(stand.distance, 4);
+    EXPECT_EQ(stand.target, dvec3(0));
+}
+
 TEST(Camera, ANeedleSeenFromItsTipIsInsideThePicture) {
     const dmat3 needle(dvec3(0), dvec3(0), dvec3(0, 0, 1));
     for (const double elevation : {90.0, -90.0})
@@ -232,7 +285,7 @@ TEST(Camera, WithoutADistanceAllIsSeenWhateverTheTargetAndTheProjection) {
 glm::dvec2 orthographicWindow(const ViewChoice& view, const dmat3& half, ivec2 size,
                               const dvec3& world) {
     const Stand stand = standOf(view, half, size);
-    const dvec3 inView = glm::transpose(stand.axes) * (world - view.target);
+    const dvec3 inView = glm::transpose(stand.axes) * (world - stand.target);
     return 0.5 * glm::dvec2(size) * (1.0 + glm::dvec2(inView) / (stand.distance * stand.slope));
 }
 

@@ -126,11 +126,29 @@ TEST(ChoiceText, ClipBoxesAreWrittenAsTheyAreRead) {
     }
 }
 
-TEST(ChoiceText, ScalesArePositive) {
+TEST(ChoiceText, AxesAreFlippedAndNamedByTheirLetters) {
+    for (int bits = 0; bits < 8; ++bits) {
+        const std::array<bool, 3> flips{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0};
+        std::array<AxisChoice, 3> axes;
+        for (std::size_t a = 0; a < 3; ++a) axes[a].flip = flips[a];
+        EXPECT_EQ(parseFlips(flipsText(axes)), flips) << flipsText(axes);
+    }
+    EXPECT_EQ(parseFlips("z,x"), (std::array{true, false, true}));
+    for (const char* text : {"", "a", "xz", "x,,z", "x,x", "X", "x,none", ","})
+        expectRefused([](std::string_view t) { parseFlips(t); }, text);
+    EXPECT_EQ(parseAxisName("z=depth"), std::pair(std::size_t{2}, std::string("depth")));
+    EXPECT_EQ(parseAxisName("x=a=b c").second, "a=b c");
+    for (const char* text : {"", "z", "z=", "w=depth", "=depth", "zdepth", "zz=depth"})
+        expectRefused([](std::string_view t) { parseAxisName(t); }, text);
+}
+
+TEST(ChoiceText, ScalesArePositiveAndSuchAsAPictureHasRoomFor) {
     EXPECT_EQ(parseScale("1,1,20"), glm::dvec3(1, 1, 20));
     EXPECT_EQ(parseScale("1e-3,2.5,1"), glm::dvec3(1e-3, 2.5, 1));
-    for (const char* text : {"", "1", "1,1", "1,1,1,1", "0,1,1", "1,-1,1", "1,1,nan", "1,1,inf",
-                             "1,,1", "1, 1,1", "a,b,c", "1;1;1", "1,1,1e999"})
+    EXPECT_EQ(parseScale("1e-12,1e12,1"), glm::dvec3(1e-12, 1e12, 1));
+    for (const char* text :
+         {"", "1", "1,1", "1,1,1,1", "0,1,1", "1,-1,1", "1,1,nan", "1,1,inf", "1,,1", "1, 1,1",
+          "a,b,c", "1;1;1", "1,1,1e999", "1e300,1,1", "1,1.1e12,1", "1,1,0.9e-12"})
         expectRefused([](std::string_view t) { parseScale(t); }, text);
 }
 

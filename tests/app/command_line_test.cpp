@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <random>
 
 #include "app/options.h"
+#include "tests/support/files.h"
 #include "tests/support/random_explorer.h"
 
 namespace app {
@@ -53,6 +55,7 @@ TEST(CommandLine, GivesBackTheSameExplorer) {
             for (fs::path& file : back.files) file = (folder / file).lexically_normal();
             Explorer expected = e;
             expected.play = {};
+            if (e.oneTick) expected.play.tick = e.play.tick;
             ASSERT_TRUE(back == expected) << "case " << i << ": " << shellText(arguments) << '\n'
                                           << shellText(renderArguments(back, "/out/a.exr", folder));
         }
@@ -68,6 +71,16 @@ TEST(CommandLine, FilesAreNeverTakenForOptionsOrCommands) {
         ASSERT_EQ(back.files.size(), 1u) << name;
         EXPECT_EQ(("/data" / back.files[0]).lexically_normal(), e.files[0]);
     }
+}
+
+// A hidden layer: the same picture, of nothing.
+TEST(CommandLine, OfNoLayersDrawsNone) {
+    Explorer e;
+    e.files = {"/data/fire.nc"};
+    e.noLayers = true;
+    const Explorer back = parsedBack(renderArguments(e, "/data/fire.png", "/data"));
+    ASSERT_EQ(back.layers.size(), 1u);
+    EXPECT_FALSE(back.layers[0].visible);
 }
 
 TEST(CommandLine, SaysNothingThatGoesWithoutSaying) {
@@ -95,6 +108,47 @@ std::vector<std::string> throughTheShell(const std::string& line) {
         at += arguments.back().size() + 1;
     }
     return arguments;
+}
+
+// What the shell calls by these words, in a folder where PATH is this.
+class CallOfProgram : public testing::Test {
+ protected:
+    CallOfProgram() {
+        const char* const path = std::getenv("PATH");
+        path_ = path == nullptr ? "" : path;
+        unsetenv("ISOCHRON_RUN");
+    }
+    ~CallOfProgram() override {
+        setenv("PATH", path_.c_str(), 1);
+        unsetenv("ISOCHRON_RUN");
+    }
+    const fs::path program_ = fs::read_symlink("/proc/self/exe");
+
+ private:
+    std::string path_;
+};
+
+TEST_F(CallOfProgram, IsTheScriptThatStartedItAsTheUsersShellSeesIt) {
+    setenv("ISOCHRON_RUN", "./run", 1);
+    EXPECT_EQ(callOfProgram(), "./run");
+    setenv("ISOCHRON_RUN", "../my isochron/run", 1);
+    EXPECT_EQ(callOfProgram(), "'../my isochron/run'");
+}
+
+TEST_F(CallOfProgram, IsItsNameWherePathHasItAndElseItsPath) {
+    const fs::path folder = tests::freshFolder() / "bin";
+    fs::create_directory(folder);
+    const std::string name = program_.filename(), paths = "/none::" + folder.string() + ":/usr/bin";
+    setenv("PATH", paths.c_str(), 1);
+    EXPECT_EQ(callOfProgram(), program_.string());
+    fs::create_symlink(program_, folder / name);
+    EXPECT_EQ(callOfProgram(), name);
+    // Another program of that name is not it.
+    fs::remove(folder / name);
+    tests::writeBytes(folder / name, "#!/bin/sh");
+    EXPECT_EQ(callOfProgram(), program_.string());
+    unsetenv("PATH");
+    EXPECT_EQ(callOfProgram(), program_.string());
 }
 
 TEST(ShellText, TheShellReadsEveryArgumentAsItIs) {

@@ -84,6 +84,50 @@ Dataset open(const std::filesystem::path& file, const std::string& variable) {
     return openDataset(std::span(&file, 1), variable);
 }
 
+timeseries::Variable sized(const char* name, std::array<std::size_t, 3> n, std::size_t steps) {
+    timeseries::Variable v;
+    v.name = name;
+    const auto axis = [](std::size_t length) {
+        return timeseries::Axis{"a", "m", timeseries::indexCoordinates(length)};
+    };
+    v.grid =
+        std::make_shared<const timeseries::Grid>(std::array{axis(n[0]), axis(n[1]), axis(n[2])});
+    TimeAxis time;
+    time.points.resize(steps);
+    v.time = std::make_shared<const TimeAxis>(time);
+    return v;
+}
+
+TEST(DefaultVariable, HasTheMostLevelsThenStepsThenPoints) {
+    const auto best = [](const std::vector<timeseries::Variable>& all) {
+        return all[defaultVariable(all)].name;
+    };
+    const auto flat = sized("flat", {500, 500, 1}, 90), soil = sized("soil", {50, 50, 4}, 90),
+               air = sized("air", {40, 40, 30}, 5), later = sized("later", {40, 40, 30}, 5),
+               large = sized("large", {50, 40, 30}, 5), once = sized("once", {90, 90, 30}, 1),
+               section = sized("section", {1, 64, 80}, 90);
+    EXPECT_EQ(best({flat}), "flat");
+    EXPECT_EQ(best({flat, soil, air}), "air");
+    EXPECT_EQ(best({flat, once, air}), "air");
+    EXPECT_EQ(best({air, large}), "large");
+    EXPECT_EQ(best({later, air}), "later") << "of equals the file's first";
+    EXPECT_EQ(best({section, air}), "air") << "a section is no volume";
+}
+
+TEST(Dataset, TheDefaultVariableIsNotTheFilesFirst) {
+    tests::NetcdfBuilder file("two.nc");
+    const auto z = file.coordinate("z", 3, "m"), y = file.coordinate("y", 2, "m"),
+               x = file.coordinate("x", 2, "m");
+    file.variable("ground", NC_FLOAT, {y.dimension, x.dimension});
+    file.variable("air", NC_FLOAT, {z.dimension, y.dimension, x.dimension});
+    file.write(z.variable, std::vector<double>{0, 1, 2});
+    for (const int axis : {y.variable, x.variable}) file.write(axis, std::vector<double>{0, 1});
+    const auto path = file.close();
+    EXPECT_EQ(open(path, "").about.name, "air");
+    EXPECT_EQ(open(path, "").variable, 1u);
+    EXPECT_EQ(open(path, "ground").variable, 0u);
+}
+
 TEST(Dataset, AVariableIsChosenByNameOrTheFirst) {
     const auto file = twoVariables();
     EXPECT_EQ(open(file, "").about.name, "first");

@@ -1,7 +1,9 @@
 #include "app/decimals.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
 #include <sstream>
@@ -58,6 +60,36 @@ TEST(Decimals, WhatCannotBeRoundedStays) {
     EXPECT_EQ(roundedTo(3.25, infinity), 3.25);
     EXPECT_EQ(roundedTo(5e-324, 5e-324), 5e-324);
     EXPECT_EQ(roundedTo(1e300, 1e-300), 1e300);
+}
+
+using timeseries::RangeSet;
+using timeseries::ValueType;
+
+TEST(Decimals, TellAFloatWithTheFewestDigitsThatReadBackAsIt) {
+    std::mt19937 random(4);
+    for (int i = 0; i < 3000; ++i) {
+        const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+        if (!std::isfinite(value)) continue;
+        const double told = shortestIn(ValueType::F32, static_cast<double>(value));
+        EXPECT_EQ(static_cast<float>(told), value);
+        EXPECT_EQ(fmt::format("{}", told), fmt::format("{}", std::stod(fmt::format("{}", value))));
+    }
+    EXPECT_EQ(shortestIn(ValueType::F32, 34.17789840698242), 34.1779);
+    EXPECT_EQ(shortestIn(ValueType::F32, -29.700000000000003), -29.7);
+    // A double says all of its digits, and so does what is no float.
+    EXPECT_EQ(shortestIn(ValueType::F64, 34.17789840698242), 34.17789840698242);
+    EXPECT_EQ(shortestIn(ValueType::F32, 1e300), 1e300);
+}
+
+TEST(Decimals, TellRangesOfFloatsAlike) {
+    const auto told = [](const char* text) {
+        return shortestIn(ValueType::F32, RangeSet::parse(text)).text();
+    };
+    EXPECT_EQ(told("-3:34.17789840698242"), "-3:34.1779");
+    EXPECT_EQ(told("min:0.10000000149011612,(2,max]"), "min:0.1,(2,max]");
+    // One value of the field, but not of the text: all stays as it was entered.
+    for (const char* text : {"(1,1.000000000001)", "1:2,2.0000000000001:3"})
+        EXPECT_EQ(told(text), RangeSet::parse(text).text());
 }
 
 }  // namespace

@@ -269,5 +269,106 @@ TEST(AddLayer, CountsWhatOfItWasKept) {
     EXPECT_EQ(e.layers[0].opacity, opacityFor(100));
 }
 
+TEST(ClipSide, IsReadAsItIsTyped) {
+    timeseries::Axis down = tests::axis(5, 10);  // 10 to 14
+    std::ranges::reverse(down.coordinates);
+    timeseries::Axis stored = tests::axis(4, 0, 0.1f);  // 0 to 0.30000000447...
+    const timeseries::Grid grid(std::array{tests::axis(5), down, stored});
+    const auto typed = [&](std::string_view text, std::size_t axis = 0,
+                           const std::optional<ClipBox>& clip = {}) {
+        const auto box = withClipSide(clip, grid, axis, text);
+        return box ? clipText(*box) : "none";
+    };
+    EXPECT_EQ(typed("1.5:3"), "1.5:3,min:max,min:max");
+    EXPECT_EQ(typed("min:3"), "min:3,min:max,min:max");
+    EXPECT_EQ(typed("11:12.5", 1, parseClip("1.5:3,min:max,min:max")), "1.5:3,11:12.5,min:max");
+    for (const char* all : {"", "  ", "min:max", "0:4", "-9:9"})
+        EXPECT_TRUE(typed(all) == "none" || typed(all) == "-9:9,min:max,min:max") << all;
+    EXPECT_EQ(typed("", 0, parseClip("1.5:3,11:12,min:max")), "min:max,11:12,min:max");
+    // A slice: the plane that is nearest.
+    EXPECT_EQ(typed("2.4"), "2:2,min:max,min:max");
+    EXPECT_EQ(typed("2.6"), "3:3,min:max,min:max");
+    EXPECT_EQ(typed("99", 1), "min:max,14:14,min:max");
+    // The last plane is not lost to the digits that its end was told with.
+    ASSERT_GT(stored.coordinates.back(), 0.3);
+    EXPECT_EQ(clipSideText({}, grid, 2), "0:0.3");
+    EXPECT_EQ(typed("0.1:0.3", 2), "min:max,min:max,0.1:max");
+}
+
+TEST(ClipSide, WhatCannotBeIsRefusedInASentence) {
+    const timeseries::Grid grid(std::array{tests::axis(5), tests::axis(5), tests::axis(5)});
+    for (const auto& [text, says] :
+         {std::pair("abc", "abc"), std::pair("1:2,3:4", "one range"), std::pair("[1,2)", "closed"),
+          std::pair("1.2:1.8", "x, from 0 to 4"), std::pair("5:9", "x, from 0 to 4")}) {
+        try {
+            withClipSide({}, grid, 0, text);
+            ADD_FAILURE() << text;
+        } catch (const ChoiceError& error) {
+            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(ClipSide, ReadsBackWhatItShows) {
+    const timeseries::Grid grid(std::array{tests::axis(9), tests::axis(9, -4), tests::axis(9)});
+    std::mt19937 random(3);
+    for (int i = 0; i < 200; ++i) {
+        const std::size_t axis = random() % 3;
+        const double from = axis == 1 ? -4 : 0;
+        const int a = static_cast<int>(random() % 9), b = static_cast<int>(random() % 9);
+        const auto box = withClipSide(
+            {}, grid, axis, fmt::format("{}:{}", from + std::min(a, b), from + std::max(a, b)));
+        EXPECT_EQ(withClipSide(box, grid, axis, clipSideText(box, grid, axis)), box);
+    }
+}
+
+TEST(RemoveLayer, TheLastOneLeavesNoneUntilOneIsAdded) {
+    const auto step = tests::stepOf(tests::cube(10), [](std::size_t i) { return double(i); });
+    Explorer e;
+    e.layers = {{RangeSet::parse("0:1"), kLayerColors[0], 0.5},
+                {RangeSet::parse("5:6"), kLayerColors[1], 0.5}};
+    removeLayer(e, 0);
+    ASSERT_EQ(e.layers.size(), 1u);
+    EXPECT_EQ(e.layers[0].ranges, RangeSet::parse("5:6"));
+    EXPECT_FALSE(e.noLayers);
+    removeLayer(e, 0);
+    EXPECT_TRUE(e.layers.empty());
+    EXPECT_TRUE(e.noLayers);
+    addLayer(e, RangeSet::parse("7"), step);
+    EXPECT_FALSE(e.noLayers);
+}
+
+TEST(NewRanges, HoldAPointThatIsInNoLayerYet) {
+    const auto step = tests::stepOf(tests::cube(10), [](std::size_t i) { return double(i); });
+    Explorer e;
+    std::vector<RangeSet> all;
+    for (std::size_t i = 0; i < render::kMaxLayers; ++i) {
+        const RangeSet ranges = newRanges(e, step);
+        std::uint64_t fresh = 0;
+        for (std::uint64_t p = 0; p < step.size(); ++p) {
+            const auto value = std::get<double>(step.value(p));
+            const auto holds = [&](const RangeSet& set) {
+                return oracle::holds(set.ranges(), value);
+            };
+            if (holds(ranges) && std::ranges::none_of(all, holds)) ++fresh;
+        }
+        EXPECT_GT(fresh, 0u) << i;
+        all.push_back(ranges);
+        addLayer(e, ranges, step);
+    }
+    EXPECT_EQ(all.front(), parseSelection("top 1 %", step));
+}
+
+TEST(NewRanges, AreOthersWhereEveryPointIsInALayer) {
+    const auto step = tests::stepOf(tests::cube(10), [](std::size_t i) { return double(i); });
+    Explorer e;
+    e.layers = {{RangeSet::everything(), kLayerColors[0], 0.5},
+                {parseSelection("top 1 %", step), kLayerColors[1], 0.5}};
+    const RangeSet ranges = newRanges(e, step);
+    EXPECT_NE(ranges, e.layers[0].ranges);
+    EXPECT_NE(ranges, e.layers[1].ranges);
+    EXPECT_GT(step.count(ranges), 0u);
+}
+
 }  // namespace
 }  // namespace app

@@ -261,6 +261,44 @@ TEST(Exploration, EndsWhileItsReadersRead) {
     script->waitUntilReadersEnded(2);
 }
 
+TEST(Exploration, AxesThatAreChosenAreThoseOfWhatIsShownAndUndoComesBack) {
+    Desk desk({{"a", {}}, {"b", {}}});
+    desk.open("a");
+    const Explorer before = desk.exploration.explorer();
+    const auto shownAxis = [&] { return desk.exploration.shown()->sorted->grid().axes()[2]; };
+    const timeseries::Axis file = shownAxis();
+    Explorer next = before;
+    next.axes[2] = {true, "depth"};
+    desk.exploration.edit(next);
+    EXPECT_EQ(desk.exploration.explorer(), before) << "not yet";
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer(), next) << "and nothing else";
+    EXPECT_EQ(shownAxis().name, "depth");
+    EXPECT_EQ(shownAxis().down, !file.down);
+    desk.exploration.undo();
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer(), before);
+    EXPECT_EQ(shownAxis(), file);
+    desk.exploration.redo();
+    desk.untilOpened();
+    // Other files say for themselves.
+    next.files = {"b"};
+    desk.exploration.edit(next);
+    desk.untilOpened();
+    EXPECT_EQ(shownAxis(), file);
+}
+
+TEST(Exploration, AClipBoxWithoutAPointIsToldAndLeftOut) {
+    Desk desk;
+    Explorer wish;
+    wish.files = {"a"};
+    wish.clip = ClipBox{glm::dvec3(1e6), glm::dvec3(2e6)};
+    desk.exploration.open(wish);
+    desk.untilOpened();
+    EXPECT_FALSE(desk.exploration.explorer().clip);
+    EXPECT_THAT(desk.errors(), ElementsAre(HasSubstr("holds no point")));
+}
+
 TEST(Exploration, ASessionOpensAsItSays) {
     Desk desk({{"a", {}}, {"b", {.steps = 20}}});
     desk.open("a");

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "app/panels/time_bar.h"
 #include "tests/support/exploration_desk.h"
 
 namespace app {
@@ -111,6 +112,104 @@ TEST(Exploration, PlayGoesOnAcrossSeeksAndEdits) {
     EXPECT_EQ(desk.asked(), 1u);
     desk.exploration.stepBy(-2);  // Loop goes round
     EXPECT_EQ(desk.asked(), 9u);
+}
+
+// What the picture is asked for and what the clock says, whatever is done in whichever order.
+TEST(Exploration, TheStepAskedForIsAlwaysTheClocks) {
+    std::mt19937 random(29);
+    Desk desk({{"a", {.steps = 12}}});
+    desk.open("a");
+    desk.untilAllSeen();
+    const auto any = [&](std::size_t n) { return random() % n; };
+    const auto editTime = [&](const auto& change) {
+        Explorer next = desk.exploration.explorer();
+        change(next.play.time);
+        desk.exploration.edit(next);
+    };
+    for (int i = 0; i < 3000; ++i) {
+        const std::size_t what = any(13), step = any(14);
+        switch (what) {
+            case 0:
+            case 1:
+                desk.exploration.seek(step);
+                EXPECT_EQ(desk.asked(), std::min<std::size_t>(step, 11));
+                break;
+            case 2:
+                desk.exploration.stepBy(static_cast<int>(any(7)) - 3);
+                break;
+            case 3:
+                editTime(
+                    [&](auto& time) { panels::setPoint(time, panels::Point::In, desk.asked()); });
+                break;
+            case 4:
+                editTime(
+                    [&](auto& time) { panels::setPoint(time, panels::Point::Out, desk.asked()); });
+                break;
+            case 5:
+                editTime([&](auto& time) { time.stride = 1 + any(4); });
+                break;
+            case 6:
+                editTime([&](auto& time) {
+                    time.ending = static_cast<timeseries::Ending>(any(3));
+                    time.direction = static_cast<timeseries::Direction>(any(2));
+                });
+                break;
+            case 7:
+                desk.exploration.togglePlay();
+                break;
+            case 8:
+            case 9:
+                desk.exploration.advance(std::chrono::milliseconds(any(300)));
+                break;
+            case 10:
+                if (desk.exploration.canUndo()) desk.exploration.undo();
+                break;
+            case 11:
+                if (desk.exploration.canRedo()) desk.exploration.redo();
+                break;
+            case 12: {
+                Explorer next = desk.exploration.explorer();
+                next.play.timeMoves = !next.play.timeMoves;
+                desk.exploration.edit(next);
+            }
+        }
+        ASSERT_EQ(desk.asked(), desk.exploration.playback().time->step())
+            << "operation " << i << ", of the kind " << what;
+    }
+}
+
+TEST(Exploration, InAndOutPointsAreSetFromWhereverOneGoes) {
+    Desk desk;
+    desk.open("a");
+    const auto set = [&](panels::Point point) {
+        Explorer next = desk.exploration.explorer();
+        panels::setPoint(next.play.time, point, desk.exploration.playback().time->step());
+        desk.exploration.edit(next);
+    };
+    desk.exploration.seek(4);
+    set(panels::Point::In);
+    desk.exploration.seek(6);
+    set(panels::Point::Out);
+    desk.exploration.seek(0);
+    EXPECT_EQ(desk.exploration.playback().time->step(), 0u);
+    desk.exploration.stepBy(1);
+    set(panels::Point::In);
+    desk.exploration.seek(8);
+    set(panels::Point::Out);
+    EXPECT_EQ(desk.exploration.explorer().play.time.first, 1u);
+    EXPECT_EQ(desk.exploration.explorer().play.time.last, 8u);
+}
+
+TEST(Exploration, WithOneStepNothingPlaysAndThatIsTold) {
+    Desk desk({{"a", {.steps = 1}}});
+    desk.open("a");
+    desk.exploration.togglePlay();
+    EXPECT_FALSE(desk.exploration.playback().playing);
+    ASSERT_EQ(desk.exploration.messages().size(), 1u);
+    EXPECT_FALSE(desk.exploration.messages().front().isError);
+    desk.sweep("0:64", 1);
+    desk.exploration.togglePlay();
+    EXPECT_TRUE(desk.exploration.playback().playing);
 }
 
 TEST(Exploration, PlayGoesOnWithAnotherVariable) {

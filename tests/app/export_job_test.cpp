@@ -109,6 +109,18 @@ TEST(ExportJob, IsCancelledBeforeItsFirstPicture) {
     EXPECT_EQ(job.outcome(), "Export cancelled before its first picture");
 }
 
+TEST(ExportJob, SaysHowFarItCameWhereItIsEnded) {
+    const auto folder = tests::freshFolder();
+    ExportJob job(example(), into(folder / "out.png"),
+                  programOf("echo picture 2 of 3; exec sleep 1000"));
+    pollUntil(job, [&] { return job.done() == 2; });
+    EXPECT_EQ(job.end(),
+              "Export cancelled after 2 of 3 pictures, which stay in " + folder.string());
+    ExportJob whole(example(), into(folder / "out.png"), programOf("echo picture 3 of 3"));
+    pollToEnd(whole);
+    EXPECT_THAT(whole.end(), HasSubstr("Exported 3 pictures"));
+}
+
 TEST(ExportJob, DroppingItEndsTheChildAndLeavesNothingOfIt) {
     const auto folder = tests::freshFolder();
     const auto half = folder / "out_3.png.part0", child = folder / "child",
@@ -176,15 +188,15 @@ TEST_F(AnimationOf, IsWhatPlays) {
     play.tick = 40;
     EXPECT_EQ(animation().steps, (StepChoice{2, 9}));
     EXPECT_EQ(animation().sweep, explorer_.sweep);
+    EXPECT_FALSE(animation().oneTick);
     play.timeMoves = false;
     EXPECT_EQ(animation().steps, (StepChoice{3, 3}));
     play.timeMoves = true;
     play.sweepMoves = false;
     EXPECT_EQ(animation().steps, (StepChoice{2, 9}));
-    EXPECT_FALSE(animation().sweep);
-    ASSERT_EQ(animation().layers.size(), 2u);
-    const auto window = timeseries::ValueSweep(*explorer_.sweep).window(40);
-    EXPECT_EQ(animation().layers[0].ranges, timeseries::RangeSet(std::vector{window}));
+    EXPECT_EQ(animation().sweep, explorer_.sweep);
+    EXPECT_TRUE(animation().oneTick);
+    EXPECT_EQ(animation().play.tick, 40);
 }
 
 // The cursor that plays is the oracle: once, forward, whatever way and end were chosen.

@@ -94,6 +94,23 @@ TEST(FirstChoice, TheReachesOnBothSidesDecideTheSide) {
     EXPECT_EQ(std::get<MapChoice>(both.color.value()).map.name(), "cool-warm");
 }
 
+// A velocity: nearly all is at rest, and more flows one way than the other.
+TEST(FirstChoice, OnBothSidesTheTenthIsThatFarthestFromTheBackground) {
+    auto values = drawn([](auto& r) {
+        const double u = std::uniform_real_distribution<double>(0, 1)(r);
+        return u < 0.69 ? 0.0 : u < 0.93 ? 0.69 - u : (u - 0.93) * 2.5;
+    });
+    const SortedStep step = stepOf(values);
+    const LayerChoice layer = choiceFor(step);
+    EXPECT_NEAR(shareSelected(step, layer), 0.1, 0.02) << layer.ranges.text();
+    std::ranges::sort(values, {}, [](double v) { return std::abs(v); });
+    const double tenth = std::abs(values[values.size() * 9 / 10]);
+    // To three digits of how far they reach.
+    ASSERT_EQ(layer.ranges.ranges().size(), 2u);
+    EXPECT_NEAR(timeseries::toDouble(layer.ranges.ranges()[0].hi.value), -tenth, 2e-3);
+    EXPECT_NEAR(timeseries::toDouble(layer.ranges.ranges()[1].lo.value), tenth, 2e-3);
+}
+
 TEST(FirstChoice, ATiedBackgroundIsLeftOut) {
     for (const double background : {0.0, 1.0, -273.15, 1.0 / 3, 1e300})
         for (const double share : {0.001, 0.02, 0.3}) {
@@ -111,9 +128,10 @@ TEST(FirstChoice, ATiedBackgroundIsLeftOut) {
                 const LayerChoice layer = choiceFor(step);
                 const timeseries::RangeSet tied(
                     std::vector{timeseries::Range{{background}, {background}}});
+                const timeseries::RangeSet both = unionOf(std::vector{layer.ranges, tied});
                 const auto what = "background " + std::to_string(background) + ", share " +
                                   std::to_string(share) + ": " + layer.ranges.text();
-                EXPECT_TRUE(timeseries::intersectionOf(layer.ranges, tied).empty()) << what;
+                EXPECT_EQ(step.count(both), step.count(layer.ranges) + step.count(tied)) << what;
                 expectSensible(step, what);
             }
         }

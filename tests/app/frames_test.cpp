@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "tests/support/files.h"
+
 namespace app {
 namespace {
 
@@ -53,6 +55,45 @@ TEST(Frames, OfTwoEyesAreNamedByBoth) {
     EXPECT_EQ(Frames("a/b.png", e, {5, 6}).names(), "a/b_5_left.png to b_6_right.png");
     e.stereo.mode = Stereo::SideBySide;
     EXPECT_EQ(Frames("a/b.png", e, {5}).names(), "a/b.png");
+}
+
+TEST(Frames, KnowWhichOfTheirFilesThereAre) {
+    const auto folder = tests::freshFolder();
+    const auto make = [&](const char* name) { tests::writeBytes(folder / name, ""); };
+    const Frames steps(folder / "fire.png", {}, {3, 7, 11});
+    EXPECT_EQ(steps.fileCount(), 3u);
+    EXPECT_EQ(steps.existing(), 0u);
+    // None of these is one of its pictures.
+    for (const char* name : {"fire.png", "fire_05.png", "fire_3.png", "fire_003.png", "fire_.png",
+                             "fire_07.exr", "fire_07_left.png", "f", "other_07.png"})
+        make(name);
+    EXPECT_EQ(steps.existing(), 0u);
+    make("fire_03.png");
+    make("fire_11.png");
+    EXPECT_EQ(steps.existing(), 2u);
+    EXPECT_EQ(Frames(folder / "fire.png", {}, {3}).existing(), 1u);
+    Explorer e;
+    e.stereo.mode = Stereo::LeftRight;
+    const Frames eyes(folder / "fire.png", e, {3, 7, 11});
+    EXPECT_EQ(eyes.fileCount(), 6u);
+    EXPECT_EQ(eyes.existing(), 1u) << "the left one of 7";
+    // Of a million there are few: not each is looked for.
+    const Frames swept(folder / "fire.png", sweeping(1 << 29), {0});
+    make("fire_000000000.png");
+    EXPECT_EQ(swept.existing(), 1u);
+    EXPECT_EQ(Frames(folder / "none" / "fire.png", {}, {1, 2}).existing(), 0u);
+}
+
+TEST(Frames, OfASweepThatStandsAreOneAStepAtItsTick) {
+    Explorer e = sweeping(10, 3);
+    e.oneTick = true;
+    e.play.tick = 2;
+    EXPECT_THAT(filesOf(Frames("s.png", e, {5})), ElementsAre("s.png"));
+    const Frames frames("s.png", e, {5, 6});
+    EXPECT_THAT(stepsOf(frames), ElementsAre(5, 6));
+    EXPECT_THAT(filesOf(frames), ElementsAre("s_5.png", "s_6.png"));
+    EXPECT_EQ(frames[0].tick, 2);
+    EXPECT_EQ(frames[1].tick, 2);
 }
 
 TEST(Frames, OfASweepAreOneATick) {

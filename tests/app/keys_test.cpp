@@ -8,6 +8,8 @@
 #include <string>
 #include <tuple>
 
+#include "tests/support/built_paths.h"
+
 namespace app::panels {
 namespace {
 
@@ -31,7 +33,7 @@ TEST(Keys, HeldDownStepAndUndoButDoNotToggle) {
 }
 
 TEST(Keys, TheReadmeHasTheTableThatTheHelpShows) {
-    std::ifstream file(std::string(SOURCE_DIR) + "/README.md");
+    std::ifstream file(tests::sourceFolder() / "README.md");
     std::stringstream readme;
     readme << file.rdbuf();
     for (const HelpLine& line : helpLines()) {

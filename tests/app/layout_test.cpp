@@ -23,14 +23,23 @@ INSTANTIATE_TEST_SUITE_P(Sizes, EveryLayout,
                          testing::Values(Size{{1440, 900}, 1, 1}, Size{{1000, 700}, 1, 3},
                                          Size{{800, 640}, 1, 8}, Size{{1920, 1080}, 1.5f, 8},
                                          Size{{2880, 1800}, 2, 2}, Size{{3840, 2160}, 2, 0},
-                                         Size{{1440, 900}, 2, 1}, Size{{1440, 900}, 2, 8}));
+                                         Size{{1440, 900}, 2, 1}, Size{{1440, 900}, 2, 8},
+                                         Size{{800, 640}, scaleWithRoom({800, 640}, 2), 1},
+                                         Size{{800, 640}, scaleWithRoom({800, 640}, 2), 8},
+                                         Size{{1000, 700}, scaleWithRoom({1000, 700}, 4), 2},
+                                         Size{{1440, 640}, scaleWithRoom({1440, 640}, 4), 8}));
 
 TEST_P(EveryLayout, PictureColumnAndBarFillTheWindowWithoutOverlap) {
     const auto area = [](const Rect& r) { return r.size().x * r.size().y; };
-    EXPECT_EQ(area(layout_.picture) + area(layout_.side) + area(layout_.timeBar),
-              area(layout_.window));
+    EXPECT_EQ(
+        area(layout_.picture) + area(layout_.status) + area(layout_.side) + area(layout_.timeBar),
+        area(layout_.window));
     EXPECT_EQ(layout_.picture.max.x, layout_.side.min.x);
-    EXPECT_EQ(layout_.picture.max.y, layout_.timeBar.min.y);
+    EXPECT_EQ(layout_.status.max.x, layout_.side.min.x);
+    EXPECT_EQ(layout_.picture.max.y, layout_.status.min.y);
+    EXPECT_EQ(layout_.status.max.y, layout_.timeBar.min.y);
+    EXPECT_GE(layout_.status.size().y,
+              18 * layout_.scale * static_cast<float>(statusLines(layout_)));
     EXPECT_GT(layout_.picture.size().x, 0.4f * layout_.window.size().x);
 }
 
@@ -73,8 +82,8 @@ TEST_P(EveryLayout, TheRailHasRoomBetweenButtonsAndSettings) {
     EXPECT_GT(bar.now.size().x, 19 * 8 * layout_.scale);
 }
 
-// The legend's lines reach down to three fifths of the picture; the figures are three lines.
-TEST_P(EveryLayout, AnExportIsToldBetweenTheLegendAndTheFigures) {
+// The legend's lines reach down to three fifths of the picture; its notes are three lines.
+TEST_P(EveryLayout, AnExportIsToldBetweenTheLegendAndTheNotes) {
     const Rect& picture = layout_.picture;
     const Rect place = exportPlace(picture, layout_.scale);
     EXPECT_GT(place.min.y, picture.min.y + 0.6f * picture.size().y);
@@ -87,6 +96,41 @@ TEST(Layout, TheColumnKeepsItsWidthWithinLimits) {
     EXPECT_EQ(layoutOf(window, 1, 10).side.size().x, 320);
     EXPECT_EQ(layoutOf(window, 1, 500).side.size().x, 500);
     EXPECT_EQ(layoutOf(window, 1, 5000).side.size().x, 720);
+}
+
+// Behind the tabs the scale is chosen: a page has at least two rows of its form, and a layer its
+// row above the values.
+TEST_P(EveryLayout, ThePageAndALayersRowHaveTheirRoom) {
+    EXPECT_GE(side_.page.size().y, 59 * layout_.scale);
+    EXPECT_LE(side_.page.max.y, layout_.timeBar.min.y + 1);
+    if (GetParam().layers == 0) return;
+    const float row = side_.layers.min.y + kLayersTitle * layout_.scale;
+    EXPECT_LE(layerRow(side_.layers, row, layout_.scale).text.max.y, side_.instrument.min.y);
+}
+
+TEST(Layout, TheScaleIsWhatIsWantedWhereThereIsRoom) {
+    EXPECT_EQ(scaleWithRoom({3840, 2160}, 2), 2);
+    EXPECT_EQ(scaleWithRoom({1440, 900}, 2), 2);
+    EXPECT_EQ(scaleWithRoom({1440, 900}, 1.25f), 1.25f);
+    EXPECT_LT(scaleWithRoom({800, 640}, 2), 1.5f);
+    EXPECT_EQ(scaleWithRoom({400, 200}, 2), 1);
+    EXPECT_EQ(scaleWithRoom({400, 200}, 0.5f), 0.5f);
+}
+
+TEST(Layout, LinesOfTheHelpLieApartWithinThePicture) {
+    constexpr std::size_t kLines = 31, kGroups = 6;
+    constexpr float kType = 16;  // as makeTheme() has it
+    for (const Size& size : {Size{{1440, 900}, 2, 1}, Size{{1440, 900}, 1, 1},
+                             Size{{800, 640}, 1, 1}, Size{{3840, 2160}, 2, 1}}) {
+        const Rect picture = layoutOf(size.window, size.scale).picture;
+        const HelpLayout help = helpLayout(picture, size.scale, kLines, kGroups);
+        EXPECT_GE(help.whole.min.y, picture.min.y);
+        EXPECT_LE(help.whole.max.y, picture.max.y);
+        EXPECT_LE(help.scale, size.scale);
+        EXPECT_LT(kType * help.scale * kLines, help.whole.size().y);
+        const float needed = (kLines * kHelpLine + kGroups * kHelpGroup) * help.scale;
+        EXPECT_LE(needed, help.whole.size().y);
+    }
 }
 
 TEST_P(EveryLayout, HandlesOfRangesLieBesideBarsNumbersAndEachOther) {
@@ -103,7 +147,7 @@ TEST_P(EveryLayout, HandlesOfRangesLieBesideBarsNumbersAndEachOther) {
                 EXPECT_GE(handle.min.y, bars.min.y);
                 EXPECT_LE(handle.max.y, bars.max.y);
             }
-            const bool room = y >= bars.min.y + 10 * scale && y <= bars.max.y - 10 * scale;
+            const bool room = y >= bars.min.y + 12 * scale && y <= bars.max.y - 12 * scale;
             if (room) {
                 EXPECT_LE(upper.max.y, lower.min.y + 1) << y;
             }

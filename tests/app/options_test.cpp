@@ -82,6 +82,12 @@ TEST(Options, HelpIsNoFailureAndNamesTheCommand) {
     }
 }
 
+TEST(Options, TheVersionIsTold) {
+    const auto exit = std::get<Exit>(parsed({"--version"}));
+    EXPECT_EQ(exit.code, 0);
+    EXPECT_THAT(exit.text, testing::MatchesRegex("isochron [0-9]+[.][0-9]+[.][0-9]+"));
+}
+
 TEST(Options, HelpListsEveryOptionOfRenderAndView) {
     const std::string help = std::get<Exit>(parsed({"render", "--help"})).text;
     const std::string helpOfView = std::get<Exit>(parsed({"view", "--help"})).text;
@@ -91,9 +97,12 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
           "--order",     "--sweep",    "--delta",        "--timer-steps", "--timer-step",
           "--frequency", "--swing",    "--clip",         "--scale",       "--view",
           "--size",      "--stereo",   "--eye-distance", "--convergence", "--channel",
-          "--device",    "--output",   "--hide",         "--target",      "--orthographic"}) {
+          "--device",    "--output",   "--hide",         "--target",      "--orthographic",
+          "--tick",      "--portable", "--flip",         "--name-axis",   "--splatter"}) {
         EXPECT_THAT(help, HasSubstr(option));
-        const bool isOfFiles = std::set<std::string_view>{"--device", "--channel"}.contains(option);
+        const bool isOfFiles =
+            std::set<std::string_view>{"--device", "--splatter", "--channel", "--portable"}
+                .contains(option);
         EXPECT_EQ(helpOfView.find(option) == std::string::npos, isOfFiles) << option;
     }
     EXPECT_THAT(helpOfView, HasSubstr("--display"));
@@ -279,6 +288,11 @@ TEST(Options, EveryStereoModeAndDeviceIsTaken) {
         EXPECT_EQ(explorer({"--stereo", mode}).stereo.mode, parseStereo(mode));
     for (const char* device : {"any", "gpu", "cpu"})
         EXPECT_EQ(render({"--device", device}).device, device);
+    using Choice = ::render::SplatterChoice;
+    EXPECT_EQ(render({}).splatter, Choice::ByDevice);
+    EXPECT_EQ(render({"--splatter", "any"}).splatter, Choice::ByDevice);
+    EXPECT_EQ(render({"--splatter", "gl"}).splatter, Choice::Gl);
+    EXPECT_EQ(render({"--splatter", "cpu"}).splatter, Choice::Cpu);
 }
 
 TEST(Options, TheSweepTakesItsSettings) {
@@ -294,8 +308,32 @@ TEST(Options, TheSweepTakesItsSettings) {
                                                   {"--timer-steps", "2"},
                                                   {"--timer-step", "2"},
                                                   {"--frequency", "1"},
+                                                  {"--tick", "1"},
                                                   {"--swing"}})
         EXPECT_THAT(renderRefused(alone), HasSubstr(alone[0] + " needs --sweep"));
+}
+
+TEST(Options, AxesAreFlippedAndNamed) {
+    const Explorer e =
+        explorer({"--flip", "y,z", "--name-axis", "z=depth", "--name-axis", "x=easting"});
+    EXPECT_EQ(e.axes[0], (AxisChoice{false, "easting"}));
+    EXPECT_EQ(e.axes[1], (AxisChoice{true, ""}));
+    EXPECT_EQ(e.axes[2], (AxisChoice{true, "depth"}));
+}
+
+TEST(Options, ATickIsOneOfTheSweeps) {
+    EXPECT_FALSE(explorer({"--sweep", "0:9"}).oneTick);
+    const auto ticked = [](const char* tick) {
+        // 0, 3, 6, 9 of ten.
+        return std::vector<std::string>{"--sweep",      "0:9", "--timer-steps", "10",
+                                        "--timer-step", "3",   "--tick",        tick};
+    };
+    const Explorer e = explorer(ticked("3"));
+    EXPECT_TRUE(e.oneTick);
+    EXPECT_EQ(e.play.tick, 3);
+    EXPECT_THAT(renderRefused(ticked("4")), HasSubstr("--tick 4: the sweep has ticks 0 to 3"));
+    EXPECT_THAT(renderRefused(ticked("-1")), HasSubstr("--tick"));
+    EXPECT_THAT(renderRefused(ticked("a")), HasSubstr("--tick"));
 }
 
 TEST(Options, ColorsAndMapsTakeTheLayersInTheOrderWritten) {
@@ -369,6 +407,8 @@ TEST(Options, ZeroAndOneAreOpacities) {
 
 TEST(Options, BadValuesAreRefusedByTheNameOfTheirOption) {
     const std::pair<const char*, std::vector<const char*>> bad[] = {
+        {"flip", {"", "w", "xy", "x,x"}},
+        {"name-axis", {"", "depth", "z=", "w=depth"}},
         {"step", {"", "a", "-1", "3:2", "1.5"}},
         {"range", {"", "a", "2:1", "nan:1", "[1,2", "1:2,", "1~-1"}},
         {"keep", {"", "a", "2:1"}},
@@ -383,14 +423,15 @@ TEST(Options, BadValuesAreRefusedByTheNameOfTheirOption) {
         {"splat-size", {"", "0", "-1", "1e9", "nan", "inf", "a"}},
         {"order", {"", "front"}},
         {"clip", {"", "0:1", "1:0,0:1,0:1"}},
-        {"scale", {"", "1", "0,1,1", "1,1,nan"}},
+        {"scale", {"", "1", "0,1,1", "1,1,nan", "1e300,1,1", "1,1e-13,1", "1e300"}},
         {"view", {"", "1", "a,b", "1,2,0", "1,2,1e7", "1,2,1e-7"}},
         {"size", {"", "0x0", "1x", "16385x1", "-1x1"}},
         {"stereo", {"", "both"}},
         {"eye-distance", {"", "-1", "nan", "inf", "a", "1e7"}},
         {"convergence", {"", "0", "-1", "nan", "inf"}},
         {"channel", {"", "depth", "opticaldepth"}},
-        {"device", {"", "gl", "GPU"}}};
+        {"device", {"", "gl", "GPU"}},
+        {"splatter", {"", "gpu", "exact"}}};
     for (const auto& [option, values] : bad)
         for (const char* value : values) {
             const std::string text = renderRefused({std::string("--") + option, value});
@@ -452,11 +493,13 @@ class OptionsWithSession : public testing::Test {
         saved_.sweepLayer = {{}, parseColor("#778899"), 0.7};
         saved_.footprint = {render::Kernel::Point, 2};
         saved_.order = render::Order::BackToFront;
+        saved_.axes[0] = {true, "height"};
         saved_.clip = parseClip("0:1,0:1,0:1");
         saved_.scale = glm::dvec3(1, 2, 3);
         saved_.view = {1, 2, 3.0, {0.1, 0.2, 0.3}};
         saved_.stereo = {Stereo::TopBottom, 0.2, 5.0};
         saved_.size = {64, 48};
+        tests::writeBytes(saved_.files.front(), "");
         tests::writeBytes(file_, toJson(saved_, file_.parent_path()).dump());
     }
     Explorer with(std::vector<std::string> more) {
@@ -478,6 +521,19 @@ TEST_F(OptionsWithSession, ItMayStandWhereAFileDoes) {
     EXPECT_THROW(parsed({"view", "/none.json"}), timeseries::FileError);
 }
 
+TEST_F(OptionsWithSession, WhoseDataAreGoneNeedsOthersBesideIt) {
+    std::filesystem::remove(saved_.files.front());
+    try {
+        with({});
+        ADD_FAILURE() << "accepted";
+    } catch (const timeseries::FileError& error) {
+        for (const std::string& named :
+             {file_.string() + ": ", saved_.files.front().string(), "--session " + file_.string()})
+            EXPECT_THAT(error.what(), HasSubstr(named));
+    }
+    EXPECT_EQ(with({"other.nc"}).files.front(), "other.nc");
+}
+
 TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
     const auto expectOnly = [&](const std::vector<std::string>& more, auto change) {
         Explorer e = saved_;
@@ -488,6 +544,12 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
     expectOnly({"--variable", "U"}, [](Explorer& e) { e.variable = "U"; });
     expectOnly({"--variable", ""}, [](Explorer& e) { e.variable = ""; });
     expectOnly({"--step", "7"}, [](Explorer& e) { e.steps = StepChoice{7, 7}; });
+    expectOnly({"--flip", "z"}, [](Explorer& e) {
+        for (AxisChoice& axis : e.axes) axis.flip = false;
+        e.axes[2].flip = true;
+    });
+    expectOnly({"--flip", "none"}, [](Explorer& e) { e.axes[0].flip = false; });
+    expectOnly({"--name-axis", "x=a"}, [](Explorer& e) { e.axes[0].name = "a"; });
     expectOnly({"--keep", "1:2"}, [](Explorer& e) { e.keep = RangeSet::parse("1:2"); });
     expectOnly({"--range", "1:2"}, [](Explorer& e) {
         e.layers = {{RangeSet::parse("1:2"), {}, {}}};
@@ -500,6 +562,10 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
         e.sweep->animation = RangeSet::parse("5:6");
     });
     expectOnly({"--delta", "3"}, [](Explorer& e) { e.sweep->delta = 3; });
+    expectOnly({"--tick", "9"}, [](Explorer& e) {
+        e.oneTick = true;
+        e.play.tick = 9;
+    });
     expectOnly({"--timer-steps", "9"}, [](Explorer& e) { e.sweep->timerSteps = 9; });
     expectOnly({"--splat", "kernel"},
                [](Explorer& e) { e.footprint.kernel = render::Kernel::Quartic; });

@@ -1,9 +1,11 @@
 #include "app/picture.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "app/choice_text.h"
@@ -78,6 +80,23 @@ TEST(RangeLabel, LongDoublesAreRoundedAndSaidToBe) {
     EXPECT_EQ(label("0.3:0.30000000000000004"), "0.3 to 0.30000000000000004 K");
     EXPECT_EQ(label("9007199254740993:9007199254740995"), "9007199254740993 to 9007199254740995 K");
     EXPECT_EQ(label("123456.7:123456789.5"), "123456.7 to 123456789.5 K") << "no shorter so";
+}
+
+// Doubles that seven digits do not tell apart, as bounds of different ranges.
+TEST(RangeLabel, BoundsThatDifferAreWrittenDifferently) {
+    const double lo = 0x1p60 + 256, hi = 0x1p60 + 1024;
+    const std::string label =
+        rangeLabel(RangeSet({timeseries::Range{{-std::numeric_limits<double>::infinity()}, {lo}},
+                             timeseries::Range{{hi}, {std::numeric_limits<double>::infinity()}}}),
+                   "");
+    const std::size_t comma = label.find(", ≥ ");
+    ASSERT_NE(comma, label.npos) << label;
+    const std::string first = label.substr(0, comma), second = label.substr(comma);
+    const double shownLo = std::stod(first.substr(first.find("1."))),
+                 shownHi = std::stod(second.substr(second.find("1.")));
+    EXPECT_LT(shownLo, shownHi) << label;
+    EXPECT_NEAR(shownLo, lo, 1e3);
+    EXPECT_NEAR(shownHi, hi, 1e3);
 }
 
 TEST(RangeLabel, AnInfiniteValueAloneIsNotAllValues) {
@@ -197,23 +216,115 @@ TEST_F(PictureOfARamp, TheLegendStatesTitleTimeLayersAndCounts) {
     EXPECT_EQ(p.scene.layers[3].runs, (std::vector<timeseries::Run>{{0, 1}, {5, 1}, {9, 1}}));
 }
 
-// Whatever the map does beyond them, and whichever step it was chosen from.
-TEST_F(PictureOfARamp, TheColourBarIsOfValuesThatTheStepShows) {
+// So that they stand still while time plays, and exports of single steps agree.
+TEST_F(PictureOfARamp, TheColourBarsEndsDoNotDependOnTheStep) {
     using Ends = std::pair<double, double>;
-    const auto barOf = [&](const char* range, std::optional<MapChoice> map = {}) {
+    const auto chosen = [&](const char* range, std::optional<MapChoice> map = {}) {
         Explorer e = withRanges({range});
         if (map) e.layers[0].color = *map;
-        e = resolved(e, steps_);
-        return makePicture(e, about_, 1, *step_, lattice_).legend.layers.at(0).shown;
+        return resolved(e, steps_);
     };
-    EXPECT_EQ(barOf("min:max"), Ends(0, 999));
-    EXPECT_EQ(barOf("min:max", MapChoice{{}, -50, 100}), Ends(0, 999));
-    step_ = ramp(-7, RangeSet::everything());
-    EXPECT_EQ(barOf("min:max"), Ends(-7, 992));
-    EXPECT_EQ(barOf("min:100"), Ends(-7, 100));
-    EXPECT_EQ(barOf("900:max"), Ends(900, 992));
-    EXPECT_EQ(barOf("100:200"), Ends(100, 200));
-    EXPECT_EQ(barOf("min:-8"), Ends(-8, -8)) << "nothing is there";
+    const auto barOf = [&](const Explorer& e, const SortedStep& step) {
+        return makePicture(e, about_, 1, step, lattice_).legend.layers.at(0).shown;
+    };
+    const MapChoice map{{}, -50, 100};
+    const auto other = ramp(-7, RangeSet::everything());
+    for (const auto& [e, ends] : {
+             std::pair(chosen("100:200"), Ends(100, 200)),
+             std::pair(chosen("min:max", map), Ends(-50, 100)),
+             std::pair(chosen("20:max", map), Ends(20, 100)),
+             std::pair(chosen("min:20", map), Ends(-50, 20)),
+             std::pair(chosen("900:max", map), Ends(900, 900)),
+             std::pair(chosen("900:max"), Ends(900, 999)),
+         }) {
+        EXPECT_EQ(barOf(e, *step_), ends);
+        EXPECT_EQ(barOf(e, *other), ends);
+    }
+}
+
+TEST_F(PictureOfARamp, ASweepsLegendStandsStillButForItsContour) {
+    Explorer e;
+    e.sweep.emplace();
+    e.sweep->animation = RangeSet::parse("100.123456789:899.987654321");
+    e.sweep->delta = 20;
+    const Explorer r = resolved(e, steps_);
+    for (std::int64_t tick = 0; tick < 256; tick += 7) {
+        const Picture p = makePicture(r, about_, 1, *step_, lattice_, tick);
+        const render::LegendLayer& told = p.legend.layers.at(0);
+        EXPECT_EQ(told.shown, std::pair(100.123456789, 899.987654321));
+        // To a fiftieth of the window's half width, 0.4: one decimal.
+        const double contour = timeseries::ValueSweep(*r.sweep).contour(tick);
+        EXPECT_EQ(told.range, fmt::format("{:.1f} ± 20 K", contour));
+    }
+}
+
+TEST_F(PictureOfARamp, NothingIsDrawnAndSaidWhereThereIsNoLayer) {
+    Explorer e;
+    e.noLayers = true;
+    EXPECT_FALSE(needsSamples(e));
+    const Picture none = makePicture(resolved(e, steps_), about_, 1, *step_, lattice_);
+    EXPECT_TRUE(none.scene.layers.empty());
+    ASSERT_EQ(none.legend.notes.size(), 1u);
+    EXPECT_THAT(none.legend.notes[0], HasSubstr("there is no layer"));
+    Explorer hidden = withRanges({"0:9"});
+    hidden.layers[0].visible = false;
+    EXPECT_THAT(pictureOf(hidden).legend.notes.at(0), HasSubstr("every layer is hidden"));
+    EXPECT_TRUE(pictureOf(withRanges({"0:9"})).legend.notes.empty());
+}
+
+TEST_F(PictureOfARamp, ColoursThatMixAreSaidToWhereTheyAreThick) {
+    const auto mixed = [&](const Explorer& asked) {
+        const Explorer e = resolved(asked, steps_);
+        return isMixed(e, makeScene(e, *step_, lattice_));
+    };
+    Explorer two = withRanges({"0:499", "500:999"});
+    two.layers[0].opacity = two.layers[1].opacity = 0.3;
+    EXPECT_TRUE(mixed(two));
+    Explorer ordered = two;
+    ordered.order = render::Order::BackToFront;
+    EXPECT_FALSE(mixed(ordered));
+    Explorer thin = two;
+    thin.layers[0].opacity = thin.layers[1].opacity = 0.01;
+    EXPECT_FALSE(mixed(thin));
+    Explorer alike = two;
+    alike.layers[0].color = alike.layers[1].color = glm::dvec3(1, 0, 0);
+    EXPECT_FALSE(mixed(alike));
+    Explorer map = withRanges({"0:999"});
+    map.layers[0].opacity = 0.3;
+    EXPECT_TRUE(mixed(map)) << "a map has many";
+    map.layers[0].color = MapChoice{{}, 2000.0, 3000.0};
+    EXPECT_FALSE(mixed(map)) << "of which one is left";
+}
+
+TEST_F(PictureOfARamp, AStepWithoutValuesSaysSo) {
+    EXPECT_EQ(pictureOf({}).legend.emptiness, "");
+    const SortedStep none = SortedStep::build(
+        {tests::cube(10), std::vector<float>(1000), std::vector<bool>(1000, true)});
+    const Picture p = makePicture(resolved({}, steps_), about_, 1, none, lattice_, 0);
+    EXPECT_EQ(p.legend.emptiness, "all 1,000 points of this step are missing");
+}
+
+// Two infinities beside 998 finite values: bar, map and range are those of the finite ones.
+TEST_F(PictureOfARamp, InfinitiesBendNoAxis) {
+    std::vector<float> values(1000);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
+    values[0] = -std::numeric_limits<float>::infinity();
+    values[999] = std::numeric_limits<float>::infinity();
+    const auto step =
+        std::make_shared<const SortedStep>(SortedStep::build({tests::cube(10), values, {}}));
+    Explorer e = withRanges({"min:max"});
+    e.layers[0].color = MapChoice{};
+    e = resolved(e, {{1, step}});
+    const auto& map = std::get<MapChoice>(*e.layers[0].color);
+    EXPECT_EQ(map.lo, 1.0);
+    EXPECT_EQ(map.hi, 998.0);
+    const Picture p = makePicture(e, about_, 1, *step, lattice_, 0);
+    EXPECT_EQ(p.legend.layers.at(0).shown, (std::pair{1.0, 998.0}));
+    EXPECT_EQ(p.legend.layers.at(0).amount, "1,000 points, 100 %");
+    // The first choice: the uppermost tenth of the finite ones and what lies beyond them.
+    const Explorer first = resolved({}, {{1, step}});
+    const std::uint64_t chosen = step->count(first.layers.at(0).ranges);
+    EXPECT_NEAR(static_cast<double>(chosen), 100, 10) << first.layers[0].ranges.text();
 }
 
 TEST_F(PictureOfARamp, PercentsAreOfTheValidPointsKeptOrNot) {
@@ -260,7 +371,8 @@ TEST_F(PictureOfARamp, NotesTellWhatWasBentToDrawIt) {
     EXPECT_THAT(p.legend.notes[1], HasSubstr("2:5,min:max,0:0"));
     EXPECT_EQ(p.scene.clip.lo, glm::uvec3(2, 0, 0));
     EXPECT_EQ(p.scene.clip.hi, glm::uvec3(5, 9, 0));
-    EXPECT_EQ(p.legend.layers.at(0).amount, "1,000 points, 100 %") << "of the whole step";
+    // x from 2 to 5, every y, z 0.
+    EXPECT_EQ(p.legend.layers.at(0).amount, "40 points in the clip box, 4 % of all");
 }
 
 TEST_F(PictureOfARamp, TheSweptWindowIsTheFirstLayerOfEachTick) {
@@ -313,9 +425,6 @@ TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {
         for (std::int64_t tick = 0; tick < 3; ++tick) {
             const Picture picture = makePicture(whole, about_, 1, *step, lattice_, tick);
             EXPECT_EQ(picture.scene.layers.size(), 1u);
-            const Explorer alone = onlyThis(whole, 1, *step, tick);
-            EXPECT_EQ(makePicture(alone, about_, 1, *step, lattice_, tick).scene.layers[0].runs,
-                      picture.scene.layers[0].runs);
         }
     }
 }
@@ -329,27 +438,21 @@ TEST_F(PictureOfARamp, AMapOfARangeBeyondTheDataHasItsEndsInOrder) {
     }
 }
 
-TEST_F(PictureOfARamp, OneTickAloneIsTheSamePictureWithoutASweep) {
+TEST_F(PictureOfARamp, OneTickAloneIsTheSweepWhereItStands) {
     Explorer e = withRanges({"0:9"});
     e.sweep.emplace();
     e.sweep->animation = RangeSet::parse("100:200");
-    e.sweep->delta = 5;
     e.sweep->timerSteps = 11;
     e = resolved(e, steps_);
-    for (std::int64_t tick = 0; tick < 11; ++tick) {
-        const Explorer alone = onlyThis(e, 1, *step_, tick);
-        EXPECT_FALSE(alone.sweep);
-        EXPECT_FALSE(needsSamples(alone));
-        EXPECT_EQ(alone.steps, (StepChoice{1, 1}));
-        const Picture a = makePicture(e, about_, 1, *step_, lattice_, tick);
-        const Picture b = makePicture(alone, about_, 1, *step_, lattice_);
-        ASSERT_EQ(a.scene.layers.size(), b.scene.layers.size());
-        for (std::size_t i = 0; i < a.scene.layers.size(); ++i) {
-            EXPECT_EQ(a.scene.layers[i].runs, b.scene.layers[i].runs);
-            EXPECT_EQ(a.scene.layers[i].style.opacity, b.scene.layers[i].style.opacity);
-            EXPECT_EQ(a.legend.layers[i].range, b.legend.layers[i].range);
-        }
-    }
+    const Explorer alone = onlyThis(e, 1, 7);
+    Explorer expected = e;
+    expected.steps = StepChoice{1, 1};
+    expected.oneTick = true;
+    expected.play.tick = 7;
+    EXPECT_TRUE(alone == expected);
+    EXPECT_FALSE(needsSamples(alone));
+    e.sweep.reset();
+    EXPECT_FALSE(onlyThis(e, 1, 7).oneTick);
 }
 
 TEST_F(PictureOfARamp, AnUnboundedSweepGoesThroughTheDatasValues) {
@@ -385,6 +488,21 @@ TEST_F(PictureOfARamp, AStyleAloneLeavesTheRangeToTheFirstChoice) {
     EXPECT_EQ(b.layers[0].opacity, 0.5);
 }
 
+TEST_F(PictureOfARamp, AMapWithoutARangeKeepsTheEndsThatWereGiven) {
+    const auto endsOf = [&](std::optional<double> lo, std::optional<double> hi) {
+        Explorer e;
+        e.layers = {{RangeSet(), MapChoice{*render::colorMapNamed("cividis"), lo, hi}, {}}};
+        return std::get<MapChoice>(*resolved(e, steps_).layers.at(0).color);
+    };
+    const MapChoice open = endsOf({}, {});
+    const MapChoice low = endsOf(-40, {}), high = endsOf({}, 4000), both = endsOf(300, 400);
+    EXPECT_EQ(*low.lo, -40);
+    EXPECT_EQ(*low.hi, *open.hi);
+    EXPECT_EQ(*high.lo, *open.lo);
+    EXPECT_EQ(*high.hi, 4000);
+    EXPECT_EQ(std::pair(*both.lo, *both.hi), std::pair(300.0, 400.0));
+}
+
 TEST_F(PictureOfARamp, HiddenLayersAreNeitherDrawnNorInTheLegend) {
     std::mt19937 random(31);
     for (int i = 0; i < 50; ++i) {
@@ -398,20 +516,17 @@ TEST_F(PictureOfARamp, HiddenLayersAreNeitherDrawnNorInTheLegend) {
         e.sweepLayer.visible = random() % 2 == 0;
         for (LayerChoice& layer : e.layers) layer.visible = random() % 2 == 0;
         EXPECT_FALSE(needsSamples(e));
-        // With its window a layer like the others, it is the same picture.
-        for (const Explorer& same : {e, onlyThis(e, 1, *step_, tick)}) {
-            const Picture picture = pictureOf(same, tick);
-            std::size_t shown = 0;
-            for (std::size_t k = 0; k < whole.scene.layers.size(); ++k) {
-                if (!(k == 0 ? e.sweepLayer : e.layers[k - 1]).visible) continue;
-                ASSERT_LT(shown, picture.scene.layers.size());
-                EXPECT_EQ(picture.scene.layers[shown].runs, whole.scene.layers[k].runs);
-                EXPECT_EQ(picture.legend.layers[shown].range, whole.legend.layers[k].range);
-                ++shown;
-            }
-            EXPECT_EQ(picture.scene.layers.size(), shown);
-            EXPECT_EQ(picture.legend.layers.size(), shown);
+        const Picture picture = pictureOf(e, tick);
+        std::size_t shown = 0;
+        for (std::size_t k = 0; k < whole.scene.layers.size(); ++k) {
+            if (!(k == 0 ? e.sweepLayer : e.layers[k - 1]).visible) continue;
+            ASSERT_LT(shown, picture.scene.layers.size());
+            EXPECT_EQ(picture.scene.layers[shown].runs, whole.scene.layers[k].runs);
+            EXPECT_EQ(picture.legend.layers[shown].range, whole.legend.layers[k].range);
+            ++shown;
         }
+        EXPECT_EQ(picture.scene.layers.size(), shown);
+        EXPECT_EQ(picture.legend.layers.size(), shown);
     }
 }
 

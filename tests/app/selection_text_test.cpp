@@ -135,5 +135,18 @@ TEST(SelectionTextOf, NoPointsHaveNoShare) {
     EXPECT_EQ(parseSelection("5:6", empty), RangeSet::parse("5:6"));
 }
 
+TEST(SelectionOfFloats, IsToldInFewDigits) {
+    const SortedStep step =
+        tests::stepOf(tests::cube(10), [](std::size_t i) { return 0.1 * static_cast<double>(i); });
+    for (const auto& [text, told] :
+         {std::pair("top 1 %", "99:max"), std::pair("bottom 1 %", "min:0.9"),
+          std::pair("top 0.2 %", "99.8:max"), std::pair("10 % : 20 %", "10:19.9")}) {
+        const RangeSet ranges = parseSelection(text, step);
+        EXPECT_EQ(ranges.text(), told);
+        EXPECT_EQ(step.count(ranges), step.count(RangeSet::parse(told)));
+    }
+    EXPECT_EQ(step.count(parseSelection("top 0.2 %", step)), 2u);
+}
+
 }  // namespace
 }  // namespace app

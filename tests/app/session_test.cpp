@@ -61,9 +61,39 @@ TEST(Session, PathsAreRelativeToTheSessionsFolder) {
     Explorer e;
     e.files = {"/data/run/fire.nc", "/data/other.nc"};
     EXPECT_EQ(toJson(e, "/data/run")["files"], json({"fire.nc", "../other.nc"}));
-    // The folder moved as a whole: the paths go with it.
-    EXPECT_EQ(fromJson(toJson(e, "/data/run"), "/moved/run").files,
+    // Where the files are nowhere, they are looked for where they were; without that, beside it.
+    EXPECT_EQ(fromJson(toJson(e, "/data/run"), "/moved/run").files, e.files);
+    EXPECT_EQ(fromJson(toJson(e, "/data/run", Paths::Relative), "/moved/run").files,
               (std::vector<fs::path>{"/moved/run/fire.nc", "/moved/other.nc"}));
+}
+
+TEST(Session, ItsFilesAreFoundWhereTheyWereElseWhereTheyWouldBeFromIt) {
+    const fs::path root = tests::freshFolder();
+    Explorer e;
+    e.files = {root / "a" / "data" / "fire.nc", root / "a" / "data" / "x*.nc"};
+    for (const char* folder : {"a/data", "b/data", "a/pictures"})
+        fs::create_directories(root / folder);
+    const json session = toJson(e, root / "a" / "pictures");
+    const std::vector<fs::path> moved{root / "b" / "data" / "fire.nc",
+                                      root / "b" / "data" / "x*.nc"};
+    const auto movedFiles = [&] { return fromJson(session, root / "b" / "pictures").files; };
+    for (const fs::path& each : {e.files[0], moved[0]}) tests::writeBytes(each, "");
+    // Other data under the same name beside it are not taken for them.
+    EXPECT_EQ(movedFiles(), e.files);
+    fs::remove_all(root / "a");
+    EXPECT_EQ(movedFiles(), moved);
+    EXPECT_EQ(missingFile(fromJson(session, root / "b" / "pictures")), std::nullopt);
+    fs::remove_all(root / "b");
+    EXPECT_EQ(movedFiles(), e.files);
+    EXPECT_EQ(missingFile(fromJson(session, root / "b" / "pictures")), e.files[0]);
+}
+
+TEST(Session, WhatIsPublishedKeepsNoAbsolutePath) {
+    Explorer e;
+    e.files = {"/home/somebody/fire.nc"};
+    EXPECT_THAT(toJson(e, "/home/somebody").dump(), HasSubstr("somebody"));
+    EXPECT_THAT(toJson(e, "/home/somebody", Paths::Relative).dump(),
+                testing::Not(HasSubstr("somebody")));
 }
 
 TEST(Session, PathsWithDotsLeadToTheSameFile) {
@@ -136,9 +166,10 @@ TEST(Session, WrongTypesAreNamedByKey) {
                           json::array({1, 2})};
     // Per key, the entries of `wrong` that it takes for what it is.
     const std::map<std::string, std::set<int>> fits = {
-        {"files", {5}}, {"variable", {4}}, {"steps", {}},         {"keep", {}},  {"layers", {5}},
-        {"sweep", {}},  {"splat", {}},     {"splatSize", {2, 3}}, {"order", {}}, {"clip", {}},
-        {"scale", {}},  {"view", {7}},     {"stereo", {7}},       {"size", {}},  {"play", {7}}};
+        {"files", {5}}, {"filesWere", {5}}, {"axes", {7}}, {"variable", {4}}, {"steps", {}},
+        {"keep", {}},   {"layers", {5}},    {"sweep", {}}, {"splat", {}},     {"splatSize", {2, 3}},
+        {"order", {}},  {"clip", {}},       {"scale", {}}, {"view", {7}},     {"stereo", {7}},
+        {"size", {}},   {"play", {7}}};
     for (const auto& [key, taken] : fits)
         for (int i = 0; i < static_cast<int>(std::size(wrong)); ++i) {
             const json session = {{"isochron", 1}, {key, wrong[i]}};
@@ -173,6 +204,7 @@ TEST(Session, WrongTypesAreNamedByKey) {
           {"delta", {2, 3}},
           {"timerSteps", {2}},
           {"timerStep", {2}},
+          {"tick", {2}},
           {"frequency", {2, 3}},
           {"swing", {1}},
           {"color", {}},
@@ -225,6 +257,13 @@ TEST(Session, ValuesOutOfBoundsAreRefused) {
     expectRefused(with("sweep", {{"animation", "0:1"}, {"timerSteps", 0}}), "session.sweep");
     expectRefused(with("sweep", {{"animation", "0:1"}, {"timerSteps", 1 << 30}, {"timerStep", -1}}),
                   "session.sweep");
+    for (const int tick : {-1, 4})
+        expectRefused(with("sweep", {{"animation", "0:1"}, {"timerSteps", 4}, {"tick", tick}}),
+                      "session.sweep");
+    expectRefused(with("axes", {{"w", {{"flip", true}}}}), "'w'");
+    expectRefused(with("axes", {{"z", {{"down", true}}}}), "'down'");
+    expectRefused(with("axes", {{"z", {{"flip", 1}}}}), "session.axes.z.flip");
+    expectRefused(with("filesWere", json::array({"/a.nc"})), "session.filesWere");
     expectRefused(with("sweep", {{"animation", "0:1"}, {"delta", -1}}), "session.sweep");
     expectRefused(with("sweep", {{"animation", "0:1"}, {"frequency", -1}}), "session.sweep");
 }

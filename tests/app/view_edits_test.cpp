@@ -131,7 +131,7 @@ TEST_F(ViewEdits, TurningKeepsAnglesInBoundsAndTheDistance) {
                              360;
         EXPECT_NEAR(turns, std::round(turns), 1e-9);
         EXPECT_EQ(*next.distance, standOf(view, at.boxHalfEdges, at.size).distance);
-        EXPECT_EQ(next.target, view.target);
+        EXPECT_EQ(next.target, standOf(view, at.boxHalfEdges, at.size).target);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "render/image_compare.h"
 #include "render/pick.h"
 #include "render/present.h"
+#include "tests/bench/alternate.h"
 #include "tests/bench/noise_world.h"
 
 namespace {
@@ -63,10 +64,11 @@ BENCHMARK(BM_CanvasFrame)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// Light onto a window, alone.
+// Light onto a window, alone: encoded by the program, as where the driver draws on the processor,
+// and by a shader.
 void BM_Present(benchmark::State& state) {
     const render::gl::HeadlessContext context;
-    const render::Present present;
+    const render::Present here(true), shader(false);
     const render::Targets light(kSize);
     render::gl::begin({.framebuffer = light.lightFramebuffer(),
                        .size = kSize,
@@ -74,10 +76,13 @@ void BM_Present(benchmark::State& state) {
     const render::gl::Texture window(GL_RGBA8, kSize);
     const GLuint id = window.id();
     const render::gl::Framebuffer framebuffer(std::span(&id, 1));
-    for (auto _ : state) {
-        present.draw(light, framebuffer.id());
-        glFinish();
-    }
+    const auto with = [&](const render::Present& present) {
+        return [&] {
+            present.draw(light, framebuffer.id());
+            glFinish();
+        };
+    };
+    bench::alternate(state, with(here), with(shader));
 }
 BENCHMARK(BM_Present)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -31,7 +31,7 @@ void BM_EyePair(benchmark::State& state) {
                         .framebuffer = images[static_cast<std::size_t>(i)].framebuffer.id()});
     Eyes eyes;
     const auto draw = [&](std::span<const xr::Eye> some) {
-        eyes.draw(&shown, some, placement, {}, std::nullopt);
+        eyes.draw(&shown, some, placement, {}, Eyes::Splats::All);
         glFinish();
     };
     while (!eyes.report().whole) draw(pair);

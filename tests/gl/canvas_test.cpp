@@ -14,6 +14,7 @@
 #include "render/gl/headless_context.h"
 #include "render/image_compare.h"
 #include "render/png.h"
+#include "render/splat_cost.h"
 #include "tests/support/files.h"
 #include "tests/support/shown_steps.h"
 
@@ -39,7 +40,7 @@ class CanvasOfNoise : public testing::Test {
     }
     // As `isochron render` makes it: a renderer and a step on the GPU that have seen nothing else.
     void drawApart(const Shown& shown, const std::filesystem::path& file) {
-        render::FrameRenderer renderer;
+        render::FrameRenderer renderer(render::SplatterChoice::Gl);
         const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
         render::GpuStep onGpu(*shown.sorted, lattice);
         writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice, 0},
@@ -48,7 +49,7 @@ class CanvasOfNoise : public testing::Test {
 
     render::gl::HeadlessContext context_;
     tests::ShownSteps world_{20};
-    Canvas canvas_;
+    Canvas canvas_{render::SplatterChoice::Gl};
     CanvasReport report_;
     const std::uint64_t stepBytes_ = world_.steps[0]->size() * 10;  // points and values
 };
@@ -69,6 +70,7 @@ TEST_F(CanvasOfNoise, AtRestAllPointsAreDrawnForEveryEye) {
             EXPECT_EQ(report_.drawn, report_.selected);
             EXPECT_EQ(report_.stride, 1u);
             EXPECT_TRUE(report_.whole);
+            EXPECT_EQ(report_.counts->selected, report_.selected) << "the layers are apart";
         }
     }
 }
@@ -81,16 +83,28 @@ TEST_F(CanvasOfNoise, WhatIsDrawnIsWhatIsSaved) {
 }
 
 TEST_F(CanvasOfNoise, MovingKeepsToTheLimitOfAllEyesAndRestsWhole) {
+    // Of all eyes, in ordinary splats; those of a subset are larger.
+    const auto cost = [&](std::uint32_t stride) {
+        const Shown shown = world_.shown();
+        const render::Lattice lattice(shown.sorted->grid());
+        Picture picture =
+            makePicture(shown.explorer, shown.dataset.about, 0, *shown.sorted, lattice);
+        picture.scene.stride = stride;
+        picture.scene.footprint.size *= std::cbrt(stride);
+        double sum = 0;
+        for (const render::View& view : canvas_.eyesOf(shown))
+            sum += render::sceneCost(picture.scene, view);
+        return sum;
+    };
     for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
         world_.explorer.order = order;
         for (const Stereo stereo : {Stereo::Off, Stereo::SideBySide}) {
             world_.explorer.stereo.mode = stereo;
-            const CanvasLimits limits{.splats = 1000};
+            const CanvasLimits limits{.splats = 2'000};
             const Image moving = draw(world_.shown(), limits, true)[0];
-            const std::uint64_t eyes = stereo == Stereo::Off ? 1 : 2;
-            EXPECT_LE(report_.drawn * eyes, limits.splats);
-            // Half the stride would draw more; two runs, each uneven by so many at either stride.
-            EXPECT_GE(report_.drawn + 3 * render::kSubsetUnevenness, limits.splats / eyes / 2);
+            EXPECT_LE(cost(report_.stride), limits.splats);
+            ASSERT_GT(report_.stride, 1u);
+            EXPECT_GT(cost(report_.stride / 2), limits.splats) << "the least stride that does";
             EXPECT_FALSE(report_.whole);
             const Image resting = draw(world_.shown(), limits, false)[0];
             EXPECT_TRUE(report_.whole);
@@ -107,7 +121,7 @@ TEST_F(CanvasOfNoise, MovingKeepsToTheLimitOfAllEyesAndRestsWhole) {
 
 TEST_F(CanvasOfNoise, MovingBelowTheLimitDrawsAll) {
     const Image resting = draw(world_.shown())[0];
-    EXPECT_EQ(draw(world_.shown(), {.splats = report_.selected}, true)[0], resting);
+    EXPECT_EQ(draw(world_.shown(), {.splats = 100 * report_.selected}, true)[0], resting);
     EXPECT_EQ(report_.stride, 1u);
     EXPECT_TRUE(report_.whole);
 }
@@ -123,10 +137,16 @@ class CanvasOfBlocks : public CanvasOfNoise {
 TEST_F(CanvasOfBlocks, AStepComesInSlicesAndTheOneBeforeStays) {
     // 0.1 to 0.4 and 0.8 to 0.9 touch blocks 0 to 3, 6 and 7.
     const CanvasLimits limits{.uploadBytes = 2 * kBlockBytes};
+    // Counted of the step on the screen: the one before while another comes.
+    const auto countsAreOf = [&](std::size_t step) {
+        EXPECT_EQ(report_.counts, pointCounts(world_.explorer, *world_.steps[step]));
+        EXPECT_EQ(report_.selected, report_.counts->selected);
+    };
     const auto comes = [&](std::size_t step) {
         std::vector<std::vector<Image>> frames;
         for (int i = 0; i < 3; ++i) {
             frames.push_back(draw(world_.shown(step), limits));
+            if (!frames.back().empty()) countsAreOf(i < 2 ? 0 : step);
             EXPECT_DOUBLE_EQ(report_.uploaded, 1 - (2 - i) / 3.0) << step << ' ' << i;
             EXPECT_EQ(report_.whole, i == 2);
         }
@@ -161,10 +181,28 @@ TEST_F(CanvasOfBlocks, AnotherSelectionOfTheStepOnTheScreenComesInSlicesOfEightf
         EXPECT_EQ(draw(world_.shown(), {.uploadBytes = kBlockBytes / 8}), wider)
             << "the choices before";
         EXPECT_DOUBLE_EQ(report_.uploaded, (6 + i) / 8.0);
+        EXPECT_EQ(report_.counts->selected, report_.selected) << "as they are on the screen";
         EXPECT_FALSE(report_.whole);
     }
     EXPECT_NE(draw(world_.shown(), {.uploadBytes = kBlockBytes / 8}), wider);
     EXPECT_TRUE(report_.whole);
+}
+
+TEST_F(CanvasOfBlocks, WhatTheProgramSumsItselfIsThereAtOnce) {
+    const CanvasLimits limits{.uploadBytes = 64};
+    while (!report_.whole) draw(world_.shown(), limits);
+    const Image byGl = draw(world_.shown(), limits)[0];
+    Canvas own(render::SplatterChoice::Cpu);
+    std::vector<Image> eyes;
+    const Shown shown = world_.shown();
+    const CanvasReport report = own.draw(
+        shown, own.eyesOf(shown), limits, false,
+        [&](std::size_t, const render::Targets& light) { eyes.push_back(light.readLight()); });
+    EXPECT_TRUE(report.whole);
+    EXPECT_EQ(report.uploaded, 1);
+    EXPECT_LT(report.gpuBytes, kBlockBytes) << "no points";
+    ASSERT_EQ(eyes.size(), 1u);
+    EXPECT_LE(render::comparePictures(eyes[0], byGl).maxAbsolute, 1e-4);
 }
 
 TEST_F(CanvasOfBlocks, ChoicesShowAtOnceWhileAStepComes) {
@@ -210,7 +248,7 @@ TEST_F(CanvasOfNoise, OtherProportionsMoveThePointsWithoutUploadingThem) {
     world_.explorer.scale = glm::dvec3(1, 1, 3);
     const Image stretched = draw(world_.shown(), {.uploadBytes = 0})[0];
     EXPECT_TRUE(report_.whole);
-    Canvas apart;
+    Canvas apart{render::SplatterChoice::Gl};
     std::optional<Image> expected;
     apart.draw(world_.shown(), apart.eyesOf(world_.shown()), {}, false,
                [&](std::size_t, const render::Targets& light) { expected = light.readLight(); });
@@ -265,6 +303,7 @@ TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
 }
 
 TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
+    world_.explorer.footprint.size = 0.1;  // so that each counts as one
     bool timed = false;
     for (int i = 0; i < 50 && !timed; ++i) {
         draw(world_.shown());

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/session.h"
+#include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 
 namespace app {
@@ -20,7 +21,7 @@ void pollToEnd(ExportJob& job) {
 
 Explorer fire() {
     Explorer e;
-    e.files = {SOURCE_DIR "/datasets/pool_fire_T.nc"};
+    e.files = {tests::demo()};
     e.variable = "T";
     e.steps = StepChoice{3, 5};
     e.size = {64, 48};
@@ -36,7 +37,7 @@ std::set<std::string> namesIn(const std::filesystem::path& folder) {
 
 TEST(ExportJobOfTheProgram, WritesNumberedPictures) {
     const auto folder = tests::freshFolder();
-    ExportJob job(fire(), {folder / "fire.png", fire(), {3, 4, 5}}, PROGRAM);
+    ExportJob job(fire(), {folder / "fire.png", fire(), {3, 4, 5}}, tests::program());
     pollToEnd(job);
     ASSERT_EQ(job.state(), State::Done) << job.outcome();
     EXPECT_EQ(job.done(), 3u);
@@ -48,7 +49,7 @@ TEST(ExportJobOfTheProgram, HandsOnWhyItFailed) {
     const auto folder = tests::freshFolder();
     Explorer e = fire();
     e.files = {folder / "gone.nc"};
-    ExportJob job(e, {folder / "fire.exr", e, {3, 4, 5}}, PROGRAM);
+    ExportJob job(e, {folder / "fire.exr", e, {3, 4, 5}}, tests::program());
     pollToEnd(job);
     EXPECT_EQ(job.state(), State::Failed);
     EXPECT_THAT(job.outcome(), testing::HasSubstr("gone.nc"));
@@ -60,7 +61,7 @@ TEST(ExportJobOfTheProgram, LeavesWholePicturesOnlyWhenCancelled) {
     Explorer e = fire();
     e.sweep = timeseries::SweepSettings{
         .animation = timeseries::RangeSet::parse("300:1600"), .delta = 50, .timerSteps = 100000};
-    ExportJob job(e, {folder / "fire.png", e, {3, 4, 5}}, PROGRAM);
+    ExportJob job(e, {folder / "fire.png", e, {3, 4, 5}}, tests::program());
     for (job.poll(); job.done() < 2; job.poll()) {
         ASSERT_EQ(job.state(), State::Running) << job.outcome();
         std::this_thread::yield();

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
+#include <optional>
 
 #include "render/color.h"
 #include "render/gl/debug_output.h"
@@ -21,7 +23,9 @@ class Presented : public testing::Test {
     static constexpr glm::ivec2 kWindow{320, 300};
 
     // Into a window of RGBA 9, 9, 9, 9; rows from the top.
-    std::vector<glm::u8vec4> window(const Image& picture, glm::ivec2 at, Encoding encoding) {
+    std::vector<glm::u8vec4> window(const Image& picture, glm::ivec2 at, Encoding encoding,
+                                    bool onProcessor = true,
+                                    std::optional<glm::ivec2> scaledTo = {}) {
         const Targets targets(picture.size);
         gl::begin(
             {.framebuffer = targets.lightFramebuffer(), .size = picture.size, .clearDepth = 1.0f});
@@ -30,12 +34,17 @@ class Presented : public testing::Test {
             for (int x = 0; x < picture.size.x; ++x) rows.push_back(picture.at(x, y));
         glTextureSubImage2D(targets.light().id(), 0, 0, 0, picture.size.x, picture.size.y, GL_RGBA,
                             GL_FLOAT, rows.data());
-        const gl::Texture shown(encoding == Encoding::Shader ? GL_RGBA8 : GL_SRGB8_ALPHA8, kWindow);
+        const gl::Texture shown(encoding == Encoding::Program ? GL_RGBA8 : GL_SRGB8_ALPHA8,
+                                kWindow);
         const glm::u8vec4 nine(9);
         glClearTexImage(shown.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, &nine);
         const GLuint id = shown.id();
         const gl::Framebuffer framebuffer(std::span(&id, 1));
-        present_.draw(targets, framebuffer.id(), at, encoding);
+        const Present& present = onProcessor ? here_ : shader_;
+        if (scaledTo)
+            present.drawScaled(targets, framebuffer.id(), at, *scaledTo);
+        else
+            present.draw(targets, framebuffer.id(), at, encoding);
         std::vector<glm::u8vec4> upwards(std::size_t(kWindow.x) * kWindow.y), read;
         glGetTextureImage(id, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                           static_cast<GLsizei>(upwards.size() * sizeof upwards[0]), upwards.data());
@@ -47,7 +56,7 @@ class Presented : public testing::Test {
     }
 
     gl::HeadlessContext context_;
-    Present present_;
+    Present here_{true}, shader_{false};
 };
 
 // Every step, the floats on both sides of each border, and what no light should be.
@@ -72,13 +81,14 @@ Image trickyLight() {
 
 TEST_F(Presented, BytesAreThoseOfAPngButForLightOnABorder) {
     // Blending may leave the ground's alpha an ulp or two below 1.
-    for (const float alpha : {1.0f, 1 - 1.2e-7f}) {
+    for (const auto& [alpha, here] : {std::pair(1.0f, true), std::pair(1 - 1.2e-7f, true),
+                                      std::pair(1.0f, false), std::pair(1 - 1.2e-7f, false)}) {
         Image light = trickyLight();
         for (glm::vec4& pixel : light.pixels) pixel.a = alpha;
         const auto file = tests::freshFolder() / "light.png";
         writePng(file, light);
         const Image decoded = readPng(file).image;
-        const auto shown = window(light, {0, kWindow.y - 256}, Encoding::Shader);
+        const auto shown = window(light, {0, kWindow.y - 256}, Encoding::Program, here);
         for (int y = 0; y < 256; ++y)
             for (int x = 0; x < 256; ++x) {
                 const glm::u8vec4 pixel = shown[std::size_t(y) * kWindow.x + x];
@@ -97,23 +107,75 @@ TEST_F(Presented, BytesAreThoseOfAPngButForLightOnABorder) {
 
 TEST_F(Presented, OnlyItsRectangleIsDrawn) {
     const glm::ivec2 at{40, 20}, size{100, 50};
-    const auto shown = window(Image(size, glm::vec4(1)), at, Encoding::Shader);
-    for (int y = 0; y < kWindow.y; ++y)
-        for (int x = 0; x < kWindow.x; ++x) {
-            const int up = kWindow.y - 1 - y;
-            const bool inside = x >= at.x && x < at.x + size.x && up >= at.y && up < at.y + size.y;
-            ASSERT_EQ(shown[std::size_t(y) * kWindow.x + x], glm::u8vec4(inside ? 255 : 9))
-                << x << ' ' << y;
-        }
+    for (const bool here : {true, false}) {
+        const auto shown = window(Image(size, glm::vec4(1)), at, Encoding::Program, here);
+        for (int y = 0; y < kWindow.y; ++y)
+            for (int x = 0; x < kWindow.x; ++x) {
+                const int up = kWindow.y - 1 - y;
+                const bool inside =
+                    x >= at.x && x < at.x + size.x && up >= at.y && up < at.y + size.y;
+                ASSERT_EQ(shown[std::size_t(y) * kWindow.x + x], glm::u8vec4(inside ? 255 : 9))
+                    << x << ' ' << y;
+            }
+    }
 }
 
 TEST_F(Presented, AnSrgbFramebufferEncodesTheSame) {
     // GL allows an encoding to be off by 0.6 of a step (4.5 core, 17.3.9 leaves it to the driver).
     const Image light = trickyLight();
-    const auto byShader = window(light, {0, 0}, Encoding::Shader);
+    const auto byShader = window(light, {0, 0}, Encoding::Program);
     const auto byFramebuffer = window(light, {0, 0}, Encoding::Framebuffer);
     for (std::size_t i = 6; i < byShader.size(); ++i)  // what is no light is left out
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(byFramebuffer[i][c], byShader[i][c], 1) << i;
+}
+
+TEST(FittedInto, IsTheLargestOfItsShapeInTheMiddle) {
+    for (const glm::ivec2 window : {glm::ivec2(900, 900), {1600, 500}, {3, 700}, {1, 1}})
+        for (const glm::ivec2 picture : {glm::ivec2(896, 1007), {320, 240}, {2064, 2208}}) {
+            const Fitted fitted = fittedInto(window, picture);
+            EXPECT_TRUE(fitted.size.x == window.x || fitted.size.y == window.y);
+            for (int a = 0; a < 2; ++a) {
+                EXPECT_LE(fitted.at[a] + fitted.size[a], window[a]);
+                EXPECT_LE(std::abs(2 * fitted.at[a] + fitted.size[a] - window[a]), 1);
+            }
+            // Of the shape, to half a pixel.
+            const double scale = static_cast<double>(fitted.size.y) / picture.y;
+            if (fitted.size.y == window.y) {
+                EXPECT_NEAR(fitted.size.x, std::max(1.0, scale * picture.x), 0.51);
+            }
+        }
+}
+
+// A ramp that is linear in x and y stays one at every size, but at its outer half pixels.
+TEST_F(Presented, ScaledItIsAllOfThePicture) {
+    constexpr glm::ivec2 kPicture{64, 48};
+    const auto rampAt = [](glm::dvec2 share) {
+        return glm::dvec3(0.1 + 0.8 * share.x, 0.9 - 0.7 * share.y, 0.25);
+    };
+    Image picture(kPicture, glm::vec4(0, 0, 0, 1));
+    for (int y = 0; y < kPicture.y; ++y)
+        for (int x = 0; x < kPicture.x; ++x)
+            picture.at(x, y) =
+                glm::vec4(glm::vec3(rampAt((glm::dvec2(x, y) + 0.5) / glm::dvec2(kPicture))), 1);
+    for (const glm::ivec2 size : {glm::ivec2(200, 150), {32, 24}, kPicture}) {
+        const glm::ivec2 at(11, 7);
+        const auto pixels = window(picture, at, Encoding::Program, true, size);
+        for (int y = 0; y < kWindow.y; ++y)
+            for (int x = 0; x < kWindow.x; ++x) {
+                const glm::u8vec4 pixel = pixels[std::size_t(y) * kWindow.x + x];
+                const glm::ivec2 in(x - at.x, y - (kWindow.y - at.y - size.y));  // from its top
+                if (in.x < 0 || in.y < 0 || in.x >= size.x || in.y >= size.y) {
+                    ASSERT_EQ(pixel, glm::u8vec4(9));
+                    continue;
+                }
+                const glm::dvec2 edge = 0.5 / glm::dvec2(kPicture);
+                const glm::dvec2 share =
+                    glm::clamp((glm::dvec2(in) + 0.5) / glm::dvec2(size), edge, 1.0 - edge);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(pixel[c], srgb8FromLinear(rampAt(share)[c]), 1)
+                        << size.x << ": " << in.x << ' ' << in.y;
+            }
+    }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 # Two runs of `render` whose pictures are compared: cmake -DPROGRAM= -DCOMPARE= -DWORK= -DVERB=same or
-# differ -DTOLERANCE= -DENDING=png -P compare.cmake -- ARGUMENTS AGAINST ARGUMENTS.
+# "differ-in PART" -DTOLERANCE= -DENDING=png -P compare.cmake -- ARGUMENTS AGAINST ARGUMENTS.
 include(${CMAKE_CURRENT_LIST_DIR}/functions.cmake)
 if(PREPARE)
   cmake_language(EVAL CODE "${PREPARE}")

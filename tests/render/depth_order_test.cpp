@@ -11,8 +11,15 @@ namespace {
 
 using timeseries::RangeSet;
 
+// Three axes that cannot be mistaken for each other, leaning.
+std::shared_ptr<const timeseries::Grid> leaningGrid() {
+    return std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(20), tests::axis(15, 0, 1.7), tests::axis(24, 3, 0.6)},
+        timeseries::Frame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
+}
+
 struct World {
-    timeseries::SortedStep step = tests::noise(tests::cube(20));
+    timeseries::SortedStep step = tests::noise(leaningGrid());
     Lattice lattice{step.grid()};
     Scene scene{.step = step,
                 .lattice = lattice,
@@ -28,9 +35,7 @@ struct World {
 
 const glm::dvec3 kEyes[] = {{0, -3, 0}, {0.1, 0.05, -0.2}, {100, 40, 7}};
 
-TEST(DepthOrder, EveryPointOfEveryLayerIsThereOnce) {
-    const World w;
-    const auto sorted = std::get<Sorted>(order(w.scene, kEyes[0]));
+void expectEveryPointOnce(const World& w, const Sorted& sorted) {
     std::vector<std::pair<int, std::uint32_t>> listed, expected;
     for (std::size_t i = 0; i < sorted.point.size(); ++i)
         listed.emplace_back(sorted.layer[i], sorted.point[i]);
@@ -40,6 +45,37 @@ TEST(DepthOrder, EveryPointOfEveryLayerIsThereOnce) {
                 expected.emplace_back(layer, static_cast<std::uint32_t>(p));
     std::ranges::sort(listed);
     EXPECT_EQ(listed, expected);
+}
+
+TEST(DepthOrder, EveryPointOfEveryLayerIsThereOnce) {
+    const World w;
+    expectEveryPointOnce(w, std::get<Sorted>(order(w.scene, kEyes[0])));
+    expectEveryPointOnce(w, std::get<Sorted>(orderExactly(w.scene, kEyes[0])));
+}
+
+TEST(DepthOrder, NotAskedForItIsTheRunsAsTheyLie) {
+    World w;
+    w.scene.order = Order::None;
+    EXPECT_TRUE(std::holds_alternative<Runs>(order(w.scene, kEyes[0])));
+    EXPECT_TRUE(std::holds_alternative<Runs>(orderExactly(w.scene, kEyes[0])));
+}
+
+// As many points as keys, evenly spaced along the ray of an eye: each has a key of its own. Values
+// rise with the distance: points of one key would keep the order of value.
+TEST(DepthOrder, TheKeysAre65536) {
+    const auto grid = std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(65536), tests::axis(1), tests::axis(1)});
+    const auto step = tests::stepOf(grid, [](std::size_t i) { return double(i); });
+    const Lattice lattice(step.grid());
+    const Scene scene{.step = step,
+                      .lattice = lattice,
+                      .layers = {{step.select(RangeSet::everything()), {}}},
+                      .footprint = {},
+                      .order = Order::BackToFront,
+                      .clip = {}};
+    const auto sorted = std::get<Sorted>(order(scene, {-3, 0, 0}));
+    ASSERT_EQ(sorted.point.size(), 65536u);
+    for (std::uint32_t i = 0; i < 65536; ++i) ASSERT_EQ(sorted.point[i], 65535 - i);
 }
 
 TEST(DepthOrder, FarthestFirstToOneKeyOf65536) {
@@ -68,12 +104,12 @@ TEST(DepthOrder, TheTruthsOrderIsExact) {
 
 TEST(DepthOrder, ClippedPointsAreNotListed) {
     World w;
-    w.scene.clip = {glm::uvec3(5, 0, 0), glm::uvec3(9, 19, 3)};
+    w.scene.clip = {glm::uvec3(5, 0, 0), glm::uvec3(9, 14, 3)};
     const auto sorted = std::get<Sorted>(order(w.scene, kEyes[0]));
     ASSERT_FALSE(sorted.point.empty());
     for (const std::uint32_t p : sorted.point) {
         const std::uint32_t i = w.step.gridIndex()[p];
-        EXPECT_TRUE(w.scene.clip.holds({i % 20, i / 20 % 20, i / 400}));
+        EXPECT_TRUE(w.scene.clip.holds({i % 20, i / 20 % 15, i / 300}));
     }
 }
 
@@ -95,8 +131,8 @@ TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
                       .footprint = {},
                       .order = Order::BackToFront,
                       .clip = {}};
-    const auto sorted = std::get<Sorted>(order(scene, {0, 0, 3}));
-    EXPECT_EQ(sorted.point, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    for (const DrawList& list : {order(scene, {0, 0, 3}), orderExactly(scene, {0, 0, 3})})
+        EXPECT_EQ(std::get<Sorted>(list).point, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
 }  // namespace

@@ -193,5 +193,42 @@ TEST(IndexBox, OutsideTheGridHoldsNothing) {
     for (unsigned i = 0; i < 4; ++i) EXPECT_FALSE(box.holds({i, i, i}));
 }
 
+TEST(Lattice, AxesOfOneUnitAreNeverStretchedHoweverFlat) {
+    const auto metres = [](std::size_t n, double step) {
+        return Axis{.name = "x", .units = "m", .coordinates = tests::axis(n, 0, step).coordinates};
+    };
+    for (const double height : {4.0, 1e-3}) {
+        const Grid flat({metres(513, 1), metres(33, 1), metres(5, height / 4)});
+        const Lattice lattice(flat);
+        const glm::dvec3 half = lattice.boxHalf();
+        EXPECT_NEAR(half.y / half.x, 32.0 / 512, 1e-12);
+        EXPECT_NEAR(half.z / half.x, height / 512, 1e-12);
+        EXPECT_EQ(stretchText(flat, lattice), "");
+    }
+    // Another unit is fitted, whatever its numbers are.
+    std::array axes{metres(513, 1), metres(33, 1), metres(5, 1)};
+    axes[2].units = "hPa";
+    const Lattice fitted{Grid(axes)};
+    EXPECT_NEAR(fitted.boxHalf().z / fitted.boxHalf().x, 0.5, 1e-12);
+}
+
+TEST(Lattice, TheDomainHoldsHalfACellBeyondTheOutermostPoints) {
+    auto uneven = tests::axis(4);
+    uneven.coordinates = {0, 1, 3, 7};
+    uneven.down = true;
+    const Grid grid({tests::axis(11), tests::axis(5, 3, -2), uneven});
+    const Lattice lattice(grid, glm::dvec3(1));
+    const Lattice::Box box = lattice.domain();
+    const glm::dvec3 per = glm::abs(lattice.scale()), half = lattice.boxHalf();
+    EXPECT_NEAR(box.hi.x, half.x + 0.5 * per.x, 1e-12);
+    EXPECT_NEAR(box.lo.y, -half.y - 1.0 * per.y, 1e-12);
+    // Downwards: the last cell, 4 deep, is the lowest.
+    EXPECT_NEAR(box.lo.z, -half.z - 2.0 * per.z, 1e-12);
+    EXPECT_NEAR(box.hi.z, half.z + 0.5 * per.z, 1e-12);
+    EXPECT_TRUE(lattice.longCells());  // 4 against 1
+    EXPECT_FALSE(
+        Lattice(Grid({tests::axis(9), tests::axis(9), tests::axis(9, 0, 2.9)})).longCells());
+}
+
 }  // namespace
 }  // namespace render

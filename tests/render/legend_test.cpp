@@ -60,6 +60,26 @@ TEST(Legend, AColourBarRunsThroughItsMapBetweenItsEnds) {
     EXPECT_NEAR(hi->hi.x, right, 3);
 }
 
+TEST(Legend, ABarTooShortForTheDigitsOfBothEndsTellsThemApart) {
+    const glm::ivec2 size(800, 640);
+    const auto shown = [&](double lo, double hi) {
+        return legendMesh({"", "", {{byValue(lo, hi), "", ""}}, {}}, fontFor(size), size);
+    };
+    // As many of the last digits as there is room for, four at least: those in which they differ.
+    const auto ends = [&](const FlatMesh& mesh, const std::string& sign,
+                          const std::string& digits) {
+        for (std::size_t left = 1; left + 4 <= digits.size(); ++left)
+            if (find(mesh, size, sign + "\u2026" + digits.substr(left))) return true;
+        return false;
+    };
+    const FlatMesh above = shown(9007199254740992, 9007199254741004);
+    EXPECT_TRUE(find(above, size, "9007199254740992"));
+    EXPECT_TRUE(ends(above, "", "9007199254741004"));
+    const FlatMesh below = shown(-9007199254741004, -9007199254740992);
+    EXPECT_TRUE(find(below, size, "\u22129007199254741004"));
+    EXPECT_TRUE(ends(below, "\u2212", "9007199254740992"));
+}
+
 TEST(Legend, AMapOfOneValueShowsItsMiddle) {
     const glm::ivec2 size(1024, 1024);
     const FlatMesh mesh = legendMesh({"", "", {{byValue(7, 7), "", ""}}, {}}, fontFor(size), size);
@@ -93,6 +113,20 @@ TEST(Legend, LongTextsAreShortenedWithAnEllipsis) {
     EXPECT_TRUE(titled(mesh, size, "…"));
     EXPECT_TRUE(titled(mesh, size, "größte Geschwindigkeit"));
     EXPECT_FALSE(titled(mesh, size, legend.title));
+}
+
+TEST(Legend, SaysThatAStepIsEmptyUnderItsTime) {
+    const glm::ivec2 size(500, 600);
+    for (const char* time : {"1.10 s, step 13 of 31", ""}) {
+        Legend legend = fire();
+        legend.time = time;
+        legend.emptiness = "all 8 points of this step are missing";
+        const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+        const auto said = find(mesh, size, legend.emptiness);
+        ASSERT_TRUE(said);
+        EXPECT_TRUE(titled(mesh, size, legend.title));
+        EXPECT_TRUE(find(mesh, size, "600:1600 K"));
+    }
 }
 
 TEST(Legend, GivesUpNotesThenAmountsThenLayersThenTimeAsPicturesShrink) {

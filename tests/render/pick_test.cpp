@@ -27,17 +27,16 @@ struct World {
                 .clip = {}};
 };
 
-// Brute force over pictures: every drawn point alone, in front to back order, until its layers'
-// optical depth passes half of the ray's.
+// Brute force over pictures: every drawn point alone, in front to back order, until the light that
+// they add passes half of the ray's.
 std::optional<std::pair<std::uint64_t, std::size_t>> expected(const Scene& scene, const View& view,
                                                               glm::ivec2 pixel) {
     struct Seen {
-        double depth, tau;
+        double depth, tau, brightness;
         std::uint64_t point;
         std::size_t layer;
     };
     std::vector<Seen> seen;
-    double whole = 0;
     for (std::size_t k = 0; k < scene.layers.size(); ++k)
         for (const auto& run : scene.layers[k].runs)
             for (std::uint64_t p = run.first; p < run.first + run.count; ++p) {
@@ -53,15 +52,28 @@ std::optional<std::pair<std::uint64_t, std::size_t>> expected(const Scene& scene
                                    pointsPerSplat(scene.layers[k], scene.stride);
                 const double depth =
                     project(view, scene.lattice.position(scene.step.gridIndex()[p])).depth;
-                seen.push_back({depth, tau, p, k});
-                whole += tau;
+                const glm::dvec3 rgb =
+                    colorOf(scene.layers[k].style, timeseries::toDouble(scene.step.value(p)));
+                // Rec. 709's luminance, and what black counts.
+                const double brightness = 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b + 0.01;
+                seen.push_back({depth, tau, brightness, p, k});
             }
     std::ranges::stable_sort(seen, {}, &Seen::depth);
-    double passed = 0;
-    for (const Seen& s : seen) {
-        passed += s.tau;
-        if (passed >= std::min(whole / 2, 0.5)) return std::pair(s.point, s.layer);
-    }
+    // One layer of one colour looks the same in any order.
+    const bool hides =
+        scene.order == Order::BackToFront ||
+        (scene.layers.size() == 1 && std::holds_alternative<Constant>(scene.layers[0].style.color));
+    const auto light = [&](std::size_t count) {
+        double sum = 0, left = 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double opacity = 1 - std::exp(-seen[i].tau);
+            sum += (hides ? left * opacity : seen[i].tau) * seen[i].brightness;
+            left *= 1 - opacity;
+        }
+        return sum;
+    };
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        if (light(i + 1) >= light(seen.size()) / 2) return std::pair(seen[i].point, seen[i].layer);
     return std::nullopt;
 }
 
@@ -98,6 +110,12 @@ TEST(Pick, IsBruteForceOverSplats) {
         View view = tests::lookFrom({0, -2, 0}, {41, 31});
         view.clipFromView = clipFromView({-0.9, 0.2, -0.2, 0.8, 1.8, 2.2});  // cuts both ends off
         expectBruteForce(world->scene, view, 3);
+        Scene ordered = world->scene, alone = world->scene;
+        ordered.order = Order::BackToFront;
+        expectBruteForce(ordered, tests::lookFrom({0.3, -3, 0.5}, {41, 31}), 8);
+        alone.layers.pop_back();
+        alone.layers[0].style.opacity = 0.7;
+        expectBruteForce(alone, tests::lookFrom({0.3, -3, 0.5}, {41, 31}), 9);
     }
 }
 
@@ -136,10 +154,24 @@ struct Row {
 };
 
 TEST(Pick, TakesTheFrontOfWhatIsOpaqueAndTheMiddleOfWhatIsThin) {
-    // A splat's W on its axis is 5 / (pi R^2) = 0.82: opaque, the first one alone passes 0.5.
+    // A splat's W on its axis is 5 / (pi R^2) = 0.82: opaque, the first one hides all others.
     const Row opaque(1), thin(0.01);
     EXPECT_EQ(pick(opaque.scene, opaque.view, {10.5, 10.5})->gridIndex, 0u);
     EXPECT_EQ(pick(thin.scene, thin.view, {10.5, 10.5})->gridIndex, 2u);
+}
+
+TEST(Pick, TakesABrightColumnRatherThanTheHazeBeforeIt) {
+    // The last of the row is bright and as thick as the four dark ones before it together: half of
+    // the optical depth lies before it, and hardly any light.
+    Row row(0.2);
+    ByValue map{*colorMapNamed("inferno"), 0, 4};
+    ASSERT_GT(map.map.at(1).g, 10 * map.map.at(0.2).g);
+    row.scene.layers = {{row.step.select(RangeSet::parse("0:0.5")), {map, 0.5}},
+                        {row.step.select(RangeSet::parse("4:4")), {map, 0.5}}};
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        row.scene.order = order;
+        EXPECT_EQ(pick(row.scene, row.view, {10.5, 10.5})->gridIndex, 4u);
+    }
 }
 
 TEST(Pick, MissesWhereNothingIsSeen) {

@@ -129,5 +129,59 @@ TEST(ShownUnit, IsWhatAPersonWouldWrite) {
 
 TEST(ShownUnit, OneIsNoUnit) { EXPECT_EQ(shownUnit("1"), ""); }
 
+// So many characters at the most.
+auto within(std::size_t most) {
+    return [most](const std::string& text) {
+        return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) {
+                   return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+               })) <= most;
+    };
+}
+
+TEST(WithoutCommonStart, LeavesOutNoMoreThanItMustAndNothingThatDiffers) {
+    const Texts large{"1152921504606846500", "1152921504606847000"};
+    EXPECT_EQ(withoutCommonStart(large, within(19)), large);
+    EXPECT_EQ(withoutCommonStart(large, within(8)), (Texts{"…6846500", "…6847000"}));
+    EXPECT_EQ(withoutCommonStart(large, within(3)), (Texts{"…6500", "…7000"}));
+    EXPECT_EQ(withoutCommonStart({"−1000001", "−1000002"}, within(5)), (Texts{"−…001", "−…002"}));
+    EXPECT_EQ(withoutCommonStart({"−1.25", "1.25"}, within(3)), (Texts{"−1.25", "1.25"}));
+    EXPECT_EQ(withoutCommonStart({"10000000.001", "10000000.002"}, within(6)),
+              (Texts{"…0.001", "…0.002"}));
+    EXPECT_EQ(withoutCommonStart({"123456"}, within(4)), (Texts{"…456"}));
+    EXPECT_EQ(withoutCommonStart({}, within(4)), Texts{});
+}
+
+TEST(FittingTicks, LoseDigitsBeforeTheyLoseLabels) {
+    const auto texts = [](double lo, double hi, std::size_t most) {
+        return fittingTicks(lo, hi, 6, within(most)).texts;
+    };
+    EXPECT_EQ(texts(-1.2e11, 1.2e11, 8), (Texts{"−1×10¹¹", "0", "1×10¹¹"}));
+    EXPECT_EQ(texts(-1.2e11, 1.2e11, 20), tickTexts(niceTicks(-1.2e11, 1.2e11, 6)));
+    EXPECT_EQ(texts(-1.2e11, 1.2e11, 6), (Texts{"", "0", "1×10¹¹"}));
+}
+
+// A label is its tick's whole number, or its end behind "…"; else there is none.
+TEST(FittingTicks, NeverCutANumber) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> decade(-300, 300), factor(-9, 9), offset(0, 7);
+    for (int i = 0; i < 2000; ++i) {
+        const double span = std::pow(10, decade(random));
+        const double lo = factor(random) * span * std::pow(10, offset(random));
+        const std::size_t most = 3 + random() % 9;
+        const LabelledTicks labels = fittingTicks(lo, lo + span, 6, within(most));
+        const Texts whole = tickTexts(labels.ticks);
+        ASSERT_EQ(labels.texts.size(), whole.size());
+        for (std::size_t t = 0; t < whole.size(); ++t) {
+            const std::string& text = labels.texts[t];
+            EXPECT_TRUE(within(most)(text)) << text;
+            const std::size_t cut = text.find("…");
+            if (cut != text.npos)
+                EXPECT_TRUE(whole[t].ends_with(text.substr(cut + 3)) && cut <= 3) << text;
+            else
+                EXPECT_TRUE(text.empty() || text == whole[t]) << text;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace render

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace render {
 namespace {
 
@@ -31,6 +33,25 @@ TEST(Utf8, EachMalformedByteIsReplaced) {
     EXPECT_EQ(codePoints("\xC0\xAF"), U"\uFFFD\uFFFD");                      // overlong '/'
     EXPECT_EQ(codePoints("\xED\xA0\x80"), U"\uFFFD\uFFFD\uFFFD");            // surrogate
     EXPECT_EQ(codePoints("\xF4\x90\x80\x80"), U"\uFFFD\uFFFD\uFFFD\uFFFD");  // beyond U+10FFFF
+}
+
+TEST(Utf8, WellFormedTextStaysAndOtherBecomesWellFormed) {
+    EXPECT_EQ(wellFormed(""), "");
+    EXPECT_EQ(wellFormed("aµ→😀\uFFFD"), "aµ→😀\uFFFD");
+    EXPECT_EQ(wellFormed("\xB0"
+                         "C"),
+              "\uFFFD"
+              "C");  // a degree sign in Latin-1
+    std::mt19937 random(7);
+    for (int i = 0; i < 2000; ++i) {
+        std::string bytes(random() % 12, '\0');
+        for (char& byte : bytes) byte = static_cast<char>(random() % 4 == 0 ? 'a' : random() % 256);
+        const std::string text = wellFormed(bytes);
+        EXPECT_EQ(codePoints(text), codePoints(bytes));
+        std::string again;
+        for (const char32_t point : codePoints(bytes)) again += encode(point);
+        EXPECT_EQ(text, again);
+    }
 }
 
 }  // namespace

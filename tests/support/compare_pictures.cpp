@@ -2,7 +2,8 @@
 // 1: it is not, with the figures on stderr; 2: wrong usage or a file that cannot be read.
 //
 //   same A B [TOLERANCE]   every view and every channel, R G B A apart by at most TOLERANCE (0)
-//   differ A B             some pixel is not the same
+//   differ-in CHANNEL A B  some value of a further channel, in any view, is not the same
+//   differ-in centre A B   some pixel of the middle ninth, where neither legend nor labels stand
 //   alike-halves across|along A   left and right (or upper and lower) half are the same bit for bit
 //   describe A             prints "WxH", then a line a view: its name and further channels
 //   session A FILE         writes the text that A keeps under isochronSession
@@ -49,6 +50,27 @@ double distance(const ExrPicture& a, const ExrPicture& b) {
     return most;
 }
 
+// How far the two are apart in a further channel that both have.
+double distanceIn(const std::string& channel, const ExrPicture& a, const ExrPicture& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.views.size(); ++i) {
+        const std::span<const float> tested(a.views.at(i).scalars.at(channel));
+        const std::span<const float> reference(b.views.at(i).scalars.at(channel));
+        most = std::max(most, render::compareScalars(tested, reference).maxAbsolute);
+    }
+    return most;
+}
+
+double distanceInTheCentre(const Image& a, const Image& b) {
+    if (a.size != b.size) throw std::runtime_error("the pictures have not one size");
+    double most = 0;
+    for (int y = a.size.y / 3; y < a.size.y * 2 / 3; ++y)
+        for (int x = a.size.x / 3; x < a.size.x * 2 / 3; ++x)
+            for (int c = 0; c < 4; ++c)
+                most = std::max<double>(most, std::abs(a.at(x, y)[c] - b.at(x, y)[c]));
+    return most;
+}
+
 bool alikeHalves(const Image& image, bool across) {
     const glm::ivec2 half = across ? glm::ivec2(image.size.x / 2, image.size.y)
                                    : glm::ivec2(image.size.x, image.size.y / 2);
@@ -74,12 +96,21 @@ void describe(const ExrPicture& picture) {
 
 int run(const std::vector<std::string>& arguments) {
     const std::string verb = arguments.at(0);
-    if (verb == "same" || verb == "differ") {
+    if (verb == "same") {
         const double apart = distance(read(arguments.at(1)), read(arguments.at(2)));
         const double tolerance = arguments.size() > 3 ? std::stod(arguments[3]) : 0;
-        const bool same = apart <= tolerance;
-        if (same == (verb == "same")) return 0;
+        if (apart <= tolerance) return 0;
         std::cerr << arguments[1] << " and " << arguments[2] << " are " << apart << " apart\n";
+        return 1;
+    }
+    if (verb == "differ-in") {
+        const std::string& part = arguments.at(1);
+        const ExrPicture a = read(arguments.at(2)), b = read(arguments.at(3));
+        const double apart = part == "centre"
+                                 ? distanceInTheCentre(a.views.front().image, b.views.front().image)
+                                 : distanceIn(part, a, b);
+        if (apart > 0) return 0;
+        std::cerr << arguments[2] << " and " << arguments[3] << " are the same in " << part << '\n';
         return 1;
     }
     if (verb == "alike-halves") {

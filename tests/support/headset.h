@@ -15,9 +15,10 @@
 namespace tests {
 
 // Fails the test, and gives null, when there is none.
-inline std::unique_ptr<xr::Session> openHeadset(const render::gl::HeadlessContext& context) {
+inline std::unique_ptr<xr::Session> openHeadset(const render::gl::HeadlessContext& context,
+                                                const xr::Patience& patience = {}) {
     const auto egl = context.eglNames();
-    auto opened = xr::Session::open(xr::EglBinding{egl.display, nullptr, egl.context});
+    auto opened = xr::Session::open(xr::EglBinding{egl.display, nullptr, egl.context}, patience);
     if (auto* session = std::get_if<0>(&opened)) return std::move(*session);
     ADD_FAILURE() << std::get<xr::NoHeadset>(opened).why;
     return nullptr;

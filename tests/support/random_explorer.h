@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/explorer.h"
+#include "app/session.h"
 
 namespace tests {
 
@@ -24,6 +25,10 @@ class RandomExplorer {
             if (random_() % 3 == 0) e.steps->stride = 1 + random_() % 5;
         }
         if (maybe()) e.keep = ranges();
+        for (app::AxisChoice& axis : e.axes) {
+            axis.flip = maybe();
+            if (random_() % 4 == 0) axis.name = pick(kNames);
+        }
         if (maybe()) {
             e.sweep.emplace();
             e.sweep->animation = ranges();
@@ -48,6 +53,12 @@ class RandomExplorer {
         if (maybe()) e.stereo.convergence = 0.01 + unit();
         e.size = {pixels(), pixels()};
         if (maybe()) e.play = play();
+        if (e.sweep && maybe()) {
+            e.oneTick = true;
+            e.play.tick =
+                static_cast<std::int64_t>(random_()) & std::numeric_limits<std::int64_t>::max();
+            e.play.tick %= app::ticksOf(*e.sweep);
+        }
         return e;
     }
 

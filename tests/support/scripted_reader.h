@@ -162,7 +162,9 @@ inline app::Dataset scriptedDataset(const World& world, std::shared_ptr<Script> 
         throw timeseries::FileError(fmt::format("{}: no variable '{}'", name, variable));
     if (!variable.empty())
         dataset.variable = static_cast<std::size_t>(at - world.variables.begin());
-    dataset.about = dataset.reader->variables()[dataset.variable];
+    const auto variables = dataset.reader->variables();
+    dataset.variables.assign(variables.begin(), variables.end());
+    dataset.about = variables[dataset.variable];
     return dataset;
 }
 

@@ -5,11 +5,13 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/support/built_paths.h"
+
 namespace tests {
 
 inline std::filesystem::path sharedData(const std::filesystem::path& name) {
     const char* shared = std::getenv("ISOCHRON_SHARED");
-    const std::filesystem::path root = shared ? shared : SOURCE_DIR "/../shared";
+    const std::filesystem::path root = shared ? shared : sourceFolder().parent_path() / "shared";
     return root / "datasets" / name;
 }
 

@@ -153,11 +153,21 @@ TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
     EXPECT_THAT(refusal({"/dev/null"}), HasSubstr("expected an ordinary file"));
     const Path empty = write("empty.nc", "");
     EXPECT_THAT(refusal({empty}), HasSubstr("but it is empty"));
-    if (geteuid() != 0) {
-        const Path locked = write("locked.nc", "CDF\1");
-        std::filesystem::permissions(locked, std::filesystem::perms::none);
-        EXPECT_EQ(refusal({locked}), locked.string() + ": expected a file that can be read");
-    }
+    const Path circle = folder / "circle.nc";
+    std::filesystem::create_symlink(circle, circle);
+    EXPECT_EQ(refusal({circle}), circle.string() + ": expected a file that can be read, but " +
+                                     std::generic_category().message(ELOOP));
+    if (geteuid() == 0) return;  // whom nothing is forbidden
+    const std::string denied =
+        ": expected a file that can be read, but " + std::generic_category().message(EACCES);
+    const Path locked = write("locked.nc", "CDF\1");
+    std::filesystem::permissions(locked, std::filesystem::perms::none);
+    EXPECT_EQ(refusal({locked}), locked.string() + denied);
+    const Path shut = folder / "shut", inside = shut / "v.nc";
+    std::filesystem::create_directory(shut);
+    std::filesystem::permissions(shut, std::filesystem::perms::none);
+    EXPECT_EQ(refusal({inside}), inside.string() + denied);
+    std::filesystem::permissions(shut, std::filesystem::perms::owner_all);
 }
 
 TEST(DamagedNetcdf, OtherFormatsAreToldApart) {
@@ -166,8 +176,10 @@ TEST(DamagedNetcdf, OtherFormatsAreToldApart) {
          {"NRRX0004\n"s, "CDF"s, "CDF\3aaaaaaaa"s, "CDF\4aaaaaaaa"s, "\x89HDG\r\n\x1a\n"s,
           "\x89HDF\r\n\x1a"s, std::string(100, '\0')}) {
         const Path path = write("other.bin", bytes);
-        EXPECT_THAT(refusal({path}),
-                    StartsWith(path.string() + ": expected a NetCDF file, which begins with"));
+        EXPECT_THAT(
+            refusal({path}),
+            StartsWith(path.string() +
+                       ": expected a NetCDF, NRRD or VTK file, found no format that is known"));
     }
     // The right first bytes and nothing after.
     EXPECT_FALSE(contents(write("magic.nc", "CDF\1"s)));
@@ -232,7 +244,8 @@ TEST(DamagedNetcdf, FiniteElementMeshesAreNotTakenForGrids) {
     const int dims = file.dimension("num_dim", 3), nodes = file.dimension("num_nodes", 8);
     file.dimension("num_el_blk", 1);
     file.variable("coord", NC_DOUBLE, {dims, nodes});
-    EXPECT_THAT(refusal({file.close()}), HasSubstr("found a finite-element mesh (Exodus II)"));
+    EXPECT_THAT(refusal({file.close()}),
+                HasSubstr("is an Exodus II file (a finite-element mesh); isochron reads "));
 }
 
 TEST(DamagedNetcdf, AnEmptySeriesIsTold) {

@@ -233,6 +233,32 @@ TEST(NetcdfReader, UnsignedAttributeTurnsBytesAndTheirFill) {
     EXPECT_THAT(field.missing, ElementsAre(true, false, true, false));
 }
 
+// What the library itself leaves where nothing was written is missing, and nothing else: not the
+// fill of the type that the values are meant as.
+template <typename T, typename Meant>
+void expectFillOfTheStoredType(const char* sign, Meant fillOfMeant) {
+    NetcdfBuilder file("a.nc");
+    const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+    const int v = file.variable("v", ncType<T>(), {y, x});
+    file.text(v, "_Unsigned", sign);
+    file.write(v, {0, 0}, {1, 2}, std::vector<T>{static_cast<T>(fillOfMeant), 5});
+    const auto reader = open(file.close());
+    const Field field = reader->read(0, 0);
+    const std::vector<Meant>& values = valuesOf<Meant>(field);
+    EXPECT_EQ(values[0], fillOfMeant);
+    EXPECT_THAT(field.missing, ElementsAre(false, false, true, true)) << sign << sizeof(T);
+    EXPECT_EQ(reader->variables()[0].missing, fmt::format("netCDF's default fill {}", values[2]));
+}
+
+TEST(NetcdfReader, TheDefaultFillIsOfTheStoredTypeWhateverTheUnsignedAttributeSays) {
+    expectFillOfTheStoredType<std::int16_t>("true", std::uint16_t{NC_FILL_USHORT});
+    expectFillOfTheStoredType<std::int32_t>("true", std::uint32_t{NC_FILL_UINT});
+    expectFillOfTheStoredType<std::int64_t>("true", std::uint64_t{NC_FILL_UINT64});
+    expectFillOfTheStoredType<std::uint16_t>("false", std::int16_t{NC_FILL_SHORT});
+    expectFillOfTheStoredType<std::uint32_t>("false", std::int32_t{NC_FILL_INT});
+    expectFillOfTheStoredType<std::uint64_t>("false", std::int64_t{NC_FILL_INT64});
+}
+
 TEST(NetcdfReader, ClassicFilesHaveDefaultFillsToo) {
     const auto path = plane<float>(
         "a.nc", {NC_FILL_FLOAT, 5, 6, 7}, [](auto&, int) {}, 0);

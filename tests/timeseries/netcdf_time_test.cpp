@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/support/netcdf_builder.h"
@@ -11,8 +12,10 @@ namespace timeseries {
 namespace {
 
 using testing::AllOf;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using tests::ncType;
 using tests::NetcdfBuilder;
 using Path = std::filesystem::path;
@@ -85,10 +88,12 @@ TEST(NetcdfTime, PlainNumbersHaveNoDates) {
         EXPECT_EQ(time.calendar, "");
         EXPECT_EQ(time.points[0].date, "");
         EXPECT_EQ(time.units, units);
+        EXPECT_THAT(reader->variables()[0].notes, Each(Not(HasSubstr("shown as numbers"))));
     }
     const auto none = open(series("b.nc", {0.5}, "days since 2000-01-01", "none"));
     EXPECT_EQ(none->variables()[0].time->points[0].date, "");
     EXPECT_EQ(none->variables()[0].time->calendar, "");
+    EXPECT_THAT(none->variables()[0].notes, Each(Not(HasSubstr("shown as numbers"))));
 }
 
 TEST(NetcdfTime, DatesThatCannotBeToldAreNoted) {
@@ -102,9 +107,10 @@ TEST(NetcdfTime, DatesThatCannotBeToldAreNoted) {
 
 TEST(NetcdfTime, SixtyFourBitTimesHaveExactDates) {
     // Half a millisecond less a nanosecond: as a double it would round up.
-    const std::int64_t ns = 1'152'921'504'606'499'999;
+    const std::int64_t ns = 1'152'921'504'607'499'999;
+    ASSERT_GT(static_cast<std::int64_t>(static_cast<double>(ns)), ns + 1);
     const auto reader = open(series<std::int64_t>("a.nc", {ns}, "nanoseconds since 1970-01-01"));
-    EXPECT_EQ(reader->variables()[0].time->points[0].date, "2006-07-14 23:58:24.606");
+    EXPECT_EQ(reader->variables()[0].time->points[0].date, "2006-07-14 23:58:24.607");
 }
 
 TEST(NetcdfTime, AScalarCoordinateTellsTheTimeOfASingleStep) {
@@ -117,6 +123,52 @@ TEST(NetcdfTime, AScalarCoordinateTellsTheTimeOfASingleStep) {
     file.write(time, std::vector<std::int32_t>{30});
     const auto reader = open(file.close());
     const TimeAxis& axis = *reader->variables()[0].time;
+    EXPECT_EQ(axis.name, "when");
+    ASSERT_EQ(axis.points.size(), 1u);
+    EXPECT_EQ(axis.points[0].date, "2001-02-04 06:00:00");
+}
+
+TEST(NetcdfTime, PackedTimesAreUnpackedAndMissingOnesAreNone) {
+    NetcdfBuilder file("a.nc");
+    const int t = file.dimension("time", 3), y = file.dimension("y", 2), x = file.dimension("x", 2);
+    const int time = file.variable("time", NC_SHORT, {t});
+    file.text(time, "units", "hours since 2001-02-03");
+    file.number(time, "scale_factor", 0.5);
+    file.number(time, "add_offset", 3.0);
+    file.number(time, "_FillValue", std::int16_t{-1});
+    const int v = file.variable("v", NC_FLOAT, {t, y, x});
+    file.write(time, std::vector<std::int16_t>{0, -1, 5});
+    file.write(v, std::vector<float>{6, 6, 6, 6, 7, 7, 7, 7, 8, 8, 8, 8});
+    const auto reader = open(file.close());
+    const auto& points = reader->variables()[0].time->points;
+    EXPECT_EQ(points[0].value, 3);
+    EXPECT_EQ(points[0].date, "2001-02-03 03:00:00");
+    EXPECT_TRUE(std::isnan(points[1].value));
+    EXPECT_EQ(points[1].date, "");
+    EXPECT_EQ(points[2].value, 5.5);
+    EXPECT_THAT(firstValues(*reader), ElementsAre(6, 7, 8));
+}
+
+// Of the coordinates that are named: one is not there, one is no time, two have two values.
+TEST(NetcdfTime, AScalarCoordinateIsTheTimeOnlyIfItIsOneTime) {
+    NetcdfBuilder file("a.nc");
+    const int y = file.dimension("y", 2), x = file.dimension("x", 2),
+              one = file.dimension("one", 1), two = file.dimension("two", 2);
+    const int height = file.variable("height", NC_DOUBLE, {});
+    file.text(height, "units", "m");
+    const int many = file.variable("many", NC_DOUBLE, {one, two});
+    file.text(many, "units", "hours since 1999-01-01");
+    const int time = file.variable("when", NC_DOUBLE, {one});
+    file.text(time, "units", "hours since 2001-02-03");
+    const int v = file.variable("v", NC_FLOAT, {y, x});
+    const int pair = file.variable("pair", NC_DOUBLE, {two});
+    file.text(pair, "units", "hours since 1998-01-01");
+    file.text(v, "coordinates", "nowhere height many pair when");
+    file.write(time, std::vector<double>{30});
+    const auto reader = open(file.close());
+    const auto found = std::ranges::find(reader->variables(), "v", &Variable::name);
+    ASSERT_NE(found, reader->variables().end());
+    const TimeAxis& axis = *found->time;
     EXPECT_EQ(axis.name, "when");
     ASSERT_EQ(axis.points.size(), 1u);
     EXPECT_EQ(axis.points[0].date, "2001-02-04 06:00:00");
@@ -170,6 +222,10 @@ TEST(NetcdfTime, OverlappingTimesAreRefusedNamingBothFiles) {
                                        HasSubstr("expected times that do not overlap")));
     EXPECT_THAT(failure({a, c}), HasSubstr("do not overlap")) << "the same time twice";
     EXPECT_THAT(failure({a, a}), HasSubstr("do not overlap")) << "the same file twice";
+    const Path d = series("d.nc", {1000.0, 3000.0}, "ms"), e = series("e.nc", {-9.0}, "s");
+    EXPECT_EQ(failure({a, d, e}), a.string() + " and " + d.string() +
+                                      ": variable 'v': expected times that do not overlap, found "
+                                      "0 to 2 and 1 to 3 (s)");
 }
 
 TEST(NetcdfTime, UnitsThatCannotMeetAreRefused) {
@@ -177,10 +233,62 @@ TEST(NetcdfTime, UnitsThatCannotMeetAreRefused) {
                c = series("c.nc", {5.0}, "days since 2000-01-01"),
                d = series("d.nc", {9.0}, "days since 2000-01-01", "noleap"),
                e = series("e.nc", {2.0}, "ms");
-    EXPECT_THAT(failure({a, b}), HasSubstr("expected times in units that agree"));
-    EXPECT_THAT(failure({a, c}), HasSubstr("expected times in units that agree"));
-    EXPECT_THAT(failure({c, d}), HasSubstr("expected times in units that agree"));
+    const auto sentence = [](const Path& one, const Path& other, const char* found) {
+        return one.string() + " and " + other.string() +
+               ": variable 'v': expected times in units that agree, found " + found;
+    };
+    EXPECT_EQ(failure({a, b}), sentence(a, b, "\"s\" () and \"m\" ()"));
+    EXPECT_EQ(failure({a, e, c}), sentence(a, c, "\"s\" () and \"days since 2000-01-01\" ()"));
+    EXPECT_EQ(failure({d, c}), sentence(d, c,
+                                        "\"days since 2000-01-01\" (noleap) and \"days since "
+                                        "2000-01-01\" ()"));
     EXPECT_THAT(timesOf(*openReader(std::vector<Path>{a, e})), ElementsAre(0, 0.002));
+}
+
+TEST(NetcdfTime, UnitsThatNobodyKnowsMeetTheirLike) {
+    const char* const flood = "days since the flood";
+    EXPECT_THAT(timesOf(*openReader(
+                    std::vector<Path>{series("a.nc", {1.0}, flood), series("b.nc", {2.5}, flood)})),
+                ElementsAre(1, 2.5));
+    const Path a = series("a.nc", {1.0}, flood), b = series("b.nc", {2.5}, "days since 2000-1-1");
+    EXPECT_THAT(failure({a, b}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(failure({b, a}), HasSubstr("expected times in units that agree"));
+}
+
+// Steps that are counted are none of another file's times, though these have no units either.
+TEST(NetcdfTime, CountedStepsDoNotContinueTimes) {
+    NetcdfBuilder file("b.nc");
+    const int t = file.dimension("time", 3), y = file.dimension("y", 2), x = file.dimension("x", 2);
+    file.variable("v", NC_FLOAT, {t, y, x});
+    file.variable("orography", NC_FLOAT, {y, x});
+    const Path counted = file.close(), timed = series("a.nc", {-1.0}, "");
+    EXPECT_THAT(failure({timed, counted}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(failure({counted, timed}), HasSubstr("expected times in units that agree"));
+}
+
+// Only dates need a calendar.
+TEST(NetcdfTime, CalendarsOfPlainNumbersNeedNotAgree) {
+    for (const char* units : {"s", "bananas"})
+        EXPECT_THAT(timesOf(*openReader(std::vector<Path>{series("a.nc", {1.0}, units, "noleap"),
+                                                          series("b.nc", {2.5}, units, "none")})),
+                    ElementsAre(1, 2.5));
+}
+
+TEST(NetcdfTime, FilesWithAStepWithoutATimeAreNotJoined) {
+    const Path a = series("a.nc", {1.0}, "s"), b = series("b.nc", {2.0, std::nan("")}, "s");
+    EXPECT_THAT(failure({a, b}), AllOf(HasSubstr(a.string() + " and " + b.string()),
+                                       HasSubstr("expected finite times")));
+}
+
+TEST(NetcdfTime, MoreStepsThanAnySeriesHasAreRefused) {
+    NetcdfBuilder file("a.nc");
+    const int t = file.dimension("time", 10'000'001), y = file.dimension("y", 2),
+              x = file.dimension("x", 2);
+    const int v = file.variable("v", NC_BYTE, {t, y, x});
+    const std::array<std::size_t, 3> chunk{4096, 2, 2};  // nothing of them is written
+    NetcdfBuilder::check(nc_def_var_chunking(file.id(), v, NC_CHUNKED, chunk.data()));
+    EXPECT_THAT(failure({file.close()}),
+                HasSubstr("dimension 'time': expected at most 10000000 steps, found 10000001"));
 }
 
 Path still(const std::string& name, std::size_t nx, const std::string& units, nc_type type,
@@ -201,6 +309,28 @@ TEST(NetcdfTime, FilesWithoutTimeAreStepsInTheOrderGiven) {
     EXPECT_EQ(reader->variables()[0].time->name, "step");
     EXPECT_THAT(timesOf(*reader), ElementsAre(0, 1));
     EXPECT_THAT(firstValues(*reader), ElementsAre(5, 3));
+}
+
+TEST(NetcdfTime, FilesWithoutTimeAreNumberedByTheirNamesIfEachIsOneStep) {
+    const std::vector<Path> stills{still("v2.nc", 2, "K", NC_FLOAT, 5),
+                                   still("v10.nc", 2, "K", NC_FLOAT, 3)};
+    const auto numbered = openReader(stills);
+    EXPECT_EQ(numbered->variables()[0].time->name, "number");
+    EXPECT_FALSE(numbered->variables()[0].time->counted);
+    EXPECT_THAT(timesOf(*numbered), ElementsAre(2, 10));
+    EXPECT_THAT(firstValues(*numbered), ElementsAre(5, 3));
+
+    const auto steps = [](const std::string& name, std::size_t count) {
+        NetcdfBuilder file(name);
+        const int t = file.dimension("time", count), y = file.dimension("y", 2),
+                  x = file.dimension("x", 2);
+        file.variable("v", NC_FLOAT, {t, y, x});
+        return file.close();
+    };
+    const auto counted = openReader(std::vector<Path>{steps("w2.nc", 3), steps("w10.nc", 2)});
+    EXPECT_EQ(counted->variables()[0].time->name, "step");
+    EXPECT_TRUE(counted->variables()[0].time->counted);
+    EXPECT_THAT(timesOf(*counted), ElementsAre(0, 1, 2, 3, 4));
 }
 
 TEST(NetcdfTime, FilesThatDifferAreRefusedNamingBoth) {

@@ -70,6 +70,36 @@ TEST(Playback, KeepsPlayingWhileTheWindowMoves) {
     EXPECT_TRUE(playback.playing);
 }
 
+TEST(Playback, PlaysNothingWhereNothingWouldMove) {
+    for (const TimeCursor& still :
+         {TimeCursor(1), TimeCursor(5, {.stepsPerSecond = 0}),
+          TimeCursor(5, {.first = 2, .last = 2}), TimeCursor(1, {.ending = Ending::PingPong})}) {
+        Playback playback{.time = still};
+        playback.time->seek(4);
+        const Playback before = playback;
+        playback.toggle();
+        EXPECT_EQ(playback, before);
+        // One that plays, and comes to stand still.
+        playback.playing = true;
+        playback.advance(1ms);
+        playback.advance(0ms);
+        EXPECT_FALSE(playback.playing);
+    }
+    Playback swept{.time = TimeCursor(1), .sweep = sweepOf(1)};
+    swept.play();
+    EXPECT_TRUE(swept.playing);
+}
+
+TEST(Playback, FromAsideItEntersAtOnceIfTimeMoves) {
+    for (const bool timeMoves : {true, false}) {
+        Playback playback{
+            .time = TimeCursor(10, {.first = 4}), .sweep = sweepOf(1), .timeMoves = timeMoves};
+        playback.time->seek(1);
+        playback.play();
+        EXPECT_EQ(playback.time->step(), timeMoves ? 4u : 1u);
+    }
+}
+
 TEST(Playback, SeekingWhilePausedIsRemembered) {
     Playback playback{.time = TimeCursor(10, {.stepsPerSecond = 1}), .sweep = sweepOf(0.1)};
     playback.play();

@@ -45,7 +45,17 @@ bool anyHolds(std::span<const Range> ranges, Real x) {
     return false;
 }
 
-// Ascending, disjoint, not touching, none empty.
+// Two numbers that some type rounds to one, or that lie beyond all floats.
+bool roundTogether(const Number& a, const Number& b) {
+    const Real x = oracle::real(a), y = oracle::real(b), most = std::numeric_limits<float>::max();
+    if (x == y) return false;
+    return static_cast<float>(x) == static_cast<float>(y) ||
+           static_cast<double>(x) == static_cast<double>(y) || (x > most && y > most) ||
+           (x < -most && y < -most);
+}
+
+// None empty, ascending; disjoint and not touching, but for ranges that are another union where
+// their bounds are rounded.
 bool canonical(std::span<const Range> ranges) {
     for (const Range& range : ranges) {
         const auto order = compare(range.lo.value, range.hi.value);
@@ -53,9 +63,17 @@ bool canonical(std::span<const Range> ranges) {
         if (order == 0 && (range.lo.open || range.hi.open)) return false;
     }
     for (std::size_t i = 1; i < ranges.size(); ++i) {
-        const Bound &end = ranges[i - 1].hi, &begin = ranges[i].lo;
-        const auto order = compare(end.value, begin.value);
-        if (order > 0 || (order == 0 && !(end.open && begin.open))) return false;
+        if (compare(ranges[i - 1].lo.value, ranges[i].lo.value) > 0) return false;
+        for (std::size_t j = 0; j < i; ++j) {
+            const Range &a = ranges[j], &b = ranges[i];
+            const auto order = compare(a.hi.value, b.lo.value);
+            if (order < 0 || (order == 0 && a.hi.open && b.lo.open)) continue;
+            bool excused = false;
+            for (const Bound& x : {a.lo, a.hi})
+                for (const Bound& y : {b.lo, b.hi})
+                    excused = excused || roundTogether(x.value, y.value);
+            if (!excused) return false;
+        }
     }
     return true;
 }
@@ -92,6 +110,11 @@ TEST(RangeSet, AnExcludedPointKeepsRangesApart) {
 TEST(RangeSet, AContainedRangeDisappears) {
     EXPECT_EQ(RangeSet({closed(0.0, 9.0), open(2.0, 3.0), closed(9.0, 9.0), open(0.0, 9.0)}),
               RangeSet({closed(0.0, 9.0)}));
+}
+
+TEST(RangeSet, ManyTimesTheSameRangeIsOneRange) {
+    for (const Range& range : {open(1.0, 2.0), closed(1.0, 2.0)})
+        EXPECT_EQ(RangeSet(std::vector<Range>(1000, range)), RangeSet({range}));
 }
 
 TEST(RangeSet, MergesExactlyAcrossNumberTypes) {
@@ -234,6 +257,102 @@ TYPED_TEST(RangeSetIn, EverythingIsOneIntervalFromEndToEnd) {
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all[0].lo, L::has_infinity ? -L::infinity() : L::lowest());
     EXPECT_EQ(all[0].hi, L::has_infinity ? L::infinity() : L::max());
+}
+
+// Bounds around a value of T, most of which T rounds to it or to a neighbour.
+template <typename T>
+std::vector<Number> nearlySame(T value) {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    std::vector<Number> numbers;
+    for (const T each : {oracle::neighbour(value, -1), value, oracle::neighbour(value, 1)}) {
+        const Real x = static_cast<Real>(each);
+        if (std::fabs(x) > static_cast<Real>(std::numeric_limits<double>::max())) continue;
+        const double d = static_cast<double>(x);
+        for (const double nearby :
+             {d, std::nextafter(d, kInf), std::nextafter(d, -kInf), d + 0.25, d - 0.25})
+            numbers.push_back(nearby);
+        const T next = oracle::neighbour(each, 1);
+        const double half = static_cast<double>(x + (static_cast<Real>(next) - x) / 2);
+        for (const double nearby : {half, std::nextafter(half, kInf), std::nextafter(half, -kInf)})
+            numbers.push_back(nearby);
+        for (const int off : {-1, 0, 1}) {
+            const Real whole = std::floor(x) + off;
+            if (whole >= -0x1p63L && whole < 0x1p63L)
+                numbers.push_back(static_cast<std::int64_t>(whole));
+            if (whole >= 0 && whole < 0x1p64L) numbers.push_back(static_cast<std::uint64_t>(whole));
+        }
+    }
+    return numbers;
+}
+
+TYPED_TEST(RangeSetIn, AUnionHoldsWhatAnyPartHolds) {
+    using T = TypeParam;
+    std::vector<T> centres = oracle::awkwardValues<T>();
+    std::erase_if(centres, [](T v) { return std::isinf(static_cast<Real>(v)); });
+    centres.push_back(static_cast<T>(100));
+    if (std::is_floating_point_v<T>) centres.push_back(static_cast<T>(273.15));
+    std::mt19937_64 random(24);
+    for (int i = 0; i < 3000; ++i) {
+        const T centre = centres[random() % centres.size()];
+        std::vector<Number> numbers = nearlySame(centre);
+        numbers.insert(numbers.end(), {-kInfinity, kInfinity, 250.0});
+        const std::vector<Range> parts = oracle::randomRanges(random, 5, numbers);
+        std::vector<RangeSet> sets;
+        for (const Range& part : parts) sets.push_back(RangeSet({part}));
+        const RangeSet all = unionOf(sets);
+        SCOPED_TRACE("case " + std::to_string(i) + " " + describe(parts) + " became " +
+                     describe(all.ranges()));
+        ASSERT_TRUE(canonical(all.ranges()));
+        const std::vector<Interval<T>> intervals = all.toIntervals<T>();
+        for (std::size_t k = 1; k < intervals.size(); ++k)
+            ASSERT_LT(oracle::neighbour(intervals[k - 1].hi, 1), intervals[k].lo);
+        std::vector<T> values;
+        for (const Number& number : numbers) oracle::addNear<T>(number, values);
+        for (const T v : values)
+            ASSERT_EQ(intervalHolds<T>(intervals, v), oracle::holds<T>(parts, v))
+                << static_cast<Real>(v);
+        if (all.empty()) continue;
+        ASSERT_EQ(RangeSet::parse(all.text()), all) << all.text();
+        ASSERT_EQ(RangeSet::parse(all.text()).toIntervals<T>(), intervals) << all.text();
+    }
+}
+
+// Ranges of the same low end stay apart where rounding tells them apart: their order too is that of
+// the set.
+TEST(RangeSetConversion, TheOrderInWhichRangesAreGivenDoesNotMatter) {
+    const std::vector<Number> numbers{250.0, 273.149999, 273.15, std::nextafter(273.15, 0.0),
+                                      static_cast<double>(static_cast<float>(273.15))};
+    std::mt19937_64 random(25);
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<Range> parts = oracle::randomRanges(random, 4, numbers);
+        const RangeSet set(parts);
+        SCOPED_TRACE("case " + std::to_string(i) + " " + describe(parts));
+        std::ranges::shuffle(parts, random);
+        ASSERT_EQ(RangeSet(parts), set) << describe(RangeSet(parts).ranges());
+    }
+    EXPECT_EQ(RangeSet({halfOpen(250.0, 273.15), closed(250.0, 273.149999)}).text(),
+              "250:273.149999,[250,273.15)")
+        << "by their high ends where the low ones are the same";
+}
+
+// The float below 273.15 ends the first range; 273.149999 is rounded to the one that it leaves out.
+TEST(RangeSetConversion, ARangeThatEndsSoonerMayEndLaterInFloat) {
+    const RangeSet first({halfOpen(250.0, 273.15)}), second({closed(260.0, 273.149999)});
+    const float last = static_cast<float>(273.15);
+    ASSERT_EQ(static_cast<float>(273.149999), last);
+    const RangeSet both = unionOf(std::vector{first, second});
+    EXPECT_EQ(both.toIntervals<float>(), (std::vector<Interval<float>>{{250, last}}));
+    EXPECT_EQ(both.toIntervals<double>(), first.toIntervals<double>());
+    EXPECT_EQ(both.text(), "[250,273.15),260:273.149999");
+}
+
+// The float at 2 is in neither part, though the parts overlap by 1e-9.
+TEST(RangeSetConversion, AValueThatBothPartsLeaveOutStaysOut) {
+    const RangeSet both({halfOpen(1.0, 2.0), openLow(2 - 1e-9, 3.0)});
+    EXPECT_EQ(both.toIntervals<float>(),
+              (std::vector<Interval<float>>{{1, std::nextafter(2.0F, 1.0F)},
+                                            {std::nextafter(2.0F, 3.0F), 3}}));
+    EXPECT_EQ(both.toIntervals<double>().size(), 1U);
 }
 
 TEST(RangeSetConversion, RangesThatMeetOnlyInFloatBecomeOne) {

@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -49,7 +51,21 @@ TEST(RangeText, DocumentedFormsAreRead) {
         {"1:2,5:6", RangeSet({closed(1_i, 2_i), closed(5_i, 6_i)})},
         {"5:6,1:2", RangeSet({closed(1_i, 2_i), closed(5_i, 6_i)})},
         {"1:3,2:4", RangeSet({closed(1_i, 4_i)})},
-        {"[1,2),(3:4],9,20~1,100:max",
+        {"1 to 2", RangeSet({closed(1_i, 2_i)})},
+        {"-3 to -1e-3", RangeSet({closed(-3_i, -1e-3)})},
+        {"min to 2", RangeSet({closed(-kInfinity, 2.0)})},
+        {"[1 to 2)", RangeSet({halfOpen(1_i, 2_i)})},
+        {">1", RangeSet({openLow(1_i, kInfinity)})},
+        {"> -1.5", RangeSet({openLow(-1.5, kInfinity)})},
+        {">=1", RangeSet({closed(1_i, kInfinity)})},
+        {"<1e-3", RangeSet({halfOpen(-kInfinity, 1e-3)})},
+        {"<= 5", RangeSet({closed(-kInfinity, 5_i)})},
+        {"<1,>2", RangeSet({halfOpen(-kInfinity, 1_i), openLow(2_i, kInfinity)})},
+        // As legends write them.
+        {"\u2265 600", RangeSet({closed(600_i, kInfinity)})},
+        {"\u2264 \u22125", RangeSet({closed(-kInfinity, -5_i)})},
+        {"\u22123 to 4.5", RangeSet({closed(-3_i, 4.5)})},
+        {"[1,2),(3:4],9, 20~1,100:max",
          RangeSet({halfOpen(1_i, 2_i), openLow(3_i, 4_i), closed(9_i, 9_i), closed(19_i, 21_i),
                    closed(100.0, kInfinity)})},
     };
@@ -85,13 +101,95 @@ TEST(RangeText, CentreAndWidthAreExactForIntegers) {
               RangeSet({closed(1_i, std::numeric_limits<std::uint64_t>::max())}));
 }
 
-TEST(RangeText, AnIntegerBeyondAllTypesIsNotReadAsAnother) {
+TEST(RangeText, AnIntegerBeyondAllTypesIsTheNearestDouble) {
+    // The doubles next to 10^20 are 2^14 apart: 10^20 - 1 is nearest to 10^20 = 2^20 5^20.
+    for (const char* text : {"99999999999999999999", "100000000000000000000"})
+        EXPECT_EQ(RangeSet::parse(text), RangeSet({closed(1e20, 1e20)})) << text;
+    const double two64 = std::ldexp(1.0, 64);
+    EXPECT_EQ(RangeSet::parse("18446744073709551616"), RangeSet({closed(two64, two64)}));
+}
+
+// A comma in digits is read as what stands between ranges where nothing else can be meant.
+TEST(RangeText, CommasBetweenRangesAreReadAsSuch) {
+    const std::pair<const char*, RangeSet> cases[] = {
+        {"300:400,900:max", RangeSet({closed(300_i, 400_i), closed(900_i, kInfinity)})},
+        {"300:400,900:1000,2000~5",
+         RangeSet({closed(300_i, 400_i), closed(900_i, 1000_i), closed(1995_i, 2005_i)})},
+        {"1,3,5", RangeSet({closed(1_i, 1_i), closed(3_i, 3_i), closed(5_i, 5_i)})},
+        {"1:1,3:3", RangeSet({closed(1_i, 1_i), closed(3_i, 3_i)})},
+        {"600, 5:700", RangeSet({closed(600_i, 600_i), closed(5_i, 700_i)})},
+        {"600.5,5:6", RangeSet({closed(600.5, 600.5), closed(5_i, 6_i)})},
+        {"3,-1:2", RangeSet({closed(3_i, 3_i), closed(-1_i, 2_i)})},
+        {"5:6,min:2", RangeSet({closed(5_i, 6_i), closed(-kInfinity, 2.0)})},
+        {"[1,2),9", RangeSet({halfOpen(1_i, 2_i), closed(9_i, 9_i)})},
+        {"9,[1,2)", RangeSet({halfOpen(1_i, 2_i), closed(9_i, 9_i)})}};
+    for (const auto& [text, expected] : cases) EXPECT_EQ(RangeSet::parse(text), expected) << text;
+}
+
+// The sentence by which a text is refused.
+std::string refusal(std::string_view text) {
     try {
-        const RangeSet set = RangeSet::parse("99999999999999999999");
-        EXPECT_EQ(set, RangeSet({closed(99999999999999999999.0, 99999999999999999999.0)}));
-    } catch (const RangeSyntaxError&) {
-        SUCCEED();
+        return "read as " + describe(RangeSet::parse(text).ranges());
+    } catch (const RangeSyntaxError& error) {
+        return error.what();
     }
+}
+
+TEST(RangeText, WhatMayBeADecimalCommaIsAskedForInOtherWords) {
+    const std::array<std::string, 3> cases[] = {
+        // text, as one range, as several
+        {"600,5:700", "600.5:700", "600:600,5:700"},
+        {"600:700,5", "600:700.5", "600:700,5:5"},
+        {"600,5:700,8", "600.5:700.8", "600:600,5:700,8:8"},
+        {"850,5~50", "850.5~50", "850:850,5~50"},
+        {"850~0,5", "850~0.5", "850~0,5:5"},
+        {"1,3", "1.3", "1:1,3:3"},
+        {"1,5e3:max", "1.5e3:max", "1:1,5e3:max"},
+        {"300,5:400,900:max", "300.5:400,900:max", "300:300,5:400,900:max"}};
+    for (const auto& [text, one, several] : cases) {
+        EXPECT_THAT(refusal(text), testing::StartsWith("range '" + text + "': ")) << text;
+        EXPECT_THAT(refusal(text), testing::EndsWith("write " + one + " or " + several)) << text;
+    }
+    // Only what can be read is offered.
+    EXPECT_THAT(refusal("-0,5:0,5"), testing::EndsWith("write -0.5:0.5"));
+    EXPECT_THAT(refusal("1,2,3:4"), testing::EndsWith("write 1:1,2:2,3:4"));
+    EXPECT_THAT(refusal("[600,5:700]"), testing::HasSubstr("point"));
+    EXPECT_THAT(refusal("[1,5,2,5]"), testing::HasSubstr("point"));
+}
+
+TEST(RangeText, OtherSpellingsOfARangeAreAnsweredWithTheRightOne) {
+    const std::pair<std::string, std::string> cases[] = {
+        {"600-800", "600:800"},      {"600 - 800", "600:800"},      {"-5-3", "-5:3"},
+        {"-5--3", "-5:-3"},          {"1e-3-2e-3", "1e-3:2e-3"},    {"0.5..1.5", "0.5:1.5"},
+        {"600\u2013800", "600:800"}, {"1.5e-3 - 2.5", "1.5e-3:2.5"}};
+    for (const auto& [text, spelling] : cases)
+        EXPECT_EQ(refusal(text), "range '" + text + "': a range is written " + spelling);
+    // These are numbers, not ranges.
+    for (const char* text : {"1e-3", "-1e-3", "-5"})
+        EXPECT_THAT(refusal(text), testing::StartsWith("read as")) << text;
+}
+
+TEST(RangeText, UnitsAreLeftOut) {
+    const auto told = [](const std::string& range, const char* end, const char* number) {
+        return fmt::format("range '{}': '{}' is not a number: units are left out, write {}", range,
+                           end, number);
+    };
+    EXPECT_EQ(refusal("600:800 K"), told("600:800 K", "800 K", "800"));
+    EXPECT_EQ(refusal("600 K to 800 K"), told("600 K to 800 K", "600 K", "600"));
+    EXPECT_EQ(refusal("-1.5e-3m/s~2"), told("-1.5e-3m/s~2", "-1.5e-3m/s", "-1.5e-3"));
+    EXPECT_EQ(refusal("20 °C"), told("20 °C", "20 °C", "20"));
+    EXPECT_EQ(refusal("[5 %,7]"), told("[5 %,7]", "5 %", "5"));
+    for (const char* other : {"1e", "0x1f", "1to2", "abc", "1.2.3", "1 2"})
+        EXPECT_THAT(refusal(other), testing::Not(testing::HasSubstr("units"))) << other;
+}
+
+TEST(RangeText, ValuesBetweenTwoComparisonsAreAskedForAsARange) {
+    // As a union these hold everything, which nobody means.
+    for (const auto& [text, spelling] :
+         {std::pair(">=600,<700", "[600,700)"), std::pair("< 700, > 600", "(600,700)"),
+          std::pair("\u2265 -1.5,\u2264 2", "[-1.5,2]")})
+        EXPECT_THAT(refusal(text), testing::HasSubstr(std::string("write ") + spelling)) << text;
+    EXPECT_THAT(refusal("<600,>700"), testing::StartsWith("read as"));
 }
 
 TEST(RangeText, MalformedTextsGiveOneSentenceThatQuotesThem) {
@@ -159,7 +257,26 @@ TEST(RangeText, MalformedTextsGiveOneSentenceThatQuotesThem) {
                                    "[1~2]:",
                                    "2:1.9999",
                                    "9223372036854775809:9223372036854775808",
-                                   "18446744073709551615:-1"}) {
+                                   "18446744073709551615:-1",
+                                   ">",
+                                   "<=",
+                                   "=5",
+                                   ">1:2",
+                                   "> <5",
+                                   "><5",
+                                   ">max",
+                                   "<min",
+                                   "1,2:x",
+                                   ">nan",
+                                   "[>1,2]",
+                                   "1 to",
+                                   "to 2",
+                                   " to ",
+                                   "1 to 2 to 3",
+                                   "2 to 1",
+                                   "1to2",
+                                   "1..",
+                                   "-"}) {
         try {
             const RangeSet set = RangeSet::parse(text);
             ADD_FAILURE() << "'" << text << "' was read as " << describe(set.ranges());

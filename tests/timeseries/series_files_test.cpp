@@ -325,15 +325,32 @@ TEST_F(SeriesFiles, AFolderPassesOverWhatIsNoField) {
 }
 
 TEST_F(SeriesFiles, SeveralCandidatesAreListed) {
-    make({"a_1.nc", "a_2.nc", "b_1.nc", "b_2.nc", "c.nc"});
+    for (const char* name : {"a_1.nc", "a_2.nc", "b_1.nc", "b_2.nc", "c.nc"})
+        writeBytes(folder_ / name, "CDF\1");
     EXPECT_THAT(failure(""), HasSubstr("expected a folder that holds one series, found a_*.nc (2 "
                                        "files), b_*.nc (2 files), c.nc; name one of them"));
     const Path two = folder_ / "two";
     std::filesystem::create_directory(two);
     EXPECT_THAT(failure("two"), HasSubstr("found no files in it"));
-    writeBytes(two / "a.nc", "");
-    writeBytes(two / "b.vti", "");
-    EXPECT_THAT(failure("two"), HasSubstr("found a.nc, b.vti; name one"));
+    writeBytes(two / "a.nc", "CDF\1");
+    writeBytes(two / "b.nrrd", "NRRD0004");
+    EXPECT_THAT(failure("two"), HasSubstr("found a.nc, b.nrrd; name one"));
+}
+
+TEST_F(SeriesFiles, NoCandidateIsAFileThatIsNotRead) {
+    const std::string nifti = std::string(344, '\0') + std::string("n+1\0", 4);
+    for (const char* name : {"b_1.nii", "b_2.nii"}) writeBytes(folder_ / name, nifti);
+    make({"notes.txt"});
+    EXPECT_EQ(failure(""), (folder_ / "").string() +
+                               ": expected a folder that holds NetCDF, NRRD or VTK files that are "
+                               "read, found b_*.nii (2 files), a NIfTI file; notes.txt");
+    // Of one extension too.
+    const Path one = folder_ / "one";
+    std::filesystem::create_directory(one);
+    for (const char* name : {"a_1.dat", "a_2.dat", "b_1.dat"}) writeBytes(one / name, nifti);
+    EXPECT_THAT(failure("one"), HasSubstr("found a_*.dat (2 files), a NIfTI file; b_1.dat, a"));
+    for (const char* name : {"b_1.dat", "b_2.dat"}) writeBytes(one / name, "CDF\1");
+    EXPECT_THAT(names(expand("one")), ElementsAre("b_1.dat", "b_2.dat"));
 }
 
 TEST_F(SeriesFiles, APatternIsExpanded) {

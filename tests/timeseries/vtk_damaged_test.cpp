@@ -31,8 +31,11 @@ std::optional<std::vector<Values>> contents(const Path& path, std::string* why =
             all.push_back(reader->read(v, 0).values);
         return all;
     } catch (const FileError& error) {
-        EXPECT_THAT(error.what(), StartsWith(path.string() + ": "));
-        EXPECT_THAT(error.what(), HasSubstr("expected"));
+        using testing::AllOf;
+        EXPECT_THAT(error.what(),
+                    testing::AnyOf(AllOf(StartsWith(path.string() + ": "), HasSubstr("expected")),
+                                   AllOf(StartsWith(path.string() + " is a VTK file of type "),
+                                         HasSubstr("; isochron reads "))));
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         if (why) *why = error.what();
         return std::nullopt;
@@ -234,6 +237,34 @@ TEST(DamagedVtk, FieldDataOfUnknownTypeOrSizeIsRefused) {
                 HasSubstr("expected values within the file, found 1000000000"));
 }
 
+// VTK 9.1 looks for the two digits behind a '%' beyond the end of a short word.
+TEST(DamagedVtk, PerCentSignsThatEndShortWordsAreRefused) {
+    const std::string start =
+        "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+        "DIMENSIONS 1 1 1\nPOINT_DATA 1\n";
+    const auto string = [&](const std::string& text) {
+        return refusal(start +
+                       "SCALARS v char 1\nLOOKUP_TABLE default\n1\nFIELD f 1\ns 1 1 string\n" +
+                       text + "\n");
+    };
+    const auto scalars = [&](const std::string& name, const std::string& more = "") {
+        return refusal(start + "SCALARS " + name + " char 1\nLOOKUP_TABLE default\n1\n" + more);
+    };
+    EXPECT_EQ(string("%25"), "");
+    EXPECT_EQ(string("nothing"), "");
+    EXPECT_EQ(scalars("%25"), "");
+    const std::string metadata = "METADATA\nINFORMATION 0\nCOMPONENT_NAMES\n";
+    EXPECT_EQ(scalars("v", metadata + "%25\n\n"), "");
+    for (const std::string wrong : {"%", "5%", "%5", "%%"}) {
+        const auto told = HasSubstr("expected %25 for a per cent sign, found \"" + wrong + "\"");
+        EXPECT_THAT(string(wrong), told);
+        EXPECT_THAT(string(wrong + "\r"), told);
+        EXPECT_THAT(scalars(wrong), told);
+        EXPECT_THAT(scalars("v", metadata + wrong + "\n\n"), told);
+        EXPECT_THAT(scalars("v", "FIELD f 1\n" + wrong + " 1 1 char\n1\n"), told);
+    }
+}
+
 TEST(DamagedVtk, ArraysThatTheFileLacksAreToldOf) {
     const auto array = [](const std::string& attributes) {
         return imageText({.points = "<DataArray type=\"Float64\" Name=\"v\" " + attributes + "/>"});
@@ -390,9 +421,9 @@ TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {
                 HasSubstr("expected 1 to 1024 components, found 0"));
     for (const std::string kind : {"UnstructuredGrid", "PolyData", "PImageData"})
         EXPECT_THAT(refusal("<VTKFile type=\"" + kind + "\"><" + kind + "/></VTKFile>"),
-                    HasSubstr("found \"" + kind + "\""));
+                    HasSubstr(" is a VTK file of type " + kind + "; isochron reads "));
     EXPECT_THAT(refusal("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
-                HasSubstr("STRUCTURED_POINTS or RECTILINEAR_GRID, found \"polydata\""));
+                HasSubstr(" is a VTK file of type polydata; isochron reads "));
     EXPECT_THAT(refusal("# vtk DataFile Version 9.0\nt\nASCII\n"), HasSubstr("expected a version"));
 }
 

@@ -26,6 +26,33 @@ TEST(WithoutVtk, ItsFilesAreRecognisedAndTheWayToReadThemIsTold) {
     }
 }
 
+// Nobody shall install VTK for what is not read then either.
+TEST(WithoutVtk, TypesThatAreNotReadAreToldBeforeTheWay) {
+    const auto refusal = [](const std::filesystem::path& path) -> std::string {
+        try {
+            openReader(std::span(&path, 1));
+        } catch (const FileError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const auto mesh = tests::testFolder() / "mesh.vtu", list = tests::testFolder() / "list.pvd",
+               old = tests::testFolder() / "old.vtk";
+    tests::writeBytes(mesh, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"></VTKFile>");
+    tests::writeBytes(list,
+                      "<VTKFile type=\"Collection\"><Collection>"
+                      "<DataSet timestep=\"0\" file=\"mesh.vtu\"/></Collection></VTKFile>");
+    tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET STRUCTURED_GRID\n");
+    EXPECT_THAT(refusal(mesh),
+                testing::StartsWith(mesh.string() + " is a VTK file of type UnstructuredGrid; "));
+    EXPECT_THAT(refusal(list),
+                testing::StartsWith(mesh.string() + " is a VTK file of type UnstructuredGrid; "));
+    EXPECT_THAT(refusal(old),
+                testing::StartsWith(old.string() + " is a VTK file of type structured_grid; "));
+    for (const auto& path : {mesh, list, old})
+        EXPECT_THAT(refusal(path), testing::Not(testing::HasSubstr("--with-vtk")));
+}
+
 TEST(WithoutVtk, TheWayCanBePastedWhateverTheFilesName) {
     const auto path = tests::testFolder() / "it's one.vti";
     tests::writeBytes(path, "# vtk DataFile Version 3.0\n");

@@ -9,6 +9,7 @@
 #include <random>
 #include <utility>
 
+#include "tests/support/built_paths.h"
 #include "tests/ui/places.h"
 #include "tests/ui/slow_file.h"
 #include "tests/ui/temporary_folder.h"
@@ -134,7 +135,7 @@ void run(const std::filesystem::path& file) {
 int main(int argc, char** argv) {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each figure as it is known, also into a file
     try {
-        run(std::filesystem::absolute(argc > 1 ? argv[1] : SOURCE_DIR "/datasets/pool_fire_T.nc"));
+        run(argc > 1 ? std::filesystem::absolute(argv[1]) : tests::demo());
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "ui_bench: {}\n", error.what());

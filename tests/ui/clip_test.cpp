@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/camera.h"
+#include "app/panels/view_page.h"
 #include "render/lattice.h"
 #include "tests/ui/demo_values.h"
 #include "tests/ui/desk_test.h"
@@ -31,7 +32,7 @@ class DeskClips : public DeskWithFire {
     }
     Rect slider() const {
         Rect row = pageRow(side_, 7, 1);
-        row.max.x -= 116;
+        row.max.x -= app::panels::ViewPage::kSideField + app::panels::ViewPage::kSideGap;
         return row;
     }
     // The part of the clear picture from row to row of the picture.

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "app/session.h"
+#include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 #include "tests/ui/places.h"
 #include "timeseries/reader.h"
@@ -29,7 +30,7 @@ class DeskTest : public testing::Test {
     std::optional<Screen> screen_;
 };
 
-inline std::filesystem::path demo() { return SOURCE_DIR "/datasets/pool_fire_T.nc"; }
+inline std::filesystem::path demo() { return tests::demo(); }
 
 // What a title tells: "NAME · VARIABLE · TIME · 1,234 points", and perhaps what is being opened.
 struct Title {

@@ -1,4 +1,5 @@
 #include "tests/ui/driver.h"
+#include "tests/support/built_paths.h"
 
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
@@ -20,6 +21,8 @@ std::map<std::string, std::optional<std::string>> withScreen(
                         {"WAYLAND_DISPLAY", std::nullopt},
                         {"LIBGL_ALWAYS_SOFTWARE", "1"},
                         {"HOME", home.string()},
+                        // Where it is not set, libraries that look for Wayland say so.
+                        {"XDG_RUNTIME_DIR", home.string()},
                         {"XDG_CONFIG_HOME", std::nullopt},
                         {"XDG_STATE_HOME", std::nullopt}});
     return environment;
@@ -49,7 +52,7 @@ Driver::Driver(const Screen& screen, const std::filesystem::path& folder,
                std::vector<std::string> arguments,
                std::map<std::string, std::optional<std::string>> environment)
     : screen_(screen),
-      process_({.program = PROGRAM,
+      process_({.program = tests::program(),
                 .arguments = inWindow(std::move(arguments)),
                 .folder = folder,
                 .environment = withScreen(std::move(environment), screen, folder)}) {
@@ -246,6 +249,16 @@ void Driver::minimise() {
                     reinterpret_cast<const unsigned char*>(state), 2);
     XUnmapWindow(screen_.connection(), window_);
     sync();
+}
+
+void Driver::destroyWindow() {
+    XDestroyWindow(screen_.connection(), window_);
+    XFlush(screen_.connection());
+}
+
+void Driver::killConnection() {
+    XKillClient(screen_.connection(), window_);
+    XFlush(screen_.connection());
 }
 
 void Driver::restore() {

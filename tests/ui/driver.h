@@ -72,6 +72,9 @@ class Driver {
     void resize(glm::ivec2 size);
     void minimise();
     void restore();
+    // What nobody should do.
+    void destroyWindow();
+    void killConnection();
 
  private:
     static unsigned long modifierOf(std::string_view name);  // "ctrl" or "shift"

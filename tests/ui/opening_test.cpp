@@ -1,6 +1,8 @@
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/support/built_paths.h"
 #include "tests/ui/desk_test.h"
 #include "tests/ui/slow_file.h"
 
@@ -87,6 +89,32 @@ TEST_F(DeskOpens, NothingOfALongMessageButItsBegin) {
     EXPECT_THAT(desk.clipboard(), testing::HasSubstr(name));
 }
 
+TEST_F(DeskOpens, ASessionWhoseDataAreGoneOnceTheyAreDropped) {
+    const auto data = writeRamp(folder() / "ramp.nrrd"),
+               elsewhere = folder() / "away" / "ramp.nrrd";
+    app::Explorer e;
+    e.files = {data};
+    e.layers = {{timeseries::RangeSet::parse("100:109"), {}, {}}};
+    const auto session = folder() / "s.json";
+    tests::writeBytes(session, app::toJson(e, folder()).dump());
+    std::filesystem::create_directory(folder() / "away");
+    std::filesystem::rename(data, elsewhere);
+    Driver desk(screen(), folder(), {demo().string()});
+    desk.waitForTitle("pool_fire_T.nc · T");
+    const Places at = placesOf(desk.size());
+    waitUntilSeen(desk, 31);
+    const Shot before = desk.settled();
+    desk.drop({session}, {500, 400});
+    desk.waitFor("it is asked for", [&] {
+        return differing(part(desk.shot(), at.messages), part(before, at.messages)) > 1000;
+    });
+    EXPECT_THAT(desk.title(), testing::HasSubstr("pool_fire_T.nc"));
+    desk.drop({elsewhere}, {500, 400});
+    desk.waitForTitle("ramp.nrrd · ");
+    // The ramp is 0 to 255 twice.
+    EXPECT_EQ(parse(desk.title()).points, 20u);
+}
+
 TEST_F(DeskOpens, ASlowFileWhileFramesGoOn) {
     const auto slow = writeSlowFile(folder() / "slow.nrrd");
     Driver desk(screen(), folder(), {demo().string()});
@@ -135,6 +163,9 @@ TEST_F(DeskOpens, ASavedSessionAsTheSamePixels) {
 TEST_F(DeskOpens, ARecentSeriesAsItWasNamed) {
     for (const char* name : {"ramp_1.nrrd", "ramp_2.nrrd", "ramp_3.nrrd"})
         writeRamp(folder() / name);
+    // The demo is offered also where the program was built outside its source.
+    std::filesystem::create_directory(folder() / "datasets");
+    std::filesystem::create_symlink(tests::demo(), folder() / "datasets/pool_fire_T.nc");
     {
         Driver desk(screen(), folder(), {"ramp_[13].nrrd"});
         desk.waitForTitle("ramp_[13].nrrd · ");

@@ -53,8 +53,8 @@ std::vector<Foremost> foremost(const app::Explorer& e, const timeseries::Grid& g
 
 class DeskReads : public DeskWithFire {
  protected:
-    // So opaque that one splat hides what is behind its middle.
-    DeskReads() : DeskWithFire({"--range", "600:max", "--opacity", "0.99"}) {}
+    // In one colour and so opaque that one splat hides what is behind its middle.
+    DeskReads() : DeskWithFire({"--range", "600:max", "--color", "#ffa040", "--opacity", "0.99"}) {}
     void SetUp() override {
         DeskWithFire::SetUp();
         if (IsSkipped()) return;

@@ -1,5 +1,7 @@
 #include <csignal>
 
+#include "app/autosave.h"
+#include "tests/support/built_paths.h"
 #include "tests/ui/desk_test.h"
 
 namespace ui {
@@ -17,7 +19,7 @@ class DeskStarts : public DeskTest {
     // What it says where there is no window to be had; it ends with exit code 1.
     std::string refusal(std::map<std::string, std::optional<std::string>> environment) {
         environment.insert({{"WAYLAND_DISPLAY", std::nullopt}, {"LIBGL_ALWAYS_SOFTWARE", "1"}});
-        Process process({.program = PROGRAM,
+        Process process({.program = tests::program(),
                          .arguments = {demo().string()},
                          .folder = folder(),
                          .environment = environment});
@@ -43,6 +45,24 @@ TEST_F(DeskEnds, CleanlyWhenTerminated) {
         EXPECT_EQ(desk.process().exitCode(), 0) << signal;
         EXPECT_EQ(desk.process().errors(), "") << signal;
         EXPECT_FALSE(leftSomething()) << signal;
+    }
+}
+
+// What it had not written yet is kept.
+TEST_F(DeskEnds, WithTheSessionWhereItsWindowOrItsConnectionIsTakenAway) {
+    for (const auto take : {&Driver::destroyWindow, &Driver::killConnection}) {
+        Driver desk(screen(), folder(), {demo().string()});
+        desk.waitForTitle("pool_fire_T.nc · T");
+        desk.press("Home");
+        desk.waitForTitle("0.5 s");
+        (desk.*take)();
+        EXPECT_EQ(desk.process().exitCode(), 1);
+        EXPECT_THAT(desk.process().errors(),
+                    testing::MatchesRegex("isochron: [^\n]* is offered at the next start\n"));
+        const auto left = app::leftSessions(folder() / ".local/state/isochron");
+        ASSERT_EQ(left.size(), 1u);
+        EXPECT_EQ(left.front().explorer.steps->first, 0u);
+        std::filesystem::remove(left.front().file);
     }
 }
 

@@ -99,10 +99,11 @@ TEST_F(DeskSweeps, OnlyTheValuesTyped) {
 TEST_F(DeskSweeps, NothingThatCannotBe) {
     startSweep();
     const app::Explorer before = now();
-    const Shot quiet = desk_->settled(at_.messages);
-    enter(field(1), "-20");
-    desk_->waitFor("it is told",
-                   [&] { return differing(desk_->shot(at_.messages), quiet) > 1000; });
+    const glm::vec2 delta = field(1);
+    const Rect below{{delta.x, delta.y + 16}, {delta.x + 200, delta.y + 50}};
+    const Shot quiet = desk_->settled(below);
+    enter(delta, "-20");
+    desk_->waitFor("it is told", [&] { return differing(desk_->shot(below), quiet) > 1000; });
     EXPECT_TRUE(now() == before);
 }
 

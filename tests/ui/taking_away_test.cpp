@@ -1,16 +1,15 @@
 #include <set>
 
+#include "tests/support/built_paths.h"
 #include "tests/ui/desk_test.h"
 
 namespace ui {
 namespace {
 
-// Runs a command line as a shell in `folder` does, with `isochron` meaning the program under test.
+// Runs a command line as it stands, as a shell in `folder` does.
 int shell(const std::filesystem::path& folder, const std::string& line) {
-    const std::string name = "isochron ";
-    if (!line.starts_with(name)) return -1;
-    return std::system(fmt::format("cd '{}' && LIBGL_ALWAYS_SOFTWARE=1 '{}' {} >/dev/null",
-                                   folder.string(), PROGRAM, line.substr(name.size()))
+    return std::system(fmt::format("cd '{}' && export LIBGL_ALWAYS_SOFTWARE=1 && {} >/dev/null",
+                                   folder.string(), line)
                            .c_str());
 }
 
@@ -115,7 +114,7 @@ TEST_F(DeskTakesAway, TheSweepAndTheStepsThatPlayAsPictures) {
                                          "movie_4.png"};
     desk.waitFor("all is exported", [&] { return namesThatBegin("movie") == names; });
     const glm::ivec2 size = readShot(folder() / "movie_0.png").size;
-    std::string line = "isochron render -o swept.png";
+    std::string line = tests::program().string() + " render -o swept.png";
     for (const std::string& choice : choices) line += " '" + choice + "'";
     line += fmt::format(" --size {}x{}", size.x, size.y);
     ASSERT_EQ(shell(folder(), line), 0) << line;

@@ -1,6 +1,7 @@
 #!/bin/bash
 # The tests labelled xr need Monado, an OpenXR runtime. Debian 12 packages none, so they are built and
-# run inside a Debian 13: a folder outside the source tree, entered by chroot.
+# run inside a Debian 13: a folder outside the source tree, entered by chroot. So are those labelled
+# imgui, of panels and of what opens before the window: its Dear ImGui is a newer one.
 #   tests/xr/monado_root.sh make                 makes it, when it is not there: a few minutes, 1.3 GB
 #   tests/xr/monado_root.sh test [CTEST ARGS]    builds the tests in it and runs them
 #   tests/xr/monado_root.sh bench                builds and runs what measures against Monado, some minutes
@@ -90,17 +91,20 @@ run() {
     enter bash -c 'cd "$0/source" && "$@"' "$inside" "$@"
 }
 
-# built TARGET COMMAND...: builds the target in it, then runs the command in the build's folder.
+# built TARGETS COMMAND...: builds the targets in it, then runs the command in the build's folder.
 built() {
     run bash -c 'build=../build
         source .ci/setup.sh
         quietly "Configuring in Debian 13" cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
             -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON
-        quietly "Building in Debian 13" cmake --build "$build" --target "$1"
+        quietly "Building in Debian 13" cmake --build "$build" --target $1
         cd "$build" && exec "${@:2}"' built "$@"
 }
 
-tests() { built xr_tests ctest --no-tests=error --output-on-failure -j3 -L xr "$@"; }
+tests() {
+    built "xr_tests panels_tests ui_over_tests" \
+        ctest --no-tests=error --output-on-failure -j3 -L 'xr|imgui' "$@"
+}
 bench() { built headset_frames tests/headset_frames; }
 picture() {
     built headset_picture tests/headset_picture headset.png

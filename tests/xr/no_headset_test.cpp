@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 #include "tests/support/variable.h"
 #include "xr/session.h"
@@ -15,8 +16,9 @@ namespace {
 using tests::Variable;
 
 std::string whyNone() {
-    const auto none = Session::whyNone();
-    return none ? none->why : "a headset";
+    const auto answer = Session::ask();
+    const auto* none = std::get_if<NoHeadset>(&answer);
+    return none != nullptr ? none->why : "a headset";
 }
 
 TEST(NoHeadset, AManifestThatIsNamedAndMissingIsNamed) {
@@ -44,6 +46,32 @@ TEST(NoHeadset, AMachineWithoutARuntimeIsSaidToHaveNone) {
     if (std::filesystem::exists("/etc/openxr/1/active_runtime.json"))
         GTEST_SKIP() << "this machine has a runtime for all its users";
     EXPECT_THAT(whyNone(), testing::StartsWith("no OpenXR runtime is active on this machine"));
+}
+
+std::string manifestOfABrokenRuntime() {
+    const std::string path = tests::testFolder() / "runtime.json";
+    tests::writeBytes(
+        path,
+        fmt::format(R"({{"file_format_version": "1.0.0", "runtime": {{"library_path": "{}"}}}})",
+                    tests::brokenRuntime().string()));
+    return path;
+}
+
+TEST(NoHeadset, ARuntimeThatCrashesIsToldAndCrashesNothingElse) {
+    const std::string path = manifestOfABrokenRuntime();
+    const Variable manifest("XR_RUNTIME_JSON", path), fault("ISOCHRON_TEST_RUNTIME", "crashes");
+    EXPECT_EQ(whyNone(),
+              "the OpenXR runtime of " + path + " crashes when it is asked for a headset");
+}
+
+TEST(NoHeadset, ARuntimeThatHangsIsNotWaitedForLong) {
+    const std::string path = manifestOfABrokenRuntime();
+    const Variable manifest("XR_RUNTIME_JSON", path), fault("ISOCHRON_TEST_RUNTIME", "hangs");
+    const auto answer = Session::ask(std::chrono::seconds(1));
+    ASSERT_TRUE(std::holds_alternative<NoHeadset>(answer));
+    EXPECT_EQ(std::get<NoHeadset>(answer).why,
+              "the OpenXR runtime of " + path +
+                  " does not answer for 1 s when it is asked for a headset");
 }
 
 }  // namespace

@@ -79,21 +79,6 @@ TEST(RefreshRate, ClimbsBackSlowlyWhereThereIsRoom) {
     EXPECT_EQ(loop.rate.wanted(), 120);
 }
 
-// Splats up to 0.7 of whatever the period is are 0.875 of the next one, which is too much for work
-// that takes as long as it takes.
-TEST(RefreshRate, ClimbsBackWhereTheWorkIsFittedToThePeriod) {
-    Loop loop({90, 72});
-    loop.run(30, 2, kLong);
-    ASSERT_EQ(loop.rate.wanted(), 72);
-    RenderScale whole;
-    for (int i = 0; i < kLong; ++i) {
-        const double period = 1e9 / *loop.rate.wanted();
-        const nanoseconds fitted(std::llround(0.7 * period)), rest(500'000);
-        loop.rate.took(fitted + rest, whole, fitted);
-    }
-    EXPECT_EQ(loop.rate.wanted(), 90);
-}
-
 TEST(RefreshRate, AFewLateFramesChangeNothing) {
     Loop loop({90, 72});
     loop.run(30, 2, RefreshRate::kLateFrames - 1);

@@ -1,7 +1,10 @@
 #include "timeseries/readers/cf_axes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "timeseries/time_units.h"
@@ -87,12 +90,21 @@ constexpr std::array kNames{
     NameRule{"ncorner", Other, true},
     NameRule{"corner", Other, true},
     NameRule{"nvert", Other, true},
-    NameRule{"nvertex", Other, false},
     NameRule{"vertices", Other, false},
     NameRule{"member", Other, true},
     NameRule{"ens", Other, true},
     NameRule{"realization", Other, false},
     NameRule{"number", Other, false},
+    NameRule{"ncells", List, true},
+    NameRule{"cell", List, false},
+    NameRule{"cells", List, false},
+    NameRule{"node", List, false},
+    NameRule{"nodes", List, false},
+    NameRule{"nod2", List, true},
+    NameRule{"nod3", List, true},
+    NameRule{"nodes_2d", List, false},
+    NameRule{"nodes_3d", List, false},
+    NameRule{"elem", List, false},
     NameRule{"lon", X, true},
     NameRule{"rlon", X, false},
     NameRule{"x", X, false},
@@ -132,7 +144,6 @@ constexpr std::array kNames{
     NameRule{"zl", Z, false},
     NameRule{"zi", Z, false},
     NameRule{"depth", Z, true},
-    NameRule{"deptht", Z, false},
     NameRule{"height", Z, true},
     NameRule{"alt", Z, false},
     NameRule{"altitude", Z, false},
@@ -148,11 +159,13 @@ constexpr std::array kNames{
     NameRule{"k", Z, false},
 };
 
-// Two dimensions of one kind: the one told by better evidence keeps it, then the one further right.
-struct Claim {
-    std::optional<AxisKind> kind;
-    int evidence = 0;  // 2 by attributes, 1 by name
-};
+bool isAlong(const NcVariable& variable, std::size_t dimension) {
+    return variable.type && variable.dimensions.size() == 1 && variable.dimensions[0] == dimension;
+}
+
+bool tellsAnAxis(const NcVariable& variable) {
+    return kindByAttributes(variable).value_or(Other) != Other;
+}
 
 }  // namespace
 
@@ -172,32 +185,117 @@ std::optional<AxisKind> kindByName(std::string_view name) {
     return std::nullopt;
 }
 
-const NcVariable* coordinateOf(const NcHeader& header, const NcVariable& variable,
-                               std::size_t position) {
-    const NcVariable* found =
-        header.find(header.dimension(variable, position).name, variable.group);
-    const bool own = found && found->type && found->dimensions.size() == 1 &&
-                     found->dimensions[0] == variable.dimensions[position];
-    if (own) return found;
-    // An auxiliary coordinate (CF 1.10, section 5) stands in, if it tells which axis it is.
-    for (const std::string& name : words(variable.text("coordinates"))) {
-        const NcVariable* auxiliary = header.find(name, variable.group);
-        if (auxiliary && auxiliary->type && auxiliary->dimensions.size() == 1 &&
-            auxiliary->dimensions[0] == variable.dimensions[position] &&
-            kindByAttributes(*auxiliary).value_or(Other) != Other)
-            return auxiliary;
-    }
-    return nullptr;
+// Two dimensions of one kind: the one told by better evidence keeps it, then the one further right.
+struct FileAxes::Claim {
+    std::optional<AxisKind> kind;
+    int evidence = 0;  // 2 by attributes, 1 by name
+};
+
+FileAxes::FileAxes(const NcHeader& header, std::span<const NcVariable* const> fields)
+    : header_(header), dimensions_(header.dimensions.size()) {
+    for (const NcVariable& variable : header.variables) byName_.emplace(variable.name, &variable);
+    findCoordinates();
+    findLists();
+    findTimes(fields);
 }
 
-Roles rolesOf(const NcHeader& header, const NcVariable& variable) {
-    const std::size_t rank = variable.dimensions.size();
-    std::vector<Claim> claims(rank);
-    for (std::size_t i = 0; i < rank; ++i) {
-        if (const NcVariable* coordinate = coordinateOf(header, variable, i))
-            claims[i] = {kindByAttributes(*coordinate), 2};
-        if (!claims[i].kind) claims[i] = {kindByName(header.dimension(variable, i).name), 1};
+// As NcHeader::find.
+const NcVariable* FileAxes::find(std::string_view name, std::string_view group) const {
+    while (true) {
+        const std::string path = fmt::format("{}{}{}", group, group.empty() ? "" : "/", name);
+        if (const auto at = byName_.find(path); at != byName_.end()) return at->second;
+        if (group.empty()) return nullptr;
+        const auto slash = group.rfind('/');
+        group = slash == std::string_view::npos ? "" : group.substr(0, slash);
     }
+}
+
+void FileAxes::findCoordinates() {
+    std::set<std::pair<std::string, std::string>> seen;  // most variables of a file name the same
+    for (const NcVariable& variable : header_.variables) {
+        const std::string names = variable.text("coordinates");
+        if (!names.empty() && seen.emplace(variable.group, names).second)
+            for (const std::string& name : words(names)) {
+                const NcVariable* found = find(name, variable.group);
+                if (!found || found->dimensions.size() != 1 ||
+                    !isAlong(*found, found->dimensions[0]) || !tellsAnAxis(*found))
+                    continue;
+                auto& all = dimensions_[found->dimensions[0]].coordinates;
+                if (std::ranges::find(all, found) == all.end()) all.push_back(found);
+            }
+        if (variable.dimensions.size() == 1 && isAlong(variable, variable.dimensions[0]) &&
+            looksLikeTimeUnits(lower(variable.text("units"))) && kindByAttributes(variable) == T)
+            dimensions_[variable.dimensions[0]].times.push_back(&variable);
+    }
+}
+
+// A longitude and a latitude along one dimension place its points one by one, unless these move in
+// time.
+void FileAxes::findLists() {
+    std::vector<bool> own(dimensions_.size()), x = own, y = own;
+    for (const NcVariable& variable : header_.variables) {
+        if (variable.dimensions.size() != 1 || !isAlong(variable, variable.dimensions[0])) continue;
+        const std::size_t d = variable.dimensions[0];
+        const auto kind = kindByAttributes(variable);
+        if (variable.baseName() == header_.dimensions[d].name) own[d] = true;
+        if (kind == X) x[d] = true;
+        if (kind == Y) y[d] = true;
+    }
+    for (std::size_t d = 0; d < dimensions_.size(); ++d)
+        dimensions_[d].list = x[d] && y[d] && !own[d] && dimensions_[d].times.empty() &&
+                              kindByName(header_.dimensions[d].name) != T;
+}
+
+// The first of four dimensions is time when nothing says what it is: in variables without height
+// too.
+void FileAxes::findTimes(std::span<const NcVariable* const> fields) {
+    for (const NcVariable* field : fields) {
+        const Roles roles = rolesOf(*field);
+        if (!roles.t || roles.spatial() < 3 || !roles.extra.empty()) continue;
+        const std::size_t d = field->dimensions[*roles.t];
+        if (header_.dimensions[d].isNamed()) dimensions_[d].time = true;
+    }
+}
+
+const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t position) const {
+    const std::size_t dimension = variable.dimensions[position];
+    const NcVariable* own = find(header_.dimensions[dimension].name, variable.group);
+    if (own && isAlong(*own, dimension)) return own;
+    // An auxiliary coordinate (CF 1.10, section 5) stands in, if it tells which axis it is.
+    const Dimension& known = dimensions_[dimension];
+    for (const std::string& name : words(variable.text("coordinates"))) {
+        const NcVariable* auxiliary = find(name, variable.group);
+        if (auxiliary && isAlong(*auxiliary, dimension) && tellsAnAxis(*auxiliary))
+            return auxiliary;
+    }
+    if (known.coordinates.size() == 1) return known.coordinates[0];
+    // Times that nobody names: of scans along y too, where y is told by its name.
+    const bool free = kindByName(header_.dimensions[dimension].name).value_or(T) == T;
+    return free && known.coordinates.empty() && known.times.size() == 1 ? known.times[0] : nullptr;
+}
+
+FileAxes::Claim FileAxes::claimOf(const NcVariable& variable, std::size_t position) const {
+    const Dimension& known = dimensions_[variable.dimensions[position]];
+    if (known.list) return {List};
+    if (const NcVariable* coordinate = coordinateOf(variable, position))
+        if (const auto kind = kindByAttributes(*coordinate)) return {kind, 2};
+    // Several that agree, though none of them is the one.
+    std::set<AxisKind> kinds;
+    for (const NcVariable* each : known.coordinates) kinds.insert(*kindByAttributes(*each));
+    if (kinds.size() == 1) return {*kinds.begin(), 2};
+    const auto named = kindByName(header_.dimension(variable, position).name);
+    return {named || known.times.empty() ? named : T, 1};
+}
+
+// As the first of its dimensions: where it stands elsewhere, it is something else.
+bool FileAxes::isTimeElsewhere(const NcVariable& variable, std::size_t position) const {
+    return position == 0 && dimensions_[variable.dimensions[position]].time;
+}
+
+Roles FileAxes::rolesOf(const NcVariable& variable) const {
+    const std::size_t rank = variable.dimensions.size();
+    std::vector<Claim> claims;
+    for (std::size_t i = 0; i < rank; ++i) claims.push_back(claimOf(variable, i));
 
     Roles roles;
     const auto slot = [&](AxisKind kind) -> std::optional<std::size_t>& {
@@ -206,12 +304,14 @@ Roles rolesOf(const NcHeader& header, const NcVariable& variable) {
     for (const int evidence : {2, 1})
         for (std::size_t i = rank; i-- > 0;) {
             const Claim& claim = claims[i];
-            if (!claim.kind || *claim.kind == Other || claim.evidence != evidence) continue;
+            if (!claim.kind || *claim.kind == Other || *claim.kind == List ||
+                claim.evidence != evidence)
+                continue;
             // Of two claims by the same evidence, one that is longer than 1 wins.
             auto& place = slot(*claim.kind);
             const bool better = place && claims[*place].evidence == evidence &&
-                                header.dimension(variable, *place).length == 1 &&
-                                header.dimension(variable, i).length > 1;
+                                header_.dimension(variable, *place).length == 1 &&
+                                header_.dimension(variable, i).length > 1;
             if (!place || better) place = i;
         }
 
@@ -220,11 +320,14 @@ Roles rolesOf(const NcHeader& header, const NcVariable& variable) {
     };
     // What is left goes by position: the unlimited dimension is time, the last ones are x, y, z.
     for (std::size_t i = 0; i < rank; ++i)
-        if (!taken(i) && !claims[i].kind && !roles.t && header.dimension(variable, i).unlimited)
+        if (!taken(i) && !claims[i].kind && !roles.t &&
+            (header_.dimension(variable, i).unlimited || isTimeElsewhere(variable, i)))
             roles.t = i;
     for (std::size_t i = rank; i-- > 0;) {
-        if (taken(i) || header.dimension(variable, i).length == 1) continue;
-        if (claims[i].kind == Other)
+        if (claims[i].kind == List) roles.list = i;
+        if (taken(i) || header_.dimension(variable, i).length == 1) continue;
+        // A second time is no height.
+        if (claims[i].kind == Other || claims[i].kind == List || claims[i].kind == T)
             roles.extra.push_back(i);
         else if (!roles.x)
             roles.x = i;

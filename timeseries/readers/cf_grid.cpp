@@ -38,18 +38,17 @@ bool pointsDown(const NcVariable& coordinate) {
 }
 
 // Longitude and latitude that depend on both horizontal dimensions (CF 1.10, section 5.2):
-// "nav_lon(y, x) and nav_lat(y, x)"; "" when there are none.
+// "nav_lon(y, x) and nav_lat(y, x)"; "" when there are none. REQUIRES: roles.x and roles.y.
 std::string twoDimensionalCoordinates(const NcHeader& header, const NcVariable& variable,
                                       const Roles& roles,
                                       std::span<const NcVariable* const> geographic) {
-    if (!roles.x || !roles.y) return "";
     const std::size_t x = variable.dimensions[*roles.x], y = variable.dimensions[*roles.y];
     std::string found;
     std::size_t count = 0;
     for (const NcVariable* other : geographic) {
         const auto& d = other->dimensions;
         const bool spans = std::ranges::find(d, x) != d.end() && std::ranges::find(d, y) != d.end();
-        if (other == &variable || !spans || d.size() > 3) continue;
+        if (!spans || d.size() > 3) continue;
         if (++count > kShownCoordinates) return found + " and others";
         found += (found.empty() ? "" : " and ") + header.declaration(*other);
     }
@@ -65,10 +64,10 @@ bool measured(const NcVariable* coordinate) {
     return units.starts_with("deg") || units.starts_with("rad") || sameDimension(units, "m");
 }
 
-Axis axisOf(const NetcdfFile& file, const NcVariable& variable, std::size_t position,
-            std::vector<std::string>& notes) {
+Axis axisOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+            std::size_t position, std::vector<std::string>& notes) {
     const NcDimension& dimension = file.header().dimension(variable, position);
-    const NcVariable* coordinate = coordinateOf(file.header(), variable, position);
+    const NcVariable* coordinate = fileAxes.coordinateOf(variable, position);
     if (!coordinate) {
         notes.push_back(dimension.name + " is placed by index: the file has no coordinates for it");
         return {dimension.name, "index", indexCoordinates(dimension.length), false};
@@ -84,9 +83,9 @@ Axis axisOf(const NetcdfFile& file, const NcVariable& variable, std::size_t posi
 }
 
 // Levels that stand for heights which depend on another field (CF 1.10, section 4.3.3).
-void noteLevels(const NcHeader& header, const NcVariable& variable, std::size_t position,
-                std::vector<std::string>& notes) {
-    const NcVariable* level = coordinateOf(header, variable, position);
+void noteLevels(const NcHeader& header, const FileAxes& fileAxes, const NcVariable& variable,
+                std::size_t position, std::vector<std::string>& notes) {
+    const NcVariable* level = fileAxes.coordinateOf(variable, position);
     if (!level) return;
     std::vector<const NcVariable*> candidates{level};
     for (const std::string& name : words(variable.text("coordinates")))
@@ -109,18 +108,18 @@ void noteLevels(const NcHeader& header, const NcVariable& variable, std::size_t 
 
 }  // namespace
 
-std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
+std::array<Axis, 3> axesOf(const NetcdfFile& file, const FileAxes& fileAxes,
+                           const NcVariable& variable, const Roles& roles,
                            std::span<const NcVariable* const> geographic,
                            std::vector<std::string>& notes) {
     const NcHeader& header = file.header();
     const std::array positions{roles.x, roles.y, roles.z};
     const std::array<const char*, 3> names{"x", "y", "z"};
-    const auto coordinate = [&](std::optional<std::size_t> position) {
-        return position ? coordinateOf(header, variable, *position) : nullptr;
-    };
-    const std::string twoD = measured(coordinate(roles.x)) && measured(coordinate(roles.y))
-                                 ? ""
-                                 : twoDimensionalCoordinates(header, variable, roles, geographic);
+    std::string twoD;
+    if (roles.x && roles.y &&
+        !(measured(fileAxes.coordinateOf(variable, *roles.x)) &&
+          measured(fileAxes.coordinateOf(variable, *roles.y))))
+        twoD = twoDimensionalCoordinates(header, variable, roles, geographic);
     if (!twoD.empty()) notes.push_back("drawn in index space: 2-D coordinates " + twoD);
 
     std::array<Axis, 3> axes;
@@ -137,9 +136,9 @@ std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, c
         if (i < 2 && !twoD.empty())
             axes[i] = {dimension.name, "index", indexCoordinates(dimension.length), false};
         else
-            axes[i] = axisOf(file, variable, *positions[i], notes);
+            axes[i] = axisOf(file, fileAxes, variable, *positions[i], notes);
     }
-    if (roles.z) noteLevels(header, variable, *roles.z, notes);
+    if (roles.z) noteLevels(header, fileAxes, variable, *roles.z, notes);
     return axes;
 }
 

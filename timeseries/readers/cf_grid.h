@@ -15,7 +15,8 @@ namespace timeseries {
 
 // x, y, z; an axis the variable does not have is one point at index 0. `geographic`: the file's
 // longitudes and latitudes of any rank. Throws FileError when coordinates cannot be read.
-std::array<Axis, 3> axesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
+std::array<Axis, 3> axesOf(const NetcdfFile& file, const FileAxes& fileAxes,
+                           const NcVariable& variable, const Roles& roles,
                            std::span<const NcVariable* const> geographic,
                            std::vector<std::string>& notes);
 

@@ -79,12 +79,17 @@ const std::vector<Number>* numbersOf(const NcVariable& variable, const char* nam
     return numbers;
 }
 
-// The nearest T, infinite beyond its limits.
+// The nearest T as IEEE 754 rounds: the largest one up to half a step beyond it (15 digits of it
+// are more), then infinity.
 template <typename T>
 T nearestFloat(double value) {
-    if (std::abs(value) > static_cast<double>(std::numeric_limits<T>::max()) && !std::isinf(value))
-        return static_cast<T>(std::copysign(std::numeric_limits<T>::infinity(), value));
-    return static_cast<T>(value);
+    using Limits = std::numeric_limits<T>;
+    constexpr auto kMost = static_cast<double>(Limits::max());
+    if constexpr (std::is_same_v<T, double>) return value;
+    if (!(std::abs(value) > kMost)) return static_cast<T>(value);
+    const double halfStep = std::ldexp(1.0, Limits::max_exponent - Limits::digits - 1);
+    const T most = std::abs(value) - kMost < halfStep ? Limits::max() : Limits::infinity();
+    return std::copysign(most, static_cast<T>(std::signbit(value) ? -1 : 1));
 }
 
 // A number of an attribute as a T of the variable; with `wrap`, the bits of the other signedness
@@ -212,8 +217,9 @@ void readMissing(const NcVariable& variable, const Malformed& malformed, Packing
     if (fill) add("_FillValue", fill->front());
     if (const auto* list = numbersOf(variable, "missing_value", 0, malformed))
         for (const Number& number : *list) add("missing_value", number);
+    // The library fills by the type it stores, and knows nothing of _Unsigned.
     if (!fill && variable.filled)
-        if (const auto number = defaultFill(packing.stored)) add("netCDF's default fill", *number);
+        if (const auto number = defaultFill(*variable.type)) add("netCDF's default fill", *number);
 }
 
 void readValidRange(const NcVariable& variable, const Malformed& malformed, Packing& packing) {
@@ -304,7 +310,7 @@ class MissingTest {
 };
 
 void mark(Field& field, std::size_t point, std::size_t points) {
-    if (field.missing.empty()) field.missing.resize(points, false);
+    field.missing.resize(points, false);  // at the first
     field.missing[point] = true;
 }
 

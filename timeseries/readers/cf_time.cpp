@@ -78,7 +78,7 @@ bool before(const Number& a, const Number& b) { return compare(a, b) < 0; }
 // By the numbers in the files' names, where each is one step.
 JoinedTimes count(const std::vector<StoredTimes>& parts,
                   const std::vector<std::filesystem::path>& paths) {
-    JoinedTimes joined{parts.front(), {}};
+    JoinedTimes joined;
     std::size_t steps = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         joined.segments.push_back({i, parts[i].values.size()});
@@ -98,14 +98,14 @@ JoinedTimes count(const std::vector<StoredTimes>& parts,
 
 }  // namespace
 
-StoredTimes timesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles) {
+StoredTimes timesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+                    const Roles& roles) {
     const NcHeader& header = file.header();
     StoredTimes times;
     times.single = !roles.t;
     if (!roles.t) {
         if (const NcVariable* time = scalarTime(header, variable)) {
             readCoordinate(file, *time, times);
-            times.values.resize(1);
         }
         return times;
     }
@@ -113,7 +113,7 @@ StoredTimes timesOf(const NetcdfFile& file, const NcVariable& variable, const Ro
     if (dimension.length > kMaxSteps)
         file.fail("dimension '" + dimension.name + "'",
                   fmt::format("expected at most {} steps, found {}", kMaxSteps, dimension.length));
-    if (const NcVariable* time = coordinateOf(header, variable, *roles.t)) {
+    if (const NcVariable* time = fileAxes.coordinateOf(variable, *roles.t)) {
         readCoordinate(file, *time, times);
     } else {
         times.values.clear();
@@ -163,7 +163,6 @@ JoinedTimes join(const std::vector<StoredTimes>& parts,
                 fmt::format("expected times in units that agree, found \"{}\" ({}) and \"{}\" "
                             "({})",
                             parts[0].units, parts[0].calendar, parts[i].units, parts[i].calendar));
-        if (values->empty()) continue;
         for (const Number& value : *values)
             if (!std::isfinite(toDouble(value))) refuse(0, i, "expected finite times");
         const auto [lo, hi] = std::ranges::minmax_element(*values, before);

@@ -20,7 +20,8 @@ struct StoredTimes {
 
 // From the time dimension, else from a scalar time coordinate (CF 1.10, section 5.7).
 // Throws FileError.
-StoredTimes timesOf(const NetcdfFile& file, const NcVariable& variable, const Roles& roles);
+StoredTimes timesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+                    const Roles& roles);
 
 TimeAxis timeAxisOf(const StoredTimes& times, std::vector<std::string>& notes);
 
@@ -34,8 +35,9 @@ struct JoinedTimes {
     std::vector<Segment> segments;  // by time; in the order given when the files have none
 };
 
-// REQUIRES: parts not empty, as long as paths. Throws FileError, naming two files, when the units
-// cannot be brought together or the files' times overlap.
+// REQUIRES: parts not empty, none without a step, one for each path or one for all. Throws
+// FileError, naming two files, when the units cannot be brought together or the files' times
+// overlap.
 JoinedTimes join(const std::vector<StoredTimes>& parts,
                  const std::vector<std::filesystem::path>& paths, const std::string& variable);
 

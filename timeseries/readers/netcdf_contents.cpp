@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "timeseries/other_formats.h"
+
 namespace timeseries {
 namespace {
 
@@ -28,8 +30,38 @@ bool exodus(const NcHeader& header) {
     return has("num_dim") && has("num_nodes") && has("num_el_blk");
 }
 
+bool vtkHdf(const NcHeader& header) {
+    return std::ranges::any_of(header.variables, [](const NcVariable& variable) {
+        return variable.name.starts_with("VTKHDF/");
+    });
+}
+
 // The connectivity of an unstructured mesh (UGRID 1.0), which is no data.
-bool mesh(const NcVariable& variable) { return variable.find("cf_role") != nullptr; }
+bool isConnectivity(const NcVariable& variable) { return variable.find("cf_role") != nullptr; }
+
+// Values on an unstructured mesh, by what writers of meshes say: UGRID 1.0, section "data defined
+// on unstructured grids"; CDI (ICON).
+bool saysMesh(const NcVariable& variable) {
+    const auto says = [&](const char* attribute) {
+        return lower(variable.text(attribute)) == "unstructured";
+    };
+    return (variable.find("mesh") &&
+            (variable.find("location") || variable.find("location_index_set"))) ||
+           says("grid_type") || says("CDI_grid_type");
+}
+
+// Why it is not read though it may be data: its values lie on a mesh; "" when they do not.
+std::string meshOf(const NcHeader& header, const NcVariable& variable, const Roles& roles) {
+    if (!roles.list && !saysMesh(variable)) return "";
+    std::string places;
+    if (roles.list) {
+        const NcDimension& along = header.dimension(variable, *roles.list);
+        places = fmt::format(" ({} places listed along {})", along.length, along.name);
+    }
+    return fmt::format(
+        "expected values on a grid, found them on an unstructured mesh{}, which is not read yet",
+        places);
+}
 
 // Longitudes and latitudes, of any rank.
 std::vector<const NcVariable*> geographicOf(const NcHeader& header) {
@@ -39,6 +71,18 @@ std::vector<const NcVariable*> geographicOf(const NcHeader& header) {
         if (kind == AxisKind::X || kind == AxisKind::Y) found.push_back(&variable);
     }
     return found;
+}
+
+// The variables that may be drawn.
+std::vector<const NcVariable*> fieldsOf(const NcHeader& header,
+                                        std::span<const NcVariable* const> geographic) {
+    const std::set<std::string> named = auxiliaries(header);
+    std::vector<const NcVariable*> fields;
+    for (const NcVariable& variable : header.variables)
+        if (variable.type && !named.contains(variable.name) && !isConnectivity(variable) &&
+            !std::ranges::binary_search(geographic, &variable))
+            fields.push_back(&variable);
+    return fields;
 }
 
 std::uint64_t stepPoints(const NcHeader& header, const NcVariable& variable, const Roles& roles) {
@@ -56,14 +100,21 @@ std::string obstacle(const NetcdfFile& file, const NcVariable& variable, const R
         return fmt::format("the dimension {} of {} is none of x, y, z and time", extra.name,
                            extra.length);
     }
+    std::size_t lengths = 0;
+    bool named = true;
+    for (const std::size_t d : variable.dimensions) {
+        lengths += header.dimensions[d].length > 1;
+        named = named && header.dimensions[d].isNamed();
+    }
+    if (!named && lengths < 3) return "in HDF5 without named dimensions a field has three";
     for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
         if (header.dimension(variable, i).length == 0)
             return fmt::format("the dimension {} is empty", header.dimension(variable, i).name);
     return file.tooLarge(variable, stepPoints(header, variable, roles));
 }
 
-FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const Roles& roles,
-                      std::span<const NcVariable* const> geographic) {
+FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+                      const Roles& roles, std::span<const NcVariable* const> geographic) {
     const NcHeader& header = file.header();
     FileVariable result;
     result.name = variable.name;
@@ -76,8 +127,8 @@ FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const 
     result.roles = roles;
     result.packing =
         packingOf(variable, [&](const std::string& what) { file.failAttribute(variable, what); });
-    result.times = timesOf(file, variable, roles);
-    result.axes = axesOf(file, variable, roles, geographic, result.notes);
+    result.times = timesOf(file, fileAxes, variable, roles);
+    result.axes = axesOf(file, fileAxes, variable, roles, geographic, result.notes);
     return result;
 }
 
@@ -86,16 +137,21 @@ FileVariable describe(const NetcdfFile& file, const NcVariable& variable, const 
 FileContents contentsOf(const NetcdfFile& file) {
     const NcHeader& header = file.header();
     if (exodus(header))
-        file.fail("", "expected fields on a grid, found a finite-element mesh (Exodus II)");
-    const std::set<std::string> named = auxiliaries(header);
-    FileContents contents;
+        throw FileError(notReadSentence(file.path(), "an Exodus II file (a finite-element mesh)"));
+    if (vtkHdf(header)) throw FileError(notReadSentence(file.path(), "a VTKHDF file"));
     const std::vector<const NcVariable*> geographic = geographicOf(header);
+    const std::vector<const NcVariable*> fields = fieldsOf(header, geographic);
+    const FileAxes fileAxes(header, fields);
+    FileContents contents;
     std::string passedOver;
-    for (const NcVariable& variable : header.variables) {
-        if (!variable.type || named.contains(variable.name) || mesh(variable) ||
-            std::ranges::binary_search(geographic, &variable))
+    for (const NcVariable* field : fields) {
+        const NcVariable& variable = *field;
+        const Roles roles = fileAxes.rolesOf(variable);
+        if (const std::string mesh = meshOf(header, variable, roles); !mesh.empty()) {
+            contents.damaged.push_back(
+                {variable.name, file.sentence("variable '" + variable.name + "'", mesh)});
             continue;
-        const Roles roles = rolesOf(header, variable);
+        }
         if (roles.spatial() < 2) continue;
         const std::string why = obstacle(file, variable, roles);
         if (!why.empty()) {
@@ -103,13 +159,17 @@ FileContents contentsOf(const NetcdfFile& file) {
             continue;
         }
         try {
-            contents.variables.push_back(describe(file, variable, roles, geographic));
+            contents.variables.push_back(describe(file, fileAxes, variable, roles, geographic));
         } catch (const AttributeError& error) {
             contents.damaged.push_back({variable.name, error.what()});
         }
     }
     if (!contents.variables.empty()) return contents;
     if (!contents.damaged.empty()) throw FileError(contents.damaged.front().why);
+    if (header.format == kPlainHdf5)
+        throw FileError(notReadSentence(
+            file.path(),
+            "an HDF5 file that no NetCDF wrote, without an array of three dimensions"));
     file.fail("", "expected a numeric variable with at least two spatial dimensions, found none" +
                       passedOver);
 }

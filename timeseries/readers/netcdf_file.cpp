@@ -158,6 +158,9 @@ void NetcdfFile::readHeader() {
     check(nc_inq_format(id_, &format), "", "a netCDF file");
     header_.format = formatName(format);
     readGroup(id_, "", 0);
+    const auto& all = header_.dimensions;
+    if (!all.empty() && std::ranges::none_of(all, &NcDimension::isNamed))
+        header_.format = kPlainHdf5;
 }
 
 void NetcdfFile::readGroup(int group, const std::string& name, int depth) {

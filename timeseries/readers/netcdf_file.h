@@ -45,7 +45,8 @@ class NetcdfFile {
     void read(const NcVariable& variable, std::span<const std::size_t> start,
               std::span<const std::size_t> count, void* values) const;
 
-    // "path: place: what"
+    // "path: place: what", on one line.
+    std::string sentence(std::string_view place, std::string_view what) const;
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
     // As an AttributeError.
     [[noreturn]] void failAttribute(const NcVariable& variable, std::string_view what) const;
@@ -56,7 +57,6 @@ class NetcdfFile {
     void readGroup(int group, const std::string& name, int depth);
     void readVariable(int group, const std::string& groupName, int id);
     void readAttribute(NcVariable& variable, int number) const;
-    std::string sentence(std::string_view place, std::string_view what) const;
     void check(int status, std::string_view place, std::string_view expected) const;
 
     std::filesystem::path path_;

@@ -24,6 +24,9 @@ struct NcDimension {
     std::string name;
     std::uint64_t length = 0;
     bool unlimited = false;
+    // HDF5 that no netCDF wrote may have no names for its dimensions. The library then makes them
+    // up, one for each length, so that the same one may mean several things.
+    bool isNamed() const { return !name.starts_with("phony_dim_"); }
 };
 
 struct NcVariable {
@@ -41,8 +44,11 @@ struct NcVariable {
     std::string text(std::string_view attribute) const;  // "" when absent or not text
 };
 
+// The format of files whose dimensions have no names.
+constexpr std::string_view kPlainHdf5 = "HDF5";
+
 struct NcHeader {
-    std::string format;
+    std::string format;  // "NetCDF-4"
     std::vector<NcDimension> dimensions;
     std::vector<NcVariable> variables;
 

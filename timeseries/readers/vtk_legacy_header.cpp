@@ -245,7 +245,7 @@ void LegacyHeader::readFieldArray() {
     }
     if (name.empty()) text_.fail("expected the name of an array, but the file ends");
     if (name == "NULL_ARRAY") return;
-    name = decodedVtkName(name);
+    name = text_.decoded(name);
     const std::uint64_t components = text_.count("a number of components");
     const std::uint64_t tuples = text_.count("a number of tuples");
     const VtkType* type = readType();

@@ -106,24 +106,31 @@ std::string VtkText::lowerWord() {
     return text;
 }
 
-std::string decodedVtkName(std::string_view text) {
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 &&
-            hexDigit(text[i + 2]) >= 0) {
-            decoded += static_cast<char>(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2]));
+// VTK 9.1 reads on behind a '%' that ends a word of one or two characters.
+void VtkText::checkCodes(std::string_view word) const {
+    if (word.size() < 3 && word.find('%') != word.npos)
+        fail(fmt::format("expected %25 for a per cent sign, found \"{}\"", word));
+}
+
+std::string VtkText::decoded(std::string_view name) const {
+    checkCodes(name);
+    std::string plain;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        if (name[i] == '%' && i + 2 < name.size() && hexDigit(name[i + 1]) >= 0 &&
+            hexDigit(name[i + 2]) >= 0) {
+            plain += static_cast<char>(hexDigit(name[i + 1]) * 16 + hexDigit(name[i + 2]));
             i += 2;
         } else {
-            decoded += text[i];
+            plain += name[i];
         }
     }
-    return decoded;
+    return plain;
 }
 
 std::string VtkText::name() {
     const std::string text = word();
     if (text.empty()) fail("expected a name, but the file ends");
-    return decodedVtkName(text);
+    return decoded(text);
 }
 
 std::uint64_t VtkText::count(std::string_view what) {
@@ -147,15 +154,25 @@ double VtkText::number(std::string_view what) {
     return value;
 }
 
-void VtkText::skipParagraph() {
-    while (next() != '\n')
-        if (file_.rdbuf()->sgetc() < 0) return;
-    for (std::size_t length = 1; length > 0;) {
-        length = 0;
-        for (int c = next(); c != '\n'; c = next()) {
-            if (c < 0) return;
-            length += !blank(c);
+std::optional<std::size_t> VtkText::skipEncodedLine() {
+    std::size_t solid = 0;
+    std::string word;  // as much of it as is checked
+    for (int c = next();; c = next()) {
+        if (c >= 0 && !blank(c)) {
+            ++solid;
+            if (word.size() < 3) word += static_cast<char>(c);
+            continue;
         }
+        checkCodes(word);
+        word.clear();
+        if (c < 0) return std::nullopt;
+        if (c == '\n') return solid;
+    }
+}
+
+void VtkText::skipParagraph() {
+    if (!skipEncodedLine()) return;
+    while (skipEncodedLine().value_or(0) > 0) {
     }
 }
 
@@ -226,15 +243,13 @@ void VtkText::checkNumbers(const VtkType& type, std::uint64_t count) {
 // A line each, or each after its length: two bits tell how long the length is, in 6, 14, 30 or 62
 // bits (vtkDataReader::ReadArray).
 void VtkText::skipStrings(std::uint64_t count) {
-    while (next() != '\n')
-        if (file_.rdbuf()->sgetc() < 0) fail("expected text, but the file ends");
+    if (!skipEncodedLine()) fail("expected text, but the file ends");
     for (std::uint64_t i = 0; i < count; ++i) {
-        int c = next();
         if (!binary_) {
-            while (c >= 0 && c != '\n') c = next();
-            if (c < 0) fail("expected another line of text, but the file ends");
+            if (!skipEncodedLine()) fail("expected another line of text, but the file ends");
             continue;
         }
+        const int c = next();
         if (c < 0) fail("expected text, but the file ends");
         const unsigned form = static_cast<unsigned>(c) >> 6;
         std::uint64_t length = static_cast<unsigned>(c) & 63;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +13,6 @@
 #include "timeseries/readers/vtk_header.h"
 
 namespace timeseries {
-
-// In a legacy file's names, %20 stands for a blank, and so on.
-std::string decodedVtkName(std::string_view text);
 
 class VtkText {
  public:
@@ -31,7 +29,9 @@ class VtkText {
     std::string line();
     std::string word();  // "" at the end of the file
     std::string lowerWord();
-    std::string name();  // a decoded word
+    // A word, in which %20 stands for a blank, and so on. Throws FileError when there is none.
+    std::string name();
+    std::string decoded(std::string_view name) const;
     std::uint64_t count(std::string_view what);
     double number(std::string_view what);
     // Up to a blank line or the end of the file.
@@ -47,6 +47,9 @@ class VtkText {
 
  private:
     int next();  // -1 at the end
+    void checkCodes(std::string_view word) const;
+    // How many characters of the rest of the line are not blank; none when the file ends in it.
+    std::optional<std::size_t> skipEncodedLine();
     void checkNumbers(const VtkType& type, std::uint64_t count);
 
     std::filesystem::path path_;

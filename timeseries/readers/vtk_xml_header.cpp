@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "timeseries/other_formats.h"
 #include "timeseries/readers/vtk_blocks.h"
 #include "timeseries/readers/vtk_header.h"
 #include "timeseries/readers/vtk_xml.h"
@@ -306,6 +307,8 @@ VtkHeader readVtkXmlHeader(const std::filesystem::path& path) {
     const std::string_view type = root.attribute("type");
     VtkHeader header;
     header.path = path;
+    if (const std::string other = otherVtkType(type); !other.empty())
+        throw FileError(notReadSentence(path, other));
     if (type != "ImageData" && type != "RectilinearGrid")
         failVtk(path, "VTKFile",
                 fmt::format("expected the type ImageData, RectilinearGrid or Collection, found "

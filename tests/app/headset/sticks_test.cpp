@@ -132,6 +132,35 @@ TEST_F(SticksOfAnExploration, TimeIsScrubbedThereAndBack) {
     EXPECT_LE(e_.explorer().steps->first, 1u);
 }
 
+TEST_F(SticksOfAnExploration, ATapOfTheTimeStickIsOneStep) {
+    e_.seek(4);
+    const auto step = [&] { return e_.explorer().steps->first; };
+    std::size_t expected = 4;
+    for (const double side : {1.0, 1.0, -1.0, 1.0, -1.0, -1.0}) {
+        hold(0, side, 80ms);
+        expected = side > 0 ? expected + 1 : expected - 1;
+        EXPECT_EQ(step(), expected);
+        hold(0, 0.05 * side, 20ms);
+        EXPECT_EQ(step(), expected) << "the way back is none";
+    }
+    // As a stick is seen that springs over its rest in one frame, and as a slow display sees it.
+    for (const double at : {0.6, 1.0, 0.7, -0.6, -1.0}) hold(0, at, kFrame);
+    EXPECT_EQ(step(), expected) << "one there, one back";
+    hold(0, 0, kFrame);
+    sticks_.move(e_, 0, 0.9, 100ms);
+    EXPECT_EQ(step(), expected + 1);
+}
+
+TEST_F(SticksOfAnExploration, AGentlePushOfTheTimeStickIsNoTap) {
+    e_.seek(4);
+    hold(0, 0.4, 200ms);
+    EXPECT_EQ(e_.explorer().steps->first, 4u);
+    hold(0, 0.9, 40ms);
+    EXPECT_EQ(e_.explorer().steps->first, 5u);
+    hold(0, 0.4, 10s);
+    EXPECT_GT(e_.explorer().steps->first, 5u) << "held, it goes on at its rate";
+}
+
 TEST_F(SticksOfAnExploration, TimeEndsAreFeltWhereItDoesNotGoRound) {
     Explorer next = e_.explorer();
     next.play.time.ending = timeseries::Ending::Once;

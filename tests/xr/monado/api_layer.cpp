@@ -1,11 +1,13 @@
 // An OpenXR API layer: the loader puts it between the program and the runtime (OpenXR loader
-// specification, "API Layer Interaction"). It pretends what Monado never does by itself, that there
-// is no headset or that the floor is not known, and writes down what the compositor is given.
-// submitted_view.h says how it is told and what it writes; api_layer.h puts it in place.
+// specification, "API Layer Interaction"). It pretends what Monado never does by itself
+// (kPretenceVariable), and writes down what the compositor is given. submitted_view.h says how it
+// is told and what it writes; api_layer.h puts it in place.
 #include <openxr/openxr.h>
 #define XR_USE_GRAPHICS_API_OPENGL
 #include <openxr/openxr_loader_negotiation.h>
 #include <openxr/openxr_platform.h>
+
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -28,6 +30,8 @@ struct Next {
     PFN_xrEnumerateSwapchainImages enumerateImages;
     PFN_xrAcquireSwapchainImage acquire;
     PFN_xrEndFrame endFrame;
+    PFN_xrSuggestInteractionProfileBindings suggest;
+    PFN_xrPathToString pathToString;
 } next;
 
 struct Images {
@@ -65,6 +69,22 @@ XrResult acquire(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo* info,
     return result;
 }
 
+XrResult suggest(XrInstance instance, const XrInteractionProfileSuggestedBinding* bindings) {
+    char profile[XR_MAX_PATH_LENGTH];
+    std::uint32_t size = 0;
+    next.pathToString(instance, bindings->interactionProfile, sizeof profile, &size, profile);
+    if (pretends(tests::kNoIndex) && std::string_view(profile).ends_with("index_controller"))
+        return XR_SUCCESS;
+    return next.suggest(instance, bindings);
+}
+
+// An enumerant that GL does not know.
+void leaveGlError() {
+    using GetProcAddress = void (*(*)(const char*))();
+    const auto find = reinterpret_cast<GetProcAddress>(dlsym(RTLD_DEFAULT, "eglGetProcAddress"));
+    reinterpret_cast<void (*)(unsigned)>(find("glEnable"))(0xBEEF);
+}
+
 tests::SubmittedView submitted(const XrCompositionLayerProjectionView& view) {
     const auto& [turn, at] = view.pose;
     tests::SubmittedView out{.orientation = {turn.x, turn.y, turn.z, turn.w},
@@ -96,6 +116,7 @@ XrResult endFrame(XrSession session, const XrFrameEndInfo* info) {
         }
     }
     record.close();
+    if (pretends(tests::kGlErrors)) leaveGlError();
     return next.endFrame(session, info);
 }
 
@@ -109,6 +130,7 @@ XrResult getInstanceProcAddr(XrInstance instance, const char* name, PFN_xrVoidFu
     if (asked == "xrEnumerateSwapchainImages") return own(&enumerateImages);
     if (asked == "xrAcquireSwapchainImage") return own(&acquire);
     if (asked == "xrEndFrame") return own(&endFrame);
+    if (asked == "xrSuggestInteractionProfileBindings") return own(&suggest);
     return next.address(instance, name, function);
 }
 
@@ -144,6 +166,8 @@ XrResult createApiLayerInstance(const XrInstanceCreateInfo* info,
     find("xrEnumerateSwapchainImages", next.enumerateImages);
     find("xrAcquireSwapchainImage", next.acquire);
     find("xrEndFrame", next.endFrame);
+    find("xrSuggestInteractionProfileBindings", next.suggest);
+    find("xrPathToString", next.pathToString);
     return result;
 }
 

@@ -16,7 +16,9 @@ namespace tests {
 class ApiLayer {
  public:
     static bool isBuilt() { return std::filesystem::exists(API_LAYER_FOLDER "/layer.json"); }
-    // REQUIRES: isBuilt(). `pretence`: kNoHeadset, kNoFloor, or "" to look on only.
+    static constexpr const char* kNotBuilt =
+        "OpenXR is older than 1.0.33 here: it has no header for API layers";
+    // REQUIRES: isBuilt(). `pretence`: one of submitted_view.h, or "" to look on only.
     explicit ApiLayer(const char* pretence = "")
         : record_(testFolder() / "submitted"), pretence_(kPretenceVariable, pretence) {}
 

@@ -54,7 +54,7 @@ std::optional<double> distanceOf(const Plate& plate, const tests::SubmittedView&
 class Depth : public FrontEndWithHands {
  protected:
     void SetUp() override {
-        if (!tests::ApiLayer::isBuilt()) GTEST_SKIP();
+        if (!tests::ApiLayer::isBuilt()) GTEST_SKIP() << tests::ApiLayer::kNotBuilt;
         FrontEndWithHands::SetUp();
     }
     tests::ApiLayer layer_;

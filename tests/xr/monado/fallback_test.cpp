@@ -96,6 +96,16 @@ TEST_F(Fallback, WithAManifestOfALibraryThatIsNotThere) {
                   {{"XR_RUNTIME_JSON", manifest}});
 }
 
+TEST_F(Fallback, WithARuntimeThatCrashes) {
+    const std::string manifest = folder_ / "runtime.json";
+    tests::writeBytes(
+        manifest,
+        fmt::format(R"({{"file_format_version": "1.0.0", "runtime": {{"library_path": "{}"}}}})",
+                    tests::brokenRuntime().string()));
+    expectAWindow("the OpenXR runtime of " + manifest + " crashes when it is asked for a headset",
+                  {{"XR_RUNTIME_JSON", manifest}, {"ISOCHRON_TEST_RUNTIME", "crashes"}});
+}
+
 TEST_F(Fallback, WithoutAService) {
     tests::MonadoService service(tests::Monado::Null);
     service.kill();
@@ -104,7 +114,7 @@ TEST_F(Fallback, WithoutAService) {
 }
 
 TEST_F(Fallback, WithoutAHeadset) {
-    if (!tests::ApiLayer::isBuilt()) GTEST_SKIP();
+    if (!tests::ApiLayer::isBuilt()) GTEST_SKIP() << tests::ApiLayer::kNotBuilt;
     const tests::MonadoService service(tests::Monado::Null);
     const tests::ApiLayer layer(tests::kNoHeadset);
     expectAWindow("the OpenXR runtime Monado[^\n]* finds no headset");

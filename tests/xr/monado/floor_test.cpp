@@ -20,7 +20,7 @@ TEST_F(FrontEndWithHands, TheVolumeStandsBeforeEyesThatAreAboveTheFloor) {
 
 class WithoutAFloor : public FrontEndWithHands {
     void SetUp() override {
-        if (!tests::ApiLayer::isBuilt()) GTEST_SKIP();
+        if (!tests::ApiLayer::isBuilt()) GTEST_SKIP() << tests::ApiLayer::kNotBuilt;
         FrontEndWithHands::SetUp();
     }
     tests::ApiLayer layer_{tests::kNoFloor};

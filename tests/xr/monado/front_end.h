@@ -18,7 +18,7 @@ namespace app::headset {
 class FrontEnd : public testing::Test {
  protected:
     void open() {
-        auto opened = Headset::open(world_.exploration);
+        auto opened = Headset::open(world_.exploration, exporting_);
         if (const auto* none = std::get_if<xr::NoHeadset>(&opened)) FAIL() << none->why;
         headset_ = std::get<std::unique_ptr<Headset>>(std::move(opened));
     }
@@ -33,6 +33,7 @@ class FrontEnd : public testing::Test {
     glm::dvec3 volume() const { return headset_->room().placement().stageFromVolume.position; }
 
     tests::ScriptedExploration world_;
+    std::optional<ExportJob> exporting_;
     std::unique_ptr<Headset> headset_;
 };
 

@@ -13,6 +13,7 @@
 #include "tests/support/headset.h"
 #include "tests/support/monado_service.h"
 #include "tests/support/shown_steps.h"
+#include "tests/xr/monado/api_layer.h"
 #include "tests/xr/monado/front_end.h"
 
 namespace app::headset {
@@ -62,7 +63,7 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
         const auto given = frame->eyes(1);
         if (given.empty() || !frame->head()) continue;
         if (!placement) placement = volumeBefore(*frame->head(), lattice.boxHalfEdges());
-        eyes.draw(&shown, given, *placement, {}, std::nullopt);
+        eyes.draw(&shown, given, *placement, {}, Eyes::Splats::All);
         std::array views{viewOf(given[0], *placement), viewOf(given[1], *placement)};
         for (render::View& view : views) view.hidden = nullptr;
         const auto truth = renderer.render({.scene = picture.scene,
@@ -99,6 +100,13 @@ TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
     open();
     framesUntil([&] { return headset_->room().panel().has_value(); });
     world_.exploration.seek(3);
+    // A program that takes its time to export.
+    const auto exporter = tests::testFolder() / "exporter.sh";
+    tests::writeBytes(exporter, "#!/bin/sh\nexec sleep 1000\n");
+    std::filesystem::permissions(exporter, std::filesystem::perms::owner_all);
+    exporting_.emplace(
+        world_.exploration.explorer(),
+        Frames(tests::testFolder() / "picture.png", world_.exploration.explorer(), {3}), exporter);
     const Explorer before = world_.exploration.explorer();
     service.kill();
     try {
@@ -109,7 +117,39 @@ TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
     }
     headset_.reset();
     EXPECT_TRUE(world_.exploration.explorer() == before);
+    ASSERT_TRUE(exporting_);
+    exporting_->poll();
+    EXPECT_EQ(exporting_->state(), ExportJob::State::Running) << exporting_->outcome();
     world_.until([&] { return world_.exploration.shown()->step == 3; });
+}
+
+TEST_F(FrontEnd, ErrorsThatTheRuntimeLeavesInGlAreNoWarning) {
+    if (!tests::ApiLayer::isBuilt()) GTEST_SKIP() << tests::ApiLayer::kNotBuilt;
+    const tests::MonadoService service(tests::Monado::Null);
+    const tests::ApiLayer layer(tests::kGlErrors);
+    open();
+    framesUntil([&] { return layer.submitted().size() >= 20; });
+    EXPECT_THAT(world_.exploration.messages(), testing::IsEmpty());
+    headset_.reset();  // before its runtime goes
+}
+
+// A panel at which nobody points and on which nothing changes costs nothing.
+TEST_F(FrontEnd, ThePanelIsDrawnWhenItChanges) {
+    const tests::MonadoService service(tests::Monado::Null);
+    open();
+    framesUntil([&] { return headset_->room().panel().has_value(); });
+    const auto until = [&](std::chrono::nanoseconds after) {
+        const auto begin = headset_->timing().displayTime;
+        int frames = 0;
+        framesUntil([&] { return ++frames, headset_->timing().displayTime - begin > after; });
+        return frames;
+    };
+    until(2s);  // all is loaded and bound
+    const std::uint64_t before = headset_->panel().timesDrawn();
+    const int frames = until(3s);
+    EXPECT_LE(headset_->panel().timesDrawn() - before, 7u) << "its numbers, twice a second";
+    EXPECT_GT(frames, 10);
+    headset_.reset();  // before its runtime goes
 }
 
 TEST_F(FrontEnd, WhatPlaysWaitsWhileAnotherProgramHasTheFocus) {

@@ -6,6 +6,7 @@
 #include "tests/support/headset.h"
 #include "tests/support/monado_service.h"
 #include "tests/support/remote_devices.h"
+#include "tests/xr/monado/api_layer.h"
 
 namespace xr {
 namespace {
@@ -38,6 +39,22 @@ class RemoteHeadset : public testing::Test {
     std::unique_ptr<Session> session_;
 };
 
+// Index controllers as they are; and as Touch, where nothing is suggested for an Index: Monado
+// gives them as such.
+class Controllers : public RemoteHeadset, public testing::WithParamInterface<const char*> {
+ protected:
+    void SetUp() override {
+        if (!tests::ApiLayer::isBuilt()) GTEST_SKIP() << tests::ApiLayer::kNotBuilt;
+        layer_.emplace(GetParam());
+        RemoteHeadset::SetUp();
+    }
+    std::optional<tests::ApiLayer> layer_;
+};
+INSTANTIATE_TEST_SUITE_P(Monado, Controllers, testing::Values("", tests::kNoIndex),
+                         [](const auto& test) {
+                             return std::string(*test.param == 0 ? "Index" : "Touch");
+                         });
+
 bool isAt(const std::optional<Pose>& pose, const glm::dvec3& position) {
     return pose && glm::distance(pose->position, position) < 1e-4;
 }
@@ -62,7 +79,7 @@ TEST_F(RemoteHeadset, TheHeadIsWhereItIsMoved) {
         *session_, [&](auto& frame) { head = frame.head(); }, [&] { return isAt(head, at); }));
 }
 
-TEST_F(RemoteHeadset, EachPartOfAControllerIsOneIntention) {
+TEST_P(Controllers, EachPartOfAControllerIsOneIntention) {
     const auto onlyLeft = [](bool Hand::*part) {
         return [=](const std::array<Hand, 2>& h) { return h[0].*part && !(h[1].*part); };
     };
@@ -90,7 +107,7 @@ TEST_F(RemoteHeadset, EachPartOfAControllerIsOneIntention) {
     handsOnce(onlyLeft(&Hand::bring));
 }
 
-TEST_F(RemoteHeadset, SticksAreReadByHand) {
+TEST_P(Controllers, SticksAreReadByHand) {
     devices_.hand(0).stick = {0.5f, -0.25f};
     devices_.hand(1).stick = {-1, 1};
     handsOnce([](const auto& h) {
@@ -99,14 +116,16 @@ TEST_F(RemoteHeadset, SticksAreReadByHand) {
     });
 }
 
-TEST_F(RemoteHeadset, HelpNamesThePartsOfTheController) {
-    const std::string& text = session_->bindingsText();
+TEST_P(Controllers, HelpNamesThePartsOfTheController) {
+    const std::string& text = session_->controls().text;
     ASSERT_TRUE(tests::framesUntil(
         *session_, [](auto&) {}, [&] { return !text.empty(); }));
     for (const char* line :
          {"Grab the volume: ", "Play, pause, click: ", "Help and panel: ", "Swing the sweep: ",
           "Bring the volume here: ", "Move value or time: "})
         EXPECT_THAT(text, testing::HasSubstr(line));
+    EXPECT_TRUE(session_->controls().sticks);
+    EXPECT_FALSE(session_->controls().oneButton);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "render/color.h"
 #include "render/image.h"
 #include "render/png.h"
+#include "tests/support/built_paths.h"
 #include "tests/support/monado_service.h"
 #include "tests/support/screen_grab.h"
 #include "tests/support/variable.h"
@@ -46,7 +47,7 @@ std::ptrdiff_t brightPixels(const tests::ScreenGrab& grab) {
 // Where the head looks when most is to be seen.
 tests::ScreenGrab bestGrab(Headset& headset, app::Exploration& exploration,
                            const std::string& screen) {
-    exploration.open({SOURCE_DIR "/datasets/pool_fire_T.nc"});
+    exploration.open({tests::demo()});
     drawFrames(headset, exploration, kFrames);
     tests::ScreenGrab best;
     for (int frames = 0; frames < kSway; frames += 10) {
@@ -87,7 +88,8 @@ int main(int argc, char** argv) {
         const std::string screen = getenv("DISPLAY");
         const tests::Variable noDisplay("DISPLAY", std::nullopt);
         app::Exploration exploration{{.wake = [] {}}};
-        auto opened = Headset::open(exploration);
+        std::optional<app::ExportJob> exporting;
+        auto opened = Headset::open(exploration, exporting);
         if (const auto* none = std::get_if<xr::NoHeadset>(&opened))
             throw std::runtime_error(none->why);
         const auto headset = std::get<std::unique_ptr<Headset>>(std::move(opened));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 #include "tests/ui/process.h"
 #include "tests/ui/waiting.h"
@@ -22,10 +23,10 @@ class Program {
         std::optional<std::string> screen = {};  // $DISPLAY; without one there is none
         std::vector<std::string> more = {};      // arguments
         std::map<std::string, std::optional<std::string>> environment = {};
-        std::filesystem::path file = SOURCE_DIR "/datasets/pool_fire_T.nc";
+        std::filesystem::path file = tests::demo();
+        std::string preferences = {};  // of the user, as JSON
     };
-    explicit Program(const Start& start)
-        : folder_(emptied(testFolder() / start.display)), process_(processOf(start)) {}
+    explicit Program(const Start& start) : folder_(madeFor(start)), process_(processOf(start)) {}
 
     // What it saves for a crash once data are shown; empty before, and after a good end.
     std::string session() const {
@@ -38,7 +39,9 @@ class Program {
         }
         return {};
     }
+    std::string preferences() const { return readBytes(folder_ / "isochron" / "preferences.json"); }
     std::string said() const { return process_.errors(); }
+    pid_t id() const { return process_.id(); }
 
     // Throws std::runtime_error when that does not come, or the program ends instead.
     template <typename Condition>
@@ -60,13 +63,16 @@ class Program {
     int exitCode() { return process_.exitCode(); }
 
  private:
-    static std::filesystem::path emptied(const std::filesystem::path& folder) {
+    static std::filesystem::path madeFor(const Start& start) {
+        const std::filesystem::path folder = testFolder() / start.display;
         std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
+        std::filesystem::create_directories(folder / "isochron");
+        if (!start.preferences.empty())
+            writeBytes(folder / "isochron" / "preferences.json", start.preferences);
         return folder;
     }
     ui::Process::Start processOf(const Start& start) const {
-        ui::Process::Start process{.program = PROGRAM,
+        ui::Process::Start process{.program = tests::program(),
                                    .arguments = {start.file, "--display", start.display},
                                    .folder = folder_,
                                    .environment = start.environment};

@@ -189,7 +189,7 @@ TEST_F(SimulatedHeadset, TellsWhatASimpleControllerDoes) {
     std::array<Hand, 2> hands;
     ASSERT_TRUE(tests::framesUntil(
         *session, [&](auto& frame) { hands = frame.hands(); },
-        [&] { return hands[0].grip && hands[1].grip && !session->bindingsText().empty(); }));
+        [&] { return hands[0].grip && hands[1].grip && !session->controls().text.empty(); }));
     // Monado's simulated controllers rest at (-/+0.2, 1.3, -0.5), and sway a little.
     for (int h = 0; h < 2; ++h) {
         ASSERT_TRUE(hands[h].grip && hands[h].aim);
@@ -197,8 +197,10 @@ TEST_F(SimulatedHeadset, TellsWhatASimpleControllerDoes) {
         EXPECT_FALSE(hands[h].grab || hands[h].select || hands[h].menu);
         EXPECT_EQ(hands[h].stick, glm::dvec2(0));
     }
-    EXPECT_EQ(session->bindingsText(),
-              "Grab the volume: Select\nPlay, pause, click: Select\nHelp and panel: Menu\n");
+    EXPECT_EQ(session->controls().text,
+              "Grab the volume: Select\nPlay, pause, click: Select\nHelp and panel: Menu");
+    EXPECT_TRUE(session->controls().oneButton);
+    EXPECT_FALSE(session->controls().sticks);
     session->vibrate(0, 0.5, std::chrono::milliseconds(20));
 }
 

@@ -11,6 +11,8 @@ inline constexpr const char* kRecordVariable = "ISOCHRON_TEST_RECORD";
 // Values of kPretenceVariable.
 inline constexpr const char* kNoHeadset = "no headset";
 inline constexpr const char* kNoFloor = "no floor";
+inline constexpr const char* kNoIndex = "no index";    // as if nobody knew its profile
+inline constexpr const char* kGlErrors = "gl errors";  // left in each frame
 
 // As xrEndFrame was given it: XrCompositionLayerProjectionView and XrCompositionLayerDepthInfoKHR.
 struct SubmittedView {

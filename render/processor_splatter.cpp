@@ -1,0 +1,89 @@
+#include "render/processor_splatter.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "render/row_splatter.h"
+
+namespace render {
+namespace {
+
+bool byRows(const Scene& scene, Channels channels) {
+    return scene.lattice.longCells() &&
+           (channels == Channels::Weight || channels == Channels::WeightedColor);
+}
+
+// Splats of long cells are cut at the domain's faces, row by row.
+template <typename Sum, typename Memory>
+class Plane final : public PlaneSum {
+ public:
+    Plane(Sum sum, std::size_t plane, Targets& targets, Memory& memory)
+        : sum_(std::move(sum)), plane_(plane), targets_(targets), memory_(memory) {
+        if (sum_.done()) write();
+    }
+    ~Plane() override { memory_ = sum_.takeMemory(); }
+    Plane(const Plane&) = delete;
+    Plane& operator=(const Plane&) = delete;
+    std::uint64_t add(std::uint64_t splats) override {
+        const std::uint64_t added = sum_.add(splats);
+        if (sum_.done() && added > 0) write();
+        return added;
+    }
+    bool done() const override { return sum_.done(); }
+
+ private:
+    void write() { targets_.writePlane(plane_, sum_.box(), sum_.plane()); }
+
+    Sum sum_;
+    std::size_t plane_;
+    Targets& targets_;
+    Memory& memory_;
+};
+
+class Frame final : public SplatFrame {
+ public:
+    Frame(const Scene& scene, DrawList list, ProcessorSplatter::Memory& memory)
+        : scene_(scene), list_(std::move(list)), memory_(memory) {}
+
+    std::uint64_t splats(Channels, std::size_t layer) const override {
+        if (const auto* sorted = std::get_if<Sorted>(&list_)) return sorted->point.size();
+        return splatCount(scene_.layers[layer], scene_.stride);
+    }
+    std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
+                                    Targets& targets) override {
+        if (layer == 0) targets.readDepth(memory_.opaqueDepth);
+        targets.plane(layer, channels);
+        const auto plane = [&](auto sum, auto& memory) {
+            return std::make_unique<Plane<decltype(sum), std::decay_t<decltype(memory)>>>(
+                std::move(sum), layer, targets, memory);
+        };
+        if (byRows(scene_, channels))
+            return plane(RowSum(scene_, view, channels, layer, memory_.opaqueDepth,
+                                sharingThreads(), std::move(memory_.rows)),
+                         memory_.rows);
+        return plane(TileSum(scene_, list_, view, channels, layer, memory_.opaqueDepth,
+                             sharingThreads(), std::move(memory_.tiles)),
+                     memory_.tiles);
+    }
+
+ private:
+    const Scene& scene_;
+    const DrawList list_;
+    ProcessorSplatter::Memory& memory_;
+};
+
+}  // namespace
+
+bool ProcessorSplatter::canDraw(const Scene& scene) {
+    return std::ranges::all_of(channelsFor(scene), [&](Channels channels) {
+        return TileSum::canSum(scene, channels) || byRows(scene, channels);
+    });
+}
+
+std::unique_ptr<SplatFrame> ProcessorSplatter::prepare(const Scene& scene, DrawList list,
+                                                       const GpuStep&) {
+    return std::make_unique<Frame>(scene, std::move(list), memory_);
+}
+
+}  // namespace render

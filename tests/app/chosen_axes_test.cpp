@@ -1,0 +1,59 @@
+#include "app/chosen_axes.h"
+
+#include <gtest/gtest.h>
+
+#include "render/lattice.h"
+#include "tests/support/scripted_reader.h"
+
+namespace app {
+namespace {
+
+Dataset scripted() {
+    return tests::scriptedDataset({}, std::make_shared<tests::Script>(), "a", "");
+}
+
+TEST(ChosenAxes, NoneLeaveTheDatasetAlone) {
+    Dataset dataset = scripted();
+    const auto* const reader = dataset.reader.get();
+    chooseAxes(dataset, {});
+    EXPECT_EQ(dataset.reader.get(), reader);
+}
+
+TEST(ChosenAxes, AreThoseOfEveryVariableAndStepWithTheFilesCoordinates) {
+    const Dataset file = scripted();
+    Dataset dataset = scripted();
+    const std::string format = dataset.reader->format();
+    std::array<AxisChoice, 3> axes;
+    axes[1].name = "latitude";
+    axes[2] = {true, "depth"};
+    chooseAxes(dataset, axes);
+    EXPECT_EQ(dataset.reader->format(), format);
+    const auto variables = file.reader->variables();
+    ASSERT_EQ(dataset.variables.size(), variables.size());
+    ASSERT_GE(variables.size(), 2u);
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+        const auto& before = variables[v].grid->axes();
+        const auto& after = dataset.variables[v].grid->axes();
+        for (std::size_t a = 0; a < 3; ++a) {
+            EXPECT_EQ(after[a].coordinates, before[a].coordinates);
+            EXPECT_EQ(after[a].units, before[a].units);
+            EXPECT_EQ(after[a].down, before[a].down != axes[a].flip);
+            EXPECT_EQ(after[a].name, axes[a].name.empty() ? before[a].name : axes[a].name);
+        }
+    }
+    EXPECT_EQ(dataset.about.grid, dataset.variables[dataset.variable].grid);
+    const auto field = dataset.reader->read(dataset.variable, 0);
+    EXPECT_EQ(*field.grid, *dataset.about.grid);
+    EXPECT_EQ(field.values, file.reader->read(file.variable, 0).values);
+    EXPECT_EQ(dataset.reader->read(dataset.variable, 1).grid, field.grid) << "shared as before";
+    // Drawn the other way round: a point and its mirror image change places.
+    const render::Lattice one(*file.about.grid), other(*dataset.about.grid);
+    for (std::uint64_t i = 0; i < file.about.grid->count(); ++i) {
+        const glm::dvec3 p = one.position(i), q = other.position(i);
+        EXPECT_EQ(q, glm::dvec3(p.x, p.y, -p.z));
+        EXPECT_EQ(dataset.about.grid->position(i), file.about.grid->position(i));
+    }
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,42 @@
+#include "app/clip_flaw.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/choice_text.h"
+
+namespace app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// x 0 to 3 m, y 10 down to -10, z of one point at 5.
+const timeseries::Grid& grid() {
+    static const timeseries::Grid of({timeseries::Axis{"lon", "m", {0, 1, 2, 3}},
+                                      timeseries::Axis{"lat", "", {10, 0, -10}},
+                                      timeseries::Axis{"level", "Pa", {5}}});
+    return of;
+}
+
+std::string flaw(const char* clip) { return clipFlaw(parseClip(clip), grid()); }
+
+TEST(ClipFlaw, IsNoneWhereAPointLiesInTheBox) {
+    for (const char* clip : {"min:max,min:max,min:max", "0:0,-10:-10,5:5", "-9:0.5,9:99,min:5",
+                             "2.5:max,-0.5:0.5,5:max"})
+        EXPECT_EQ(flaw(clip), "") << clip;
+}
+
+TEST(ClipFlaw, NamesTheAxisThatHasNoneAndWhereItRuns) {
+    EXPECT_THAT(flaw("4:9,min:max,min:max"),
+                AllOf(HasSubstr("'4:9,min:max,min:max'"), HasSubstr("lon, from 0 to 3 m"),
+                      HasSubstr("from 4 to 9")));
+    EXPECT_THAT(flaw("min:max,11:max,min:max"),
+                AllOf(HasSubstr("lat, from -10 to 10,"), HasSubstr("11 to inf")));
+    EXPECT_THAT(flaw("min:max,min:max,6:7"), HasSubstr("level, from 5 to 5 Pa"));
+    // Inside the box, but between two points.
+    EXPECT_THAT(flaw("0.2:0.8,min:max,min:max"), HasSubstr("lon"));
+}
+
+}  // namespace
+}  // namespace app

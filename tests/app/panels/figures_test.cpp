@@ -1,0 +1,42 @@
+// What is said of the picture over its lower right corner.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/panels/picture_area.h"
+#include "tests/support/scripted_exploration.h"
+
+namespace app::panels {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+// Of the picture, whatever the exploration has come to since.
+TEST(Figures, AreOfThePictureAlone) {
+    tests::ScriptedExploration desk;
+    Performance p{.frame = 5ms, .budget = 33ms, .drawn = 1000, .selected = 4000};
+    p.counts =
+        PointCounts{.layers = {4000}, .swept = 0, .selected = 4000, .kept = 9000, .total = 10000};
+    p.whole = false;
+    const auto lines = figuresOf(p, desk.exploration.series());
+    EXPECT_THAT(lines, ElementsAre("1,000 of 4,000 points drawn",
+                                   "4,000 selected  ·  9,000 kept  ·  10,000 in all",
+                                   EndsWith("a subset while it moves")));
+    p.whole = true;
+    p.frame = 50ms;
+    p.drawn = 4000;
+    EXPECT_THAT(figuresOf(p, desk.exploration.series()),
+                ElementsAre("4,000 points drawn", HasSubstr("4,000 selected"),
+                            EndsWith("all points drawn")));
+}
+
+TEST(Figures, AreNoneBeforeThereIsAPicture) {
+    tests::ScriptedExploration desk;
+    EXPECT_TRUE(figuresOf({}, desk.exploration.series()).empty());
+    EXPECT_TRUE(figuresOf({.counts = PointCounts{}}, nullptr).empty());
+}
+
+}  // namespace
+}  // namespace app::panels

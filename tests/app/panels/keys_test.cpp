@@ -1,0 +1,68 @@
+// What keys mean where something takes text.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "app/panels/focus.h"
+#include "tests/support/files.h"
+#include "tests/support/panels_desk.h"
+
+namespace app::panels {
+namespace {
+
+// All that is a command by itself, where nothing takes it.
+constexpr std::string_view kCommands = "FHPVIOL1234567,. ";
+
+std::size_t commandsOf(tests::PanelsDesk& desk, std::string_view typed) {
+    std::size_t asked = 0;
+    for (const char c : typed) {
+        ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+        desk.frame(KeyPress{.key = key(c)});
+        asked += desk.asked.commands.size();
+    }
+    return asked;
+}
+
+TEST(Keys, AreThePicturesWhereNothingTakesThem) {
+    tests::PanelsDesk desk;
+    EXPECT_GT(commandsOf(desk, kCommands), 5u);
+}
+
+// From the very frame after it was pressed, and until it is left.
+TEST(Keys, NeverReachThePictureFromAField) {
+    tests::PanelsDesk desk;
+    desk.sweep("0:64", 2);
+    desk.frames(3);
+    std::vector<Focus::Control> fields;
+    for (const Focus::Control& c : focus().controls())
+        if (c.takes == Focus::Takes::Typing && c.clip.holds(c.at.centre())) fields.push_back(c);
+    ASSERT_GT(fields.size(), 4u);
+    for (const Focus::Control& field : fields) {
+        SCOPED_TRACE(fmt::format("the field at {}, {}", field.at.min.x, field.at.min.y));
+        desk.moveTo(field.at.centre());
+        desk.hold(true);
+        ASSERT_TRUE(ImGui::IsAnyItemActive());
+        EXPECT_EQ(commandsOf(desk, kCommands), 0u);
+        desk.hold(false);
+        EXPECT_EQ(commandsOf(desk, kCommands), 0u);
+        desk.press(Key::Escape);
+        EXPECT_FALSE(ImGui::IsAnyItemActive());
+    }
+    EXPECT_TRUE(desk.exploration.messages().empty());
+}
+
+TEST(Keys, NeverReachThePictureWhileFilesOrAPopupStandBeforeIt) {
+    std::filesystem::current_path(tests::freshFolder());
+    tests::PanelsDesk desk;
+    desk.interface.obey(desk.exploration, Command::Save);
+    desk.frames(3);
+    desk.click({20, 20});  // beside it: no field has the text
+    EXPECT_EQ(commandsOf(desk, kCommands), 0u);
+    desk.press(Key::Escape);
+    desk.frames(2);
+    EXPECT_GT(commandsOf(desk, kCommands), 5u);
+}
+
+}  // namespace
+}  // namespace app::panels

@@ -1,0 +1,319 @@
+#!/usr/bin/env python3
+"""Measures everything and writes tests/bench/RESULTS.md: one page, each figure once.
+
+    tests/bench/results.py              builds, measures (some 20 minutes on two cores), writes the page
+    tests/bench/results.py draw vtk     measures these parts again; the others stay as last measured
+    tests/bench/results.py --page       writes the page from what was last measured
+
+What a part measured stays in build/results, with its commit, time and load. On a quiet machine only:
+what else runs is in the figures. The parts: index stages draw vtk window headset.
+"""
+import datetime
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KEPT = ROOT / "build/results"
+BENCH = ROOT / "build/release/tests/bench/isochron_bench"
+# What each part runs; all but window and headset are filters of isochron_bench.
+FILTERS = {
+    "index": ["--benchmark_filter=^(build|select|count)", "--benchmark_repetitions=3",
+              "--benchmark_report_aggregates_only=true"],
+    "stages": ["--benchmark_filter=^stage"],
+    "draw": ["--benchmark_filter=^(BM_|costFollows|tiles)"],
+    "vtk": ["--benchmark_filter=^vtk"],
+}
+PARTS = [*FILTERS, "window", "headset"]
+
+
+def shell(command, **options):
+    return subprocess.run(["bash", "-c", command], cwd=ROOT, check=True, text=True, **options)
+
+
+def said(command):
+    return shell(command, stdout=subprocess.PIPE).stdout
+
+
+def build():
+    shell("source .ci/setup.sh; installPackages base vtk tests bench;"
+          "configure release -DBUILD_TESTING=ON -DISOCHRON_VTK=ON -DISOCHRON_BENCH=ON;"
+          "build release isochron_bench ui_bench")
+
+
+def commit():
+    changed = said("git status --porcelain -- . ':!tests/bench/RESULTS.md' ':!tests/bench/NOTES.md'").strip()
+    return said("git rev-parse --short HEAD").strip() + (" and changes" if changed else "")
+
+
+def measure(part):
+    about = {"commit": commit(), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
+    print(f"{part} ...", file=sys.stderr)
+    if part == "window":
+        figures = said("build/release/tests/ui/ui_bench")
+    elif part == "headset":
+        figures = said("tests/xr/monado_root.sh make && tests/xr/monado_root.sh bench")
+    else:
+        flags = " ".join(f"'{flag}'" for flag in FILTERS[part])
+        # VTK draws into a window only.
+        figures = json.loads(said(f"xvfb-run -a {BENCH} {flags} --benchmark_format=json 2>/dev/null"))["benchmarks"]
+    KEPT.mkdir(parents=True, exist_ok=True)
+    (KEPT / f"{part}.json").write_text(json.dumps({"about": about, "figures": figures}, indent=1))
+
+
+class Part:
+    """What one part last measured."""
+
+    def __init__(self, name):
+        kept = KEPT / f"{name}.json"
+        self.there = kept.exists()
+        if not self.there:
+            return
+        data = json.loads(kept.read_text())
+        self.about, self.figures = data["about"], data["figures"]
+        self.label = ""
+        if isinstance(self.figures, list):
+            self.label = next((f["label"] for f in self.figures if f.get("label")), "")
+            self.by_name = {}
+            for f in self.figures:
+                if f.get("aggregate_name", "median") == "median":
+                    self.by_name[re.sub(r"/(iterations:\d+|process_time|real_time)", "", f["run_name"])] = f
+
+    def __call__(self, name):
+        return self.by_name.get(name)
+
+    def line(self):
+        a = self.about
+        return f"*Commit {a['commit']}, {a['date']}, load {a['load']:.1f} at its start.*\n"
+
+
+SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+
+
+def seconds(figure):
+    return figure["real_time"] * SECONDS[figure["time_unit"]]
+
+
+def digits(value):
+    return f"{value:.3g}" if value < 1000 else f"{value:,.0f}"
+
+
+def time(value):
+    if value is None:
+        return ""
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
+        if value >= (0.9995 * size if unit != "s" else 10):
+            return f"{digits(value / size)} {unit}"
+    return f"{digits(value / 1e-9)} ns"
+
+
+def ms(figure, counter):
+    return time(1e-3 * figure[counter])
+
+
+def points(n):
+    return f"{n}³"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+TARGETS = []
+
+
+def target(what, value, limit, at_least=False, shown=digits):
+    met = value >= limit if at_least else value <= limit
+    TARGETS.append([what, shown(value), ("at least " if at_least else "at most ") + shown(limit),
+                    "met" if met else "**missed**"])
+
+
+def index_page(part):
+    rows = []
+    for n, kind in [(64, "float"), (128, "float"), (256, "float"), (512, "float"), (128, "double"), (128, "std::int16_t")]:
+        built, sort = part(f"build<{kind}>/{n}"), part(f"buildByStdSort/{n}") if kind == "float" else None
+        selected, counted = part(f"select<{kind}>/{n}"), part(f"count<{kind}>/{n}")
+        scanned = part(f"countByScan<{kind}>/{n}")
+        rows.append([points(n), kind.replace("std::", "").replace("_t", ""), time(seconds(built)),
+                     digits(n**3 / seconds(built) / 1e6), digits(seconds(sort) / seconds(built)) if sort else "",
+                     time(seconds(selected)), time(seconds(counted)), digits(seconds(scanned) / seconds(selected)),
+                     f"{selected['comparisons']:.0f} of {int(selected['allowed'])}"])
+        if (n, kind) == (256, "float"):
+            target("build, 256³ floats, million points/s", n**3 / seconds(built) / 1e6, 45, at_least=True)
+            target("`select`, 256³ floats", seconds(selected), 5e-6, shown=time)
+    text = ("A field of waves whose amplitudes fall as in turbulence, and a little noise; 65,536 ranges between two random values of it, so that\n"
+            "searches do not stay in the cache. `std::sort` sorts the same packed keys and need not unpack them; the scan compares every value\n"
+            "(vectorised) and only counts. Comparisons: the most that any range took, of 2 (log2 n + 1) allowed. One thread.\n\n")
+    return text + table(["points", "type", "build", "million points/s", "`std::sort` / build", "`select`", "`count`",
+                         "scan / `select`", "comparisons"], rows)
+
+
+def stages_page(part):
+    rows = []
+    for n in (64, 128, 256, 512):
+        def of(stage, share=None):
+            figure = part(f"{stage}/{n}" + (f"/{share}" if share else ""))
+            return time(seconds(figure)) if figure else ""
+        drawn = part(f"stageDraw/{n}/10")
+        rows.append([points(n), of("stageReadNrrd"), of("stageReadNetcdf"), of("stageBuild"), of("stageUpload", 10),
+                     of("stageOrder", 10), of("stageDraw", 100), of("stageDraw", 10), of("stageDraw", 1),
+                     f"{drawn['diameter']:.1f} px"])
+    text = ("The same field, seen whole in 1024 x 1024, one range about the median; files in the system's cache. Upload is a selection's first\n"
+            "picture: buffers for the step, its blocks reordered and sent. Draw is the splats alone.\n\n")
+    return text + table(["points", "read NRRD", "read NetCDF-4", "build", "upload, 1 %", "order, 1 %", "draw, 10 %",
+                         "draw, 1 %", "draw, 0.1 %", "splat"], rows)
+
+
+def draw_page(part):
+    rows = []
+    for splats, diameter in [(1, 8), (100000, 8), (1000000, 8), (100000, 16), (1000000, 3)]:
+        cells = [part(f"{name}/{splats}/{diameter}") for name in ("BM_DrawUnordered", "BM_DrawByValue", "BM_DrawOrdered")]
+        rows.append([f"{splats:,}", f"{diameter} px"] + [time(seconds(c)) if c else "" for c in cells])
+    target("a frame with 100,000 splats of 8 px", seconds(part("BM_DrawUnordered/100000/8")), 0.05, shown=time)
+    text = ("A frame of 1024 x 1024 until `glFinish`: axes, order, draw list, splats, resolve. Splats scattered through 256³ points of noise.\n\n"
+            + table(["splats", "diameter", "one colour", "by value", "by value, back to front"], rows))
+
+    rows = []
+    for selected, ordered, moving in [(0, 0, 0), (100000, 0, 1), (1000000, 0, 1), (1000000, 0, 0), (100000, 1, 1),
+                                      (1000000, 1, 1), (1000000, 1, 0)]:
+        f = part(f"BM_CanvasFrame/selected:{selected}/ordered:{ordered}/moving:{moving}")
+        if f:
+            rows.append([f"{selected:,}", "back to front" if ordered else "none", "yes" if moving else "no",
+                         f"{f['drawn']:,.0f}", time(seconds(f))])
+    text += ("\nA window's frame with axes, legend and presentation; while it moves, at most 100,000 splats stand for all.\n\n"
+             + table(["selected", "order", "moving", "drawn", "frame"], rows))
+    small = [(name, part(run)) for name, run in [("axes and legend", "BM_AxesAndLegend"), ("light onto a window", "BM_Present"),
+                                                ("a look at a million points (pick)", "BM_Pick/1000000")]]
+    text += "\nOf it: " + "; ".join(f"{name} {time(seconds(f))}" for name, f in small if f) + ".\n"
+
+    rows = []
+    kinds = ["one colour", "by value", "by value, back to front"]
+    for splats, diameter, what in [(1000000, 8, 0), (1000000, 8, 1), (1000000, 8, 2), (100000, 8, 0), (100000, 8, 2), (1000000, 1, 0)]:
+        f = part(f"tiles/splats:{splats}/pixels:{diameter}/what:{what}")
+        rows.append([f"{splats:,}", f"{diameter} px", kinds[what], ms(f, "first_ms"), ms(f, "second_ms"),
+                     digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+        asked = {(1000000, 0): 10, (1000000, 1): 9, (1000000, 2): 14, (100000, 0): 12, (100000, 2): 14}
+        if diameter == 8:
+            target(f"{splats:,} splats of 8 px, {kinds[what]}: before / by tiles", f["second/first"], asked[splats, what], at_least=True)
+    text += ("\n## By tiles\n\nOne plane of 1024 x 1024 summed by tiles, and as it was before: by rows, or, back to front, by the driver's point sprites\n"
+             "(their order and upload included, as the tiles' order is). By turns.\n\n"
+             + table(["splats", "diameter", "", "by tiles", "before", "ratio", "of processor time"], rows))
+
+    rows = []
+    for n in (1000, 100, 10):
+        f = part(f"costFollowsTheSelection/{n}")
+        rows.append([f"{f['splats']:,.0f}", ms(f, "first_ms"), ms(f, "second_ms"), f"{f['second/first']:.3f}", f"{f['cpu2/cpu1']:.3f}"])
+        target(f"{f['splats']:,.0f} splats from 512³ / from 64³ points", f["second/first"], 1.1)
+    text += ("\n## Cost follows the selection\n\nAll points of 64³, and the same ones among 512³, whose others lie outside the range: same places, same picture, by turns.\n\n"
+             + table(["splats", "from 64³", "from 512³", "ratio", "of processor time"], rows))
+
+    rows = []
+    for width, height in [(896, 1007), (1440, 1600)]:
+        for splats in (10000, 100000, 1000000):
+            f = part(f"BM_EyePair/splats:{splats}/width:{width}/height:{height}")
+            rows.append([f"{width} x {height}", f"{splats:,}", ms(f, "first_ms"), ms(f, "second_ms"),
+                         f"{f['second/first']:.2f}", f"{f['cpu2/cpu1']:.2f}"])
+            if (width, splats) == (1440, 1000000):
+                target("a pair of eyes / one eye, a million splats", f["second/first"], 2.1)
+    text += ("\n## A pair of eyes\n\nOne eye and the pair by turns; order and upload are shared.\n\n"
+             + table(["an eye's pixels", "splats", "one eye", "the pair", "ratio", "of processor time"], rows))
+
+    rows = []
+    for opacity, kernel in [(10, 1), (100, 1), (500, 1), (100, 0)]:
+        f = part(f"BM_ErrorAgainstTruth/opacity/1000:{opacity}/kernel:{kernel}")
+        rows.append(["(1 - q)⁴" if kernel else "point, 1 px", opacity / 1000, f"{f['meanTau']:.2g}", f"{f['depth']:.2g}",
+                     f"{f['ordered']:.2g}", f"{f['unordered']:.2g}"])
+        if (opacity, kernel) == (100, 1):
+            target("optical depth against the double truth, relative L2", f["depth"], 1e-5)
+    text += ("\n## Accuracy\n\nRelative L2 against the same model in double with an exact order: 512 x 512, noise on 64³ points of which a fifth is selected, by\n"
+             "value. Light back to front has 16-bit keys; unordered it is another picture (a mean along the ray), good below a mean optical depth\n"
+             "of 0.1 to 0.3. A point splat within float rounding of a pixel's border may fall to its other side.\n\n"
+             + table(["kernel", "opacity a cell", "mean optical depth", "optical depth", "light, ordered", "light, unordered"], rows))
+    rows = []
+    for stride in (1, 2, 8, 32, 128):
+        grown = part(f"BM_Subset/stride:{stride}/grown:1")
+        if grown:
+            rows.append([stride, f"{grown['points']:,.0f}", f"{grown['error']:.2g}"])
+    if rows:
+        text += ("\nWhile a picture moves, one of so many points stands for its neighbours, larger, with their mass: relative L2 of light against all.\n\n"
+                 + table(["one of", "points", "error"], rows))
+    return text
+
+
+def vtk_page(part):
+    rows = []
+    for count, diameter in [(100000, 8), (1000000, 8), (100000, 0), (1000000, 0)]:
+        f = part(f"vtkDraw/points:{count}/diameter:{diameter}")
+        rows.append([f"draw {count:,} splats of {diameter or 1} px", "`vtkPointGaussianMapper`", ms(f, "first_ms"), ms(f, "second_ms"),
+                     digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+        if (count, diameter) == (100000, 8):
+            target("100,000 splats of 8 px, VTK / ours", f["second/first"], 2, at_least=True)
+    for run, what, theirs in [("vtkSelect/{}", "select and count {}", "`vtkThresholdPoints`"),
+                              ("vtkSelectToDraw/{}", "the same, ready to draw, {}", "`vtkThresholdPoints`"),
+                              ("vtkContour/{}", "1 % about the median, ready to draw, {}", "`vtkFlyingEdges3D`"),
+                              ("vtkOrder/{}", "back to front, {}", "`vtkDepthSortPolyData`")]:
+        for n, share in [(128, 10), (256, 100), (256, 10), (256, 1), (512, 10), (256, 60), (256, 6)]:
+            f = part(run.format(f"{n}/{share}"))
+            if not f:
+                continue
+            of = f"{f['points']:,.0f} points" if "Order" in run else points(n) + ("" if "Contour" in run else f", {share / 10:g} %")
+            rows.append([what.format(of), theirs, ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+    text = ("Ours and VTK's by turns, the same points, view and picture; all threads' processor time beside the clock's. VTK's splats blend into 8\n"
+            "bits and its frame has no axes; its points are uploaded before. A contour is VTK's surface beside our points about the same value.\n\n")
+    return text + table(["what", "VTK's", "ours", "VTK", "VTK / ours", "of processor time"], rows)
+
+
+def window_page(part):
+    rows = re.findall(r"^(.+?) +(\d+) times +median +([\d.]+) ms +longest +([\d.]+) ms", part.figures, re.M)
+    return ("`ui_bench`: the real program under Xvfb; a frame is told by the window's answer to a ping, asked for every 5 ms.\n\n"
+            + table(["", "median", "longest"], [[what.strip(), f"{middle} ms", f"{longest} ms"] for what, _, middle, longest in rows]))
+
+
+def headset_page(part):
+    tables = "\n".join(line for line in part.figures.splitlines() if line.startswith("|") or not line.strip())
+    return ("`tests/xr/monado_root.sh bench`: Debian 13, Monado's compositors on the same cores. First what the XR layer costs by itself, a\n"
+            "frame; then frames that came and periods that were missed.\n\n" + tables.strip() + "\n")
+
+
+def page():
+    sections = [("index", "The index", index_page), ("stages", "From a file to a picture", stages_page),
+                ("draw", "Drawing", draw_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
+                ("headset", "In a headset", headset_page)]
+    body, driver = "", ""
+    for name, title, write in sections:
+        part = Part(name)
+        if part.there:
+            body += f"\n# {title}\n\n{part.line()}\n{write(part)}"
+            driver = driver or part.label
+    cpu = said("sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1").strip()
+    memory = int(said("sed -n 's/^MemTotal: *\\([0-9]*\\).*/\\1/p' /proc/meminfo")) // 2**20
+    system = said("sed -n 's/^PRETTY_NAME=\"\\(.*\\)\"/\\1/p' /etc/os-release").strip()
+    compiler = said("g++ --version | head -n 1").strip()
+    head = f"""# Measured
+
+`tests/bench/results.py` makes this page; what was tried and not kept is in `NOTES.md`. Medians; a ratio is of one run, its sides by turns.
+
+Machine: {cpu}, {os.cpu_count()} cores, {memory} GiB; {system}, {compiler}, `-O3` without `-march`. {driver or 'llvmpipe'}: no GPU.
+
+"""
+    (ROOT / "tests/bench/RESULTS.md").write_text(
+        head + table(["what", "measured", "asked for", ""], TARGETS) + body)
+
+
+def main(arguments):
+    parts = [a for a in arguments if a != "--page"]
+    if unknown := [p for p in parts if p not in PARTS]:
+        sys.exit(f"{unknown[0]}: no such part; there are: {' '.join(PARTS)}")
+    if "--page" not in arguments:
+        build()
+        for part in parts or PARTS:
+            measure(part)
+    page()
+
+
+main(sys.argv[1:])

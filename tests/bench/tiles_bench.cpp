@@ -1,0 +1,68 @@
+// The splatter by tiles against what it takes the place of, by turns: rows for unordered planes,
+// and what the driver makes of point sprites for ordered ones.
+#include <benchmark/benchmark.h>
+
+#include "render/gl/headless_context.h"
+#include "render/gl/pass.h"
+#include "render/gl_list.h"
+#include "render/row_splatter.h"
+#include "render/tile_splatter.h"
+#include "tests/bench/alternate.h"
+#include "tests/bench/scattered_splats.h"
+
+namespace {
+
+using namespace render;
+
+enum What { OneColor, ByTheirValues, Ordered };
+
+void tiles(benchmark::State& state) {
+    bench::ScatteredSplats world(static_cast<std::uint64_t>(state.range(0)),
+                                 static_cast<double>(state.range(1)));
+    const auto what = static_cast<What>(state.range(2));
+    if (what != OneColor) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
+    if (what == Ordered) world.scene.order = Order::BackToFront;
+    const Channels channels = channelsFor(world.scene)[0];
+    const std::vector<float> far(std::size_t(world.view.size.x) * world.view.size.y, 1);
+    const glm::dvec3 eye = pixelRays(world.view).eye;
+    const gl::HeadlessContext context;
+    GpuStep onGpu(world.step, world.lattice);
+    onGpu.upload(world.scene, neededScale(world.scene));
+    GlSplatter splatter;
+    Targets targets(world.view.size);
+    gl::begin({.framebuffer = targets.lightFramebuffer(),
+               .size = world.view.size,
+               .clearColor = glm::vec4(0),
+               .clearDepth = 1.0f});
+    TileMemory memory;
+    // A frame's order is made anew for the eye.
+    const auto byTiles = [&] {
+        const DrawList list = order(world.scene, eye);
+        TileSum sum(world.scene, list, world.view, channels, 0, far, sharingThreads(),
+                    std::move(memory));
+        sum.add(static_cast<std::uint64_t>(state.range(0)) * 2);
+        memory = sum.takeMemory();
+    };
+    const auto before = [&] {
+        if (what != Ordered) {
+            benchmark::DoNotOptimize(sumRows(world.scene, world.view, channels, 0, far));
+            return;
+        }
+        const auto uploaded = splatter.upload(world.scene, order(world.scene, eye), onGpu);
+        splatter.draw(*uploaded, world.view, channels, 0, targets.clearedPlane(0, channels));
+        glFinish();
+    };
+    bench::alternate(state, byTiles, before, 3);
+}
+BENCHMARK(tiles)
+    ->ArgNames({"splats", "pixels", "what"})
+    ->Args({1'000'000, 8, OneColor})
+    ->Args({1'000'000, 8, ByTheirValues})
+    ->Args({1'000'000, 8, Ordered})
+    ->Args({100'000, 8, OneColor})
+    ->Args({100'000, 8, Ordered})
+    ->Args({1'000'000, 1, OneColor})
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -1,0 +1,70 @@
+// What is the tiles' own; what they share with rows is in plane_sums_test.cpp.
+#include "render/tile_splatter.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "render/cpu_splatter.h"
+#include "render/image_compare.h"
+#include "tests/support/noise_plane.h"
+
+namespace render {
+namespace {
+
+using timeseries::RangeSet;
+
+class TileSplatter : public tests::NoisePlane {};
+
+// Large splats touch many tiles each; memory is bounded all the same.
+TEST_F(TileSplatter, NotABitDependsOnHowManyAreSortedAtOnce) {
+    scene_.footprint.size = 4;
+    const DrawList list = Runs{};
+    const auto summed = [&](std::uint64_t pairs) {
+        TileSum sum(scene_, list, view_, Channels::WeightedColor, 0, opaque_, 2, {}, pairs);
+        while (!sum.done()) sum.add(1 << 20);
+        return std::vector<float>(sum.plane().begin(), sum.plane().end());
+    };
+    const auto whole = summed(TileSum::kPairs);
+    for (const std::uint64_t pairs : {1u, 1000u, 100000u}) EXPECT_EQ(summed(pairs), whole) << pairs;
+}
+
+// Of the processor that the tests run on; others' may have none of these.
+TEST_F(TileSplatter, EveryKindOfVectorsSumsTheTruth) {
+    const auto use = [](std::int64_t targets) {
+        hwy::SetSupportedTargetsForTest(targets);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    };
+    timeseries::Axis uneven = tests::axis(9);
+    for (double& x : uneven.coordinates) x *= 1 + 0.05 * x;
+    const auto unevenStep = tests::noise(std::make_shared<const timeseries::Grid>(
+        std::array{uneven, tests::axis(8), tests::axis(7)}));
+    const Lattice unevenLattice(unevenStep.grid());
+    Scene unevenScene{.step = unevenStep,
+                      .lattice = unevenLattice,
+                      .layers = {{unevenStep.select(RangeSet::everything()), {Constant{}, 0.2}}},
+                      .footprint = {},
+                      .order = Order::None,
+                      .clip = {}};
+    const auto targets = hwy::SupportedTargets();
+    for (std::int64_t rest = targets; rest != 0; rest &= rest - 1) {
+        const std::int64_t target = rest & -rest;
+        use(target);
+        for (const Scene* scene : {&scene_, &unevenScene})
+            for (const Order order : {Order::None, Order::BackToFront}) {
+                Scene drawn = *scene;
+                drawn.order = order;
+                const Channels channels = channelsFor(drawn)[0];
+                const glm::dvec3 eye = pixelRays(view_).eye;
+                Accumulator<double> truth(view_.size, {channels});
+                splat(drawn, orderExactly(drawn, eye), view_, {}, truth);
+                const auto summed =
+                    sumTiles(drawn, orderExactly(drawn, eye), view_, channels, 0, {});
+                EXPECT_LE(compareScalars(summed, truth.planes[0]).relativeL2, 1e-5)
+                    << hwy::TargetName(target);
+            }
+    }
+    use(0);
+}
+
+}  // namespace
+}  // namespace render

@@ -1,0 +1,167 @@
+#include "timeseries/other_formats.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "tests/support/files.h"
+#include "tests/support/shared_data.h"
+#include "timeseries/reader.h"
+#include "timeseries/series_files.h"
+
+namespace timeseries {
+namespace {
+
+using namespace std::string_literals;
+using Path = std::filesystem::path;
+
+const std::string kTail =
+    "; isochron reads NetCDF, NRRD and, of VTK, image data and rectilinear grids (.vti, .vtr, "
+    ".vtk, .pvd)";
+
+// What opening a file or folder says it is.
+std::string told(const Path& path) {
+    try {
+        openReader(expandSeries(std::span(&path, 1)).files);
+    } catch (const FileError& error) {
+        const std::string what = error.what();
+        if (what ==
+            path.string() + ": expected a NetCDF, NRRD or VTK file, found no format that is known")
+            return "unknown";
+        EXPECT_TRUE(what.starts_with(path.string() + " is ")) << what;
+        EXPECT_TRUE(what.ends_with(kTail)) << what;
+        const std::size_t begin = path.string().size() + 4, end = what.size() - kTail.size();
+        return what.substr(std::min(begin, end), end - std::min(begin, end));
+    }
+    return "read";
+}
+
+std::string toldOf(const std::string& bytes) {
+    const Path path = tests::testFolder() / "file";
+    tests::writeBytes(path, bytes);
+    return told(path);
+}
+
+// Zeros with these bytes at a place, as long as a beginning that is looked at.
+std::string at(std::size_t place, const std::string& bytes) {
+    std::string file(2 * kBeginningBytes, '\0');
+    return file.replace(place, bytes.size(), bytes);
+}
+
+std::string gzipped(const std::string& bytes) {
+    z_stream stream{};
+    EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    std::string in = bytes, out(deflateBound(&stream, in.size()), '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(in.data());
+    stream.avail_in = static_cast<uInt>(in.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+// The signs are those of the formats' own documents.
+TEST(OtherFormats, AreNamed) {
+    const std::string nifti = at(344, "n+1\0"s);
+    for (const auto& [bytes, name] : std::vector<std::pair<std::string, std::string>>{
+             {nifti, "a NIfTI file"},
+             {gzipped(nifti), "a NIfTI file"},
+             {at(4, "n+2\0\r\n\x1a\n"s), "a NIfTI-2 file"},
+             {at(0, "GRIB"), "a GRIB file"},
+             {at(0, "SIMPLE  =                    T"), "a FITS file"},
+             {at(208, "MAP "), "an MRC map"},
+             {at(128, "DICM"), "a DICOM file"},
+             {at(0, "II*\0"s), "a TIFF file"},
+             {at(0, "MM\0*"s), "a TIFF file"},
+             {at(0, "\x93NUMPY\1\0"s), "a NumPy array (.npy)"},
+             {at(0, " BDV\0\0\0\0"s), "an OpenVDB file"},
+             {at(257, "ustar"), "a tar archive"},
+             {at(0, "PK\3\4"), "a zip archive"},
+             {"<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf/>",
+              "an XDMF file"},
+             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\"/>",
+              "a VTK file of type UnstructuredGrid"},
+             {"# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\n",
+              "a VTK file of type polydata"},
+             {"{\n  \"file-series-version\" : \"1.0\" }", "a ParaView list of files (.series)"},
+             {gzipped("CDF\1"s), "compressed by gzip, and must be unpacked first"},
+             {"BZh91AY&SY", "compressed by bzip2, and must be unpacked first"},
+             {"just words", "unknown"},
+             {std::string(5000, '\1'), "unknown"},
+             {"\x1f\x8b"s, "compressed by gzip, and must be unpacked first"},
+         })
+        EXPECT_EQ(toldOf(bytes), name);
+}
+
+// Lengths, then their numbers, and nothing else.
+TEST(OtherFormats, Plot3dIsToldByItsSize) {
+    const auto file = [](bool big, std::size_t numbers) {
+        std::string bytes;
+        for (const unsigned n : {30u, 20u, 10u})
+            for (int i = 0; i < 4; ++i) bytes += static_cast<char>(n >> 8 * (big ? 3 - i : i));
+        return bytes + std::string(numbers * 4, '\0');
+    };
+    constexpr std::size_t kPoints = 30 * 20 * 10;
+    for (const bool big : {false, true}) {
+        EXPECT_EQ(toldOf(file(big, 3 * kPoints)), "a PLOT3D file");
+        EXPECT_EQ(toldOf(file(big, 4 + 5 * kPoints)), "a PLOT3D file");
+        EXPECT_EQ(toldOf(file(big, 3 * kPoints + 1000)), "unknown");
+    }
+}
+
+// What is read may hold the signs of others among its values.
+TEST(OtherFormats, SignsInsideAFileThatIsReadTellNothing) {
+    std::string file = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 10 10 10\nencoding: raw\n\n";
+    const std::size_t header = file.size();
+    file += std::string(1000, '\0');
+    for (const auto& [place, sign] :
+         {std::pair{208, "MAP "s}, {257, "ustar"s}, {128, "DICM"s}, {344, "n+1\0"s}}) {
+        ASSERT_GT(static_cast<std::size_t>(place), header);
+        file.replace(static_cast<std::size_t>(place), sign.size(), sign);
+    }
+    EXPECT_EQ(toldOf(file), "read");
+}
+
+TEST(OtherFormats, AZarrStoreIsAFolder) {
+    for (const char* name : {".zgroup", ".zarray", "zarr.json"}) {
+        const Path store = tests::testFolder() / (name + "_store.zarr"s);
+        std::filesystem::create_directories(store);
+        tests::writeBytes(store / name, "{}");
+        EXPECT_EQ(told(store), "a Zarr store");
+    }
+}
+
+TEST(OtherFormats, RealFilesAreNamed) {
+    if (!std::filesystem::exists(tests::sharedData("grids")))
+        GTEST_SKIP() << "no real data at " << tests::sharedData("grids");
+    for (const auto& [file, name] : std::vector<std::pair<std::string, std::string>>{
+             {"fmri_filtered_func_64t.nii.gz", "a NIfTI file"},
+             {"pool_fire_vdb/fire_080.vdb", "an OpenVDB file"},
+             {"bluntfin/bluntfinxyz.bin", "a PLOT3D file"},
+             {"bluntfin/bluntfinq.bin", "a PLOT3D file"},
+             {"grids/plot3d/combxyz.bin", "a PLOT3D file"},
+             {"grids/plot3d/combq.bin", "a PLOT3D file"},
+             {"bluntfin/bluntfin.vts", "a VTK file of type StructuredGrid"},
+             {"can.vtu", "a VTK file of type UnstructuredGrid"},
+             {"grids/sample_structured.vtk", "a VTK file of type structured_grid"},
+             {"grids/chombo3d/chombo3d.vtm", "a VTK file of type vtkHierarchicalBoxDataSet"},
+             {"grids/emd_3001.map", "an MRC map"},
+             {"grids/example_cube.fits", "a FITS file"},
+             {"grids/no_checkpoint.xdmf", "an XDMF file"},
+             {"grids/can_0.vtkhdf", "a VTKHDF file"},
+             {"grids/warping_spheres.vtkhdf", "a VTKHDF file"},
+             {"grids/no_checkpoint.h5",
+              "an HDF5 file that no NetCDF wrote, without an array of three dimensions"},
+             {"grids/mesh_series/mesh.vtu.series", "a ParaView list of files (.series)"},
+             {"mug_transient.e", "an Exodus II file (a finite-element mesh)"},
+             {"dx_mri/mri.general", "an OpenDX header"},
+             {"dx_mri/MRI.data", "unknown"},
+             {"overview.png", "a PNG picture"},
+         })
+        EXPECT_EQ(told(tests::sharedData(file)), name) << file;
+}
+
+}  // namespace
+}  // namespace timeseries
