@@ -155,7 +155,7 @@ void Driver::key(unsigned long keysym, bool isDown) {
                       isDown ? True : False, CurrentTime);
 }
 
-void Driver::press(std::string_view keys) {
+void Driver::pressOnly(std::string_view keys) {
     std::vector<KeySym> held;
     for (std::size_t plus; (plus = keys.find('+')) != std::string_view::npos;) {
         held.push_back(modifierOf(keys.substr(0, plus)));
@@ -164,6 +164,11 @@ void Driver::press(std::string_view keys) {
     held.push_back(keysymOf(keys));
     for (const KeySym each : held) key(each, true);
     for (; !held.empty(); held.pop_back()) key(held.back(), false);
+    XFlush(screen_.connection());
+}
+
+void Driver::press(std::string_view keys) {
+    pressOnly(keys);
     sync();
 }
 

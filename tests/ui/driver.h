@@ -50,6 +50,7 @@ class Driver {
 
     // "space", "F12", "ctrl+s", "ctrl+shift+z": names of X keysyms.
     void press(std::string_view keys);
+    void pressOnly(std::string_view keys);  // without sync(): keys that end the window
     void hold(std::string_view modifier) { key(modifierOf(modifier), true); }
     void release(std::string_view modifier) { key(modifierOf(modifier), false); }
     void type(std::string_view text);  // letters, digits and ./-_:

@@ -143,7 +143,7 @@ TEST(HeadsetProgram, FromAWindowAKeyLeadsIntoTheHeadset) {
                      {"XDG_RUNTIME_DIR", variable("XDG_RUNTIME_DIR")}});
     desk.waitForTitle("pool_fire_T.nc");
     EXPECT_TRUE(layer.submitted().empty());
-    desk.press("ctrl+h");
+    desk.pressOnly("ctrl+h");
     desk.waitFor("frames in the headset", [&] { return layer.submitted().size() >= 4; });
     desk.process().signal(SIGTERM);
     EXPECT_EQ(desk.process().exitCode(), 0) << desk.process().errors();
