@@ -119,7 +119,7 @@ struct Resting {
 }  // namespace
 
 struct Canvas::State {
-    explicit State(render::SplatterChoice splatter) : renderer(splatter) {}
+    State(render::SplatterChoice splatter, render::LightAs as) : renderer(splatter, as) {}
 
     render::FrameRenderer renderer;
     render::gl::GpuTimer timer, refineTimer;
@@ -177,7 +177,8 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
     return held;
 }
 
-Canvas::Canvas(render::SplatterChoice splatter) : state_(std::make_unique<State>(splatter)) {}
+Canvas::Canvas(render::SplatterChoice splatter, render::LightAs as)
+    : state_(std::make_unique<State>(splatter, as)) {}
 Canvas::~Canvas() = default;
 
 CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits,
@@ -260,11 +261,7 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
 void Canvas::drawPlacards(std::span<const render::Placard> placards,
                           std::span<const render::View> eyes, const Show& show) {
     state_->resting.reset();
-    state_->renderer.makeRoom(eyes);
-    for (std::size_t i = 0; i < eyes.size(); ++i) {
-        state_->renderer.drawPlacards(placards, kBackground, eyes[i]);
-        show(i, state_->renderer.targets());
-    }
+    state_->renderer.drawPlacards(placards, kBackground, eyes, show);
 }
 
 std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {

@@ -67,10 +67,12 @@ struct Probe {
 // Needs a current GL context, from construction to destruction.
 class Canvas {
  public:
-    explicit Canvas(render::SplatterChoice splatter = render::SplatterChoice::ByDevice);
+    // `as`: what `show` takes light in memory as.
+    explicit Canvas(render::SplatterChoice splatter = render::SplatterChoice::ByDevice,
+                    render::LightAs as = render::LightAs::Linear);
     ~Canvas();
 
-    using Show = std::function<void(std::size_t eye, const render::Targets&)>;
+    using Show = std::function<void(std::size_t eye, render::Targets&)>;
     // Draws the eyes one after the other and hands each one's light (render::Targets) to `show`
     // before the next is drawn. Order is taken and uploaded once. What is not on the GPU yet is not
     // drawn: the step or the choices before stay, and the report says so. Nothing is drawn, and

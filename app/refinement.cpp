@@ -17,7 +17,7 @@ Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
 }
 
 double Refinement::goOn(double cost,
-                        const std::function<void(std::size_t eye, const render::Targets&)>& show) {
+                        const std::function<void(std::size_t eye, render::Targets&)>& show) {
     const double before = drawn_;
     do {
         if (!work_) work_.emplace(renderer_.begin(frame_, eyes_[eye_]));

@@ -25,8 +25,7 @@ class Refinement {
 
     // Draws until `cost` is reached (render/splat_cost.h), a little more than that, and hands each
     // eye's light to `show` once it is whole. Returns what it cost. REQUIRES: it is not done.
-    double goOn(double cost,
-                const std::function<void(std::size_t eye, const render::Targets&)>& show);
+    double goOn(double cost, const std::function<void(std::size_t eye, render::Targets&)>& show);
     bool done() const { return eye_ == eyes_.size(); }
     double share() const;  // that is drawn, [0, 1]
     const render::Scene& scene() const { return picture_.scene; }

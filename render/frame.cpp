@@ -1,7 +1,5 @@
 #include "render/frame.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,8 +7,6 @@
 #include <utility>
 
 #include "render/gl/debug_output.h"
-#include "render/gl/pass.h"
-#include "render/shader_sources.h"
 #include "render/splat_cost.h"
 
 namespace render {
@@ -31,44 +27,67 @@ glm::dvec3 midway(std::span<const View> eyes) {
 
 // A driver that draws on the processor takes several times longer for point sprites than the
 // program does for their pixels (tests/bench/NOTES.md).
-FrameRenderer::FrameRenderer(SplatterChoice splatter)
+FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
     : styles_(stylesFor({64, 64})),
       font_(styles_),
+      onGl_(gl_.layerBlock()),
       sums_(splatter == SplatterChoice::Cpu ||
-            (splatter == SplatterChoice::ByDevice && gl::drawsOnProcessor())) {}
+            (splatter == SplatterChoice::ByDevice && gl::drawsOnProcessor())),
+      as_(as) {
+    onGl_.setFont(font_);
+    inMemory_.setFont(font_);
+}
 
-void FrameRenderer::makeRoom(std::span<const View> eyes) {
+void FrameRenderer::makeRoom(std::span<const View> eyes, const LightPass& light) {
+    const auto isFor = [&](const Held& held, const View& eye) {
+        return held.of == &light && held.targets->size() == eye.size;
+    };
     for (const View& eye : eyes)
-        if (std::ranges::none_of(targets_, [&](const auto& t) { return t->size() == eye.size; }))
-            targets_.push_back(std::make_unique<Targets>(eye.size));
-    std::erase_if(targets_, [&](const auto& held) {
-        return std::ranges::none_of(eyes, [&](const View& e) { return e.size == held->size(); });
+        if (std::ranges::none_of(targets_, [&](const Held& held) { return isFor(held, eye); }))
+            targets_.push_back({&light, light.targets(eye.size)});
+    std::erase_if(targets_, [&](const Held& held) {
+        return std::ranges::none_of(eyes, [&](const View& eye) { return isFor(held, eye); });
     });
     // Letters of one size for all eyes, or they would not be seen as one.
     const auto styles = stylesFor(eyes.front().size);
-    if (flat_ && styles == styles_) return;
+    if (styles == styles_) return;
     font_ = Font(styles);
-    flat_ = std::make_unique<FlatPass>(font_);
+    onGl_.setFont(font_);
     styles_ = styles;
 }
 
-Targets& FrameRenderer::use(glm::ivec2 size) {
-    const auto found =
-        std::ranges::find_if(targets_, [&](const auto& t) { return t->size() == size; });
+Targets& FrameRenderer::use(glm::ivec2 size, const LightPass& light) {
+    const auto found = std::ranges::find_if(targets_, [&](const Held& held) {
+        return held.of == &light && held.targets->size() == size;
+    });
     assert(found != targets_.end());
     current_ = static_cast<std::size_t>(found - targets_.begin());
-    return **found;
+    return targets();
 }
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
                                                std::span<const View> eyes) {
-    makeRoom(eyes);
+    return prepare(content, step, eyes, as_);
+}
+
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+                                               std::span<const View> eyes, LightAs as) {
+    LightPass& light = lightFor(content, eyes);
+    makeRoom(eyes, light);
     const glm::dvec3 midEye = midway(eyes);
     ++orders_;
     const Scene& scene = content.scene;
     // GL's own upload does it.
-    if (!takesPointsFromGpu(scene)) gl_.setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatterFor(scene).prepare(scene, order(scene, midEye), step), midEye};
+    if (&light == &onGl_ && !takesPointsFromGpu(scene))
+        gl_.setLayers(scene, ValueScale::of(scene.layers));
+    return {content, splatterFor(scene).prepare(scene, order(scene, midEye), step), midEye, light,
+            as};
+}
+
+LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
+    if (takesPointsFromGpu(content.scene) || !MemoryLight::canDraw(content.placards, eyes))
+        return onGl_;
+    return inMemory_;
 }
 
 Splatter& FrameRenderer::splatterFor(const Scene& scene) {
@@ -96,7 +115,11 @@ FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View&
 
 bool FrameRenderer::goOn(EyeInWork& work, double cost) {
     if (!drawSplats(work, cost)) return false;
-    drawLight(work);
+    const Prepared& frame = work.frame;
+    const FrameContent& content = frame.content;
+    frame.light.drawLight(
+        {content.scene, work.eye, content.background, work.axes, work.legend, content.placards},
+        frame.as, use(work.eye.size, frame.light));
     return true;
 }
 
@@ -133,27 +156,6 @@ double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
     return sum;
 }
 
-// All that adds to the light comes last and together: a driver that draws tile by tile then touches
-// each of its pixels once.
-void FrameRenderer::drawLight(const EyeInWork& work) {
-    const FrameContent& content = work.frame.content;
-    const GLuint light = use(work.eye.size).lightFramebuffer();
-    gl::begin({.framebuffer = light,
-               .size = work.eye.size,
-               .clearColor = glm::vec4(glm::vec3(content.background), 1)});
-    flat_->draw(work.axes.behind, light, work.eye.size);
-    for (const Placard& placard : content.placards) placards_.draw(placard, work.eye, light);
-    resolve(content.scene, coveredPixels(content.scene, work.eye));
-    // Lines before the volume have soft edges: blended over it, not under with a depth of their
-    // own.
-    const gl::DepthTest behindPlacards =
-        content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test;
-    for (const FlatMesh* mesh : {&work.axes.before, &work.axes.grounds, &work.axes.labels})
-        flat_->draw(*mesh, light, work.eye.size, behindPlacards);
-    flat_->draw(legendGround(work.legend, work.eye.size, content.background), light, work.eye.size);
-    flat_->draw(work.legend, light, work.eye.size);
-}
-
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
     if (takesPointsFromGpu(content.scene)) step.upload(content.scene, neededScale(content.scene));
@@ -162,17 +164,13 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
     sorted.order = Order::BackToFront;
     std::unique_ptr<GpuList> counted;
     if (extras.splatCount) counted = gl_.upload(sorted, order(sorted, midway(eyes)), step);
-    const Prepared frame = prepare(content, step, eyes);
+    const Prepared frame = prepare(content, step, eyes, LightAs::Linear);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
         drawWhole(frame, eye, extras.progress);
         EyePicture& picture = pictures.emplace_back();
         picture.image = targets().readLight();
-        if (extras.splatCount) {
-            gl_.draw(*counted, eye, Channels::Count, 0,
-                     use(eye.size).clearedPlane(0, Channels::Count));
-            picture.splatCount = targets().readScalarPlane(0);
-        }
+        if (extras.splatCount) picture.splatCount = countSplats(*counted, eye, frame.light);
     }
     if (extras.opticalDepth) {
         // An ordered list interleaves the layers; their weights are added from the runs.
@@ -184,7 +182,8 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
             const AxesMeshes axes =
                 axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_,
                            legendMesh(content.legend, font_, eyes[i].size));
-            pictures[i].opticalDepth = opticalDepth(unordered, *splats, eyes[i], axes.behind);
+            pictures[i].opticalDepth =
+                opticalDepth(unordered, *splats, eyes[i], axes.behind, frame.light);
         }
     }
     gl::throwOnError();
@@ -192,29 +191,22 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
 }
 
 void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
-                                 const View& eye) {
-    const GLuint light = use(eye.size).lightFramebuffer();
-    gl::begin({.framebuffer = light,
-               .size = eye.size,
-               .clearColor = glm::vec4(glm::vec3(background), 1),
-               .clearDepth = 1.0f});
-    hidden_.drawDepth(eye, light);
-    for (const Placard& placard : placards) placards_.draw(placard, eye, light);
-}
-
-void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer) {
-    flat_->drawDepth(occluders.behind, framebuffer, view.size);
-    for (const Placard& placard : occluders.placards)
-        placards_.drawDepth(placard, view, framebuffer);
-    hidden_.drawDepth(view, framebuffer);
+                                 std::span<const View> eyes,
+                                 const std::function<void(std::size_t eye, Targets&)>& show) {
+    makeRoom(eyes, onGl_);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        onGl_.drawPlacards(placards, background, eyes[i], use(eyes[i].size, onGl_));
+        show(i, targets());
+    }
 }
 
 bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
     const FrameContent& content = work.frame.content;
     const std::vector<Channels> channels = channelsFor(content.scene);
-    Targets& targets = use(work.eye.size);
+    LightPass& light = work.frame.light;
+    Targets& targets = use(work.eye.size, light);
     if (work.plane == 0 && !work.sum)
-        drawDepth({work.axes.behind, content.placards}, work.eye, targets.lightFramebuffer());
+        light.drawDepth(work.axes.behind, content.placards, work.eye, targets);
     const double until = work.cost + std::max(cost, 1.0);
     for (; work.plane < channels.size(); ++work.plane, work.sum.reset()) {
         if (work.cost >= until) return false;
@@ -233,39 +225,20 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
     return true;
 }
 
-const gl::Program& FrameRenderer::resolveProgram(const Scene& scene) {
-    const bool over = scene.order == Order::BackToFront;
-    const int variant = over ? -1 : static_cast<int>(scene.layers.size());
-    if (const auto found = resolve_.find(variant); found != resolve_.end()) return found->second;
-    const std::string define =
-        over ? "#define OVER\n" : fmt::format("#define LAYERS {}\n", variant);
-    return resolve_
-        .emplace(variant, gl::Program("resolve", shaders::viewport_vert, shaders::resolve_frag,
-                                      define.c_str()))
-        .first->second;
-}
-
-void FrameRenderer::resolve(const Scene& scene, const PixelBox& covered) {
-    if (covered.size.x == 0 || covered.size.y == 0) return;
-    gl::begin({.framebuffer = targets().lightFramebuffer(),
-               .size = covered.size,
-               .at = covered.at,
-               .blend = gl::Blend::Premultiplied});
-    glUseProgram(resolveProgram(scene).id());
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, gl_.layerBlock().id());
-    for (std::size_t i = 0; i < channelsFor(scene).size(); ++i)
-        glBindTextureUnit(static_cast<GLuint>(i), targets().plane(i).id());
-    glBindVertexArray(noVertices_.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+std::vector<float> FrameRenderer::countSplats(const GpuList& counted, const View& view,
+                                              LightPass& light) {
+    GlTargets& targets = use(view.size, light).onGl();
+    gl_.draw(counted, view, Channels::Count, 0, targets.clearedPlane(0, Channels::Count));
+    return targets.readScalarPlane(0);
 }
 
 std::vector<float> FrameRenderer::opticalDepth(const Scene& scene, SplatFrame& splats,
-                                               const View& view, const FlatMesh& behind) {
-    Targets& targets = use(view.size);
-    drawDepth({behind, {}}, view, targets.lightFramebuffer());
+                                               const View& view, const FlatMesh& behind,
+                                               LightPass& light) {
+    Targets& targets = use(view.size, light);
+    light.drawDepth(behind, {}, view, targets);
     std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
-        targets.clearedPlane(k, Channels::Weight);
         const auto sum = splats.begin(view, Channels::Weight, k, targets);
         while (!sum->done()) sum->add(kAllSplats);
         const std::vector<float> weight = targets.readScalarPlane(k);

@@ -4,23 +4,16 @@
 
 #include <array>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "render/axes.h"
-#include "render/covered.h"
-#include "render/flat_pass.h"
 #include "render/gl/driver.h"
+#include "render/gl_light.h"
 #include "render/gl_list.h"
-#include "render/hidden_area_pass.h"
-#include "render/image.h"
-#include "render/legend.h"
-#include "render/placard.h"
+#include "render/memory_light.h"
 #include "render/processor_splatter.h"
-#include "render/targets.h"
 
 namespace render {
 
@@ -48,7 +41,9 @@ struct Extras {
 // Needs a current GL context, from construction to destruction.
 class FrameRenderer {
  public:
-    explicit FrameRenderer(SplatterChoice splatter = SplatterChoice::ByDevice);
+    // `as`: what front ends want of light that the program makes in memory.
+    explicit FrameRenderer(SplatterChoice splatter = SplatterChoice::ByDevice,
+                           LightAs as = LightAs::Linear);
 
     // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
     // picture does not depend on what was drawn before. Order is taken from the point midway
@@ -64,6 +59,8 @@ class FrameRenderer {
         const FrameContent& content;
         std::unique_ptr<SplatFrame> splats;
         glm::dvec3 midEye;
+        LightPass& light;
+        LightAs as;
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
     // One of the eyes that the frame was prepared for; its light is then in targets().
@@ -85,12 +82,11 @@ class FrameRenderer {
     // True when the light is in targets(); before, there is nothing to see.
     bool goOn(EyeInWork& work, double cost);
     double cost(const Prepared& frame, const View& eye) const;  // of the whole eye
-    // An eye that sees nothing but placards. REQUIRES: makeRoom() for it.
+    // Eyes that see nothing but placards, each shown once it is drawn.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
-                      const View& eye);
-    // Keeps targets of these eyes' sizes, and no others; prepare() does that.
-    void makeRoom(std::span<const View> eyes);
-    const Targets& targets() const { return *targets_[current_]; }  // of the eye drawn last
+                      std::span<const View> eyes,
+                      const std::function<void(std::size_t eye, Targets&)>& show);
+    Targets& targets() { return *targets_[current_].targets; }  // of the eye drawn last
 
     struct Counts {
         std::uint64_t orders = 0, eyes = 0;
@@ -98,38 +94,36 @@ class FrameRenderer {
     Counts counts() const { return {orders_, eyes_}; }
 
  private:
-    Targets& use(glm::ivec2 size);  // which targets() then are
-    // What hides splats.
-    struct Occluders {
-        const FlatMesh& behind;
-        std::span<const Placard> placards;
-    };
-    // Leaves the depth attachment, which all planes and the light share, holding these alone.
-    void drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer);
-    bool drawSplats(EyeInWork& work, double cost);
+    // Keeps targets of these eyes' sizes, and no others.
+    void makeRoom(std::span<const View> eyes, const LightPass& light);
+    Targets& use(glm::ivec2 size, const LightPass& light);  // which targets() then are
+    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
+                     LightAs as);
+    LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
+    Splatter& splatterFor(const Scene& scene);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
+    bool drawSplats(EyeInWork& work, double cost);
     void drawWhole(const Prepared& frame, const View& eye,
                    const std::function<void(double)>& progress);
-    Splatter& splatterFor(const Scene& scene);
-    void drawLight(const EyeInWork& work);
-    void resolve(const Scene& scene, const PixelBox& covered);
-    const gl::Program& resolveProgram(const Scene& scene);
+    std::vector<float> countSplats(const GpuList& counted, const View& view, LightPass& light);
     // Of an unordered scene.
     std::vector<float> opticalDepth(const Scene& scene, SplatFrame& splats, const View& view,
-                                    const FlatMesh& behind);
+                                    const FlatMesh& behind, LightPass& light);
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
-    std::unique_ptr<FlatPass> flat_;
     GlSplatter gl_;
     ProcessorSplatter processor_;
-    std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
-    PlacardPass placards_;
-    HiddenAreaPass hidden_;
-    gl::VertexArray noVertices_;
-    std::vector<std::unique_ptr<Targets>> targets_;  // all of different sizes
+    GlLight onGl_;
+    MemoryLight inMemory_;
+    struct Held {
+        const LightPass* of;
+        std::unique_ptr<Targets> targets;
+    };
+    std::vector<Held> targets_;  // all of different sizes
     std::size_t current_ = 0;
     bool sums_;  // planes itself, where it can
+    LightAs as_;
     std::uint64_t orders_ = 0, eyes_ = 0;
 };
 

@@ -13,6 +13,7 @@
 #include "render/footprint.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
+#include "render/gl_targets.h"
 #include "render/shader_sources.h"
 
 namespace render {
@@ -126,7 +127,7 @@ class GlFrame final : public SplatFrame {
     std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
                                     Targets& targets) override {
         return std::make_unique<GlPlane>(splatter_, *list_, view, channels, layer,
-                                         targets.clearedPlane(layer, channels));
+                                         targets.onGl().clearedPlane(layer, channels));
     }
 
  private:

@@ -18,9 +18,10 @@ Present::Present(bool onProcessor)
       scale_("present", shaders::viewport_vert, shaders::present_frag,
              "#define ENCODE\n#define SCALED\n") {}
 
-void Present::draw(const Targets& light, GLuint framebuffer, glm::ivec2 at,
-                   Encoding encoding) const {
+void Present::draw(Targets& shown, GLuint framebuffer, glm::ivec2 at, Encoding encoding) const {
     const bool toHeadset = encoding == Encoding::Framebuffer;
+    if (!shown.srgb8().empty()) return drawBytes(shown.srgb8(), shown.size(), framebuffer, at);
+    const GlTargets& light = shown.onGl();
     if (!toHeadset && onProcessor_) return drawHere(light, framebuffer, at);
     gl::Pass pass{
         .framebuffer = framebuffer, .size = light.size(), .at = at, .srgbWrite = toHeadset};
@@ -38,7 +39,7 @@ void Present::draw(const Targets& light, GLuint framebuffer, glm::ivec2 at,
 }
 
 // The light stands before an opaque ground: its alpha is 1 but for rounding.
-void Present::drawHere(const Targets& light, GLuint framebuffer, glm::ivec2 at) const {
+void Present::drawHere(const GlTargets& light, GLuint framebuffer, glm::ivec2 at) const {
     const glm::ivec2 size = light.size();
     light.readLight(light_);
     encoded_.resize(light_.size());
@@ -50,15 +51,20 @@ void Present::drawHere(const Targets& light, GLuint framebuffer, glm::ivec2 at) 
         encodeSrgb8(std::span(light_).first(half), std::span(encoded_).first(half));
     }
     for (std::size_t i = 3; i < encoded_.size(); i += 4) encoded_[i] = 255;
+    drawBytes(encoded_, size, framebuffer, at);
+}
+
+void Present::drawBytes(std::span<const std::uint8_t> bytes, glm::ivec2 size, GLuint framebuffer,
+                        glm::ivec2 at) const {
     if (!bytes_ || bytes_->size() != size) bytes_.emplace(size);
-    bytes_->write(encoded_);
+    bytes_->write(bytes);
     gl::begin({.framebuffer = framebuffer, .size = size, .at = at});
     glBlitNamedFramebuffer(bytes_->framebuffer(), framebuffer, 0, 0, size.x, size.y, at.x, at.y,
                            at.x + size.x, at.y + size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void Present::drawScaled(const Targets& light, GLuint framebuffer, glm::ivec2 at,
-                         glm::ivec2 size) const {
+void Present::drawScaled(Targets& shown, GLuint framebuffer, glm::ivec2 at, glm::ivec2 size) const {
+    const GlTargets& light = shown.onGl();
     gl::begin({.framebuffer = framebuffer, .size = size, .at = at});
     glUseProgram(scale_.id());
     glUniform2i(0, at.x, at.y);

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/gl/driver.h"
 #include "render/gl/object.h"
+#include "render/gl_targets.h"
 #include "render/kept_picture.h"
-#include "render/targets.h"
 
 namespace render {
 
@@ -32,19 +33,22 @@ class Present {
     // draws there three times as much.
     explicit Present(bool onProcessor = gl::drawsOnProcessor());
     // Replaces the pixels of `framebuffer` from `at` (its lower left corner) to at + light.size().
-    // Alpha becomes 1: the light's ground is opaque.
-    void draw(const Targets& light, GLuint framebuffer, glm::ivec2 at = {0, 0},
+    // Alpha becomes 1: the light's ground is opaque. REQUIRES of light in memory as Srgb8: the
+    // program's encoding.
+    void draw(Targets& light, GLuint framebuffer, glm::ivec2 at = {0, 0},
               Encoding encoding = Encoding::Program) const;
     // Likewise all of it, `size` pixels large: between pixels of the light, what lies around them.
-    void drawScaled(const Targets& light, GLuint framebuffer, glm::ivec2 at, glm::ivec2 size) const;
+    void drawScaled(Targets& light, GLuint framebuffer, glm::ivec2 at, glm::ivec2 size) const;
 
  private:
-    void drawHere(const Targets& light, GLuint framebuffer, glm::ivec2 at) const;
+    void drawHere(const GlTargets& light, GLuint framebuffer, glm::ivec2 at) const;
+    void drawBytes(std::span<const std::uint8_t> bytes, glm::ivec2 size, GLuint framebuffer,
+                   glm::ivec2 at) const;
 
     bool onProcessor_;
     gl::Program encode_, copy_, scale_;
     gl::VertexArray noVertices_;
-    // Of drawHere(), kept because new memory costs more than what is done with it.
+    // Kept because new memory costs more than what is done with it.
     mutable std::optional<KeptPicture> bytes_;
     mutable std::vector<float> light_;
     mutable std::vector<std::uint8_t> encoded_;

@@ -18,8 +18,12 @@ bool byRows(const Scene& scene, Channels channels) {
 template <typename Sum, typename Memory>
 class Plane final : public PlaneSum {
  public:
-    Plane(Sum sum, std::size_t plane, Targets& targets, Memory& memory)
-        : sum_(std::move(sum)), plane_(plane), targets_(targets), memory_(memory) {
+    Plane(Sum sum, Channels channels, std::size_t plane, Targets& targets, Memory& memory)
+        : sum_(std::move(sum)),
+          channels_(channels),
+          plane_(plane),
+          targets_(targets),
+          memory_(memory) {
         if (sum_.done()) write();
     }
     ~Plane() override { memory_ = sum_.takeMemory(); }
@@ -33,9 +37,10 @@ class Plane final : public PlaneSum {
     bool done() const override { return sum_.done(); }
 
  private:
-    void write() { targets_.writePlane(plane_, sum_.box(), sum_.plane()); }
+    void write() { targets_.putPlane(plane_, channels_, sum_.box(), sum_.plane()); }
 
     Sum sum_;
+    Channels channels_;
     std::size_t plane_;
     Targets& targets_;
     Memory& memory_;
@@ -52,18 +57,17 @@ class Frame final : public SplatFrame {
     }
     std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
                                     Targets& targets) override {
-        if (layer == 0) targets.readDepth(memory_.opaqueDepth);
-        targets.plane(layer, channels);
+        if (layer == 0) opaqueDepth_ = targets.opaqueDepth(memory_.opaqueDepth);
         const auto plane = [&](auto sum, auto& memory) {
             return std::make_unique<Plane<decltype(sum), std::decay_t<decltype(memory)>>>(
-                std::move(sum), layer, targets, memory);
+                std::move(sum), channels, layer, targets, memory);
         };
         if (byRows(scene_, channels))
-            return plane(RowSum(scene_, view, channels, layer, memory_.opaqueDepth,
-                                sharingThreads(), std::move(memory_.rows)),
+            return plane(RowSum(scene_, view, channels, layer, opaqueDepth_, sharingThreads(),
+                                std::move(memory_.rows)),
                          memory_.rows);
-        return plane(TileSum(scene_, list_, view, channels, layer, memory_.opaqueDepth,
-                             sharingThreads(), std::move(memory_.tiles)),
+        return plane(TileSum(scene_, list_, view, channels, layer, opaqueDepth_, sharingThreads(),
+                             std::move(memory_.tiles)),
                      memory_.tiles);
     }
 
@@ -71,6 +75,7 @@ class Frame final : public SplatFrame {
     const Scene& scene_;
     const DrawList list_;
     ProcessorSplatter::Memory& memory_;
+    std::span<const float> opaqueDepth_;
 };
 
 }  // namespace

@@ -238,7 +238,7 @@ std::uint64_t RowSum::add(std::uint64_t splats) {
 
 bool RowSum::done() const { return work_->run == work_->layer.runs.size(); }
 const PixelBox& RowSum::box() const { return work_->box; }
-const std::vector<float>& RowSum::plane() const { return work_->plane; }
+std::vector<float>& RowSum::plane() { return work_->plane; }
 std::vector<float> RowSum::takeMemory() { return std::move(work_->plane); }
 
 std::vector<float> sumRows(const Scene& scene, const View& view, Channels channels,

@@ -37,7 +37,7 @@ class RowSum {
     // The part of the picture that is summed, and what it sums to: [y][x][1 or 4], row 0 at the
     // bottom. Beside it there is nothing.
     const PixelBox& box() const;
-    const std::vector<float>& plane() const;
+    std::vector<float>& plane();
     std::vector<float> takeMemory();  // the last thing asked for
 
  private:

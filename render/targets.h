@@ -1,60 +1,74 @@
-// The pixels of one eye: the opaque scene, the planes that splats add up in, and the finished
-// light.
+// The pixels of one eye: the opaque scene's depth, the planes that splats add up in, and the
+// finished light. GL has them (render/gl_targets.h), or the program (render/memory_targets.h).
 #pragma once
 
-#include <glm/vec4.hpp>
-#include <optional>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render/covered.h"
-#include "render/gl/object.h"
 #include "render/image.h"
 #include "render/scene.h"
 
 namespace render {
 
+class GlTargets;
+
+// Rows are from the bottom, row 0 first, but for Images.
 class Targets {
  public:
-    // Throws std::runtime_error when the driver cannot hold pictures of this size.
-    explicit Targets(glm::ivec2 size);
+    explicit Targets(glm::ivec2 size) : size_(size) {}
+    virtual ~Targets() = default;
+    Targets(const Targets&) = delete;
+    Targets& operator=(const Targets&) = delete;
 
     glm::ivec2 size() const { return size_; }
-    // RGBA32F, linear, premultiplied; with the opaque scene's depth.
-    GLuint lightFramebuffer() const { return light_.id(); }
-    // May be wider than size(): the picture is its lower left part.
-    const gl::Texture& light() const { return color_; }
-    const gl::Texture& depth() const { return depth_; }  // the opaque scene's, likewise
 
-    // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
-    // opaque scene's.
-    GLuint clearedPlane(std::size_t i, Channels channels);
-    // The same, holding whatever it held.
-    GLuint plane(std::size_t i, Channels channels);
-    GLuint planeFramebuffer(std::size_t i) const { return planes_[i]->framebuffer.id(); }
-    const gl::Texture& plane(std::size_t i) const { return planes_[i]->texture; }
+    // For a program that sums planes itself. The depth of the opaque scene, a pixel each, or none
+    // where nothing hides splats; `room` may be used for it, and must outlive it.
+    virtual std::span<const float> opaqueDepth(std::vector<float>& room) const = 0;
+    // Plane i of this kind, which is nothing outside this part of the picture. May leave other
+    // memory than it was given.
+    virtual void putPlane(std::size_t i, Channels channels, const PixelBox& part,
+                          std::vector<float>& pixels) = 0;
 
-    // Of the opaque scene, row 0 at the bottom; into memory that may be used again.
-    void readDepth(std::vector<float>& rows) const;
-    // A part of plane i, row 0 at the bottom.
-    void writePlane(std::size_t i, const PixelBox& part, std::span<const float> pixels);
-
-    Image readLight() const;
-    // As GL has it, row 0 at the bottom, four floats a pixel; into memory that may be used again.
-    void readLight(std::vector<float>& rows) const;
     // Row 0 at the top, as in Image. REQUIRES: plane i is Weight or Count.
-    std::vector<float> readScalarPlane(std::size_t i) const;
+    virtual std::vector<float> readScalarPlane(std::size_t i) const = 0;
+    // Linear, premultiplied, four floats a pixel; into memory that may be used again. REQUIRES of
+    // what is in memory: its light was asked for as Linear.
+    virtual void readLight(std::vector<float>& rows) const = 0;
+    Image readLight() const;
+    // Where the light is in memory as Srgb8, four bytes a pixel; else none.
+    virtual std::span<const std::uint8_t> srgb8() const { return {}; }
+    // The same as GL has it. What is in memory is written there.
+    virtual GlTargets& onGl() = 0;
 
  private:
-    struct Plane {
-        GLenum format;
-        gl::Texture texture;
-        gl::Framebuffer framebuffer;
-    };
-    glm::ivec2 size_, padded_;
-    gl::Texture color_, depth_;
-    gl::Framebuffer light_;
-    std::vector<std::optional<Plane>> planes_;
+    glm::ivec2 size_;
 };
+
+// What light in memory is wanted as: to be read, or to be shown as it is.
+enum class LightAs { Linear, Srgb8 };
+
+template <typename T>
+std::vector<T> turnedOver(std::vector<T> rows, glm::ivec2 size) {
+    for (std::ptrdiff_t y = 0; y < size.y / 2; ++y)
+        std::swap_ranges(rows.begin() + y * size.x, rows.begin() + (y + 1) * size.x,
+                         rows.begin() + (size.y - 1 - y) * size.x);
+    return rows;
+}
+
+inline Image Targets::readLight() const {
+    std::vector<float> rows;
+    readLight(rows);
+    Image image(size_);
+    std::memcpy(image.pixels.data(), rows.data(), rows.size() * sizeof(float));
+    image.pixels = turnedOver(std::move(image.pixels), size_);
+    return image;
+}
 
 }  // namespace render

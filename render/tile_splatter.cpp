@@ -308,7 +308,7 @@ std::uint64_t TileSum::add(std::uint64_t splats) {
 
 bool TileSum::done() const { return work_->source.done(); }
 const PixelBox& TileSum::box() const { return work_->view.box; }
-std::span<const float> TileSum::plane() const { return work_->plane; }
+std::vector<float>& TileSum::plane() { return work_->plane; }
 TileMemory TileSum::takeMemory() { return std::move(work_->memory); }
 
 std::vector<float> sumTiles(const Scene& scene, const DrawList& list, const View& view,

@@ -55,7 +55,7 @@ class TileSum {
     // The part of the picture that is summed, and, when done, what it sums to: [y][x][1 or 4], row
     // 0 at the bottom. Beside it there is nothing.
     const PixelBox& box() const;
-    std::span<const float> plane() const;
+    std::vector<float>& plane();
     TileMemory takeMemory();  // the last thing asked for
 
  private:

@@ -64,7 +64,7 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     const CanvasLimits limits{.splats = pace.budget()};
     eyes_ = canvas_.eyesOf(shown);
     grid_ = grid;
-    const auto show = [&](std::size_t eye, const render::Targets& light) {
+    const auto show = [&](std::size_t eye, render::Targets& light) {
         // The first eye's picture is the left, or the upper one.
         const auto i = static_cast<int>(eye);
         const glm::ivec2 tile(i * (grid.x - 1), (1 - i) * (grid.y - 1));

@@ -57,7 +57,7 @@ class PictureView {
     bool isDone() const { return report_.whole && report_.told; }  // nothing more comes at rest
     void redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget);
 
-    Canvas canvas_;
+    Canvas canvas_{render::SplatterChoice::ByDevice, render::LightAs::Srgb8};
     render::Present present_;
     render::FramePace pace_{std::chrono::milliseconds(16)};
     // While the picture is refined: a slice of it has no axes to draw, and its splats are others.

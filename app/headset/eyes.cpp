@@ -19,12 +19,12 @@ render::View viewOf(const xr::Eye& eye, const xr::Placement& placement) {
 
 void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,
                 std::span<const render::Placard> placards, Splats splats,
-                const std::function<void(const render::Targets&)>& mirror) {
+                const std::function<void(render::Targets&)>& mirror) {
     eyes_ = eyes.size();
     std::vector<render::View> views;
     for (const xr::Eye& eye : eyes) views.push_back(viewOf(eye, placement));
     bool drawn = false;
-    const auto show = [&](std::size_t eye, const render::Targets& light) {
+    const auto show = [&](std::size_t eye, render::Targets& light) {
         present_.draw(light, eyes[eye].framebuffer, {0, 0}, render::Encoding::Framebuffer);
         if (eye == 0 && mirror) mirror(light);
         drawn = true;

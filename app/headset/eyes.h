@@ -32,7 +32,7 @@ class Eyes {
     enum class Splats { Governed, All };
     void draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,
               std::span<const render::Placard> placards, Splats splats,
-              const std::function<void(const render::Targets&)>& mirror = {});
+              const std::function<void(render::Targets&)>& mirror = {});
     // All that is drawn for a frame is asked for, also what other parts of the program draw: it
     // began then, and the display's period is this.
     void took(std::chrono::steady_clock::time_point began, std::chrono::nanoseconds period);

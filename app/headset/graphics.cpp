@@ -40,7 +40,7 @@ xr::Binding Graphics::binding() const {
     return xr::EglBinding{egl->display, egl->config, egl->context};
 }
 
-void Graphics::mirror(const render::Present& present, const render::Targets& light) {
+void Graphics::mirror(const render::Present& present, render::Targets& light) {
     if (!window_) return;
     const glm::ivec2 size = window_->framebufferSize();
     if (size.x == 0 || size.y == 0) return;

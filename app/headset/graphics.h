@@ -22,7 +22,7 @@ class Graphics {
     desktop::Window* window() { return window_ ? &*window_ : nullptr; }
     // All of an eye's picture into the window, as large as it fits, without waiting for its screen;
     // nothing where there is none, or it is hidden.
-    void mirror(const render::Present& present, const render::Targets& light);
+    void mirror(const render::Present& present, render::Targets& light);
 
  private:
     bool takesEgl_;

@@ -171,7 +171,7 @@ void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
     const auto shown = exploration_.shown();
     eyes_.draw(shown ? &*shown : nullptr, eyes, room_.placement(), placards(frame),
                Eyes::Splats::Governed,
-               [&](const render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
+               [&](render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
     checkDriver(exploration_);
     eyes_.took(began, frame.period());
     if (const auto rate = eyes_.refreshRate().wanted()) session_->requestRefreshRate(*rate);

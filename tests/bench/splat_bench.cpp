@@ -68,7 +68,7 @@ void BM_ErrorAgainstTruth(benchmark::State& state) {
     const gl::HeadlessContext context;
     GpuStep onGpu(step, lattice);
     GlSplatter splatter;
-    Targets targets(view.size);
+    GlTargets targets(view.size);
     gl::begin({.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
     const auto plane = [&](Channels channels) {
         const auto list = splatter.upload(scene, order(scene, eye), onGpu);

@@ -127,7 +127,7 @@ void stageDraw(benchmark::State& state) {
     const gl::HeadlessContext context;
     GlSplatter splatter;
     GpuStep onGpu(v.step, v.lattice);
-    Targets targets(bench::kPicture);
+    GlTargets targets(bench::kPicture);
     gl::begin(
         {.framebuffer = targets.lightFramebuffer(), .size = bench::kPicture, .clearDepth = 1.0f});
     onGpu.upload(scene, {});

@@ -29,7 +29,7 @@ void tiles(benchmark::State& state) {
     GpuStep onGpu(world.step, world.lattice);
     onGpu.upload(world.scene, neededScale(world.scene));
     GlSplatter splatter;
-    Targets targets(world.view.size);
+    GlTargets targets(world.view.size);
     gl::begin({.framebuffer = targets.lightFramebuffer(),
                .size = world.view.size,
                .clearColor = glm::vec4(0),

@@ -22,10 +22,12 @@ class Placards : public tests::GlTest {
         return glm::scale(upright, glm::dvec3(half, 1));
     }
     Image alone(const std::vector<Placard>& placards) {
-        renderer_.makeRoom(std::array{eye_});
-        renderer_.drawPlacards(placards, glm::dvec3(0.1), eye_);
+        Image picture;
+        renderer_.drawPlacards(
+            placards, glm::dvec3(0.1), std::array{eye_},
+            [&](std::size_t, const Targets& light) { picture = light.readLight(); });
         gl::throwOnError();
-        return renderer_.targets().readLight();
+        return picture;
     }
 
     FrameRenderer renderer_;

@@ -26,7 +26,7 @@ class Presented : public testing::Test {
     std::vector<glm::u8vec4> window(const Image& picture, glm::ivec2 at, Encoding encoding,
                                     bool onProcessor = true,
                                     std::optional<glm::ivec2> scaledTo = {}) {
-        const Targets targets(picture.size);
+        GlTargets targets(picture.size);
         gl::begin(
             {.framebuffer = targets.lightFramebuffer(), .size = picture.size, .clearDepth = 1.0f});
         std::vector<glm::vec4> rows;  // GL's order

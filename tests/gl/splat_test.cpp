@@ -357,7 +357,7 @@ TEST_F(GlSplat, ValuesOnAServingScaleDrawTheSameColours) {
     ASSERT_TRUE(far.serves(wanted));
     ASSERT_FALSE((ValueScale{far.lo, 430 * wanted.halfWidth}.serves(wanted)));
     const auto drawn = [&](const ValueScale& scale) {
-        Targets targets(view.size);
+        GlTargets targets(view.size);
         gl::begin(
             {.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
         GpuStep onGpu(step, lattice);

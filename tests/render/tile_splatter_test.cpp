@@ -7,6 +7,7 @@
 #include "render/cpu_splatter.h"
 #include "render/image_compare.h"
 #include "tests/support/noise_plane.h"
+#include "tests/support/vector_targets.h"
 
 namespace render {
 namespace {
@@ -28,12 +29,7 @@ TEST_F(TileSplatter, NotABitDependsOnHowManyAreSortedAtOnce) {
     for (const std::uint64_t pairs : {1u, 1000u, 100000u}) EXPECT_EQ(summed(pairs), whole) << pairs;
 }
 
-// Of the processor that the tests run on; others' may have none of these.
 TEST_F(TileSplatter, EveryKindOfVectorsSumsTheTruth) {
-    const auto use = [](std::int64_t targets) {
-        hwy::SetSupportedTargetsForTest(targets);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    };
     timeseries::Axis uneven = tests::axis(9);
     for (double& x : uneven.coordinates) x *= 1 + 0.05 * x;
     const auto unevenStep = tests::noise(std::make_shared<const timeseries::Grid>(
@@ -45,10 +41,7 @@ TEST_F(TileSplatter, EveryKindOfVectorsSumsTheTruth) {
                       .footprint = {},
                       .order = Order::None,
                       .clip = {}};
-    const auto targets = hwy::SupportedTargets();
-    for (std::int64_t rest = targets; rest != 0; rest &= rest - 1) {
-        const std::int64_t target = rest & -rest;
-        use(target);
+    tests::onEachVectorTarget([&] {
         for (const Scene* scene : {&scene_, &unevenScene})
             for (const Order order : {Order::None, Order::BackToFront}) {
                 Scene drawn = *scene;
@@ -59,11 +52,9 @@ TEST_F(TileSplatter, EveryKindOfVectorsSumsTheTruth) {
                 splat(drawn, orderExactly(drawn, eye), view_, {}, truth);
                 const auto summed =
                     sumTiles(drawn, orderExactly(drawn, eye), view_, channels, 0, {});
-                EXPECT_LE(compareScalars(summed, truth.planes[0]).relativeL2, 1e-5)
-                    << hwy::TargetName(target);
+                EXPECT_LE(compareScalars(summed, truth.planes[0]).relativeL2, 1e-5);
             }
-    }
-    use(0);
+    });
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
 #include "render/gl_splatter.h"
-#include "render/targets.h"
+#include "render/gl_targets.h"
 #include "tests/support/scenes.h"
 
 namespace tests {
@@ -22,7 +22,7 @@ class GlTest : public testing::Test {
     std::vector<float> plane(const render::Scene& scene, const render::View& view,
                              render::Channels channels, float opaqueDepth = 1) {
         using render::Channels;
-        render::Targets targets(view.size);
+        render::GlTargets targets(view.size);
         render::gl::begin({.framebuffer = targets.lightFramebuffer(),
                            .size = view.size,
                            .clearColor = glm::vec4(0),

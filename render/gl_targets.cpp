@@ -1,4 +1,4 @@
-#include "render/targets.h"
+#include "render/gl_targets.h"
 
 #include <fmt/format.h>
 
@@ -26,15 +26,6 @@ glm::ivec2 padded(glm::ivec2 size) {
 std::vector<GLuint> ids(const gl::Texture& texture) { return {texture.id()}; }
 
 template <typename T>
-std::vector<T> flipped(std::vector<T> rows, glm::ivec2 size) {
-    for (int y = 0; y < size.y / 2; ++y)
-        std::swap_ranges(rows.begin() + std::ptrdiff_t(y) * size.x,
-                         rows.begin() + std::ptrdiff_t(y + 1) * size.x,
-                         rows.begin() + std::ptrdiff_t(size.y - 1 - y) * size.x);
-    return rows;
-}
-
-template <typename T>
 void readPixels(GLuint framebuffer, glm::ivec2 size, GLenum format, std::vector<T>& into) {
     into.resize(std::size_t(size.x) * std::size_t(size.y) * (format == GL_RGBA ? 4 : 1) *
                 sizeof(float) / sizeof(T));
@@ -45,8 +36,8 @@ void readPixels(GLuint framebuffer, glm::ivec2 size, GLenum format, std::vector<
 
 }  // namespace
 
-Targets::Targets(glm::ivec2 size) try
-    : size_(size),
+GlTargets::GlTargets(glm::ivec2 size) try
+    : Targets(size),
       padded_(padded(size)),
       color_(GL_RGBA32F, padded_),
       depth_(GL_DEPTH_COMPONENT32F, padded_),
@@ -57,7 +48,7 @@ Targets::Targets(glm::ivec2 size) try
         fmt::format("no room for a picture of {} x {} pixels: {}", size.x, size.y, error.what()));
 }
 
-GLuint Targets::plane(std::size_t i, Channels channels) {
+GLuint GlTargets::plane(std::size_t i, Channels channels) {
     const bool scalar = channels == Channels::Weight || channels == Channels::Count;
     const GLenum format = scalar ? GL_R32F : GL_RGBA32F;
     if (planes_.size() <= i) planes_.resize(i + 1);
@@ -69,37 +60,33 @@ GLuint Targets::plane(std::size_t i, Channels channels) {
     return planes_[i]->framebuffer.id();
 }
 
-GLuint Targets::clearedPlane(std::size_t i, Channels channels) {
+GLuint GlTargets::clearedPlane(std::size_t i, Channels channels) {
     const GLuint framebuffer = plane(i, channels);
-    gl::begin({.framebuffer = framebuffer, .size = size_, .clearColor = glm::vec4(0)});
+    gl::begin({.framebuffer = framebuffer, .size = size(), .clearColor = glm::vec4(0)});
     return framebuffer;
 }
 
-void Targets::readDepth(std::vector<float>& rows) const {
-    readPixels(light_.id(), size_, GL_DEPTH_COMPONENT, rows);
+std::span<const float> GlTargets::opaqueDepth(std::vector<float>& room) const {
+    readPixels(light_.id(), size(), GL_DEPTH_COMPONENT, room);
+    return room;
 }
 
-void Targets::writePlane(std::size_t i, const PixelBox& part, std::span<const float> pixels) {
+void GlTargets::putPlane(std::size_t i, Channels channels, const PixelBox& part,
+                         std::vector<float>& pixels) {
+    plane(i, channels);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(planes_[i]->texture.id(), 0, part.at.x, part.at.y, part.size.x, part.size.y,
                         planes_[i]->format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, pixels.data());
 }
 
-Image Targets::readLight() const {
-    Image image(size_);
-    readPixels(light_.id(), size_, GL_RGBA, image.pixels);
-    image.pixels = flipped(std::move(image.pixels), size_);
-    return image;
+void GlTargets::readLight(std::vector<float>& rows) const {
+    readPixels(light_.id(), size(), GL_RGBA, rows);
 }
 
-void Targets::readLight(std::vector<float>& rows) const {
-    readPixels(light_.id(), size_, GL_RGBA, rows);
-}
-
-std::vector<float> Targets::readScalarPlane(std::size_t i) const {
+std::vector<float> GlTargets::readScalarPlane(std::size_t i) const {
     std::vector<float> rows;
-    readPixels(planes_[i]->framebuffer.id(), size_, GL_RED, rows);
-    return flipped(std::move(rows), size_);
+    readPixels(planes_[i]->framebuffer.id(), size(), GL_RED, rows);
+    return turnedOver(std::move(rows), size());
 }
 
 }  // namespace render
