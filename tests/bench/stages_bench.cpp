@@ -14,6 +14,7 @@
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
+#include "render/gl_targets.h"
 #include "tests/bench/volumes.h"
 #include "timeseries/reader.h"
 

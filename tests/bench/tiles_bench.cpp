@@ -5,6 +5,7 @@
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
+#include "render/gl_targets.h"
 #include "render/row_splatter.h"
 #include "render/tile_splatter.h"
 #include "tests/bench/alternate.h"
