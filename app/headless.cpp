@@ -53,9 +53,8 @@ void tellFiles(const Frames& frames, const timeseries::Variable& about) {
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
 // the GPU. Returns how many say that their colours are mixed.
 std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
-                       const timeseries::Variable& about, const Frames& frames,
-                       StepSource& source) {
-    render::FrameRenderer renderer(options.splatter);
+                       const timeseries::Variable& about, const Frames& frames, StepSource& source,
+                       render::FrameRenderer& renderer) {
     std::shared_ptr<const SortedStep> shown;
     std::optional<render::Lattice> lattice;
     std::optional<render::GpuStep> onGpu;
@@ -85,6 +84,34 @@ std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
     return mixed;
 }
 
+// What draws a picture: GL on a device, or the program, which makes a context only for what it
+// cannot draw itself.
+class Drawing {
+ public:
+    explicit Drawing(const RenderOptions& options) : device_(options.device) {
+        const bool byGl = options.splatter == render::SplatterChoice::Gl ||
+                          (options.splatter == render::SplatterChoice::ByDevice &&
+                           !render::gl::onlyProcessorsDraw(device_));
+        if (!byGl) {
+            renderer_.emplace([this] { context_.emplace(device_); });
+            return;
+        }
+        context_.emplace(device_);
+        renderer_.emplace(options.splatter);
+    }
+    render::FrameRenderer& renderer() { return *renderer_; }
+    std::string name() const {
+        if (context_) return context_->renderer();
+        const unsigned threads = render::sharingThreads();
+        return fmt::format("the program on {} thread{}", threads, threads == 1 ? "" : "s");
+    }
+
+ private:
+    std::string device_;
+    std::optional<render::gl::HeadlessContext> context_;
+    std::optional<render::FrameRenderer> renderer_;
+};
+
 }  // namespace
 
 int renderHeadless(const RenderOptions& options) {
@@ -99,9 +126,10 @@ int renderHeadless(const RenderOptions& options) {
     const auto steps = stepsOf(dataset, *e.steps);
     StepSource source(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
     if (needsSamples(e)) e = resolved(e, sample(source, steps));
-    const render::gl::HeadlessContext context(options.device);
+    Drawing drawing(options);
     const Frames frames(options.output, e, steps);
-    const std::size_t mixed = drawFrames(options, e, dataset.about, frames, source);
+    const std::size_t mixed =
+        drawFrames(options, e, dataset.about, frames, source, drawing.renderer());
     tellFiles(frames, dataset.about);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
@@ -115,7 +143,7 @@ int renderHeadless(const RenderOptions& options) {
     if (e.sweep && !e.oneTick && e.sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * e.sweep->frequency, e.sweep->frequency);
-    say("  drawn by {}\n", context.renderer());
+    say("  drawn by {}\n", drawing.name());
     return 0;
 }
 

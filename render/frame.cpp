@@ -30,12 +30,24 @@ glm::dvec3 midway(std::span<const View> eyes) {
 FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
     : styles_(stylesFor({64, 64})),
       font_(styles_),
-      onGl_(gl_.layerBlock()),
       sums_(splatter == SplatterChoice::Cpu ||
             (splatter == SplatterChoice::ByDevice && gl::drawsOnProcessor())),
       as_(as) {
-    onGl_.setFont(font_);
     inMemory_.setFont(font_);
+}
+
+FrameRenderer::FrameRenderer(std::function<void()> makeCurrent)
+    : FrameRenderer(SplatterChoice::Cpu) {
+    makeCurrent_ = std::move(makeCurrent);
+}
+
+FrameRenderer::Gl& FrameRenderer::needGl() {
+    if (!gl_) {
+        if (makeCurrent_) makeCurrent_();
+        gl_ = std::make_unique<Gl>();
+        gl_->light.setFont(font_);
+    }
+    return *gl_;
 }
 
 void FrameRenderer::makeRoom(std::span<const View> eyes, const LightPass& light) {
@@ -52,7 +64,7 @@ void FrameRenderer::makeRoom(std::span<const View> eyes, const LightPass& light)
     const auto styles = stylesFor(eyes.front().size);
     if (styles == styles_) return;
     font_ = Font(styles);
-    onGl_.setFont(font_);
+    if (gl_) gl_->light.setFont(font_);
     styles_ = styles;
 }
 
@@ -78,20 +90,20 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     ++orders_;
     const Scene& scene = content.scene;
     // GL's own upload does it.
-    if (&light == &onGl_ && !takesPointsFromGpu(scene))
-        gl_.setLayers(scene, ValueScale::of(scene.layers));
+    if (&light != &inMemory_ && !takesPointsFromGpu(scene))
+        needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
     return {content, splatterFor(scene).prepare(scene, order(scene, midEye), step), midEye, light,
             as};
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
     if (takesPointsFromGpu(content.scene) || !MemoryLight::canDraw(content.placards, eyes))
-        return onGl_;
+        return needGl().light;
     return inMemory_;
 }
 
 Splatter& FrameRenderer::splatterFor(const Scene& scene) {
-    if (takesPointsFromGpu(scene)) return gl_;
+    if (takesPointsFromGpu(scene)) return needGl().splatter;
     return processor_;
 }
 
@@ -163,7 +175,8 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
     Scene sorted = content.scene;
     sorted.order = Order::BackToFront;
     std::unique_ptr<GpuList> counted;
-    if (extras.splatCount) counted = gl_.upload(sorted, order(sorted, midway(eyes)), step);
+    if (extras.splatCount)
+        counted = needGl().splatter.upload(sorted, order(sorted, midway(eyes)), step);
     const Prepared frame = prepare(content, step, eyes, LightAs::Linear);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
@@ -186,16 +199,17 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
                 opticalDepth(unordered, *splats, eyes[i], axes.behind, frame.light);
         }
     }
-    gl::throwOnError();
+    if (gl_) gl::throwOnError();
     return pictures;
 }
 
 void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                                  std::span<const View> eyes,
                                  const std::function<void(std::size_t eye, Targets&)>& show) {
-    makeRoom(eyes, onGl_);
+    GlLight& light = needGl().light;
+    makeRoom(eyes, light);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-        onGl_.drawPlacards(placards, background, eyes[i], use(eyes[i].size, onGl_));
+        light.drawPlacards(placards, background, eyes[i], use(eyes[i].size, light));
         show(i, targets());
     }
 }
@@ -228,7 +242,8 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
 std::vector<float> FrameRenderer::countSplats(const GpuList& counted, const View& view,
                                               LightPass& light) {
     GlTargets& targets = use(view.size, light).onGl();
-    gl_.draw(counted, view, Channels::Count, 0, targets.clearedPlane(0, Channels::Count));
+    needGl().splatter.draw(counted, view, Channels::Count, 0,
+                           targets.clearedPlane(0, Channels::Count));
     return targets.readScalarPlane(0);
 }
 

@@ -38,12 +38,15 @@ struct Extras {
     std::function<void(double)> progress = {};
 };
 
-// Needs a current GL context, from construction to destruction.
+// Needs a current GL context, from construction to destruction, unless it is told how to get one.
 class FrameRenderer {
  public:
     // `as`: what front ends want of light that the program makes in memory.
     explicit FrameRenderer(SplatterChoice splatter = SplatterChoice::ByDevice,
                            LightAs as = LightAs::Linear);
+    // For programs that may need no GL: the program sums what it can, and `makeCurrent` makes a
+    // context current before the first thing that it cannot; the context must outlive this.
+    explicit FrameRenderer(std::function<void()> makeCurrent);
 
     // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
     // picture does not depend on what was drawn before. Order is taken from the point midway
@@ -99,6 +102,11 @@ class FrameRenderer {
     Targets& use(glm::ivec2 size, const LightPass& light);  // which targets() then are
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
                      LightAs as);
+    struct Gl {
+        GlSplatter splatter;
+        GlLight light{splatter.layerBlock()};
+    };
+    Gl& needGl();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
     Splatter& splatterFor(const Scene& scene);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
@@ -112,10 +120,10 @@ class FrameRenderer {
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
-    GlSplatter gl_;
     ProcessorSplatter processor_;
-    GlLight onGl_;
     MemoryLight inMemory_;
+    std::function<void()> makeCurrent_;
+    std::unique_ptr<Gl> gl_;
     struct Held {
         const LightPass* of;
         std::unique_ptr<Targets> targets;

@@ -63,9 +63,7 @@ void write(gl::Buffer& buffer, std::uint64_t first, const std::vector<T>& what) 
 }  // namespace
 
 GpuStep::GpuStep(const timeseries::SortedStep& step, const Lattice& lattice)
-    : axisPoints_(std::span<const glm::vec2>(axisTable(lattice))),
-      axisTexture_(GL_RG32F, axisPoints_),
-      present_(blockCount(step.size())) {}
+    : axisTable_(axisTable(lattice)), present_(blockCount(step.size())) {}
 
 void GpuStep::makeRoom(const timeseries::SortedStep& step) {
     if (gridIndex_ && placeInBlock_) return;
@@ -73,7 +71,19 @@ void GpuStep::makeRoom(const timeseries::SortedStep& step) {
     placeInBlock_.emplace(step.size() * sizeof(std::uint16_t));
 }
 
-void GpuStep::place(const Lattice& lattice) { write(axisPoints_, 0, axisTable(lattice)); }
+void GpuStep::place(const Lattice& lattice) {
+    axisTable_ = axisTable(lattice);
+    axisPoints_.reset();
+}
+
+const gl::BufferTexture& GpuStep::axisPoints() const {
+    if (!axisPoints_) {
+        gl::Buffer buffer{std::span<const glm::vec2>(axisTable_)};
+        gl::BufferTexture texture(GL_RG32F, buffer);
+        axisPoints_.emplace(AxisPoints{std::move(buffer), std::move(texture)});
+    }
+    return axisPoints_->texture;
+}
 
 void GpuStep::upload(const Scene& scene, const std::optional<ValueScale>& scale,
                      std::uint64_t bytes) {
@@ -169,7 +179,7 @@ ValueScale GpuStep::serving(const ValueScale& wanted) const {
 }
 
 std::uint64_t GpuStep::bytes() const {
-    std::uint64_t bytes = axisPoints_.bytes();
+    std::uint64_t bytes = axisTable_.size() * sizeof axisTable_[0];
     for (const auto* held : {&gridIndex_, &placeInBlock_})
         if (*held) bytes += (*held)->bytes();
     for (const auto* held : {&values_, &coming_})

@@ -26,7 +26,7 @@ class GpuStep {
  public:
     static constexpr std::uint64_t kBlock = kSubsetPeriod;
 
-    // Holds no points yet, nor room for them.
+    // Holds no points yet, nor room for them, and asks nothing of GL until it is asked for some.
     GpuStep(const timeseries::SortedStep& step, const Lattice& lattice);
 
     // Sends blocks that the scene's runs touch and that are not there, with their values on `scale`
@@ -54,7 +54,7 @@ class GpuStep {
     const gl::Buffer* values() const { return values_ ? &values_->buffer : nullptr; }
     // Of values(). REQUIRES: they are there.
     const ValueScale& valueScale() const { return values_->scale; }
-    const gl::BufferTexture& axisPoints() const { return axisTexture_; }
+    const gl::BufferTexture& axisPoints() const;
     std::uint64_t bytes() const;
 
  private:
@@ -72,10 +72,14 @@ class GpuStep {
     void makeRoom(const timeseries::SortedStep& step);
 
     std::optional<gl::Buffer> gridIndex_, placeInBlock_;
-    gl::Buffer axisPoints_;
-    gl::BufferTexture axisTexture_;
-    Blocks present_;                               // of gridIndex_ and placeInBlock_
-    std::optional<ScaledValues> values_, coming_;  // in use; not all that a scene needs yet
+    struct AxisPoints {
+        gl::Buffer buffer;
+        gl::BufferTexture texture;
+    };
+    std::vector<glm::vec2> axisTable_;              // place and cell's side, axis after axis
+    mutable std::optional<AxisPoints> axisPoints_;  // of it, once asked for
+    Blocks present_;                                // of gridIndex_ and placeInBlock_
+    std::optional<ScaledValues> values_, coming_;   // in use; not all that a scene needs yet
 };
 
 }  // namespace render

@@ -40,7 +40,8 @@ struct Device {
     bool software;
 };
 
-std::vector<Device> devices() {
+// "gpu", "cpu" or "any", GPUs first.
+std::vector<Device> devicesOf(const std::string& kind) {
     const auto query = extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
     const auto text = extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
     if (query == nullptr || text == nullptr) return {};
@@ -52,6 +53,7 @@ std::vector<Device> devices() {
         const char* extensions = text(ids[i], EGL_EXTENSIONS);
         const bool software =
             extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
+        if (kind == (software ? "gpu" : "cpu")) continue;
         // GPUs first, in the system's order.
         found.insert(software ? found.end()
                               : std::find_if(found.begin(), found.end(),
@@ -87,11 +89,13 @@ std::string makeCurrent(const Device& device, EGLDisplay& display, EGLContext& c
 
 }  // namespace
 
+bool onlyProcessorsDraw(const std::string& device) {
+    return device != "gpu" && std::ranges::all_of(devicesOf(device), &Device::software);
+}
+
 HeadlessContext::HeadlessContext(const std::string& wanted) {
     std::string tried;
-    for (const Device& device : devices()) {
-        if (wanted == "gpu" && device.software) continue;
-        if (wanted == "cpu" && !device.software) continue;
+    for (const Device& device : devicesOf(wanted)) {
         auto egl = std::make_unique<Egl>();
         const std::string why = makeCurrent(device, egl->display, egl->context);
         if (why.empty()) {

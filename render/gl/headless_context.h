@@ -7,6 +7,9 @@
 
 namespace render::gl {
 
+// Whether a context on such a device, if there is one, can only be a processor's. Loads no driver.
+bool onlyProcessorsDraw(const std::string& device);
+
 // Current on the thread that made it, until destroyed there.
 class HeadlessContext {
  public:
