@@ -169,6 +169,7 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         EyePicture& picture = pictures.emplace_back();
         picture.image = targets().readLight();
         if (extras.splatCount) {
+            drawNoOccluders(eye);
             gl_.draw(*counted, eye, Channels::Count, 0,
                      use(eye.size).clearedPlane(0, Channels::Count));
             picture.splatCount = targets().readScalarPlane(0);
@@ -180,12 +181,8 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         unordered.order = Order::None;
         if (takesPointsFromGpu(unordered)) step.upload(unordered, neededScale(unordered));
         const auto splats = splatterFor(unordered).prepare(unordered, Runs{}, step);
-        for (std::size_t i = 0; i < eyes.size(); ++i) {
-            const AxesMeshes axes =
-                axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_,
-                           legendMesh(content.legend, font_, eyes[i].size));
-            pictures[i].opticalDepth = opticalDepth(unordered, *splats, eyes[i], axes.behind);
-        }
+        for (std::size_t i = 0; i < eyes.size(); ++i)
+            pictures[i].opticalDepth = opticalDepth(unordered, *splats, eyes[i]);
     }
     gl::throwOnError();
     return pictures;
@@ -207,6 +204,10 @@ void FrameRenderer::drawDepth(const Occluders& occluders, const View& view, GLui
     for (const Placard& placard : occluders.placards)
         placards_.drawDepth(placard, view, framebuffer);
     hidden_.drawDepth(view, framebuffer);
+}
+
+void FrameRenderer::drawNoOccluders(const View& view) {
+    drawDepth({{}, {}}, view, use(view.size).lightFramebuffer());
 }
 
 bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
@@ -260,9 +261,9 @@ void FrameRenderer::resolve(const Scene& scene, const PixelBox& covered) {
 }
 
 std::vector<float> FrameRenderer::opticalDepth(const Scene& scene, SplatFrame& splats,
-                                               const View& view, const FlatMesh& behind) {
+                                               const View& view) {
     Targets& targets = use(view.size);
-    drawDepth({behind, {}}, view, targets.lightFramebuffer());
+    drawNoOccluders(view);
     std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
         targets.clearedPlane(k, Channels::Weight);

@@ -33,7 +33,8 @@ struct FrameContent {
     std::span<const Placard> placards = {};
 };
 
-// What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for.
+// What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for. These
+// hold data alone: what the picture shows beside it, lines and placards, hides nothing of them.
 struct EyePicture {
     Image image;
     std::vector<float> opticalDepth;  // of all layers together
@@ -106,6 +107,8 @@ class FrameRenderer {
     };
     // Leaves the depth attachment, which all planes and the light share, holding these alone.
     void drawDepth(const Occluders& occluders, const View& view, GLuint framebuffer);
+    // For channels of data: no line of the box hides what they hold.
+    void drawNoOccluders(const View& view);
     bool drawSplats(EyeInWork& work, double cost);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
     void drawWhole(const Prepared& frame, const View& eye,
@@ -115,8 +118,7 @@ class FrameRenderer {
     void resolve(const Scene& scene, const PixelBox& covered);
     const gl::Program& resolveProgram(const Scene& scene);
     // Of an unordered scene.
-    std::vector<float> opticalDepth(const Scene& scene, SplatFrame& splats, const View& view,
-                                    const FlatMesh& behind);
+    std::vector<float> opticalDepth(const Scene& scene, SplatFrame& splats, const View& view);
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
