@@ -132,7 +132,9 @@ std::optional<Real> weightOn(const Splat<Real>& s, Kernel kernel, const glm::vec
     if (q >= 1 || !(d > Real(kLeastDenominator))) return std::nullopt;
     const Real u = (1 - q) * (1 - q);
     const Real whole = s.weight * rayUnit * std::sqrt(ray2 / d) * u * u;
-    return s.cut ? whole * s.insideShare(offset, q) : whole;
+    if (!s.cut) return whole;
+    const Real share = s.insideShare(offset, q);
+    return share > 0 ? std::optional(whole * share) : std::nullopt;
 }
 
 // Half the side of the square about a sphere's projected centre that holds its outline, on the

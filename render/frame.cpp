@@ -191,13 +191,8 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
         unordered.order = Order::None;
         if (takesPointsFromGpu(unordered)) step.upload(unordered, neededScale(unordered));
         const auto splats = splatterFor(unordered).prepare(unordered, Runs{}, step);
-        for (std::size_t i = 0; i < eyes.size(); ++i) {
-            const AxesMeshes axes =
-                axesMeshes(content.grid, content.scene.lattice, eyes[i], frame.midEye, font_,
-                           legendMesh(content.legend, font_, eyes[i].size));
-            pictures[i].opticalDepth =
-                opticalDepth(unordered, *splats, eyes[i], axes.behind, frame.light);
-        }
+        for (std::size_t i = 0; i < eyes.size(); ++i)
+            pictures[i].opticalDepth = opticalDepth(unordered, *splats, eyes[i], frame.light);
     }
     if (gl_) gl::throwOnError();
     return pictures;
@@ -241,17 +236,17 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
 
 std::vector<float> FrameRenderer::countSplats(const GpuList& counted, const View& view,
                                               LightPass& light) {
-    GlTargets& targets = use(view.size, light).onGl();
+    light.drawDepth({}, {}, view, use(view.size, light));
+    GlTargets& targets = this->targets().onGl();
     needGl().splatter.draw(counted, view, Channels::Count, 0,
                            targets.clearedPlane(0, Channels::Count));
     return targets.readScalarPlane(0);
 }
 
 std::vector<float> FrameRenderer::opticalDepth(const Scene& scene, SplatFrame& splats,
-                                               const View& view, const FlatMesh& behind,
-                                               LightPass& light) {
+                                               const View& view, LightPass& light) {
     Targets& targets = use(view.size, light);
-    light.drawDepth(behind, {}, view, targets);
+    light.drawDepth({}, {}, view, targets);
     std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
         const auto sum = splats.begin(view, Channels::Weight, k, targets);

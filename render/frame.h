@@ -26,7 +26,8 @@ struct FrameContent {
     std::span<const Placard> placards = {};
 };
 
-// What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for.
+// What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for. These
+// hold data alone: what the picture shows beside it, lines and placards, hides nothing of them.
 struct EyePicture {
     Image image;
     std::vector<float> opticalDepth;  // of all layers together
@@ -116,7 +117,7 @@ class FrameRenderer {
     std::vector<float> countSplats(const GpuList& counted, const View& view, LightPass& light);
     // Of an unordered scene.
     std::vector<float> opticalDepth(const Scene& scene, SplatFrame& splats, const View& view,
-                                    const FlatMesh& behind, LightPass& light);
+                                    LightPass& light);
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;

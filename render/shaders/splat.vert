@@ -116,12 +116,23 @@ void placeAt(vec2 at, float depth) {
                        windowDepth, 1.0);
 }
 
+// How far from the picture's middle a corner may stand: far outside.
+float farthestCorner() {
+    return 4.0 * (view.window.z + view.window.w);
+}
+// Of the picture, from the view axis.
+vec2 middleOfPicture() {
+    return 0.5 * view.window.zw - view.window.xy;
+}
+
 void place(vec2 offset, float extent, float depth) {
 #ifdef QUADS
     const vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-    // Half a pixel more than the footprint; never farther than the picture is wide.
-    const float most = 4.0 * (view.window.z + view.window.w + 4.0 * view.depths.w);
-    placeAt(offset + corner * min(extent + 0.5, most), depth);
+    // Half a pixel more than the footprint. Each corner has a limit, not the side: the centre may
+    // lie farther off than that.
+    const vec2 middle = middleOfPicture();
+    placeAt(clamp(offset + corner * (extent + 0.5), middle - farthestCorner(),
+                  middle + farthestCorner()), depth);
 #else
     gl_PointSize = extent;
     placeAt(offset, depth);
@@ -225,10 +236,11 @@ void main() {
     const float extent = onUnitPlane < 0.0 ? 1e9 : onUnitPlane * max(focal.x, focal.y);
 #if defined(CUT)
     const Slim s = slim(quadN.xyz, quadD.xyz, linear, extent);
-    const vec2 most = vec2(4.0 * (view.window.z + view.window.w));
-    const vec2 corner = mix(max(s.lo - 0.5, -most), min(s.hi + 0.5, most),
-                            vec2(gl_VertexID & 1, gl_VertexID >> 1));
-    placeAt(centre + corner.x * s.along + corner.y * vec2(s.along.y, -s.along.x), depth);
+    const vec2 across = vec2(s.along.y, -s.along.x), off = middleOfPicture() - centre;
+    const vec2 middle = vec2(dot(off, s.along), dot(off, across));
+    const vec2 corner = clamp(mix(s.lo - 0.5, s.hi + 0.5, vec2(gl_VertexID & 1, gl_VertexID >> 1)),
+                              middle - farthestCorner(), middle + farthestCorner());
+    placeAt(centre + corner.x * s.along + corner.y * across, depth);
 #elif defined(QUADS)
     place(centre, extent, depth);
 #else

@@ -188,7 +188,7 @@ std::optional<AxisKind> kindByName(std::string_view name) {
 // Two dimensions of one kind: the one told by better evidence keeps it, then the one further right.
 struct FileAxes::Claim {
     std::optional<AxisKind> kind;
-    int evidence = 0;  // 2 by attributes, 1 by name
+    int evidence;  // 2 by attributes, 1 by name
 };
 
 FileAxes::FileAxes(const NcHeader& header, std::span<const NcVariable* const> fields)
@@ -274,17 +274,24 @@ const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t
     return free && known.coordinates.empty() && known.times.size() == 1 ? known.times[0] : nullptr;
 }
 
-FileAxes::Claim FileAxes::claimOf(const NcVariable& variable, std::size_t position) const {
+std::optional<AxisKind> FileAxes::kindFromAttributes(const NcVariable& variable,
+                                                     std::size_t position) const {
     const Dimension& known = dimensions_[variable.dimensions[position]];
-    if (known.list) return {List};
+    if (known.list) return List;
     if (const NcVariable* coordinate = coordinateOf(variable, position))
-        if (const auto kind = kindByAttributes(*coordinate)) return {kind, 2};
+        if (const auto kind = kindByAttributes(*coordinate)) return kind;
     // Several that agree, though none of them is the one.
     std::set<AxisKind> kinds;
     for (const NcVariable* each : known.coordinates) kinds.insert(*kindByAttributes(*each));
-    if (kinds.size() == 1) return {*kinds.begin(), 2};
+    if (kinds.size() == 1) return *kinds.begin();
+    return std::nullopt;
+}
+
+FileAxes::Claim FileAxes::claimOf(const NcVariable& variable, std::size_t position) const {
+    if (const auto told = kindFromAttributes(variable, position)) return {told, 2};
     const auto named = kindByName(header_.dimension(variable, position).name);
-    return {named || known.times.empty() ? named : T, 1};
+    const bool times = !dimensions_[variable.dimensions[position]].times.empty();
+    return {named || !times ? named : T, 1};
 }
 
 // As the first of its dimensions: where it stands elsewhere, it is something else.

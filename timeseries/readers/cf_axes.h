@@ -49,6 +49,8 @@ class FileAxes {
     };
     struct Claim;
     const NcVariable* find(std::string_view name, std::string_view group) const;
+    std::optional<AxisKind> kindFromAttributes(const NcVariable& variable,
+                                               std::size_t position) const;
     Claim claimOf(const NcVariable& variable, std::size_t position) const;
     void findCoordinates();
     void findLists();

@@ -1,0 +1,87 @@
+// Splats around the eye, against the truth: the same model in double.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/cpu_splatter.h"
+#include "render/footprint.h"
+#include "render/image_compare.h"
+#include "render/row_splatter.h"
+#include "render/tile_splatter.h"
+#include "tests/support/gl_planes.h"
+
+namespace render {
+namespace {
+
+using tests::lookFrom;
+using timeseries::RangeSet;
+
+class SplatsAroundTheEye : public tests::GlTest {
+ protected:
+    // relative L2 of a plane drawn on GL, the truth being drawn in the same order.
+    double drawn(const Scene& scene, const View& view, Channels channels) {
+        return compareScalars(plane(scene, view, channels), truth(scene, view, channels))
+            .relativeL2;
+    }
+    // And summed on the processor.
+    static double summed(const Scene& scene, const View& view, Channels channels) {
+        std::vector<float> plane;
+        if (TileSum::canSum(scene, channels)) {
+            plane = sumTiles(scene, order(scene, tests::kMidEye), view, channels, 0, {});
+        } else {
+            const std::vector<float> far(std::size_t(view.size.x) * view.size.y, 1);
+            plane = sumRows(scene, view, channels, 0, far);
+        }
+        return compareScalars(plane, truth(scene, view, channels)).relativeL2;
+    }
+
+ private:
+    static std::vector<double> truth(const Scene& scene, const View& view, Channels channels) {
+        Accumulator<double> sums(view.size, {channels});
+        splat(scene, order(scene, tests::kMidEye), view, {}, sums);
+        return sums.planes[0];
+    }
+};
+
+// Centres stand beside the eye, far outside of the picture that their splats fill.
+TEST_F(SplatsAroundTheEye, AreTheTruthsWhereverTheirCentresLie) {
+    const std::array even{tests::axis(7), tests::axis(7), tests::axis(7)};
+    const std::array uneven{tests::axis(7), tests::axis(6, 0, 1.3), tests::axis(5, 0, 0.7)};
+    const std::array slim{tests::axis(7), tests::axis(6), tests::axis(4, 0, 5)};
+    for (const auto& axes : {even, uneven, slim}) {
+        const auto step = tests::noise(std::make_shared<timeseries::Grid>(axes));
+        const Lattice lattice(step.grid());
+        Scene scene{.step = step,
+                    .lattice = lattice,
+                    .layers = {{step.select(RangeSet::everything()), {ByValue{{}, 0, 1}, 0.3}}},
+                    .footprint = {Kernel::Quartic, 4},
+                    .order = Order::None,
+                    .clip = {}};
+        int farOff = 0;
+        for (const glm::dvec3 eye : {glm::dvec3(0.05, 0.1, 0.03), glm::dvec3(-0.3, 0.02, 0.2),
+                                     glm::dvec3(0.11, -0.2, -0.1)}) {
+            const View view = lookFrom(eye, {64, 48});
+            const LatticeView seen(lattice, view);
+            for (std::uint64_t i = 0; i < step.size(); ++i) {
+                const auto s = splatAt<double>(seen, i, scene.footprint);
+                farOff += s.visible && std::isinf(s.hi.x) &&
+                          std::max(std::abs(s.centre.x), std::abs(s.centre.y)) > 4 * (64 + 48);
+            }
+            scene.order = Order::None;
+            EXPECT_LE(drawn(scene, view, Channels::Weight), 1e-5) << eye.x;
+            EXPECT_LE(summed(scene, view, Channels::Weight), 1e-5) << eye.x;
+            EXPECT_LE(drawn(scene, view, Channels::Count), 1e-3) << eye.x;
+            scene.order = Order::BackToFront;
+            EXPECT_LE(drawn(scene, view, Channels::Over), 1e-5) << eye.x;
+            if (TileSum::canSum(scene, Channels::Over)) {
+                EXPECT_LE(summed(scene, view, Channels::Over), 1e-5) << eye.x;
+            }
+        }
+        EXPECT_GT(farOff, 0) << "or nothing was tested";
+    }
+}
+
+}  // namespace
+}  // namespace render
