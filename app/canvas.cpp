@@ -287,13 +287,13 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
     const auto picked = render::pick(scene, eye, window);
     if (!picked) return std::nullopt;
     const timeseries::SortedStep& step = *state_->screen->sorted;
-    const auto size = step.grid().size();
     const std::uint64_t i = picked->gridIndex;
+    const auto at = step.grid().indices(i);
     return Probe{*picked,
                  layerOf(state_->screen->explorer, picked->layer),
                  step.value(picked->point),
                  step.grid().position(i),
-                 {i % size[0], i / size[0] % size[1], i / size[0] / size[1]}};
+                 {at.x, at.y, at.z}};
 }
 
 void Canvas::save(const Shown& shown, const std::filesystem::path& file) {

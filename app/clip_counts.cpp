@@ -77,8 +77,10 @@ std::vector<std::uint64_t> countsInside(const timeseries::SortedStep& step,
             });
         };
         if (std::ranges::none_of(sets, holds)) continue;
+        const Run between{ends[i], ends[i + 1] - ends[i]};
+        const auto gridIndex = step.columns({&between, 1}).gridIndex;
         const std::uint64_t points =
-            countAll(step.gridIndex().subspan(ends[i], ends[i + 1] - ends[i]), inside);
+            countAll(gridIndex.subspan(between.first, between.count), inside);
         for (std::size_t k = 0; k < sets.size(); ++k)
             if (holds(sets[k])) counts[k] += points;
     }

@@ -63,7 +63,7 @@ RangeSet replaced(const RangeSet& set, std::size_t range, const Range& by) {
 // The finite value to which an end must come to pass one more of the ascending values. Compared as
 // selections are: floats as floats.
 template <typename T>
-std::optional<double> valuePassed(const std::vector<T>& values, double from, End end, bool up) {
+std::optional<double> valuePassed(std::span<const T> values, double from, End end, bool up) {
     using Key = std::conditional_t<std::is_floating_point_v<T>, T, double>;
     const auto keyOf = [](T value) { return static_cast<Key>(value); };
     Key edge = static_cast<Key>(from);
@@ -117,8 +117,8 @@ RangeSet withEnd(const RangeSet& ranges, std::size_t range, End end, double valu
 
 double steppedEnd(const SortedStep& step, double from, End end, int by, double resolution) {
     const bool up = by > 0;
-    const auto passed = std::visit(
-        [&](const auto& values) { return valuePassed(values, from, end, up); }, step.values());
+    const auto passed = std::visit([&](auto values) { return valuePassed(values, from, end, up); },
+                                   step.columns().values);
     if (!passed) return from;
     const double steps = roundedTo(from + by * resolution, resolution);
     return up ? std::max(steps, *passed) : std::min(steps, *passed);

@@ -56,7 +56,7 @@ std::vector<std::uint64_t> histogram(const timeseries::SortedStep& step, double 
                                      std::size_t bins) {
     assert(lo < hi && bins >= 1);
     return std::visit(
-        [&](const auto& values) {
+        [&](auto values) {
             std::vector<std::uint64_t> counts(bins);
             auto from = values.begin();
             for (std::size_t i = 0; i <= bins; ++i) {
@@ -71,7 +71,7 @@ std::vector<std::uint64_t> histogram(const timeseries::SortedStep& step, double 
             counts.back() += infinite.above;
             return counts;
         },
-        step.values());
+        step.columns().values);
 }
 
 std::vector<double> density(const timeseries::StepSummary& summary, double lo, double hi,

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "render/subset.h"
+#include "timeseries/grid.h"
 
 namespace render {
 namespace {
@@ -41,10 +42,11 @@ std::vector<std::uint16_t> blockOrder(std::span<const std::uint32_t> gridIndex, 
     const auto tables = curveTables(size);
     std::vector<std::uint16_t> cell;
     cell.reserve(gridIndex.size());
-    for (const std::uint32_t i : gridIndex)
-        cell.push_back(static_cast<std::uint16_t>(tables[0][i % size.x] |
-                                                  tables[1][i / size.x % size.y] |
-                                                  tables[2][i / size.x / size.y]));
+    for (const std::uint32_t i : gridIndex) {
+        const glm::uvec3 at = timeseries::indicesOf(i, size);
+        cell.push_back(
+            static_cast<std::uint16_t>(tables[0][at.x] | tables[1][at.y] | tables[2][at.z]));
+    }
     std::vector<std::uint16_t> given(gridIndex.size());
     std::iota(given.begin(), given.end(), std::uint16_t{0});
     const auto near =

@@ -68,10 +68,11 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     assert(scene.layers.size() <= into.channels.size() || into.channels[0] == Channels::Over ||
            into.channels[0] == Channels::Count);
     const LatticeView latticeView(scene.lattice, view);
+    const auto gridIndex = columnsOf(scene).gridIndex;
     std::vector<double> perSplat;
     for (const Layer& layer : scene.layers) perSplat.push_back(pointsPerSplat(layer, scene.stride));
     const auto draw = [&](std::size_t layer, std::uint64_t point) {
-        const std::uint32_t i = scene.step.gridIndex()[point];
+        const std::uint32_t i = gridIndex[point];
         if (!scene.clip.holds(scene.lattice.indices(i))) return;
         auto s = splatAt<Real>(latticeView, i, scene.footprint);
         if (!s.visible) return;

@@ -36,9 +36,7 @@ Sorted candidates(const Scene& scene) {
 
 // Of a point's centre, or a negative number outside of the clip box.
 double distanceOf(const Scene& scene, std::uint32_t i, const glm::dvec3& midEye) {
-    const glm::uvec3 n = scene.lattice.size();
-    const std::uint32_t row = i / n.x, slice = row / n.y;
-    const glm::uvec3 ijk(i - row * n.x, row - slice * n.y, slice);
+    const glm::uvec3 ijk = timeseries::indicesOf(i, scene.lattice.size());
     if (!scene.clip.holds(ijk)) return -1;
     const auto& at = scene.lattice.positions();
     const glm::dvec3 along(at[0][ijk.x], at[1][ijk.y], at[2][ijk.z]);
@@ -61,7 +59,7 @@ void dropClipped(Distances& d) {
 Distances distances(const Scene& scene, const glm::dvec3& midEye) {
     Distances d{candidates(scene), {}};
     d.away.resize(d.list.point.size());
-    const auto index = scene.step.gridIndex();
+    const auto index = columnsOf(scene).gridIndex;
     inParts(d.away.size(), threadsFor(d.away.size(), kWorthAThread),
             [&](std::size_t first, std::size_t last) {
                 for (std::size_t i = first; i < last; ++i)

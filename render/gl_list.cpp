@@ -15,9 +15,10 @@ struct SortedPoint {
 std::vector<SortedPoint> gathered(const Scene& scene, const Sorted& list, const ValueScale& scale) {
     std::vector<SortedPoint> out;
     out.reserve(list.point.size());
+    const timeseries::Columns columns = columnsOf(scene);
     for (std::size_t i = 0; i < list.point.size(); ++i) {
         const std::uint32_t p = list.point[i];
-        out.push_back({scene.step.gridIndex()[p], scale(timeseries::toDouble(scene.step.value(p))),
+        out.push_back({columns.gridIndex[p], scale(timeseries::toDouble(scene.step.value(p))),
                        list.layer[i]});
     }
     return out;

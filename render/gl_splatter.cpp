@@ -78,7 +78,7 @@ glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
     if (!(halfWidth > 0)) return {0, 0.5};
     constexpr double kMost = std::numeric_limits<float>::max();
     return {scale.halfWidth / halfWidth,
-            std::clamp((0.5 * scale.lo - 0.5 * map.lo) / halfWidth, -kMost, kMost)};
+            std::clamp(placeOnScale(scale.lo, map.lo, halfWidth), -kMost, kMost)};
 }
 
 constexpr int kMapEntries = 257;  // the most that a ColorMap has

@@ -119,7 +119,9 @@ std::uint64_t GpuStep::send(const Scene& scene, std::uint64_t block, ScaledValue
     if (!sendPoints && !sendValues) return 0;
     const std::uint64_t first = block * kBlock;
     const std::uint64_t count = pointsOf(block, scene.step.size());
-    const auto index = scene.step.gridIndex().subspan(first, count);
+    const timeseries::Run run{first, count};
+    const timeseries::Columns columns = scene.step.columns({&run, 1});
+    const auto index = columns.gridIndex.subspan(first, count);
     const std::vector<std::uint16_t> places = blockOrder(index, scene.lattice.size());
     if (sendPoints) {
         std::vector<std::uint32_t> ordered;
@@ -137,7 +139,7 @@ std::uint64_t GpuStep::send(const Scene& scene, std::uint64_t block, ScaledValue
                 for (const std::uint16_t place : places)
                     scaled.push_back(values->scale(static_cast<double>(of[first + place])));
             },
-            scene.step.values());
+            columns.values);
         write(values->buffer, first, scaled);
         values->present[block] = true;
     }

@@ -185,8 +185,7 @@ Lattice::Box Lattice::domain() const {
 }
 
 glm::uvec3 Lattice::indices(std::uint64_t index) const {
-    const glm::uvec3 n = size();
-    return {index % n.x, index / n.x % n.y, index / n.x / n.y};
+    return timeseries::indicesOf(index, glm::vec<3, std::uint64_t>(size()));
 }
 
 glm::dvec3 Lattice::position(std::uint64_t index) const {

@@ -62,8 +62,7 @@ class Ray {
         return depth > 0 && glm::dot(across, across) <= reach * reach * glm::dot(along, along);
     }
     bool inClip(std::uint32_t i) const {
-        const glm::uvec3 n = scene_.lattice.size();
-        return scene_.clip.holds({i % n.x, i / n.x % n.y, i / n.x / n.y});
+        return scene_.clip.holds(timeseries::indicesOf(i, scene_.lattice.size()));
     }
     // As the splatters place a point's square on whole pixels.
     bool inSquare(const Splat<double>& s) const {
@@ -108,6 +107,7 @@ bool hides(const Scene& scene) {
 
 std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& window) {
     const Ray ray(scene, view, window);
+    const auto gridIndex = columnsOf(scene).gridIndex;
     std::vector<Hit> hits;
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
         const Layer& layer = scene.layers[k];
@@ -115,7 +115,7 @@ std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& wi
             opticalDepthPerWeight(layer.style.opacity) * pointsPerSplat(layer, scene.stride);
         for (const timeseries::Run& run : layer.runs)
             forEachInSubset(run, strideOf(layer, scene.stride), [&](std::uint64_t p) {
-                if (const auto met = ray.meet(scene.step.gridIndex()[p]))
+                if (const auto met = ray.meet(gridIndex[p]))
                     hits.push_back({p, k, met->depth, perWeight * met->weight});
             });
     }
@@ -142,7 +142,7 @@ std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec
         passed += hit.light;
         return passed >= whole / 2;
     });
-    const std::uint32_t at = scene.step.gridIndex()[half->point];
+    const std::uint32_t at = scene.step.gridIndex(half->point);
     return Picked{half->point, half->layer, at, scene.lattice.position(at), half->depth};
 }
 

@@ -25,6 +25,7 @@ class SeenLayer {
     SeenLayer(const Scene& scene, const View& view, Channels channels, std::size_t layer)
         : scene_(scene),
           view_(view),
+          columns_(columnsOf(scene)),
           style_(scene.layers[layer].style),
           colored_(channels == Channels::WeightedColor),
           seen_(scene.lattice, view),
@@ -43,6 +44,7 @@ class SeenLayer {
  private:
     const Scene& scene_;
     const View& view_;
+    timeseries::Columns columns_;
     const RangeStyle& style_;
     bool colored_;
     LatticeView seen_;
@@ -57,7 +59,7 @@ PixelSpan within(PixelSpan span, int first, int size) {
 
 Placed SeenLayer::place(std::uint64_t point, const PixelBox& box) const {
     Placed placed;
-    const std::uint32_t i = scene_.step.gridIndex()[point];
+    const std::uint32_t i = columns_.gridIndex[point];
     if (!scene_.clip.holds(scene_.lattice.indices(i))) return placed;
     Splat<float>& s = placed.splat;
     s = splatAt<float>(seen_, i, scene_.footprint);

@@ -29,6 +29,13 @@ double pointsPerSplat(const Layer& layer, std::uint32_t stride) {
     return static_cast<double>(pointCount(layer)) / static_cast<double>(splats);
 }
 
+timeseries::Columns columnsOf(const Scene& scene) {
+    std::vector<timeseries::Run> runs;
+    for (const Layer& layer : scene.layers)
+        runs.insert(runs.end(), layer.runs.begin(), layer.runs.end());
+    return scene.step.columns(runs);
+}
+
 std::vector<Channels> channelsFor(const Scene& scene) {
     if (scene.order == Order::BackToFront) return {Channels::Over};
     std::vector<Channels> channels;

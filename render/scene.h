@@ -25,10 +25,16 @@ struct ByValue {
     double halfWidth() const { return 0.5 * hi - 0.5 * lo; }  // halves: the whole may overflow
 };
 
+// Where a value stands on a scale from 0 at `lo` to 1, two half widths farther. All that turns
+// values into colours asks this. REQUIRES: halfWidth > 0.
+inline double placeOnScale(double value, double lo, double halfWidth) {
+    return (0.5 * value - 0.5 * lo) / halfWidth;
+}
+
 // Position of a value in its map, [0, 1]; the limit case lo == hi is the middle.
 inline double mapPosition(const ByValue& style, double value) {
     if (!(style.halfWidth() > 0)) return 0.5;
-    return std::clamp((0.5 * value - 0.5 * style.lo) / style.halfWidth(), 0.0, 1.0);
+    return std::clamp(placeOnScale(value, style.lo, style.halfWidth()), 0.0, 1.0);
 }
 
 struct RangeStyle {
@@ -86,6 +92,9 @@ struct Scene {
     // same mass. A power of two, at most kMaxStride; which points: render/subset.h.
     std::uint32_t stride = 1;
 };
+
+// What the step knows of its points, of which only those of the scene's runs may be read.
+timeseries::Columns columnsOf(const Scene& scene);
 
 // The draw list: the runs as they lie, or one list of all layers' points, farthest first.
 struct Runs {};

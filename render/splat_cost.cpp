@@ -29,7 +29,7 @@ double splatCost(const Scene& scene, std::size_t layer, const View& view) {
         // The k-th sample is the point in the middle of the k-th part of all.
         for (std::uint64_t at;
              k < samples && (at = (2 * k + 1) * points / (2 * samples)) < passed + run.count; ++k) {
-            const std::uint32_t index = scene.step.gridIndex()[run.first + (at - passed)];
+            const std::uint32_t index = scene.step.gridIndex(run.first + (at - passed));
             const auto s = splatAt<double>(seen, index, scene.footprint);
             if (s.visible) pixels += pixelsOf(s, seen, view.size);
         }

@@ -23,6 +23,7 @@ class SplatSource {
     SplatSource(const Scene& scene, const DrawList& list, const TileView& view, std::size_t layer)
         : scene_(scene),
           view_(view),
+          columns_(columnsOf(scene)),
           sorted_(view.channels == Channels::Over ? &std::get<Sorted>(list) : nullptr),
           layer_(layer) {}
 
@@ -33,13 +34,13 @@ class SplatSource {
         splats.index.clear();
         splats.tint.clear();
         std::visit(
-            [&](const auto& values) {
+            [&](auto values) {
                 if (sorted_)
                     nextSorted(atMost, values, splats);
                 else
                     nextOfRuns(atMost, values, splats);
             },
-            scene_.step.values());
+            columns_.values);
     }
 
  private:
@@ -49,8 +50,8 @@ class SplatSource {
         return tintPlace(view_, layer, scene_.layers[layer].style, static_cast<double>(value));
     }
     template <typename T>
-    void nextSorted(std::uint64_t atMost, const std::vector<T>& values, SplatList& splats) {
-        const auto index = scene_.step.gridIndex();
+    void nextSorted(std::uint64_t atMost, std::span<const T> values, SplatList& splats) {
+        const auto index = columns_.gridIndex;
         const std::uint64_t end = std::min(passed_ + atMost, std::uint64_t{sorted_->point.size()});
         for (; passed_ < end; ++passed_) {
             const std::size_t i = sorted_->point.size() - 1 - passed_;
@@ -60,8 +61,8 @@ class SplatSource {
         }
     }
     template <typename T>
-    void nextOfRuns(std::uint64_t atMost, const std::vector<T>& values, SplatList& splats) {
-        const auto index = scene_.step.gridIndex();
+    void nextOfRuns(std::uint64_t atMost, std::span<const T> values, SplatList& splats) {
+        const auto index = columns_.gridIndex;
         const bool tinted = view_.channels != Channels::Weight;
         const std::uint32_t stride = strideOf(layer(), scene_.stride);
         while (!done() && splats.index.size() < atMost) {
@@ -79,6 +80,7 @@ class SplatSource {
 
     const Scene& scene_;
     const TileView& view_;
+    timeseries::Columns columns_;
     const Sorted* sorted_;
     std::size_t layer_;
     // What is next: of this run, or of the list, after so many of its points.

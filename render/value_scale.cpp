@@ -21,7 +21,7 @@ ValueScale ValueScale::of(const std::vector<Layer>& layers) {
 float ValueScale::operator()(double value) const {
     if (halfWidth == 0) return 0;
     constexpr double kMost = std::numeric_limits<float>::max();
-    return static_cast<float>(std::clamp((0.5 * value - 0.5 * lo) / halfWidth, -kMost, kMost));
+    return static_cast<float>(std::clamp(placeOnScale(value, lo, halfWidth), -kMost, kMost));
 }
 
 bool ValueScale::serves(const ValueScale& wanted) const {

@@ -109,23 +109,20 @@ bool Grid::uniform() const {
     return axes_[0].uniform() && axes_[1].uniform() && axes_[2].uniform();
 }
 
-namespace {
-
-std::array<std::size_t, 3> unravel(std::uint64_t index, const std::array<std::size_t, 3>& n) {
-    return {index % n[0], index / n[0] % n[1], index / n[0] / n[1]};
+glm::vec<3, std::uint64_t> Grid::indices(std::uint64_t index) const {
+    const auto n = size();
+    return indicesOf(index, glm::vec<3, std::uint64_t>(n[0], n[1], n[2]));
 }
 
-}  // namespace
-
 glm::dvec3 Grid::position(std::uint64_t index) const {
-    const auto at = unravel(index, size());
+    const auto at = indices(index);
     const glm::dvec3 along(axes_[0].coordinates[at[0]], axes_[1].coordinates[at[1]],
                            axes_[2].coordinates[at[2]]);
     return frame_.origin + frame_.directions * along;
 }
 
 glm::dmat3 Grid::cell(std::uint64_t index) const {
-    const auto at = unravel(index, size());
+    const auto at = indices(index);
     double smallest = std::numeric_limits<double>::infinity();
     for (const Axis& axis : axes_)
         if (axis.coordinates.size() > 1) smallest = std::min(smallest, std::abs(meanStep(axis)));

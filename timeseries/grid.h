@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -50,6 +51,14 @@ std::vector<double> indexCoordinates(std::uint64_t length);
 // What keeps coordinates from placing points, in words; "" when nothing does. REQUIRES: not empty.
 std::string flawOf(const std::vector<double>& coordinates);
 
+// The places along the axes of point `index` of a grid of this size, x fastest. In the narrowest
+// type that holds the index: it divides fastest.
+template <std::unsigned_integral I>
+constexpr glm::vec<3, I> indicesOf(I index, const glm::vec<3, I>& size) {
+    const I row = index / size.x, slice = row / size.y;
+    return {index - row * size.x, row - slice * size.y, slice};
+}
+
 // Uniform and rectilinear grids, also rotated and sheared ones. Points are numbered x fastest:
 // index = x + nx (y + ny z). Curvilinear and scattered grids come behind the same position() and
 // cell().
@@ -65,6 +74,7 @@ class Grid {
     std::uint64_t count() const;
     bool uniform() const;
 
+    glm::vec<3, std::uint64_t> indices(std::uint64_t index) const;  // along the axes
     // In the file's space, in the units of the axes.
     glm::dvec3 position(std::uint64_t index) const;
     // Columns: the steps along the axes that the point stands for (index step -> the file's space).

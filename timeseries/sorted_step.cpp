@@ -188,6 +188,13 @@ RangeSet SortedStep::keptPart(const RangeSet& ranges) const {
     return RangeSet(std::move(parts));
 }
 
+Columns SortedStep::columns() const {
+    return {std::visit([](const auto& values) { return ValueSpan(std::span(values)); }, values_),
+            index_};
+}
+
+Columns SortedStep::columns(std::span<const Run>) const { return columns(); }
+
 Number SortedStep::value(std::uint64_t point) const {
     return std::visit([&](const auto& values) { return numberOf(values[point]); }, values_);
 }

@@ -25,6 +25,19 @@ struct OutsideKeptError : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
+// Values as they lie in memory, of the types of Values in its order.
+using ValueSpan = std::variant<std::span<const std::uint8_t>, std::span<const std::int8_t>,
+                               std::span<const std::uint16_t>, std::span<const std::int16_t>,
+                               std::span<const std::uint32_t>, std::span<const std::int32_t>,
+                               std::span<const std::uint64_t>, std::span<const std::int64_t>,
+                               std::span<const float>, std::span<const double>>;
+
+// What a step knows of its points, each in order of value. Of the step, which must outlive them.
+struct Columns {
+    ValueSpan values;                          // ascending
+    std::span<const std::uint32_t> gridIndex;  // ties ascend, too
+};
+
 // The whole step before anything was dropped.
 struct StepStatistics {
     std::uint64_t points = 0;   // valid: neither missing nor NaN
@@ -52,11 +65,15 @@ class SortedStep {
     RangeSet keptPart(const RangeSet& ranges) const;
 
     std::uint64_t size() const { return index_.size(); }
-    // Grid index of each point, in order of value.
-    std::span<const std::uint32_t> gridIndex() const { return index_; }
+    // Of all points.
+    Columns columns() const;
+    // Of all points, but only those in `runs` may be read: a step may not have put the others in
+    // order yet.
+    Columns columns(std::span<const Run> runs) const;
+    std::span<const std::uint32_t> gridIndex() const { return columns().gridIndex; }
+    std::uint32_t gridIndex(std::uint64_t point) const { return index_[point]; }
     Number value(std::uint64_t point) const;
     ValueType type() const { return static_cast<ValueType>(values_.index()); }
-    const Values& values() const { return values_; }  // ascending
     const Grid& grid() const { return *grid_; }
     const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
     const RangeSet& kept() const { return kept_; }

@@ -14,8 +14,8 @@ void PointSearch::look(std::shared_ptr<const timeseries::SortedStep> step, std::
         found_.reset();
     }
     if (ended()) return;
-    const auto part =
-        step_->gridIndex().subspan(looked_, std::min(points, step_->size() - looked_));
+    const timeseries::Run next{looked_, std::min(points, step_->size() - looked_)};
+    const auto part = step_->columns({&next, 1}).gridIndex.subspan(next.first, next.count);
     const auto at = std::find(part.begin(), part.end(), gridIndex_);
     looked_ += static_cast<std::uint64_t>(at - part.begin());
     if (at != part.end()) found_ = looked_;

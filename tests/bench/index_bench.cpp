@@ -52,7 +52,7 @@ std::vector<RangeSet> rangesOf(const std::vector<Interval<T>>& intervals) {
 template <typename T>
 void countComparisons(benchmark::State& state, const SortedStep& step,
                       const std::vector<Interval<T>>& intervals) {
-    const std::span<const T> values = std::get<std::vector<T>>(step.values());
+    const std::span<const T> values = std::get<std::span<const T>>(step.columns().values);
     std::uint64_t most = 0;
     for (const Interval<T>& interval : intervals) {
         std::uint64_t calls = 0;

@@ -86,7 +86,7 @@ void expectSelects(const SortedStep& step, const Field& field, const RangeSet& r
 template <typename T>
 void expectSorted(const SortedStep& step, const Field& field) {
     const auto& given = valuesOf<T>(field);
-    const auto& sorted = std::get<std::vector<T>>(step.values());
+    const auto sorted = std::get<std::span<const T>>(step.columns().values);
     Indices expected = expectedPoints<T>(field, step.kept().ranges());
     std::stable_sort(expected.begin(), expected.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return given[a] < given[b]; });
