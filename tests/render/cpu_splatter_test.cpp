@@ -169,6 +169,18 @@ TEST(Truth, TheTotalStaysWhenTheSplatIsSmallerThanAPixel) {
     }
 }
 
+TEST(Truth, ItStaysWherePixelsAreNotSquareEither) {
+    // Of a tenth of the pixel's longer side; a radius of the shorter one alone would show.
+    for (const glm::dvec2 half : {glm::dvec2(0.325, 0.1), glm::dvec2(0.1, 0.325)})
+        for (const double shift : {0.0, 0.2, 0.37, 0.5}) {
+            View view = tests::lookFrom({0, -1000, 0}, {65, 65});
+            view.clipFromView = clipFromView({-half.x, half.x, -half.y, half.y, 0.01, 5000});
+            view.viewFromWorld[3] += glm::dvec4(shift * 2.0 * half / 65.0 * 1000.0, 0, 0);
+            EXPECT_NEAR(massDrawn(weights(World(onePoint()), view), view, 1000), 1, 5e-3)
+                << half.x << ' ' << shift;
+        }
+}
+
 TEST(Truth, UnequalSpacingsKeepTheTotalFromEverySide) {
     const auto grid = std::make_shared<Grid>(std::array{axis(2), axis(2, 0, 4), axis(2, 0, 0.25)});
     const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }));

@@ -73,7 +73,7 @@ TEST(SlimFootprint, TheShareOfARayIsTheIntegralOfWhatItPassesInside) {
         const View view = tests::lookFrom(eye, {200, 200});
         const LatticeView seen(world.lattice, view);
         const std::uint64_t index = random() % world.step.size();
-        const Footprint footprint{Kernel::Quartic, trial % 3 == 0 ? 2.0 : 1.0};
+        const Footprint footprint{Kernel::Quartic, std::array{1.0, 2.0, 4.0}[trial / 3 % 3]};
         const auto s = splatAt<double>(seen, index, footprint);
         if (!world.lattice.longCells() || !s.cut) continue;
         ++cut;
@@ -110,6 +110,25 @@ TEST(SlimFootprint, TheShareOfARayIsTheIntegralOfWhatItPassesInside) {
     }
     EXPECT_GE(cut, 100);
     EXPECT_GE(compared, 200);
+}
+
+// Of a splat of radius 1 that is seen along z, straight through its middle, but for this slope.
+double shareBefore(double face, double slope) {
+    Splat<double> s;
+    s.cut = true;
+    s.depth = 100;
+    s.c = {slope, 0, 1}, s.x = {1, 0, 0}, s.y = {0, 1, 0};
+    s.loFace = glm::dvec3(-100);
+    s.hiFace = {face, 100, 100};
+    return s.insideShare({0, 0}, 0);
+}
+
+TEST(SlimFootprint, ARayAlongAFaceIsOnOneSideOfIt) {
+    // At 0.002 the face is crossed after 0.4 of 1 when the ray gains 0.005.
+    EXPECT_NEAR(shareBefore(0.002, 0.005), shareBetween<double>(kAlongRay, -1, 0.4), 1e-4);
+    EXPECT_NEAR(shareBefore(0.002, -0.005), shareBetween<double>(kAlongRay, -0.4, 1), 1e-4);
+    EXPECT_NEAR(shareBefore(0.002, 0), 1, 1e-9);
+    EXPECT_EQ(shareBefore(-0.002, 0), 0);
 }
 
 // The share of a kernel's mass before faces at t along the first n axes; in steps over space.
@@ -168,10 +187,15 @@ TEST(SlimFootprint, NothingIsDrawnBesideTheDomain) {
             const LatticeView seen(world.lattice, view);
             Accumulator<double> sums(view.size, {Channels::Weight});
             splat(world.scene, Runs{}, view, {}, sums);
+            Accumulator<double> counts(view.size, {Channels::Count});
+            splat(world.scene, Runs{}, view, {}, counts);
             for (int y = 0; y < view.size.y; ++y)
                 for (int x = 0; x < view.size.x; ++x)
                     if (pathLength(seen, glm::dvec2(x, y) + 0.5, 2.1) == 0) {
-                        ASSERT_EQ(sums.planes[0][std::size_t(y) * view.size.x + x], 0)
+                        const std::size_t pixel = std::size_t(y) * view.size.x + x;
+                        ASSERT_EQ(sums.planes[0][pixel], 0)
+                            << levels << " levels, pixel " << x << ' ' << y;
+                        ASSERT_EQ(counts.planes[0][pixel], 0)
                             << levels << " levels, pixel " << x << ' ' << y;
                     }
         }
