@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
@@ -83,14 +84,34 @@ Sorted permuted(const Sorted& list, const std::vector<std::uint32_t>& order) {
     return out;
 }
 
-// Counting sort over all 2^16 keys; stable.
-std::vector<std::uint32_t> orderOfKeys(const std::vector<std::uint16_t>& keys) {
-    std::vector<std::uint32_t> next(65537);
-    for (const std::uint16_t key : keys) ++next[key + 1u];
-    std::partial_sum(next.begin(), next.end(), next.begin());
+// Half of a key's bits sort in one pass over so few counters that they stay in the first-level
+// cache.
+constexpr unsigned kHalfBits = 11, kHalf = 1u << kHalfBits;
+constexpr double kLastKey = (1u << 2 * kHalfBits) - 1;
+
+// A key above, a place in the list below.
+using Keyed = std::uint64_t;
+unsigned halfOf(Keyed keyed, unsigned half) {
+    return static_cast<unsigned>(keyed >> (32 + half * kHalfBits)) & (kHalf - 1);
+}
+
+// Where those of each key's half begin, in its order.
+std::array<std::uint32_t, kHalf> beginnings(const std::vector<Keyed>& keys, unsigned half) {
+    std::array<std::uint32_t, kHalf> begin{};
+    for (const Keyed keyed : keys) ++begin[halfOf(keyed, half)];
+    std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
+    return begin;
+}
+
+// Counting sort by the lower half, then by the upper; stable.
+std::vector<std::uint32_t> orderOfKeys(const std::vector<Keyed>& keys) {
+    std::vector<Keyed> byLower(keys.size());
+    auto next = beginnings(keys, 0);
+    for (const Keyed keyed : keys) byLower[next[halfOf(keyed, 0)]++] = keyed;
     std::vector<std::uint32_t> order(keys.size());
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        order[next[keys[i]]++] = static_cast<std::uint32_t>(i);
+    next = beginnings(keys, 1);
+    for (const Keyed keyed : byLower)
+        order[next[halfOf(keyed, 1)]++] = static_cast<std::uint32_t>(keyed);
     return order;
 }
 
@@ -102,12 +123,12 @@ DrawList order(const Scene& scene, const glm::dvec3& midEye) {
     if (d.away.empty()) return Sorted{};
     const auto ends = std::minmax_element(d.away.begin(), d.away.end());
     const double farthest = *ends.second, span = farthest - *ends.first;
-    const double perUnit = span > 0 ? 65535 / span : 0;
-    std::vector<std::uint16_t> keys(d.away.size());
+    const double perUnit = span > 0 ? kLastKey / span : 0;
+    std::vector<Keyed> keys(d.away.size());
     inParts(keys.size(), threadsFor(keys.size(), kWorthAThread),
             [&](std::size_t first, std::size_t last) {
                 for (std::size_t i = first; i < last; ++i)
-                    keys[i] = static_cast<std::uint16_t>((farthest - d.away[i]) * perUnit + 0.5);
+                    keys[i] = static_cast<Keyed>((farthest - d.away[i]) * perUnit + 0.5) << 32 | i;
             });
     return permuted(d.list, orderOfKeys(keys));
 }

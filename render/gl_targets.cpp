@@ -79,8 +79,9 @@ void GlTargets::putPlane(std::size_t i, Channels channels, const PixelBox& part,
                         planes_[i]->format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, pixels.data());
 }
 
-void GlTargets::readLight(std::vector<float>& rows) const {
-    readPixels(light_.id(), size(), GL_RGBA, rows);
+std::span<const float> GlTargets::lightRows(std::vector<float>& room) const {
+    readPixels(light_.id(), size(), GL_RGBA, room);
+    return room;
 }
 
 std::vector<float> GlTargets::readScalarPlane(std::size_t i) const {

@@ -34,8 +34,7 @@ class GlTargets final : public Targets {
     void putPlane(std::size_t i, Channels channels, const PixelBox& part,
                   std::vector<float>& pixels) override;
     std::vector<float> readScalarPlane(std::size_t i) const override;
-    using Targets::readLight;
-    void readLight(std::vector<float>& rows) const override;
+    std::span<const float> lightRows(std::vector<float>& room) const override;
     GlTargets& onGl() override { return *this; }
 
  private:

@@ -44,11 +44,6 @@ std::vector<float> MemoryTargets::readScalarPlane(std::size_t i) const {
     return turnedOver(std::move(rows), size());
 }
 
-void MemoryTargets::readLight(std::vector<float>& rows) const {
-    assert(linear_.size() == 4 * pixels());
-    rows = linear_;
-}
-
 GlTargets& MemoryTargets::onGl() {
     if (!onGl_) onGl_ = std::make_unique<GlTargets>(size());
     if (linear_.size() == 4 * pixels())

@@ -29,8 +29,7 @@ class MemoryTargets final : public Targets {
     void putPlane(std::size_t i, Channels channels, const PixelBox& part,
                   std::vector<float>& pixels) override;
     std::vector<float> readScalarPlane(std::size_t i) const override;
-    using Targets::readLight;
-    void readLight(std::vector<float>& rows) const override;
+    std::span<const float> lightRows(std::vector<float>&) const override { return linear_; }
     std::span<const std::uint8_t> srgb8() const override { return srgb8_; }
     // REQUIRES: a current GL context, here and when this is destroyed.
     GlTargets& onGl() override;

@@ -41,7 +41,7 @@ void Present::draw(Targets& shown, GLuint framebuffer, glm::ivec2 at, Encoding e
 // The light stands before an opaque ground: its alpha is 1 but for rounding.
 void Present::drawHere(const GlTargets& light, GLuint framebuffer, glm::ivec2 at) const {
     const glm::ivec2 size = light.size();
-    light.readLight(light_);
+    light.lightRows(light_);
     encoded_.resize(light_.size());
     const std::size_t half = light_.size() / 8 * 4;
     {

@@ -105,7 +105,7 @@ struct Sorted {
 using DrawList = std::variant<Runs, Sorted>;
 
 // The list for one frame, made once for both eyes: distance from the point midway between them, so
-// that turning the head changes nothing. Keys are the distance in 2^16 steps over the points'
+// that turning the head changes nothing. Keys are the distance in 2^22 steps over the points'
 // own range of distances; ties keep the order of value.
 DrawList order(const Scene& scene, const glm::dvec3& midEye);
 // The same by the distance in double, compared: the truth's order.

@@ -38,9 +38,9 @@ class Targets {
 
     // Row 0 at the top, as in Image. REQUIRES: plane i is Weight or Count.
     virtual std::vector<float> readScalarPlane(std::size_t i) const = 0;
-    // Linear, premultiplied, four floats a pixel; into memory that may be used again. REQUIRES of
-    // what is in memory: its light was asked for as Linear.
-    virtual void readLight(std::vector<float>& rows) const = 0;
+    // Linear, premultiplied, four floats a pixel; `room` as for opaqueDepth(). REQUIRES of what is
+    // in memory: its light was asked for as Linear.
+    virtual std::span<const float> lightRows(std::vector<float>& room) const = 0;
     Image readLight() const;
     // Where the light is in memory as Srgb8, four bytes a pixel; else none.
     virtual std::span<const std::uint8_t> srgb8() const { return {}; }
@@ -63,11 +63,13 @@ std::vector<T> turnedOver(std::vector<T> rows, glm::ivec2 size) {
 }
 
 inline Image Targets::readLight() const {
-    std::vector<float> rows;
-    readLight(rows);
+    std::vector<float> room;
+    const std::span<const float> rows = lightRows(room);
     Image image(size_);
-    std::memcpy(image.pixels.data(), rows.data(), rows.size() * sizeof(float));
-    image.pixels = turnedOver(std::move(image.pixels), size_);
+    const std::size_t row = 4 * static_cast<std::size_t>(size_.x);
+    for (int y = 0; y < size_.y; ++y)
+        std::memcpy(&image.at(0, size_.y - 1 - y), &rows[static_cast<std::size_t>(y) * row],
+                    row * sizeof(float));
     return image;
 }
 

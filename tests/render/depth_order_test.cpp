@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/cpu_splatter.h"
 #include "render/scene.h"
 #include "tests/support/scenes.h"
 
@@ -60,11 +62,13 @@ TEST(DepthOrder, NotAskedForItIsTheRunsAsTheyLie) {
     EXPECT_TRUE(std::holds_alternative<Runs>(orderExactly(w.scene, kEyes[0])));
 }
 
+constexpr std::size_t kKeys = 1 << 22;
+
 // As many points as keys, evenly spaced along the ray of an eye: each has a key of its own. Values
 // rise with the distance: points of one key would keep the order of value.
-TEST(DepthOrder, TheKeysAre65536) {
+TEST(DepthOrder, TheKeysAre4194304) {
     const auto grid = std::make_shared<timeseries::Grid>(
-        std::array{tests::axis(65536), tests::axis(1), tests::axis(1)});
+        std::array{tests::axis(kKeys), tests::axis(1), tests::axis(1)});
     const auto step = tests::stepOf(grid, [](std::size_t i) { return double(i); });
     const Lattice lattice(step.grid());
     const Scene scene{.step = step,
@@ -74,11 +78,13 @@ TEST(DepthOrder, TheKeysAre65536) {
                       .order = Order::BackToFront,
                       .clip = {}};
     const auto sorted = std::get<Sorted>(order(scene, {-3, 0, 0}));
-    ASSERT_EQ(sorted.point.size(), 65536u);
-    for (std::uint32_t i = 0; i < 65536; ++i) ASSERT_EQ(sorted.point[i], 65535 - i);
+    ASSERT_EQ(sorted.point.size(), kKeys);
+    const auto falls = [](std::uint32_t a, std::uint32_t b) { return a != b + 1; };
+    EXPECT_EQ(sorted.point.front(), kKeys - 1);
+    EXPECT_EQ(std::ranges::adjacent_find(sorted.point, falls), sorted.point.end());
 }
 
-TEST(DepthOrder, FarthestFirstToOneKeyOf65536) {
+TEST(DepthOrder, FarthestFirstToOneKeyOf4194304) {
     const World w;
     for (const glm::dvec3& eye : kEyes) {
         const auto sorted = std::get<Sorted>(order(w.scene, eye));
@@ -87,7 +93,7 @@ TEST(DepthOrder, FarthestFirstToOneKeyOf65536) {
             nearest = std::min(nearest, w.distance(p, eye));
             farthest = std::max(farthest, w.distance(p, eye));
         }
-        const double key = (farthest - nearest) / 65535;
+        const double key = (farthest - nearest) / (kKeys - 1);
         for (std::size_t i = 1; i < sorted.point.size(); ++i)
             ASSERT_LE(w.distance(sorted.point[i], eye),
                       w.distance(sorted.point[i - 1], eye) + key * 1.000001)
@@ -133,6 +139,31 @@ TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
                       .clip = {}};
     for (const DrawList& list : {order(scene, {0, 0, 3}), orderExactly(scene, {0, 0, 3})})
         EXPECT_EQ(std::get<Sorted>(list).point, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+// Where next to nothing comes through, two neighbours in the wrong order are a pixel of the wrong
+// colour.
+TEST(DepthOrder, OpaqueSplatsAreSeenAsInTheTruthsOrder) {
+    const auto step = tests::noise(tests::cube(64));
+    const Lattice lattice(step.grid());
+    const Scene scene{.step = step,
+                      .lattice = lattice,
+                      .layers = {{step.select(RangeSet::everything()), {ByValue{{}, 0, 1}, 1}}},
+                      .footprint = {},
+                      .order = Order::BackToFront,
+                      .clip = {}};
+    const View view = tests::lookFrom({1.3, -2.4, 0.9}, {150, 150});
+    const glm::dvec3 eye = pixelRays(view).eye;
+    Accumulator<double> tested(view.size, {Channels::Over}), truth(view.size, {Channels::Over});
+    splat(scene, order(scene, eye), view, {}, tested);
+    splat(scene, orderExactly(scene, eye), view, {}, truth);
+    double most = 0, brightest = 0;
+    for (std::size_t i = 0; i < truth.planes[0].size(); ++i) {
+        most = std::max(most, std::abs(tested.planes[0][i] - truth.planes[0][i]));
+        brightest = std::max(brightest, truth.planes[0][i]);
+    }
+    EXPECT_LT(most, 1e-3);
+    EXPECT_GT(brightest, 0.5) << "or nothing was compared";
 }
 
 }  // namespace
