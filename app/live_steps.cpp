@@ -23,7 +23,8 @@ LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::ui
                      std::function<void()> wake)
     : series_(dataset.stepCount(), budgetBytes),
       loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader), dataset.variable,
-                                                       kept, std::move(wake))) {}
+                                                       kept, std::move(wake),
+                                                       timeseries::Ready::Whole)) {}
 
 LiveSteps::~LiveSteps() {
     endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_));

@@ -8,7 +8,7 @@ constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
 }  // namespace
 
 StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept)
-    : series_(dataset.stepCount(), kBudgetBytes),
+    : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
       loader_(std::move(dataset.reader), dataset.variable, std::move(kept)) {}
 
 std::shared_ptr<const timeseries::SortedStep> StepSource::get(std::size_t step, std::size_t next) {

@@ -1,36 +1,13 @@
-// Work that several threads share. Pure.
+// Work that several threads share, as timeseries/together.h has it.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <functional>
-#include <thread>
-#include <vector>
+#include "timeseries/together.h"
 
 namespace render {
 
-// How many share a picture; more of them only wait for memory.
-inline unsigned sharingThreads() {
-    return std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
-}
-
-// work(k) for every k below `threads`, each on a thread. REQUIRES: it does not throw.
-inline void together(unsigned threads, const std::function<void(unsigned)>& work) {
-    std::vector<std::jthread> others;
-    for (unsigned k = 1; k < threads; ++k) others.emplace_back(work, k);
-    work(0);
-}
-
-// Of those, as many as have so many things to do.
-inline unsigned threadsFor(std::size_t count, std::size_t worthAThread,
-                           unsigned most = sharingThreads()) {
-    return static_cast<unsigned>(std::clamp<std::size_t>(count / worthAThread, 1, most));
-}
-
-// work(first, last) for a part of `count` things on each thread.
-inline void inParts(std::size_t count, unsigned threads,
-                    const std::function<void(std::size_t, std::size_t)>& work) {
-    together(threads, [&](unsigned k) { work(count * k / threads, count * (k + 1) / threads); });
-}
+using timeseries::inParts;
+using timeseries::sharingThreads;
+using timeseries::threadsFor;
+using timeseries::together;
 
 }  // namespace render

@@ -8,7 +8,8 @@
 
 namespace timeseries {
 
-Series::Series(std::size_t steps, std::uint64_t budgetBytes) : slots_(steps), budget_(budgetBytes) {
+Series::Series(std::size_t steps, std::uint64_t budgetBytes, Quantiles quantiles)
+    : slots_(steps), budget_(budgetBytes), quantiles_(quantiles) {
     if (steps == 0) throw std::invalid_argument("a series needs at least one time step");
 }
 
@@ -54,8 +55,8 @@ Series::Steps Series::loaded(std::size_t step, std::shared_ptr<const SortedStep>
     if (auto before = drop(step)) left.push_back(std::move(before));
     Slot& slot = slots_[step];
     slot.summary = std::make_unique<const StepSummary>(
-        StepSummary{sorted->quantiles(kQuantiles), sorted->statistics(), sorted->size(),
-                    sorted->finite(), sorted->bytes()});
+        StepSummary{sorted->quantiles(quantiles_ == Quantiles::Kept ? kQuantiles : 0),
+                    sorted->statistics(), sorted->size(), sorted->finite(), sorted->bytes()});
     slot.state = SlotState::Loaded;
     slot.sorted = std::move(sorted);
     slot.lastUse = ++uses_;

@@ -16,10 +16,13 @@ namespace timeseries {
 
 enum class SlotState { Empty, Loading, Loaded, Failed };
 
+// Whether summaries have them: they are of points in order, which is more than a picture needs.
+enum class Quantiles { Kept, None };
+
 // What stays known of a step after it has left memory.
 struct StepSummary {
     // At the fractions 0, 1/1024, ..., 1 of the kept points that are finite; empty when there is
-    // none.
+    // none, or Quantiles::None.
     std::vector<double> quantiles;
     StepStatistics statistics;  // of the whole step, before anything was dropped
     std::uint64_t points = 0;   // kept
@@ -33,7 +36,7 @@ class Series {
     static constexpr std::size_t kQuantiles = 1024 + 1;
 
     // Throws std::invalid_argument when there is no step.
-    Series(std::size_t steps, std::uint64_t budgetBytes);
+    Series(std::size_t steps, std::uint64_t budgetBytes, Quantiles quantiles = Quantiles::Kept);
 
     std::size_t stepCount() const { return slots_.size(); }
     std::uint64_t bytes() const {
@@ -85,6 +88,7 @@ class Series {
     std::vector<std::size_t> wishes_;    // most urgent first, each once
     std::vector<std::size_t> loading_;   // as want() returned them; some may have come since
     std::uint64_t budget_;
+    Quantiles quantiles_;
     std::uint64_t bytes_ = 0;
     std::uint64_t largest_ = 0;  // bytes of the largest step seen
     std::uint64_t uses_ = 0;

@@ -8,8 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "timeseries/run_search.h"
-#include "timeseries/value_sort.h"
+#include "timeseries/lazy_column.h"
 
 namespace timeseries {
 namespace {
@@ -24,26 +23,6 @@ Number numberOf(T value) {
         return static_cast<std::int64_t>(value);
     }
 }
-
-template <typename T>
-bool isNan(T value) {
-    return value != value;
-}
-
-// Whether a value lies in one of a few intervals; the whole type is the common case.
-template <typename T>
-class KeptTest {
- public:
-    explicit KeptTest(const RangeSet& kept) : intervals_(kept.toIntervals<T>()) {}
-    bool operator()(T value) const {
-        for (const Interval<T>& i : intervals_)
-            if (i.lo <= value && value <= i.hi) return true;
-        return false;  // NaN too
-    }
-
- private:
-    std::vector<Interval<T>> intervals_;
-};
 
 // The least and the greatest of those that count.
 template <typename T, typename Counts>
@@ -60,23 +39,15 @@ std::pair<Number, Number> extentOf(std::span<const T> values, const Counts& coun
     return any ? std::pair{numberOf(lo), numberOf(hi)} : std::pair<Number, Number>{kNan, kNan};
 }
 
-// Adds to `kept` how many of the points that count are in what is kept.
-template <typename T, typename Valid, typename InKept>
-StepStatistics measure(std::span<const T> values, const Valid& valid, const InKept& inKept,
-                       std::size_t& kept) {
+// Of the whole field, of which the partition found what is valid.
+template <typename T>
+StepStatistics statisticsOf(const Field& field, std::span<const T> values,
+                            const Partition<T>& points) {
     StepStatistics s;
-    T lo{}, hi{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const T v = values[i];
-        if (!valid(i) || isNan(v)) continue;
-        if (s.points == 0) lo = hi = v;
-        lo = std::min(lo, v);
-        hi = std::max(hi, v);
-        ++s.points;
-        kept += inKept(v);
-    }
+    s.points = points.valid;
     s.missing = values.size() - s.points;
     s.min = s.max = std::numeric_limits<double>::quiet_NaN();
+    const T lo = points.leastValid, hi = points.greatestValid;
     if (s.points > 0) {
         s.min = numberOf(lo);
         s.max = numberOf(hi);
@@ -84,8 +55,9 @@ StepStatistics measure(std::span<const T> values, const Valid& valid, const InKe
     s.finiteMin = s.min;
     s.finiteMax = s.max;
     if (std::isinf(lo) || std::isinf(hi))  // rare: the others are spared the look
-        std::tie(s.finiteMin, s.finiteMax) =
-            extentOf(values, [&](std::size_t i) { return valid(i) && std::isfinite(values[i]); });
+        std::tie(s.finiteMin, s.finiteMax) = extentOf(values, [&](std::size_t i) {
+            return (field.missing.empty() || !field.missing[i]) && std::isfinite(values[i]);
+        });
     return s;
 }
 
@@ -98,7 +70,7 @@ bool inside(const Interval<T>& query, const std::vector<Interval<T>>& kept) {
 }
 
 template <typename T, typename Visit>
-void forEachRun(std::span<const T> ascending, const RangeSet& ranges, const RangeSet& kept,
+void forEachRun(const LazyColumn<T>& points, const RangeSet& ranges, const RangeSet& kept,
                 const Visit& visit) {
     const auto keptIntervals = kept.toIntervals<T>();
     for (const Interval<T>& query : ranges.toIntervals<T>()) {
@@ -106,7 +78,7 @@ void forEachRun(std::span<const T> ascending, const RangeSet& ranges, const Rang
             throw OutsideKeptError(fmt::format(
                 "range {} reaches outside what was kept, {}: keep more, or ask inside it",
                 ranges.text(), kept.empty() ? "nothing" : kept.text()));
-        const Run run = findRun(ascending, query);
+        const Run run = points.find(query);
         if (run.count > 0) visit(run);
     }
 }
@@ -123,9 +95,12 @@ std::optional<Range> commonPart(const Range& a, const Range& b) {
     return Range{{numberOf(common.lo)}, {numberOf(common.hi)}};
 }
 
+// More of them look into most of a step's buckets.
+constexpr std::size_t kFewQuantiles = 64;
+
 }  // namespace
 
-SortedStep SortedStep::build(const Field& field, const RangeSet& kept) {
+SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
     SortedStep step;
     step.grid_ = field.grid;
     step.kept_ = kept;
@@ -135,22 +110,11 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept) {
                 throw std::length_error(fmt::format(
                     "a step of {} points is more than the 2^32 that one list holds", all.size()));
             const std::span<const T> values(all);
-            const KeptTest<T> inKept(kept);
-            std::size_t count = 0;
-            SortedPairs<T> sorted;
-            if (field.missing.empty()) {
-                step.statistics_ = measure(
-                    values, [](std::size_t) { return true; }, inKept, count);
-                sorted =
-                    sortByValue(values, count, [&](std::size_t i) { return inKept(values[i]); });
-            } else {
-                const auto valid = [&](std::size_t i) { return !field.missing[i]; };
-                step.statistics_ = measure(values, valid, inKept, count);
-                sorted = sortByValue(values, count,
-                                     [&](std::size_t i) { return valid(i) && inKept(values[i]); });
-            }
-            step.values_ = std::move(sorted.values);
-            step.index_ = std::move(sorted.index);
+            const auto intervals = kept.toIntervals<T>();
+            Partition<T> points = partition<T>(values, field.missing, intervals, {threads});
+            step.statistics_ = statisticsOf(field, values, points);
+            step.size_ = points.points();
+            step.columns_ = std::make_shared<const LazyColumn<T>>(std::move(points), threads);
         },
         field.values);
     return step;
@@ -159,68 +123,82 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept) {
 std::vector<Run> SortedStep::select(const RangeSet& ranges) const {
     std::vector<Run> runs;
     std::visit(
-        [&]<typename T>(const std::vector<T>& values) {
-            forEachRun<T>(values, ranges, kept_, [&](const Run& run) { runs.push_back(run); });
+        [&](const auto& points) {
+            forEachRun(*points, ranges, kept_, [&](const Run& run) { runs.push_back(run); });
         },
-        values_);
+        columns_);
     return runs;
 }
 
 std::uint64_t SortedStep::count(const RangeSet& ranges) const {
     std::uint64_t count = 0;
     std::visit(
-        [&]<typename T>(const std::vector<T>& values) {
-            forEachRun<T>(values, ranges, kept_, [&](const Run& run) { count += run.count; });
+        [&](const auto& points) {
+            forEachRun(*points, ranges, kept_, [&](const Run& run) { count += run.count; });
         },
-        values_);
+        columns_);
     return count;
 }
 
 RangeSet SortedStep::keptPart(const RangeSet& ranges) const {
     std::vector<Range> parts;
     std::visit(
-        [&]<typename T>(const std::vector<T>&) {
+        [&]<typename T>(const std::shared_ptr<const LazyColumn<T>>&) {
             for (const Range& range : ranges.ranges())
                 for (const Range& kept : kept_.ranges())
                     if (const auto part = commonPart<T>(range, kept)) parts.push_back(*part);
         },
-        values_);
+        columns_);
     return RangeSet(std::move(parts));
 }
 
 Columns SortedStep::columns() const {
-    return {std::visit([](const auto& values) { return ValueSpan(std::span(values)); }, values_),
-            index_};
+    const Run all{0, size_};
+    return columns({&all, 1});
 }
 
-Columns SortedStep::columns(std::span<const Run>) const { return columns(); }
+Columns SortedStep::columns(std::span<const Run> runs) const {
+    return std::visit(
+        [&](const auto& points) {
+            for (const Run& run : runs) points->order(run);
+            return Columns{points->values(), points->gridIndex()};
+        },
+        columns_);
+}
+
+std::uint32_t SortedStep::gridIndex(std::uint64_t point) const {
+    const Run only{point, 1};
+    return columns({&only, 1}).gridIndex[point];
+}
 
 Number SortedStep::value(std::uint64_t point) const {
-    return std::visit([&](const auto& values) { return numberOf(values[point]); }, values_);
+    const Run only{point, 1};
+    return std::visit([&](auto values) { return numberOf(values[point]); },
+                      columns({&only, 1}).values);
 }
 
 std::uint64_t SortedStep::bytes() const {
-    const auto valueBytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return std::visit(valueBytes, values_) + index_.capacity() * sizeof(index_[0]);
+    return std::visit([](const auto& points) { return points->bytes(); }, columns_);
 }
 
 Run SortedStep::finite() const {
     return std::visit(
-        [&]<typename T>(const std::vector<T>& values) {
+        [&]<typename T>(const std::shared_ptr<const LazyColumn<T>>& points) {
             if constexpr (std::is_floating_point_v<T>) {
                 constexpr T kMost = std::numeric_limits<T>::max();
-                return findRun(std::span<const T>(values), Interval<T>{-kMost, kMost});
+                return points->find(Interval<T>{-kMost, kMost});
             } else {
-                return Run{0, values.size()};
+                return Run{0, points->size()};
             }
         },
-        values_);
+        columns_);
 }
 
 std::vector<double> SortedStep::quantiles(std::size_t n) const {
     std::vector<double> out;
     const Run among = finite();
     if (among.count == 0) return out;
+    if (n > kFewQuantiles) columns();  // all at once, on all threads
     out.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double fraction = n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);

@@ -24,12 +24,13 @@ std::size_t stepOf(const LoadResult& result) {
 }  // namespace
 
 StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-                       std::function<void()> wake)
+                       std::function<void()> wake, Ready ready)
     : reader_(std::move(reader)),
       variable_(variable),
       stepCount_(reader_->variables()[variable].time->points.size()),
       kept_(std::move(kept)),
       wake_(std::move(wake)),
+      ready_(ready),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 StepLoader::~StepLoader() = default;  // jthread asks to stop, which ends its waits, and joins
@@ -103,7 +104,9 @@ void StepLoader::run(const std::stop_token& stop) {
 LoadResult StepLoader::load(std::size_t step) {
     try {
         const Field field = reader_->read(variable_, step);
-        return Loaded{step, std::make_shared<const SortedStep>(SortedStep::build(field, kept_))};
+        auto sorted = std::make_shared<const SortedStep>(SortedStep::build(field, kept_));
+        if (ready_ == Ready::Whole) sorted->columns();
+        return Loaded{step, std::move(sorted)};
     } catch (const std::bad_alloc&) {
         return Failed{step, fmt::format("there is not enough memory for step {}", step)};
     } catch (const std::exception& e) {

@@ -33,6 +33,12 @@ struct Failed {
 
 using LoadResult = std::variant<Loaded, Failed>;
 
+// How much of a step's order is there when it can be polled.
+enum class Ready {
+    Asked,  // none: points are put in order where somebody looks
+    Whole   // all of it, so that who looks, at a histogram above all, never waits
+};
+
 // Members may be called from one thread at a time: the main one. The Reader is used by the loader's
 // own thread and nobody else. Destruction waits for a read that is running, no longer, and drops
 // its result.
@@ -42,7 +48,7 @@ class StepLoader {
     // after each result is there to be polled; it must not throw, nor call the loader.
     StepLoader(
         std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-        std::function<void()> wake = [] {});
+        std::function<void()> wake = [] {}, Ready ready = Ready::Asked);
     ~StepLoader();
     StepLoader(const StepLoader&) = delete;
     StepLoader& operator=(const StepLoader&) = delete;
@@ -74,6 +80,7 @@ class StepLoader {
     const std::size_t stepCount_;
     const RangeSet kept_;
     const std::function<void()> wake_;
+    const Ready ready_;
 
     std::mutex mutex_;
     std::condition_variable_any work_;  // the loader waits: wishes, or room for results

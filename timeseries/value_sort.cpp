@@ -2,6 +2,8 @@
 
 #include <hwy/contrib/sort/vqsort.h>
 
+#include <cstddef>
+
 namespace timeseries {
 
 void sortPacked(std::span<std::uint64_t> keys) {

@@ -10,8 +10,9 @@
 #include <random>
 #include <type_traits>
 
+#include "tests/bench/alternate.h"
+#include "tests/bench/former_build.h"
 #include "tests/bench/turbulence.h"
-#include "timeseries/run_search.h"
 #include "timeseries/sorted_step.h"
 
 namespace {
@@ -48,24 +49,6 @@ std::vector<RangeSet> rangesOf(const std::vector<Interval<T>>& intervals) {
     return ranges;
 }
 
-// Most comparisons any of the searches needs, over what the contract allows.
-template <typename T>
-void countComparisons(benchmark::State& state, const SortedStep& step,
-                      const std::vector<Interval<T>>& intervals) {
-    const std::span<const T> values = std::get<std::span<const T>>(step.columns().values);
-    std::uint64_t most = 0;
-    for (const Interval<T>& interval : intervals) {
-        std::uint64_t calls = 0;
-        timeseries::findRun(values, interval, [&](T a, T b) {
-            ++calls;
-            return a < b;
-        });
-        most = std::max(most, calls);
-    }
-    state.counters["comparisons"] = static_cast<double>(most);
-    state.counters["allowed"] = 2 * (std::log2(static_cast<double>(values.size())) + 1);
-}
-
 void countPoints(benchmark::State& state, std::uint64_t points) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points));
 }
@@ -75,9 +58,28 @@ void build(benchmark::State& state) {
     const Field field = turbulence<T>(static_cast<std::size_t>(state.range(0)));
     for (auto _ : state) {
         const SortedStep step = SortedStep::build(field);
-        benchmark::DoNotOptimize(step.gridIndex().data());
+        benchmark::DoNotOptimize(step.size());
     }
     countPoints(state, field.grid->count());
+}
+
+// Beside the index as it was, all sorted at once by one thread; and with all put in order, too.
+template <typename T>
+void buildBesideFormer(benchmark::State& state) {
+    const Field field = turbulence<T>(static_cast<std::size_t>(state.range(0)));
+    const std::span<const T> values = std::get<std::vector<T>>(field.values);
+    bench::alternate(
+        state, [&] { benchmark::DoNotOptimize(SortedStep::build(field).size()); },
+        [&] { benchmark::DoNotOptimize(bench::former::build(values).index.data()); });
+}
+template <typename T>
+void buildWholeBesideFormer(benchmark::State& state) {
+    const Field field = turbulence<T>(static_cast<std::size_t>(state.range(0)));
+    const std::span<const T> values = std::get<std::vector<T>>(field.values);
+    bench::alternate(
+        state,
+        [&] { benchmark::DoNotOptimize(SortedStep::build(field).columns().gridIndex.data()); },
+        [&] { benchmark::DoNotOptimize(bench::former::build(values).index.data()); });
 }
 
 // What most would write first: value and index in one key, sorted by the standard library. Nothing
@@ -102,17 +104,35 @@ template <typename T>
 void select(benchmark::State& state) {
     const Field field = turbulence<T>(static_cast<std::size_t>(state.range(0)));
     const SortedStep step = SortedStep::build(field);
-    const auto intervals = randomIntervals(std::get<std::vector<T>>(field.values));
-    const auto ranges = rangesOf(intervals);
+    step.columns();
+    const auto ranges = rangesOf(randomIntervals(std::get<std::vector<T>>(field.values)));
     std::size_t next = 0;
     for (auto _ : state) benchmark::DoNotOptimize(step.select(ranges[next++ % ranges.size()]));
-    countComparisons(state, step, intervals);
+}
+
+// The first range of a step that was just built: what its two ends fall among is sorted.
+template <typename T>
+void selectFirst(benchmark::State& state) {
+    const Field field = turbulence<T>(static_cast<std::size_t>(state.range(0)));
+    const auto ranges = rangesOf(randomIntervals(std::get<std::vector<T>>(field.values)));
+    std::size_t next = 0;
+    for (auto _ : state) {
+        state.PauseTiming();
+        {
+            const SortedStep step = SortedStep::build(field);
+            state.ResumeTiming();
+            benchmark::DoNotOptimize(step.select(ranges[next++ % ranges.size()]));
+            state.PauseTiming();
+        }
+        state.ResumeTiming();
+    }
 }
 
 template <typename T>
 void count(benchmark::State& state) {
     const Field field = turbulence<T>(static_cast<std::size_t>(state.range(0)));
     const SortedStep step = SortedStep::build(field);
+    step.columns();
     const auto ranges = rangesOf(randomIntervals(std::get<std::vector<T>>(field.values)));
     std::size_t next = 0;
     for (auto _ : state) benchmark::DoNotOptimize(step.count(ranges[next++ % ranges.size()]));
@@ -137,6 +157,11 @@ void countByScan(benchmark::State& state) {
 BENCHMARK(build<float>)->Arg(64)->Arg(128)->Arg(256)->Arg(512)->Unit(benchmark::kMillisecond);
 BENCHMARK(build<double>)->Arg(128)->Unit(benchmark::kMillisecond);
 BENCHMARK(build<std::int16_t>)->Arg(128)->Unit(benchmark::kMillisecond);
+BENCHMARK(buildBesideFormer<float>)->Arg(128)->Arg(256)->Arg(512)->Unit(benchmark::kMillisecond);
+BENCHMARK(buildBesideFormer<std::int16_t>)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(buildBesideFormer<std::uint8_t>)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(buildWholeBesideFormer<float>)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(selectFirst<float>)->Arg(256)->Iterations(20)->Unit(benchmark::kMillisecond);
 BENCHMARK(buildByStdSort)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(select<float>)->Arg(64)->Arg(128)->Arg(256)->Arg(512);
 BENCHMARK(select<double>)->Arg(128);

@@ -38,6 +38,14 @@ std::vector<std::size_t> stepsIn(const Series& series, SlotState state) {
     return steps;
 }
 
+TEST(Series, SummariesAreWithoutQuantilesWhereNobodyWantsThem) {
+    Series series(1, 1000, Quantiles::None);
+    series.loaded(0, stepOf(5));
+    ASSERT_NE(series.summary(0), nullptr);
+    EXPECT_TRUE(series.summary(0)->quantiles.empty());
+    EXPECT_EQ(series.summary(0)->points, 5u);
+}
+
 TEST(Series, BeginsEmpty) {
     Series series(3, 1000);
     EXPECT_THAT(stepsIn(series, SlotState::Empty), ElementsAre(0, 1, 2));

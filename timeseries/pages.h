@@ -1,0 +1,40 @@
+// Memory for a step's columns: not written when it is made, so that a page that nobody asks for
+// takes no room, and in large pages where that costs nobody else's.
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <utility>
+
+namespace timeseries {
+
+// Aligned to a cache line. Throws std::bad_alloc.
+class RawPages {
+ public:
+    explicit RawPages(std::size_t bytes = 0);
+    RawPages(RawPages&& other) noexcept
+        : at_(std::exchange(other.at_, nullptr)), align_(other.align_) {}
+    RawPages& operator=(RawPages&& other) noexcept {
+        std::swap(at_, other.at_);
+        std::swap(align_, other.align_);
+        return *this;
+    }
+    ~RawPages();
+    void* data() const { return at_; }
+
+ private:
+    void* at_ = nullptr;
+    std::align_val_t align_{64};
+};
+
+template <typename T>
+class Pages {
+ public:
+    explicit Pages(std::size_t count = 0) : pages_(count * sizeof(T)) {}
+    T* data() const { return static_cast<T*>(pages_.data()); }
+
+ private:
+    RawPages pages_;
+};
+
+}  // namespace timeseries

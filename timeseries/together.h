@@ -1,0 +1,51 @@
+// Work that several threads share. Pure.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace timeseries {
+
+// How many share what there is to do; more of them only wait for memory.
+inline unsigned sharingThreads() {
+    return std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+}
+
+// work(k) for every k below `threads`, each on a thread. REQUIRES: it does not throw.
+inline void together(unsigned threads, const std::function<void(unsigned)>& work) {
+    std::vector<std::jthread> others;
+    for (unsigned k = 1; k < threads; ++k) others.emplace_back(work, k);
+    work(0);
+}
+
+// The same for work that may throw: what one thread threw, if any, comes when all have ended.
+inline void sharing(unsigned threads, const std::function<void(unsigned)>& work) {
+    std::vector<std::exception_ptr> failures(threads);
+    together(threads, [&](unsigned k) {
+        try {
+            work(k);
+        } catch (...) {
+            failures[k] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+}
+
+// Of those, as many as have so many things to do.
+inline unsigned threadsFor(std::size_t count, std::size_t worthAThread,
+                           unsigned most = sharingThreads()) {
+    return static_cast<unsigned>(std::clamp<std::size_t>(count / worthAThread, 1, most));
+}
+
+// work(first, last) for a part of `count` things on each thread.
+inline void inParts(std::size_t count, unsigned threads,
+                    const std::function<void(std::size_t, std::size_t)>& work) {
+    together(threads, [&](unsigned k) { work(count * k / threads, count * (k + 1) / threads); });
+}
+
+}  // namespace timeseries
