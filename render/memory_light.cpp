@@ -8,6 +8,7 @@
 #include "render/flat_raster.h"
 #include "render/memory_targets.h"
 #include "render/resolve.h"
+#include "render/together.h"
 
 namespace render {
 namespace {

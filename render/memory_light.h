@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "render/light_pass.h"
-#include "render/together.h"
 
 namespace render {
 

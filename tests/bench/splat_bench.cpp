@@ -6,8 +6,8 @@
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
-#include "render/gl_targets.h"
 #include "render/gl_splatter.h"
+#include "render/gl_targets.h"
 #include "render/image_compare.h"
 #include "tests/bench/scattered_splats.h"
 
