@@ -1,6 +1,6 @@
 // A field's points put into buckets by value, on several threads: the part of a sort by value that
 // has to be done before anything is asked. What is left, the order inside a bucket, is
-// LazyColumns' (timeseries/lazy_columns.h).
+// LazyColumn's (timeseries/lazy_column.h).
 #pragma once
 
 #include <cstdint>

@@ -149,8 +149,22 @@ def index_page(part):
             "searches do not stay in the cache. `std::sort` sorts the same packed keys and need not unpack them; the scan compares every value\n"
             "(vectorised) and only counts. Building is on all cores, and leaves points to be put in order where a range ends or somebody looks."
             "\nThe rest is one thread's.\n\n")
-    return text + table(["points", "type", "build", "million points/s", "`std::sort` / build", "`select`", "`count`",
-                         "scan / `select`"], rows)
+    text += table(["points", "type", "build", "million points/s", "`std::sort` / build", "`select`", "`count`",
+                   "scan / `select`"], rows)
+    rows = []
+    for n, kind, run, asked in [(128, "float", "build", None), (256, "float", "build", 5), (512, "float", "build", None),
+                                (256, "int16", "build", 4), (256, "uint8", "build", 4), (256, "float", "buildWhole", None)]:
+        f = part(f"{run}BesideFormer<{kind if kind == 'float' else f'std::{kind}_t'}>/{n}")
+        if not f:
+            continue
+        rows.append([points(n), kind, "all put in order" if run == "buildWhole" else "", ms(f, "first_ms"), ms(f, "second_ms"),
+                     digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+        if asked:
+            target(f"build, 256³ {kind}: before / now", f["second/first"], asked, at_least=True)
+    first = part("selectFirst<float>/256")
+    return (text + "\nBeside the build as it was, everything sorted at once by one thread, by turns."
+            + (f" The first range of a step of 256³ floats: {time(seconds(first))}.\n\n" if first else "\n\n")
+            + table(["points", "type", "", "now", "before", "ratio", "of processor time"], rows))
 
 
 def stages_page(part):
@@ -184,9 +198,10 @@ def draw_page(part):
         f = part(f"BM_CanvasFrame/selected:{selected}/ordered:{ordered}/moving:{moving}")
         if f:
             rows.append([f"{selected:,}", "back to front" if ordered else "none", "yes" if moving else "no",
-                         f"{f['drawn']:,.0f}", time(seconds(f))])
-    text += ("\nA window's frame with axes, legend and presentation; while it moves, at most 100,000 splats stand for all.\n\n"
-             + table(["selected", "order", "moving", "drawn", "frame"], rows))
+                         f"{f['drawn']:,.0f}", ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+    text += ("\nA window's frame with axes, legend and presentation; while it moves, at most 100,000 splats stand for all. The program makes it in memory;\n"
+             "beside it, by turns, one that leaves all but the splats to GL, as all were before.\n\n"
+             + table(["selected", "order", "moving", "drawn", "frame", "with GL", "ratio", "of processor time"], rows))
     small = [(name, part(run)) for name, run in [("axes and legend", "BM_AxesAndLegend"), ("light onto a window", "BM_Present"),
                                                 ("a look at a million points (pick)", "BM_Pick/1000000")]]
     text += "\nOf it: " + "; ".join(f"{name} {time(seconds(f))}" for name, f in small if f) + ".\n"
@@ -231,7 +246,7 @@ def draw_page(part):
         if (opacity, kernel) == (100, 1):
             target("optical depth against the double truth, relative L2", f["depth"], 1e-5)
     text += ("\n## Accuracy\n\nRelative L2 against the same model in double with an exact order: 512 x 512, noise on 64³ points of which a fifth is selected, by\n"
-             "value. Light back to front has 16-bit keys; unordered it is another picture (a mean along the ray), good below a mean optical depth\n"
+             "value. Light back to front has 22-bit keys; unordered it is another picture (a mean along the ray), good below a mean optical depth\n"
              "of 0.1 to 0.3. A point splat within float rounding of a pixel's border may fall to its other side.\n\n"
              + table(["kernel", "opacity a cell", "mean optical depth", "optical depth", "light, ordered", "light, unordered"], rows))
     rows = []
