@@ -140,6 +140,7 @@ struct RowSum::Work {
     std::size_t width, floats;  // of the box's rows
     std::size_t pictureWidth;
     std::span<const float> opaqueDepth;
+    std::vector<float> nothingOpaque;  // a row of it, where there is none
     unsigned threads;
     std::vector<float> plane;
     std::vector<float> rowWeights;  // a row a thread
@@ -169,7 +170,10 @@ void RowSum::Work::gather(std::uint64_t atMost) {
 void RowSum::Work::addRow(const Placed& splat, int y, float* weights) {
     const PixelSpan x = seen.spanIn(splat, y);
     if (x.first >= x.last) return;
-    seen.weigh(splat, y, x, &opaqueDepth[static_cast<std::size_t>(y) * pictureWidth], weights);
+    const float* const opaque = opaqueDepth.empty()
+                                    ? nothingOpaque.data()
+                                    : &opaqueDepth[static_cast<std::size_t>(y) * pictureWidth];
+    seen.weigh(splat, y, x, opaque, weights);
     const auto row = static_cast<std::size_t>(y - box.at.y);
     float* to = &plane[(row * width + static_cast<std::size_t>(x.first - box.at.x)) * floats];
     const int count = x.last - x.first;
@@ -218,6 +222,8 @@ RowSum::RowSum(const Scene& scene, const View& view, Channels channels, std::siz
                          .floats = floats,
                          .pictureWidth = static_cast<std::size_t>(view.size.x),
                          .opaqueDepth = opaqueDepth,
+                         .nothingOpaque = std::vector<float>(
+                             opaqueDepth.empty() ? static_cast<std::size_t>(view.size.x) : 0, 1.0f),
                          .threads = threads,
                          .plane = std::move(memory),
                          .rowWeights = std::vector<float>(width * threads),

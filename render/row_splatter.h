@@ -19,8 +19,9 @@ namespace render {
 // depends on their number, nor on that of the threads.
 class RowSum {
  public:
-    // `opaqueDepth` is the depth [0, 1] of the opaque scene, a pixel each, row 0 at the bottom: a
-    // splat whose centre lies behind it is not drawn there. It, scene and view must outlive this.
+    // `opaqueDepth` is the depth [0, 1] of the opaque scene, a pixel each, row 0 at the bottom, or
+    // empty: a splat whose centre lies behind it is not drawn there. It, scene and view must
+    // outlive this.
     // REQUIRES: Weight or WeightedColor.
     // `memory` is what a plane before was made of, if any: pages that are new cost much.
     RowSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,

@@ -2,6 +2,8 @@
 // beside the GL splatter (tests/gl/splat_test.cpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "render/cpu_splatter.h"
 #include "render/image_compare.h"
 #include "render/row_splatter.h"
@@ -86,6 +88,14 @@ TYPED_TEST(PlaneSummed, WhatIsOpaqueHidesPixelByPixel) {
     splat(this->scene_, Runs{}, this->view_, {}, unhidden);
     EXPECT_GT(compareScalars(truth.planes[0], unhidden.planes[0]).relativeL2, 0.1)
         << "or nothing was hidden";
+}
+
+TYPED_TEST(PlaneSummed, WhereThereIsNothingOpaqueItNeedNotBeSaid) {
+    std::ranges::fill(this->opaque_, 1.0f);
+    const auto said = this->sum(Channels::WeightedColor, 2);
+    this->opaque_.clear();
+    EXPECT_EQ(this->sum(Channels::WeightedColor, 2), said);
+    EXPECT_GT(*std::ranges::max_element(said), 0);
 }
 
 }  // namespace
