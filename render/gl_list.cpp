@@ -18,8 +18,7 @@ std::vector<SortedPoint> gathered(const Scene& scene, const Sorted& list, const 
     const timeseries::Columns columns = columnsOf(scene);
     for (std::size_t i = 0; i < list.point.size(); ++i) {
         const std::uint32_t p = list.point[i];
-        out.push_back({columns.gridIndex[p], scale(timeseries::toDouble(scene.step.value(p))),
-                       list.layer[i]});
+        out.push_back({columns.gridIndex[p], scale(valueOf(columns, p)), list.layer[i]});
     }
     return out;
 }

@@ -73,9 +73,7 @@ Placed SeenLayer::place(std::uint64_t point, const PixelBox& box) const {
         within(pixelSpan(window.x, s.lo.x, s.hi.x, kernel, view_.size.x), box.at.x, box.size.x);
     placed.y =
         within(pixelSpan(window.y, s.lo.y, s.hi.y, kernel, view_.size.y), box.at.y, box.size.y);
-    if (colored_)
-        placed.color = glm::vec4(
-            glm::vec3(colorOf(style_, timeseries::toDouble(scene_.step.value(point)))), 1);
+    if (colored_) placed.color = glm::vec4(glm::vec3(colorOf(style_, valueOf(columns_, point))), 1);
     return placed;
 }
 

@@ -95,6 +95,11 @@ struct Scene {
 
 // What the step knows of its points, of which only those of the scene's runs may be read.
 timeseries::Columns columnsOf(const Scene& scene);
+// As colours take it.
+inline double valueOf(const timeseries::Columns& columns, std::uint64_t point) {
+    return std::visit([&](auto values) { return static_cast<double>(values[point]); },
+                      columns.values);
+}
 
 // The draw list: the runs as they lie, or one list of all layers' points, farthest first.
 struct Runs {};

@@ -20,6 +20,15 @@ std::shared_ptr<const timeseries::Grid> leaningGrid() {
         timeseries::Frame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
 }
 
+Scene allOf(const timeseries::SortedStep& step, const Lattice& lattice, RangeStyle style = {}) {
+    return {.step = step,
+            .lattice = lattice,
+            .layers = {{step.select(RangeSet::everything()), std::move(style)}},
+            .footprint = {},
+            .order = Order::BackToFront,
+            .clip = {}};
+}
+
 struct World {
     timeseries::SortedStep step = tests::noise(leaningGrid());
     Lattice lattice{step.grid()};
@@ -71,12 +80,7 @@ TEST(DepthOrder, TheKeysAre4194304) {
         std::array{tests::axis(kKeys), tests::axis(1), tests::axis(1)});
     const auto step = tests::stepOf(grid, [](std::size_t i) { return double(i); });
     const Lattice lattice(step.grid());
-    const Scene scene{.step = step,
-                      .lattice = lattice,
-                      .layers = {{step.select(RangeSet::everything()), {}}},
-                      .footprint = {},
-                      .order = Order::BackToFront,
-                      .clip = {}};
+    const Scene scene = allOf(step, lattice);
     const auto sorted = std::get<Sorted>(order(scene, {-3, 0, 0}));
     ASSERT_EQ(sorted.point.size(), kKeys);
     const auto falls = [](std::uint32_t a, std::uint32_t b) { return a != b + 1; };
@@ -131,12 +135,7 @@ TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
         std::array{tests::axis(2), tests::axis(2), tests::axis(1)});
     const auto step = tests::stepOf(grid, [](std::size_t i) { return 3 - double(i); });
     const Lattice lattice(step.grid());
-    const Scene scene{.step = step,
-                      .lattice = lattice,
-                      .layers = {{step.select(RangeSet::everything()), {}}},
-                      .footprint = {},
-                      .order = Order::BackToFront,
-                      .clip = {}};
+    const Scene scene = allOf(step, lattice);
     for (const DrawList& list : {order(scene, {0, 0, 3}), orderExactly(scene, {0, 0, 3})})
         EXPECT_EQ(std::get<Sorted>(list).point, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
@@ -146,12 +145,7 @@ TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
 TEST(DepthOrder, OpaqueSplatsAreSeenAsInTheTruthsOrder) {
     const auto step = tests::noise(tests::cube(64));
     const Lattice lattice(step.grid());
-    const Scene scene{.step = step,
-                      .lattice = lattice,
-                      .layers = {{step.select(RangeSet::everything()), {ByValue{{}, 0, 1}, 1}}},
-                      .footprint = {},
-                      .order = Order::BackToFront,
-                      .clip = {}};
+    const Scene scene = allOf(step, lattice, {ByValue{{}, 0, 1}, 1});
     const View view = tests::lookFrom({1.3, -2.4, 0.9}, {150, 150});
     const glm::dvec3 eye = pixelRays(view).eye;
     Accumulator<double> tested(view.size, {Channels::Over}), truth(view.size, {Channels::Over});

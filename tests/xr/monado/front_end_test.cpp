@@ -55,6 +55,7 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
     const Picture picture =
         makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice);
     render::FrameRenderer renderer;
+    const auto nothingHidden = std::make_shared<const render::HiddenArea>();
     Eyes eyes;
     std::optional<xr::Placement> placement;
     for (int drawn = 0; drawn < 120;) {
@@ -64,8 +65,9 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
         if (given.empty() || !frame->head()) continue;
         if (!placement) placement = volumeBefore(*frame->head(), lattice.boxHalfEdges());
         eyes.draw(&shown, given, *placement, {}, Eyes::Splats::All);
-        // With what the lenses hide, for which lines are GL's: their soft edges are a driver's.
-        const std::array views{viewOf(given[0], *placement), viewOf(given[1], *placement)};
+        std::array views{viewOf(given[0], *placement), viewOf(given[1], *placement)};
+        // Of nothing, for which all the same GL draws the lines: their soft edges are a driver's.
+        for (render::View& view : views) view.hidden = nothingHidden;
         const auto truth = renderer.render({.scene = picture.scene,
                                             .grid = shown.sorted->grid(),
                                             .legend = {},
