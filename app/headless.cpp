@@ -84,20 +84,16 @@ std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
     return mixed;
 }
 
-// What draws a picture: GL on a device, or the program, which makes a context only for what it
-// cannot draw itself.
+// What draws a picture: GL on a device, or the program itself.
 class Drawing {
  public:
-    explicit Drawing(const RenderOptions& options) : device_(options.device) {
-        const bool byGl = options.splatter == render::SplatterChoice::Gl ||
-                          (options.splatter == render::SplatterChoice::ByDevice &&
-                           !render::gl::onlyProcessorsDraw(device_));
-        if (!byGl) {
-            renderer_.emplace([this] { context_.emplace(device_); });
-            return;
-        }
-        context_.emplace(device_);
-        renderer_.emplace(options.splatter);
+    explicit Drawing(const RenderOptions& options) {
+        using render::SplatterChoice;
+        const bool byGl = options.splatter == SplatterChoice::Gl ||
+                          (options.splatter == SplatterChoice::ByDevice &&
+                           !render::gl::onlyProcessorsDraw(options.device));
+        if (byGl) context_.emplace(options.device);
+        renderer_.emplace(byGl ? options.splatter : SplatterChoice::Cpu);
     }
     render::FrameRenderer& renderer() { return *renderer_; }
     std::string name() const {
@@ -107,7 +103,6 @@ class Drawing {
     }
 
  private:
-    std::string device_;
     std::optional<render::gl::HeadlessContext> context_;
     std::optional<render::FrameRenderer> renderer_;
 };

@@ -18,9 +18,6 @@ struct Accumulator {
         for (const Channels c : channels)
             planes.emplace_back(std::size_t(size.x) * size.y * floatsPerPixel(c));
     }
-    static std::size_t floatsPerPixel(Channels c) {
-        return c == Channels::Weight || c == Channels::Count ? 1 : 4;
-    }
 };
 
 }  // namespace render

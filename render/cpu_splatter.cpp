@@ -83,7 +83,7 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
             into.channels[0] == Channels::Over || into.channels[0] == Channels::Count;
         const std::size_t plane = alone ? 0 : layer;
         const Channels channels = into.channels[plane];
-        const std::size_t floats = Accumulator<Real>::floatsPerPixel(channels);
+        const std::size_t floats = floatsPerPixel(channels);
         const Painter paint = painter(scene, scene.layers[layer], point);
         const auto visit = [&](int x, int y, Real weight) {
             const std::size_t pixel = std::size_t(y) * view.size.x + x;

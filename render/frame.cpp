@@ -36,14 +36,8 @@ FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
     inMemory_.setFont(font_);
 }
 
-FrameRenderer::FrameRenderer(std::function<void()> makeCurrent)
-    : FrameRenderer(SplatterChoice::Cpu) {
-    makeCurrent_ = std::move(makeCurrent);
-}
-
 FrameRenderer::Gl& FrameRenderer::needGl() {
     if (!gl_) {
-        if (makeCurrent_) makeCurrent_();
         gl_ = std::make_unique<Gl>();
         gl_->light.setFont(font_);
     }
@@ -90,25 +84,20 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     ++orders_;
     const Scene& scene = content.scene;
     // GL's own upload does it.
-    if (&light != &inMemory_ && !takesPointsFromGpu(scene))
+    if (&light != &inMemory_ && !takesPointsFromGpu())
         needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatterFor(scene).prepare(scene, order(scene, midEye), step), midEye, light,
-            as};
+    return {content, splatter().prepare(scene, order(scene, midEye), step), midEye, light, as};
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
-    if (takesPointsFromGpu(content.scene) || !MemoryLight::canDraw(content.placards, eyes))
+    if (takesPointsFromGpu() || !MemoryLight::canDraw(content.placards, eyes))
         return needGl().light;
     return inMemory_;
 }
 
-Splatter& FrameRenderer::splatterFor(const Scene& scene) {
-    if (takesPointsFromGpu(scene)) return needGl().splatter;
+Splatter& FrameRenderer::splatter() {
+    if (takesPointsFromGpu()) return needGl().splatter;
     return processor_;
-}
-
-bool FrameRenderer::takesPointsFromGpu(const Scene& scene) const {
-    return !(sums_ && ProcessorSplatter::canDraw(scene));
 }
 
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
@@ -170,30 +159,15 @@ double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
-    if (takesPointsFromGpu(content.scene)) step.upload(content.scene, neededScale(content.scene));
-    // A sorted list brings its own points; made before prepare(), whose layers then hold.
-    Scene sorted = content.scene;
-    sorted.order = Order::BackToFront;
-    std::unique_ptr<GpuList> counted;
-    if (extras.splatCount)
-        counted = needGl().splatter.upload(sorted, order(sorted, midway(eyes)), step);
+    if (takesPointsFromGpu()) step.upload(content.scene, neededScale(content.scene));
     const Prepared frame = prepare(content, step, eyes, LightAs::Linear);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
         drawWhole(frame, eye, extras.progress);
-        EyePicture& picture = pictures.emplace_back();
-        picture.image = targets().readLight();
-        if (extras.splatCount) picture.splatCount = countSplats(*counted, eye, frame.light);
+        pictures.push_back({targets().readLight(), {}, {}});
     }
-    if (extras.opticalDepth) {
-        // An ordered list interleaves the layers; their weights are added from the runs.
-        Scene unordered = content.scene;
-        unordered.order = Order::None;
-        if (takesPointsFromGpu(unordered)) step.upload(unordered, neededScale(unordered));
-        const auto splats = splatterFor(unordered).prepare(unordered, Runs{}, step);
-        for (std::size_t i = 0; i < eyes.size(); ++i)
-            pictures[i].opticalDepth = opticalDepth(unordered, *splats, eyes[i], frame.light);
-    }
+    if (extras.opticalDepth || extras.splatCount)
+        addData(content, step, eyes, frame.light, extras, pictures);
     if (gl_) gl::throwOnError();
     return pictures;
 }
@@ -234,29 +208,38 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
     return true;
 }
 
-std::vector<float> FrameRenderer::countSplats(const GpuList& counted, const View& view,
-                                              LightPass& light) {
-    light.drawDepth({}, {}, view, use(view.size, light));
-    GlTargets& targets = this->targets().onGl();
-    needGl().splatter.draw(counted, view, Channels::Count, 0,
-                           targets.clearedPlane(0, Channels::Count));
-    return targets.readScalarPlane(0);
+// From the runs: an ordered list interleaves the layers.
+void FrameRenderer::addData(const FrameContent& content, GpuStep& step, std::span<const View> eyes,
+                            LightPass& light, const Extras& extras,
+                            std::vector<EyePicture>& pictures) {
+    Scene scene = content.scene;
+    scene.order = Order::None;
+    if (takesPointsFromGpu()) step.upload(scene, neededScale(scene));
+    const auto splats = splatter().prepare(scene, Runs{}, step);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        EyePicture& picture = pictures[i];
+        if (extras.splatCount)
+            picture.splatCount = dataPlane(*splats, eyes[i], Channels::Count, 0, light);
+        if (!extras.opticalDepth) continue;
+        picture.opticalDepth.resize(picture.image.pixels.size());
+        for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+            const auto perWeight =
+                static_cast<float>(opticalDepthPerWeight(scene.layers[k].style.opacity));
+            const std::vector<float> weight =
+                dataPlane(*splats, eyes[i], Channels::Weight, k, light);
+            for (std::size_t p = 0; p < weight.size(); ++p)
+                picture.opticalDepth[p] += perWeight * weight[p];
+        }
+    }
 }
 
-std::vector<float> FrameRenderer::opticalDepth(const Scene& scene, SplatFrame& splats,
-                                               const View& view, LightPass& light) {
+std::vector<float> FrameRenderer::dataPlane(SplatFrame& splats, const View& view, Channels channels,
+                                            std::size_t layer, LightPass& light) {
     Targets& targets = use(view.size, light);
     light.drawDepth({}, {}, view, targets);
-    std::vector<float> total(std::size_t(view.size.x) * std::size_t(view.size.y));
-    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
-        const auto sum = splats.begin(view, Channels::Weight, k, targets);
-        while (!sum->done()) sum->add(kAllSplats);
-        const std::vector<float> weight = targets.readScalarPlane(k);
-        const auto perWeight =
-            static_cast<float>(opticalDepthPerWeight(scene.layers[k].style.opacity));
-        for (std::size_t i = 0; i < total.size(); ++i) total[i] += perWeight * weight[i];
-    }
-    return total;
+    const auto sum = splats.begin(view, channels, layer, targets);
+    while (!sum->done()) sum->add(kAllSplats);
+    return targets.readScalarPlane(layer);
 }
 
 }  // namespace render

@@ -39,15 +39,13 @@ struct Extras {
     std::function<void(double)> progress = {};
 };
 
-// Needs a current GL context, from construction to destruction, unless it is told how to get one.
+// Needs a current GL context, from construction to destruction, unless it is Cpu and what it draws
+// has neither placards nor hidden areas.
 class FrameRenderer {
  public:
     // `as`: what front ends want of light that the program makes in memory.
     explicit FrameRenderer(SplatterChoice splatter = SplatterChoice::ByDevice,
                            LightAs as = LightAs::Linear);
-    // For programs that may need no GL: the program sums what it can, and `makeCurrent` makes a
-    // context current before the first thing that it cannot; the context must outlive this.
-    explicit FrameRenderer(std::function<void()> makeCurrent);
 
     // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
     // picture does not depend on what was drawn before. Order is taken from the point midway
@@ -55,8 +53,8 @@ class FrameRenderer {
     std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
-    // Whether drawing the scene takes its points from the GPU; else the program sums them itself.
-    bool takesPointsFromGpu(const Scene& scene) const;
+    // Whether drawing takes a scene's points from the GPU; else the program sums them itself.
+    bool takesPointsFromGpu() const { return !sums_; }
     // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
     // step that is ready for the scene, if its points are taken from it.
     struct Prepared {
@@ -109,21 +107,22 @@ class FrameRenderer {
     };
     Gl& needGl();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
-    Splatter& splatterFor(const Scene& scene);
+    Splatter& splatter();
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
     bool drawSplats(EyeInWork& work, double cost);
     void drawWhole(const Prepared& frame, const View& eye,
                    const std::function<void(double)>& progress);
-    std::vector<float> countSplats(const GpuList& counted, const View& view, LightPass& light);
-    // Of an unordered scene.
-    std::vector<float> opticalDepth(const Scene& scene, SplatFrame& splats, const View& view,
-                                    LightPass& light);
+    // Data alone: what the picture shows beside it hides nothing.
+    void addData(const FrameContent& content, GpuStep& step, std::span<const View> eyes,
+                 LightPass& light, const Extras& extras, std::vector<EyePicture>& pictures);
+    // Row 0 at the top.
+    std::vector<float> dataPlane(SplatFrame& splats, const View& view, Channels channels,
+                                 std::size_t layer, LightPass& light);
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
     ProcessorSplatter processor_;
     MemoryLight inMemory_;
-    std::function<void()> makeCurrent_;
     std::unique_ptr<Gl> gl_;
     struct Held {
         const LightPass* of;
@@ -131,7 +130,7 @@ class FrameRenderer {
     };
     std::vector<Held> targets_;  // all of different sizes
     std::size_t current_ = 0;
-    bool sums_;  // planes itself, where it can
+    bool sums_;  // planes itself
     LightAs as_;
     std::uint64_t orders_ = 0, eyes_ = 0;
 };

@@ -62,7 +62,7 @@ class Composition {
         const int last = std::min(light.first + light.count, part.at.y + part.size.y);
         for (int y = std::max(light.first, part.at.y); y < last; ++y) {
             for (std::size_t i = 0; i < rows.size(); ++i) {
-                const std::size_t floats = rows[i].channels == Channels::Weight ? 1 : 4;
+                const std::size_t floats = floatsPerPixel(rows[i].channels);
                 assert(planes_[i]->part == part);
                 rows[i].sums =
                     planes_[i]->pixels.data() + floats * static_cast<std::size_t>(y - part.at.y) *

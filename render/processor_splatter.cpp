@@ -1,6 +1,5 @@
 #include "render/processor_splatter.h"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -9,12 +8,6 @@
 namespace render {
 namespace {
 
-bool byRows(const Scene& scene, Channels channels) {
-    return scene.lattice.longCells() &&
-           (channels == Channels::Weight || channels == Channels::WeightedColor);
-}
-
-// Splats of long cells are cut at the domain's faces, row by row.
 template <typename Sum, typename Memory>
 class Plane final : public PlaneSum {
  public:
@@ -62,13 +55,13 @@ class Frame final : public SplatFrame {
             return std::make_unique<Plane<decltype(sum), std::decay_t<decltype(memory)>>>(
                 std::move(sum), channels, layer, targets, memory);
         };
-        if (byRows(scene_, channels))
-            return plane(RowSum(scene_, view, channels, layer, opaqueDepth_, sharingThreads(),
-                                std::move(memory_.rows)),
-                         memory_.rows);
-        return plane(TileSum(scene_, list_, view, channels, layer, opaqueDepth_, sharingThreads(),
-                             std::move(memory_.tiles)),
-                     memory_.tiles);
+        if (TileSum::canSum(scene_, channels))
+            return plane(TileSum(scene_, list_, view, channels, layer, opaqueDepth_,
+                                 sharingThreads(), std::move(memory_.tiles)),
+                         memory_.tiles);
+        return plane(RowSum(scene_, list_, view, channels, layer, opaqueDepth_, sharingThreads(),
+                            std::move(memory_.rows)),
+                     memory_.rows);
     }
 
  private:
@@ -79,12 +72,6 @@ class Frame final : public SplatFrame {
 };
 
 }  // namespace
-
-bool ProcessorSplatter::canDraw(const Scene& scene) {
-    return std::ranges::all_of(channelsFor(scene), [&](Channels channels) {
-        return TileSum::canSum(scene, channels) || byRows(scene, channels);
-    });
-}
 
 std::unique_ptr<SplatFrame> ProcessorSplatter::prepare(const Scene& scene, DrawList list,
                                                        const GpuStep&) {

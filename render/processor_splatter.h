@@ -10,8 +10,7 @@ namespace render {
 
 class ProcessorSplatter final : public Splatter {
  public:
-    static bool canDraw(const Scene& scene);
-    // REQUIRES: canDraw(scene). Asks nothing of the step on the GPU.
+    // Asks nothing of the step on the GPU.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GpuStep& step) override;
 

@@ -1,11 +1,12 @@
 #include "render/row_splatter.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "render/footprint.h"
+#include "render/splat_source.h"
 #include "render/together.h"
 
 namespace render {
@@ -16,28 +17,32 @@ struct Placed {
     Splat<float> splat;
     float windowDepth = 0;
     PixelSpan x, y;
-    glm::vec4 color{1};  // what the four channels take for each W
+    glm::vec4 color{1};  // what the four channels take of its weight, or of its opacity
 };
 
-// A layer as a view sees it.
-class SeenLayer {
+// Points as a view sees them.
+class SeenPoints {
  public:
-    SeenLayer(const Scene& scene, const View& view, Channels channels, std::size_t layer)
+    SeenPoints(const Scene& scene, const View& view, Channels channels)
         : scene_(scene),
           view_(view),
           columns_(columnsOf(scene)),
-          style_(scene.layers[layer].style),
-          colored_(channels == Channels::WeightedColor),
+          colored_(channels == Channels::WeightedColor || channels == Channels::Over),
           seen_(scene.lattice, view),
-          perSplat_(pointsPerSplat(scene.layers[layer], scene.stride) * seen_.rayLength),
           axis_(seen_.rays.centre),
-          slope2_(1.0 / (seen_.rays.focal * seen_.rays.focal)) {}
+          slope2_(1.0 / (seen_.rays.focal * seen_.rays.focal)) {
+        for (const Layer& layer : scene.layers)
+            perSplat_.push_back(
+                pointsPerSplat(layer, scene.stride) * seen_.rayLength *
+                (channels == Channels::Over ? opticalDepthPerWeight(layer.style.opacity) : 1));
+    }
 
     // Spans no pixels when it is not drawn.
-    Placed place(std::uint64_t point, const PixelBox& box) const;
+    Placed place(std::uint32_t point, std::size_t layer, const PixelBox& box) const;
     // The pixels of row y that the splat may touch: fewer than its whole width where it is slim.
     PixelSpan spanIn(const Placed& placed, int y) const;
-    // W of these pixels in row y, 0 where the opaque scene hides it; the first one's first.
+    // Of these pixels in row y W, or the optical depth for Over, 0 where the opaque scene hides it;
+    // the first one's first.
     void weigh(const Placed& placed, int y, PixelSpan x, const float* opaqueRow,
                float* weights) const;
 
@@ -45,10 +50,10 @@ class SeenLayer {
     const Scene& scene_;
     const View& view_;
     timeseries::Columns columns_;
-    const RangeStyle& style_;
     bool colored_;
     LatticeView seen_;
-    double perSplat_;   // points that a splat stands for, times the length of the view axis' ray
+    // Of each layer: what a splat stands for, times the length of the view axis' ray.
+    std::vector<double> perSplat_;
     glm::vec2 axis_;    // window position of the view axis
     glm::vec2 slope2_;  // squares of x / -z and y / -z per pixel
 };
@@ -57,14 +62,14 @@ PixelSpan within(PixelSpan span, int first, int size) {
     return {std::max(span.first, first), std::min(span.last, first + size)};
 }
 
-Placed SeenLayer::place(std::uint64_t point, const PixelBox& box) const {
+Placed SeenPoints::place(std::uint32_t point, std::size_t layer, const PixelBox& box) const {
     Placed placed;
     const std::uint32_t i = columns_.gridIndex[point];
     if (!scene_.clip.holds(scene_.lattice.indices(i))) return placed;
     Splat<float>& s = placed.splat;
     s = splatAt<float>(seen_, i, scene_.footprint);
     if (!s.visible) return placed;
-    s.weight *= static_cast<float>(perSplat_);
+    s.weight *= static_cast<float>(perSplat_[layer]);
     placed.windowDepth = static_cast<float>(windowDepth(view_, static_cast<double>(s.depth)));
     if (placed.windowDepth > 1) return placed;  // beyond the far plane
     const glm::vec2 window = axis_ + s.centre;
@@ -73,11 +78,13 @@ Placed SeenLayer::place(std::uint64_t point, const PixelBox& box) const {
         within(pixelSpan(window.x, s.lo.x, s.hi.x, kernel, view_.size.x), box.at.x, box.size.x);
     placed.y =
         within(pixelSpan(window.y, s.lo.y, s.hi.y, kernel, view_.size.y), box.at.y, box.size.y);
-    if (colored_) placed.color = glm::vec4(glm::vec3(colorOf(style_, valueOf(columns_, point))), 1);
+    if (colored_)
+        placed.color =
+            glm::vec4(glm::vec3(colorOf(scene_.layers[layer].style, valueOf(columns_, point))), 1);
     return placed;
 }
 
-PixelSpan SeenLayer::spanIn(const Placed& placed, int y) const {
+PixelSpan SeenPoints::spanIn(const Placed& placed, int y) const {
     if (!scene_.lattice.longCells() || scene_.footprint.kernel == Kernel::Point) return placed.x;
     // n - d <= 0, a quadratic in the offset along the row; a pixel more on both sides for rounding.
     const Splat<float>& s = placed.splat;
@@ -92,8 +99,8 @@ PixelSpan SeenLayer::spanIn(const Placed& placed, int y) const {
             std::min(placed.x.last, pixel(std::ceil(middle + (-half + root) / a)) + 2)};
 }
 
-void SeenLayer::weigh(const Placed& placed, int y, PixelSpan x, const float* opaqueRow,
-                      float* weights) const {
+void SeenPoints::weigh(const Placed& placed, int y, PixelSpan x, const float* opaqueRow,
+                       float* weights) const {
     const Splat<float>& s = placed.splat;
     const float atY = static_cast<float>(y) + 0.5f - axis_.y;
     const float oy = atY - s.centre.y;
@@ -123,6 +130,29 @@ void SeenLayer::weigh(const Placed& placed, int y, PixelSpan x, const float* opa
     }
 }
 
+// To the pixels of a row. Over: the nearest splat comes first, and takes its opacity of what has
+// come through.
+void deposit(Channels channels, std::span<const float> weights, const glm::vec4& color, float* to) {
+    switch (channels) {
+        case Channels::Weight:
+            for (const float weight : weights) *to++ += weight;
+            return;
+        case Channels::Count:
+            for (const float weight : weights) *to++ += weight > 0 ? 1.0f : 0.0f;
+            return;
+        case Channels::WeightedColor:
+            for (const float weight : weights)
+                for (int c = 0; c < 4; ++c) *to++ += weight * color[c];
+            return;
+        case Channels::Over:
+            for (const float opticalDepth : weights) {
+                const float taken = (1 - to[3]) * -std::expm1(-opticalDepth);
+                for (int c = 0; c < 4; ++c) *to++ += taken * color[c];
+            }
+            return;
+    }
+}
+
 // Threads take the rows of a picture in turns, so many at a time.
 constexpr int kRows = 16;
 constexpr std::uint64_t kAtOnce = 1 << 15;
@@ -130,10 +160,9 @@ constexpr std::uint64_t kAtOnce = 1 << 15;
 }  // namespace
 
 struct RowSum::Work {
-    const Scene& scene;
-    const Layer& layer;
-    const std::uint32_t stride;
-    SeenLayer seen;
+    Channels channels;
+    SeenPoints seen;
+    SplatSource source;
     PixelBox box;
     std::size_t width, floats;  // of the box's rows
     std::size_t pictureWidth;
@@ -142,28 +171,12 @@ struct RowSum::Work {
     unsigned threads;
     std::vector<float> plane;
     std::vector<float> rowWeights;  // a row a thread
-    // What is next: of this run, after so many of its points.
-    std::size_t run = 0;
-    std::uint64_t passed = 0;
-    std::vector<std::uint64_t> points;
+    SplatPoints points;
     std::vector<Placed> placed;
 
-    void gather(std::uint64_t atMost);
     void sum();
     void addRow(const Placed& splat, int y, float* weights);
 };
-
-void RowSum::Work::gather(std::uint64_t atMost) {
-    points.clear();
-    while (run < layer.runs.size() && points.size() < atMost) {
-        const timeseries::Run& whole = layer.runs[run];
-        timeseries::Run part{whole.first + passed, whole.count - passed};
-        part.count = std::min(part.count, (atMost - points.size()) * stride);
-        forEachInSubset(part, stride, [&](std::uint64_t point) { points.push_back(point); });
-        passed += part.count;
-        if (passed == whole.count) ++run, passed = 0;
-    }
-}
 
 void RowSum::Work::addRow(const Placed& splat, int y, float* weights) {
     const PixelSpan x = seen.spanIn(splat, y);
@@ -173,21 +186,16 @@ void RowSum::Work::addRow(const Placed& splat, int y, float* weights) {
                                     : &opaqueDepth[static_cast<std::size_t>(y) * pictureWidth];
     seen.weigh(splat, y, x, opaque, weights);
     const auto row = static_cast<std::size_t>(y - box.at.y);
-    float* to = &plane[(row * width + static_cast<std::size_t>(x.first - box.at.x)) * floats];
-    const int count = x.last - x.first;
-    if (floats == 1)
-        for (int i = 0; i < count; ++i) to[i] += weights[i];
-    else
-        for (int i = 0; i < count; ++i)
-            for (int c = 0; c < 4; ++c) to[4 * i + c] += weights[i] * splat.color[c];
+    deposit(channels, {weights, static_cast<std::size_t>(x.last - x.first)}, splat.color,
+            &plane[(row * width + static_cast<std::size_t>(x.first - box.at.x)) * floats]);
 }
 
 void RowSum::Work::sum() {
-    placed.resize(points.size());
+    const std::size_t count = points.point.size();
+    placed.resize(count);
     together(threads, [&](unsigned k) {
-        const std::size_t end = points.size() * (k + 1) / threads;
-        for (std::size_t i = points.size() * k / threads; i < end; ++i)
-            placed[i] = seen.place(points[i], box);
+        for (std::size_t i = count * k / threads; i < count * (k + 1) / threads; ++i)
+            placed[i] = seen.place(points.point[i], points.layer[i], box);
     });
     together(threads, [&](unsigned k) {
         for (const Placed& p : placed) {
@@ -203,18 +211,17 @@ void RowSum::Work::sum() {
     });
 }
 
-RowSum::RowSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-               std::span<const float> opaqueDepth, unsigned threads, std::vector<float> memory) {
-    assert(channels == Channels::Weight || channels == Channels::WeightedColor);
+RowSum::RowSum(const Scene& scene, const DrawList& list, const View& view, Channels channels,
+               std::size_t layer, std::span<const float> opaqueDepth, unsigned threads,
+               std::vector<float> memory) {
     threads = std::max(threads, 1u);
     const PixelBox box = coveredPixels(scene, view);
     const auto width = static_cast<std::size_t>(box.size.x);
-    const std::size_t floats = channels == Channels::Weight ? 1 : 4;
+    const std::size_t floats = floatsPerPixel(channels);
     memory.assign(width * static_cast<std::size_t>(box.size.y) * floats, 0);
-    work_.reset(new Work{.scene = scene,
-                         .layer = scene.layers[layer],
-                         .stride = strideOf(scene.layers[layer], scene.stride),
-                         .seen{scene, view, channels, layer},
+    work_.reset(new Work{.channels = channels,
+                         .seen{scene, view, channels},
+                         .source{scene, list, channels, layer},
                          .box = box,
                          .width = width,
                          .floats = floats,
@@ -235,24 +242,24 @@ RowSum::~RowSum() = default;
 std::uint64_t RowSum::add(std::uint64_t splats) {
     std::uint64_t added = 0;
     while (!done() && added < splats) {
-        work_->gather(std::clamp(splats - added, kLeast, kAtOnce));
+        work_->source.next(std::clamp(splats - added, kLeast, kAtOnce), work_->points);
         work_->sum();
-        added += work_->points.size();
+        added += work_->points.point.size();
     }
     return added;
 }
 
-bool RowSum::done() const { return work_->run == work_->layer.runs.size(); }
+bool RowSum::done() const { return work_->source.done(); }
 const PixelBox& RowSum::box() const { return work_->box; }
 std::vector<float>& RowSum::plane() { return work_->plane; }
 std::vector<float> RowSum::takeMemory() { return std::move(work_->plane); }
 
-std::vector<float> sumRows(const Scene& scene, const View& view, Channels channels,
-                           std::size_t layer, std::span<const float> opaqueDepth,
+std::vector<float> sumRows(const Scene& scene, const DrawList& list, const View& view,
+                           Channels channels, std::size_t layer, std::span<const float> opaqueDepth,
                            unsigned threads) {
-    RowSum sum(scene, view, channels, layer, opaqueDepth, threads);
-    sum.add(splatCount(scene.layers[layer], scene.stride));
-    const std::size_t floats = channels == Channels::Weight ? 1 : 4;
+    RowSum sum(scene, list, view, channels, layer, opaqueDepth, threads);
+    sum.add(std::numeric_limits<std::uint64_t>::max());
+    const std::size_t floats = floatsPerPixel(channels);
     const auto width = static_cast<std::ptrdiff_t>(view.size.x * floats);
     std::vector<float> whole(static_cast<std::size_t>(width) * std::size_t(view.size.y));
     const auto row = static_cast<std::ptrdiff_t>(sum.box().size.x * floats);

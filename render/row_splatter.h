@@ -1,6 +1,6 @@
-// Splats summed on the processor, a row of pixels after another: for drivers that draw there
-// themselves, whose point sprites cost several times what their pixels do. The model of
-// render/footprint.h in float.
+// Splats summed on the processor, a row of pixels after another, in float: what tiles
+// (render/tile_splatter.h) do not know, splats of long cells and counts. The model of
+// render/footprint.h.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,17 @@
 
 namespace render {
 
-// What one layer of a scene adds up to in a view, over as many calls as one likes: not a bit
+// What one plane of a scene adds up to in a view, over as many calls as one likes: not a bit
 // depends on their number, nor on that of the threads.
 class RowSum {
  public:
     // `opaqueDepth` is the depth [0, 1] of the opaque scene, a pixel each, row 0 at the bottom, or
-    // empty: a splat whose centre lies behind it is not drawn there. It, scene and view must
-    // outlive this.
-    // REQUIRES: Weight or WeightedColor.
+    // empty: a splat whose centre lies behind it is not drawn there. `layer` is the plane's, where
+    // it has one; `list` is the scene's. All of them must outlive this.
     // `memory` is what a plane before was made of, if any: pages that are new cost much.
-    RowSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-           std::span<const float> opaqueDepth, unsigned threads = sharingThreads(),
-           std::vector<float> memory = {});
+    RowSum(const Scene& scene, const DrawList& list, const View& view, Channels channels,
+           std::size_t layer, std::span<const float> opaqueDepth,
+           unsigned threads = sharingThreads(), std::vector<float> memory = {});
     RowSum(RowSum&&) noexcept;
     ~RowSum();
 
@@ -47,8 +46,8 @@ class RowSum {
 };
 
 // All of it at once, for the whole picture.
-std::vector<float> sumRows(const Scene& scene, const View& view, Channels channels,
-                           std::size_t layer, std::span<const float> opaqueDepth,
+std::vector<float> sumRows(const Scene& scene, const DrawList& list, const View& view,
+                           Channels channels, std::size_t layer, std::span<const float> opaqueDepth,
                            unsigned threads = sharingThreads());
 
 }  // namespace render

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <variant>
@@ -120,6 +121,9 @@ DrawList orderExactly(const Scene& scene, const glm::dvec3& midEye);
 // one layer each; Over (premultiplied colour, opacity) and Count (splats that touch the pixel) take
 // every layer and stand alone.
 enum class Channels { Weight, WeightedColor, Over, Count };
+inline std::size_t floatsPerPixel(Channels channels) {
+    return channels == Channels::Weight || channels == Channels::Count ? 1 : 4;
+}
 // What the scene's picture needs: one entry a layer, or a single Over when it is ordered.
 std::vector<Channels> channelsFor(const Scene& scene);
 

@@ -33,8 +33,7 @@ class SplatFrame {
                                             Targets& targets) = 0;
 };
 
-// By default GL where the driver draws on a GPU, else the program, if it can. A program told to do
-// what it cannot (ProcessorSplatter::canDraw) leaves it to GL.
+// By default GL where the driver draws on a GPU, else the program itself.
 enum class SplatterChoice { ByDevice, Gl, Cpu };
 
 class Splatter {

@@ -140,7 +140,7 @@ void findTiles(const TileView& view, const SplatList& list, std::size_t first, s
 
 TileRoom::TileRoom(const TileView& view) {
     plane = static_cast<std::size_t>(kTileStride * view.tile.y) + 16;
-    sums.resize(plane * (view.channels == Channels::Weight ? 1 : 4));
+    sums.resize(plane * floatsPerPixel(view.channels));
     factor.resize(plane);
     perRay2.resize(plane);
     opaque.resize(plane);

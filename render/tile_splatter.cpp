@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "render/splat_source.h"
 #include "render/tile_kernels.h"
 #include "render/together.h"
 
@@ -16,77 +17,6 @@ namespace {
 constexpr std::uint64_t kAtOnce = 1 << 20;
 // Less is done before another thread has begun.
 constexpr std::size_t kWorthAThread = 1 << 11;
-
-// The points of a plane in the order in which they are summed: of a sorted list the nearest first.
-class SplatSource {
- public:
-    SplatSource(const Scene& scene, const DrawList& list, const TileView& view, std::size_t layer)
-        : scene_(scene),
-          view_(view),
-          columns_(columnsOf(scene)),
-          sorted_(view.channels == Channels::Over ? &std::get<Sorted>(list) : nullptr),
-          layer_(layer) {}
-
-    bool done() const {
-        return sorted_ ? passed_ == sorted_->point.size() : run_ == layer().runs.size();
-    }
-    void next(std::uint64_t atMost, SplatList& splats) {
-        splats.index.clear();
-        splats.tint.clear();
-        std::visit(
-            [&](auto values) {
-                if (sorted_)
-                    nextSorted(atMost, values, splats);
-                else
-                    nextOfRuns(atMost, values, splats);
-            },
-            columns_.values);
-    }
-
- private:
-    const Layer& layer() const { return scene_.layers[layer_]; }
-    template <typename T>
-    float tint(std::size_t layer, T value) const {
-        return tintPlace(view_, layer, scene_.layers[layer].style, static_cast<double>(value));
-    }
-    template <typename T>
-    void nextSorted(std::uint64_t atMost, std::span<const T> values, SplatList& splats) {
-        const auto index = columns_.gridIndex;
-        const std::uint64_t end = std::min(passed_ + atMost, std::uint64_t{sorted_->point.size()});
-        for (; passed_ < end; ++passed_) {
-            const std::size_t i = sorted_->point.size() - 1 - passed_;
-            const std::uint32_t point = sorted_->point[i];
-            splats.index.push_back(index[point]);
-            splats.tint.push_back(tint(sorted_->layer[i], values[point]));
-        }
-    }
-    template <typename T>
-    void nextOfRuns(std::uint64_t atMost, std::span<const T> values, SplatList& splats) {
-        const auto index = columns_.gridIndex;
-        const bool tinted = view_.channels != Channels::Weight;
-        const std::uint32_t stride = strideOf(layer(), scene_.stride);
-        while (!done() && splats.index.size() < atMost) {
-            const timeseries::Run& whole = layer().runs[run_];
-            timeseries::Run part{whole.first + passed_, whole.count - passed_};
-            part.count = std::min(part.count, (atMost - splats.index.size()) * stride);
-            forEachInSubset(part, stride, [&](std::uint64_t point) {
-                splats.index.push_back(index[point]);
-                if (tinted) splats.tint.push_back(tint(layer_, values[point]));
-            });
-            passed_ += part.count;
-            if (passed_ == whole.count) ++run_, passed_ = 0;
-        }
-    }
-
-    const Scene& scene_;
-    const TileView& view_;
-    timeseries::Columns columns_;
-    const Sorted* sorted_;
-    std::size_t layer_;
-    // What is next: of this run, or of the list, after so many of its points.
-    std::size_t run_ = 0;
-    std::uint64_t passed_ = 0;
-};
 
 }  // namespace
 
@@ -128,6 +58,7 @@ class TileMemory::Bins {
 
 struct TileMemory::Kept {
     std::vector<float> plane;
+    SplatPoints points;
     SplatList list;
     std::vector<TileSpan> spans;  // of the list
     std::vector<Bins> bins;
@@ -139,6 +70,8 @@ TileMemory& TileMemory::operator=(TileMemory&&) noexcept = default;
 TileMemory::~TileMemory() = default;
 
 struct TileSum::Work {
+    const Scene& scene;
+    timeseries::Columns columns;
     TileView view;
     SplatSource source;
     std::span<const float> opaqueDepth;
@@ -148,33 +81,37 @@ struct TileSum::Work {
     std::size_t floats;
     TileMemory memory;
     std::vector<float>& plane = memory.kept->plane;
+    SplatPoints& points = memory.kept->points;
     SplatList& list = memory.kept->list;
     std::vector<TileSpan>& spans = memory.kept->spans;
     std::vector<TileMemory::Bins>& bins = memory.kept->bins;
     std::vector<TileRoom> rooms;
     std::vector<std::uint8_t> begun;  // tiles
 
-    Work(const Scene& scene, const DrawList& draw, const View& of, Channels channels,
+    Work(const Scene& drawn, const DrawList& draw, const View& of, Channels channels,
          std::size_t layer, std::span<const float> depth, unsigned shared, TileMemory kept,
          std::uint64_t most)
-        : view(scene, of, channels, layer),
-          source(scene, draw, view, layer),
+        : scene(drawn),
+          columns(columnsOf(scene)),
+          view(scene, of, channels, layer),
+          source(scene, draw, channels, layer),
           opaqueDepth(depth),
           pictureWidth(of.size.x),
           threads(std::max(shared, 1u)),
           pairsAtOnce(most),
-          floats(channels == Channels::Weight ? 1 : 4),
+          floats(floatsPerPixel(channels)),
           memory(kept.kept ? std::move(kept) : TileMemory()),
           rooms(threads, TileRoom(view)),
           begun(static_cast<std::size_t>(view.tiles.x) * static_cast<std::size_t>(view.tiles.y)) {
         plane.resize(static_cast<std::size_t>(view.box.size.x) *
                      static_cast<std::size_t>(view.box.size.y) * floats);
         bins.resize(threads);
-        list.index.clear();
-        list.tint.clear();
+        points.point.clear();
+        points.layer.clear();
     }
 
     void sum();
+    void look(std::size_t first, std::size_t last);
     void sumPart(std::size_t first, std::size_t last, bool lastOfAll);
     void sumOne(std::size_t tile, std::span<const TileMemory::Bins> of, bool lastOfAll,
                 TileRoom& room);
@@ -196,6 +133,21 @@ struct TileSum::Work {
         });
     }
 };
+
+// Of these points: what of them is drawn, and where.
+void TileSum::Work::look(std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) list.index[i] = columns.gridIndex[points.point[i]];
+    if (!list.tint.empty())
+        std::visit(
+            [&](auto values) {
+                for (std::size_t i = first; i < last; ++i)
+                    list.tint[i] =
+                        tintPlace(view, points.layer[i], scene.layers[points.layer[i]].style,
+                                  static_cast<double>(values[points.point[i]]));
+            },
+            columns.values);
+    findTiles(view, list, first, last, spans);
+}
 
 void TileSum::Work::clear(std::size_t tile) {
     const glm::ivec2 at = cornerOf(view, tile), size = glm::min(view.tile, view.box.size - at);
@@ -263,11 +215,12 @@ void TileSum::Work::sumPart(std::size_t first, std::size_t last, bool lastOfAll)
 // In parts of so many pairs of a splat and a tile that their number has a bound, however large
 // the splats are.
 void TileSum::Work::sum() {
-    const std::size_t count = list.index.size();
+    const std::size_t count = points.point.size();
+    list.index.resize(count);
+    list.tint.resize(view.channels == Channels::Weight ? 0 : count);
     spans.resize(count);
-    inParts(
-        count, threadsFor(count, kWorthAThread, threads),
-        [&](std::size_t first, std::size_t last) { findTiles(view, list, first, last, spans); });
+    inParts(count, threadsFor(count, kWorthAThread, threads),
+            [&](std::size_t first, std::size_t last) { look(first, last); });
     std::size_t first = 0;
     std::uint64_t pairs = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -301,9 +254,9 @@ bool TileSum::canSum(const Scene& scene, Channels channels) {
 std::uint64_t TileSum::add(std::uint64_t splats) {
     std::uint64_t added = 0;
     while (!done() && added < splats) {
-        work_->source.next(std::clamp(splats - added, kLeast, kAtOnce), work_->list);
+        work_->source.next(std::clamp(splats - added, kLeast, kAtOnce), work_->points);
         work_->sum();
-        added += work_->list.index.size();
+        added += work_->points.point.size();
     }
     return added;
 }
@@ -318,7 +271,7 @@ std::vector<float> sumTiles(const Scene& scene, const DrawList& list, const View
                             std::span<const float> opaqueDepth, unsigned threads) {
     TileSum sum(scene, list, view, channels, layer, opaqueDepth, threads);
     sum.add(std::numeric_limits<std::uint64_t>::max());
-    const std::size_t floats = channels == Channels::Weight ? 1 : 4;
+    const std::size_t floats = floatsPerPixel(channels);
     const auto width = static_cast<std::size_t>(view.size.x) * floats;
     std::vector<float> whole(width * static_cast<std::size_t>(view.size.y));
     const std::size_t row = static_cast<std::size_t>(sum.box().size.x) * floats;

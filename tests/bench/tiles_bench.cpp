@@ -46,7 +46,7 @@ void tiles(benchmark::State& state) {
     };
     const auto before = [&] {
         if (what != Ordered) {
-            benchmark::DoNotOptimize(sumRows(world.scene, world.view, channels, 0, far));
+            benchmark::DoNotOptimize(sumRows(world.scene, Runs{}, world.view, channels, 0, far));
             return;
         }
         const auto uploaded = splatter.upload(world.scene, order(world.scene, eye), onGpu);

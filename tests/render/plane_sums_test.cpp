@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "render/cpu_splatter.h"
 #include "render/image_compare.h"
@@ -14,40 +16,46 @@ namespace render {
 namespace {
 
 struct Rows {
-    static std::vector<float> sum(const Scene& scene, const View& view, Channels channels,
-                                  std::span<const float> opaque, unsigned threads) {
-        return sumRows(scene, view, channels, 0, opaque, threads);
-    }
-    static RowSum begin(const Scene& scene, const View& view, Channels channels,
-                        std::span<const float> opaque) {
-        return {scene, view, channels, 0, opaque};
-    }
+    using Sum = RowSum;
+    static constexpr auto sum = sumRows;
+    static constexpr std::array kChannels{Channels::Weight, Channels::WeightedColor, Channels::Over,
+                                          Channels::Count};
 };
 struct Tiles {
-    static inline const DrawList kRuns = Runs{};
-    static std::vector<float> sum(const Scene& scene, const View& view, Channels channels,
-                                  std::span<const float> opaque, unsigned threads) {
-        return sumTiles(scene, kRuns, view, channels, 0, opaque, threads);
-    }
-    static TileSum begin(const Scene& scene, const View& view, Channels channels,
-                         std::span<const float> opaque) {
-        return {scene, kRuns, view, channels, 0, opaque};
-    }
+    using Sum = TileSum;
+    static constexpr auto sum = sumTiles;
+    static constexpr std::array kChannels{Channels::Weight, Channels::WeightedColor,
+                                          Channels::Over};
 };
 
 template <typename By>
 class PlaneSummed : public tests::NoisePlane {
  protected:
-    std::vector<float> sum(Channels channels, unsigned threads) const {
-        return By::sum(scene_, view_, channels, opaque_, threads);
+    // Of the scene as it is now.
+    void makeList() {
+        scene_.order = Order::BackToFront;
+        list_ = order(scene_, pixelRays(view_).eye);
     }
-    auto begin(Channels channels) const { return By::begin(scene_, view_, channels, opaque_); }
+    void SetUp() override { makeList(); }
+    std::vector<float> sum(Channels channels, unsigned threads) const {
+        return By::sum(scene_, list_, view_, channels, 0, opaque_, threads);
+    }
+    typename By::Sum begin(Channels channels) const {
+        return {scene_, list_, view_, channels, 0, opaque_};
+    }
+    std::vector<double> truth(Channels channels, std::span<const float> opaque) const {
+        Accumulator<double> sums(view_.size, {channels});
+        splat(scene_, list_, view_, opaque, sums);
+        return sums.planes[0];
+    }
+    static constexpr std::span<const Channels> kChannels = By::kChannels;
+    DrawList list_;
 };
 using Ways = testing::Types<Rows, Tiles>;
 TYPED_TEST_SUITE(PlaneSummed, Ways);
 
 TYPED_TEST(PlaneSummed, NotABitDependsOnTheThreads) {
-    for (const Channels channels : {Channels::Weight, Channels::WeightedColor}) {
+    for (const Channels channels : this->kChannels) {
         const auto alone = this->sum(channels, 1);
         for (const unsigned threads : {0u, 2u, 3u, 16u})
             EXPECT_EQ(this->sum(channels, threads), alone) << threads;
@@ -57,18 +65,21 @@ TYPED_TEST(PlaneSummed, NotABitDependsOnTheThreads) {
 TYPED_TEST(PlaneSummed, NotABitDependsOnTheCalls) {
     for (const std::uint32_t stride : {1u, 8u}) {
         this->scene_.stride = stride;
+        this->makeList();
         const std::uint64_t all = splatCount(this->scene_.layers[0], stride);
-        auto atOnce = this->begin(Channels::Weight);
-        atOnce.add(all);
-        const std::vector<float> whole(atOnce.plane().begin(), atOnce.plane().end());
-        for (const std::uint64_t splats : {std::uint64_t{1}, all / 2}) {
-            auto parts = this->begin(Channels::Weight);
-            std::uint64_t added = 0;
-            int calls = 0;
-            for (; !parts.done(); ++calls) added += parts.add(splats);
-            EXPECT_EQ(added, all);
-            EXPECT_TRUE(std::ranges::equal(parts.plane(), whole)) << splats << " at a time";
-            EXPECT_GE(calls, all > 2 * decltype(parts)::kLeast ? 2 : 1);
+        for (const Channels channels : this->kChannels) {
+            auto atOnce = this->begin(channels);
+            atOnce.add(all);
+            const std::vector<float> whole(atOnce.plane().begin(), atOnce.plane().end());
+            for (const std::uint64_t splats : {std::uint64_t{1}, all / 2}) {
+                auto parts = this->begin(channels);
+                std::uint64_t added = 0;
+                int calls = 0;
+                for (; !parts.done(); ++calls) added += parts.add(splats);
+                EXPECT_EQ(added, all);
+                EXPECT_TRUE(std::ranges::equal(parts.plane(), whole)) << splats << " at a time";
+                EXPECT_GE(calls, all > 2 * decltype(parts)::kLeast ? 2 : 1);
+            }
         }
     }
 }
@@ -79,15 +90,14 @@ TYPED_TEST(PlaneSummed, WhatIsOpaqueHidesPixelByPixel) {
     for (std::size_t i = 0; i < this->opaque_.size(); ++i)
         this->opaque_[i] = static_cast<float>(
             nearest + (farthest - nearest) * static_cast<double>(i * 37 % 101) / 100);
-    Accumulator<double> truth(this->view_.size, {Channels::WeightedColor});
-    splat(this->scene_, Runs{}, this->view_, this->opaque_, truth);
-    // A point within float rounding of its wall may stand before or behind it.
-    EXPECT_LE(compareScalars(this->sum(Channels::WeightedColor, 2), truth.planes[0]).relativeL2,
-              1e-4);
-    Accumulator<double> unhidden(this->view_.size, {Channels::WeightedColor});
-    splat(this->scene_, Runs{}, this->view_, {}, unhidden);
-    EXPECT_GT(compareScalars(truth.planes[0], unhidden.planes[0]).relativeL2, 0.1)
-        << "or nothing was hidden";
+    for (const Channels channels : this->kChannels) {
+        const auto truth = this->truth(channels, this->opaque_);
+        // A point within float rounding of its wall may stand before or behind it.
+        const double most = channels == Channels::Count ? 1e-3 : 1e-4;
+        EXPECT_LE(compareScalars(this->sum(channels, 2), truth).relativeL2, most);
+        EXPECT_GT(compareScalars(truth, this->truth(channels, {})).relativeL2, 0.1)
+            << "or nothing was hidden";
+    }
 }
 
 TYPED_TEST(PlaneSummed, WhereThereIsNothingOpaqueItNeedNotBeSaid) {
@@ -96,6 +106,20 @@ TYPED_TEST(PlaneSummed, WhereThereIsNothingOpaqueItNeedNotBeSaid) {
     this->opaque_.clear();
     EXPECT_EQ(this->sum(Channels::WeightedColor, 2), said);
     EXPECT_GT(*std::ranges::max_element(said), 0);
+}
+
+// All layers, each with its own style, in one plane.
+TYPED_TEST(PlaneSummed, LayersAreLaidOverEachOtherInOrderOfDepth) {
+    for (const char* range : {"0.4:0.5", "0.95:1"})
+        this->scene_.layers.push_back(
+            {this->step_.select(timeseries::RangeSet::parse(range)),
+             {Constant{glm::dvec3(0.1, 0.2, range[2] == '4' ? 0.9 : 0.3)}, 0.7}});
+    this->makeList();
+    const auto truth = this->truth(Channels::Over, {});
+    EXPECT_LE(compareScalars(this->sum(Channels::Over, 2), truth).relativeL2, 1e-4);
+    this->scene_.layers.resize(1);
+    this->makeList();
+    EXPECT_GT(compareScalars(truth, this->truth(Channels::Over, {})).relativeL2, 0.1);
 }
 
 }  // namespace

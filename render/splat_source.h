@@ -1,0 +1,40 @@
+// The points of a plane, in the order in which they are summed. Pure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/scene.h"
+
+namespace render {
+
+struct SplatPoints {
+    std::vector<std::uint32_t> point;  // positions in the sorted step
+    std::vector<std::uint8_t> layer;
+};
+
+// Over: those of the list, the nearest first, REQUIRES: Sorted. Else the scene's runs: all layers
+// of them for Count, `layer` alone for the others. Scene and list must outlive this.
+class SplatSource {
+ public:
+    SplatSource(const Scene& scene, const DrawList& list, Channels channels, std::size_t layer);
+
+    bool done() const;
+    // The next ones: so many, or what is left, give or take the unevenness of a subset
+    // (render/subset.h).
+    void next(std::uint64_t atMost, SplatPoints& points);
+
+ private:
+    void nextOfList(std::uint64_t atMost, SplatPoints& points);
+    void nextOfRuns(std::uint64_t atMost, SplatPoints& points);
+    void passEnds();
+
+    const Scene& scene_;
+    const Sorted* sorted_;
+    // What is next: of the list or of this run, after so many of its points; `last_` is the layer
+    // after the last.
+    std::size_t layer_, last_, run_ = 0;
+    std::uint64_t passed_ = 0;
+};
+
+}  // namespace render
