@@ -86,7 +86,7 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     // GL's own upload does it.
     if (&light != &inMemory_ && !takesPointsFromGpu())
         needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatter().prepare(scene, order(scene, midEye), step), midEye, light, as};
+    return {content, splatter().prepare(scene, order_(scene, midEye), step), midEye, light, as};
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "render/depth_order.h"
 #include "render/gl/driver.h"
 #include "render/gl_light.h"
 #include "render/gl_list.h"
@@ -121,6 +122,7 @@ class FrameRenderer {
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
+    DepthOrder order_;
     ProcessorSplatter processor_;
     MemoryLight inMemory_;
     std::unique_ptr<Gl> gl_;

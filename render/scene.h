@@ -110,13 +110,6 @@ struct Sorted {
 };
 using DrawList = std::variant<Runs, Sorted>;
 
-// The list for one frame, made once for both eyes: distance from the point midway between them, so
-// that turning the head changes nothing. Keys are the distance in 2^22 steps over the points'
-// own range of distances; ties keep the order of value.
-DrawList order(const Scene& scene, const glm::dvec3& midEye);
-// The same by the distance in double, compared: the truth's order.
-DrawList orderExactly(const Scene& scene, const glm::dvec3& midEye);
-
 // What a plane of pixels accumulates. Weight (W) and WeightedColor (W times colour, W) belong to
 // one layer each; Over (premultiplied colour, opacity) and Count (splats that touch the pixel) take
 // every layer and stand alone.

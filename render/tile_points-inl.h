@@ -11,8 +11,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
+#include "render/grid_indices-inl.h"
 #include "render/tile_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,18 +23,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Of splats, one a lane, and of the pixels of a row; doubles and their indices half as many.
 using Floats = hn::CappedTag<float, 16>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
-using Doubles = hn::CappedTag<double, 8>;
 using HalfFloats = hn::Rebind<float, Doubles>;
-using HalfInts = hn::Rebind<std::int32_t, Doubles>;
-using Longs = hn::Rebind<std::int64_t, Doubles>;
 using FewFloats = hn::CappedTag<float, 8>;  // pixels of narrow splats
 constexpr std::size_t kLanes = hn::MaxLanes(Floats());
 using F = hn::Vec<Floats>;
 using I = hn::Vec<Ints>;
-using D = hn::Vec<Doubles>;
 
 HWY_INLINE F f(float x) { return hn::Set(Floats(), x); }
-HWY_INLINE D d(double x) { return hn::Set(Doubles(), x); }
 HWY_INLINE F joined(const D* halves) {
     return hn::Combine(Floats(), hn::DemoteTo(HalfFloats(), halves[1]),
                        hn::DemoteTo(HalfFloats(), halves[0]));
@@ -61,33 +56,13 @@ struct Points {
     F windowDepth;
 };
 
-// Indices along the axes of linear ones: the quotients stand 1/2 / size away from any whole number,
-// and doubles of indices below 2^32 keep that.
-HWY_INLINE void alongAxes(const TileView& view, const std::uint32_t* index, int half, D* at) {
-    const HalfInts ints;
-    constexpr std::int32_t kSign = std::numeric_limits<std::int32_t>::min();
-    const auto low = hn::LoadU(ints, reinterpret_cast<const std::int32_t*>(index) +
-                                         static_cast<std::size_t>(half) * hn::Lanes(ints));
-    const D i =
-        hn::Add(hn::PromoteTo(Doubles(), hn::Xor(low, hn::Set(ints, kSign))), d(2147483648.0));
-    const double slice = view.size[0] * view.size[1];
-    at[2] = hn::Floor(hn::Mul(hn::Add(i, d(0.5)), d(1 / slice)));
-    const D inSlice = hn::NegMulAdd(at[2], d(slice), i);
-    at[1] = hn::Floor(hn::Mul(hn::Add(inSlice, d(0.5)), d(1 / view.size[0])));
-    at[0] = hn::NegMulAdd(at[1], d(view.size[0]), inSlice);
-}
-
 HWY_INLINE Points see(const TileView& view, const std::uint32_t* index, glm::ivec2 tileAt) {
     D at[3][2], depth[2], perDepth[2], window[2][2], centre[2][2], windowDepth[2];
     for (int half = 0; half < 2; ++half) {
         D ijk[3], along[3], seen[3];
-        alongAxes(view, index, half, ijk);
-        for (int a = 0; a < 3; ++a) {
-            at[a][half] = ijk[a];
-            const auto whole = hn::PromoteTo(Longs(), hn::DemoteTo(HalfInts(), ijk[a]));
-            along[a] =
-                hn::GatherIndex(Doubles(), view.position[static_cast<std::size_t>(a)], whole);
-        }
+        alongAxes(view.size, index + static_cast<std::size_t>(half) * hn::Lanes(Doubles()), ijk);
+        positionsOf(view.position, ijk, along);
+        for (int a = 0; a < 3; ++a) at[a][half] = ijk[a];
         for (std::size_t k = 0; k < 3; ++k)
             seen[k] = hn::MulAdd(along[0], d(view.viewFromAxes[0][k]),
                                  hn::MulAdd(along[1], d(view.viewFromAxes[1][k]),
@@ -116,7 +91,7 @@ HWY_INLINE Points seeRoughly(const TileView& view, const std::uint32_t* index) {
     D at[3][2];
     for (int half = 0; half < 2; ++half) {
         D ijk[3];
-        alongAxes(view, index, half, ijk);
+        alongAxes(view.size, index + static_cast<std::size_t>(half) * hn::Lanes(Doubles()), ijk);
         for (int a = 0; a < 3; ++a) at[a][half] = ijk[a];
     }
     Points p;

@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "render/cpu_splatter.h"
+#include "render/depth_order.h"
 #include "render/frame.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"

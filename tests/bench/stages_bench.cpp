@@ -9,6 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "render/depth_order.h"
 #include "render/footprint.h"
 #include "render/frame.h"
 #include "render/gl/headless_context.h"
@@ -117,6 +118,7 @@ void stageOrder(benchmark::State& state) {
     const bench::Volume& v = volume(points(state));
     Scene scene = v.scene(share(state));
     scene.order = Order::BackToFront;
+    DepthOrder order;
     for (auto _ : state) benchmark::DoNotOptimize(order(scene, pixelRays(bench::outside()).eye));
 }
 

@@ -2,6 +2,7 @@
 // and what the driver makes of point sprites for ordered ones.
 #include <benchmark/benchmark.h>
 
+#include "render/depth_order.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
 #include "render/gl_list.h"
@@ -35,10 +36,11 @@ void tiles(benchmark::State& state) {
                .size = world.view.size,
                .clearColor = glm::vec4(0),
                .clearDepth = 1.0f});
+    DepthOrder inDepth;
     TileMemory memory;
     // A frame's order is made anew for the eye.
     const auto byTiles = [&] {
-        const DrawList list = order(world.scene, eye);
+        const DrawList list = inDepth(world.scene, eye);
         TileSum sum(world.scene, list, world.view, channels, 0, far, sharingThreads(),
                     std::move(memory));
         sum.add(static_cast<std::uint64_t>(state.range(0)) * 2);
@@ -49,7 +51,7 @@ void tiles(benchmark::State& state) {
             benchmark::DoNotOptimize(sumRows(world.scene, Runs{}, world.view, channels, 0, far));
             return;
         }
-        const auto uploaded = splatter.upload(world.scene, order(world.scene, eye), onGpu);
+        const auto uploaded = splatter.upload(world.scene, inDepth(world.scene, eye), onGpu);
         splatter.draw(*uploaded, world.view, channels, 0, targets.clearedPlane(0, channels));
         glFinish();
     };

@@ -11,6 +11,7 @@
 #include <vtkPolyData.h>
 #include <vtkThresholdPoints.h>
 
+#include "render/depth_order.h"
 #include "render/gl/headless_context.h"
 #include "render/gl_list.h"
 #include "tests/bench/alternate.h"

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "render/cpu_splatter.h"
+#include "render/depth_order.h"
 #include "render/gl/pass.h"
 #include "render/image_compare.h"
 #include "render/row_splatter.h"

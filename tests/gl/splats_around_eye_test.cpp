@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/cpu_splatter.h"
+#include "render/depth_order.h"
 #include "render/footprint.h"
 #include "render/image_compare.h"
 #include "render/row_splatter.h"

@@ -1,5 +1,6 @@
 // The truth itself against closed forms: if these fail, no other picture test means anything.
 #include "render/cpu_splatter.h"
+#include "render/depth_order.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/cpu_splatter.h"
+#include "render/depth_order.h"
 #include "render/scene.h"
 #include "tests/support/scenes.h"
 
@@ -138,6 +139,19 @@ TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
     const Scene scene = allOf(step, lattice);
     for (const DrawList& list : {order(scene, {0, 0, 3}), orderExactly(scene, {0, 0, 3})})
         EXPECT_EQ(std::get<Sorted>(list).point, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+TEST(DepthOrder, NothingIsLeftOfTheFrameBefore) {
+    World w;
+    DepthOrder order;
+    for (const char* range : {"0:1", "0.3:0.4", "0.1:0.9"})
+        for (const glm::dvec3& eye : kEyes) {
+            w.scene.layers[0].runs = w.step.select(RangeSet::parse(range));
+            const auto list = std::get<Sorted>(order(w.scene, eye));
+            const auto alone = std::get<Sorted>(DepthOrder()(w.scene, eye));
+            EXPECT_EQ(list.point, alone.point) << range;
+            EXPECT_EQ(list.layer, alone.layer) << range;
+        }
 }
 
 // Where next to nothing comes through, two neighbours in the wrong order are a pixel of the wrong

@@ -1,4 +1,5 @@
 #include "render/pieces.h"
+#include "render/depth_order.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "render/cpu_splatter.h"
+#include "render/depth_order.h"
 #include "render/image_compare.h"
 #include "render/row_splatter.h"
 #include "render/tile_splatter.h"

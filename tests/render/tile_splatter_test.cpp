@@ -1,5 +1,6 @@
 // What is the tiles' own; what they share with rows is in plane_sums_test.cpp.
 #include "render/tile_splatter.h"
+#include "render/depth_order.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

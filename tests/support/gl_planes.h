@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/depth_order.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
