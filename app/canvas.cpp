@@ -246,9 +246,11 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
                         eyes);
     }
     Refinement& refinement = resting->refinement;
-    state_->refineTimer.begin();
-    const double cost = refinement.goOn(static_cast<double>(limits.splats), show);
-    state_->refineTimer.end(static_cast<std::uint64_t>(cost));
+    if (refinement.order()) {
+        state_->refineTimer.begin();
+        const double cost = refinement.goOn(static_cast<double>(limits.splats), show);
+        state_->refineTimer.end(static_cast<std::uint64_t>(cost));
+    }
     const bool done = refinement.done();
     if (done) state_->stride = 1;
     state_->tell(report, refinement.scene().layers);

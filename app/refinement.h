@@ -16,18 +16,21 @@ namespace app {
 
 class Refinement {
  public:
-    // Makes the draw list. The renderer, `onGpu`, ready for the picture, and what the picture
-    // refers to must outlive this. REQUIRES: at least one eye, all of one size.
+    // The renderer, `onGpu`, ready for the picture, and what the picture refers to must outlive
+    // this. REQUIRES: at least one eye, all of one size.
     Refinement(render::FrameRenderer& renderer, Picture picture, const render::GpuStep& onGpu,
                std::span<const render::View> eyes);
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
 
+    // Goes on with the draw list for a few milliseconds. True when it is there.
+    bool order();
     // Draws until `cost` is reached (render/splat_cost.h), a little more than that, and hands each
-    // eye's light to `show` once it is whole. Returns what it cost. REQUIRES: it is not done.
+    // eye's light to `show` once it is whole. Returns what it cost. REQUIRES: order(), and not
+    // done.
     double goOn(double cost, const std::function<void(std::size_t eye, render::Targets&)>& show);
     bool done() const { return eye_ == eyes_.size(); }
-    double share() const;  // that is drawn, [0, 1]
+    double share() const;  // of all that is to be done, [0, 1]
     const render::Scene& scene() const { return picture_.scene; }
     std::span<const render::View> eyes() const { return eyes_; }
 
@@ -36,7 +39,9 @@ class Refinement {
     const Picture picture_;
     const std::vector<render::View> eyes_;
     const render::FrameContent content_;
-    const render::FrameRenderer::Prepared frame_;
+    const render::GpuStep& onGpu_;
+    render::DepthOrder order_;
+    std::optional<const render::FrameRenderer::Prepared> frame_;  // once it is ordered
     double cost_ = 0, drawn_ = 0;  // of all eyes, and of what is drawn
     std::size_t eye_ = 0;          // to go on with
     std::optional<render::FrameRenderer::EyeInWork> work_;

@@ -17,13 +17,13 @@ constexpr std::uint64_t kAllSplats = std::numeric_limits<std::uint64_t>::max();
 
 std::array<FontStyle, 2> stylesFor(glm::ivec2 size) { return {labelStyle(size), titleStyle(size)}; }
 
-glm::dvec3 midway(std::span<const View> eyes) {
+}  // namespace
+
+glm::dvec3 midEye(std::span<const View> eyes) {
     glm::dvec3 sum(0);
     for (const View& eye : eyes) sum += pixelRays(eye).eye;
     return sum / static_cast<double>(eyes.size());
 }
-
-}  // namespace
 
 // A driver that draws on the processor takes several times longer for point sprites than the
 // program does for their pixels (tests/bench/NOTES.md).
@@ -73,20 +73,25 @@ Targets& FrameRenderer::use(glm::ivec2 size, const LightPass& light) {
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
                                                std::span<const View> eyes) {
-    return prepare(content, step, eyes, as_);
+    return prepare(content, step, eyes, order_(content.scene, midEye(eyes)));
 }
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
-                                               std::span<const View> eyes, LightAs as) {
+                                               std::span<const View> eyes, DrawList list) {
+    return prepare(content, step, eyes, std::move(list), as_);
+}
+
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+                                               std::span<const View> eyes, DrawList list,
+                                               LightAs as) {
     LightPass& light = lightFor(content, eyes);
     makeRoom(eyes, light);
-    const glm::dvec3 midEye = midway(eyes);
     ++orders_;
     const Scene& scene = content.scene;
     // GL's own upload does it.
     if (&light != &inMemory_ && !takesPointsFromGpu())
         needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatter().prepare(scene, order_(scene, midEye), step), midEye, light, as};
+    return {content, splatter().prepare(scene, std::move(list), step), midEye(eyes), light, as};
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
@@ -160,7 +165,8 @@ double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
     if (takesPointsFromGpu()) step.upload(content.scene, neededScale(content.scene));
-    const Prepared frame = prepare(content, step, eyes, LightAs::Linear);
+    const Prepared frame =
+        prepare(content, step, eyes, order_(content.scene, midEye(eyes)), LightAs::Linear);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
         drawWhole(frame, eye, extras.progress);

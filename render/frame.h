@@ -40,6 +40,9 @@ struct Extras {
     std::function<void(double)> progress = {};
 };
 
+// Where all eyes' draw list is made for.
+glm::dvec3 midEye(std::span<const View> eyes);
+
 // Needs a current GL context, from construction to destruction, unless it is Cpu and what it draws
 // has neither placards nor hidden areas.
 class FrameRenderer {
@@ -66,6 +69,9 @@ class FrameRenderer {
         LightAs as;
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
+    // With a list that somebody else has made for midEye(eyes).
+    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
+                     DrawList list);
     // One of the eyes that the frame was prepared for; its light is then in targets().
     void drawEye(const Prepared& frame, const View& eye);
     // The same bit for bit over several frames, in which nothing else is drawn. Frame and view must
@@ -101,7 +107,7 @@ class FrameRenderer {
     void makeRoom(std::span<const View> eyes, const LightPass& light);
     Targets& use(glm::ivec2 size, const LightPass& light);  // which targets() then are
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
-                     LightAs as);
+                     DrawList list, LightAs as);
     struct Gl {
         GlSplatter splatter;
         GlLight light{splatter.layerBlock()};

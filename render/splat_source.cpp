@@ -4,6 +4,11 @@
 
 namespace render {
 
+SplatSource::SplatSource(const Scene& scene)
+    : scene_(scene), sorted_(nullptr), layer_(0), last_(scene.layers.size()) {
+    passEnds();
+}
+
 SplatSource::SplatSource(const Scene& scene, const DrawList& list, Channels channels,
                          std::size_t layer)
     : scene_(scene),

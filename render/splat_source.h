@@ -1,4 +1,4 @@
-// The points of a plane, in the order in which they are summed. Pure.
+// Which points are drawn, one after another. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,12 @@ struct SplatPoints {
     std::vector<std::uint8_t> layer;
 };
 
-// Over: those of the list, the nearest first, REQUIRES: Sorted. Else the scene's runs: all layers
-// of them for Count, `layer` alone for the others. Scene and list must outlive this.
 class SplatSource {
  public:
+    // All layers' runs. Scene and list must outlive this.
+    explicit SplatSource(const Scene& scene);
+    // Of a plane. Over: what the list has, the nearest first. REQUIRES: Sorted. Else the runs: of
+    // all layers for Count, of `layer` alone for the others.
     SplatSource(const Scene& scene, const DrawList& list, Channels channels, std::size_t layer);
 
     bool done() const;

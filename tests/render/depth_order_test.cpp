@@ -93,12 +93,9 @@ TEST(DepthOrder, FarthestFirstToOneKeyOf4194304) {
     const World w;
     for (const glm::dvec3& eye : kEyes) {
         const auto sorted = std::get<Sorted>(order(w.scene, eye));
-        double nearest = 1e300, farthest = 0;
-        for (const std::uint32_t p : sorted.point) {
-            nearest = std::min(nearest, w.distance(p, eye));
-            farthest = std::max(farthest, w.distance(p, eye));
-        }
-        const double key = (farthest - nearest) / (kKeys - 1);
+        // The farthest corner of the box is 1 from its middle.
+        const double away = glm::length(eye);
+        const double key = (away + 1 - std::max(away - 1, 0.0)) / (kKeys - 1);
         for (std::size_t i = 1; i < sorted.point.size(); ++i)
             ASSERT_LE(w.distance(sorted.point[i], eye),
                       w.distance(sorted.point[i - 1], eye) + key * 1.000001)
@@ -152,6 +149,31 @@ TEST(DepthOrder, NothingIsLeftOfTheFrameBefore) {
             EXPECT_EQ(list.point, alone.point) << range;
             EXPECT_EQ(list.layer, alone.layer) << range;
         }
+}
+
+TEST(DepthOrder, InSlicesIsTheSameList) {
+    World w;
+    for (const IndexBox& clip : {IndexBox{}, IndexBox{{2, 3, 1}, {15, 9, 20}}})
+        for (const std::uint32_t stride : {1u, 8u})
+            for (const std::uint64_t slice : {1, 1000, 1 << 16}) {
+                w.scene.clip = clip;
+                w.scene.stride = stride;
+                const auto whole = std::get<Sorted>(order(w.scene, kEyes[1]));
+                DepthOrder inSlices;
+                inSlices.begin(w.scene, kEyes[1]);
+                double share = 0;
+                for (int calls = 1; !inSlices.done(); ++calls) {
+                    EXPECT_GE(inSlices.share(), share);
+                    share = inSlices.share();
+                    EXPECT_LT(share, 1);
+                    inSlices.goOn(slice);
+                    ASSERT_LE(calls, 10 + 3 * whole.point.size() * 40 / slice) << "it goes on";
+                }
+                EXPECT_EQ(inSlices.share(), 1);
+                const auto list = std::get<Sorted>(inSlices.take());
+                EXPECT_EQ(list.point, whole.point) << slice;
+                EXPECT_EQ(list.layer, whole.layer) << slice;
+            }
 }
 
 // Where next to nothing comes through, two neighbours in the wrong order are a pixel of the wrong
