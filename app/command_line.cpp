@@ -107,7 +107,7 @@ void addSplats(const Explorer& e, Arguments& arguments) {
     if (e.footprint.kernel != plain.kernel)
         arguments.option("--splat", kernelName(e.footprint.kernel));
     if (e.footprint.size != plain.size) arguments.number("--splat-size", e.footprint.size);
-    if (e.order != render::Order::None) arguments.option("--order", orderName(e.order));
+    if (e.order != Explorer{}.order) arguments.option("--order", orderName(e.order));
     if (e.clip) arguments.option("--clip", clipText(*e.clip));
     if (e.scale) arguments.option("--scale", triple(*e.scale));
 }

@@ -103,7 +103,7 @@ struct Explorer {
     // shows one at a time anyway and has no use for it.
     bool oneTick = false;
     render::Footprint footprint;
-    render::Order order = render::Order::None;
+    render::Order order = render::Order::BackToFront;  // where it shows
     std::optional<ClipBox> clip;
     std::optional<glm::dvec3> scale;
     ViewChoice view;

@@ -251,6 +251,8 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step, const render:
     };
     if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
+    // The same picture without it.
+    if (render::areOneColor(scene.layers)) scene.order = render::Order::None;
     return scene;
 }
 

@@ -93,18 +93,6 @@ double brightness(const glm::dvec3& rgb) {
     return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)) + kBlack;
 }
 
-// What is in front hides what is behind, and so it looks in a picture of one colour in any order;
-// an unordered picture of several shows all that a ray passes alike.
-bool hides(const Scene& scene) {
-    if (scene.order == Order::BackToFront) return true;
-    const auto* first =
-        scene.layers.empty() ? nullptr : std::get_if<Constant>(&scene.layers.front().style.color);
-    return first && std::ranges::all_of(scene.layers, [&](const Layer& layer) {
-               const auto* other = std::get_if<Constant>(&layer.style.color);
-               return other && other->linearRgb == first->linearRgb;
-           });
-}
-
 std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& window) {
     const Ray ray(scene, view, window);
     const auto gridIndex = columnsOf(scene).gridIndex;
@@ -127,7 +115,9 @@ std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& wi
 std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window) {
     std::vector<Hit> met = hits(scene, view, window);
     std::ranges::stable_sort(met, {}, &Hit::depth);
-    const bool hiding = hides(scene);
+    // What is in front hides what is behind, and so it looks in a picture of one colour in any
+    // order; an unordered picture of several shows all that a ray passes alike.
+    const bool hiding = scene.order == Order::BackToFront || areOneColor(scene.layers);
     double whole = 0, passed = 0, before = 0;  // light, and the optical depth in front
     for (Hit& hit : met) {
         const double value = timeseries::toDouble(scene.step.value(hit.point));

@@ -19,6 +19,14 @@ std::uint32_t strideOf(const Layer& layer, std::uint32_t stride) {
     return stride;
 }
 
+bool areOneColor(const std::vector<Layer>& layers) {
+    return std::ranges::all_of(layers, [&](const Layer& layer) {
+        const auto* first = std::get_if<Constant>(&layers.front().style.color);
+        const auto* color = std::get_if<Constant>(&layer.style.color);
+        return first && color && first->linearRgb == color->linearRgb;
+    });
+}
+
 std::uint64_t splatCount(const Layer& layer, std::uint32_t stride) {
     return countOf(layer, strideOf(layer, stride));
 }

@@ -63,6 +63,10 @@ struct Layer {
 };
 constexpr std::size_t kMaxLayers = 8;
 
+// All have one and the same constant colour, or there is none: what is in front of what does not
+// show, whatever their opacities.
+bool areOneColor(const std::vector<Layer>& layers);
+
 std::uint64_t pointCount(const Layer& layer);
 // What a scene's stride is for this layer: halved until a point is drawn, if there is one.
 std::uint32_t strideOf(const Layer& layer, std::uint32_t stride);

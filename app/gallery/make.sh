@@ -1,47 +1,40 @@
-#!/ bin / bash
-#Makes the README's pictures again: app/gallery/make.sh [FOLDER], the folder with the data sets that
-#the project does not ship(app / gallery / README.md says where they are from).What is not there is
-#skipped.
-set - euo pipefail cd "$(dirname " $ { BASH_SOURCE[0] }
-")/../.."
-#Under a name of the project's own: with --portable a picture keeps nothing but the path from its own
-#folder, which then says nothing of the machine that it was made on.
-    data = out / gallery_data mkdir - p out rm - f "$data" if (($ # > 0));
-then ln - s "$(realpath " $1
-            ")"
-            "$data";
-fi picture() {
-    local file = $1 out = app / gallery / $2;
-    shift 2 if[[-f $file]];
-    then./ run-- with - vtk render "$file" --portable -
-        o
-        "$out"
-        "$@";
-    else echo "skipped: $out needs $file";
-    fi
+#!/bin/bash
+# Makes the README's pictures again: app/gallery/make.sh [FOLDER], the folder with the data sets that
+# the project does not ship (app/gallery/README.md says where they are from). What is not there is
+# skipped.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+# Under a name of the project's own: a picture keeps its file's path, which then says nothing of the
+# machine that it was made on.
+data=out/gallery_data
+mkdir -p out
+rm -f "$data"
+if (($# > 0)); then ln -s "$(realpath "$1")" "$data"; fi
+picture() {
+    local file=$1 out=app/gallery/$2; shift 2
+    if [[ -f $file ]]; then ./run --with-vtk render "$file" -o "$out" "$@"; else echo "skipped: $out needs $file"; fi
 }
 
-picture datasets/pool_fire_T.nc pool_fire.png --size 1000x750 --step 14 --order depth \
+picture datasets/pool_fire_T.nc pool_fire.png --size 1000x750 --step 14 \
     --range 320:400 --color '#5b9bd5' --opacity 0.05 \
     --range 600:1000 --color '#e0562b' --opacity 0.12 \
     --range 1000:max --color '#ffe08a' --opacity 0.5
-picture datasets/pool_fire_T.nc pool_fire_stereo.png --step 14 --order depth --size 700x700 \
+picture datasets/pool_fire_T.nc pool_fire_stereo.png --step 14 --size 700x700 \
     --range 500:max --colormap inferno --opacity 0.2 --stereo side-by-side
-picture "$data/woa_temp_monthly_f32.nc" ocean.png --size 1000x750 --step 7 --order depth --view 0,40 \
+picture "$data/woa_temp_monthly_f32.nc" ocean.png --size 1000x750 --step 7 --view 0,40 \
     --range 18:22 --color '#56b4e9' --opacity 0.12 \
     --range 28:max --color '#e69f00' --opacity 0.5 --scale 1,1,0.06
-picture "$data/viscous_fingers_demo.nc" viscous_fingers.png --size 1000x750 --step 12 --order depth --view 25,12 \
+picture "$data/viscous_fingers_demo.nc" viscous_fingers.png --size 1000x750 --step 12 --view 25,12 \
     --range 15:60 --colormap viridis --opacity 0.06 \
     --range 60:max --color '#e69f00' --opacity 0.08
-picture "$data/viscous_fingers_demo.nc" viscous_fingers_stereo.png --step 12 --order depth \
+picture "$data/viscous_fingers_demo.nc" viscous_fingers_stereo.png --step 12 \
     --view 25,12 --size 700x700 --range 25~5 --colormap cividis --opacity 0.1 --stereo side-by-side
-picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --order depth --view 0,50 \
+picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --view 0,50 \
     --range 0.95:max --colormap viridis --opacity 0.35 --scale 1,1,0.0004
 
-#First looks : nothing is asked for, the program chooses.
+# First looks: nothing is asked for, the program chooses.
 for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr \
-    neghip/neghip.nhdr aneurism_256_u8.vti viscous_fingers/vf_run01.pvd pool_fire_vti/fire.pvd;
-do
-name = $(basename "${first%.*}") picture
-    "$data/$first"
-    "first_$name.png" --size 600x450 done
+    neghip/neghip.nhdr aneurism_256_u8.vti viscous_fingers/vf_run01.pvd pool_fire_vti/fire.pvd; do
+    name=$(basename "${first%.*}")
+    picture "$data/$first" "first_$name.png" --size 600x450
+done

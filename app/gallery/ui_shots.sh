@@ -15,7 +15,7 @@ if (($# > 0)); then
     cd "$caller"
     exec "$root/$shot" "$root/out/window.png" "$@"
 fi
-"$shot" app/gallery/window.png datasets/pool_fire_T.nc --step 14 --order depth \
+"$shot" app/gallery/window.png datasets/pool_fire_T.nc --step 14 \
     --range 320:400 --color '#5b9bd5' --opacity 0.05 \
     --range 600:1000 --color '#e0562b' --opacity 0.12 \
     --range '(1000,max]' --color '#ffe08a' --opacity 0.5

@@ -81,7 +81,7 @@ TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThe
     desk.startOpening("b");
     next = desk.exploration.explorer();
     next.view.azimuthDegrees = 12;
-    next.order = render::Order::BackToFront;
+    next.order = render::Order::None;
     desk.exploration.edit(next);
     desk.untilOpened();
     const Explorer& now = desk.exploration.explorer();

@@ -239,7 +239,7 @@ TEST(Options, EveryRenderOptionArrives) {
                                           "--splat-size",
                                           "3.5",
                                           "--order",
-                                          "depth",
+                                          "none",
                                           "--clip",
                                           "0:1,2:3,min:max",
                                           "--scale",
@@ -273,7 +273,7 @@ TEST(Options, EveryRenderOptionArrives) {
     EXPECT_EQ(e.layers[0].opacity, 0.25);
     EXPECT_EQ(e.footprint.kernel, render::Kernel::Point);
     EXPECT_EQ(e.footprint.size, 3.5);
-    EXPECT_EQ(e.order, render::Order::BackToFront);
+    EXPECT_EQ(e.order, render::Order::None);
     EXPECT_EQ(e.clip, parseClip("0:1,2:3,min:max"));
     EXPECT_EQ(e.scale, glm::dvec3(1, 2, 3));
     EXPECT_EQ(e.view, (ViewChoice{-30, 45, 2.5, {0.5, -1, 2e-3}, Projection::Orthographic}));

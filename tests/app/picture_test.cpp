@@ -279,10 +279,9 @@ TEST_F(PictureOfARamp, ColoursThatMixAreSaidToWhereTheyAreThick) {
     };
     Explorer two = withRanges({"0:499", "500:999"});
     two.layers[0].opacity = two.layers[1].opacity = 0.3;
+    EXPECT_FALSE(mixed(two)) << "in order of depth";
+    two.order = render::Order::None;
     EXPECT_TRUE(mixed(two));
-    Explorer ordered = two;
-    ordered.order = render::Order::BackToFront;
-    EXPECT_FALSE(mixed(ordered));
     Explorer thin = two;
     thin.layers[0].opacity = thin.layers[1].opacity = 0.01;
     EXPECT_FALSE(mixed(thin));
@@ -290,10 +289,30 @@ TEST_F(PictureOfARamp, ColoursThatMixAreSaidToWhereTheyAreThick) {
     alike.layers[0].color = alike.layers[1].color = glm::dvec3(1, 0, 0);
     EXPECT_FALSE(mixed(alike));
     Explorer map = withRanges({"0:999"});
+    map.order = render::Order::None;
     map.layers[0].opacity = 0.3;
     EXPECT_TRUE(mixed(map)) << "a map has many";
     map.layers[0].color = MapChoice{{}, 2000.0, 3000.0};
     EXPECT_FALSE(mixed(map)) << "of which one is left";
+}
+
+TEST_F(PictureOfARamp, IsOrderedByDepthWhereThatShows) {
+    const auto orderOf = [&](const Explorer& asked) {
+        return makeScene(resolved(asked, steps_), *step_, lattice_).order;
+    };
+    Explorer two = withRanges({"0:499", "500:999"});
+    EXPECT_EQ(orderOf(two), render::Order::BackToFront);
+    two.layers[0].color = two.layers[1].color = glm::dvec3(1, 0, 0);
+    two.layers[0].opacity = 0.9;
+    EXPECT_EQ(orderOf(two), render::Order::None) << "of one colour";
+    two.layers[1].color = glm::dvec3(1, 0, 0.01);
+    EXPECT_EQ(orderOf(two), render::Order::BackToFront);
+    two.layers[1].visible = false;
+    EXPECT_EQ(orderOf(two), render::Order::None);
+    two.layers[0].color = MapChoice{{}, 0.0, 999.0};
+    EXPECT_EQ(orderOf(two), render::Order::BackToFront) << "a map has many";
+    two.order = render::Order::None;
+    EXPECT_EQ(orderOf(two), render::Order::None) << "as asked";
 }
 
 TEST_F(PictureOfARamp, AStepWithoutValuesSaysSo) {
