@@ -4,15 +4,15 @@
 # skipped.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-# Under a name of the project's own: a picture keeps its file's path, which then says nothing of the
-# machine that it was made on.
+# Under a name of the project's own: with --portable a picture keeps nothing but the path from its own
+# folder, which then says nothing of the machine that it was made on.
 data=out/gallery_data
 mkdir -p out
 rm -f "$data"
 if (($# > 0)); then ln -s "$(realpath "$1")" "$data"; fi
 picture() {
     local file=$1 out=app/gallery/$2; shift 2
-    if [[ -f $file ]]; then ./run --with-vtk render "$file" -o "$out" "$@"; else echo "skipped: $out needs $file"; fi
+    if [[ -f $file ]]; then ./run --with-vtk render "$file" --portable -o "$out" "$@"; else echo "skipped: $out needs $file"; fi
 }
 
 picture datasets/pool_fire_T.nc pool_fire.png --size 1000x750 --step 14 \
