@@ -84,25 +84,26 @@ std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
     return mixed;
 }
 
-// What draws a picture: GL on a device, or the program itself.
+// What draws a picture: GL on a device, or the program itself, which needs no context.
 class Drawing {
  public:
-    explicit Drawing(const RenderOptions& options) {
-        using render::SplatterChoice;
-        const bool byGl = options.splatter == SplatterChoice::Gl ||
-                          (options.splatter == SplatterChoice::ByDevice &&
-                           !render::gl::onlyProcessorsDraw(options.device));
-        if (byGl) context_.emplace(options.device);
-        renderer_.emplace(byGl ? options.splatter : SplatterChoice::Cpu);
+    explicit Drawing(const RenderOptions& options) : by_(options.splatter) {
+        if (by_ == Choice::ByDevice && render::gl::onlyProcessorsDraw(options.device))
+            by_ = Choice::Cpu;
+        if (by_ == Choice::ByDevice || by_ == Choice::Gl) context_.emplace(options.device);
+        renderer_.emplace(by_);
     }
     render::FrameRenderer& renderer() { return *renderer_; }
     std::string name() const {
         if (context_) return context_->renderer();
+        if (by_ == Choice::Exact) return "the program in double on 1 thread";
         const unsigned threads = render::sharingThreads();
         return fmt::format("the program on {} thread{}", threads, threads == 1 ? "" : "s");
     }
 
  private:
+    using Choice = render::SplatterChoice;
+    Choice by_;
     std::optional<render::gl::HeadlessContext> context_;
     std::optional<render::FrameRenderer> renderer_;
 };

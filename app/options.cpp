@@ -69,8 +69,9 @@ void addOutput(CLI::App& app, OutputText& into) {
     app.add_option("--device", into.device, "any (default), gpu or cpu")
         ->check(CLI::IsMember({"any", "gpu", "cpu"}));
     app.add_option("--splatter", into.splatter,
-                   "Who sums splats: any (default: gl on a GPU, else cpu), gl or cpu")
-        ->check(CLI::IsMember({"any", "gl", "cpu"}));
+                   "Who sums splats: any (default: gl on a GPU, else cpu), gl, cpu, or exact: in "
+                   "double, slowly")
+        ->check(CLI::IsMember({"any", "gl", "cpu", "exact"}));
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
 
@@ -102,6 +103,7 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     options.device = text.device;
     if (text.splatter == "gl") options.splatter = render::SplatterChoice::Gl;
     if (text.splatter == "cpu") options.splatter = render::SplatterChoice::Cpu;
+    if (text.splatter == "exact") options.splatter = render::SplatterChoice::Exact;
     options.portable = text.portable;
     options.progress = text.progress;
     checkOutput(options);

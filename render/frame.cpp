@@ -30,8 +30,9 @@ glm::dvec3 midEye(std::span<const View> eyes) {
 FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
     : styles_(stylesFor({64, 64})),
       font_(styles_),
-      sums_(splatter == SplatterChoice::Cpu ||
-            (splatter == SplatterChoice::ByDevice && gl::drawsOnProcessor())),
+      by_(splatter == SplatterChoice::ByDevice
+              ? (gl::drawsOnProcessor() ? SplatterChoice::Cpu : SplatterChoice::Gl)
+              : splatter),
       as_(as) {
     inMemory_.setFont(font_);
 }
@@ -73,7 +74,7 @@ Targets& FrameRenderer::use(glm::ivec2 size, const LightPass& light) {
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
                                                std::span<const View> eyes) {
-    return prepare(content, step, eyes, order_(content.scene, midEye(eyes)));
+    return prepare(content, step, eyes, listFor(content.scene, eyes));
 }
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
@@ -102,7 +103,13 @@ LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const 
 
 Splatter& FrameRenderer::splatter() {
     if (takesPointsFromGpu()) return needGl().splatter;
+    if (by_ == SplatterChoice::Exact) return exact_;
     return processor_;
+}
+
+DrawList FrameRenderer::listFor(const Scene& scene, std::span<const View> eyes) {
+    return by_ == SplatterChoice::Exact ? orderExactly(scene, midEye(eyes))
+                                        : order_(scene, midEye(eyes));
 }
 
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
@@ -166,7 +173,7 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuSt
                                               std::span<const View> eyes, const Extras& extras) {
     if (takesPointsFromGpu()) step.upload(content.scene, neededScale(content.scene));
     const Prepared frame =
-        prepare(content, step, eyes, order_(content.scene, midEye(eyes)), LightAs::Linear);
+        prepare(content, step, eyes, listFor(content.scene, eyes), LightAs::Linear);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
         drawWhole(frame, eye, extras.progress);

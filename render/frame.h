@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/depth_order.h"
+#include "render/exact_splatter.h"
 #include "render/gl/driver.h"
 #include "render/gl_light.h"
 #include "render/gl_list.h"
@@ -43,8 +44,8 @@ struct Extras {
 // Where all eyes' draw list is made for.
 glm::dvec3 midEye(std::span<const View> eyes);
 
-// Needs a current GL context, from construction to destruction, unless it is Cpu and what it draws
-// has neither placards nor hidden areas.
+// Needs a current GL context, from construction to destruction, unless it is Cpu or Exact and what
+// it draws has neither placards nor hidden areas.
 class FrameRenderer {
  public:
     // `as`: what front ends want of light that the program makes in memory.
@@ -58,7 +59,7 @@ class FrameRenderer {
                                    std::span<const View> eyes, const Extras& extras = {});
 
     // Whether drawing takes a scene's points from the GPU; else the program sums them itself.
-    bool takesPointsFromGpu() const { return !sums_; }
+    bool takesPointsFromGpu() const { return by_ == SplatterChoice::Gl; }
     // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
     // step that is ready for the scene, if its points are taken from it.
     struct Prepared {
@@ -69,7 +70,7 @@ class FrameRenderer {
         LightAs as;
     };
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
-    // With a list that somebody else has made for midEye(eyes).
+    // With a list that somebody else has made for midEye(eyes), if it is not Exact's.
     Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
                      DrawList list);
     // One of the eyes that the frame was prepared for; its light is then in targets().
@@ -115,6 +116,7 @@ class FrameRenderer {
     Gl& needGl();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
     Splatter& splatter();
+    DrawList listFor(const Scene& scene, std::span<const View> eyes);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
     bool drawSplats(EyeInWork& work, double cost);
     void drawWhole(const Prepared& frame, const View& eye,
@@ -130,6 +132,7 @@ class FrameRenderer {
     Font font_;
     DepthOrder order_;
     ProcessorSplatter processor_;
+    ExactSplatter exact_;
     MemoryLight inMemory_;
     std::unique_ptr<Gl> gl_;
     struct Held {
@@ -138,7 +141,7 @@ class FrameRenderer {
     };
     std::vector<Held> targets_;  // all of different sizes
     std::size_t current_ = 0;
-    bool sums_;  // planes itself
+    SplatterChoice by_;  // never ByDevice
     LightAs as_;
     std::uint64_t orders_ = 0, eyes_ = 0;
 };

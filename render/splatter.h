@@ -1,4 +1,5 @@
-// Who sums the planes of a scene: GL, or the program itself where GL is drawn on the processor.
+// Who sums the planes of a scene: GL, the program itself where GL is drawn on the processor, or the
+// truth.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +34,9 @@ class SplatFrame {
                                             Targets& targets) = 0;
 };
 
-// By default GL where the driver draws on a GPU, else the program itself.
-enum class SplatterChoice { ByDevice, Gl, Cpu };
+// By default GL where the driver draws on a GPU, else the program itself, as Cpu. Exact is the
+// truth (render/exact_splatter.h).
+enum class SplatterChoice { ByDevice, Gl, Cpu, Exact };
 
 class Splatter {
  public:

@@ -293,6 +293,7 @@ TEST(Options, EveryStereoModeAndDeviceIsTaken) {
     EXPECT_EQ(render({"--splatter", "any"}).splatter, Choice::ByDevice);
     EXPECT_EQ(render({"--splatter", "gl"}).splatter, Choice::Gl);
     EXPECT_EQ(render({"--splatter", "cpu"}).splatter, Choice::Cpu);
+    EXPECT_EQ(render({"--splatter", "exact"}).splatter, Choice::Exact);
 }
 
 TEST(Options, TheSweepTakesItsSettings) {
@@ -431,7 +432,7 @@ TEST(Options, BadValuesAreRefusedByTheNameOfTheirOption) {
         {"convergence", {"", "0", "-1", "nan", "inf"}},
         {"channel", {"", "depth", "opticaldepth"}},
         {"device", {"", "gl", "GPU"}},
-        {"splatter", {"", "gpu", "exact"}}};
+        {"splatter", {"", "gpu", "double"}}};
     for (const auto& [option, values] : bad)
         for (const char* value : values) {
             const std::string text = renderRefused({std::string("--") + option, value});

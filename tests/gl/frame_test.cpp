@@ -38,7 +38,7 @@ struct FrameWorld {
     View right_ = tests::lookFrom({0.05, -3, 0}, {200, 160});
 };
 
-// Drawn by GL and by the program.
+// Drawn by GL, by the program and in double.
 class Frame : public FrameWorld, public testing::TestWithParam<SplatterChoice> {
  protected:
     std::vector<EyePicture> draw(const std::vector<View>& eyes, const Extras& extras = {}) {
@@ -317,9 +317,13 @@ TEST_F(FrameInMemory, OnGlThereIsTheSameLightAndDepth) {
     EXPECT_TRUE(std::ranges::equal(onGl.opaqueDepth(read), depth));
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Frame, testing::Values(SplatterChoice::Gl, SplatterChoice::Cpu),
+INSTANTIATE_TEST_SUITE_P(By, Frame,
+                         testing::Values(SplatterChoice::Gl, SplatterChoice::Cpu,
+                                         SplatterChoice::Exact),
                          [](const auto& choice) {
-                             return choice.param == SplatterChoice::Gl ? "Gl" : "Cpu";
+                             return choice.param == SplatterChoice::Gl    ? "Gl"
+                                    : choice.param == SplatterChoice::Cpu ? "Cpu"
+                                                                          : "Exact";
                          });
 
 }  // namespace
