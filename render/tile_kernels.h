@@ -45,7 +45,7 @@ struct TileRoom {
                int pictureWidth);
 
     glm::ivec2 at{0}, size{0};  // in the box
-    // Channels one after another, `plane` floats each. Over: what comes through is the last.
+    // Channels one after another, `plane` floats each.
     std::vector<float> sums;
     std::size_t plane = 0;
     // What sums are to be multiplied by; Over has it in them.

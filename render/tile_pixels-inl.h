@@ -77,7 +77,9 @@ struct AddColor {
     }
 };
 
-// Front to back: what comes through falls, what it lights is added. Less than a 10^7th is nothing.
+// Front to back: what it takes of what comes through is added. Where less than a 10^7th does,
+// nothing does any more. The sum is of what is taken, not what is left of 1, which would lose the
+// faintest.
 template <class Lanes, bool kSmall>
 struct LayUnder {
     Lanes lanes;
@@ -97,15 +99,15 @@ struct LayUnder {
     }
     HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
         const auto x = hn::Mul(hn::Mul(t, depth), hn::LoadU(lanes, factor + at));
-        float* const rest = sums + 3 * plane + at;
-        const auto through = hn::LoadU(lanes, rest);
-        const auto taken = hn::Mul(through, opacity<kSmall>(lanes, x));
+        float* const all = sums + 3 * plane + at;
+        const auto one = hn::Set(lanes, 1.0f), before = hn::LoadU(lanes, all);
+        const auto taken = hn::Mul(hn::Sub(one, before), opacity<kSmall>(lanes, x));
         for (std::size_t c = 0; c < 3; ++c) {
             float* const to = sums + c * plane + at;
             hn::StoreU(hn::MulAdd(taken, color[c], hn::LoadU(lanes, to)), lanes, to);
         }
-        const auto left = hn::Sub(through, taken);
-        hn::StoreU(hn::IfThenElseZero(hn::Gt(left, hn::Set(lanes, 1e-7f)), left), lanes, rest);
+        const auto now = hn::Add(before, taken);
+        hn::StoreU(hn::IfThenElse(hn::Lt(now, hn::Set(lanes, 1 - 1e-7f)), now, one), lanes, all);
     }
 };
 

@@ -155,14 +155,11 @@ void TileSum::Work::clear(std::size_t tile) {
         std::fill_n(rowOf(at, row), static_cast<std::size_t>(size.x) * floats, 0.0f);
 }
 
-// Into sums channel by channel; of a tile that nothing has touched yet, as they begin.
+// Into sums channel by channel; of a tile that nothing has touched yet, none.
 void TileSum::Work::load(std::size_t tile, TileRoom& room) {
     room.enter(view, tile, opaqueDepth, pictureWidth);
     if (!std::exchange(begun[tile], 1)) {
         std::ranges::fill(room.sums, 0.0f);
-        if (view.channels == Channels::Over)
-            std::fill_n(room.sums.begin() + static_cast<std::ptrdiff_t>(3 * room.plane), room.plane,
-                        1.0f);
         return;
     }
     for (int row = 0; row < room.size.y; ++row) {
@@ -183,7 +180,6 @@ void TileSum::Work::store(TileRoom& room, bool lastOfAll) {
             const float factor = lastOfAll && !over ? room.factor[at] : 1;
             for (std::size_t c = 0; c < floats; ++c)
                 to[c] = factor * room.sums[c * room.plane + at];
-            if (lastOfAll && over) to[3] = 1 - to[3];
             to += floats;
         }
     }

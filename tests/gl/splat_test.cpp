@@ -269,6 +269,18 @@ TEST_F(GlSplat, OrderedOverIsTheTruthsToTheOrdersResolution) {
     }
 }
 
+TEST_F(GlSplat, OpacitiesOfATenMillionthAndOfOneAreTheTruths) {
+    const auto step = tests::noise(cube(24));
+    const Lattice lattice(step.grid());
+    Scene scene = noiseScene(step, lattice, "0:1");
+    scene.order = Order::BackToFront;
+    for (const double opacity : {1e-7, 1.0}) {
+        scene.layers[0].style = {ByValue{{}, 0, 1}, opacity};
+        EXPECT_LE(error(*this, scene, lookFrom({0, -3, 0}, {200, 160}), Channels::Over), 1e-4)
+            << opacity;
+    }
+}
+
 TEST_F(GlSplat, CountsEveryFootprintThatTouchesAPixel) {
     const auto step = tests::noise(cube(16));
     const Lattice lattice(step.grid());

@@ -45,7 +45,7 @@ struct World {
     }
 };
 
-const glm::dvec3 kEyes[] = {{0, -3, 0}, {0.1, 0.05, -0.2}, {100, 40, 7}};
+const glm::dvec3 kEyes[] = {{0, -3, 0}, {0.1, 0.05, -0.2}, {100, 40, 7}, {1e6, 2e5, 3}};
 
 void expectEveryPointOnce(const World& w, const Sorted& sorted) {
     std::vector<std::pair<int, std::uint32_t>> listed, expected;

@@ -1,0 +1,129 @@
+// What scientists' data and a headset's scales ask of a splatter at the extremes, one test a row of
+// tests/EXTREMES.md that no other test stands for. By tiles and by rows, against the truth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/cpu_splatter.h"
+#include "render/depth_order.h"
+#include "render/image_compare.h"
+#include "render/row_splatter.h"
+#include "render/tile_splatter.h"
+#include "tests/support/scenes.h"
+
+namespace render {
+namespace {
+
+using Sum = std::vector<float> (*)(const Scene&, const DrawList&, const View&, Channels,
+                                   std::size_t, std::span<const float>, unsigned);
+class Extremes : public testing::TestWithParam<Sum> {
+ protected:
+    static Scene allOf(const timeseries::SortedStep& step, const Lattice& lattice,
+                       double opacity = 0.5) {
+        return {.step = step,
+                .lattice = lattice,
+                .layers = {{step.select(timeseries::RangeSet::everything()),
+                            {ByValue{{}, 0, 1}, opacity}}},
+                .footprint = {},
+                .order = Order::BackToFront,
+                .clip = {}};
+    }
+    std::vector<float> drawn(const Scene& scene, const View& view, Channels channels) const {
+        return GetParam()(scene, order(scene, pixelRays(view).eye), view, channels, 0, {}, 2);
+    }
+    static std::vector<double> truth(const Scene& scene, const View& view, Channels channels) {
+        Accumulator<double> sums(view.size, {channels});
+        splat(scene, orderExactly(scene, pixelRays(view).eye), view, {}, sums);
+        return sums.planes[0];
+    }
+    double error(const Scene& scene, const View& view, Channels channels) const {
+        const auto expected = truth(scene, view, channels);
+        EXPECT_GT(*std::ranges::max_element(expected), 0) << "or nothing was compared";
+        return compareScalars(drawn(scene, view, channels), expected).relativeL2;
+    }
+};
+
+// A column of points seen from its end: all fall on the same pixels. Each sum of floats may be off
+// by half a unit in its last place, 2^-25 of it, or less where they fall both ways.
+TEST_P(Extremes, CoincidentSplatsByTheHundredThousand) {
+    constexpr std::size_t kPoints = 1 << 18;
+    const auto step = tests::noise(std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(1), tests::axis(kPoints), tests::axis(1)}));
+    const Lattice lattice(step.grid());
+    const View view = tests::lookFrom({0, -3, 0}, {9, 9}, 0.01);
+    const double most = kPoints * std::ldexp(1, -25);
+    EXPECT_LE(error(allOf(step, lattice), view, Channels::Weight), most);
+    for (const double opacity : {1e-7, 0.5, 1.0})
+        EXPECT_LE(error(allOf(step, lattice, opacity), view, Channels::Over), most) << opacity;
+}
+
+TEST_P(Extremes, OpacitiesOfATenMillionthAndOfOne) {
+    const auto step = tests::noise(tests::cube(24));
+    const Lattice lattice(step.grid());
+    for (const glm::dvec3& eye : {glm::dvec3(1.3, -2.4, 0.9), glm::dvec3(0.2, 0.1, 0.3)})
+        for (const double opacity : {1e-7, 1.0})
+            EXPECT_LE(error(allOf(step, lattice, opacity), tests::lookFrom(eye, {150, 110}),
+                            Channels::Over),
+                      1e-4)
+                << opacity << " from " << eye.x;
+}
+
+TEST_P(Extremes, SplatsThatFillTheScreen) {
+    const auto step = tests::noise(tests::cube(5));
+    const Lattice lattice(step.grid());
+    Scene scene = allOf(step, lattice, 0.1);
+    for (const double size : {10.0, 1e3}) {
+        scene.footprint.size = size;
+        for (const glm::dvec3& eye : {glm::dvec3(1.3, -2.4, 0.9), glm::dvec3(0.2, 0.1, 0.3)})
+            for (const Channels channels : {Channels::WeightedColor, Channels::Over})
+                EXPECT_LE(error(scene, tests::lookFrom(eye, {150, 110}), channels), 1e-4)
+                    << size << " from " << eye.x;
+    }
+}
+
+// A thousandth of a pixel from each other, wherever between the pixels they lie.
+TEST_P(Extremes, SplatsFarBelowAPixelKeepTheirMass) {
+    const auto step = tests::noise(tests::cube(12));
+    const Lattice lattice(step.grid());
+    const Scene scene = allOf(step, lattice);
+    double first = 0;
+    for (const double shift : {0.0, 0.2, 0.37, 0.5}) {
+        View view = tests::lookFrom({0, -3000, 0}, {65, 65}, 0.325);
+        view.viewFromWorld[3].x += shift * 2 * 0.325 / 65 * 3000;
+        const auto sums = drawn(scene, view, Channels::Weight);
+        double mass = 0;
+        for (const float w : sums) mass += static_cast<double>(w);
+        if (shift == 0) first = mass;
+        EXPECT_GT(mass, 0);
+        EXPECT_NEAR(mass / first, 1, 6e-3) << shift;
+        EXPECT_LE(error(scene, view, Channels::Weight), 1e-5) << shift;
+    }
+}
+
+// The same cells at 10^7 of their units, and of 10^-6 and 10^6 of them: the same picture.
+TEST_P(Extremes, CoordinatesAtTenMillionAndUnitsOfAMillionth) {
+    const auto at = [](double first, double step) {
+        const auto axis = [&] { return tests::axis(16, first, step); };
+        return tests::noise(std::make_shared<timeseries::Grid>(std::array{axis(), axis(), axis()}));
+    };
+    const View view = tests::lookFrom({1.3, -2.4, 0.9}, {150, 110});
+    const auto plain = at(0, 1);
+    const Lattice lattice(plain.grid());
+    const auto expected = truth(allOf(plain, lattice), view, Channels::Over);
+    for (const auto& [first, step] : {std::pair(1e7, 1.0), {-1e7, 1e-3}, {0.0, 1e-6}, {5.0, 1e6}}) {
+        const auto moved = at(first, step);
+        const Lattice there(moved.grid());
+        EXPECT_LE(
+            compareScalars(drawn(allOf(moved, there), view, Channels::Over), expected).relativeL2,
+            1e-5)
+            << first << ' ' << step;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Extremes, testing::Values(&sumTiles, &sumRows),
+                         [](const auto& by) { return by.index == 0 ? "Tiles" : "Rows"; });
+
+}  // namespace
+}  // namespace render
