@@ -12,8 +12,9 @@ constexpr std::size_t kAtOnce = 512;
 
 // 255 (1.055 x^(1/2.4) - 0.055) + 0.5 as a polynomial in x^(1/4), interpolated at Chebyshev's
 // points: to 2.2e-6 of the whole. shaders/present.frag has the same. Compiled for wider vectors,
-// too, where a machine has them: this is a fifth of a frame without a GPU.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// too, where a machine has them: this is a fifth of a frame without a GPU. Which is chosen before
+// the thread sanitizer is there.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 __attribute__((target_clones("avx2", "default")))
 #endif
 void encode(const float* linear, float* steps, std::size_t count) {
