@@ -132,22 +132,24 @@ void SeenPoints::weigh(const Placed& placed, int y, PixelSpan x, const float* op
 
 // To the pixels of a row. Over: the nearest splat comes first, and takes its opacity of what has
 // come through.
-void deposit(Channels channels, std::span<const float> weights, const glm::vec4& color, float* to) {
+void deposit(Channels channels, std::span<const float> weights, glm::vec4 color,
+             float* __restrict to) {
+    const std::size_t count = weights.size();
     switch (channels) {
         case Channels::Weight:
-            for (const float weight : weights) *to++ += weight;
+            for (std::size_t i = 0; i < count; ++i) to[i] += weights[i];
             return;
         case Channels::Count:
-            for (const float weight : weights) *to++ += weight > 0 ? 1.0f : 0.0f;
+            for (std::size_t i = 0; i < count; ++i) to[i] += weights[i] > 0 ? 1.0f : 0.0f;
             return;
         case Channels::WeightedColor:
-            for (const float weight : weights)
-                for (int c = 0; c < 4; ++c) *to++ += weight * color[c];
+            for (std::size_t i = 0; i < count; ++i)
+                for (int c = 0; c < 4; ++c) to[4 * i + c] += weights[i] * color[c];
             return;
         case Channels::Over:
-            for (const float opticalDepth : weights) {
-                const float taken = (1 - to[3]) * -std::expm1(-opticalDepth);
-                for (int c = 0; c < 4; ++c) *to++ += taken * color[c];
+            for (std::size_t i = 0; i < count; ++i) {
+                const float taken = (1 - to[4 * i + 3]) * -std::expm1(-weights[i]);
+                for (int c = 0; c < 4; ++c) to[4 * i + c] += taken * color[c];
             }
             return;
     }

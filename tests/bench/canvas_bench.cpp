@@ -29,7 +29,8 @@ tests::ShownSteps world(std::uint64_t count) {
 void BM_CanvasFrame(benchmark::State& state) {
     const auto shown = world(static_cast<std::uint64_t>(state.range(0)));
     auto explorer = shown.explorer;
-    explorer.order = state.range(1) != 0 ? render::Order::BackToFront : render::Order::None;
+    // What has one colour needs no order.
+    if (state.range(1) != 0) explorer.layers[0].color = app::MapChoice{{}, 0.4, 0.6};
     const app::Shown now{explorer, shown.dataset, 0, shown.steps[0]};
     const render::gl::HeadlessContext context;
     app::Canvas inMemory(render::SplatterChoice::Cpu, render::LightAs::Srgb8),
