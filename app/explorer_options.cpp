@@ -48,7 +48,9 @@ void ExplorerOptions::addTo(CLI::App& app) {
     app.add_option("--splat-size", splatSize_,
                    "kernel: times the radius that suits the spacing; point: pixels")
         ->check(between(1e-3, 1e3));
-    app.add_option("--order", order_, "depth (default): what is in front hides what is behind; none is faster, and mixes colours");
+    app.add_option("--order", order_,
+                   "depth (default): what is in front hides what is behind; none is faster, and "
+                   "mixes colours");
     app.add_option("--sweep", sweep_,
                    "Animate a window of values through these ranges; a layer before the others");
     app.add_option("--delta", delta_, "Half the swept window's width")->check(between(0, kMost));
