@@ -103,8 +103,9 @@ void DepthOrder::list(std::uint64_t splats) {
     grow(list_.layer);
     const std::span<Keyed> slice = std::span(splats_).subspan(count_, many);
     findKeys(slice);
-    const auto clipped = distances_->clips ? std::ranges::remove(slice, kClipped).size() : 0;
-    count_ += many - clipped;
+    const auto kept =
+        distances_->clips ? std::remove(slice.begin(), slice.end(), kClipped) : slice.end();
+    count_ += static_cast<std::size_t>(kept - slice.begin());
     passed_ += many;
     if (source_->done()) enter(Phase::Lower);
 }
