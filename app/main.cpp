@@ -3,10 +3,10 @@
 #include <exception>
 #include <stdexcept>
 
-#include "app/choice_text.h"
-#include "app/commands.h"
+#include "app/choices/choice_text.h"
+#include "app/command/commands.h"
 #include "app/say.h"
-#include "timeseries/sorted_step.h"
+#include "timeseries/index/sorted_step.h"
 
 namespace {
 

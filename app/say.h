@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "render/utf8.h"
+#include "render/annotate/utf8.h"
 
 namespace app {
 

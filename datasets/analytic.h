@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/field.h"
-#include "timeseries/grid.h"
-#include "timeseries/reader.h"
+#include "timeseries/grid/field.h"
+#include "timeseries/grid/grid.h"
+#include "timeseries/readers/reader.h"
 
 namespace datasets {
 

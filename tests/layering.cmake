@@ -1,6 +1,9 @@
-# Checks the layers by the #include lines: timeseries <- render <- xr <- app, datasets beside render.
+# Checks the layers by the #include lines: timeseries <- render <- xr <- app, datasets beside render;
+# and their rooms, each of which knows those before it alone.
 # cmake -DROOT=<source tree> -P layering.cmake
 # Fails with every line that reaches where it may not.
+
+cmake_minimum_required(VERSION 3.22)
 
 # rule(FOLDER WHY REGEX): no file below FOLDER includes what matches.
 set(violations "")
@@ -40,6 +43,29 @@ endforeach()
 foreach(folder timeseries datasets render app)
   rule(${folder} "only xr includes OpenXR" "^openxr/")
 endforeach()
+
+# rooms(FOLDER ROOM...): a room includes no later one; headers of the folder itself are for all.
+macro(rooms folder)
+  set(known ${ARGN})
+  set(later ${ARGN})
+  foreach(room ${ARGN})
+    list(REMOVE_ITEM later ${room})
+    list(JOIN later "|" names)
+    if(later)
+      rule(${folder}/${room} "${folder}/${room} comes before it" "^${folder}/(${names})/")
+    endif()
+  endforeach()
+  file(GLOB entries RELATIVE ${ROOT}/${folder} ${ROOT}/${folder}/*/*.h)
+  foreach(entry ${entries})
+    cmake_path(GET entry PARENT_PATH room)
+    if(NOT room IN_LIST known)
+      list(APPEND violations "${folder}/${entry}: the room ${room} has no place in this list")
+    endif()
+  endforeach()
+endmacro()
+rooms(timeseries grid index readers series)
+rooms(render image gl points model splat reference annotate frame)
+rooms(app choices files picture exploration drawing panels desktop headset command)
 
 if(violations)
   list(REMOVE_DUPLICATES violations)

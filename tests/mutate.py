@@ -25,11 +25,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 # What is broken: the sources that hold the code when it is a header, and the tests that concern it.
 SUBJECTS = {
-    "timeseries/range_set.cpp": ([], ["timeseries/range_set", "timeseries/range_text"]),
-    "timeseries/sorted_step.cpp": ([], ["timeseries/sorted_step"]),
-    "timeseries/time_cursor.cpp": ([], ["timeseries/time_cursor", "timeseries/playback"]),
-    "render/depth_order.cpp": ([], ["render/depth_order"]),
-    "render/footprint.h": (["render/cpu_splatter.cpp"],
+    "timeseries/index/range_set.cpp": ([], ["timeseries/range_set", "timeseries/range_text"]),
+    "timeseries/index/sorted_step.cpp": ([], ["timeseries/sorted_step"]),
+    "timeseries/series/time_cursor.cpp": ([], ["timeseries/time_cursor", "timeseries/playback"]),
+    "render/splat/depth_order.cpp": ([], ["render/depth_order"]),
+    "render/model/footprint.h": (["render/reference/cpu_splatter.cpp"],
                            ["render/cpu_splatter", "render/footprint"]),
     "timeseries/readers/cf_axes.cpp": ([], ["timeseries/netcdf_axes", "timeseries/netcdf_reader"]),
     "timeseries/readers/cf_grid.cpp": ([], ["timeseries/netcdf_axes", "timeseries/netcdf_reader"]),

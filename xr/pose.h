@@ -5,7 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "render/view.h"
+#include "render/points/view.h"
 
 namespace xr {
 
@@ -25,7 +25,7 @@ struct Fov {
 };
 
 // Where the volume stands: stageFromWorld = translation * rotation * scale. The world is
-// render::Lattice's (z up, half diagonal 1), the stage OpenXR's (y up, metres).
+// render::PlacedPoints's (z up, half diagonal 1), the stage OpenXR's (y up, metres).
 struct Placement {
     Pose stageFromVolume;        // of the volume's own axes
     double metresPerUnit = 0.3;  // > 0: half the box's diagonal in metres

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/hidden_area.h"
+#include "render/annotate/hidden_area.h"
 #include "xr/pose.h"
 #include "xr/session_state.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "render/hidden_area.h"
+#include "render/annotate/hidden_area.h"
 #include "xr/api.h"
 #include "xr/runtime.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/check_driver.h"
+#include "app/desktop/check_driver.h"
 #include "render/gl/debug_output.h"
 
 namespace app::desktop {

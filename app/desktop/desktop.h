@@ -14,7 +14,7 @@
 #include "app/desktop/stop_signals.h"
 #include "app/desktop/window.h"
 #include "app/desktop/x_errors.h"
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 #include "app/panels/interface.h"
 #include "xr/session.h"
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.h"
+#include "app/choices/command_line.h"
+#include "app/choices/session.h"
+#include "app/choices/user_files.h"
 #include "app/json_text.h"
-#include "app/picture.h"
-#include "app/session.h"
-#include "app/user_files.h"
+#include "app/picture/picture.h"
 
 namespace app::desktop {
 namespace {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "app/autosave.h"
-#include "app/canvas.h"
-#include "app/exploration.h"
-#include "app/export_job.h"
+#include "app/choices/autosave.h"
+#include "app/choices/preferences.h"
+#include "app/drawing/canvas.h"
+#include "app/exploration/exploration.h"
+#include "app/exploration/export_job.h"
 #include "app/panels/interface.h"
-#include "app/preferences.h"
 
 namespace app::desktop {
 

@@ -89,7 +89,7 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
                     .step = report_.step,
                     .picture = picture};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
-    if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->lattice->boxHalfEdges();
+    if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->placed->boxHalfEdges();
 }
 
 void PictureView::took(std::chrono::nanoseconds frame) {

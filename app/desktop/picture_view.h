@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "app/canvas.h"
+#include "app/drawing/canvas.h"
 #include "app/panels/desk.h"
-#include "render/frame_pace.h"
-#include "render/kept_picture.h"
-#include "render/present.h"
+#include "render/frame/frame_pace.h"
+#include "render/frame/kept_picture.h"
+#include "render/frame/present.h"
 
 namespace app::desktop {
 

@@ -60,11 +60,11 @@ std::optional<Crossing> crossing(const glm::dvec3& from, const glm::dvec3& along
     return c;
 }
 
-AxisBox clippedBox(const render::Lattice& lattice, const std::optional<ClipBox>& clip) {
-    const glm::dvec3 half = lattice.boxHalf();
+AxisBox clippedBox(const render::PlacedPoints& placed, const std::optional<ClipBox>& clip) {
+    const glm::dvec3 half = placed.boxHalf();
     if (!clip) return {-half, half};
-    const glm::dvec3 a = glm::clamp(lattice.axesFromGrid(clip->lo), -half, half);
-    const glm::dvec3 b = glm::clamp(lattice.axesFromGrid(clip->hi), -half, half);
+    const glm::dvec3 a = glm::clamp(placed.axesFromGrid(clip->lo), -half, half);
+    const glm::dvec3 b = glm::clamp(placed.axesFromGrid(clip->hi), -half, half);
     return {glm::min(a, b), glm::max(a, b)};  // an axis that is drawn downwards turns them round
 }
 

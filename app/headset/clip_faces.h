@@ -1,13 +1,13 @@
-// The clip box as hands see it: an upright box in axis coordinates (render/lattice.h), however
-// oblique it stands in the room, and which of its faces a hand is at. Pure.
+// The clip box as hands see it: an upright box in axis coordinates (render/points/placed_points.h),
+// however oblique it stands in the room, and which of its faces a hand is at. Pure.
 #pragma once
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "app/explorer.h"
-#include "render/lattice.h"
+#include "app/choices/explorer.h"
+#include "render/points/placed_points.h"
 #include "xr/pose.h"
 
 namespace app::headset {
@@ -30,7 +30,7 @@ std::optional<Crossing> crossing(const glm::dvec3& from, const glm::dvec3& along
                                  const AxisBox& box);
 
 // What of the points' box is inside the clip box: all of it without one.
-AxisBox clippedBox(const render::Lattice& lattice, const std::optional<ClipBox>& clip);
+AxisBox clippedBox(const render::PlacedPoints& placed, const std::optional<ClipBox>& clip);
 
 // A face that a hand can take hold of, and where, in the stage.
 struct Hold {

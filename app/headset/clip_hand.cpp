@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "app/edits.h"
+#include "app/choices/edits.h"
 #include "app/headset/standing.h"
-#include "render/box_edges.h"
+#include "render/annotate/box_edges.h"
 
 namespace app::headset {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr double kFinest = 0.001;  // metres
 
 double along(int axis, const glm::dvec3& at, const Drawn& drawn, const xr::Placement& placement) {
-    const glm::dmat4 axesFromStage = glm::inverse(stageFromAxes(placement, *drawn.lattice));
+    const glm::dmat4 axesFromStage = glm::inverse(stageFromAxes(placement, *drawn.placed));
     return (axesFromStage * glm::dvec4(at, 1))[axis];
 }
 
@@ -29,16 +29,16 @@ bool isShown(const Drawn& drawn, const Exploration& exploration) {
 // The clip box with a face at a place along its axis, in axis coordinates.
 std::optional<ClipBox> withFace(const std::optional<ClipBox>& clip, Face face, double place,
                                 const Drawn& drawn, double metresPerUnit) {
-    const render::Lattice& lattice = *drawn.lattice;
-    const double scale = lattice.scale()[face.axis];
+    const render::PlacedPoints& placed = *drawn.placed;
+    const double scale = placed.scale()[face.axis];
     const End end = (face.side < 0) == (scale > 0) ? End::Lo : End::Hi;
-    const bool isBounded = face.side * place < lattice.boxHalf()[face.axis];
+    const bool isBounded = face.side * place < placed.boxHalf()[face.axis];
     double coordinate = end == End::Lo ? -std::numeric_limits<double>::infinity()
                                        : std::numeric_limits<double>::infinity();
     if (isBounded) {
         glm::dvec3 at(0);
         at[face.axis] = place;
-        coordinate = roundedTo(lattice.gridFromAxes(at)[face.axis],
+        coordinate = roundedTo(placed.gridFromAxes(at)[face.axis],
                                kFinest / (std::abs(scale) * metresPerUnit));
     }
     return withClipEnd(clip, drawn.sorted->grid(), static_cast<std::size_t>(face.axis), end,
@@ -51,15 +51,14 @@ std::optional<Hold> ClipHand::holdAt(const xr::Pose& aim, const Drawn& drawn,
                                      const xr::Placement& placement,
                                      const Exploration& exploration) {
     if (!isShown(drawn, exploration)) return std::nullopt;
-    return holdOf(aim, stageFromAxes(placement, *drawn.lattice),
-                  clippedBox(*drawn.lattice, exploration.explorer().clip),
-                  drawn.lattice->boxHalf());
+    return holdOf(aim, stageFromAxes(placement, *drawn.placed),
+                  clippedBox(*drawn.placed, exploration.explorer().clip), drawn.placed->boxHalf());
 }
 
 void ClipHand::take(std::size_t hand, const Hold& hold, const xr::Pose& aim, const Drawn& drawn,
                     const xr::Placement& placement, const Exploration& exploration) {
     assert(!holds(hand));
-    const AxisBox box = clippedBox(*drawn.lattice, exploration.explorer().clip);
+    const AxisBox box = clippedBox(*drawn.placed, exploration.explorer().clip);
     const int axis = hold.face.axis;
     held_[hand] = Held{.face = hold.face,
                        .inAim = (xr::inverse(aim) * xr::Pose{{1, 0, 0, 0}, hold.at}).position,
@@ -91,7 +90,7 @@ std::vector<ClipHand::Edge> ClipHand::edges(const std::array<std::optional<Hold>
                                             const Exploration& exploration) const {
     std::vector<Edge> edges;
     if (!isShown(drawn, exploration)) return edges;
-    const AxisBox box = clippedBox(*drawn.lattice, exploration.explorer().clip);
+    const AxisBox box = clippedBox(*drawn.placed, exploration.explorer().clip);
     const glm::dvec3 half = 0.5 * (box.hi - box.lo), middle = 0.5 * (box.hi + box.lo);
     const auto isOf = [&](const render::Edge& edge, const Face& face) {
         return edge.axis != face.axis &&
@@ -105,8 +104,8 @@ std::vector<ClipHand::Edge> ClipHand::edges(const std::array<std::optional<Hold>
             else if (within[hand])
                 lit = lit || isOf(edge, within[hand]->face);
         }
-        edges.push_back({drawn.lattice->worldFromAxes() * (middle + edge.at(half, -1)),
-                         drawn.lattice->worldFromAxes() * (middle + edge.at(half, 1)), lit});
+        edges.push_back({drawn.placed->worldFromAxes() * (middle + edge.at(half, -1)),
+                         drawn.placed->worldFromAxes() * (middle + edge.at(half, 1)), lit});
     }
     return edges;
 }

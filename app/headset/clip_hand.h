@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/drawn.h"
-#include "app/exploration.h"
+#include "app/drawing/drawn.h"
+#include "app/exploration/exploration.h"
 #include "app/headset/clip_faces.h"
 
 namespace app::headset {

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "app/canvas.h"
+#include "app/drawing/canvas.h"
 #include "app/headset/governor.h"
-#include "render/present.h"
+#include "render/frame/present.h"
 #include "xr/session.h"
 
 namespace app::headset {

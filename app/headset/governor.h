@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/frame_pace.h"
+#include "render/frame/frame_pace.h"
 #include "xr/refresh_rate.h"
 #include "xr/render_scale.h"
 

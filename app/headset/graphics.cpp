@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
+#include "render/frame/kept_picture.h"
 #include "render/gl/current_egl.h"
 #include "render/gl/current_glx.h"
 #include "render/gl/debug_output.h"
-#include "render/kept_picture.h"
 
 namespace app::headset {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "app/desktop/window.h"
+#include "render/frame/present.h"
 #include "render/gl/headless_context.h"
-#include "render/present.h"
 #include "xr/session.h"
 
 namespace app::headset {

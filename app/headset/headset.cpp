@@ -4,7 +4,7 @@
 #include <thread>
 #include <utility>
 
-#include "app/check_driver.h"
+#include "app/desktop/check_driver.h"
 #include "app/headset/help_text.h"
 #include "app/headset/placards.h"
 #include "app/headset/readout.h"
@@ -103,7 +103,7 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
     // What is still before the eyes of other data is not there for hands.
     if (eyes_.canvas().shows(exploration_.explorer())) input.drawn = eyes_.canvas().drawn();
     // What comes first is placed before it is drawn.
-    std::optional<render::Lattice> first;
+    std::optional<render::PlacedPoints> first;
     if (const auto shown = exploration_.shown(); shown && !input.drawn) {
         first.emplace(shown->sorted->grid(), shown->explorer.scale);
         input.drawn = Drawn{&*first, shown->sorted, shown->step};

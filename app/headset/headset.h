@@ -10,7 +10,7 @@
 #include "app/desktop/errands.h"
 #include "app/desktop/stop_signals.h"
 #include "app/desktop/x_errors.h"
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 #include "app/headset/eyes.h"
 #include "app/headset/graphics.h"
 #include "app/headset/panel.h"

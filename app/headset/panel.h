@@ -10,7 +10,7 @@
 
 #include "app/headset/room_buttons.h"
 #include "app/panels/interface.h"
-#include "render/placard.h"
+#include "render/annotate/placard.h"
 
 struct ImDrawData;
 

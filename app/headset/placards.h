@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/headset/room.h"
-#include "render/placard.h"
+#include "render/annotate/placard.h"
 
 namespace app::headset {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "timeseries/sorted_step.h"
+#include "timeseries/index/sorted_step.h"
 
 namespace app::headset {
 

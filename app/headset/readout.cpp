@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/picture.h"
+#include "app/picture/picture.h"
 
 namespace app::headset {
 namespace {

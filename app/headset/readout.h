@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 #include "app/headset/tip_probe.h"
 
 namespace app::headset {

@@ -37,7 +37,7 @@ void Room::place(const RoomInput& input) {
     if (!input.head) return;
     if (!std::exchange(panelPlaced_, true)) panel_ = panelBefore(*input.head);
     if (input.drawn && !std::exchange(placed_, true)) {
-        placement_ = volumeBefore(*input.head, input.drawn->lattice->boxHalfEdges());
+        placement_ = volumeBefore(*input.head, input.drawn->placed->boxHalfEdges());
         placements_.settle(placement_);
     }
 }
@@ -55,7 +55,7 @@ void Room::obey(RoomCommand command, const RoomInput& input) {
             break;
         case RoomCommand::ResetSize:
             if (input.drawn)
-                placement_.metresPerUnit = firstSize(input.drawn->lattice->boxHalfEdges());
+                placement_.metresPerUnit = firstSize(input.drawn->placed->boxHalfEdges());
             break;
         case RoomCommand::ClipByHand:
             clipsByHand_ = !clipsByHand_;
@@ -66,7 +66,7 @@ void Room::obey(RoomCommand command, const RoomInput& input) {
 
 void Room::bring(const RoomInput& input) {
     if (!input.head || !input.drawn) return;
-    placement_ = volumeBefore(*input.head, input.drawn->lattice->boxHalfEdges());
+    placement_ = volumeBefore(*input.head, input.drawn->placed->boxHalfEdges());
     panel_ = panelBefore(*input.head);
 }
 
@@ -101,7 +101,7 @@ Room::Meaning Room::meant(const Exploration& exploration, std::size_t hand,
     if (!selects) return Meaning::Volume;
     if (!now.aim || !input.drawn) return Meaning::Other;
     if (grabs) {
-        const glm::dmat3 box = input.drawn->lattice->boxHalfEdges();
+        const glm::dmat3 box = input.drawn->placed->boxHalfEdges();
         return meetsBox(*now.aim, placement_, box) ? Meaning::Volume : Meaning::Other;
     }
     const auto tip = tipOf(hand, input);

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/drawn.h"
-#include "app/exploration.h"
+#include "app/drawing/drawn.h"
+#include "app/exploration/exploration.h"
 #include "app/headset/clip_hand.h"
 #include "app/headset/placement_history.h"
 #include "app/headset/snap_turn.h"

@@ -82,8 +82,8 @@ std::optional<Hit> hitOf(const xr::Pose& ray, const Plate& plate) {
     return Hit{{0.5 + 0.5 * meets.x, 0.5 - 0.5 * meets.y}, distance};
 }
 
-glm::dmat4 stageFromAxes(const xr::Placement& placement, const render::Lattice& lattice) {
-    return xr::stageFromWorld(placement) * glm::dmat4(lattice.worldFromAxes());
+glm::dmat4 stageFromAxes(const xr::Placement& placement, const render::PlacedPoints& placed) {
+    return xr::stageFromWorld(placement) * glm::dmat4(placed.worldFromAxes());
 }
 
 bool meetsBox(const xr::Pose& ray, const xr::Placement& placement, const glm::dmat3& boxHalfEdges) {

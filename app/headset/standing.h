@@ -6,14 +6,14 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
-#include "render/lattice.h"
+#include "render/points/placed_points.h"
 #include "xr/pose.h"
 
 namespace app::headset {
 
 // The volume before the head, upright, its front towards the user: its longest side kVolumeWide
 // long, its middle a little below the eye, so that it suits who sits and who stands, whatever the
-// runtime knows of the floor. `boxHalfEdges`: Lattice::boxHalfEdges().
+// runtime knows of the floor. `boxHalfEdges`: PlacedPoints::boxHalfEdges().
 inline constexpr double kVolumeWide = 0.6, kVolumeAhead = 0.85, kVolumeBelowEye = 0.25;
 xr::Placement volumeBefore(const xr::Pose& head, const glm::dmat3& boxHalfEdges);
 double firstSize(const glm::dmat3& boxHalfEdges);  // Placement::metresPerUnit of that
@@ -42,8 +42,8 @@ struct Hit {
     double distance;
 };
 std::optional<Hit> hitOf(const xr::Pose& ray, const Plate& plate);
-// Of the volume's own coordinates (render/lattice.h), in which its box is upright.
-glm::dmat4 stageFromAxes(const xr::Placement& placement, const render::Lattice& lattice);
+// Of the volume's own coordinates (render/points/placed_points.h), in which its box is upright.
+glm::dmat4 stageFromAxes(const xr::Placement& placement, const render::PlacedPoints& placed);
 // Whether the ray meets the volume's box, or begins in it.
 bool meetsBox(const xr::Pose& ray, const xr::Placement& placement, const glm::dmat3& boxHalfEdges);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/edits.h"
+#include "app/choices/edits.h"
 
 namespace app::headset {
 namespace {

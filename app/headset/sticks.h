@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 
 namespace app::headset {
 

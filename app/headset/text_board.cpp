@@ -3,7 +3,7 @@
 #include <array>
 #include <glm/common.hpp>
 
-#include "render/color.h"
+#include "render/image/color.h"
 
 namespace app::headset {
 namespace {

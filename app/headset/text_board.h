@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "render/font.h"
-#include "render/placard.h"
+#include "render/annotate/font.h"
+#include "render/annotate/placard.h"
 
 namespace app::headset {
 

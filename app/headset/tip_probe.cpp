@@ -26,8 +26,8 @@ std::size_t nearest(const std::vector<double>& positions, double place) {
 std::optional<std::array<std::size_t, 3>> pointAtTip(const Drawn& drawn,
                                                      const xr::Placement& placement,
                                                      const glm::dvec3& tip) {
-    const glm::dmat4 axesFromStage = glm::inverse(stageFromAxes(placement, *drawn.lattice));
-    return pointAt(*drawn.lattice, glm::dvec3(axesFromStage * glm::dvec4(tip, 1)));
+    const glm::dmat4 axesFromStage = glm::inverse(stageFromAxes(placement, *drawn.placed));
+    return pointAt(*drawn.placed, glm::dvec3(axesFromStage * glm::dvec4(tip, 1)));
 }
 
 // All of a reading but its value.
@@ -35,26 +35,27 @@ Reading placeOf(const Drawn& drawn, const std::array<std::size_t, 3>& index, std
     return {.index = index,
             .value = {},
             .position = drawn.sorted->grid().position(i),
-            .world = drawn.lattice->position(i),
+            .world = drawn.placed->position(i),
             .step = drawn.step};
 }
 
-std::uint64_t gridIndexOf(const render::Lattice& lattice, const std::array<std::size_t, 3>& at) {
-    const glm::uvec3 size = lattice.size();
+std::uint64_t gridIndexOf(const render::PlacedPoints& placed,
+                          const std::array<std::size_t, 3>& at) {
+    const glm::uvec3 size = placed.size();
     return at[0] + size.x * (at[1] + size.y * at[2]);
 }
 
 }  // namespace
 
-std::optional<std::array<std::size_t, 3>> pointAt(const render::Lattice& lattice,
+std::optional<std::array<std::size_t, 3>> pointAt(const render::PlacedPoints& placed,
                                                   const glm::dvec3& place) {
     std::array<std::size_t, 3> index{};
     for (int a = 0; a < 3; ++a) {
         const auto axis = static_cast<std::size_t>(a);
-        const double half = lattice.boxHalf()[a];
-        const double reach = half > 0 ? half : 0.5 * lattice.widths()[axis][0];
+        const double half = placed.boxHalf()[a];
+        const double reach = half > 0 ? half : 0.5 * placed.widths()[axis][0];
         if (!(std::abs(place[a]) <= reach)) return std::nullopt;
-        index[axis] = nearest(lattice.positions()[axis], place[a]);
+        index[axis] = nearest(placed.positions()[axis], place[a]);
     }
     return index;
 }
@@ -67,7 +68,7 @@ void TipProbe::update(const std::optional<Drawn>& drawn, const xr::Placement& pl
         if (!drawn || !tips[hand]) continue;
         const auto index = pointAtTip(*drawn, placement, *tips[hand]);
         if (!index) continue;
-        const std::uint64_t i = gridIndexOf(*drawn->lattice, *index);
+        const std::uint64_t i = gridIndexOf(*drawn->placed, *index);
         search_.look(drawn->sorted, i, kPointsAFrame);
         at_ = At{hand, placeOf(*drawn, *index, i), search_.ended() ? Value::None : Value::Sought};
         if (const auto found = search_.found()) {
@@ -87,7 +88,7 @@ std::optional<Reading> readingAt(const Drawn& drawn, const xr::Placement& placem
                                  const glm::dvec3& tip) {
     const auto index = pointAtTip(drawn, placement, tip);
     if (!index) return std::nullopt;
-    const std::uint64_t i = gridIndexOf(*drawn.lattice, *index);
+    const std::uint64_t i = gridIndexOf(*drawn.placed, *index);
     PointSearch search;
     search.look(drawn.sorted, i, drawn.sorted->size());
     if (!search.found()) return std::nullopt;

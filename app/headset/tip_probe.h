@@ -5,17 +5,17 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "app/drawn.h"
+#include "app/drawing/drawn.h"
+#include "app/exploration/reading.h"
 #include "app/headset/point_search.h"
-#include "app/reading.h"
 #include "xr/pose.h"
 
 namespace app::headset {
 
-// The point of the lattice nearest to a place in axis coordinates (render/lattice.h), along each
-// axis by itself, so that in an oblique lattice it is the point whose cell holds the place. None
+// The placed point nearest to a place in axis coordinates (render/points/placed_points.h), along
+// each axis by itself, so that among oblique axes it is the point whose cell holds the place. None
 // outside the box of the points; a box that is flat is as thick as its cells.
-std::optional<std::array<std::size_t, 3>> pointAt(const render::Lattice& lattice,
+std::optional<std::array<std::size_t, 3>> pointAt(const render::PlacedPoints& placed,
                                                   const glm::dvec3& place);
 
 class TipProbe {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "app/edits.h"
-#include "app/first_choice.h"
+#include "app/choices/edits.h"
+#include "app/choices/first_choice.h"
+#include "app/choices/sweep_edits.h"
 #include "app/panels/number_field.h"
-#include "app/sweep_edits.h"
 
 namespace app::panels {
 namespace {

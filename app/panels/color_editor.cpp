@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "app/choice_text.h"
-#include "app/layer_colors.h"
+#include "app/choices/choice_text.h"
+#include "app/choices/layer_colors.h"
 #include "app/panels/form.h"
 #include "app/panels/layer_style.h"
 #include "app/panels/number_field.h"

@@ -1,7 +1,7 @@
 // A layer's colour, chosen in a popup: one colour, or a map and its ends.
 #pragma once
 
-#include "app/explorer.h"
+#include "app/choices/explorer.h"
 #include "app/panels/desk.h"
 #include "app/panels/widgets.h"
 

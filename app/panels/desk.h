@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
+#include "app/exploration/reading.h"
 #include "app/panels/keys.h"
 #include "app/panels/layout.h"
 #include "app/panels/theme.h"
-#include "app/reading.h"
 
 namespace app::panels {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/dataset.h"
+#include "app/files/dataset.h"
 
 namespace app::panels {
 

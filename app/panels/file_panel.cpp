@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 
-#include "app/export_job.h"
-#include "app/frames.h"
+#include "app/exploration/export_job.h"
+#include "app/files/frames.h"
 
 namespace app::panels {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/folder_listing.h"
+#include "app/files/folder_listing.h"
 #include "app/panels/desk.h"
 #include "app/panels/widgets.h"
 

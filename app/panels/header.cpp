@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/panels/widgets.h"
-#include "render/ticks.h"
+#include "render/annotate/ticks.h"
 
 namespace app::panels {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "app/choices/preferences.h"
 #include "app/panels/desk.h"
-#include "app/preferences.h"
 
 namespace app::panels {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/edits.h"
+#include "app/choices/edits.h"
 #include "app/panels/instrument_frame.h"
 
 namespace app::panels {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/edits.h"
+#include "app/choices/edits.h"
+#include "app/exploration/value_map.h"
 #include "app/panels/desk.h"
 #include "app/panels/widgets.h"
-#include "app/value_map.h"
 
 namespace app::panels {
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "app/exploration/value_map.h"
 #include "app/panels/instrument_frame.h"
 #include "app/panels/layer_style.h"
-#include "app/value_map.h"
 
 namespace app::panels {
 

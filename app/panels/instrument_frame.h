@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/panels/instrument.h"
-#include "render/ticks.h"
+#include "render/annotate/ticks.h"
 
 namespace app::panels {
 

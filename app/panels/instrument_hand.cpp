@@ -1,7 +1,7 @@
 // The instrument under the hand.
 #include <cmath>
 
-#include "app/edits.h"
+#include "app/choices/edits.h"
 #include "app/panels/instrument_frame.h"
 
 namespace app::panels {

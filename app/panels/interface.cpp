@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "app/choices/view_edits.h"
 #include "app/panels/header.h"
 #include "app/panels/help.h"
 #include "app/panels/left_offer.h"
 #include "app/panels/quality_page.h"
-#include "app/view_edits.h"
 
 namespace app::panels {
 namespace {

@@ -19,7 +19,7 @@
 #include "app/panels/start_screen.h"
 #include "app/panels/time_bar.h"
 #include "app/panels/view_page.h"
-#include "render/view.h"
+#include "render/points/view.h"
 
 namespace app::panels {
 
@@ -28,7 +28,7 @@ struct Surroundings {
     glm::vec2 window{0};  // pixels
     const Theme& theme;
     StartOffers offers;
-    glm::dmat3 boxHalfEdges{0.577};        // of the lattice drawn
+    glm::dmat3 boxHalfEdges{0.577};        // of what is drawn
     std::optional<render::View> eye;       // of the picture, where probes are marked
     bool hasPicture = true;                // a headset's stands in the room
     std::optional<std::string> exporting;  // how far an export is, while one runs

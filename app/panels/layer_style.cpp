@@ -1,6 +1,6 @@
 #include "app/panels/layer_style.h"
 
-#include "render/color.h"
+#include "render/image/color.h"
 
 namespace app::panels {
 namespace {

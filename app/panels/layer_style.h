@@ -1,7 +1,7 @@
 // A layer's colours as panels draw them.
 #pragma once
 
-#include "app/explorer.h"
+#include "app/choices/explorer.h"
 #include "app/panels/desk.h"
 
 namespace app::panels {

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "app/choice_text.h"
-#include "app/edits.h"
+#include "app/choices/choice_text.h"
+#include "app/choices/edits.h"
+#include "app/choices/sweep_edits.h"
 #include "app/panels/layer_style.h"
 #include "app/panels/number_field.h"
-#include "app/picture.h"
-#include "app/sweep_edits.h"
+#include "app/picture/picture.h"
 
 namespace app::panels {
 namespace {

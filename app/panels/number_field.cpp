@@ -1,8 +1,8 @@
 #include "app/panels/number_field.h"
 
-#include "app/choice_text.h"
-#include "app/decimals.h"
-#include "timeseries/number.h"
+#include "app/choices/choice_text.h"
+#include "app/choices/decimals.h"
+#include "timeseries/index/number.h"
 
 namespace app::panels {
 namespace {

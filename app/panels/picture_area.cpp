@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "app/choices/view_edits.h"
 #include "app/panels/drawn_text.h"
 #include "app/panels/widgets.h"
-#include "app/view_edits.h"
 
 namespace app::panels {
 namespace {

@@ -8,7 +8,7 @@ namespace app::panels {
 class PictureArea {
  public:
     // Takes the mouse over the picture, where nothing drawn before has it. `boxHalfEdges`:
-    // Lattice::boxHalfEdges() of what is drawn there. REQUIRES: something is shown.
+    // PlacedPoints::boxHalfEdges() of what is drawn there. REQUIRES: something is shown.
     void handle(Desk& desk, const glm::dmat3& boxHalfEdges);
     // The pointer's place on the picture, in its pixels; none where it is elsewhere or drags.
     const std::optional<glm::vec2>& pointer() const { return pointer_; }

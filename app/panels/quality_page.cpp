@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/edits.h"
+#include "app/choices/edits.h"
 
 namespace app::panels {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/font.h"
+#include "render/annotate/font.h"
 
 namespace app::panels {
 namespace {

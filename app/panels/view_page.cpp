@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/choice_text.h"
-#include "app/edits.h"
+#include "app/choices/choice_text.h"
+#include "app/choices/edits.h"
 #include "app/panels/widgets.h"
-#include "render/ticks.h"
+#include "render/annotate/ticks.h"
 
 namespace app::panels {
 namespace {

@@ -10,7 +10,7 @@ void main() {
     float coverage = clamp(distance.y + 0.5 - abs(distance.x), 0.0, 1.0);
     if (glyph.x >= 0.0) {
         const float value = texelFetch(atlas, ivec2(glyph), 0).r;
-        // textCoverage in render/font.cpp: dark text is filled more, as it looks thinner.
+        // textCoverage in render/annotate/font.cpp: dark text is filled more, as it looks thinner.
         const float luminance = clamp(dot(shade.rgb, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0);
         coverage *= pow(value, mix(0.45, 1.0, sqrt(luminance)));
     }

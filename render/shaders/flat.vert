@@ -1,5 +1,5 @@
 // Flat shapes: picture pixels (top left origin, y down) -> clip space.
-// C++ mirror of the vertex: FlatVertex in render/flat_mesh.h.
+// C++ mirror of the vertex: FlatVertex in render/annotate/flat_mesh.h.
 layout(location = 0) uniform vec2 pictureSize;
 layout(location = 0) in vec3 at;
 layout(location = 1) in vec4 color;

@@ -1,6 +1,6 @@
 // Linear premultiplied light -> a display's sRGB bytes; window space.
 // Variants: SCALED, of another size than the light's; ENCODE, where the framebuffer's format does not encode by itself; DEPTH, where it takes
-// the opaque scene's depth; what nobody sees (render/hidden_area_pass.h) is then black and far away.
+// the opaque scene's depth; what nobody sees (render/annotate/hidden_area_pass.h) is then black and far away.
 layout(binding = 0) uniform sampler2D light;
 #ifdef DEPTH
 layout(binding = 1) uniform sampler2D depth;
@@ -13,7 +13,7 @@ layout(location = 2) uniform ivec2 lightSize;
 layout(location = 0) out vec4 shown;
 
 #ifdef ENCODE
-// srgbFromLinear in render/color.h, 1.055 x^(1/2.4) - 0.055 as a polynomial in x^(1/4), interpolated
+// srgbFromLinear in render/image/color.h, 1.055 x^(1/2.4) - 0.055 as a polynomial in x^(1/4), interpolated
 // at Chebyshev's points: to 2.2e-6, of a byte's 3.9e-3. A power costs llvmpipe several times as much.
 vec3 encoded(vec3 linear) {
     const vec3 inside = mix(vec3(0.0), min(linear, 1.0), greaterThan(linear, vec3(0.0)));  // NaN is 0

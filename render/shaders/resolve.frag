@@ -1,5 +1,5 @@
 // Accumulated sums -> linear premultiplied colour, blended over the opaque scene. Window space.
-// The CPU's version is resolvePixel in render/cpu_splatter.h.
+// The CPU's version is resolvePixel in render/reference/cpu_splatter.h.
 // Variants: OVER (one plane, already composited), or LAYERS n: one plane each. Their number is known
 // when compiling, as samplers chosen at run time are slow.
 

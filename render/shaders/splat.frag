@@ -1,5 +1,5 @@
 // One pixel of one splat's footprint: W from the pixel ray's distance to the centre in kernel space.
-// Window space in, accumulated sums out; formulas: render/footprint.h.
+// Window space in, accumulated sums out; formulas: render/model/footprint.h.
 // Variants: WEIGHT, WEIGHTED_COLOR, OVER or COUNT (what is accumulated), KERNEL_POINT, CUBES, CUT.
 
 layout(location = 0) flat in vec4 centreAndWeight;
@@ -18,7 +18,7 @@ layout(location = 7) flat in vec3 kernelY;
 layout(location = 8) flat in vec4 loFace;
 layout(location = 9) flat in vec3 hiFace;
 
-// kAlongRay in render/footprint.h.
+// kAlongRay in render/model/footprint.h.
 float shareBelow(float at) {
     const float u = clamp(at, -1.0, 1.0), v = u * u;
     return u * (2.328209850438002 + v * (-2.7162830651268592 + v * (2.0377843444782133 +

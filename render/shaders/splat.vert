@@ -1,11 +1,11 @@
-// One lattice point -> the screen square that holds its footprint, and the footprint's coefficients.
-// Axis coordinates (render/lattice.h) to window offsets from the view axis, in pixels; formulas:
-// render/footprint.h.
+// One point of a grid -> the screen square that holds its footprint, and the footprint's coefficients.
+// Axis coordinates (render/points/placed_points.h) to window offsets from the view axis, in pixels; formulas:
+// render/model/footprint.h.
 // Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT, CUBES (all cells are equal
 // cubes: |d / a| is |d| / a, and the form in d needs no coefficients), CUT (with QUADS: long cells,
 // whose slim splats end at the domain's faces).
 
-// C++ mirror: SplatViewBlock in render/gl_splatter.cpp.
+// C++ mirror: SplatViewBlock in render/splat/gl_splatter.cpp.
 layout(std140, binding = 0) uniform SplatView {
     mat4 viewFromAxes;
     vec4 rayAxis;   // ray of the view axis; w: its length in the world
@@ -16,7 +16,7 @@ layout(std140, binding = 0) uniform SplatView {
     vec4 kernel;    // radius in cells, smallest radius at unit depth, mass of a cell with sides 1, point's side in pixels
     vec4 slopeAndLengths;  // squares of x / -z and y / -z per pixel; view length of an axis length, at most; a pixel's area at unit depth
     vec4 domainLo, domainHi, boxHalf;  // in axis coordinates; w: of a splat of size 1, radius over width
-    uvec4 lattice;  // points along x, y, z
+    uvec4 placed;  // points along x, y, z
     uvec4 clipLo, clipHi;  // inclusive index box
 } view;
 
@@ -56,7 +56,7 @@ layout(location = 7) flat out vec3 kernelY;
 layout(location = 8) flat out vec4 loFace;
 layout(location = 9) flat out vec3 hiFace;
 
-// kAcrossPlanes in render/footprint.h.
+// kAcrossPlanes in render/model/footprint.h.
 vec3 shareBelow(vec3 at) {
     const vec3 u = clamp(at, -1.0, 1.0), v = u * u;
     return u * (2.5868989965218416 + v * (-3.8803104512271367 + v * (4.073761886268686 +
@@ -98,7 +98,7 @@ vec3 mapColor(uint row, float position) {
                texelFetch(colorMaps, ivec2(above, row), 0).rgb, at - float(below));
 }
 
-// See sphereExtent in render/footprint.h; negative when the outline reaches behind the eye.
+// See sphereExtent in render/model/footprint.h; negative when the outline reaches behind the eye.
 float sphereExtent(float depth, float radius, float tanTheta) {
     const float cosTheta = inversesqrt(1.0 + tanTheta * tanTheta);
     const float sinPhi = radius / depth * cosTheta;
@@ -140,7 +140,7 @@ void place(vec2 offset, float extent, float depth) {
 }
 
 void main() {
-    const uvec3 n = view.lattice.xyz;
+    const uvec3 n = view.placed.xyz;
     const uvec3 ijk = uvec3(gridIndex % n.x, gridIndex / n.x % n.y, gridIndex / n.x / n.y);
     const vec2 px = texelFetch(axisPoints, int(ijk.x)).xy;
     const vec2 py = texelFetch(axisPoints, int(n.x + ijk.y)).xy;
@@ -156,7 +156,7 @@ void main() {
     const uint drawn = uint(gl_VertexID);
 #endif
     const uint point = (drawn & ~32767u) + placeInBlock;
-    // subsetRank in render/subset.h.
+    // subsetRank in render/points/subset.h.
     const bool selected = point >= run.x && point <= run.y && (point * 20249u & 32767u) < run.w;
     if (!selected || clipped || !(depth > near)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the clip volume

@@ -1,11 +1,11 @@
-#include "app/autosave.h"
+#include "app/choices/autosave.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "app/session.h"
+#include "app/choices/session.h"
 #include "tests/support/files.h"
 
 namespace app {

@@ -1,4 +1,4 @@
-#include "app/camera.h"
+#include "app/choices/camera.h"
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,8 @@ void expectInside(const View& view, const dvec3& world, const std::string& which
     EXPECT_LE(clip.z, clip.w) << which << ": cut by the far plane";
 }
 
-// A box whose farthest corners are 1 away, as Lattice makes them, upright or not; a side may be
-// nothing.
+// A box whose farthest corners are 1 away, as PlacedPoints makes them, upright or not; a side may
+// be nothing.
 dmat3 randomBox(std::mt19937& random) {
     std::uniform_real_distribution<double> side(0.001, 1), lean(-1, 1);
     dmat3 half(0);

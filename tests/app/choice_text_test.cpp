@@ -1,4 +1,4 @@
-#include "app/choice_text.h"
+#include "app/choices/choice_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

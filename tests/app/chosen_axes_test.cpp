@@ -1,8 +1,8 @@
-#include "app/chosen_axes.h"
+#include "app/files/chosen_axes.h"
 
 #include <gtest/gtest.h>
 
-#include "render/lattice.h"
+#include "render/points/placed_points.h"
 #include "tests/support/scripted_reader.h"
 
 namespace app {
@@ -47,7 +47,7 @@ TEST(ChosenAxes, AreThoseOfEveryVariableAndStepWithTheFilesCoordinates) {
     EXPECT_EQ(field.values, file.reader->read(file.variable, 0).values);
     EXPECT_EQ(dataset.reader->read(dataset.variable, 1).grid, field.grid) << "shared as before";
     // Drawn the other way round: a point and its mirror image change places.
-    const render::Lattice one(*file.about.grid), other(*dataset.about.grid);
+    const render::PlacedPoints one(*file.about.grid), other(*dataset.about.grid);
     for (std::uint64_t i = 0; i < file.about.grid->count(); ++i) {
         const glm::dvec3 p = one.position(i), q = other.position(i);
         EXPECT_EQ(q, glm::dvec3(p.x, p.y, -p.z));

@@ -1,11 +1,11 @@
-#include "app/clip_counts.h"
+#include "app/picture/clip_counts.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "app/choice_text.h"
-#include "app/point_counts.h"
+#include "app/choices/choice_text.h"
+#include "app/exploration/point_counts.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
 

@@ -1,9 +1,9 @@
-#include "app/clip_flaw.h"
+#include "app/choices/clip_flaw.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/choice_text.h"
+#include "app/choices/choice_text.h"
 
 namespace app {
 namespace {

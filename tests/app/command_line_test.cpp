@@ -1,4 +1,4 @@
-#include "app/command_line.h"
+#include "app/choices/command_line.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <random>
 
-#include "app/options.h"
+#include "app/choices/options.h"
 #include "tests/support/files.h"
 #include "tests/support/random_explorer.h"
 

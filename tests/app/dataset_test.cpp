@@ -1,4 +1,4 @@
-#include "app/dataset.h"
+#include "app/files/dataset.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

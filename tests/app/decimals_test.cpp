@@ -1,4 +1,4 @@
-#include "app/decimals.h"
+#include "app/choices/decimals.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/edits.h"
+#include "app/choices/edits.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "app/choice_text.h"
-#include "app/first_choice.h"
-#include "app/layer_colors.h"
+#include "app/choices/choice_text.h"
+#include "app/choices/first_choice.h"
+#include "app/choices/layer_colors.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
 

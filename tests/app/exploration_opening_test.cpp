@@ -1,9 +1,9 @@
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/picture.h"
+#include "app/picture/picture.h"
 #include "tests/support/exploration_desk.h"
 
 namespace app {

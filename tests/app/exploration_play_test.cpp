@@ -1,4 +1,4 @@
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

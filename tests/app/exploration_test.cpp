@@ -1,4 +1,4 @@
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "app/picture.h"
+#include "app/picture/picture.h"
 #include "tests/support/exploration_desk.h"
 
 namespace app {

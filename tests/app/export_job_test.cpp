@@ -1,4 +1,4 @@
-#include "app/export_job.h"
+#include "app/exploration/export_job.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "app/session.h"
+#include "app/choices/session.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "app/first_choice.h"
+#include "app/choices/first_choice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/frames.h"
+#include "app/files/frames.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/history.h"
+#include "app/choices/history.h"
 
 #include <gtest/gtest.h>
 

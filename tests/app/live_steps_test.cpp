@@ -1,4 +1,4 @@
-#include "app/live_steps.h"
+#include "app/exploration/live_steps.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/options.h"
+#include "app/choices/options.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/choice_text.h"
-#include "app/session.h"
+#include "app/choices/choice_text.h"
+#include "app/choices/session.h"
 #include "tests/support/files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/picture.h"
+#include "app/picture/picture.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "app/choice_text.h"
+#include "app/choices/choice_text.h"
 #include "tests/support/scenes.h"
 
 namespace app {
@@ -37,7 +37,7 @@ class PictureOfARamp : public testing::Test {
             timeseries::TimeAxis{"time", "s", "", {{0, ""}, {0.5, ""}, {1, ""}}});
     }
     Picture pictureOf(const Explorer& e, std::int64_t tick = 0) const {
-        return makePicture(resolved(e, steps_), about_, 1, *step_, lattice_, tick);
+        return makePicture(resolved(e, steps_), about_, 1, *step_, placed_, tick);
     }
     static Explorer withRanges(const std::vector<const char*>& ranges) {
         Explorer e;
@@ -47,7 +47,7 @@ class PictureOfARamp : public testing::Test {
 
     std::shared_ptr<const SortedStep> step_ = ramp(0, RangeSet::everything());
     Steps steps_{{1, step_}};
-    render::Lattice lattice_{step_->grid()};
+    render::PlacedPoints placed_{step_->grid()};
     timeseries::Variable about_;
 };
 
@@ -225,7 +225,7 @@ TEST_F(PictureOfARamp, TheColourBarsEndsDoNotDependOnTheStep) {
         return resolved(e, steps_);
     };
     const auto barOf = [&](const Explorer& e, const SortedStep& step) {
-        return makePicture(e, about_, 1, step, lattice_).legend.layers.at(0).shown;
+        return makePicture(e, about_, 1, step, placed_).legend.layers.at(0).shown;
     };
     const MapChoice map{{}, -50, 100};
     const auto other = ramp(-7, RangeSet::everything());
@@ -249,7 +249,7 @@ TEST_F(PictureOfARamp, ASweepsLegendStandsStillButForItsContour) {
     e.sweep->delta = 20;
     const Explorer r = resolved(e, steps_);
     for (std::int64_t tick = 0; tick < 256; tick += 7) {
-        const Picture p = makePicture(r, about_, 1, *step_, lattice_, tick);
+        const Picture p = makePicture(r, about_, 1, *step_, placed_, tick);
         const render::LegendLayer& told = p.legend.layers.at(0);
         EXPECT_EQ(told.shown, std::pair(100.123456789, 899.987654321));
         // To a fiftieth of the window's half width, 0.4: one decimal.
@@ -262,7 +262,7 @@ TEST_F(PictureOfARamp, NothingIsDrawnAndSaidWhereThereIsNoLayer) {
     Explorer e;
     e.noLayers = true;
     EXPECT_FALSE(needsSamples(e));
-    const Picture none = makePicture(resolved(e, steps_), about_, 1, *step_, lattice_);
+    const Picture none = makePicture(resolved(e, steps_), about_, 1, *step_, placed_);
     EXPECT_TRUE(none.scene.layers.empty());
     ASSERT_EQ(none.legend.notes.size(), 1u);
     EXPECT_THAT(none.legend.notes[0], HasSubstr("there is no layer"));
@@ -275,7 +275,7 @@ TEST_F(PictureOfARamp, NothingIsDrawnAndSaidWhereThereIsNoLayer) {
 TEST_F(PictureOfARamp, ColoursThatMixAreSaidToWhereTheyAreThick) {
     const auto mixed = [&](const Explorer& asked) {
         const Explorer e = resolved(asked, steps_);
-        return isMixed(e, makeScene(e, *step_, lattice_));
+        return isMixed(e, makeScene(e, *step_, placed_));
     };
     Explorer two = withRanges({"0:499", "500:999"});
     two.layers[0].opacity = two.layers[1].opacity = 0.3;
@@ -298,7 +298,7 @@ TEST_F(PictureOfARamp, ColoursThatMixAreSaidToWhereTheyAreThick) {
 
 TEST_F(PictureOfARamp, IsOrderedByDepthWhereThatShows) {
     const auto orderOf = [&](const Explorer& asked) {
-        return makeScene(resolved(asked, steps_), *step_, lattice_).order;
+        return makeScene(resolved(asked, steps_), *step_, placed_).order;
     };
     Explorer two = withRanges({"0:499", "500:999"});
     EXPECT_EQ(orderOf(two), render::Order::BackToFront);
@@ -319,7 +319,7 @@ TEST_F(PictureOfARamp, AStepWithoutValuesSaysSo) {
     EXPECT_EQ(pictureOf({}).legend.emptiness, "");
     const SortedStep none = SortedStep::build(
         {tests::cube(10), std::vector<float>(1000), std::vector<bool>(1000, true)});
-    const Picture p = makePicture(resolved({}, steps_), about_, 1, none, lattice_, 0);
+    const Picture p = makePicture(resolved({}, steps_), about_, 1, none, placed_, 0);
     EXPECT_EQ(p.legend.emptiness, "all 1,000 points of this step are missing");
 }
 
@@ -337,7 +337,7 @@ TEST_F(PictureOfARamp, InfinitiesBendNoAxis) {
     const auto& map = std::get<MapChoice>(*e.layers[0].color);
     EXPECT_EQ(map.lo, 1.0);
     EXPECT_EQ(map.hi, 998.0);
-    const Picture p = makePicture(e, about_, 1, *step, lattice_, 0);
+    const Picture p = makePicture(e, about_, 1, *step, placed_, 0);
     EXPECT_EQ(p.legend.layers.at(0).shown, (std::pair{1.0, 998.0}));
     EXPECT_EQ(p.legend.layers.at(0).amount, "1,000 points, 100 %");
     // The first choice: the uppermost tenth of the finite ones and what lies beyond them.
@@ -376,7 +376,7 @@ TEST_F(PictureOfARamp, TitlesFallBackToTheNameAndLeaveOutUnitsOfNone) {
 TEST_F(PictureOfARamp, OneUncountedStepHasNoTimeToState) {
     about_.time = std::make_shared<const timeseries::TimeAxis>(
         timeseries::TimeAxis{"step", "", "", {{0, ""}}, true});
-    const Picture p = makePicture(resolved({}, steps_), about_, 0, *step_, lattice_);
+    const Picture p = makePicture(resolved({}, steps_), about_, 0, *step_, placed_);
     EXPECT_EQ(p.legend.time, "");
 }
 
@@ -442,7 +442,7 @@ TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {
         e.sweep->delta = delta;
         const Explorer whole = resolved(e, {{1, step}});
         for (std::int64_t tick = 0; tick < 3; ++tick) {
-            const Picture picture = makePicture(whole, about_, 1, *step, lattice_, tick);
+            const Picture picture = makePicture(whole, about_, 1, *step, placed_, tick);
             EXPECT_EQ(picture.scene.layers.size(), 1u);
         }
     }

@@ -7,12 +7,12 @@
 #include <random>
 #include <set>
 
-#include "app/camera.h"
+#include "app/choices/camera.h"
 #include "app/panels/layout.h"
-#include "render/axes.h"
-#include "render/axis_labels.h"
-#include "render/legend.h"
-#include "render/ticks.h"
+#include "render/annotate/axes.h"
+#include "render/annotate/axis_labels.h"
+#include "render/annotate/legend.h"
+#include "render/annotate/ticks.h"
 #include "tests/support/flat_text.h"
 #include "tests/support/measured_axis.h"
 
@@ -78,18 +78,18 @@ struct Page {
     std::vector<render::AxisLabels> labels;
     render::Sights sights;
 
-    Page(const Grid& grid, const render::Lattice& lattice, const render::View& view,
+    Page(const Grid& grid, const render::PlacedPoints& placed, const render::View& view,
          const glm::dvec3& midEye, const render::Legend& words)
         : size(view.size),
           legend(render::legendMesh(words, tests::fontFor(size), size)),
-          axes(render::axesMeshes(grid, lattice, view, midEye, tests::fontFor(size), legend)),
-          sights(lattice.inAxes(view), inAxes(lattice, midEye), lattice.boxHalf()) {
+          axes(render::axesMeshes(grid, placed, view, midEye, tests::fontFor(size), legend)),
+          sights(placed.inAxes(view), inAxes(placed, midEye), placed.boxHalf()) {
         labels =
-            render::axisLabels(grid, lattice, sights, inAxes(lattice, midEye), size,
+            render::axisLabels(grid, placed, sights, inAxes(placed, midEye), size,
                                tests::fontFor(size), render::labelStyle(size), legend.covers());
     }
-    static glm::dvec3 inAxes(const render::Lattice& lattice, const glm::dvec3& world) {
-        return glm::inverse(lattice.worldFromAxes()) * world;
+    static glm::dvec3 inAxes(const render::PlacedPoints& placed, const glm::dvec3& world) {
+        return glm::inverse(placed.worldFromAxes()) * world;
     }
     double line() const { return render::labelStyle(size).linePixels; }
     std::vector<PixelRect> texts() const {
@@ -137,9 +137,9 @@ void expectApart(const Page& page, const std::string& which) {
 std::pair<std::size_t, std::size_t> counted;
 
 // The rule of axis_labels.h, from the lengths of edges and labels alone.
-void expectNamedAndNumbered(const Page& page, const Grid& grid, const render::Lattice& lattice,
+void expectNamedAndNumbered(const Page& page, const Grid& grid, const render::PlacedPoints& placed,
                             const glm::dvec3& midEye, const std::string& which) {
-    const auto half = lattice.boxHalf();
+    const auto half = placed.boxHalf();
     const auto font = [&](const std::string& text) {
         return glm::dvec2(tests::fontFor(page.size).measure(text, render::labelStyle(page.size)));
     };
@@ -157,7 +157,7 @@ void expectNamedAndNumbered(const Page& page, const Grid& grid, const render::La
             const glm::dvec2 from = page.sights.pixel(0, glm::mix(a, b, part->x)),
                              to = page.sights.pixel(0, glm::mix(a, b, part->y));
             const bool outline =
-                lies(edge, half, Page::inAxes(lattice, midEye)) == render::Lies::Outline;
+                lies(edge, half, Page::inAxes(placed, midEye)) == render::Lies::Outline;
             named = named || (outline && glm::distance(from, to) > page.line());
             // Room for numbers on either side, the edges of nothing else among it.
             PixelRect around{glm::min(from, to), glm::max(from, to)};
@@ -198,7 +198,7 @@ TEST(PictureText, IsApartFromOtherTextAndFromLinesInEveryWindowFromAllAround) {
         const auto& [window, scale] = kWindows[random() % kWindows.size()];
         const glm::ivec2 size(panels::layoutOf(window, scale).picture.size());
         const Grid& grid = worlds[random() % worlds.size()];
-        const render::Lattice lattice(grid);
+        const render::PlacedPoints placed(grid);
         ViewChoice view;
         view.azimuthDegrees =
             random() % 4 == 0 ? 90.0 * static_cast<double>(random() % 4) : azimuth(random);
@@ -206,15 +206,15 @@ TEST(PictureText, IsApartFromOtherTextAndFromLinesInEveryWindowFromAllAround) {
         if (random() % 3 == 0) view.projection = Projection::Orthographic;
         const bool fitted = random() % 3 != 0;
         if (!fitted) view.distance = 1.2 + 0.001 * static_cast<double>(random() % 4000);
-        const auto views = eyes(view, {}, lattice.boxHalfEdges(), size);
+        const auto views = eyes(view, {}, placed.boxHalfEdges(), size);
         const glm::dvec3 eye = render::pixelRays(views[0]).eye;
-        const Page page(grid, lattice, views[0], eye,
+        const Page page(grid, placed, views[0], eye,
                         legend(std::array{0, 1, 2, 8}[random() % 4], random() % 2 == 0));
         const std::string which = fmt::format(
             "{}: {}, {} x {}, from {:.1f} {:.1f} {}", i, grid.axes()[2].name, size.x, size.y,
             view.azimuthDegrees, view.elevationDegrees, page.legend.covers().size());
         expectApart(page, which);
-        expectNamedAndNumbered(page, grid, lattice, eye, which);
+        expectNamedAndNumbered(page, grid, placed, eye, which);
     }
     EXPECT_GT(counted.first, 3000u);
     EXPECT_GT(counted.second, 1500u);
@@ -230,19 +230,19 @@ TEST(PictureText, IsTheSameForBothEyes) {
             panels::layoutOf(kWindows[random() % kWindows.size()].first, 1).picture.size() /
             glm::vec2(2, 1));
         const Grid& grid = worlds[random() % worlds.size()];
-        const render::Lattice lattice(grid);
+        const render::PlacedPoints placed(grid);
         const ViewChoice view{
             .azimuthDegrees = azimuth(random),
             .elevationDegrees = elevation(random),
             .distance = {},
             .target = {},
             .projection = i % 3 ? Projection::Perspective : Projection::Orthographic};
-        const auto views = eyes(view, {Stereo::SideBySide, {}, {}}, lattice.boxHalfEdges(), size);
+        const auto views = eyes(view, {Stereo::SideBySide, {}, {}}, placed.boxHalfEdges(), size);
         ASSERT_EQ(views.size(), 2u);
         const glm::dvec3 midEye =
             0.5 * (render::pixelRays(views[0]).eye + render::pixelRays(views[1]).eye);
-        const Page left(grid, lattice, views[0], midEye, legend(2, true)),
-            right(grid, lattice, views[1], midEye, legend(2, true));
+        const Page left(grid, placed, views[0], midEye, legend(2, true)),
+            right(grid, placed, views[1], midEye, legend(2, true));
         const std::string which = fmt::format("{}: {} x {}", i, size.x, size.y);
         EXPECT_EQ(left.words(), right.words()) << which;
         EXPECT_EQ(left.axes.labels.covers().size(), right.axes.labels.covers().size()) << which;
@@ -257,7 +257,7 @@ TEST(PictureText, IsTheSameForBothEyes) {
 TEST(PictureText, StaysWhileTheViewTurnsALittle) {
     const glm::ivec2 size(1200, 940);
     for (const Grid& grid : grids()) {
-        const render::Lattice lattice(grid);
+        const render::PlacedPoints placed(grid);
         std::multiset<std::string> before;
         std::size_t kept = 0, all = 0;
         for (double azimuth = -180; azimuth < 180; azimuth += 1) {
@@ -266,8 +266,8 @@ TEST(PictureText, StaysWhileTheViewTurnsALittle) {
                                   .distance = {},
                                   .target = {},
                                   .projection = Projection::Perspective};
-            const auto views = eyes(view, {}, lattice.boxHalfEdges(), size);
-            const Page page(grid, lattice, views[0], render::pixelRays(views[0]).eye,
+            const auto views = eyes(view, {}, placed.boxHalfEdges(), size);
+            const Page page(grid, placed, views[0], render::pixelRays(views[0]).eye,
                             legend(1, false));
             const auto words = page.words();
             const std::multiset<std::string> now(words.begin(), words.end());

@@ -1,11 +1,11 @@
-#include "app/preferences.h"
+#include "app/choices/preferences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "app/user_files.h"
+#include "app/choices/user_files.h"
 #include "tests/support/files.h"
 
 namespace app {

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "app/dataset.h"
+#include "app/files/dataset.h"
 #include "tests/support/shared_data.h"
-#include "timeseries/sorted_step.h"
+#include "timeseries/index/sorted_step.h"
 
 namespace app {
 namespace {

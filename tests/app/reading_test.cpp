@@ -1,4 +1,4 @@
-#include "app/reading.h"
+#include "app/exploration/reading.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/selection_text.h"
+#include "app/choices/selection_text.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

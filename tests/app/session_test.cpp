@@ -1,4 +1,4 @@
-#include "app/session.h"
+#include "app/choices/session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "app/choice_text.h"
-#include "render/exr.h"
-#include "render/png.h"
+#include "app/choices/choice_text.h"
+#include "render/image/exr.h"
+#include "render/image/png.h"
 #include "tests/support/files.h"
 #include "tests/support/random_explorer.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/sweep_edits.h"
+#include "app/choices/sweep_edits.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "app/picture.h"
-#include "app/session.h"
+#include "app/choices/session.h"
+#include "app/picture/picture.h"
 #include "tests/support/scenes.h"
 
 namespace app {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "app/still.h"
-#include "render/axes.h"
-#include "render/color.h"
-#include "render/legend.h"
+#include "app/picture/still.h"
+#include "render/annotate/axes.h"
+#include "render/annotate/legend.h"
+#include "render/image/color.h"
 
 namespace app::panels {
 namespace {

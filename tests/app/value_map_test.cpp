@@ -1,4 +1,4 @@
-#include "app/value_map.h"
+#include "app/exploration/value_map.h"
 
 #include <gtest/gtest.h>
 

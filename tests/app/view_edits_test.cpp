@@ -1,4 +1,4 @@
-#include "app/view_edits.h"
+#include "app/choices/view_edits.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "app/camera.h"
-#include "app/choice_text.h"
+#include "app/choices/camera.h"
+#include "app/choices/choice_text.h"
 
 namespace app {
 namespace {

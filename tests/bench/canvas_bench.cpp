@@ -5,12 +5,12 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "app/canvas.h"
+#include "app/drawing/canvas.h"
+#include "render/frame/present.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
-#include "render/image_compare.h"
-#include "render/pick.h"
-#include "render/present.h"
+#include "render/model/pick.h"
+#include "render/reference/image_compare.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/noise_world.h"
 
@@ -100,9 +100,9 @@ void BM_Subset(benchmark::State& state) {
         return std::sin(at.x) * std::cos(at.y) + std::sin(at.y) * std::cos(at.z) +
                std::sin(at.z) * std::cos(at.x);
     });
-    const render::Lattice lattice(step.grid());
+    const render::PlacedPoints placed(step.grid());
     render::Scene scene{.step = step,
-                        .lattice = lattice,
+                        .placed = placed,
                         .layers = {{step.select(timeseries::RangeSet::parse("0.5:0.75")),
                                     {render::Constant{{1, 0.5, 0.1}}, 0.2}}},
                         .footprint = {},
@@ -110,7 +110,7 @@ void BM_Subset(benchmark::State& state) {
                         .clip = {}};
     const render::gl::HeadlessContext context;
     render::FrameRenderer renderer;
-    render::GpuStep onGpu(step, lattice);
+    render::GpuStep onGpu(step, placed);
     const std::array views{tests::lookFrom({1, -5, 1}, kSize, 0.25)};
     const auto light = [&] {
         const auto drawn =
@@ -139,25 +139,25 @@ BENCHMARK(BM_Subset)
 
 void BM_AxesAndLegend(benchmark::State& state) {
     const auto shown = world(100'000);
-    const render::Lattice lattice(shown.steps[0]->grid());
+    const render::PlacedPoints placed(shown.steps[0]->grid());
     const auto picture =
-        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], lattice);
+        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], placed);
     const render::Font font(std::array{render::labelStyle(kSize), render::titleStyle(kSize)});
     const auto view = tests::lookFrom({1, -3, 1}, kSize);
     const glm::dvec3 eye = render::pixelRays(view).eye;
     for (auto _ : state) {
         const auto legend = render::legendMesh(picture.legend, font, kSize);
         benchmark::DoNotOptimize(
-            render::axesMeshes(shown.steps[0]->grid(), lattice, view, eye, font, legend));
+            render::axesMeshes(shown.steps[0]->grid(), placed, view, eye, font, legend));
     }
 }
 BENCHMARK(BM_AxesAndLegend)->Unit(benchmark::kMillisecond);
 
 void BM_Pick(benchmark::State& state) {
     const auto shown = world(static_cast<std::uint64_t>(state.range(0)));
-    const render::Lattice lattice(shown.steps[0]->grid());
+    const render::PlacedPoints placed(shown.steps[0]->grid());
     const auto picture =
-        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], lattice);
+        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], placed);
     const auto view = tests::lookFrom({1, -3, 1}, kSize);
     for (auto _ : state)
         benchmark::DoNotOptimize(render::pick(picture.scene, view, {512.5, 512.5}));

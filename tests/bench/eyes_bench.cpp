@@ -22,7 +22,7 @@ void BM_EyePair(benchmark::State& state) {
     const std::array images{tests::EyeImage(size), tests::EyeImage(size)};
     const xr::Pose head{{1, 0, 0, 0}, {0, 1.6, 0}};
     const xr::Placement placement =
-        volumeBefore(head, render::Lattice(shown.sorted->grid()).boxHalfEdges());
+        volumeBefore(head, render::PlacedPoints(shown.sorted->grid()).boxHalfEdges());
     std::vector<xr::Eye> pair;
     for (int i = 0; i < 2; ++i)
         pair.push_back({.stageFromEye = {{1, 0, 0, 0}, {0.063 * (i - 0.5), 1.6, 0}},

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "timeseries/ordered_key.h"
-#include "timeseries/value_sort.h"
+#include "timeseries/index/ordered_key.h"
+#include "timeseries/index/value_sort.h"
 
 namespace bench::former {
 

@@ -13,7 +13,7 @@
 #include "tests/bench/alternate.h"
 #include "tests/bench/former_build.h"
 #include "tests/bench/turbulence.h"
-#include "timeseries/sorted_step.h"
+#include "timeseries/index/sorted_step.h"
 
 namespace {
 

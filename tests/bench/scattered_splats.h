@@ -1,7 +1,7 @@
 // Splats to draw: how many and how large, whatever the data.
 #pragma once
 
-#include "render/footprint.h"
+#include "render/model/footprint.h"
 #include "tests/support/scenes.h"
 
 namespace bench {
@@ -10,13 +10,13 @@ namespace bench {
 // volume, each of the wanted diameter in the middle of the picture.
 struct ScatteredSplats {
     ScatteredSplats(std::uint64_t count, double diameterPixels)
-        : step(tests::noise(tests::cube(256))), lattice(step.grid()) {
+        : step(tests::noise(tests::cube(256))), placed(step.grid()) {
         const double share = static_cast<double>(count) / static_cast<double>(step.size());
         const timeseries::RangeSet range(std::vector{timeseries::Range{{0.4}, {0.4 + share}}});
         scene.layers.push_back({step.select(range), {render::Constant{{1, 0.5, 0.1}}, 0.3}});
         const double focal = kSize.y / 2 / kTangent;
         const double cellPixels = diameterPixels / 2 / render::kQuarticRadius;
-        view = tests::lookFrom({0, -focal * lattice.unitLength() / cellPixels, 0}, kSize, kTangent);
+        view = tests::lookFrom({0, -focal * placed.unitLength() / cellPixels, 0}, kSize, kTangent);
     }
     // Refers to itself.
     ScatteredSplats(const ScatteredSplats&) = delete;
@@ -25,9 +25,9 @@ struct ScatteredSplats {
     static constexpr glm::ivec2 kSize{1024, 1024};
     static constexpr double kTangent = 0.25;  // of half the view's angle
     timeseries::SortedStep step;
-    render::Lattice lattice;
+    render::PlacedPoints placed;
     render::Scene scene{.step = step,
-                        .lattice = lattice,
+                        .placed = placed,
                         .layers = {},
                         .footprint = {},
                         .order = render::Order::None,

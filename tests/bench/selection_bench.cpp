@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/gl/headless_context.h"
-#include "render/gl_list.h"
+#include "render/splat/gl_list.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/volumes.h"
 
@@ -34,18 +34,18 @@ timeseries::SortedStep amongOthers(const std::vector<float>& small, std::size_t 
 struct Side {
     Side(const timeseries::SortedStep& step, const timeseries::RangeSet& range, double size,
          double opticalDepth)
-        : lattice(step.grid()),
+        : placed(step.grid()),
           scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(range),
                             {Constant{{1, 0.5, 0.1}}, -std::expm1(-opticalDepth)}}},
                 .footprint = {.size = size},
                 .order = Order::None,
                 .clip = {}},
-          onGpu(step, lattice) {
+          onGpu(step, placed) {
         onGpu.upload(scene, {});
     }
-    Lattice lattice;
+    PlacedPoints placed;
     Scene scene;
     GpuStep onGpu;
     FrameRenderer renderer;
@@ -66,10 +66,10 @@ void costFollowsTheSelection(benchmark::State& state) {
     // Of a cell, in which optical depth is counted, there is an eighth in length, and a point's
     // mass is a 512th on the same area: 64 times the depth makes the same picture.
     Side a(small.step, range, 1, 0.05), b(large, range, kStride, 0.05 * kStride * kStride);
-    // The same world: the large lattice's scale and middle are moved to the small one's.
+    // The same world: the large grid's scale and middle are moved to the small one's.
     const View view = bench::outside();
-    const glm::dvec3 scale = a.lattice.scale() / (b.lattice.scale() * double(kStride));
-    const glm::dvec3 shift = a.lattice.position(0) - scale.x * b.lattice.position(0);
+    const glm::dvec3 scale = a.placed.scale() / (b.placed.scale() * double(kStride));
+    const glm::dvec3 shift = a.placed.position(0) - scale.x * b.placed.position(0);
     View moved = view;
     moved.viewFromWorld = view.viewFromWorld * glm::translate(glm::dmat4(1), shift) *
                           glm::scale(glm::dmat4(1), scale);

@@ -1,15 +1,15 @@
 // Drawing: 100,000 splats of 8 pixels into 1024 x 1024, and what else a frame costs.
 #include <benchmark/benchmark.h>
 
-#include "render/cpu_splatter.h"
-#include "render/depth_order.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
-#include "render/gl_list.h"
-#include "render/gl_splatter.h"
-#include "render/gl_targets.h"
-#include "render/image_compare.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/gl_list.h"
+#include "render/splat/gl_splatter.h"
+#include "render/splat/gl_targets.h"
 #include "tests/bench/scattered_splats.h"
 
 namespace {
@@ -23,7 +23,7 @@ void drawAndResolve(benchmark::State& state, Order order, bool byValue) {
     const gl::HeadlessContext context;
     world.scene.order = order;
     if (byValue) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
-    GpuStep onGpu(world.step, world.lattice);
+    GpuStep onGpu(world.step, world.placed);
     onGpu.upload(world.scene, neededScale(world.scene));
     FrameRenderer renderer;
     const std::array views{world.view};
@@ -47,9 +47,9 @@ void BM_DrawOrdered(benchmark::State& state) { drawAndResolve(state, Order::Back
 // orders, against the truth's own order; what is lost by not ordering is the difference.
 void BM_ErrorAgainstTruth(benchmark::State& state) {
     const auto step = tests::noise(tests::cube(64));
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     Scene scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(timeseries::RangeSet::parse("0.1:0.3")),
                             {ByValue{{}, 0.1, 0.3}, static_cast<double>(state.range(0)) / 1000}}},
                 .footprint = {.kernel = state.range(1) != 0 ? Kernel::Quartic : Kernel::Point},
@@ -68,7 +68,7 @@ void BM_ErrorAgainstTruth(benchmark::State& state) {
         for (int c = 0; c < 3; ++c) truth.push_back(over.planes[0][4 * i + c]);
 
     const gl::HeadlessContext context;
-    GpuStep onGpu(step, lattice);
+    GpuStep onGpu(step, placed);
     GlSplatter splatter;
     GlTargets targets(view.size);
     gl::begin({.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});

@@ -9,15 +9,15 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "render/depth_order.h"
-#include "render/footprint.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
-#include "render/gl_list.h"
-#include "render/gl_targets.h"
+#include "render/model/footprint.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/gl_list.h"
+#include "render/splat/gl_targets.h"
 #include "tests/bench/volumes.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace {
 
@@ -107,7 +107,7 @@ void stageUpload(benchmark::State& state) {
     const gl::HeadlessContext context;
     GlSplatter splatter;
     for (auto _ : state) {
-        GpuStep onGpu(v.step, v.lattice);
+        GpuStep onGpu(v.step, v.placed);
         onGpu.upload(scene, {});
         benchmark::DoNotOptimize(splatter.upload(scene, Runs{}, onGpu));
         glFinish();
@@ -128,7 +128,7 @@ void stageDraw(benchmark::State& state) {
     const Scene scene = v.scene(share(state));
     const gl::HeadlessContext context;
     GlSplatter splatter;
-    GpuStep onGpu(v.step, v.lattice);
+    GpuStep onGpu(v.step, v.placed);
     GlTargets targets(bench::kPicture);
     gl::begin(
         {.framebuffer = targets.lightFramebuffer(), .size = bench::kPicture, .clearDepth = 1.0f});
@@ -141,7 +141,7 @@ void stageDraw(benchmark::State& state) {
     }
     state.counters["splats"] = static_cast<double>(v.step.count(v.rangeSet(share(state))));
     // The footprint in the middle of the picture.
-    state.counters["diameter"] = 2 * kQuarticRadius * v.lattice.unitLength() / std::sqrt(11.0) *
+    state.counters["diameter"] = 2 * kQuarticRadius * v.placed.unitLength() / std::sqrt(11.0) *
                                  pixelRays(bench::outside()).focal.y;
 }
 
@@ -151,7 +151,7 @@ void stageResolve(benchmark::State& state) {
     Scene scene = v.scene(0.01);
     scene.layers[0].runs.clear();
     const gl::HeadlessContext context;
-    GpuStep onGpu(v.step, v.lattice);
+    GpuStep onGpu(v.step, v.placed);
     FrameRenderer renderer;
     const std::array views{bench::outside()};
     const FrameContent content{scene, v.step.grid(), {}, glm::dvec3(0)};

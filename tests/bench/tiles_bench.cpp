@@ -2,13 +2,13 @@
 // and what the driver makes of point sprites for ordered ones.
 #include <benchmark/benchmark.h>
 
-#include "render/depth_order.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
-#include "render/gl_list.h"
-#include "render/gl_targets.h"
-#include "render/row_splatter.h"
-#include "render/tile_splatter.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/gl_list.h"
+#include "render/splat/gl_targets.h"
+#include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/scattered_splats.h"
 
@@ -28,7 +28,7 @@ void tiles(benchmark::State& state) {
     const std::vector<float> far(std::size_t(world.view.size.x) * world.view.size.y, 1);
     const glm::dvec3 eye = pixelRays(world.view).eye;
     const gl::HeadlessContext context;
-    GpuStep onGpu(world.step, world.lattice);
+    GpuStep onGpu(world.step, world.placed);
     onGpu.upload(world.scene, neededScale(world.scene));
     GlSplatter splatter;
     GlTargets targets(world.view.size);

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "timeseries/field.h"
+#include "timeseries/grid/field.h"
 
 namespace bench {
 

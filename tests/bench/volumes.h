@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "render/scene.h"
+#include "render/model/scene.h"
 #include "tests/bench/turbulence.h"
 #include "tests/support/scenes.h"
 
@@ -14,7 +14,7 @@ struct Volume {
         : points(n),
           field(turbulence<float>(n)),
           step(timeseries::SortedStep::build(field)),
-          lattice(*field.grid) {}
+          placed(*field.grid) {}
     const std::vector<float>& values() const { return std::get<std::vector<float>>(field.values); }
 
     // The range of values about the median that holds this share of the points.
@@ -30,7 +30,7 @@ struct Volume {
     // Of that range, in one colour; seen from outside, the whole volume in the picture.
     render::Scene scene(double share) const {
         return {.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(rangeSet(share)), {render::Constant{{1, 0.5, 0.1}}, 0.3}}},
                 .footprint = {},
                 .order = render::Order::None,
@@ -40,7 +40,7 @@ struct Volume {
     std::size_t points;  // along an axis
     timeseries::Field field;
     timeseries::SortedStep step;
-    render::Lattice lattice;
+    render::PlacedPoints placed;
 };
 
 // The volume of this size, made unless it is the last one that was asked for.

@@ -24,9 +24,9 @@
 #include <string>
 #include <thread>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/gl/headless_context.h"
-#include "render/gl_list.h"
+#include "render/splat/gl_list.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/scattered_splats.h"
 
@@ -68,14 +68,14 @@ struct VtkPicture {
         std::sort(selected.begin(), selected.end());
         vtkNew<vtkPoints> points;
         for (const std::uint32_t i : selected) {
-            const glm::dvec3 at = world.lattice.position(i);
+            const glm::dvec3 at = world.placed.position(i);
             points->InsertNextPoint(at.x, at.y, at.z);
         }
         vtkNew<vtkPolyData> cloud;
         cloud->SetPoints(points);
         vtkNew<vtkPointGaussianMapper> mapper;
         mapper->SetInputData(cloud);
-        mapper->SetScaleFactor(splats ? kQuarticRadius * world.lattice.unitLength() / 3 : 0);
+        mapper->SetScaleFactor(splats ? kQuarticRadius * world.placed.unitLength() / 3 : 0);
         mapper->EmissiveOn();
         mapper->ScalarVisibilityOff();
         vtkNew<vtkActor> actor;
@@ -139,7 +139,7 @@ void vtkDraw(benchmark::State& state) {
         lit = theirs->litPixels();
     });
     const gl::HeadlessContext context;
-    GpuStep onGpu(world.step, world.lattice);
+    GpuStep onGpu(world.step, world.placed);
     onGpu.upload(world.scene, {});
     FrameRenderer renderer;
     const std::array views{world.view};

@@ -11,9 +11,9 @@
 #include <vtkPolyData.h>
 #include <vtkThresholdPoints.h>
 
-#include "render/depth_order.h"
 #include "render/gl/headless_context.h"
-#include "render/gl_list.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/gl_list.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/volumes.h"
 
@@ -65,7 +65,7 @@ void vtkSelect(benchmark::State& state) {
 // A selection until it can be drawn: found, and sent to the GPU in drawing order.
 void makeReady(const bench::Volume& v, double share, GlSplatter& splatter) {
     const Scene scene = v.scene(share);
-    GpuStep onGpu(v.step, v.lattice);
+    GpuStep onGpu(v.step, v.placed);
     onGpu.upload(scene, {});
     benchmark::DoNotOptimize(splatter.upload(scene, Runs{}, onGpu));
     glFinish();
@@ -115,7 +115,7 @@ void vtkOrder(benchmark::State& state) {
     vtkNew<vtkCellArray> cells;
     for (const auto& run : scene.layers[0].runs)
         for (std::uint64_t p = run.first; p < run.first + run.count; ++p) {
-            const glm::dvec3 at = v.lattice.position(v.step.gridIndex()[p]);
+            const glm::dvec3 at = v.placed.position(v.step.gridIndex()[p]);
             const vtkIdType id = points->InsertNextPoint(at.x, at.y, at.z);
             cells->InsertNextCell(1, &id);
         }

@@ -9,7 +9,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "timeseries/step_loader.h"
+#include "timeseries/series/step_loader.h"
 
 namespace datasets {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace fuzz {
 

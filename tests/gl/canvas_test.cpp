@@ -1,20 +1,20 @@
 // What a window draws: the same pictures as files, in time.
-#include "app/canvas.h"
+#include "app/drawing/canvas.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "app/camera.h"
-#include "app/picture_files.h"
-#include "app/session.h"
-#include "app/still.h"
-#include "render/exr.h"
+#include "app/choices/camera.h"
+#include "app/choices/session.h"
+#include "app/files/picture_files.h"
+#include "app/picture/still.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
-#include "render/image_compare.h"
-#include "render/png.h"
-#include "render/splat_cost.h"
+#include "render/image/exr.h"
+#include "render/image/png.h"
+#include "render/model/splat_cost.h"
+#include "render/reference/image_compare.h"
 #include "tests/support/files.h"
 #include "tests/support/shown_steps.h"
 
@@ -41,9 +41,9 @@ class CanvasOfNoise : public testing::Test {
     // As `isochron render` makes it: a renderer and a step on the GPU that have seen nothing else.
     void drawApart(const Shown& shown, const std::filesystem::path& file) {
         render::FrameRenderer renderer(render::SplatterChoice::Gl);
-        const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
-        render::GpuStep onGpu(*shown.sorted, lattice);
-        writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice, 0},
+        const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
+        render::GpuStep onGpu(*shown.sorted, placed);
+        writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed, 0},
                    renderer, onGpu, {}, file);
     }
 
@@ -86,9 +86,9 @@ TEST_F(CanvasOfNoise, MovingKeepsToTheLimitOfAllEyesAndRestsWhole) {
     // Of all eyes, in ordinary splats; those of a subset are larger.
     const auto cost = [&](std::uint32_t stride) {
         const Shown shown = world_.shown();
-        const render::Lattice lattice(shown.sorted->grid());
+        const render::PlacedPoints placed(shown.sorted->grid());
         Picture picture =
-            makePicture(shown.explorer, shown.dataset.about, 0, *shown.sorted, lattice);
+            makePicture(shown.explorer, shown.dataset.about, 0, *shown.sorted, placed);
         picture.scene.stride = stride;
         picture.scene.footprint.size *= std::cbrt(stride);
         double sum = 0;
@@ -283,7 +283,7 @@ TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
     EXPECT_EQ(step.gridIndex()[probe->picked.point], i);
     EXPECT_EQ(probe->value, step.value(probe->picked.point));
     EXPECT_EQ(probe->coordinates, step.grid().position(i));
-    EXPECT_EQ(probe->picked.world, canvas_.drawn()->lattice->position(i));
+    EXPECT_EQ(probe->picked.world, canvas_.drawn()->placed->position(i));
     const double value = timeseries::toDouble(probe->value);
     ASSERT_TRUE(probe->layer);
     EXPECT_TRUE(*probe->layer == 0 ? 0.1 <= value && value <= 0.4 : 0.8 <= value && value <= 0.9)

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "app/user_files.h"
+#include "app/choices/user_files.h"
 #include "render/gl/headless_context.h"
 #include "tests/support/files.h"
 

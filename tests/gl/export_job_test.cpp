@@ -1,4 +1,4 @@
-#include "app/export_job.h"
+#include "app/exploration/export_job.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "app/session.h"
+#include "app/choices/session.h"
 #include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 

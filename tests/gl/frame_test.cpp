@@ -1,6 +1,6 @@
 // Whole frames: two eyes are one list drawn twice, and pictures are what the truth resolves to.
-#include "render/frame.h"
-#include "render/depth_order.h"
+#include "render/frame/frame.h"
+#include "render/splat/depth_order.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "render/cpu_splatter.h"
-#include "render/encode_srgb.h"
 #include "render/gl/headless_context.h"
-#include "render/image_compare.h"
-#include "render/tile_splatter.h"
+#include "render/image/encode_srgb.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -24,11 +24,11 @@ struct FrameWorld {
     FrameContent content() { return {scene_, step_.grid(), {}, glm::dvec3(0.02, 0.03, 0.04)}; }
     gl::HeadlessContext context_;
     timeseries::SortedStep step_ = tests::noise(tests::cube(20));
-    Lattice lattice_{step_.grid()};
-    GpuStep onGpu_{step_, lattice_};
+    PlacedPoints placed_{step_.grid()};
+    GpuStep onGpu_{step_, placed_};
     Scene scene_{
         .step = step_,
-        .lattice = lattice_,
+        .placed = placed_,
         .layers = {{step_.select(RangeSet::parse("0.1:0.2")), {Constant{{1, 0.2, 0}}, 0.2}},
                    {step_.select(RangeSet::parse("0.7:0.9")), {ByValue{{}, 0.7, 0.9}, 0.3}}},
         .footprint = {},
@@ -101,14 +101,14 @@ constexpr std::uint64_t kPiece = std::max(kPiecePoints, TileSum::kLeast + kSubse
 // 64,000 points: pieces of two layers in two blocks.
 TEST_P(Frame, AnEyeDrawnBitByBitIsTheSameBitForBit) {
     const timeseries::SortedStep step = tests::noise(tests::cube(40));
-    const Lattice lattice(step.grid());
-    GpuStep onGpu(step, lattice);
+    const PlacedPoints placed(step.grid());
+    GpuStep onGpu(step, placed);
     for (const Order order : {Order::None, Order::BackToFront})
         // From outside by point sprites, from inside by quads.
         for (const glm::dvec3 from : {glm::dvec3(-0.05, -3, 0), glm::dvec3(0.2, 0.1, 0.3)}) {
             const Scene scene{
                 .step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(RangeSet::parse("0.1:0.3,0.6:0.9")),
                             {ByValue{{}, 0, 1}, 0.3}},
                            {step.select(RangeSet::parse("0.7:0.8")), {Constant{{1, 0, 0}}, 0.2}}},
@@ -213,11 +213,11 @@ TEST_P(Frame, ChannelsOfDataAreTheTruthsOnEveryPixelOrderedOrNot) {
 TEST_P(Frame, ChannelsOfDataAreTheTruthsWhereCellsAreAThousandTimesAsLongAsWide) {
     const timeseries::Grid grid({tests::axis(12), tests::axis(10), tests::axis(8, 0, 1000)});
     const auto step = tests::noise(std::make_shared<timeseries::Grid>(grid));
-    const Lattice lattice(grid);
-    GpuStep onGpu(step, lattice);
+    const PlacedPoints placed(grid);
+    GpuStep onGpu(step, placed);
     const Scene scene{
         .step = step,
-        .lattice = lattice,
+        .placed = placed,
         .layers = {{step.select(RangeSet::parse("0:0.5")), {Constant{{1, 0.2, 0}}, 0.2}}},
         .footprint = {},
         .order = Order::None,

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <random>
 
-#include "render/cpu_splatter.h"
-#include "render/image_compare.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
 #include "tests/support/gl_planes.h"
 
 namespace render {
@@ -19,7 +19,7 @@ class GpuSteps : public tests::GlTest {
  protected:
     Scene sceneOf(std::vector<std::vector<RunOfPoints>> layers) const {
         Scene scene{.step = step_,
-                    .lattice = lattice_,
+                    .placed = placed_,
                     .layers = {},
                     .footprint = {.kernel = Kernel::Point},
                     .order = Order::None,
@@ -36,7 +36,7 @@ class GpuSteps : public tests::GlTest {
     }
 
     const timeseries::SortedStep step_ = tests::noise(tests::cube(47));  // 3.2 blocks
-    const Lattice lattice_{step_.grid()};
+    const PlacedPoints placed_{step_.grid()};
 };
 
 TEST_F(GpuSteps, RunsAreDrawnToTheirEndsAndNoFarther) {
@@ -130,7 +130,7 @@ class GpuStepsByValue : public GpuSteps {
 TEST_F(GpuStepsByValue, BlocksComeOneByOneAndOnlyThoseThatAreAskedFor) {
     const Scene scene = byValue({{5, 10}, {kBlock - 1, 1}, {3 * kBlock + 2, 3}});  // 0 and 3
     const auto scale = neededScale(scene);
-    GpuStep onGpu(step_, lattice_);
+    GpuStep onGpu(step_, placed_);
     const std::uint64_t all = (kBlock + lastBlock_) * 10;
     EXPECT_EQ(GpuStep::neededBytes(scene, scale), all);
     EXPECT_EQ(onGpu.missingBytes(scene, scale), all);
@@ -154,7 +154,7 @@ TEST_F(GpuStepsByValue, BlocksComeOneByOneAndOnlyThoseThatAreAskedFor) {
 TEST_F(GpuStepsByValue, OneCallSendsAsManyBlocksAsReachTheBytes) {
     const Scene scene = byValue({{0, step_.size()}});
     const auto scale = neededScale(scene);
-    GpuStep onGpu(step_, lattice_);
+    GpuStep onGpu(step_, placed_);
     onGpu.upload(scene, scale, kBlock * 10 + 1);
     EXPECT_EQ(onGpu.missingBytes(scene, scale), (step_.size() - 2 * kBlock) * 10);
     onGpu.upload(scene, scale);
@@ -168,7 +168,7 @@ TEST_F(GpuStepsByValue, OneCallSendsAsManyBlocksAsReachTheBytes) {
 TEST_F(GpuStepsByValue, AnOrderedSceneNeedsNothing) {
     Scene scene = byValue({{0, step_.size()}});
     scene.order = Order::BackToFront;
-    GpuStep onGpu(step_, lattice_);
+    GpuStep onGpu(step_, placed_);
     EXPECT_TRUE(onGpu.ready(scene));
     EXPECT_EQ(onGpu.missingBytes(scene, neededScale(scene)), 0u);
     onGpu.upload(scene, neededScale(scene));
@@ -178,7 +178,7 @@ TEST_F(GpuStepsByValue, AnOrderedSceneNeedsNothing) {
 TEST_F(GpuStepsByValue, ValuesOnAnotherScaleTakeOverWhenAllAreThere) {
     const Scene scene = byValue({{0, 2 * kBlock}});
     const ValueScale narrow = *neededScale(scene), wider{-3, 4};
-    GpuStep onGpu(step_, lattice_);
+    GpuStep onGpu(step_, placed_);
     onGpu.upload(scene, {});  // points alone
     EXPECT_FALSE(onGpu.ready(scene));
     EXPECT_EQ(onGpu.missingBytes(scene, narrow), 2 * kBlock * 4);
@@ -201,7 +201,7 @@ TEST_F(GpuStepsByValue, AScaleThatServesIsKept) {
     const ValueScale first{0.2, 0.1}, near{0.21, 0.12}, far{0.2, 1e-9};
     ASSERT_TRUE(first.serves(near));
     ASSERT_FALSE(first.serves(far));
-    GpuStep onGpu(step_, lattice_);
+    GpuStep onGpu(step_, placed_);
     EXPECT_EQ(onGpu.serving(near), near);
     onGpu.upload(scene, first, 1);  // coming
     EXPECT_EQ(onGpu.serving(near), first);

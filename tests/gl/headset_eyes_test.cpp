@@ -9,10 +9,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/headset/standing.h"
-#include "app/still.h"
-#include "render/color.h"
+#include "app/picture/still.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
+#include "render/image/color.h"
 #include "tests/support/eye_image.h"
 #include "tests/support/shown_steps.h"
 
@@ -37,10 +37,10 @@ class HeadsetEyes : public testing::Test {
     }
     // The light of a renderer that has seen nothing else, pictures of `size`.
     std::vector<render::EyePicture> rendered(const Shown& shown, glm::ivec2 size) const {
-        const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
-        render::GpuStep onGpu(*shown.sorted, lattice);
+        const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
+        render::GpuStep onGpu(*shown.sorted, placed);
         const Picture picture =
-            makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice);
+            makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed);
         render::FrameRenderer renderer;
         std::array views{viewOf(eyes_[0], placement_), viewOf(eyes_[1], placement_)};
         for (render::View& view : views) view.size = size;
@@ -73,7 +73,7 @@ class HeadsetEyes : public testing::Test {
     tests::ShownSteps world_{12};
     Eyes view_;
     const xr::Placement placement_ = volumeBefore(
-        {{1, 0, 0, 0}, {0, 1.6, 0}}, render::Lattice(world_.steps[0]->grid()).boxHalfEdges());
+        {{1, 0, 0, 0}, {0, 1.6, 0}}, render::PlacedPoints(world_.steps[0]->grid()).boxHalfEdges());
 };
 
 TEST_F(HeadsetEyes, SeeWhatAFileWouldHave) {

@@ -2,9 +2,9 @@
 // truth's.
 #include <glm/geometric.hpp>
 
-#include "app/camera.h"
-#include "render/cpu_splatter.h"
-#include "render/image_compare.h"
+#include "app/choices/camera.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
 #include "tests/support/gl_planes.h"
 
 namespace app {
@@ -20,7 +20,7 @@ class Orthographic : public tests::GlTest {
     Orthographic() { view_.projection = Projection::Orthographic; }
 
     std::vector<View> eyesOf(const StereoChoice& stereo = {}) const {
-        return eyes(view_, stereo, lattice_.boxHalfEdges(), {320, 240});
+        return eyes(view_, stereo, placed_.boxHalfEdges(), {320, 240});
     }
     std::vector<double> truth(const View& view, float wall = 1) const {
         render::Accumulator<double> sums(view.size, {Channels::Weight});
@@ -34,9 +34,9 @@ class Orthographic : public tests::GlTest {
     }
 
     timeseries::SortedStep step_ = tests::noise(tests::cube(24));
-    render::Lattice lattice_{step_.grid()};
+    render::PlacedPoints placed_{step_.grid()};
     render::Scene scene_{.step = step_,
-                         .lattice = lattice_,
+                         .placed = placed_,
                          .layers = {{step_.select(RangeSet::parse("0.3:0.6")),
                                      {render::Constant{glm::dvec3(1)}, 0.5}}},
                          .footprint = {},
@@ -67,7 +67,7 @@ TEST_F(Orthographic, WhatTheOpaqueSceneHidesIsTheTruths) {
     const View eye = eyesOf()[0];
     const std::vector<double> open = truth(eye);
     for (const double between : {0.0, 4.0, -8.0, 11.0}) {
-        const glm::dvec3 at(0, between * lattice_.cell(0).y, 0);
+        const glm::dvec3 at(0, between * placed_.cell(0).y, 0);
         const glm::dvec4 clip = eye.clipFromView * eye.viewFromWorld * glm::dvec4(at, 1);
         const auto wall = static_cast<float>(clip.z / clip.w);
         const std::vector<double> expected = truth(eye, wall);

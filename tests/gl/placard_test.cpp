@@ -1,10 +1,10 @@
 // Placards stand in the scene: in their place, upright, before and behind other things.
-#include "render/placard.h"
+#include "render/annotate/placard.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "render/color.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
+#include "render/image/color.h"
 #include "tests/support/gl_planes.h"
 
 namespace render {
@@ -85,15 +85,15 @@ TEST_F(Placards, BearTheirPictureUprightInLinearLight) {
 
 TEST_F(Placards, ThePointsAreBeforeOrBehind) {
     const auto step = tests::noise(tests::cube(6));
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     const Scene scene{
         step,
-        lattice,
+        placed,
         {{step.select(timeseries::RangeSet::everything()), {Constant{{1, 1, 1}}, 0.9}}},
         {},
         Order::None,
         {}};
-    GpuStep onGpu(step, lattice);
+    GpuStep onGpu(step, placed);
     const auto pictureOf = [&](const Scene& drawn, double y) {
         const std::vector<Placard> placards{{standing(y, {2, 2}), glm::vec3(0, 0, 1)}};
         return renderer_

@@ -1,5 +1,5 @@
 // What a display gets of a picture is what a PNG file has of it.
-#include "render/present.h"
+#include "render/frame/present.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <limits>
 #include <optional>
 
-#include "render/color.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
-#include "render/png.h"
+#include "render/image/color.h"
+#include "render/image/png.h"
 #include "tests/support/files.h"
 
 namespace render {

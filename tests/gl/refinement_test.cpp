@@ -1,13 +1,13 @@
 // A picture at rest, drawn over several frames: the same bits, never more than a slice a call, and
 // given up at once.
-#include "app/refinement.h"
+#include "app/drawing/refinement.h"
 
 #include <gtest/gtest.h>
 
-#include "app/canvas.h"
+#include "app/drawing/canvas.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
-#include "render/pieces.h"
+#include "render/splat/pieces.h"
 #include "tests/support/files.h"
 #include "tests/support/shown_steps.h"
 

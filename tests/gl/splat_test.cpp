@@ -10,12 +10,12 @@
 #include <limits>
 #include <numeric>
 
-#include "render/cpu_splatter.h"
-#include "render/depth_order.h"
 #include "render/gl/pass.h"
-#include "render/image_compare.h"
-#include "render/row_splatter.h"
-#include "render/tile_splatter.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/gl_planes.h"
 
 namespace render {
@@ -27,10 +27,10 @@ using timeseries::RangeSet;
 
 class GlSplat : public tests::GlTest {};
 
-Scene noiseScene(const timeseries::SortedStep& step, const Lattice& lattice, const char* range,
+Scene noiseScene(const timeseries::SortedStep& step, const PlacedPoints& placed, const char* range,
                  RangeStyle style = {Constant{glm::dvec3(1)}, 0.5}) {
     return {.step = step,
-            .lattice = lattice,
+            .placed = placed,
             .layers = {{step.select(RangeSet::parse(range)), style}},
             .footprint = {},
             .order = Order::None,
@@ -65,8 +65,8 @@ constexpr double kTarget = 1e-5;
 
 TEST_F(GlSplat, OpticalDepthIsTheTruthsToOnePartIn100000) {
     const auto step = tests::noise(cube(32));
-    const Lattice lattice(step.grid());
-    const Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    const PlacedPoints placed(step.grid());
+    const Scene scene = noiseScene(step, placed, "0.3:0.6");
     // From outside with point sprites; from inside and from a corner with quads.
     for (const glm::dvec3 eye : {glm::dvec3(0, -3, 0), glm::dvec3(2, -2, 1),
                                  glm::dvec3(0.2, 0.1, 0.3), glm::dvec3(0.5, 0.5, 0.52)})
@@ -80,8 +80,8 @@ TEST_F(GlSplat, UnequalAndUnevenCellsAreTheTruths) {
     const auto grid = std::make_shared<timeseries::Grid>(
         std::array{tests::axis(30, 5, -0.2), tests::axis(20, 0, 0.7), uneven});
     const auto step = tests::noise(grid);
-    const Lattice lattice(*grid);
-    const Scene scene = noiseScene(step, lattice, "0.2:0.4");
+    const PlacedPoints placed(*grid);
+    const Scene scene = noiseScene(step, placed, "0.2:0.4");
     for (const glm::dvec3 eye : {glm::dvec3(0, -3, 0.4), glm::dvec3(0.3, -0.2, 2.5)})
         EXPECT_LE(error(*this, scene, lookFrom(eye, {400, 300}), Channels::Weight), kTarget);
 }
@@ -92,8 +92,8 @@ TEST_F(GlSplat, FlatCellsBesideTheEyeAreTheTruths) {
     const auto grid = std::make_shared<timeseries::Grid>(
         std::array{tests::axis(8), tests::axis(8), tests::axis(8, 0, 0.001)});
     const auto step = tests::noise(grid);
-    const Lattice lattice(*grid, glm::dvec3(1));
-    const Scene scene = noiseScene(step, lattice, "0:1");
+    const PlacedPoints placed(*grid, glm::dvec3(1));
+    const Scene scene = noiseScene(step, placed, "0:1");
     for (const glm::dvec3 eye : {glm::dvec3(0.42, -0.3, 0.37), glm::dvec3(-0.43, -0.07, 0.2),
                                  glm::dvec3(-0.13, 0.23, 0.13)})
         EXPECT_LE(error(*this, scene, lookFrom(eye, {97, 61}, 1), Channels::Weight), kTarget)
@@ -110,9 +110,9 @@ TEST_F(GlSplat, TurnedAndShearedCellsAreTheTruths) {
          {timeseries::Grid(cubic, {tests::rotation(0.9)}), timeseries::Grid(cubic, {mirrored}),
           timeseries::Grid(unequal, {tests::rotation(2.2)}), timeseries::Grid(unequal, {flat})}) {
         const auto step = tests::noise(std::make_shared<timeseries::Grid>(grid));
-        const Lattice lattice(grid);
-        Scene scene = noiseScene(step, lattice, "0.2:0.4", {ByValue{{}, 0.2, 0.4}, 0.3});
-        const double volume = glm::determinant(lattice.worldFromAxes());
+        const PlacedPoints placed(grid);
+        Scene scene = noiseScene(step, placed, "0.2:0.4", {ByValue{{}, 0.2, 0.4}, 0.3});
+        const double volume = glm::determinant(placed.worldFromAxes());
         // Sprites, quads, and cells below a pixel.
         for (const glm::dvec3& eye :
              {glm::dvec3(0, -3, 0.4), glm::dvec3(0.3, -0.2, 0.1), glm::dvec3(200, -300, 150)}) {
@@ -140,8 +140,8 @@ TEST_F(GlSplat, TurnedAndShearedCellsAreTheTruths) {
 
 TEST_F(GlSplat, AsymmetricAndWideFrustaAreTheTruths) {
     const auto step = tests::noise(cube(24));
-    const Lattice lattice(step.grid());
-    const Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    const PlacedPoints placed(step.grid());
+    const Scene scene = noiseScene(step, placed, "0.3:0.6");
     View view = lookFrom({0, -1.3, 0}, {500, 400});
     view.clipFromView = clipFromView({-1.4, 0.3, -0.2, 1.1, 0.05, 50});
     EXPECT_LE(error(*this, scene, view, Channels::Weight), kTarget);
@@ -152,8 +152,8 @@ TEST_F(GlSplat, ASplatSlidingOutOfThePictureNeverVanishesWhole) {
     auto grid = std::make_shared<timeseries::Grid>(
         std::array{tests::axis(1), tests::axis(1), tests::axis(1)});
     const auto step = tests::stepOf(grid, [](std::size_t) { return 0.5; });
-    const Lattice lattice(*grid);
-    const Scene scene = noiseScene(step, lattice, "0:1");
+    const PlacedPoints placed(*grid);
+    const Scene scene = noiseScene(step, placed, "0:1");
     for (double x = 1.0; x < 4.0; x += 0.25) {
         View view = lookFrom({0, -6, 0}, {128, 128});
         view.viewFromWorld[3].x = x;
@@ -168,8 +168,8 @@ TEST_F(GlSplat, PicturesAsWideAsTheDriverAllowsAreTheTruths) {
     GLint texture = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
     const auto step = tests::noise(cube(7));  // odd: a plane of points is seen edge on
-    const Lattice lattice(step.grid());
-    Scene scene = noiseScene(step, lattice, "0:1");
+    const PlacedPoints placed(step.grid());
+    Scene scene = noiseScene(step, placed, "0:1");
     scene.footprint.size = 0.02;  // small enough for point sprites
     const View view = lookFrom({0, -3, 0}, {std::min(largest[0], texture), 8}, 0.4 / 2048);
     const auto drawn = plane(scene, view, Channels::Weight);
@@ -179,8 +179,8 @@ TEST_F(GlSplat, PicturesAsWideAsTheDriverAllowsAreTheTruths) {
 
 TEST_F(GlSplat, SizesFarAboveAndBelowAPixelAreTheTruths) {
     const auto step = tests::noise(cube(10));
-    const Lattice lattice(step.grid());
-    Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    const PlacedPoints placed(step.grid());
+    Scene scene = noiseScene(step, placed, "0.3:0.6");
     for (const double size : {0.05, 0.5, 3.0, 20.0}) {
         scene.footprint.size = size;
         EXPECT_LE(error(*this, scene, lookFrom({0, -3, 0.3}, {256, 256}), Channels::Weight),
@@ -197,8 +197,8 @@ TEST_F(GlSplat, PointSplatsAreTheTruthsOnNearlyEveryPixel) {
     // A point within float rounding of a pixel's border may fall to either side: the totals agree,
     // and few pixels differ. The picture holds every point.
     const auto step = tests::noise(cube(24));
-    const Lattice lattice(step.grid());
-    Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    const PlacedPoints placed(step.grid());
+    Scene scene = noiseScene(step, placed, "0.3:0.6");
     scene.footprint.kernel = Kernel::Point;
     const View view = lookFrom({1, -4, 1}, {300, 300});
     for (const double size : {1.0, 2.0, 3.0, 300.0}) {
@@ -222,11 +222,11 @@ TEST_F(GlSplat, PointSplatsAreTheTruthsOnNearlyEveryPixel) {
 
 TEST_F(GlSplat, ColourByValueIsTheTruths) {
     const auto step = tests::noise(cube(24));
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     const View view = lookFrom({1, -3, 1}, {300, 300});
     // Map ends inside, outside and equal.
     for (const auto& [lo, hi] : {std::pair(0.3, 0.6), std::pair(-1.0, 4.0), std::pair(0.5, 0.5)}) {
-        const Scene scene = noiseScene(step, lattice, "0.3:0.6", {ByValue{{}, lo, hi}, 0.5});
+        const Scene scene = noiseScene(step, placed, "0.3:0.6", {ByValue{{}, lo, hi}, 0.5});
         EXPECT_LE(error(*this, scene, view, Channels::WeightedColor), kTarget) << lo << ' ' << hi;
     }
 }
@@ -241,14 +241,14 @@ TEST_F(GlSplat, ColourByValueDoesNotSufferFromValuesFarOutsideTheMap) {
     values[77] = std::numeric_limits<float>::infinity();
     values[99] = -std::numeric_limits<float>::infinity();
     const auto step = timeseries::SortedStep::build({cube(24), values, {}});
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     const View view = lookFrom({1, -3, 1}, {300, 300});
     for (const auto& [lo, hi] : {std::pair(0.3, 0.6), std::pair(-1e34, 1.0)}) {
-        const Scene scene = noiseScene(step, lattice, "min:max", {ByValue{{}, lo, hi}, 0.5});
+        const Scene scene = noiseScene(step, placed, "min:max", {ByValue{{}, lo, hi}, 0.5});
         EXPECT_LE(error(*this, scene, view, Channels::WeightedColor), kTarget) << lo << ' ' << hi;
     }
     // Two maps of very unlike width, each with its own layer.
-    Scene scene = noiseScene(step, lattice, "0.3:0.6", {ByValue{{}, 0.3, 0.6}, 0.5});
+    Scene scene = noiseScene(step, placed, "0.3:0.6", {ByValue{{}, 0.3, 0.6}, 0.5});
     scene.layers.push_back(
         {step.select(RangeSet::parse("min:0.2")), {ByValue{{}, -1e34, 0.2}, 0.5}});
     EXPECT_LE(error(*this, scene, view, Channels::WeightedColor), kTarget);
@@ -258,8 +258,8 @@ TEST_F(GlSplat, ColourByValueDoesNotSufferFromValuesFarOutsideTheMap) {
 
 TEST_F(GlSplat, OrderedOverIsTheTruthsToTheOrdersResolution) {
     const auto step = tests::noise(cube(24));
-    const Lattice lattice(step.grid());
-    Scene scene = noiseScene(step, lattice, "0.1:0.6", {ByValue{{}, 0.1, 0.6}, 0.3});
+    const PlacedPoints placed(step.grid());
+    Scene scene = noiseScene(step, placed, "0.1:0.6", {ByValue{{}, 0.1, 0.6}, 0.3});
     scene.layers.push_back({step.select(RangeSet::parse("0.8:0.9")), {Constant{{1, 0, 0}}, 0.9}});
     scene.order = Order::BackToFront;
     for (const glm::dvec3 eye : {tests::kMidEye, glm::dvec3(0.03, -3, 0.02)}) {
@@ -271,8 +271,8 @@ TEST_F(GlSplat, OrderedOverIsTheTruthsToTheOrdersResolution) {
 
 TEST_F(GlSplat, OpacitiesOfATenMillionthAndOfOneAreTheTruths) {
     const auto step = tests::noise(cube(24));
-    const Lattice lattice(step.grid());
-    Scene scene = noiseScene(step, lattice, "0:1");
+    const PlacedPoints placed(step.grid());
+    Scene scene = noiseScene(step, placed, "0:1");
     scene.order = Order::BackToFront;
     for (const double opacity : {1e-7, 1.0}) {
         scene.layers[0].style = {ByValue{{}, 0, 1}, opacity};
@@ -283,8 +283,8 @@ TEST_F(GlSplat, OpacitiesOfATenMillionthAndOfOneAreTheTruths) {
 
 TEST_F(GlSplat, CountsEveryFootprintThatTouchesAPixel) {
     const auto step = tests::noise(cube(16));
-    const Lattice lattice(step.grid());
-    const Scene scene = noiseScene(step, lattice, "0.3:0.6");
+    const PlacedPoints placed(step.grid());
+    const Scene scene = noiseScene(step, placed, "0.3:0.6");
     const View view = lookFrom({1, -3, 1}, {200, 200});
     const auto drawn = plane(scene, view, Channels::Count);
     const auto expected = truth(scene, view, Channels::Count);
@@ -299,18 +299,18 @@ TEST_F(GlSplat, CountsEveryFootprintThatTouchesAPixel) {
 
 TEST_F(GlSplat, ClippedPointsAreNotDrawn) {
     const auto step = tests::noise(cube(20));
-    const Lattice lattice(step.grid());
-    Scene scene = noiseScene(step, lattice, "0:1");
+    const PlacedPoints placed(step.grid());
+    Scene scene = noiseScene(step, placed, "0:1");
     scene.clip = indexBox(step.grid(), {3, 5, 2}, {9, 19, 8.5});
     EXPECT_LE(error(*this, scene, lookFrom({1, -3, 1}, {256, 256}), Channels::Weight), kTarget);
 }
 
 TEST_F(GlSplat, TheOpaqueSceneHidesWhatLiesBehindIt) {
     const auto step = tests::noise(cube(20));
-    const Lattice lattice(step.grid());
-    const Scene scene = noiseScene(step, lattice, "0:1");
+    const PlacedPoints placed(step.grid());
+    const Scene scene = noiseScene(step, placed, "0:1");
     const View view = lookFrom({0, -3, 0}, {128, 128});
-    // A wall through the lattice, at a depth that no point has exactly.
+    // A wall through the points, at a depth that no point has exactly.
     const glm::dvec4 wall = view.clipFromView * glm::dvec4(0, 0, -3.01, 1);
     const auto depth = static_cast<float>(wall.z / wall.w);
     const auto drawn = plane(scene, view, Channels::Weight, depth);
@@ -326,19 +326,19 @@ TEST_F(GlSplat, OffsetOfTheCoordinatesDoesNotChangeABit) {
     const double h = 1.0 / 1024;
     const auto far = tests::noise(std::make_shared<timeseries::Grid>(
         std::array{tests::axis(16, 1e7, h), tests::axis(16, -1e7, h), tests::axis(16, 3e6, h)}));
-    const Lattice nearLattice(near.grid()), farLattice(far.grid());
+    const PlacedPoints nearPoints(near.grid()), farPoints(far.grid());
     const View view = lookFrom({1, -3, 1}, {200, 200});
-    const auto a = plane(noiseScene(near, nearLattice, "0.3:0.6"), view, Channels::Weight);
-    const auto b = plane(noiseScene(far, farLattice, "0.3:0.6"), view, Channels::Weight);
+    const auto a = plane(noiseScene(near, nearPoints, "0.3:0.6"), view, Channels::Weight);
+    const auto b = plane(noiseScene(far, farPoints, "0.3:0.6"), view, Channels::Weight);
     EXPECT_LE(compareScalars(b, a).relativeL2, 1e-6);
 }
 
 TEST_F(GlSplat, ASubsetIsTheTruthsSubset) {
     // A third run shorter than the largest stride.
     const auto step = tests::noise(cube(16));
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     Scene scene =
-        noiseScene(step, lattice, "0.1:0.2,0.3:0.45,0.5:0.501", {ByValue{{}, 0.1, 0.5}, 0.3});
+        noiseScene(step, placed, "0.1:0.2,0.3:0.45,0.5:0.501", {ByValue{{}, 0.1, 0.5}, 0.3});
     for (const std::uint32_t stride : {2u, 8u, kMaxStride}) {
         scene.stride = stride;
         for (const glm::dvec3 eye : {glm::dvec3(1, -3, 1), glm::dvec3(0.2, 0.1, 0.3)}) {
@@ -359,10 +359,10 @@ TEST_F(GlSplat, ASubsetIsTheTruthsSubset) {
 
 TEST_F(GlSplat, ValuesOnAServingScaleDrawTheSameColours) {
     const auto step = tests::noise(cube(24));
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     const View view = lookFrom({1, -3, 1}, {200, 200});
     // As wide and as far as serves() allows: 1024 half widths of the map together.
-    const Scene scene = noiseScene(step, lattice, "0.4:0.41", {ByValue{{}, 0.4, 0.41}, 0.5});
+    const Scene scene = noiseScene(step, placed, "0.4:0.41", {ByValue{{}, 0.4, 0.41}, 0.5});
     const ValueScale wanted = *neededScale(scene);
     const ValueScale far{0.4 + 2 * 600 * wanted.halfWidth, 420 * wanted.halfWidth};
     ASSERT_TRUE(far.serves(wanted));
@@ -371,7 +371,7 @@ TEST_F(GlSplat, ValuesOnAServingScaleDrawTheSameColours) {
         GlTargets targets(view.size);
         gl::begin(
             {.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
-        GpuStep onGpu(step, lattice);
+        GpuStep onGpu(step, placed);
         onGpu.upload(scene, scale);
         GlSplatter splatter;
         const auto list = splatter.upload(scene, Runs{}, onGpu);
@@ -387,8 +387,8 @@ TEST_F(GlSplat, ValuesOnAServingScaleDrawTheSameColours) {
 
 TEST_F(GlSplat, AnEmptySelectionDrawsNothing) {
     const auto step = tests::noise(cube(8));
-    const Lattice lattice(step.grid());
-    Scene scene = noiseScene(step, lattice, "5:6");
+    const PlacedPoints placed(step.grid());
+    Scene scene = noiseScene(step, placed, "5:6");
     for (const Order order : {Order::None, Order::BackToFront}) {
         scene.order = order;
         const Channels channels = order == Order::None ? Channels::Weight : Channels::Over;

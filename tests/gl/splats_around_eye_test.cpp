@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "render/cpu_splatter.h"
-#include "render/depth_order.h"
-#include "render/footprint.h"
-#include "render/image_compare.h"
-#include "render/row_splatter.h"
-#include "render/tile_splatter.h"
+#include "render/model/footprint.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/gl_planes.h"
 
 namespace render {
@@ -50,9 +50,9 @@ TEST_F(SplatsAroundTheEye, AreTheTruthsWhereverTheirCentresLie) {
     const std::array slim{tests::axis(7), tests::axis(6), tests::axis(4, 0, 5)};
     for (const auto& axes : {even, uneven, slim}) {
         const auto step = tests::noise(std::make_shared<timeseries::Grid>(axes));
-        const Lattice lattice(step.grid());
+        const PlacedPoints placed(step.grid());
         Scene scene{.step = step,
-                    .lattice = lattice,
+                    .placed = placed,
                     .layers = {{step.select(RangeSet::everything()), {ByValue{{}, 0, 1}, 0.3}}},
                     .footprint = {Kernel::Quartic, 4},
                     .order = Order::None,
@@ -61,7 +61,7 @@ TEST_F(SplatsAroundTheEye, AreTheTruthsWhereverTheirCentresLie) {
         for (const glm::dvec3 eye : {glm::dvec3(0.05, 0.1, 0.03), glm::dvec3(-0.3, 0.02, 0.2),
                                      glm::dvec3(0.11, -0.2, -0.1)}) {
             const View view = lookFrom(eye, {64, 48});
-            const LatticeView seen(lattice, view);
+            const PointsView seen(placed, view);
             for (std::uint64_t i = 0; i < step.size(); ++i) {
                 const auto s = splatAt<double>(seen, i, scene.footprint);
                 farOff += s.visible && std::isinf(s.hi.x) &&

@@ -1,4 +1,4 @@
-#include "render/axes.h"
+#include "render/annotate/axes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -72,15 +72,15 @@ glm::dvec3 eyeAt(double azimuth, double elevation, double distance) {
 }
 
 struct Drawn {
-    Lattice lattice;
+    PlacedPoints placed;
     View view;
     const Font& font;
     AxesMeshes meshes;
     Drawn(const Grid& grid, const glm::dvec3& eye, glm::ivec2 size, double tangent = 0.4)
-        : lattice(grid),
+        : placed(grid),
           view(lookFrom(eye, size, tangent)),
           font(fontFor(size)),
-          meshes(axesMeshes(grid, lattice, view, eye, font)) {}
+          meshes(axesMeshes(grid, placed, view, eye, font)) {}
     std::optional<Rect> label(const std::string& text) const {
         return tests::find(meshes.labels, font, labelStyle(view.size), text);
     }
@@ -119,7 +119,7 @@ void expectEdgesBetweenCorners(const Grid& grid) {
                 glm::dvec3 from(-1), to(1);
                 from[(axis + 1) % 3] = to[(axis + 1) % 3] = sides & 1 ? 1 : -1;
                 from[(axis + 2) % 3] = to[(axis + 2) % 3] = sides & 2 ? 1 : -1;
-                const glm::dmat3 half = d.lattice.boxHalfEdges();
+                const glm::dmat3 half = d.placed.boxHalfEdges();
                 const glm::dvec3 a = seen(d.view, half * from), b = seen(d.view, half * to);
                 const auto is = [&](const Segment& s) {
                     const auto near = [](const glm::dvec3& p, const glm::dvec3& q) {
@@ -148,7 +148,7 @@ TEST(Axes, OfATurnedGridAreTheUprightOnesSeenByATurnedCamera) {
         View view = upright.view;
         view.viewFromWorld *= glm::dmat4(glm::transpose(turn));
         const AxesMeshes meshes =
-            axesMeshes(turned, Lattice(turned), view, turn * eye, upright.font);
+            axesMeshes(turned, PlacedPoints(turned), view, turn * eye, upright.font);
         const auto same = [](const FlatMesh& a, const FlatMesh& b) {
             ASSERT_EQ(a.triangles().size(), b.triangles().size());
             for (std::size_t i = 0; i < a.triangles().size(); ++i)
@@ -170,8 +170,8 @@ TEST(Axes, NumbersOfAShearedGridStandBesideTheirPlaces) {
     double nearest = 1e9;
     for (int sides = 0; sides < 4; ++sides) {
         glm::dvec3 along(sides & 1 ? 1 : -1, sides & 2 ? 1 : -1, 0);
-        along.z = d.lattice.axesFromGrid({0, 0, 0.2}).z / d.lattice.boxHalf().z;
-        const glm::dvec3 place = seen(d.view, d.lattice.boxHalfEdges() * along);
+        along.z = d.placed.axesFromGrid({0, 0, 0.2}).z / d.placed.boxHalf().z;
+        const glm::dvec3 place = seen(d.view, d.placed.boxHalfEdges() * along);
         nearest = std::min(nearest, glm::distance(glm::dvec2(place), middle));
     }
     EXPECT_LT(nearest, 2.5 * line);
@@ -235,13 +235,13 @@ TEST(Axes, ADownAxisShowsItsOwnNumbersGrowingDownward) {
 
 TEST(Axes, WhatIsSeenOfAnEdgeIsNumbered) {
     // Close to the top of the left edge, which is the sea's surface.
-    const Lattice lattice(ocean());
+    const PlacedPoints placed(ocean());
     const glm::ivec2 size(1024, 1024);
-    const glm::dvec3 corner = lattice.boxHalf() * glm::dvec3(-1, -1, 1);
+    const glm::dvec3 corner = placed.boxHalf() * glm::dvec3(-1, -1, 1);
     const glm::dvec3 eye = corner + glm::dvec3(0.15, -0.6, 0.1);
     View view = lookFrom(eye, size);
     view.viewFromWorld = glm::lookAt(eye, corner, glm::dvec3(0, 0, 1));
-    const auto meshes = axesMeshes(ocean(), lattice, view, eye, fontFor(size));
+    const auto meshes = axesMeshes(ocean(), placed, view, eye, fontFor(size));
     const auto shown = [&](const char* text) {
         return tests::find(meshes.labels, fontFor(size), labelStyle(size), text).has_value();
     };
@@ -281,8 +281,8 @@ TEST(Axes, NumbersStandBesideTheirPlaces) {
     const Drawn d(fire(), eyeAt(-60, 25, 3.2), {1024, 1024});
     const float line = static_cast<float>(labelStyle({1024, 1024}).linePixels);
     // Seen from the lower left front: x runs along the front, z up the left.
-    const double half = d.lattice.boxHalf().x;
-    const auto world = [&](double v) { return (v - 0.5) * d.lattice.scale().x; };
+    const double half = d.placed.boxHalf().x;
+    const auto world = [&](double v) { return (v - 0.5) * d.placed.scale().x; };
     const auto z = d.label("0.2"), x = d.label("x (m)");
     ASSERT_TRUE(z && x);
     const glm::dvec3 place = seen(d.view, {-half, -half, world(0.2)});
@@ -353,7 +353,7 @@ TEST(Axes, LabelsLieInThePictureApartAndAlmostAllOutsideTheBox) {
         std::vector<glm::dvec2> corners;
         for (int c = 0; c < 8; ++c) {
             const glm::dvec3 signs(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
-            corners.emplace_back(seen(d.view, d.lattice.boxHalfEdges() * signs));
+            corners.emplace_back(seen(d.view, d.placed.boxHalfEdges() * signs));
         }
         const auto found = labels(d.meshes.labels, static_cast<float>(labelStyle(size).linePixels));
         labelCount += found.size();
@@ -394,7 +394,7 @@ TEST(Axes, TitlesKeepTheLegendsMarginWhereThereIsRoom) {
         const auto title = d.label("pressure of the level (Pa)");
         if (!title) continue;
         // Where the middle of the labelled edge is seen.
-        const glm::dvec3 half = d.lattice.boxHalf();
+        const glm::dvec3 half = d.placed.boxHalf();
         const double edge = seen(d.view, {-half.x, -half.y, 0}).x;
         const double length = static_cast<double>(title->hi.x - title->lo.x);
         if (edge - length - 2 * line < margin) continue;  // no room either way
@@ -413,7 +413,7 @@ TEST(Axes, DegreesOfManyCirclesAreNumberedSparsely) {
         const glm::ivec2 size(800, 600);
         const glm::dvec3 eye(0.5, -4, 1);
         const AxesMeshes meshes =
-            axesMeshes(grid, Lattice(grid), lookFrom(eye, size), eye, fontFor(size));
+            axesMeshes(grid, PlacedPoints(grid), lookFrom(eye, size), eye, fontFor(size));
         EXPECT_LT(meshes.before.triangles().size(), 6u * 60) << step;
     }
 }
@@ -427,7 +427,7 @@ TEST(Axes, LabelsKeepOffTheLegend) {
     FlatMesh legend;
     const float reach = 6;
     legend.rect(where->lo - reach, where->hi + reach, glm::vec4(1));
-    const auto meshes = axesMeshes(fire(), alone.lattice, alone.view, eye, alone.font, legend);
+    const auto meshes = axesMeshes(fire(), alone.placed, alone.view, eye, alone.font, legend);
     for (const auto& shape : shapes(meshes.labels))
         EXPECT_FALSE(tests::overlap(shape.covers, {where->lo - reach, where->hi + reach}));
     EXPECT_TRUE(tests::find(meshes.labels, alone.font, labelStyle(size), "z (m)"));
@@ -438,7 +438,7 @@ TEST(Axes, BothEyesLabelTheSameEdgesAndTicks) {
     std::uniform_real_distribution<double> azimuth(-180, 180), elevation(-80, 80);
     const glm::ivec2 size(900, 900);
     const Grid grid = ocean();
-    const Lattice lattice(grid);
+    const PlacedPoints placed(grid);
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 mid = eyeAt(azimuth(random), elevation(random), 3.0);
         const View view = lookFrom(mid, size, 0.6);
@@ -449,7 +449,7 @@ TEST(Axes, BothEyesLabelTheSameEdgesAndTicks) {
             eye.viewFromWorld[3].x -= apart;
             // The eyes' frusta lean outward, as a headset's do.
             eye.clipFromView[2][0] = side == 0 ? -0.1 : 0.1;
-            const auto meshes = axesMeshes(grid, lattice, eye, mid, fontFor(size));
+            const auto meshes = axesMeshes(grid, placed, eye, mid, fontFor(size));
             tickCount[static_cast<std::size_t>(side)] = meshes.before.triangles().size();
         }
         EXPECT_EQ(tickCount[0], tickCount[1]) << i;

@@ -1,5 +1,5 @@
 // The order in which the points of a block are drawn.
-#include "render/block_order.h"
+#include "render/points/block_order.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <random>
 #include <tuple>
 
-#include "render/subset.h"
+#include "render/points/subset.h"
 
 namespace render {
 namespace {
 
-// Grid indices of a lattice, each at most once, shuffled.
+// Grid indices of a grid, each at most once, shuffled.
 std::vector<std::uint32_t> someOf(glm::uvec3 size, std::size_t count) {
     std::vector<std::uint32_t> all(std::size_t(size.x) * size.y * size.z);
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);

@@ -1,4 +1,4 @@
-#include "render/color_map.h"
+#include "render/model/color_map.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "render/color.h"
+#include "render/image/color.h"
 
 namespace render {
 namespace {

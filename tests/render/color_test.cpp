@@ -1,4 +1,4 @@
-#include "render/color.h"
+#include "render/image/color.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "render/covered.h"
+#include "render/model/covered.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "render/cpu_splatter.h"
+#include "render/reference/cpu_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace {
@@ -17,16 +17,16 @@ struct World {
                                  std::array{tests::axis(4), tests::axis(3), tests::axis(5, 0, 0.5)},
                                  timeseries::Frame{.directions = directions}),
                              [](std::size_t) { return 1.0; })),
-          lattice(step.grid()),
+          placed(step.grid()),
           scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(timeseries::RangeSet::parse("0:2")),
                             {Constant{glm::dvec3(1)}, 0.5}}},
                 .footprint = footprint,
                 .order = Order::None,
                 .clip = {}} {}
     timeseries::SortedStep step;
-    Lattice lattice;
+    PlacedPoints placed;
     Scene scene;
 };
 
@@ -75,7 +75,7 @@ TEST(CoveredPixels, AreLittleMoreThanThoseOfADistantVolume) {
     const World world(glm::dmat3(1), {.kernel = Kernel::Point});
     const View view = tests::lookFrom({0, -40, 0}, {400, 300}, 0.1);
     const PixelBox box = coveredPixels(world.scene, view);
-    const glm::dvec3 half = world.lattice.boxHalf();
+    const glm::dvec3 half = world.placed.boxHalf();
     // Its nearest face is the widest; 300 pixels are 2 * 0.1 of the distance.
     const glm::dvec2 face = glm::dvec2(half.x, half.z) * 2.0 * 150.0 / (0.1 * (40 - half.y));
     for (int i = 0; i < 2; ++i) {

@@ -1,6 +1,6 @@
 // The truth itself against closed forms: if these fail, no other picture test means anything.
-#include "render/cpu_splatter.h"
-#include "render/depth_order.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/splat/depth_order.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <numeric>
 #include <random>
 
-#include "render/footprint.h"
+#include "render/model/footprint.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -27,15 +27,15 @@ struct World {
     explicit World(timeseries::SortedStep s, const RangeSet& range = RangeSet::everything(),
                    Footprint footprint = {})
         : step(std::move(s)),
-          lattice(step.grid()),
+          placed(step.grid()),
           scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(range), {Constant{glm::dvec3(1)}, 0.5}}},
                 .footprint = footprint,
                 .order = Order::None,
                 .clip = {}} {}
     timeseries::SortedStep step;
-    Lattice lattice;
+    PlacedPoints placed;
     Scene scene;
 };
 
@@ -92,7 +92,7 @@ TEST(Truth, NearSplatsAreTheKernelsLineIntegralsOnEveryRay) {
     const World world(
         tests::stepOf(std::make_shared<Grid>(std::array{axis(2), axis(2, 0, 1.5), axis(2, 0, 0.8)}),
                       [](std::size_t i) { return double(i); }));
-    ASSERT_FALSE(world.lattice.longCells());
+    ASSERT_FALSE(world.placed.longCells());
     const View view = tests::lookFrom({0.7, -2.2, 0.4}, {60, 50}, 0.9);
     const PixelRays rays = pixelRays(view);
     const auto w = weights(world, view);
@@ -102,13 +102,13 @@ TEST(Truth, NearSplatsAreTheKernelsLineIntegralsOnEveryRay) {
             const glm::dvec3 d = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
             double expected = 0;
             for (std::size_t i = 0; i < world.step.size(); ++i) {
-                const glm::dvec3 cell = world.lattice.cell(i), a = kQuarticRadius * cell;
-                const glm::dvec3 from = (world.lattice.position(i) - rays.eye) / a, along = d / a;
+                const glm::dvec3 cell = world.placed.cell(i), a = kQuarticRadius * cell;
+                const glm::dvec3 from = (world.placed.position(i) - rays.eye) / a, along = d / a;
                 const double passed = glm::dot(from, along) / glm::length(along);
                 const double b2 = glm::dot(from, from) - passed * passed;
                 if (b2 < 1)
                     expected += cell.x * cell.y * cell.z /
-                                (world.lattice.unitLength() * a.x * a.y * a.z) * 5 /
+                                (world.placed.unitLength() * a.x * a.y * a.z) * 5 /
                                 std::numbers::pi * std::pow(1 - b2, 4) * glm::length(d) /
                                 glm::length(along);
             }
@@ -185,8 +185,8 @@ TEST(Truth, ItStaysWherePixelsAreNotSquareEither) {
 TEST(Truth, UnequalSpacingsKeepTheTotalFromEverySide) {
     const auto grid = std::make_shared<Grid>(std::array{axis(2), axis(2, 0, 4), axis(2, 0, 0.25)});
     const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }));
-    const glm::dvec3 cell = world.lattice.cell(0);
-    const double volume = 8 * cell.x * cell.y * cell.z / world.lattice.unitLength();
+    const glm::dvec3 cell = world.placed.cell(0);
+    const double volume = 8 * cell.x * cell.y * cell.z / world.placed.unitLength();
     for (const glm::dvec3 from :
          {glm::dvec3(7, -60, 4), glm::dvec3(0, -1, 60), glm::dvec3(40, -40, 20)}) {
         const View view = tests::lookFrom(from, {301, 301}, 0.08);
@@ -216,8 +216,8 @@ TEST(Truth, AShearedSlabIsAsDeepAsTheRaysPathThroughIt) {
     const auto grid =
         std::make_shared<Grid>(std::array{axis(40), axis(40), axis(8)}, timeseries::Frame{lean});
     const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }));
-    const double cell = world.lattice.cell(0).x;
-    const double thickness = 8 * cell * std::sqrt(0.75) / world.lattice.unitLength();
+    const double cell = world.placed.cell(0).x;
+    const double thickness = 8 * cell * std::sqrt(0.75) / world.placed.unitLength();
     for (const double tilt : {0.0, 0.3, 0.6}) {
         for (const double turn : {0.0, 2.0, 4.0}) {
             const glm::dvec3 from =
@@ -239,7 +239,7 @@ TEST(Truth, ShearedCellsKeepTheTotalFromEverySide) {
         const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }),
                           RangeSet::everything(), footprint);
         // Each cell is l^3 large, 8 of them, counted in units of l.
-        const double volume = 8 * std::pow(world.lattice.unitLength(), 2);
+        const double volume = 8 * std::pow(world.placed.unitLength(), 2);
         // Near, and so far that a pixel is larger than a cell.
         for (const double distance : {60.0, 2000.0})
             for (const glm::dvec3& from :
@@ -298,7 +298,7 @@ TEST(Truth, AMirroredAxisIsADescendingOne) {
 TEST(Truth, AShellIsAsDeepAsTheChordsThroughIt) {
     // Radii 12 to 20 cells; a ray at r cells from the middle meets 2 (sqrt(400 - r^2) - sqrt(144 -
     // r^2)) of them. Which points are inside is decided point by point, so single rays are
-    // uncertain by a cell or so; over the middle's pixels, seen along no axis of the lattice, that
+    // uncertain by a cell or so; over the middle's pixels, seen along no axis of the grid, that
     // averages out.
     const std::size_t n = 48;
     const auto radius = [](std::size_t i) {
@@ -309,7 +309,7 @@ TEST(Truth, AShellIsAsDeepAsTheChordsThroughIt) {
     const View view = tests::lookFrom(200.0 * glm::normalize(glm::dvec3(0.31, -0.83, 0.47)),
                                       {128, 128}, 1.0 / 200);
     const auto w = weights(world, view);
-    const double cellsPerPixel = 1.0 / 64 / world.lattice.cell(0).x;
+    const double cellsPerPixel = 1.0 / 64 / world.placed.cell(0).x;
     double drawn = 0, chords = 0;
     for (int y = 54; y < 74; ++y)
         for (int x = 54; x < 74; ++x) {
@@ -320,7 +320,7 @@ TEST(Truth, AShellIsAsDeepAsTheChordsThroughIt) {
         }
     EXPECT_NEAR(drawn, chords, 0.02 * chords);
     // The whole: the volume of the selected cells, l = cell.
-    const double l = world.lattice.unitLength();
+    const double l = world.placed.unitLength();
     const auto selected = static_cast<double>(world.step.count(RangeSet::parse("12:20")));
     EXPECT_NEAR(massDrawn(w, view, 200), selected * l * l, 2e-3 * selected * l * l);
 }
@@ -369,7 +369,7 @@ TEST(Truth, APointSplatIsASquareOfPixelsWithTheMassOfItsCell) {
                                                  timeseries::Frame{directions}),
                           [](std::size_t) { return 1.0; }),
             RangeSet::everything(), {Kernel::Point, size});
-        const double volume = glm::determinant(directions) * std::pow(world.lattice.cell(0).x, 3);
+        const double volume = glm::determinant(directions) * std::pow(world.placed.cell(0).x, 3);
         const auto w = weights(world, view);
         const PixelRays rays = pixelRays(view);
         const glm::dvec2 first =
@@ -409,7 +409,7 @@ TEST(Truth, EveryPixelThatASplatReachesIsDrawn) {
         view.viewFromWorld[3] +=
             distance * glm::dvec4(std::lerp(seenPart.left, seenPart.right, right),
                                   std::lerp(seenPart.down, seenPart.up, up), 0, 0);
-        const LatticeView seen(world.lattice, view);
+        const PointsView seen(world.placed, view);
         const auto s = splatAt<double>(seen, 0, {});
         const auto w = weights(world, view);
         for (int y = 0; y < 40; ++y)
@@ -452,7 +452,7 @@ TEST(Truth, PointsBehindOrNearerThanTheNearPlaneAreNotDrawn) {
     const World world(onePoint());
     View view = tests::lookFrom({0, -1, 0}, {33, 33});
     view.clipFromView = clipFromView({-0.4, 0.4, -0.4, 0.4, 1.5, 100});
-    EXPECT_FALSE(splatAt<double>(LatticeView(world.lattice, view), 0, {}).visible);
+    EXPECT_FALSE(splatAt<double>(PointsView(world.placed, view), 0, {}).visible);
     for (const double w : weights(world, view)) EXPECT_EQ(w, 0);
     view = tests::lookFrom({0, 5, 0}, {33, 33});
     view.viewFromWorld =

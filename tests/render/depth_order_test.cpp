@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/cpu_splatter.h"
-#include "render/depth_order.h"
-#include "render/scene.h"
+#include "render/model/scene.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/splat/depth_order.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -21,9 +21,9 @@ std::shared_ptr<const timeseries::Grid> leaningGrid() {
         timeseries::Frame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
 }
 
-Scene allOf(const timeseries::SortedStep& step, const Lattice& lattice, RangeStyle style = {}) {
+Scene allOf(const timeseries::SortedStep& step, const PlacedPoints& placed, RangeStyle style = {}) {
     return {.step = step,
-            .lattice = lattice,
+            .placed = placed,
             .layers = {{step.select(RangeSet::everything()), std::move(style)}},
             .footprint = {},
             .order = Order::BackToFront,
@@ -32,16 +32,16 @@ Scene allOf(const timeseries::SortedStep& step, const Lattice& lattice, RangeSty
 
 struct World {
     timeseries::SortedStep step = tests::noise(leaningGrid());
-    Lattice lattice{step.grid()};
+    PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(RangeSet::parse("0.1:0.5")), {}},
                            {step.select(RangeSet::parse("0.4:0.7")), {}}},
                 .footprint = {},
                 .order = Order::BackToFront,
                 .clip = {}};
     double distance(std::uint32_t point, const glm::dvec3& eye) const {
-        return glm::distance(lattice.position(step.gridIndex()[point]), eye);
+        return glm::distance(placed.position(step.gridIndex()[point]), eye);
     }
 };
 
@@ -80,8 +80,8 @@ TEST(DepthOrder, TheKeysAre4194304) {
     const auto grid = std::make_shared<timeseries::Grid>(
         std::array{tests::axis(kKeys), tests::axis(1), tests::axis(1)});
     const auto step = tests::stepOf(grid, [](std::size_t i) { return double(i); });
-    const Lattice lattice(step.grid());
-    const Scene scene = allOf(step, lattice);
+    const PlacedPoints placed(step.grid());
+    const Scene scene = allOf(step, placed);
     const auto sorted = std::get<Sorted>(order(scene, {-3, 0, 0}));
     ASSERT_EQ(sorted.point.size(), kKeys);
     const auto falls = [](std::uint32_t a, std::uint32_t b) { return a != b + 1; };
@@ -132,8 +132,8 @@ TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
     auto grid = std::make_shared<timeseries::Grid>(
         std::array{tests::axis(2), tests::axis(2), tests::axis(1)});
     const auto step = tests::stepOf(grid, [](std::size_t i) { return 3 - double(i); });
-    const Lattice lattice(step.grid());
-    const Scene scene = allOf(step, lattice);
+    const PlacedPoints placed(step.grid());
+    const Scene scene = allOf(step, placed);
     for (const DrawList& list : {order(scene, {0, 0, 3}), orderExactly(scene, {0, 0, 3})})
         EXPECT_EQ(std::get<Sorted>(list).point, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
@@ -180,8 +180,8 @@ TEST(DepthOrder, InSlicesIsTheSameList) {
 // colour.
 TEST(DepthOrder, OpaqueSplatsAreSeenAsInTheTruthsOrder) {
     const auto step = tests::noise(tests::cube(64));
-    const Lattice lattice(step.grid());
-    const Scene scene = allOf(step, lattice, {ByValue{{}, 0, 1}, 1});
+    const PlacedPoints placed(step.grid());
+    const Scene scene = allOf(step, placed, {ByValue{{}, 0, 1}, 1});
     const View view = tests::lookFrom({1.3, -2.4, 0.9}, {150, 150});
     const glm::dvec3 eye = pixelRays(view).eye;
     Accumulator<double> tested(view.size, {Channels::Over}), truth(view.size, {Channels::Over});

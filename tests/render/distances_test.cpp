@@ -1,4 +1,4 @@
-#include "render/distances.h"
+#include "render/splat/distances.h"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ std::shared_ptr<const timeseries::Grid> awkwardGrid() {
 
 struct World {
     timeseries::SortedStep step = tests::noise(awkwardGrid());
-    Lattice lattice{step.grid()};
+    PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {},
                 .footprint = {},
                 .order = Order::BackToFront,
@@ -46,7 +46,7 @@ TEST(Distances, AreThoseOfThePointsInTheWorldByAnyVectors) {
              {glm::dvec3(0.1, 0.05, -0.2), glm::dvec3(0, -3, 0), glm::dvec3(1e6, -2e6, 7)}) {
             const auto found = w.away(from, all);
             for (const std::uint32_t i : all) {
-                const double expected = glm::distance(w.lattice.position(i), from);
+                const double expected = glm::distance(w.placed.position(i), from);
                 ASSERT_NEAR(found[i], expected, 1e-14 + 4e-16 * expected) << i;
             }
         }
@@ -62,8 +62,7 @@ TEST(Distances, OfAnyNumberOfPoints) {
                 some.push_back(static_cast<std::uint32_t>(1000 - 50 * k));
             const auto found = w.away({0, -3, 0}, some);
             for (std::size_t k = 0; k < count; ++k)
-                ASSERT_NEAR(found[k], glm::distance(w.lattice.position(some[k]), {0, -3, 0}),
-                            1e-14);
+                ASSERT_NEAR(found[k], glm::distance(w.placed.position(some[k]), {0, -3, 0}), 1e-14);
         }
     });
 }
@@ -79,7 +78,7 @@ TEST(Distances, AreNegativeOutsideOfTheClipBoxAlone) {
         tests::onEachVectorTarget([&] {
             const auto found = w.away({0, 0, 0}, all);
             for (const std::uint32_t i : all)
-                ASSERT_EQ(found[i] < 0, !clip.holds(w.lattice.indices(i))) << i;
+                ASSERT_EQ(found[i] < 0, !clip.holds(w.placed.indices(i))) << i;
         });
     }
 }

@@ -1,4 +1,4 @@
-#include "render/exr.h"
+#include "render/image/exr.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "render/cpu_splatter.h"
-#include "render/depth_order.h"
-#include "render/image_compare.h"
-#include "render/row_splatter.h"
-#include "render/tile_splatter.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -20,10 +20,10 @@ using Sum = std::vector<float> (*)(const Scene&, const DrawList&, const View&, C
                                    std::size_t, std::span<const float>, unsigned);
 class Extremes : public testing::TestWithParam<Sum> {
  protected:
-    static Scene allOf(const timeseries::SortedStep& step, const Lattice& lattice,
+    static Scene allOf(const timeseries::SortedStep& step, const PlacedPoints& placed,
                        double opacity = 0.5) {
         return {.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(timeseries::RangeSet::everything()),
                             {ByValue{{}, 0, 1}, opacity}}},
                 .footprint = {},
@@ -51,20 +51,20 @@ TEST_P(Extremes, CoincidentSplatsByTheHundredThousand) {
     constexpr std::size_t kPoints = 1 << 18;
     const auto step = tests::noise(std::make_shared<timeseries::Grid>(
         std::array{tests::axis(1), tests::axis(kPoints), tests::axis(1)}));
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     const View view = tests::lookFrom({0, -3, 0}, {9, 9}, 0.01);
     const double most = kPoints * std::ldexp(1, -25);
-    EXPECT_LE(error(allOf(step, lattice), view, Channels::Weight), most);
+    EXPECT_LE(error(allOf(step, placed), view, Channels::Weight), most);
     for (const double opacity : {1e-7, 0.5, 1.0})
-        EXPECT_LE(error(allOf(step, lattice, opacity), view, Channels::Over), most) << opacity;
+        EXPECT_LE(error(allOf(step, placed, opacity), view, Channels::Over), most) << opacity;
 }
 
 TEST_P(Extremes, OpacitiesOfATenMillionthAndOfOne) {
     const auto step = tests::noise(tests::cube(24));
-    const Lattice lattice(step.grid());
+    const PlacedPoints placed(step.grid());
     for (const glm::dvec3& eye : {glm::dvec3(1.3, -2.4, 0.9), glm::dvec3(0.2, 0.1, 0.3)})
         for (const double opacity : {1e-7, 1.0})
-            EXPECT_LE(error(allOf(step, lattice, opacity), tests::lookFrom(eye, {150, 110}),
+            EXPECT_LE(error(allOf(step, placed, opacity), tests::lookFrom(eye, {150, 110}),
                             Channels::Over),
                       1e-4)
                 << opacity << " from " << eye.x;
@@ -72,8 +72,8 @@ TEST_P(Extremes, OpacitiesOfATenMillionthAndOfOne) {
 
 TEST_P(Extremes, SplatsThatFillTheScreen) {
     const auto step = tests::noise(tests::cube(5));
-    const Lattice lattice(step.grid());
-    Scene scene = allOf(step, lattice, 0.1);
+    const PlacedPoints placed(step.grid());
+    Scene scene = allOf(step, placed, 0.1);
     for (const double size : {10.0, 1e3}) {
         scene.footprint.size = size;
         for (const glm::dvec3& eye : {glm::dvec3(1.3, -2.4, 0.9), glm::dvec3(0.2, 0.1, 0.3)})
@@ -86,8 +86,8 @@ TEST_P(Extremes, SplatsThatFillTheScreen) {
 // A thousandth of a pixel from each other, wherever between the pixels they lie.
 TEST_P(Extremes, SplatsFarBelowAPixelKeepTheirMass) {
     const auto step = tests::noise(tests::cube(12));
-    const Lattice lattice(step.grid());
-    const Scene scene = allOf(step, lattice);
+    const PlacedPoints placed(step.grid());
+    const Scene scene = allOf(step, placed);
     double first = 0;
     for (const double shift : {0.0, 0.2, 0.37, 0.5}) {
         View view = tests::lookFrom({0, -3000, 0}, {65, 65}, 0.325);
@@ -110,11 +110,11 @@ TEST_P(Extremes, CoordinatesAtTenMillionAndUnitsOfAMillionth) {
     };
     const View view = tests::lookFrom({1.3, -2.4, 0.9}, {150, 110});
     const auto plain = at(0, 1);
-    const Lattice lattice(plain.grid());
-    const auto expected = truth(allOf(plain, lattice), view, Channels::Over);
+    const PlacedPoints placed(plain.grid());
+    const auto expected = truth(allOf(plain, placed), view, Channels::Over);
     for (const auto& [first, step] : {std::pair(1e7, 1.0), {-1e7, 1e-3}, {0.0, 1e-6}, {5.0, 1e6}}) {
         const auto moved = at(first, step);
-        const Lattice there(moved.grid());
+        const PlacedPoints there(moved.grid());
         EXPECT_LE(
             compareScalars(drawn(allOf(moved, there), view, Channels::Over), expected).relativeL2,
             1e-5)

@@ -1,4 +1,4 @@
-#include "render/fitted_text.h"
+#include "render/annotate/fitted_text.h"
 
 #include <gtest/gtest.h>
 

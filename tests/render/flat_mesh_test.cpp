@@ -1,4 +1,4 @@
-#include "render/flat_mesh.h"
+#include "render/annotate/flat_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Flat shapes on the processor: what a pixel gets follows from geometry alone.
-#include "render/flat_raster.h"
+#include "render/annotate/flat_raster.h"
 
 #include <gtest/gtest.h>
 

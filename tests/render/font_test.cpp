@@ -1,11 +1,11 @@
-#include "render/font.h"
+#include "render/annotate/font.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "render/utf8.h"
+#include "render/annotate/utf8.h"
 
 namespace render {
 namespace {

@@ -1,13 +1,13 @@
 // The footprint of slim splats, which end at the domain's faces, against integrals taken step by
 // step.
-#include "render/footprint.h"
+#include "render/model/footprint.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "render/cpu_splatter.h"
-#include "render/image_compare.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -30,9 +30,9 @@ struct World {
               std::make_shared<Grid>(std::move(axes), timeseries::Frame{.directions = directions}),
               [](std::size_t) { return 1.0; })) {}
     timeseries::SortedStep step;
-    Lattice lattice{step.grid()};
+    PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(RangeSet::everything()), {}}},
                 .footprint = {},
                 .order = Order::None,
@@ -44,18 +44,18 @@ World thin(std::size_t levels) {
 }
 
 struct Direct {
-    Lattice::Box box;
+    PlacedPoints::Box box;
     glm::dvec3 centre, radii;
 };
 // As the header tells it.
-Direct direct(const LatticeView& seen, std::uint64_t index, double depth, double size) {
-    const Lattice& lattice = seen.lattice;
+Direct direct(const PointsView& seen, std::uint64_t index, double depth, double size) {
+    const PlacedPoints& placed = seen.placed;
     const glm::dvec3 least(depth * seen.smallestRadius);
-    const Lattice::Box domain = lattice.domain();
-    return {{glm::min(domain.lo, -lattice.boxHalf() - least),
-             glm::max(domain.hi, lattice.boxHalf() + least)},
-            lattice.alongAxes(index),
-            glm::max(kQuarticRadius * glm::min(size * lattice.cell(index), domain.hi - domain.lo),
+    const PlacedPoints::Box domain = placed.domain();
+    return {{glm::min(domain.lo, -placed.boxHalf() - least),
+             glm::max(domain.hi, placed.boxHalf() + least)},
+            placed.alongAxes(index),
+            glm::max(kQuarticRadius * glm::min(size * placed.cell(index), domain.hi - domain.lo),
                      least)};
 }
 
@@ -71,11 +71,11 @@ TEST(SlimFootprint, TheShareOfARayIsTheIntegralOfWhatItPassesInside) {
         const glm::dvec3 eye =
             4.0 * glm::normalize(glm::dvec3(uniform(random), uniform(random), uniform(random)));
         const View view = tests::lookFrom(eye, {200, 200});
-        const LatticeView seen(world.lattice, view);
+        const PointsView seen(world.placed, view);
         const std::uint64_t index = random() % world.step.size();
         const Footprint footprint{Kernel::Quartic, std::array{1.0, 2.0, 4.0}[trial / 3 % 3]};
         const auto s = splatAt<double>(seen, index, footprint);
-        if (!world.lattice.longCells() || !s.cut) continue;
+        if (!world.placed.longCells() || !s.cut) continue;
         ++cut;
         const Direct d = direct(seen, index, s.depth, footprint.size);
         for (int ray = 0; ray < 5; ++ray) {
@@ -159,14 +159,14 @@ TEST(SlimFootprint, MassIsKeptBesideAFaceAndNearlyAtEdgesAndCorners) {
 
 // Where the ray of a pixel passes the domain, grown by this many pixels of the middle depth: how
 // far.
-double pathLength(const LatticeView& seen, const glm::dvec2& pixel, double pixels) {
-    const glm::dvec3 eye = glm::inverse(seen.lattice.worldFromAxes()) *
+double pathLength(const PointsView& seen, const glm::dvec2& pixel, double pixels) {
+    const glm::dvec3 eye = glm::inverse(seen.placed.worldFromAxes()) *
                            glm::dvec3(glm::inverse(seen.viewFromWorld) * glm::dvec4(0, 0, 0, 1));
     const glm::dvec2 o = pixel - seen.rays.centre;
     const glm::dvec3 d = seen.rays.axis + o.x * seen.rays.perPixelX + o.y * seen.rays.perPixelY;
     const double middle = glm::length(glm::dvec3(seen.viewFromWorld[3]));
     const glm::dvec3 grown(pixels * middle * seen.smallestRadius / kQuarticRadius);
-    const Lattice::Box box = seen.lattice.domain();
+    const PlacedPoints::Box box = seen.placed.domain();
     double from = 0, to = 1e9;
     for (int a = 0; a < 3; ++a) {
         const double one = (box.lo[a] - grown[a] - eye[a]) / d[a];
@@ -174,17 +174,17 @@ double pathLength(const LatticeView& seen, const glm::dvec2& pixel, double pixel
         from = std::max(from, std::min(one, other));
         to = std::min(to, std::max(one, other));
     }
-    return std::max(0.0, to - from) * glm::length(seen.lattice.worldFromAxes() * d);
+    return std::max(0.0, to - from) * glm::length(seen.placed.worldFromAxes() * d);
 }
 
 TEST(SlimFootprint, NothingIsDrawnBesideTheDomain) {
     for (const std::size_t levels : {2u, 3u, 7u}) {
         const World world = thin(levels);
-        ASSERT_TRUE(world.lattice.longCells());
+        ASSERT_TRUE(world.placed.longCells());
         for (const glm::dvec3 eye :
              {glm::dvec3(0, -4, 0.1), glm::dvec3(3, -2, 1), glm::dvec3(0.2, 0.1, 5)}) {
             const View view = tests::lookFrom(eye, {160, 120}, 0.4);
-            const LatticeView seen(world.lattice, view);
+            const PointsView seen(world.placed, view);
             Accumulator<double> sums(view.size, {Channels::Weight});
             splat(world.scene, Runs{}, view, {}, sums);
             Accumulator<double> counts(view.size, {Channels::Count});
@@ -211,7 +211,7 @@ TEST(SlimFootprint, AFullDomainIsItsPathLengthToTheStatedError) {
     for (const Case& c : {Case{3, 14, 0.125}, Case{17, 4, 0.055}}) {
         const World world({tests::axis(60), tests::axis(12), tests::axis(c.levels, 0, c.length)});
         const View view = tests::lookFrom({0, -40, 0}, {180, 150}, 0.03);
-        const LatticeView seen(world.lattice, view);
+        const PointsView seen(world.placed, view);
         Accumulator<double> sums(view.size, {Channels::Weight});
         splat(world.scene, Runs{}, view, {}, sums);
         std::vector<double> paths;
@@ -222,7 +222,7 @@ TEST(SlimFootprint, AFullDomainIsItsPathLengthToTheStatedError) {
                 for (int part = 0; part < 16; ++part)
                     path += pathLength(
                         seen, glm::dvec2(x, y) + (glm::dvec2(part % 4, part / 4) + 0.5) / 4.0, 0);
-                paths.push_back(path / 16 / world.lattice.unitLength());
+                paths.push_back(path / 16 / world.placed.unitLength());
                 whole += paths.back();
             }
         for (const double w : sums.planes[0]) drawn += w;
@@ -240,7 +240,7 @@ TEST(SlimFootprint, LiesWithinItsBounds) {
     for (int trial = 0; trial < 400; ++trial) {
         const View view = tests::lookFrom(
             glm::dvec3(uniform(random), uniform(random), uniform(random)) * 3.0, {100, 100});
-        const LatticeView seen(world.lattice, view);
+        const PointsView seen(world.placed, view);
         const auto s = splatAt<double>(seen, random() % world.step.size(), {});
         if (!s.visible) continue;
         double reach = 0;

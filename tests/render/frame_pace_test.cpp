@@ -1,4 +1,4 @@
-#include "render/frame_pace.h"
+#include "render/frame/frame_pace.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Against every pixel's centre held against every triangle.
-#include "render/hidden_area.h"
+#include "render/annotate/hidden_area.h"
 
 #include <gtest/gtest.h>
 

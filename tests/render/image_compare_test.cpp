@@ -1,4 +1,4 @@
-#include "render/image_compare.h"
+#include "render/reference/image_compare.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "render/color.h"
+#include "render/image/color.h"
 
 namespace render {
 namespace {

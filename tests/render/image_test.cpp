@@ -1,4 +1,4 @@
-#include "render/image.h"
+#include "render/image/image.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/label_places.h"
+#include "render/annotate/label_places.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "render/legend.h"
+#include "render/annotate/legend.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "render/axes.h"
+#include "render/annotate/axes.h"
 #include "tests/support/flat_text.h"
 
 namespace render {

@@ -1,4 +1,4 @@
-#include "render/mean_depth.h"
+#include "render/frame/mean_depth.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "render/cpu_splatter.h"
+#include "render/reference/cpu_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -76,8 +76,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MeanDepth,
 TEST_P(MeanDepth, IsTheTruthsToTheFactorThatIsAllowed) {
     const Case& c = GetParam();
     const SortedStep step = tests::stepOf(tests::cube(kEdge), c.value);
-    const Lattice lattice(step.grid());
-    Scene scene{.step = step, .lattice = lattice, .layers = {}, .footprint = {}, .clip = {}};
+    const PlacedPoints placed(step.grid());
+    Scene scene{.step = step, .placed = placed, .layers = {}, .footprint = {}, .clip = {}};
     scene.layers = {{{{step.size() - c.selected, c.selected}}, {Constant{}, c.opacity}}};
     scene.footprint = {.kernel = c.kernel, .size = c.kernel == Kernel::Point ? 3.0 : 1.0};
     for (const glm::dvec3 from : {glm::dvec3(0, -3, 0), glm::dvec3(1.5, -2.5, 1)}) {

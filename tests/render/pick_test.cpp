@@ -1,12 +1,12 @@
 // Picking against the truth's splats drawn one by one.
-#include "render/pick.h"
+#include "render/model/pick.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "render/cpu_splatter.h"
+#include "render/reference/cpu_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -17,9 +17,9 @@ using timeseries::RangeSet;
 struct World {
     explicit World(std::shared_ptr<const timeseries::Grid> grid) : step(tests::noise(grid)) {}
     timeseries::SortedStep step;
-    Lattice lattice{step.grid()};
+    PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(RangeSet::parse("0.1:0.4")), {Constant{}, 0.2}},
                            {step.select(RangeSet::parse("0.3:0.5")), {ByValue{{}, 0, 1}, 0.02}}},
                 .footprint = {},
@@ -51,7 +51,7 @@ std::optional<std::pair<std::uint64_t, std::size_t>> expected(const Scene& scene
                 const double tau = w * opticalDepthPerWeight(scene.layers[k].style.opacity) *
                                    pointsPerSplat(scene.layers[k], scene.stride);
                 const double depth =
-                    project(view, scene.lattice.position(scene.step.gridIndex()[p])).depth;
+                    project(view, scene.placed.position(scene.step.gridIndex()[p])).depth;
                 const glm::dvec3 rgb =
                     colorOf(scene.layers[k].style, timeseries::toDouble(scene.step.value(p)));
                 // Rec. 709's luminance, and what black counts.
@@ -89,7 +89,7 @@ void expectBruteForce(const Scene& scene, const View& view, unsigned seed) {
         ++found;
         EXPECT_EQ(std::pair(picked->point, picked->layer), *truth) << pixel.x << ' ' << pixel.y;
         EXPECT_EQ(picked->gridIndex, scene.step.gridIndex()[picked->point]);
-        EXPECT_EQ(picked->world, scene.lattice.position(picked->gridIndex));
+        EXPECT_EQ(picked->world, scene.placed.position(picked->gridIndex));
         EXPECT_NEAR(picked->depth, project(view, picked->world).depth, 1e-12);
     }
     EXPECT_GE(found, 3) << "or little was compared";
@@ -143,9 +143,9 @@ struct Row {
         tests::stepOf(std::make_shared<timeseries::Grid>(
                           std::array{tests::axis(5), tests::axis(1), tests::axis(1)}),
                       [](std::size_t i) { return static_cast<double>(i); });
-    Lattice lattice{step.grid()};
+    PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(RangeSet::everything()), {}}},
                 .footprint = {},
                 .order = Order::None,

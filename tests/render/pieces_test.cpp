@@ -1,11 +1,11 @@
-#include "render/pieces.h"
-#include "render/depth_order.h"
+#include "render/splat/pieces.h"
+#include "render/splat/depth_order.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "render/block_order.h"
+#include "render/points/block_order.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -18,11 +18,11 @@ class Pieces : public testing::Test {
         const auto grid = std::make_shared<timeseries::Grid>(
             std::array{tests::axis(100), tests::axis(100), tests::axis(8)});
         step_.emplace(tests::noise(grid));
-        lattice_.emplace(step_->grid());
+        placed_.emplace(step_->grid());
     }
     Scene scene(std::vector<std::vector<timeseries::Run>> layers) const {
         Scene scene{.step = *step_,
-                    .lattice = *lattice_,
+                    .placed = *placed_,
                     .layers = {},
                     .footprint = {},
                     .order = Order::None,
@@ -32,7 +32,7 @@ class Pieces : public testing::Test {
     }
     static constexpr std::uint64_t kBlock = kSubsetPeriod;
     std::optional<timeseries::SortedStep> step_;
-    std::optional<Lattice> lattice_;
+    std::optional<PlacedPoints> placed_;
 };
 
 std::uint64_t costOf(const std::vector<Piece>& pieces) {

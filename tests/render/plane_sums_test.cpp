@@ -6,11 +6,11 @@
 #include <array>
 #include <span>
 
-#include "render/cpu_splatter.h"
-#include "render/depth_order.h"
-#include "render/image_compare.h"
-#include "render/row_splatter.h"
-#include "render/tile_splatter.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/noise_plane.h"
 
 namespace render {

@@ -1,4 +1,4 @@
-#include "render/png.h"
+#include "render/image/png.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "render/color.h"
+#include "render/image/color.h"
 #include "tests/support/files.h"
 
 namespace render {

@@ -1,12 +1,12 @@
 // Sums into light, many pixels at once, against the formula in double.
-#include "render/resolve.h"
+#include "render/frame/resolve.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "render/cpu_splatter.h"
+#include "render/reference/cpu_splatter.h"
 #include "tests/support/vector_targets.h"
 
 namespace render {

@@ -1,8 +1,8 @@
-#include "render/splat_cost.h"
+#include "render/model/splat_cost.h"
 
 #include <gtest/gtest.h>
 
-#include "render/cpu_splatter.h"
+#include "render/reference/cpu_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -13,13 +13,13 @@ struct World {
         : step(tests::noise(std::make_shared<timeseries::Grid>(
               std::array{tests::axis(12), tests::axis(12), tests::axis(6, 0, length)}))),
           scene{.step = step,
-                .lattice = lattice,
+                .placed = placed,
                 .layers = {{step.select(timeseries::RangeSet::parse(range)), {}}},
                 .footprint = {},
                 .order = Order::None,
                 .clip = {}} {}
     timeseries::SortedStep step;
-    Lattice lattice{step.grid()};
+    PlacedPoints placed{step.grid()};
     Scene scene;
 };
 

@@ -1,5 +1,5 @@
 // The points that stand for all.
-#include "render/subset.h"
+#include "render/points/subset.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

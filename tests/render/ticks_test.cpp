@@ -1,4 +1,4 @@
-#include "render/ticks.h"
+#include "render/annotate/ticks.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // What is the tiles' own; what they share with rows is in plane_sums_test.cpp.
-#include "render/tile_splatter.h"
-#include "render/depth_order.h"
+#include "render/splat/tile_splatter.h"
+#include "render/splat/depth_order.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include "render/cpu_splatter.h"
-#include "render/image_compare.h"
+#include "render/reference/cpu_splatter.h"
+#include "render/reference/image_compare.h"
 #include "tests/support/noise_plane.h"
 #include "tests/support/vector_targets.h"
 
@@ -35,9 +35,9 @@ TEST_F(TileSplatter, EveryKindOfVectorsSumsTheTruth) {
     for (double& x : uneven.coordinates) x *= 1 + 0.05 * x;
     const auto unevenStep = tests::noise(std::make_shared<const timeseries::Grid>(
         std::array{uneven, tests::axis(8), tests::axis(7)}));
-    const Lattice unevenLattice(unevenStep.grid());
+    const PlacedPoints unevenPoints(unevenStep.grid());
     Scene unevenScene{.step = unevenStep,
-                      .lattice = unevenLattice,
+                      .placed = unevenPoints,
                       .layers = {{unevenStep.select(RangeSet::everything()), {Constant{}, 0.2}}},
                       .footprint = {},
                       .order = Order::None,

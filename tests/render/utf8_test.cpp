@@ -1,4 +1,4 @@
-#include "render/utf8.h"
+#include "render/annotate/utf8.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/view.h"
+#include "render/points/view.h"
 
 #include <gtest/gtest.h>
 

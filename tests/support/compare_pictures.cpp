@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "render/exr.h"
-#include "render/image_compare.h"
-#include "render/png.h"
+#include "render/image/exr.h"
+#include "render/image/png.h"
+#include "render/reference/image_compare.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 #include "tests/support/scripted_reader.h"
 #include "tests/support/selection_oracle.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "render/axes.h"
-#include "render/flat_mesh.h"
+#include "render/annotate/axes.h"
+#include "render/annotate/flat_mesh.h"
 
 namespace tests {
 

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "render/depth_order.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
-#include "render/gl_list.h"
-#include "render/gl_splatter.h"
-#include "render/gl_targets.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/gl_list.h"
+#include "render/splat/gl_splatter.h"
+#include "render/splat/gl_targets.h"
 #include "tests/support/scenes.h"
 
 namespace tests {
@@ -28,7 +28,7 @@ class GlTest : public testing::Test {
                            .size = view.size,
                            .clearColor = glm::vec4(0),
                            .clearDepth = opaqueDepth});
-        render::GpuStep step(scene.step, scene.lattice);
+        render::GpuStep step(scene.step, scene.placed);
         step.upload(scene, render::neededScale(scene));
         render::GlSplatter splatter;
         const auto list = splatter.upload(scene, render::order(scene, kMidEye), step);

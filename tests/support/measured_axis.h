@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "timeseries/grid.h"
+#include "timeseries/grid/grid.h"
 
 namespace tests {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/scene.h"
+#include "render/model/scene.h"
 #include "tests/support/scenes.h"
 
 namespace tests {
@@ -12,9 +12,9 @@ namespace tests {
 class NoisePlane : public testing::Test {
  protected:
     timeseries::SortedStep step_ = noise(cube(40));
-    render::Lattice lattice_{step_.grid()};
+    render::PlacedPoints placed_{step_.grid()};
     render::Scene scene_{.step = step_,
-                         .lattice = lattice_,
+                         .placed = placed_,
                          .layers = {{step_.select(timeseries::RangeSet::parse("0.1:0.4,0.5:0.9")),
                                      {render::ByValue{{}, 0, 1}, 0.2}}},
                          .footprint = {},

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/support/files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace tests {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include "app/explorer.h"
-#include "app/session.h"
+#include "app/choices/explorer.h"
+#include "app/choices/session.h"
 
 namespace tests {
 

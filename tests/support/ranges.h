@@ -1,7 +1,7 @@
 // Ranges written briefly.
 #pragma once
 
-#include "timeseries/range_set.h"
+#include "timeseries/index/range_set.h"
 
 namespace tests::ranges {
 

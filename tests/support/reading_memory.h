@@ -13,7 +13,7 @@
 #include <functional>
 #include <string>
 
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace tests {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <random>
 
-#include "render/scene.h"
-#include "render/view.h"
+#include "render/model/scene.h"
+#include "render/points/view.h"
 
 namespace tests {
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/dataset.h"
+#include "app/files/dataset.h"
 #include "tests/support/scenes.h"
 
 namespace tests {

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "timeseries/range_set.h"
+#include "timeseries/index/range_set.h"
 
 namespace oracle {
 

@@ -1,7 +1,7 @@
 // A dataset made by hand, as an Exploration shows one: for those who draw what is shown.
 #pragma once
 
-#include "app/exploration.h"
+#include "app/exploration/exploration.h"
 #include "tests/support/scenes.h"
 
 namespace tests {

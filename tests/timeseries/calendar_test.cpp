@@ -1,4 +1,4 @@
-#include "timeseries/calendar.h"
+#include "timeseries/readers/calendar.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "timeseries/field.h"
+#include "timeseries/grid/field.h"
 
 #include <gtest/gtest.h>
 

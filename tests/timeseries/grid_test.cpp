@@ -1,4 +1,4 @@
-#include "timeseries/grid.h"
+#include "timeseries/grid/grid.h"
 
 #include <gtest/gtest.h>
 

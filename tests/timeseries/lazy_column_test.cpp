@@ -1,4 +1,4 @@
-#include "timeseries/lazy_column.h"
+#include "timeseries/index/lazy_column.h"
 
 #include <gtest/gtest.h>
 

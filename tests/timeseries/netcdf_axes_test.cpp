@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "tests/support/netcdf_builder.h"
-#include "timeseries/reader.h"
 #include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "tests/support/files.h"
 #include "tests/support/netcdf_builder.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

@@ -1,4 +1,4 @@
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "tests/support/shared_data.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

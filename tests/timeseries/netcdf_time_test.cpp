@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/support/netcdf_builder.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

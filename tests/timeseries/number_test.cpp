@@ -1,4 +1,4 @@
-#include "timeseries/number.h"
+#include "timeseries/index/number.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "timeseries/numbered_names.h"
+#include "timeseries/readers/numbered_names.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "timeseries/other_formats.h"
+#include "timeseries/readers/other_formats.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 
 #include "tests/support/files.h"
 #include "tests/support/shared_data.h"
-#include "timeseries/reader.h"
-#include "timeseries/series_files.h"
+#include "timeseries/readers/reader.h"
+#include "timeseries/readers/series_files.h"
 
 namespace timeseries {
 namespace {

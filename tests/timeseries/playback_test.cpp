@@ -1,4 +1,4 @@
-#include "timeseries/playback.h"
+#include "timeseries/series/playback.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "timeseries/range_set.h"
+#include "timeseries/index/range_set.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "tests/support/ranges.h"
 #include "tests/support/selection_oracle.h"
-#include "timeseries/range_set.h"
+#include "timeseries/index/range_set.h"
 
 namespace timeseries {
 namespace {

@@ -1,10 +1,10 @@
-#include "timeseries/series_files.h"
+#include "timeseries/readers/series_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

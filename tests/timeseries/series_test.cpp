@@ -1,4 +1,4 @@
-#include "timeseries/series.h"
+#include "timeseries/series/series.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "timeseries/sorted_step.h"
+#include "timeseries/index/sorted_step.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "timeseries/step_loader.h"
+#include "timeseries/series/step_loader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

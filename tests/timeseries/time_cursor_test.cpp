@@ -1,4 +1,4 @@
-#include "timeseries/time_cursor.h"
+#include "timeseries/series/time_cursor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

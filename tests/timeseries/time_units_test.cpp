@@ -1,4 +1,4 @@
-#include "timeseries/time_units.h"
+#include "timeseries/readers/time_units.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What happens to work that is tried out in a copy of the process.
-#include "timeseries/trial.h"
+#include "timeseries/readers/trial.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

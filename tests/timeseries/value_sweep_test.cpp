@@ -1,4 +1,4 @@
-#include "timeseries/value_sweep.h"
+#include "timeseries/series/value_sweep.h"
 
 #include <gtest/gtest.h>
 

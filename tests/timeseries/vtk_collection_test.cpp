@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "tests/support/vtk_files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

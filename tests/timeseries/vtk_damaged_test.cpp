@@ -10,7 +10,7 @@
 #include <random>
 
 #include "tests/support/vtk_files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

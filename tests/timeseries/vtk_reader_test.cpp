@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "tests/support/vtk_files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

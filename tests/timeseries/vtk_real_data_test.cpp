@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/support/shared_data.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

@@ -20,7 +20,7 @@
 #include <array>
 
 #include "tests/support/files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/files.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {

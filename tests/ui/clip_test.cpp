@@ -3,9 +3,9 @@
 #include <limits>
 #include <utility>
 
-#include "app/camera.h"
+#include "app/choices/camera.h"
 #include "app/panels/view_page.h"
-#include "render/lattice.h"
+#include "render/points/placed_points.h"
 #include "tests/ui/demo_values.h"
 #include "tests/ui/desk_test.h"
 
@@ -72,11 +72,11 @@ TEST_F(DeskClips, WhatLiesBeyondTheDraggedFaceUntilItIsUndone) {
 
     // The last points drawn lie on or below the face, and their splats reach less than 1.5 cells
     // beyond them.
-    const render::Lattice lattice(*grid, after.scale);
+    const render::PlacedPoints placed(*grid, after.scale);
     const render::View eye =
-        app::eyes(after.view, after.stereo, lattice.boxHalfEdges(), after.size).front();
+        app::eyes(after.view, after.stereo, placed.boxHalfEdges(), after.size).front();
     const auto row = [&](double height) {
-        const glm::dvec3 world = lattice.axesFromGrid({0, 0, height});
+        const glm::dvec3 world = placed.axesFromGrid({0, 0, height});
         return static_cast<double>(eye.size.y) - render::project(eye, world).window.y;
     };
     const double reach = 1.5 * (z[1] - z[0]), infinity = eye.size.y;

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 
-#include "app/session.h"
+#include "app/choices/session.h"
 #include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 #include "tests/ui/places.h"
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace ui {
 

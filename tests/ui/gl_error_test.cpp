@@ -1,4 +1,4 @@
-#include "app/autosave.h"
+#include "app/choices/autosave.h"
 #include "tests/ui/desk_test.h"
 #include "tests/ui/stand_in.h"
 

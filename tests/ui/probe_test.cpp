@@ -2,8 +2,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/camera.h"
-#include "render/lattice.h"
+#include "app/choices/camera.h"
+#include "render/points/placed_points.h"
 #include "tests/ui/demo_values.h"
 #include "tests/ui/desk_test.h"
 #include "tests/ui/screen_text.h"
@@ -23,9 +23,9 @@ struct Foremost {
 // Of the points selected, those whose splat is the first that the ray of their own pixel meets.
 // Their splats reach less than 1.5 cells.
 std::vector<Foremost> foremost(const app::Explorer& e, const timeseries::Grid& grid) {
-    const render::Lattice lattice(grid, e.scale);
-    const render::View eye = app::eyes(e.view, e.stereo, lattice.boxHalfEdges(), e.size).front();
-    const double cell = lattice.cell(0).x * render::pixelRays(eye).focal.x;
+    const render::PlacedPoints placed(grid, e.scale);
+    const render::View eye = app::eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front();
+    const double cell = placed.cell(0).x * render::pixelRays(eye).focal.x;
     const std::vector<float> values = valuesAt(e.steps->first);
     struct Seen {
         std::size_t index;
@@ -34,7 +34,7 @@ std::vector<Foremost> foremost(const app::Explorer& e, const timeseries::Grid& g
     std::vector<Seen> seen;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (oracle::holds(e.layers.at(0).ranges.ranges(), values[i]))
-            seen.push_back({i, render::project(eye, lattice.position(i))});
+            seen.push_back({i, render::project(eye, placed.position(i))});
     std::vector<Foremost> found;
     for (const Seen& p : seen) {
         const glm::dvec2 pixel = glm::floor(p.at.window);

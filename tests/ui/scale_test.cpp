@@ -1,4 +1,4 @@
-#include "app/preferences.h"
+#include "app/choices/preferences.h"
 #include "tests/ui/desk_test.h"
 #include "tests/ui/stand_in.h"
 

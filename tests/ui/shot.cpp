@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 
-#include "render/color.h"
-#include "render/png.h"
+#include "render/image/color.h"
+#include "render/image/png.h"
 
 namespace ui {
 

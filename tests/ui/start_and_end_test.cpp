@@ -1,6 +1,6 @@
 #include <csignal>
 
-#include "app/autosave.h"
+#include "app/choices/autosave.h"
 #include "tests/support/built_paths.h"
 #include "tests/ui/desk_test.h"
 

@@ -61,7 +61,7 @@ TEST_F(DeskTakesAway, TheScreenshotThatTheCopiedCommandLineMakes) {
     const Shot seen = desk.settled(at.clear);
     const Shot written = part(checkedScreenshot(desk), at.clear);
     // The screen's bytes may be one off where the light lies at the border of two
-    // (render/present.h).
+    // (render/frame/present.h).
     EXPECT_LE(greatestDifference(written, seen), 1);
     EXPECT_LE(differing(written, seen), seen.pixels.size() / 100);
 }

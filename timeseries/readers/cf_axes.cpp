@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "timeseries/time_units.h"
-#include "timeseries/units.h"
+#include "timeseries/readers/time_units.h"
+#include "timeseries/readers/units.h"
 
 namespace timeseries {
 namespace {

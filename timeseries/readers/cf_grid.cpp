@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "timeseries/readers/cf_packing.h"
-#include "timeseries/units.h"
+#include "timeseries/readers/units.h"
 
 namespace timeseries {
 namespace {

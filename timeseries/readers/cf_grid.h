@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/grid.h"
+#include "timeseries/grid/grid.h"
 #include "timeseries/readers/cf_axes.h"
 #include "timeseries/readers/netcdf_file.h"
 

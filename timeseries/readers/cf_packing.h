@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/field.h"
+#include "timeseries/grid/field.h"
 #include "timeseries/readers/netcdf_header.h"
 
 namespace timeseries {

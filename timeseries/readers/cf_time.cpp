@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "timeseries/readers/cf_packing.h"
-#include "timeseries/series_files.h"
-#include "timeseries/time_units.h"
-#include "timeseries/units.h"
+#include "timeseries/readers/series_files.h"
+#include "timeseries/readers/time_units.h"
+#include "timeseries/readers/units.h"
 
 namespace timeseries {
 namespace {

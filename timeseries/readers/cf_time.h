@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/reader.h"
 #include "timeseries/readers/cf_axes.h"
 #include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 // The grammar is that of "The NetCDF File Format Specification" in the NetCDF User's Guide,
 // appendix B: header = magic numrecs dim_list gatt_list var_list, all big-endian.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "timeseries/other_formats.h"
+#include "timeseries/readers/other_formats.h"
 
 namespace timeseries {
 namespace {

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <mutex>
 
-#include "timeseries/reader.h"
 #include "timeseries/readers/classic_layout.h"
-#include "timeseries/trial.h"
+#include "timeseries/readers/reader.h"
+#include "timeseries/readers/trial.h"
 
 namespace timeseries {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "timeseries/reader.h"
 #include "timeseries/readers/netcdf_header.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 

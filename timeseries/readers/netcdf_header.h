@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "timeseries/field.h"
-#include "timeseries/number.h"
+#include "timeseries/grid/field.h"
+#include "timeseries/index/number.h"
 
 namespace timeseries {
 

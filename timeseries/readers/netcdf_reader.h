@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "timeseries/reader.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 

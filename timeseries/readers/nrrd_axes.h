@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/grid.h"
+#include "timeseries/grid/grid.h"
 #include "timeseries/readers/nrrd_header.h"
 
 namespace timeseries {

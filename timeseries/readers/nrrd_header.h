@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "timeseries/field.h"
+#include "timeseries/grid/field.h"
 
 namespace timeseries {
 

@@ -8,7 +8,7 @@
 
 #include "timeseries/readers/cf_time.h"
 #include "timeseries/readers/netcdf_header.h"
-#include "timeseries/units.h"
+#include "timeseries/readers/units.h"
 
 namespace timeseries {
 namespace {

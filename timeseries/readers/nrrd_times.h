@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/reader.h"
 #include "timeseries/readers/nrrd_axes.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 

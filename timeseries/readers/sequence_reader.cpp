@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <list>
 
-#include "timeseries/series_files.h"
+#include "timeseries/readers/series_files.h"
 
 namespace timeseries {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/grid.h"
+#include "timeseries/grid/grid.h"
 #include "timeseries/readers/vtk_library.h"
 
 namespace timeseries {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "timeseries/field.h"
-#include "timeseries/reader.h"
+#include "timeseries/grid/field.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "timeseries/ordinary_file.h"
+#include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/vtk_grid.h"
 #include "timeseries/readers/vtk_library.h"
 

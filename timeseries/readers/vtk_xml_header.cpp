@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "timeseries/other_formats.h"
+#include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/vtk_blocks.h"
 #include "timeseries/readers/vtk_header.h"
 #include "timeseries/readers/vtk_xml.h"

@@ -60,13 +60,14 @@ TEST(ClippedBox, LiesInThePointsBoxWhicheverWayItsAxesRun) {
     auto down = tests::axis(5), descending = tests::axis(5);
     down.down = true;
     std::ranges::reverse(descending.coordinates);
-    const render::Lattice lattice(timeseries::Grid(std::array{tests::axis(5), down, descending}));
-    const glm::dvec3 half = lattice.boxHalf();
-    const AxisBox all = clippedBox(lattice, {});
+    const render::PlacedPoints placed(
+        timeseries::Grid(std::array{tests::axis(5), down, descending}));
+    const glm::dvec3 half = placed.boxHalf();
+    const AxisBox all = clippedBox(placed, {});
     EXPECT_EQ(all.lo, -half);
     EXPECT_EQ(all.hi, half);
     // Coordinates 0 to 4: 1 lies half of half the box below the middle, where it is not down.
-    const AxisBox box = clippedBox(lattice, ClipBox{{1, 1, -kInfinity}, {kInfinity, kInfinity, 1}});
+    const AxisBox box = clippedBox(placed, ClipBox{{1, 1, -kInfinity}, {kInfinity, kInfinity, 1}});
     EXPECT_LT(glm::distance(box.lo, half * glm::dvec3(-0.5, -1, -1)), 1e-12);
     EXPECT_LT(glm::distance(box.hi, half * glm::dvec3(1, 0.5, -0.5)), 1e-12);
 }
@@ -74,15 +75,15 @@ TEST(ClippedBox, LiesInThePointsBoxWhicheverWayItsAxesRun) {
 class HandAtABox : public testing::Test {
  protected:
     // Oblique, in metres: a box with sides of some 0.6.
-    render::Lattice lattice_{timeseries::Grid(
+    render::PlacedPoints placed_{timeseries::Grid(
         std::array{tests::axis(4), tests::axis(4), tests::axis(4)},
         timeseries::Frame{.directions = tests::leaning({1, 0.2, 0}, {-0.1, 1, 0.1}, {0.2, 0, 1}),
                           .origin = {},
                           .names = {}})};
     xr::Placement placement_{
         {glm::normalize(glm::dquat(0.8, 0.1, -0.5, 0.3)), glm::dvec3(0.2, 1.3, -0.9)}, 0.5};
-    glm::dmat4 stageFromAxes_ = stageFromAxes(placement_, lattice_);
-    glm::dvec3 half_ = lattice_.boxHalf();
+    glm::dmat4 stageFromAxes_ = stageFromAxes(placement_, placed_);
+    glm::dvec3 half_ = placed_.boxHalf();
     AxisBox box_{-half_, 0.5 * half_};
 
     glm::dvec3 inStage(const glm::dvec3& axes) const {
@@ -131,7 +132,7 @@ TEST_F(HandAtABox, ARayTakesTheFaceThatItMeetsFirst) {
 
 TEST_F(HandAtABox, FromInsideTheRayTakesTheFaceWhereItLeaves) {
     placement_.metresPerUnit = 5;  // no face is within reach
-    stageFromAxes_ = stageFromAxes(placement_, lattice_);
+    stageFromAxes_ = stageFromAxes(placement_, placed_);
     const glm::dvec3 inside = 0.5 * (box_.lo + box_.hi), face = middleOf({1, 1});
     const auto hold = holdOf(looking(inStage(inside), inStage(face)), stageFromAxes_, box_, half_);
     ASSERT_TRUE(hold);

@@ -32,15 +32,15 @@ class ClipByHand : public testing::Test {
 
     tests::ScriptedExploration world_{leaning()};
     Exploration& e_ = world_.exploration;
-    render::Lattice lattice_{e_.shown()->sorted->grid()};
-    Drawn drawn_{&lattice_, e_.shown()->sorted, e_.shown()->step};
+    render::PlacedPoints placed_{e_.shown()->sorted->grid()};
+    Drawn drawn_{&placed_, e_.shown()->sorted, e_.shown()->step};
     xr::Placement placement_{
         {glm::normalize(glm::dquat(0.8, 0.1, -0.5, 0.3)), glm::dvec3(0.2, 1.3, -0.9)}, 0.5};
     ClipHand clip_;
 
     glm::dvec3 inStage(const glm::dvec3& grid) const {
-        return glm::dvec3(stageFromAxes(placement_, lattice_) *
-                          glm::dvec4(lattice_.axesFromGrid(grid), 1));
+        return glm::dvec3(stageFromAxes(placement_, placed_) *
+                          glm::dvec4(placed_.axesFromGrid(grid), 1));
     }
     static xr::Pose at(const glm::dvec3& place) { return {{1, 0, 0, 0}, place}; }
     // Takes hold with the tip at a place of the grid; the face that is then held.
@@ -57,7 +57,7 @@ class ClipByHand : public testing::Test {
     }
     const std::optional<ClipBox>& clip() const { return e_.explorer().clip; }
     // A millimetre in the room, in units of the grid.
-    double millimetre() const { return 0.001 / (lattice_.scale().x * placement_.metresPerUnit); }
+    double millimetre() const { return 0.001 / (placed_.scale().x * placement_.metresPerUnit); }
 };
 
 TEST_F(ClipByHand, AFaceGoesWithTheHandAlongItsAxisAlone) {
@@ -144,7 +144,7 @@ TEST_F(ClipByHand, EdgesOfTheFaceInTheHandAreLit) {
         double greatest = -kInfinity;
         for (const glm::dvec3& world : {edge.from, edge.to}) {
             const glm::dvec3 grid =
-                lattice_.gridFromAxes(glm::inverse(lattice_.worldFromAxes()) * world);
+                placed_.gridFromAxes(glm::inverse(placed_.worldFromAxes()) * world);
             EXPECT_GE(grid.x, 1 - 1e-9) << "of what is inside";
             greatest = std::max(greatest, grid.x);
         }
@@ -156,8 +156,8 @@ TEST_F(ClipByHand, EdgesOfTheFaceInTheHandAreLit) {
 
 TEST_F(ClipByHand, WhereTheDrawnGridIsAnotherNothingIsTaken) {
     const auto other = std::make_shared<const timeseries::SortedStep>(tests::noise(tests::cube(5)));
-    const render::Lattice lattice(other->grid());
-    EXPECT_FALSE(ClipHand::holdAt(at(placement_.stageFromVolume.position), {&lattice, other, 0},
+    const render::PlacedPoints placed(other->grid());
+    EXPECT_FALSE(ClipHand::holdAt(at(placement_.stageFromVolume.position), {&placed, other, 0},
                                   placement_, e_));
 }
 

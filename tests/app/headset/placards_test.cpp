@@ -16,11 +16,11 @@ class PlacardsOfARoom : public testing::Test {
  protected:
     tests::ScriptedExploration world_;
     Exploration& e_ = world_.exploration;
-    render::Lattice lattice_{e_.shown()->sorted->grid()};
+    render::PlacedPoints placed_{e_.shown()->sorted->grid()};
     RoomInput input_{.hands = {},
                      .head = xr::Pose{{1, 0, 0, 0}, {0, 1.6, 0}},
                      .dt = {},
-                     .drawn = Drawn{&lattice_, e_.shown()->sorted, e_.shown()->step},
+                     .drawn = Drawn{&placed_, e_.shown()->sorted, e_.shown()->step},
                      .asked = {}};
     Room room_;
 
@@ -46,7 +46,7 @@ TEST_F(PlacardsOfARoom, EveryEdgeOfTheClipBoxIsALineFromEndToEnd) {
     EXPECT_TRUE(placards().empty());
     input_.asked = RoomCommand::ClipByHand;
     // At the face x = 1, from the left.
-    const glm::dvec3 face = lattice_.axesFromGrid({1, 1, 1.5});
+    const glm::dvec3 face = placed_.axesFromGrid({1, 1, 1.5});
     input_.hands[0].aim = xr::Pose{{1, 0, 0, 0}, inStage(face - glm::dvec3(0.05, 0, 0))};
     const auto all = placards();
     ASSERT_EQ(room_.clipEdges().size(), 12u);
@@ -71,12 +71,12 @@ TEST_F(PlacardsOfARoom, EveryEdgeOfTheClipBoxIsALineFromEndToEnd) {
 
 TEST_F(PlacardsOfARoom, ThePointAtATipAndTheOneKeptAreMarked) {
     placards();
-    const glm::dvec3 point = lattice_.position(1 + 4 * (2 + 4 * 3));
+    const glm::dvec3 point = placed_.position(1 + 4 * (2 + 4 * 3));
     const glm::dvec3 tip = inStage(0.97 * point);
     input_.hands[1].aim =
         xr::Pose{glm::quatLookAt(glm::normalize(glm::dvec3(1, 0, 1)), glm::dvec3(0, 1, 0)), tip};
     RoomBoards boards;
-    boards.kept = lattice_.position(5);
+    boards.kept = placed_.position(5);
     const auto all = placards(boards);
     const auto marks = [&](const glm::dvec3& place) {
         return std::ranges::count_if(all, [&](const render::Placard& p) {
@@ -84,8 +84,8 @@ TEST_F(PlacardsOfARoom, ThePointAtATipAndTheOneKeptAreMarked) {
         });
     };
     EXPECT_EQ(marks(point), 1);
-    EXPECT_EQ(marks(lattice_.position(5)), 1);
-    EXPECT_EQ(marks(lattice_.position(6)), 0);
+    EXPECT_EQ(marks(placed_.position(5)), 1);
+    EXPECT_EQ(marks(placed_.position(6)), 0);
 }
 
 TEST_F(PlacardsOfARoom, TheReadoutStandsAtTheHandWhoseTipIsInTheVolume) {

@@ -120,7 +120,7 @@ class TipInTheVolume : public RoomOfAnExploration {
         return glm::dvec3(xr::stageFromWorld(room_.placement()) * glm::dvec4(world, 1));
     }
     void reach(xr::Hand& hand) {
-        const glm::dvec3 at = inStage(lattice_.position(kPoint) * 0.97);
+        const glm::dvec3 at = inStage(placed_.position(kPoint) * 0.97);
         hand.aim = looking(at, at + glm::dvec3(1, 0, 1));  // beside the panel
         hand.grip = hand.aim;
     }
@@ -149,7 +149,7 @@ TEST_F(TipInTheVolume, TheTriggerKeepsThePointInsteadOfPlaying) {
     EXPECT_EQ(reading_->index, (std::array<std::size_t, 3>{1, 2, 3}));
     EXPECT_EQ(timeseries::toDouble(reading_->value), value());
     EXPECT_EQ(reading_->position, glm::dvec3(1, 2, 3));
-    EXPECT_EQ(reading_->world, lattice_.position(kPoint));
+    EXPECT_EQ(reading_->world, placed_.position(kPoint));
     EXPECT_EQ(reading_->step, e_.shown()->step);
     EXPECT_FALSE(playing());
     frame();

@@ -18,11 +18,11 @@ class RoomOfAnExploration : public testing::Test {
     Exploration& e_ = world_.exploration;
     Room room_;
     // 4 x 4 x 4 points.
-    render::Lattice lattice_{e_.shown()->sorted->grid()};
+    render::PlacedPoints placed_{e_.shown()->sorted->grid()};
     RoomInput input_{.hands = {},
                      .head = xr::Pose{{1, 0, 0, 0}, {0, 1.6, 0}},
                      .dt = std::chrono::milliseconds(10),
-                     .drawn = Drawn{&lattice_, e_.shown()->sorted, e_.shown()->step},
+                     .drawn = Drawn{&placed_, e_.shown()->sorted, e_.shown()->step},
                      .asked = {}};
     xr::Hand& left_ = input_.hands[0];
     xr::Hand& right_ = input_.hands[1];
@@ -36,7 +36,7 @@ class RoomOfAnExploration : public testing::Test {
         return outcome.pulses;
     }
     // Where the room is to place the volume.
-    xr::Placement first() const { return volumeBefore(*input_.head, lattice_.boxHalfEdges()); }
+    xr::Placement first() const { return volumeBefore(*input_.head, placed_.boxHalfEdges()); }
     static xr::Pose looking(const glm::dvec3& from, const glm::dvec3& at) {
         return {glm::quatLookAt(glm::normalize(at - from), glm::dvec3(0, 1, 0)), from};
     }

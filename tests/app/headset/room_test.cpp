@@ -1,7 +1,7 @@
 // Hands on the volume: what carries, turns, scales and clips it, and how that is undone.
 #include "app/headset/room.h"
 
-#include "app/choice_text.h"
+#include "app/choices/choice_text.h"
 #include "tests/app/headset/room_of_an_exploration.h"
 
 namespace app::headset {

@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "render/view.h"
+#include "render/points/view.h"
 
 namespace app::headset {
 namespace {

@@ -28,40 +28,40 @@ std::shared_ptr<const timeseries::Grid> uneven() {
 
 TEST(PointAt, IsTheNearestOfAllPoints) {
     const auto grid = uneven();
-    const render::Lattice lattice(*grid);
+    const render::PlacedPoints placed(*grid);
     std::mt19937 random(11);
     std::uniform_real_distribution<double> side(-1, 1);
     for (int i = 0; i < 500; ++i) {
         const glm::dvec3 place =
-            lattice.boxHalf() * glm::dvec3(side(random), side(random), side(random));
+            placed.boxHalf() * glm::dvec3(side(random), side(random), side(random));
         std::uint64_t nearest = 0;
         for (std::uint64_t p = 1; p < grid->count(); ++p)
-            if (glm::distance(lattice.position(p), place) <
-                glm::distance(lattice.position(nearest), place))
+            if (glm::distance(placed.position(p), place) <
+                glm::distance(placed.position(nearest), place))
                 nearest = p;
-        const auto at = pointAt(lattice, place);
+        const auto at = pointAt(placed, place);
         ASSERT_TRUE(at);
         EXPECT_EQ((*at)[0] + 5 * ((*at)[1] + 4 * (*at)[2]), nearest) << i;
     }
 }
 
 TEST(PointAt, IsInTheBoxOnly) {
-    const render::Lattice lattice(*uneven());
+    const render::PlacedPoints placed(*uneven());
     for (int a = 0; a < 3; ++a)
         for (const double side : {-1.0, 1.0}) {
             glm::dvec3 place(0);
-            place[a] = side * lattice.boxHalf()[a];
-            EXPECT_TRUE(pointAt(lattice, 0.999 * place));
-            EXPECT_FALSE(pointAt(lattice, 1.001 * place));
+            place[a] = side * placed.boxHalf()[a];
+            EXPECT_TRUE(pointAt(placed, 0.999 * place));
+            EXPECT_FALSE(pointAt(placed, 1.001 * place));
         }
 }
 
 TEST(PointAt, ASheetIsAsThickAsItsCells) {
-    const render::Lattice lattice(
+    const render::PlacedPoints placed(
         timeseries::Grid(std::array{tests::axis(5), tests::axis(5), tests::axis(1)}));
-    const double half = 0.5 * lattice.widths()[2][0];
-    EXPECT_EQ(pointAt(lattice, {0, 0, 0.9 * half}), (std::array<std::size_t, 3>{2, 2, 0}));
-    EXPECT_FALSE(pointAt(lattice, {0, 0, 1.1 * half}));
+    const double half = 0.5 * placed.widths()[2][0];
+    EXPECT_EQ(pointAt(placed, {0, 0, 0.9 * half}), (std::array<std::size_t, 3>{2, 2, 0}));
+    EXPECT_FALSE(pointAt(placed, {0, 0, 1.1 * half}));
 }
 
 TEST(PointSearch, FindsEachPointInSlicesOfAnySize) {
@@ -113,18 +113,18 @@ class ProbeOfTips : public testing::Test {
         timeseries::Frame{.directions = tests::leaning({1, 0.2, 0}, {-0.3, 1, 0.1}, {0.4, 0, 1}),
                           .origin = {},
                           .names = {}});
-    render::Lattice lattice_{*grid_};
-    std::optional<Drawn> drawn_ = Drawn{&lattice_, shared(tests::noise(grid_)), 7};
+    render::PlacedPoints placed_{*grid_};
+    std::optional<Drawn> drawn_ = Drawn{&placed_, shared(tests::noise(grid_)), 7};
     xr::Placement placement_{
         {glm::normalize(glm::dquat(0.8, 0.1, -0.5, 0.3)), glm::dvec3(0.2, 1.3, -0.9)}, 0.4};
     TipProbe probe_;
 
     glm::dvec3 inStage(std::uint64_t point) const {
-        return glm::dvec3(xr::stageFromWorld(placement_) * glm::dvec4(lattice_.position(point), 1));
+        return glm::dvec3(xr::stageFromWorld(placement_) * glm::dvec4(placed_.position(point), 1));
     }
 };
 
-TEST_F(ProbeOfTips, ReadsEachPointOfAnObliqueLatticeWhereItStands) {
+TEST_F(ProbeOfTips, ReadsEachPointOfAnObliqueGridWhereItStands) {
     for (std::uint64_t i = 0; i < grid_->count(); ++i) {
         // A little towards the middle: the outermost stand on the box.
         const glm::dvec3 tip = glm::mix(inStage(i), placement_.stageFromVolume.position, 0.01);

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "app/panels/focus.h"
-#include "app/picture.h"
+#include "app/picture/picture.h"
 #include "tests/support/files.h"
 #include "tests/support/panels_desk.h"
 

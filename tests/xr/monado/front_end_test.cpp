@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "app/still.h"
-#include "render/color.h"
+#include "app/picture/still.h"
+#include "render/image/color.h"
 #include "tests/support/headset.h"
 #include "tests/support/monado_service.h"
 #include "tests/support/shown_steps.h"
@@ -50,10 +50,10 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
     ASSERT_TRUE(session);
     const tests::ShownSteps world(10);
     const Shown shown = world.shown();
-    const render::Lattice lattice(shown.sorted->grid(), shown.explorer.scale);
-    render::GpuStep onGpu(*shown.sorted, lattice);
+    const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
+    render::GpuStep onGpu(*shown.sorted, placed);
     const Picture picture =
-        makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, lattice);
+        makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed);
     render::FrameRenderer renderer;
     const auto nothingHidden = std::make_shared<const render::HiddenArea>();
     Eyes eyes;
@@ -63,7 +63,7 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
         if (!frame || !frame->shouldRender()) continue;
         const auto given = frame->eyes(1);
         if (given.empty() || !frame->head()) continue;
-        if (!placement) placement = volumeBefore(*frame->head(), lattice.boxHalfEdges());
+        if (!placement) placement = volumeBefore(*frame->head(), placed.boxHalfEdges());
         eyes.draw(&shown, given, *placement, {}, Eyes::Splats::All);
         std::array views{viewOf(given[0], *placement), viewOf(given[1], *placement)};
         // Of nothing, for which all the same GL draws the lines: their soft edges are a driver's.

@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "app/headset/headset.h"
-#include "render/color.h"
-#include "render/image.h"
-#include "render/png.h"
+#include "render/image/color.h"
+#include "render/image/image.h"
+#include "render/image/png.h"
 #include "tests/support/built_paths.h"
 #include "tests/support/monado_service.h"
 #include "tests/support/screen_grab.h"

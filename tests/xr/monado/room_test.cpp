@@ -14,9 +14,9 @@ class HandsInTheRoom : public FrontEndWithHands {
     const Room& room() const { return headset_->room(); }
     // Where a point of the grid is in the room. The world's grid is a cube.
     glm::dvec3 inStage(const glm::dvec3& grid) const {
-        const render::Lattice lattice(world_.exploration.shown()->sorted->grid());
-        return glm::dvec3(stageFromAxes(room().placement(), lattice) *
-                          glm::dvec4(lattice.axesFromGrid(grid), 1));
+        const render::PlacedPoints placed(world_.exploration.shown()->sorted->grid());
+        return glm::dvec3(stageFromAxes(room().placement(), placed) *
+                          glm::dvec4(placed.axesFromGrid(grid), 1));
     }
     // The right hand, pointing that way.
     void move(const glm::dvec3& to, const glm::dvec3& at) {

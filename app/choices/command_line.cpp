@@ -1,0 +1,161 @@
+#include "app/choices/command_line.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cstdlib>
+#include <sstream>
+
+#include "app/choices/choice_text.h"
+#include "app/choices/options.h"
+#include "app/choices/paths.h"
+#include "timeseries/readers/shell_word.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Arguments as they are put together. A value stands behind an '=', so that none is taken for an
+// option.
+class Arguments {
+ public:
+    explicit Arguments(std::vector<std::string> first) : all_(std::move(first)) {}
+
+    void flag(const char* name, bool on) {
+        if (on) all_.emplace_back(name);
+    }
+    void option(const char* name, std::string_view value) {
+        all_.push_back(fmt::format("{}={}", name, value));
+    }
+    void number(const char* name, double value) { option(name, fmt::format("{}", value)); }
+    // A name that looks like an option or a command is none with its folder before it.
+    void file(const fs::path& path) {
+        const std::string text = path.generic_string();
+        const bool isMistaken = text.starts_with('-') || isCommand(text);
+        all_.push_back(isMistaken ? "./" + text : text);
+    }
+    std::vector<std::string> take() { return std::move(all_); }
+
+ private:
+    std::vector<std::string> all_;
+};
+
+std::string triple(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+void addAxes(const Explorer& e, Arguments& arguments) {
+    if (const std::string flips = flipsText(e.axes); flips != "none")
+        arguments.option("--flip", flips);
+    for (std::size_t a = 0; a < 3; ++a)
+        if (!e.axes[a].name.empty())
+            arguments.option("--name-axis", fmt::format("{}={}", "xyz"[a], e.axes[a].name));
+}
+
+void addStyle(const LayerChoice& layer, Arguments& arguments) {
+    if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color))
+        arguments.option("--color", colorText(*rgb));
+    else
+        arguments.option("--colormap", mapText(std::get<MapChoice>(*layer.color)));
+    arguments.number("--opacity", *layer.opacity);
+}
+
+// Styles go to the swept layer first, then to the others in their order.
+void addLayers(const Explorer& e, Arguments& arguments) {
+    std::size_t place = 1;
+    const auto add = [&](const LayerChoice& layer) {
+        addStyle(layer, arguments);
+        if (!layer.visible) arguments.option("--hide", std::to_string(place));
+        ++place;
+    };
+    if (e.sweep) {
+        const timeseries::SweepSettings& s = *e.sweep;
+        arguments.option("--sweep", s.animation.text());
+        arguments.number("--delta", s.delta);
+        arguments.option("--timer-steps", std::to_string(s.timerSteps));
+        arguments.option("--timer-step", std::to_string(s.step));
+        arguments.number("--frequency", s.frequency);
+        arguments.flag("--swing", s.path == timeseries::SweepPath::Swing);
+        if (e.oneTick) arguments.option("--tick", std::to_string(e.play.tick));
+        add(e.sweepLayer);
+    }
+    for (const LayerChoice& layer : e.layers) {
+        arguments.option("--range", layer.ranges.text());
+        add(layer);
+    }
+    if (e.layers.empty() && !e.sweep) {  // no layer, or a hidden one: the same picture
+        arguments.option("--range", "min:max");
+        arguments.option("--hide", "1");
+    }
+}
+
+void addView(const Explorer& e, Arguments& arguments) {
+    const Explorer plain;
+    const ViewChoice& view = e.view;
+    std::string text = fmt::format("{},{}", view.azimuthDegrees, view.elevationDegrees);
+    if (view.distance) text += fmt::format(",{}", *view.distance);
+    arguments.option("--view", text);
+    if (view.target != plain.view.target) arguments.option("--target", triple(view.target));
+    arguments.flag("--orthographic", view.projection == Projection::Orthographic);
+    if (e.stereo.mode != plain.stereo.mode) arguments.option("--stereo", stereoName(e.stereo.mode));
+    if (e.stereo.eyeDistance) arguments.number("--eye-distance", *e.stereo.eyeDistance);
+    if (e.stereo.convergence) arguments.number("--convergence", *e.stereo.convergence);
+    arguments.option("--size", fmt::format("{}x{}", e.size.x, e.size.y));
+}
+
+void addSplats(const Explorer& e, Arguments& arguments) {
+    const render::Footprint plain;
+    if (e.footprint.kernel != plain.kernel)
+        arguments.option("--splat", kernelName(e.footprint.kernel));
+    if (e.footprint.size != plain.size) arguments.number("--splat-size", e.footprint.size);
+    if (e.order != Explorer{}.order) arguments.option("--order", orderName(e.order));
+    if (e.clip) arguments.option("--clip", clipText(*e.clip));
+    if (e.scale) arguments.option("--scale", triple(*e.scale));
+}
+
+}  // namespace
+
+std::vector<std::string> renderArguments(const Explorer& e, const fs::path& output,
+                                         const fs::path& folder) {
+    assert(!e.layers.empty() || e.sweep || e.noLayers);
+    Arguments arguments({"render"});
+    for (const fs::path& file : e.files) arguments.file(relativeTo(folder, file));
+    if (!e.variable.empty()) arguments.option("--variable", e.variable);
+    if (e.steps) arguments.option("--step", stepsText(*e.steps));
+    if (e.keep) arguments.option("--keep", e.keep->text());
+    addAxes(e, arguments);
+    addLayers(e, arguments);
+    addSplats(e, arguments);
+    addView(e, arguments);
+    arguments.option("--output", relativeTo(folder, output).generic_string());
+    return arguments.take();
+}
+
+// /proc/self/exe is what runs; whether a shell finds the same under a bare name is PATH's.
+std::string callOfProgram() {
+    // ./run sets it to its own name, as the user's shell sees it.
+    if (const char* run = std::getenv("ISOCHRON_RUN"); run != nullptr && *run != '\0')
+        return timeseries::shellWord(run);
+    std::error_code gone;
+    const fs::path program = fs::read_symlink("/proc/self/exe", gone);
+    const std::string name = program.filename().string();
+    const char* const path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const fs::path found = fs::path(folder) / name;
+        // What is relative to where the shell stands now is elsewhere after its next cd.
+        if (found.is_absolute() && fs::exists(found, gone))
+            // The first is the one that a shell takes.
+            return timeseries::shellWord(fs::equivalent(found, program, gone) ? name
+                                                                              : program.string());
+    }
+    return timeseries::shellWord(program.string());
+}
+
+std::string shellText(const std::vector<std::string>& arguments) {
+    std::string line;
+    for (const std::string& argument : arguments)
+        line += (line.empty() ? "" : " ") + timeseries::shellWord(argument);
+    return line;
+}
+
+}  // namespace app

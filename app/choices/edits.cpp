@@ -1,0 +1,270 @@
+#include "app/choices/edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "app/choices/choice_text.h"
+#include "app/choices/clip_flaw.h"
+#include "app/choices/first_choice.h"
+#include "app/choices/layer_colors.h"
+
+namespace app {
+namespace {
+
+using timeseries::Bound;
+using timeseries::Number;
+using timeseries::Range;
+using timeseries::RangeSet;
+using timeseries::SortedStep;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The double nearest to a number that is not less, not greater, greater, less.
+double atLeast(const Number& number) {
+    const double d = timeseries::toDouble(number);
+    return timeseries::compare(d, number) < 0 ? std::nextafter(d, kInfinity) : d;
+}
+double atMost(const Number& number) {
+    const double d = timeseries::toDouble(number);
+    return timeseries::compare(d, number) > 0 ? std::nextafter(d, -kInfinity) : d;
+}
+double above(const Number& number) { return std::nextafter(atMost(number), kInfinity); }
+double below(const Number& number) { return std::nextafter(atLeast(number), -kInfinity); }
+
+// The values between its neighbours, where a range may lie.
+struct Room {
+    double lo = -kInfinity, hi = kInfinity;
+};
+Room roomOf(const RangeSet& set, std::size_t range) {
+    const auto all = set.ranges();
+    Room room;
+    if (range > 0) room.lo = above(all[range - 1].hi.value);
+    if (range + 1 < all.size()) room.hi = below(all[range + 1].lo.value);
+    return room;
+}
+
+// With one range changed; the set as it was where no range would be left of it, or fewer of all
+// (ends that no double lies between).
+RangeSet replaced(const RangeSet& set, std::size_t range, const Range& by) {
+    std::vector<Range> all(set.ranges().begin(), set.ranges().end());
+    all[range] = by;
+    RangeSet changed(std::move(all));
+    return changed.ranges().size() == set.ranges().size() ? changed : set;
+}
+
+// The finite value to which an end must come to pass one more of the ascending values. Compared as
+// selections are: floats as floats.
+template <typename T>
+std::optional<double> valuePassed(std::span<const T> values, double from, End end, bool up) {
+    using Key = std::conditional_t<std::is_floating_point_v<T>, T, double>;
+    const auto keyOf = [](T value) { return static_cast<Key>(value); };
+    Key edge = static_cast<Key>(from);
+    // Inwards, the outermost of what is selected is to be left out.
+    const bool inward = up == (end == End::Lo);
+    const auto beyond = [&](bool orAt) {
+        if (up) {
+            const auto found = orAt ? std::ranges::lower_bound(values, edge, {}, keyOf)
+                                    : std::ranges::upper_bound(values, edge, {}, keyOf);
+            return found == values.end() ? std::optional<Key>() : keyOf(*found);
+        }
+        const auto found = orAt ? std::ranges::upper_bound(values, edge, {}, keyOf)
+                                : std::ranges::lower_bound(values, edge, {}, keyOf);
+        return found == values.begin() ? std::optional<Key>() : keyOf(*std::prev(found));
+    };
+    if (inward) {
+        const auto outermost = beyond(true);
+        if (!outermost) return std::nullopt;
+        edge = *outermost;
+    }
+    const auto next = beyond(false);
+    if (!next || !std::isfinite(*next)) return std::nullopt;
+    // As it is written: the shortest text that means it.
+    return std::stod(fmt::format("{}", *next));
+}
+
+std::pair<double, double> endsOf(const timeseries::Axis& axis) {
+    return std::minmax(axis.coordinates.front(), axis.coordinates.back());
+}
+// Short enough for a field; floats that were stored as such read as they were written.
+std::string sideText(double coordinate) { return fmt::format("{:.7g}", coordinate); }
+
+bool isBounded(const Bound& bound) { return std::isfinite(timeseries::toDouble(bound.value)); }
+
+}  // namespace
+
+RangeSet withEnd(const RangeSet& ranges, std::size_t range, End end, double value) {
+    assert(range < ranges.ranges().size());
+    Range changed = ranges.ranges()[range];
+    Room room = roomOf(ranges, range);
+    // A range with an open end holds nothing where its ends meet.
+    const bool meets = !changed.lo.open && !changed.hi.open;
+    if (end == End::Lo)
+        room.hi = meets ? atMost(changed.hi.value) : below(changed.hi.value);
+    else
+        room.lo = meets ? atLeast(changed.lo.value) : above(changed.lo.value);
+    if (!(room.lo <= room.hi)) return ranges;
+    (end == End::Lo ? changed.lo : changed.hi).value = std::clamp(value, room.lo, room.hi);
+    return replaced(ranges, range, changed);
+}
+
+double steppedEnd(const SortedStep& step, double from, End end, int by, double resolution) {
+    const bool up = by > 0;
+    const auto passed = std::visit([&](auto values) { return valuePassed(values, from, end, up); },
+                                   step.columns().values);
+    if (!passed) return from;
+    const double steps = roundedTo(from + by * resolution, resolution);
+    return up ? std::max(steps, *passed) : std::min(steps, *passed);
+}
+
+RangeSet withMoved(const RangeSet& ranges, std::size_t range, double by) {
+    assert(range < ranges.ranges().size());
+    Range moved = ranges.ranges()[range];
+    const double lo = timeseries::toDouble(moved.lo.value);
+    const double hi = timeseries::toDouble(moved.hi.value);
+    if (!isBounded(moved.lo) && !isBounded(moved.hi)) return ranges;
+    if (!isBounded(moved.lo)) return withEnd(ranges, range, End::Hi, hi + by);
+    if (!isBounded(moved.hi)) return withEnd(ranges, range, End::Lo, lo + by);
+    constexpr double kMost = std::numeric_limits<double>::max();
+    Room room = roomOf(ranges, range);
+    room = {std::max(room.lo, -kMost), std::min(room.hi, kMost)};
+    // The end in front is stopped; the other follows at its distance.
+    const double width = hi - lo;
+    if (by < 0) {
+        moved.lo.value = std::max(lo + by, room.lo);
+        moved.hi.value = std::min(std::get<double>(moved.lo.value) + width, room.hi);
+    } else {
+        moved.hi.value = std::min(hi + by, room.hi);
+        moved.lo.value = std::max(std::get<double>(moved.hi.value) - width, room.lo);
+    }
+    return replaced(ranges, range, moved);
+}
+
+RangeSet without(const RangeSet& ranges, std::size_t range) {
+    assert(range < ranges.ranges().size());
+    std::vector<Range> rest(ranges.ranges().begin(), ranges.ranges().end());
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(range));
+    return RangeSet(std::move(rest));
+}
+
+RangeSet with(const RangeSet& ranges, const Range& added) {
+    std::vector<Range> all(ranges.ranges().begin(), ranges.ranges().end());
+    all.push_back(added);
+    return RangeSet(std::move(all));
+}
+
+std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
+                                   std::size_t axis, End end, double coordinate) {
+    const auto& along = grid.axes()[axis].coordinates;
+    const auto [least, most] = std::minmax(along.front(), along.back());
+    const ClipBox open{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+    ClipBox box = clip.value_or(open);
+    double &lo = box.lo[static_cast<int>(axis)], &hi = box.hi[static_cast<int>(axis)];
+    if (end == End::Lo)
+        lo = coordinate <= least ? -kInfinity : std::min(coordinate, std::min(hi, most));
+    else
+        hi = coordinate >= most ? kInfinity : std::max(coordinate, std::max(lo, least));
+    return box == open ? std::nullopt : std::optional(box);
+}
+
+std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
+                                    const timeseries::Grid& grid, std::size_t axis,
+                                    std::string_view text) {
+    const timeseries::Axis& along = grid.axes()[axis];
+    const auto [least, most] = endsOf(along);
+    const auto isBlank = [](char c) { return c == ' '; };
+    Range range{{-kInfinity}, {kInfinity}};
+    if (!std::ranges::all_of(text, isBlank)) {
+        try {
+            const RangeSet set = RangeSet::parse(text);
+            if (set.ranges().size() != 1)
+                throw ChoiceError(fmt::format("clip '{}': one side of a box is one range", text));
+            range = set.ranges().front();
+            if (range.lo.open || range.hi.open)
+                throw ChoiceError(
+                    fmt::format("clip '{}': a box has closed ends, without brackets", text));
+        } catch (const timeseries::RangeSyntaxError& error) {
+            throw ChoiceError(fmt::format("clip '{}': {}", text, error.what()));
+        }
+    }
+    double lo = timeseries::toDouble(range.lo.value), hi = timeseries::toDouble(range.hi.value);
+    if (lo == hi && std::isfinite(lo)) {
+        lo = hi = *std::ranges::min_element(along.coordinates, {},
+                                            [&](double plane) { return std::abs(plane - lo); });
+    } else {
+        if (sideText(lo) == sideText(least)) lo = -kInfinity;
+        if (sideText(hi) == sideText(most)) hi = kInfinity;
+    }
+    const ClipBox open{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+    ClipBox box = clip.value_or(open);
+    box.lo[static_cast<int>(axis)] = lo;
+    box.hi[static_cast<int>(axis)] = hi;
+    if (const std::string flaw = clipFlaw(box, grid); !flaw.empty()) throw ChoiceError(flaw);
+    return box == open ? std::nullopt : std::optional(box);
+}
+
+std::string clipSideText(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
+                         std::size_t axis) {
+    const auto [least, most] = endsOf(grid.axes()[axis]);
+    const int i = static_cast<int>(axis);
+    const double lo = clip ? std::max(clip->lo[i], least) : least,
+                 hi = clip ? std::min(clip->hi[i], most) : most;
+    return lo == hi ? sideText(lo) : fmt::format("{}:{}", sideText(lo), sideText(hi));
+}
+
+void removeLayer(Explorer& explorer, std::size_t layer) {
+    explorer.layers.erase(explorer.layers.begin() + static_cast<std::ptrdiff_t>(layer));
+    explorer.noLayers = explorer.layers.empty();
+}
+
+RangeSet newRanges(const Explorer& explorer, const SortedStep& step) {
+    constexpr std::array kShares = {"top 1 %",     "bottom 1 %",  "top 5 %",     "bottom 5 %",
+                                    "45 % : 55 %", "70 % : 80 %", "20 % : 30 %", "80 % : 95 %",
+                                    "5 % : 20 %",  "55 % : 70 %", "30 % : 45 %"};
+    if (step.size() == 0) return RangeSet::everything();
+    std::vector<RangeSet> taken;
+    for (const LayerChoice& layer : explorer.layers) taken.push_back(step.keptPart(layer.ranges));
+    const std::uint64_t before = step.count(timeseries::unionOf(taken));
+    const auto addsPoints = [&](const RangeSet& ranges) {
+        std::vector<RangeSet> all = taken;
+        all.push_back(ranges);
+        return step.count(timeseries::unionOf(all)) > before;
+    };
+    std::vector<RangeSet> offered;
+    for (const char* share : kShares) offered.push_back(parseSelection(share, step));
+    if (const auto found = std::ranges::find_if(offered, addsPoints); found != offered.end())
+        return *found;
+    const auto isOther = [&](const RangeSet& ranges) {
+        return std::ranges::find(taken, ranges) == taken.end();
+    };
+    const auto other = std::ranges::find_if(offered, isOther);
+    return other != offered.end() ? *other : offered.front();
+}
+
+std::size_t addLayer(Explorer& explorer, RangeSet ranges, const SortedStep& step) {
+    assert(explorer.layers.size() + (explorer.sweep ? 1 : 0) < render::kMaxLayers);
+    const auto isTaken = [&](const glm::dvec3& color) {
+        const auto has = [&](const LayerChoice& layer) {
+            const auto* rgb = layer.color ? std::get_if<glm::dvec3>(&*layer.color) : nullptr;
+            return rgb != nullptr && *rgb == color;
+        };
+        return std::ranges::any_of(explorer.layers, has) ||
+               (explorer.sweep && has(explorer.sweepLayer));
+    };
+    LayerChoice layer;
+    layer.color = *std::ranges::find_if_not(kLayerColors, isTaken);
+    layer.opacity = opacityFor(step.count(step.keptPart(ranges)));
+    layer.ranges = std::move(ranges);
+    explorer.layers.push_back(std::move(layer));
+    explorer.noLayers = false;
+    return explorer.layers.size() - 1;
+}
+
+}  // namespace app

@@ -1,0 +1,122 @@
+// Everything that a user chooses of a picture, as one plain value: no GL, no window, no data.
+// The command line makes one, a session file holds one, a front end changes one.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "render/model/color_map.h"
+#include "render/model/scene.h"
+#include "timeseries/index/range_set.h"
+#include "timeseries/series/time_cursor.h"
+#include "timeseries/series/value_sweep.h"
+
+namespace app {
+
+struct MapChoice {
+    render::ColorMap map;
+    // Values of the map's ends; the layer's own ends where absent.
+    std::optional<double> lo, hi;
+    friend bool operator==(const MapChoice&, const MapChoice&) = default;
+};
+
+struct LayerChoice {
+    timeseries::RangeSet ranges;
+    // sRGB components as written, #rrggbb / 255; or a map. Absent: chosen by place (see styled()).
+    std::optional<std::variant<glm::dvec3, MapChoice>> color;
+    std::optional<double> opacity;  // of one unit length of fully selected points, [0, 1]
+    bool visible = true;            // a hidden layer is neither drawn nor counted in totals
+    friend bool operator==(const LayerChoice&, const LayerChoice&) = default;
+};
+
+// Which steps: first, first + stride, ... up to `last`, counted from 0. Absent `last` is the
+// series' last.
+struct StepChoice {
+    std::size_t first = 0;
+    std::optional<std::size_t> last;
+    std::size_t stride = 1;  // >= 1
+    friend bool operator==(const StepChoice&, const StepChoice&) = default;
+};
+
+struct ClipBox {
+    glm::dvec3 lo, hi;  // closed, grid coordinates; infinite where unbounded
+    friend bool operator==(const ClipBox&, const ClipBox&) = default;
+};
+
+// What a user says of an axis where the file does not. Its coordinates stay the file's.
+struct AxisChoice {
+    bool flip = false;  // drawn the other way round
+    std::string name;   // "": the file's
+    friend bool operator==(const AxisChoice&, const AxisChoice&) = default;
+};
+
+// Orthographic is drawn as a perspective from very far (see camera.h): one path of projection.
+enum class Projection { Perspective, Orthographic };
+
+// The eye looks at `target`. Azimuth 0 stands at -y (x to the right), 90 at +x.
+struct ViewChoice {
+    double azimuthDegrees = 30, elevationDegrees = 20;
+    // In half diagonals of the box; absent: all of it is seen. Orthographic, it is the distance at
+    // which a perspective shows the target as large.
+    std::optional<double> distance;
+    glm::dvec3 target{0};  // world: half diagonals of the box from its centre
+    Projection projection = Projection::Perspective;
+    friend bool operator==(const ViewChoice&, const ViewChoice&) = default;
+};
+
+enum class Stereo { Off, SideBySide, TopBottom, MultiView, LeftRight };
+
+struct StereoChoice {
+    Stereo mode = Stereo::Off;
+    // In half diagonals of the box. Absent: a thirtieth of the distance, and the box's centre.
+    std::optional<double> eyeDistance, convergence;
+    friend bool operator==(const StereoChoice&, const StereoChoice&) = default;
+};
+
+// How time and the swept window play, and where the window stands. Pictures do not depend on it,
+// but for `tick` where one picture of a sweep is shown.
+struct PlayChoice {
+    timeseries::CursorSettings time;  // in and out points, stride, ending, direction, pace
+    bool timeMoves = true, sweepMoves = true;
+    std::int64_t tick = 0;  // of the sweep
+    friend bool operator==(const PlayChoice&, const PlayChoice&) = default;
+};
+
+struct Explorer {
+    std::vector<std::filesystem::path> files;
+    std::string variable;             // "": the file's first
+    std::optional<StepChoice> steps;  // absent: the middle one
+    std::optional<timeseries::RangeSet> keep;
+    std::array<AxisChoice, 3> axes;   // x, y, z
+    std::vector<LayerChoice> layers;  // empty: a first choice from the data, but for `noLayers`
+    bool noLayers = false;            // the last one was taken away: none are wanted
+    // The swept window is a layer of its own, before the others; its ranges are ignored.
+    std::optional<timeseries::SweepSettings> sweep;
+    LayerChoice sweepLayer;
+    // One picture of the sweep, where it stands (play.tick), instead of its whole cycle. A window
+    // shows one at a time anyway and has no use for it.
+    bool oneTick = false;
+    render::Footprint footprint;
+    render::Order order = render::Order::BackToFront;  // where it shows
+    std::optional<ClipBox> clip;
+    std::optional<glm::dvec3> scale;
+    ViewChoice view;
+    StereoChoice stereo;
+    glm::ivec2 size{1200, 900};
+    PlayChoice play;
+
+    friend bool operator==(const Explorer&, const Explorer&) = default;
+};
+
+// Whether both are about the same sorted steps.
+inline bool sameData(const Explorer& a, const Explorer& b) {
+    return a.files == b.files && a.variable == b.variable && a.keep == b.keep && a.axes == b.axes;
+}
+
+}  // namespace app

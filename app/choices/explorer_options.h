@@ -1,0 +1,43 @@
+// The options that choose what is looked at and how: those of `render` and of `view`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/choices/explorer.h"
+
+namespace CLI {
+class App;
+}
+
+namespace app {
+
+// What CLI11 collects as text, before it becomes an Explorer.
+class ExplorerOptions {
+ public:
+    // The command refers to this, which must stay where it is.
+    void addTo(CLI::App& command);
+    // The session's, where one is named (by --session or in a file's place), but for what is given
+    // beside it. Throws std::invalid_argument (one sentence), timeseries::FileError for the
+    // session.
+    Explorer explorer(const CLI::App& command) const;
+
+ private:
+    std::vector<std::variant<glm::dvec3, MapChoice>> colorsInOrder(const CLI::App& command) const;
+    void applyAxes(const CLI::App& command, Explorer& explorer) const;
+    void applySweep(const CLI::App& command, Explorer& explorer) const;
+    void applyLayers(const CLI::App& command, Explorer& explorer) const;
+    void applyView(const CLI::App& command, Explorer& explorer) const;
+
+    std::vector<std::string> files_, ranges_, colors_, colormaps_, opacities_, axisNames_;
+    std::vector<std::size_t> hidden_;
+    std::string session_, variable_, steps_, keep_, flips_, splat_, splatSize_, order_, clip_,
+        scale_;
+    std::string sweep_, delta_, frequency_;
+    std::string view_, target_, size_, stereo_, eyeDistance_, convergence_;
+    std::int64_t timerSteps_ = 0, timerStep_ = 0, tick_ = 0;
+    bool swing_ = false, orthographic_ = false;
+};
+
+}  // namespace app

@@ -1,0 +1,131 @@
+#include "app/choices/first_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/choices/decimals.h"
+
+namespace app {
+namespace {
+
+using timeseries::Bound;
+using timeseries::Range;
+using timeseries::RangeSet;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kShare = 0.10;    // of the points, to be selected
+constexpr double kTwoSided = 0.4;  // the shorter reach over the longer, from where both count
+
+std::vector<double> finiteSorted(const Quantiles& sampled) {
+    std::vector<double> all;
+    for (const auto& step : sampled)
+        std::ranges::copy_if(step, std::back_inserter(all),
+                             [](double v) { return std::isfinite(v); });
+    std::ranges::sort(all);
+    return all;
+}
+
+// The middle of the shortest interval that holds half of the values (the half-sample mode's first
+// step, Robertson and Cryer 1974): the background value, tied or not.
+double background(const std::vector<double>& sorted) {
+    const std::size_t half = sorted.size() / 2;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i + half < sorted.size(); ++i)
+        if (sorted[i + half] - sorted[i] < sorted[best + half] - sorted[best]) best = i;
+    return 0.5 * sorted[best] + 0.5 * sorted[best + half];
+}
+
+double quantile(const std::vector<double>& sorted, double fraction) {
+    return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) +
+                                           0.5)];
+}
+
+// Rounded towards `middle`, so that what lies beyond the value stays selected: to three significant
+// digits of `scale`, or to two of the distance from `middle` where that is much less (the value is
+// inside, the scale far out in a heavy tail).
+double rounded(double value, double middle, double scale) {
+    const double size = std::min(scale, 10 * std::abs(value - middle));
+    if (!(size > 0) || !std::isfinite(size)) return value;
+    const int decimals = 2 - static_cast<int>(std::floor(std::log10(size)));
+    if (decimals < -15 || decimals > 300) return value;
+    const auto isInside = [&](double v) { return value > middle ? v <= value : v >= value; };
+    const double nearest = toDecimals(value, decimals);
+    if (isInside(nearest)) return nearest;
+    const double unit = std::pow(10, -decimals);
+    const double next = toDecimals(value > middle ? value - unit : value + unit, decimals);
+    return isInside(next) ? next : value;
+}
+
+// The tenth that lies farthest from the middle to either side; of fewer, all but the middle.
+RangeSet farFrom(const std::vector<double>& sorted, double middle, double scale) {
+    std::vector<double> distances;
+    for (const double value : sorted) distances.push_back(std::abs(value - middle));
+    std::ranges::sort(distances);
+    const double least = quantile(distances, 1 - kShare);
+    const double low = rounded(middle - least, middle, scale),
+                 high = rounded(middle + least, middle, scale);
+    const bool tied = !(low < middle && middle < high);
+    std::vector<Range> sides;
+    if (tied || sorted.front() <= low) sides.push_back({{-kInfinity}, {tied ? middle : low, tied}});
+    if (tied || sorted.back() >= high) sides.push_back({{tied ? middle : high, tied}, {kInfinity}});
+    return RangeSet(std::move(sides));
+}
+
+}  // namespace
+
+LayerChoice firstChoice(const Quantiles& sampled) {
+    const std::vector<double> sorted = finiteSorted(sampled);
+    LayerChoice layer{.ranges = RangeSet::everything(), .color = {}, .opacity = {}};
+    if (sorted.empty() || sorted.front() == sorted.back()) return layer;
+    const double lo = sorted.front(), hi = sorted.back();
+    const double middle = background(sorted);
+    // How far the values reach, the outermost thousandth aside.
+    double above = quantile(sorted, 0.999) - middle, below = middle - quantile(sorted, 0.001);
+    if (std::max(above, below) <= 0) {  // nothing but the outermost thousandth differs
+        above = hi - middle;
+        below = middle - lo;
+    }
+    const double scale = std::max(above, below);
+    const auto mapped = [&](const char* name, double from, double to) {
+        constexpr double kMost = std::numeric_limits<double>::max();
+        layer.color = MapChoice{*render::colorMapNamed(name), std::clamp(from, -kMost, kMost),
+                                std::clamp(to, -kMost, kMost)};
+    };
+    if (std::min(above, below) > kTwoSided * scale) {
+        layer.ranges = farFrom(sorted, middle, scale);
+        mapped("cool-warm", middle - scale, middle + scale);
+        return layer;
+    }
+    if (above >= below) {
+        const double from = rounded(quantile(sorted, 1 - kShare), middle, scale);
+        // Few points beyond a tied background: all of them, not the background too.
+        const bool tied = !(from > middle);
+        layer.ranges = RangeSet(std::vector{Range{{tied ? middle : from, tied}, {kInfinity}}});
+        // The map's dark end lies below the range: on a dark ground it would not be seen.
+        const double low = tied ? middle : from;
+        mapped("inferno", low - kDarkEnd * (hi - low), hi);
+    } else {
+        const double to = rounded(quantile(sorted, kShare), middle, scale);
+        const bool tied = !(to < middle);
+        layer.ranges = RangeSet(std::vector{Range{{-kInfinity}, {tied ? middle : to, tied}}});
+        const double high = tied ? middle : to;
+        mapped("viridis", lo - kDarkEnd * (high - lo), high);
+    }
+    return layer;
+}
+
+double opacityFor(std::uint64_t selectedPoints) {
+    constexpr double kOpticalDepth = 4;
+    const double thickness =
+        std::cbrt(static_cast<double>(std::max<std::uint64_t>(selectedPoints, 1)));
+    return std::clamp(-std::expm1(-kOpticalDepth / thickness), 0.01, 0.9);
+}
+
+Extent extentOf(const Quantiles& sampled) {
+    const std::vector<double> sorted = finiteSorted(sampled);
+    if (sorted.empty()) return {};
+    return {sorted.front(), sorted.back()};
+}
+
+}  // namespace app

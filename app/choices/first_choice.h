@@ -1,0 +1,33 @@
+// A first picture that shows something in nearly every file: which values, and how coloured.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "app/choices/explorer.h"
+
+namespace app {
+
+// What a few sampled steps say of the series: value quantiles at even fractions, a row a step.
+using Quantiles = std::vector<std::vector<double>>;
+
+// Most fields are mostly background: one value, or a narrow band, that fills the volume. The choice
+// is the tenth of the points that lies farthest beyond it: above, below, or on both sides where the
+// values reach about as far to either. Bounds are rounded to three digits; the outer end is open.
+// A constant field selects everything; no points, nothing but the whole range.
+LayerChoice firstChoice(const Quantiles& sampled);
+
+// The share of a range by which a map that was not asked for begins below it.
+constexpr double kDarkEnd = 0.3;
+
+// Opacity at which a lump of so many cells, as thick as wide, is seen through but plainly there:
+// an optical depth of about 4 through its middle.
+double opacityFor(std::uint64_t selectedPoints);
+
+// The finite extent of the sampled values; {0, 0} without any.
+struct Extent {
+    double lo = 0, hi = 0;
+};
+Extent extentOf(const Quantiles& sampled);
+
+}  // namespace app

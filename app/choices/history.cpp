@@ -1,0 +1,47 @@
+#include "app/choices/history.h"
+
+#include <cassert>
+#include <utility>
+
+namespace app {
+
+History::History(Explorer start) { states_.push_back(std::move(start)); }
+
+void History::edit(Explorer next, std::string_view gesture) {
+    if (next == now()) return;
+    const bool goesOn = !gesture.empty() && gesture == gesture_;
+    gesture_ = gesture;
+    states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(at_) + 1, states_.end());
+    if (goesOn) {
+        states_[at_] = std::move(next);
+        return;
+    }
+    states_.push_back(std::move(next));
+    if (states_.size() > kSteps + 1)
+        states_.pop_front();
+    else
+        ++at_;
+}
+
+void History::replace(Explorer next) { states_[at_] = std::move(next); }
+
+void History::undo() {
+    assert(canUndo());
+    goTo(at_ - 1);
+}
+
+void History::redo() {
+    assert(canRedo());
+    goTo(at_ + 1);
+}
+
+void History::goTo(std::size_t at) {
+    endGesture();
+    const glm::ivec2 size = now().size;
+    const std::int64_t tick = now().play.tick;
+    at_ = at;
+    states_[at_].size = size;
+    states_[at_].play.tick = tick;
+}
+
+}  // namespace app

@@ -1,0 +1,46 @@
+// Undo and redo. The state is one plain value, so undoing is going back to an earlier one.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <string_view>
+
+#include "app/choices/explorer.h"
+
+namespace app {
+
+// Keeps the last kSteps states that a user can go back to.
+class History {
+ public:
+    static constexpr std::size_t kSteps = 500;
+
+    explicit History(Explorer start = {});
+
+    const Explorer& now() const { return states_[at_]; }
+
+    // The user's doing. Nothing when `next` equals now(). What was undone is forgotten. Edits of
+    // one gesture (a drag, a held key, a slider: any text but "") that follow each other are one
+    // step of undo, until another gesture, endGesture(), undo() or redo().
+    void edit(Explorer next, std::string_view gesture = {});
+    void endGesture() { gesture_.clear(); }
+    // Not the user's doing: play moves on, a window is resized. Changes now() without a step of
+    // undo; the states undone stay.
+    void replace(Explorer next);
+
+    bool canUndo() const { return at_ > 0; }
+    bool canRedo() const { return at_ + 1 < states_.size(); }
+    // REQUIRES: canUndo(), canRedo(). Size and play position (Explorer::size, play.tick) are not
+    // taken back: they stay as they are.
+    void undo();
+    void redo();
+
+ private:
+    void goTo(std::size_t at);
+
+    std::deque<Explorer> states_;  // at most kSteps before at_
+    std::size_t at_ = 0;
+    std::string gesture_;
+};
+
+}  // namespace app

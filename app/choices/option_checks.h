@@ -1,0 +1,47 @@
+// What several commands' options share.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <string>
+
+#include "app/choices/choice_text.h"
+
+namespace app {
+
+inline constexpr const char* kRangeHelp =
+    "lo:hi, [lo,hi) with open ends, c~d for c plus or minus d, '>c', '<=c', min, max; commas in "
+    "one layer, repeat the option for a new layer";
+
+inline constexpr const char* kFileHelp =
+    "A file, any file of a numbered series, a folder, a pattern, or several files that make one "
+    "series";
+
+inline constexpr double kMost = std::numeric_limits<double>::max();
+
+// Numbers are kept as text until parseNumber() reads them: CLI11 reads them by way of long doubles,
+// which rounds twice.
+inline CLI::Validator between(double lo, double hi) {
+    return CLI::Validator(
+        [=](std::string& text) -> std::string {
+            try {
+                const double value = parseNumber("", text);
+                if (value >= lo && value <= hi) return {};
+            } catch (const ChoiceError&) {
+            }
+            return hi == kMost ? fmt::format("'{}' is not a finite number of at least {}", text, lo)
+                               : fmt::format("'{}' is not a number from {} to {}", text, lo, hi);
+        },
+        hi == kMost ? fmt::format("at least {}", lo) : fmt::format("{} to {}", lo, hi));
+}
+
+inline CLI::Validator notEmpty() {
+    return CLI::Validator(
+        [](std::string& text) { return std::string(text.empty() ? "is an empty text" : ""); }, "");
+}
+
+inline bool given(const CLI::App& app, const char* option) { return app.count(option) > 0; }
+
+}  // namespace app

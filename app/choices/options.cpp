@@ -1,0 +1,206 @@
+#include "app/choices/options.h"
+
+#include <fmt/format.h>
+
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+
+#include "app/choices/choice_text.h"
+#include "app/choices/explorer_options.h"
+#include "app/choices/option_checks.h"
+
+namespace app {
+namespace {
+
+using timeseries::RangeSet;
+
+constexpr std::array<std::string_view, 4> kCommands = {"view", "render", "info", "count"};
+
+void addInfo(CLI::App& app, InfoOptions& into) {
+    app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
+    app.add_flag("--json", into.json, "Machine-readable");
+}
+
+struct CountText {
+    std::vector<std::string> files, ranges;
+    std::string variable, keep, steps = "all";
+    bool json = false;
+};
+
+void addCount(CLI::App& app, CountText& into) {
+    app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
+    app.add_option("--variable", into.variable,
+                   "Which variable; without it the one of the most levels, then steps");
+    app.add_option("--range", into.ranges, kRangeHelp)->required()->allow_extra_args(false);
+    app.add_option("--keep", into.keep, "Values to keep when the sorted list is built");
+    app.add_option("--step", into.steps,
+                   "A step counted from 0, A:B, A:B:S for every S-th, or all (the default)");
+    app.add_flag("--json", into.json, "Machine-readable");
+}
+
+CountOptions countOptions(const CLI::App& app, const CountText& text) {
+    CountOptions options;
+    options.files.assign(text.files.begin(), text.files.end());
+    options.variable = text.variable;
+    for (const std::string& range : text.ranges) options.ranges.push_back(RangeSet::parse(range));
+    if (given(app, "--keep")) options.keep = RangeSet::parse(text.keep);
+    options.steps = parseSteps(text.steps);
+    options.json = text.json;
+    return options;
+}
+
+// What `render` takes beside the choices of a picture.
+struct OutputText {
+    std::vector<std::string> channels;
+    std::string output, device = "any", splatter = "any";
+    bool portable = false, progress = false;
+};
+
+void addOutput(CLI::App& app, OutputText& into) {
+    app.add_option("--channel", into.channels, "A further EXR channel: opticalDepth, splatCount")
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember({"opticalDepth", "splatCount"}));
+    app.add_flag("--portable", into.portable,
+                 "The picture's session keeps no absolute path: for pictures that are published");
+    app.add_flag("--progress", into.progress, "Print 'picture I of N' after each picture");
+    app.add_option("--device", into.device, "any (default), gpu or cpu")
+        ->check(CLI::IsMember({"any", "gpu", "cpu"}));
+    app.add_option("--splatter", into.splatter,
+                   "Who sums splats: any (default: gl on a GPU, else cpu), gl, cpu, or exact: in "
+                   "double, slowly")
+        ->check(CLI::IsMember({"any", "gl", "cpu", "exact"}));
+    app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
+}
+
+bool isExr(const std::filesystem::path& file) { return file.extension() == ".exr"; }
+
+void checkOutput(const RenderOptions& options) {
+    const auto extension = options.output.extension();
+    if (extension != ".png" && extension != ".exr")
+        throw ChoiceError(
+            fmt::format("output '{}' ends neither in .png nor in .exr", options.output.string()));
+    if (options.explorer.stereo.mode == Stereo::MultiView && !isExr(options.output))
+        throw ChoiceError("stereo multiview needs an output that ends in .exr");
+    if ((options.opticalDepth || options.splatCount) && !isExr(options.output))
+        throw ChoiceError("--channel needs an output that ends in .exr");
+    const Stereo mode = options.explorer.stereo.mode;
+    if ((options.opticalDepth || options.splatCount) &&
+        (mode == Stereo::SideBySide || mode == Stereo::TopBottom))
+        throw ChoiceError("--channel goes with stereo off, multiview or left-right");
+}
+
+RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
+    RenderOptions options;
+    options.explorer = std::move(explorer);
+    if (options.explorer.files.empty())
+        throw ChoiceError("render needs a FILE or a --session that names one");
+    for (const std::string& channel : text.channels)
+        (channel == "opticalDepth" ? options.opticalDepth : options.splatCount) = true;
+    options.output = text.output;
+    options.device = text.device;
+    if (text.splatter == "gl") options.splatter = render::SplatterChoice::Gl;
+    if (text.splatter == "cpu") options.splatter = render::SplatterChoice::Cpu;
+    if (text.splatter == "exact") options.splatter = render::SplatterChoice::Exact;
+    options.portable = text.portable;
+    options.progress = text.progress;
+    checkOutput(options);
+    return options;
+}
+
+// What `view` takes beside the choices of a picture. Headless, it is `render`.
+struct DisplayText {
+    std::string display = "auto", output;
+};
+
+void addDisplay(CLI::App& app, DisplayText& into) {
+    app.add_option("--display", into.display,
+                   "auto (default: a headset where one answers, else a window), desktop, headset "
+                   "(or nothing), or headless, which draws a picture into -o")
+        ->check(CLI::IsMember({"auto", "desktop", "headset", "headless"}));
+    app.add_option("-o,--output", into.output, "OUT.png or OUT.exr, with --display headless");
+}
+
+Command viewOptions(Explorer explorer, const DisplayText& text) {
+    if (text.display == "headless") {
+        if (text.output.empty()) throw ChoiceError("--display headless needs -o OUT.png beside it");
+        return renderOptions(std::move(explorer), {.channels = {}, .output = text.output});
+    }
+    if (!text.output.empty()) throw ChoiceError("-o needs --display headless beside it");
+    return ViewOptions{std::move(explorer), text.display == "desktop"   ? Display::Desktop
+                                            : text.display == "headset" ? Display::Headset
+                                                                        : Display::Auto};
+}
+
+constexpr const char* kFooter = R"(
+Ranges: 600:1600 (closed), [600,1600) (open end), 850~50 (800 to 900), min:300, 900:max.
+Commas keep one layer together: 300:400,900:max. A repeated --range is a new layer.
+Without a command, `isochron FILE` is `isochron view FILE`.
+Exit codes: 0 done, 1 a file or the machine failed, 2 the arguments are wrong.)";
+
+// The arguments with their command: without one, a file is viewed.
+std::vector<std::string> withCommand(std::span<const char* const> arguments) {
+    std::vector<std::string> all(arguments.begin(), arguments.end());
+    const bool isFile = all.empty() || (!all.front().starts_with('-') && !isCommand(all.front()));
+    if (isFile) all.insert(all.begin(), "view");
+    return all;
+}
+
+}  // namespace
+
+bool isCommand(std::string_view argument) {
+    return std::ranges::find(kCommands, argument) != kCommands.end();
+}
+
+Command parse(std::span<const char* const> arguments) {
+    CLI::App app{"isochron: explore time-varying 3D scalar fields by value and by time",
+                 "isochron"};
+    app.footer(kFooter);
+    app.set_version_flag("--version", "isochron " ISOCHRON_VERSION);
+    app.require_subcommand(1);
+    InfoOptions info;
+    CountText countText;
+    ExplorerOptions renderText, viewText;
+    OutputText outputText;
+    DisplayText displayText;
+    CLI::App* viewApp =
+        app.add_subcommand("view", "A window or a headset in which a file is explored");
+    CLI::App* renderApp =
+        app.add_subcommand("render", "Pictures of value ranges, without a window");
+    CLI::App* infoApp =
+        app.add_subcommand("info", "What a file holds: grid, variables, time steps");
+    CLI::App* countApp =
+        app.add_subcommand("count", "How many points of each step lie in value ranges");
+    viewText.addTo(*viewApp);
+    addDisplay(*viewApp, displayText);
+    renderText.addTo(*renderApp);
+    addOutput(*renderApp, outputText);
+    addInfo(*infoApp, info);
+    addCount(*countApp, countText);
+    for (CLI::App* each : {viewApp, renderApp, infoApp, countApp}) each->footer(kFooter);
+    try {
+        std::vector<std::string> all = withCommand(arguments);
+        std::ranges::reverse(all);  // CLI11 takes them last first
+        app.parse(std::move(all));
+        if (*infoApp) return info;
+        if (*countApp) return countOptions(*countApp, countText);
+        if (*viewApp) return viewOptions(viewText.explorer(*viewApp), displayText);
+        return renderOptions(renderText.explorer(*renderApp), outputText);
+    } catch (const CLI::CallForHelp&) {
+        return Exit{0, app.help()};  // of the command, where one was given
+    } catch (const CLI::CallForVersion& version) {
+        return Exit{0, version.what()};
+    } catch (const CLI::ParseError& error) {
+        if (app.get_subcommands().empty())
+            return Exit{2, fmt::format("'{}' is neither a file nor a command: expected {} (see "
+                                       "isochron --help)",
+                                       arguments.front(), fmt::join(kCommands, ", "))};
+        return Exit{2, fmt::format("{} (see isochron --help)", error.what())};
+    } catch (const std::invalid_argument& error) {
+        return Exit{2, error.what()};
+    }
+}
+
+}  // namespace app

@@ -1,0 +1,67 @@
+// The command line, parsed once into types.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "app/choices/explorer.h"
+#include "render/splat/splatter.h"
+
+namespace app {
+
+struct InfoOptions {
+    std::vector<std::filesystem::path> files;
+    bool json = false;
+};
+
+struct CountOptions {
+    std::vector<std::filesystem::path> files;
+    std::string variable;
+    std::vector<timeseries::RangeSet> ranges;  // a layer each
+    std::optional<timeseries::RangeSet> keep;
+    StepChoice steps;
+    bool json = false;
+};
+
+struct RenderOptions {
+    Explorer explorer;
+    std::filesystem::path output;
+    bool opticalDepth = false, splatCount = false;  // further EXR channels
+    std::string device = "any";
+    render::SplatterChoice splatter = render::SplatterChoice::ByDevice;
+    bool portable = false;  // pictures keep no absolute path
+    bool progress = false;  // "picture 3 of 31" on stdout after each
+};
+
+// Where a file is explored. Auto: in a headset where one answers, else in a window. From a headset
+// that is lost, both go on in a window.
+enum class Display { Auto, Desktop, Headset };
+
+// A window or a headset on these choices; without files, on nothing yet.
+struct ViewOptions {
+    Explorer explorer;
+    Display display = Display::Auto;
+};
+
+// Nothing to run: help was asked for (0), or the arguments are wrong (2). The text goes to stdout
+// or stderr accordingly.
+struct Exit {
+    int code = 0;
+    std::string text;
+};
+
+using Command = std::variant<InfoOptions, CountOptions, RenderOptions, ViewOptions, Exit>;
+
+// Whether a first argument is a command's name, and not a file's.
+bool isCommand(std::string_view argument);
+
+// `arguments`: without the program's name. Throws timeseries::FileError when a session file cannot
+// be read.
+Command parse(std::span<const char* const> arguments);
+
+}  // namespace app

@@ -1,0 +1,111 @@
+#include "app/choices/preferences.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+
+#include "app/choices/paths.h"
+#include "app/choices/user_files.h"
+#include "app/json_text.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+double number(const json& object, const char* key, double lo, double hi) {
+    const json& value = object.at(key);
+    if (!value.is_number() || !(value.get<double>() >= lo && value.get<double>() <= hi))
+        throw std::invalid_argument(fmt::format("{} is not a number from {} to {}", key, lo, hi));
+    return value.get<double>();
+}
+
+// One is a text, several are a list of texts.
+std::optional<Named> namedIn(const json& entry) {
+    const json list = entry.is_array() ? entry : json::array({entry});
+    Named named;
+    for (const json& path : list) {
+        if (!path.is_string()) return std::nullopt;
+        named.emplace_back(path.get<std::string>());
+    }
+    if (named.empty()) return std::nullopt;
+    return named;
+}
+
+std::vector<Named> recentIn(const json& list) {
+    const std::invalid_argument refusal("recentFiles is not a list of texts and lists of texts");
+    if (!list.is_array()) throw refusal;
+    std::vector<Named> recent;
+    for (const json& entry : list) {
+        auto named = namedIn(entry);
+        if (!named) throw refusal;
+        if (recent.size() < Preferences::kRecent && std::ranges::all_of(*named, isThere))
+            recent.push_back(std::move(*named));
+    }
+    return recent;
+}
+
+// Unknown keys may be a later version's.
+Preferences fromJson(const json& object) {
+    if (!object.is_object()) throw std::invalid_argument("it is not a JSON object");
+    Preferences preferences;
+    if (object.contains("recentFiles")) preferences.recent = recentIn(object["recentFiles"]);
+    if (object.contains("uiScale")) preferences.uiScale = number(object, "uiScale", 0.5, 4);
+    if (object.contains("frameMilliseconds"))
+        preferences.frameMilliseconds = number(object, "frameMilliseconds", 1, 1000);
+    return preferences;
+}
+
+}  // namespace
+
+std::string shortName(const Named& named) {
+    const std::string first = named.front().filename().string();
+    return named.size() == 1 ? first : fmt::format("{} and {} more", first, named.size() - 1);
+}
+
+void remember(Preferences& preferences, Named named) {
+    for (fs::path& path : named) {
+        path = fs::absolute(path).lexically_normal();
+        if (!path.has_filename()) path = path.parent_path();  // a folder, written with its slash
+    }
+    auto& recent = preferences.recent;
+    std::erase(recent, named);
+    recent.insert(recent.begin(), std::move(named));
+    if (recent.size() > Preferences::kRecent) recent.resize(Preferences::kRecent);
+}
+
+fs::path preferencesFile() { return configFolder() / "preferences.json"; }
+
+ReadPreferences readPreferences(const fs::path& file) {
+    std::ifstream in(file);
+    if (!in) return {};
+    std::string why;
+    try {
+        return {fromJson(json::parse(in)), ""};
+    } catch (const json::parse_error& error) {
+        why = fmt::format("not JSON at byte {}", error.byte);
+    } catch (const json::out_of_range&) {
+        why = "it holds a number beyond all doubles";
+    } catch (const std::invalid_argument& error) {
+        why = error.what();
+    }
+    return {{}, fmt::format("{}: the preferences are not used: {}", file.string(), why)};
+}
+
+void writePreferences(const Preferences& preferences, const fs::path& file) {
+    json out{{"recentFiles", json::array()}, {"frameMilliseconds", preferences.frameMilliseconds}};
+    for (const Named& named : preferences.recent) {
+        json entry = json::array();
+        for (const fs::path& path : named) entry.push_back(path.string());
+        out["recentFiles"].push_back(named.size() == 1 ? entry.front() : entry);
+    }
+    if (preferences.uiScale) out["uiScale"] = *preferences.uiScale;
+    writeWhole(file, jsonText(out, 2) + "\n");
+}
+
+}  // namespace app

@@ -1,0 +1,38 @@
+#include "app/choices/user_files.h"
+
+#include <cstdlib>
+#include <system_error>
+
+#include "render/image/picture_file.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path absoluteFrom(const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path path = value == nullptr ? "" : value;
+    return path.is_absolute() ? path : fs::path();
+}
+
+fs::path folder(const char* variable, const char* underHome) {
+    if (const fs::path base = absoluteFrom(variable); !base.empty()) return base / "isochron";
+    const fs::path home = absoluteFrom("HOME");
+    return home.empty() ? home : home / underHome / "isochron";
+}
+
+}  // namespace
+
+fs::path configFolder() { return folder("XDG_CONFIG_HOME", ".config"); }
+fs::path stateFolder() { return folder("XDG_STATE_HOME", ".local/state"); }
+
+void writeWhole(const fs::path& file, const std::string& text) {
+    std::error_code ignored;  // what fails here fails below, with a better sentence
+    fs::create_directories(file.parent_path(), ignored);
+    render::PartialFile partial(file);
+    std::fwrite(text.data(), 1, text.size(), partial.stream());
+    partial.commit();  // tells of a write that failed
+}
+
+}  // namespace app

@@ -1,0 +1,16 @@
+// The commands of the program. Each prints its result on stdout and returns the exit code; failures
+// of the world (files, drivers, disks) are exceptions, caught in main.
+#pragma once
+
+#include "app/choices/options.h"
+
+namespace app {
+
+int info(const InfoOptions& options);
+int count(const CountOptions& options);
+// Draws without a window and writes files.
+int renderHeadless(const RenderOptions& options);
+// Opens a window; returns when it is closed.
+int view(const ViewOptions& options);
+
+}  // namespace app

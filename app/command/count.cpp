@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/command/commands.h"
+#include "app/files/dataset.h"
+#include "app/files/progress.h"
+#include "app/json_text.h"
+#include "app/say.h"
+
+namespace app {
+namespace {
+
+using nlohmann::ordered_json;
+using timeseries::Number;
+using timeseries::RangeSet;
+using timeseries::SortedStep;
+
+struct Row {
+    std::size_t step;
+    timeseries::StepStatistics statistics;
+    std::uint64_t selected;               // in any layer
+    std::vector<std::uint64_t> ofLayers;  // [layers]: in each
+    // Of the valid points; 0 where there is none.
+    double percent(std::uint64_t of) const {
+        return statistics.points == 0
+                   ? 0
+                   : 100.0 * static_cast<double>(of) / static_cast<double>(statistics.points);
+    }
+};
+
+// JSON has no infinities and no NaN: unbounded ends and absent values are null.
+ordered_json number(const Number& n) {
+    return std::visit(
+        [](auto x) -> ordered_json {
+            if constexpr (std::is_same_v<decltype(x), double>)
+                if (!std::isfinite(x)) return nullptr;
+            return x;
+        },
+        n);
+}
+
+ordered_json json(const RangeSet& layer) {
+    ordered_json out{{"text", layer.text()}, {"ranges", ordered_json::array()}};
+    for (const timeseries::Range& range : layer.ranges())
+        out["ranges"].push_back({{"low", number(range.lo.value)},
+                                 {"lowOpen", range.lo.open},
+                                 {"high", number(range.hi.value)},
+                                 {"highOpen", range.hi.open}});
+    return out;
+}
+
+ordered_json json(const Dataset& dataset, const Row& row) {
+    ordered_json out{{"step", row.step},
+                     {"time", dataset.about.time->points[row.step].value},
+                     {"points", row.statistics.points},
+                     {"missing", row.statistics.missing},
+                     {"min", number(row.statistics.min)},
+                     {"max", number(row.statistics.max)},
+                     {"selected", row.selected},
+                     {"percent", row.percent(row.selected)},
+                     {"layers", ordered_json::array()}};
+    for (const std::uint64_t selected : row.ofLayers)
+        out["layers"].push_back({{"selected", selected}, {"percent", row.percent(selected)}});
+    return out;
+}
+
+ordered_json json(const Dataset& dataset, const std::vector<RangeSet>& layers,
+                  const std::vector<Row>& rows) {
+    ordered_json out{{"file", dataset.name},
+                     {"variable", dataset.about.name},
+                     {"units", dataset.about.units},
+                     {"layers", ordered_json::array()}};
+    for (const RangeSet& layer : layers) out["layers"].push_back(json(layer));
+    if (!dataset.series.recognised.empty()) out["series"] = dataset.series.recognised;
+    if (!dataset.series.notes.empty()) out["notes"] = dataset.series.notes;
+    for (const Row& row : rows) out["steps"].push_back(json(dataset, row));
+    return out;
+}
+
+void printHead(const Dataset& dataset, const RangeSet& ranges) {
+    const auto& about = dataset.about;
+    say("{}: {}{}, range {}\n", dataset.name, about.name,
+        about.units.empty() ? "" : " (" + about.units + ")", ranges.text());
+    if (!dataset.series.recognised.empty()) say("{}\n", dataset.series.recognised);
+    for (const std::string& note : dataset.series.notes) say("note: {}\n", note);
+    say("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8}\n", "step", "time", "points",
+        "missing", "min", "max", "selected", "%");
+}
+
+void print(const Dataset& dataset, const Row& row) {
+    const auto value = [](const Number& n) {
+        const auto* real = std::get_if<double>(&n);
+        if (real == nullptr) return timeseries::toText(n);
+        return std::isnan(*real) ? std::string("-") : fmt::format("{:.7g}", *real);
+    };
+    const timeseries::StepStatistics& s = row.statistics;
+    say("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8.2f}\n", row.step,
+        timeText(*dataset.about.time, row.step), withCommas(s.points), withCommas(s.missing),
+        value(s.min), value(s.max), withCommas(row.selected), row.percent(row.selected));
+}
+
+}  // namespace
+
+int count(const CountOptions& options) {
+    Dataset dataset = openDataset(options.files, options.variable);
+    const RangeSet ranges = timeseries::unionOf(options.ranges);
+    const RangeSet kept = options.keep.value_or(RangeSet::everything());
+    const auto steps = stepsOf(dataset, options.steps);
+    std::vector<Row> rows;
+    if (!options.json) printHead(dataset, ranges);
+    {
+        // The table shows by itself how far it is.
+        Progress progress("step", options.json ? steps.size() : 0);
+        for (const std::size_t step : steps) {
+            progress.at(rows.size());
+            const SortedStep sorted =
+                SortedStep::build(dataset.reader->read(dataset.variable, step), kept);
+            rows.push_back({step, sorted.statistics(), sorted.count(ranges), {}});
+            for (const RangeSet& layer : options.ranges)
+                rows.back().ofLayers.push_back(sorted.count(layer));
+            if (!options.json) print(dataset, rows.back());
+        }
+    }
+    if (options.json) say("{}\n", jsonText(json(dataset, options.ranges, rows), 2));
+    return 0;
+}
+
+}  // namespace app

@@ -1,0 +1,146 @@
+// `isochron render`: steps in, picture files out; no window.
+#include <fmt/format.h>
+
+#include "app/choices/choice_text.h"
+#include "app/choices/clip_flaw.h"
+#include "app/command/commands.h"
+#include "app/exploration/step_source.h"
+#include "app/files/chosen_axes.h"
+#include "app/files/dataset.h"
+#include "app/files/frames.h"
+#include "app/files/progress.h"
+#include "app/picture/picture.h"
+#include "app/picture/still.h"
+#include "app/say.h"
+#include "render/frame/mean_depth.h"
+#include "render/gl/headless_context.h"
+
+namespace app {
+namespace {
+
+using timeseries::SortedStep;
+
+// First, middle and last of the chosen steps.
+Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
+    Steps sampled;
+    for (const std::size_t step : {steps.front(), steps[steps.size() / 2], steps.back()})
+        sampled[step] = source.get(step, step);
+    return sampled;
+}
+
+void tellStyle(const Explorer& e, const timeseries::Variable& about) {
+    const auto tell = [&](const timeseries::RangeSet& ranges, const LayerChoice& layer) {
+        if (!layer.visible) return;
+        std::string color;
+        if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
+            color = colorText(*rgb);
+        } else {
+            const auto& map = std::get<MapChoice>(*layer.color);
+            color = fmt::format("{} from {:g} to {:g}", map.map.name(), *map.lo, *map.hi);
+        }
+        say("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, about.units), color, *layer.opacity);
+    };
+    if (e.sweep) tell(e.sweep->animation, e.sweepLayer);
+    for (const LayerChoice& layer : e.layers) tell(layer.ranges, layer);
+}
+
+void tellFiles(const Frames& frames, const timeseries::Variable& about) {
+    std::string times = timeText(*about.time, frames.front().step);
+    if (frames.size() > 1) times += " to " + timeText(*about.time, frames.back().step);
+    say("{}: {}, {}\n", frames.names(), about.name, times);
+}
+
+// Draws and writes every frame. What stays from one frame to the next is the step and its place on
+// the GPU. Returns how many say that their colours are mixed.
+std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
+                       const timeseries::Variable& about, const Frames& frames, StepSource& source,
+                       render::FrameRenderer& renderer) {
+    std::shared_ptr<const SortedStep> shown;
+    std::optional<render::PlacedPoints> placed;
+    std::optional<render::GpuStep> onGpu;
+    Progress progress("picture", frames.size());
+    std::size_t mixed = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        progress.at(i);
+        const FrameAt frame = frames[i];
+        const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
+        if (step != shown) {
+            shown = step;
+            placed.emplace(step->grid(), e.scale);
+            onGpu.emplace(*step, *placed);
+        }
+        const bool isMixed = writeStill({e, about, frame.step, *step, *placed, frame.tick,
+                                         options.portable ? Paths::Relative : Paths::Both},
+                                        renderer, *onGpu,
+                                        {.opticalDepth = options.opticalDepth,
+                                         .splatCount = options.splatCount,
+                                         .progress = [&](double share) { progress.drawn(share); }},
+                                        frame.file);
+        if (isMixed) ++mixed;
+        if (!options.progress) continue;
+        say("picture {} of {}\n", i + 1, frames.size());
+        std::fflush(stdout);  // a pipe is not flushed by itself
+    }
+    return mixed;
+}
+
+// What draws a picture: GL on a device, or the program itself, which needs no context.
+class Drawing {
+ public:
+    explicit Drawing(const RenderOptions& options) : by_(options.splatter) {
+        if (by_ == Choice::ByDevice && render::gl::onlyProcessorsDraw(options.device))
+            by_ = Choice::Cpu;
+        if (by_ == Choice::ByDevice || by_ == Choice::Gl) context_.emplace(options.device);
+        renderer_.emplace(by_);
+    }
+    render::FrameRenderer& renderer() { return *renderer_; }
+    std::string name() const {
+        if (context_) return context_->renderer();
+        if (by_ == Choice::Exact) return "the program in double on 1 thread";
+        const unsigned threads = render::sharingThreads();
+        return fmt::format("the program on {} thread{}", threads, threads == 1 ? "" : "s");
+    }
+
+ private:
+    using Choice = render::SplatterChoice;
+    Choice by_;
+    std::optional<render::gl::HeadlessContext> context_;
+    std::optional<render::FrameRenderer> renderer_;
+};
+
+}  // namespace
+
+int renderHeadless(const RenderOptions& options) {
+    Explorer e = options.explorer;
+    Dataset dataset = openDataset(e.files, e.variable);
+    e.variable = dataset.about.name;
+    chooseAxes(dataset, e.axes);
+    if (e.clip)
+        if (const std::string flaw = clipFlaw(*e.clip, *dataset.about.grid); !flaw.empty())
+            throw ChoiceError(flaw);
+    if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
+    const auto steps = stepsOf(dataset, *e.steps);
+    StepSource source(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
+    if (needsSamples(e)) e = resolved(e, sample(source, steps));
+    Drawing drawing(options);
+    const Frames frames(options.output, e, steps);
+    const std::size_t mixed =
+        drawFrames(options, e, dataset.about, frames, source, drawing.renderer());
+    tellFiles(frames, dataset.about);
+    if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
+    for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
+    if (mixed > 0)
+        say("  note: colours are mixed{}: the mean optical depth is more than {}; --order depth "
+            "draws what is in front over what is behind\n",
+            mixed == frames.size() ? ""
+                                   : fmt::format(" in {} of {} pictures", mixed, frames.size()),
+            render::kMixedDepth);
+    tellStyle(e, dataset.about);
+    if (e.sweep && !e.oneTick && e.sweep->frequency > 0)
+        say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
+            static_cast<double>(frames.size()) * e.sweep->frequency, e.sweep->frequency);
+    say("  drawn by {}\n", drawing.name());
+    return 0;
+}
+
+}  // namespace app

@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/command/commands.h"
+#include "app/files/dataset.h"
+#include "app/json_text.h"
+#include "app/say.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using timeseries::Axis;
+using timeseries::Variable;
+
+std::string kindOf(const timeseries::Grid& grid) {
+    for (const Axis& axis : grid.axes())
+        if (axis.units == "index") return "index space";
+    const std::string spacing = grid.uniform() ? "uniform" : "rectilinear";
+    if (grid.frame().aligned()) return spacing;
+    constexpr double kRounding = 1e-4;  // directions written in few digits
+    const glm::dmat3& d = grid.frame().directions;
+    bool upright = true;
+    for (int a = 0; a < 3; ++a)
+        upright = upright && std::abs(glm::dot(d[a], d[(a + 1) % 3])) < kRounding;
+    return spacing + (upright ? ", rotated" : ", sheared");
+}
+
+ordered_json frameJson(const timeseries::Frame& frame) {
+    ordered_json out{{"names", frame.names},
+                     {"origin", {frame.origin.x, frame.origin.y, frame.origin.z}}};
+    for (int a = 0; a < 3; ++a) {
+        const glm::dvec3& d = frame.directions[a];
+        out["directions"].push_back({d.x, d.y, d.z});
+    }
+    return out;
+}
+
+ordered_json axisJson(const Axis& axis) {
+    ordered_json out{{"name", axis.name},
+                     {"units", axis.units},
+                     {"points", axis.coordinates.size()},
+                     {"first", axis.coordinates.front()},
+                     {"last", axis.coordinates.back()},
+                     {"uniform", axis.uniform()},
+                     {"down", axis.down}};
+    if (axis.uniform() && axis.coordinates.size() > 1)
+        out["spacing"] = (axis.coordinates.back() - axis.coordinates.front()) /
+                         static_cast<double>(axis.coordinates.size() - 1);
+    return out;
+}
+
+ordered_json variableJson(const Variable& v) {
+    ordered_json out{{"name", v.name},         {"longName", v.longName},
+                     {"units", v.units},       {"type", timeseries::typeName(v.type)},
+                     {"storedAs", v.storedAs}, {"missing", v.missing},
+                     {"notes", v.notes}};
+    out["grid"] = {{"kind", kindOf(*v.grid)}, {"points", v.grid->count()}};
+    for (const Axis& axis : v.grid->axes()) out["grid"]["axes"].push_back(axisJson(axis));
+    if (!v.grid->frame().aligned()) out["grid"]["space"] = frameJson(v.grid->frame());
+    out["time"] = {
+        {"name", v.time->name}, {"units", v.time->units}, {"calendar", v.time->calendar}};
+    for (const auto& point : v.time->points)
+        out["time"]["steps"].push_back({{"value", point.value}, {"date", point.date}});
+    return out;
+}
+
+std::string axisText(const Axis& axis) {
+    const auto& c = axis.coordinates;
+    const std::string unit = axis.units.empty() ? "" : " " + axis.units;
+    if (c.size() == 1) return fmt::format("{}: 1 point at {:g}{}", axis.name, c[0], unit);
+    const double spacing = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+    return fmt::format("{}: {} points, {:g} to {:g}{}, {}{}", axis.name, c.size(), c.front(),
+                       c.back(), unit,
+                       axis.uniform() ? fmt::format("every {:g}", std::abs(spacing)) : "uneven",
+                       axis.down ? ", downward" : "");
+}
+
+std::string frameText(const timeseries::Frame& frame) {
+    const auto place = [&](const glm::dvec3& p) {
+        return fmt::format("({:g}, {:g}, {:g})", p.x, p.y, p.z);
+    };
+    const glm::dmat3& d = frame.directions;
+    return fmt::format("in ({}): from {} along {}, {}, {}", fmt::join(frame.names, ", "),
+                       place(frame.origin), place(d[0]), place(d[1]), place(d[2]));
+}
+
+// What the first and the last time do not tell; "" when times are even, or counted.
+std::string unevenText(const timeseries::TimeAxis& time) {
+    if (time.counted) return "";
+    const auto& points = time.points;
+    constexpr double kRounding = 1e-3;  // times written in few digits
+    const double mean =
+        (points.back().value - points.front().value) / static_cast<double>(points.size() - 1);
+    bool ascending = true, twice = false, even = true;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double gap = points[i].value - points[i - 1].value;
+        ascending = ascending && gap >= 0;
+        twice = twice || gap == 0;
+        even = even && std::abs(gap - mean) <= kRounding * std::abs(mean);
+    }
+    if (!ascending) return ", not ascending";
+    if (twice) return ", some times twice";
+    return even ? "" : ", uneven";
+}
+
+void print(const Variable& v, bool shownFirst) {
+    say("\n{}{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
+        v.units.empty() ? "" : " (" + v.units + ")", shownFirst ? "  * shown first" : "");
+    say("  type     {}{}\n", timeseries::typeName(v.type),
+        v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
+    if (!v.missing.empty()) say("  missing  {}\n", v.missing);
+    const auto n = v.grid->size();
+    say("  grid     {}, {} x {} x {} = {} points\n", kindOf(*v.grid), n[0], n[1], n[2],
+        withCommas(v.grid->count()));
+    for (const Axis& axis : v.grid->axes()) say("           {}\n", axisText(axis));
+    if (!v.grid->frame().aligned()) say("           {}\n", frameText(v.grid->frame()));
+    const std::size_t steps = v.time->points.size();
+    if (steps == 1) {
+        say("  time     1 step: {}\n", timeText(*v.time, 0));
+    } else {
+        say("  time     {} steps, {} to {}{}{}\n", steps, timeText(*v.time, 0),
+            timeText(*v.time, steps - 1), unevenText(*v.time),
+            v.time->calendar.empty() ? "" : ", calendar " + v.time->calendar);
+    }
+    for (const std::string& note : v.notes) say("  note     {}\n", note);
+}
+
+// All of a few files, else the first and the last: what was recognised tells the rest.
+void printFiles(const std::vector<std::string>& files) {
+    constexpr std::size_t kFew = 6;
+    if (files.size() <= kFew)
+        say("{}\n", fmt::join(files, "\n"));
+    else
+        say("{}\n...\n{}\n", files.front(), files.back());
+}
+
+}  // namespace
+
+int info(const InfoOptions& options) {
+    const auto [reader, series] = openSeries(options.files);
+    const auto variables = reader->variables();
+    const std::size_t shownFirst = defaultVariable(variables);
+    std::vector<std::string> files;
+    for (const auto& file : reader->files()) files.push_back(file.string());
+    if (options.json) {
+        ordered_json out{{"files", files}, {"format", reader->format()}};
+        if (!series.recognised.empty()) out["series"] = series.recognised;
+        if (series.here) out["named"] = files[*series.here];
+        if (!series.notes.empty()) out["notes"] = series.notes;
+        out["shownFirst"] = variables[shownFirst].name;
+        for (const Variable& v : variables) out["variables"].push_back(variableJson(v));
+        say("{}\n", jsonText(out, 2));
+        return 0;
+    }
+    printFiles(files);
+    if (!series.recognised.empty()) say("{}\n", series.recognised);
+    if (series.here) say("named: {}\n", fs::path(files[*series.here]).filename().string());
+    for (const std::string& note : series.notes) say("note: {}\n", note);
+    say("{}\n", reader->format());
+    for (std::size_t i = 0; i < variables.size(); ++i)
+        print(variables[i], variables.size() > 1 && i == shownFirst);
+    return 0;
+}
+
+}  // namespace app

@@ -1,0 +1,309 @@
+#include "app/drawing/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/choices/camera.h"
+#include "app/drawing/gpu_steps.h"
+#include "app/drawing/refinement.h"
+#include "app/picture/still.h"
+#include "render/frame/mean_depth.h"
+#include "render/gl/gpu_timer.h"
+#include "render/model/splat_cost.h"
+
+namespace app {
+namespace {
+
+std::uint64_t drawnSplats(const std::vector<render::Layer>& layers, std::uint32_t stride) {
+    std::uint64_t sum = 0;
+    for (const render::Layer& layer : layers) sum += render::splatCount(layer, stride);
+    return sum;
+}
+
+// A splat of a subset fills the place of the points that it stands for: at equal cost that is
+// nearer to the whole than more, smaller splats (tests/bench/canvas_bench.cpp). Points keep their
+// pixels.
+render::Footprint footprintFor(render::Footprint footprint, std::uint32_t stride) {
+    if (footprint.kernel != render::Kernel::Point) footprint.size *= std::cbrt(stride);
+    return footprint;
+}
+
+double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
+    double sum = 0;
+    for (const render::View& eye : eyes) sum += render::sceneCost(scene, eye);
+    return sum;
+}
+
+// The least stride whose frame keeps to the limit.
+void thinOut(render::Scene& scene, std::span<const render::View> eyes, std::uint64_t limit) {
+    const render::Footprint whole = scene.footprint;
+    while (scene.stride < render::kMaxStride && costOf(scene, eyes) > static_cast<double>(limit)) {
+        scene.stride *= 2;
+        scene.footprint = footprintFor(whole, scene.stride);
+    }
+}
+
+// What is drawn: a step, and choices of which all that they select is on the GPU.
+struct Screen {
+    std::shared_ptr<const timeseries::SortedStep> sorted;
+    GpuSteps::Held* held;
+    Explorer explorer;
+    timeseries::Variable about;
+    std::size_t step;
+};
+
+render::Scene sceneOf(const Screen& screen) {
+    return makeScene(screen.explorer, *screen.sorted, screen.held->placed,
+                     screen.explorer.play.tick);
+}
+
+// The legend of what is on the screen. Whether colours are mixed is worked out for a picture at
+// rest alone; a moving one says what the one before it said of the same data.
+class Telling {
+ public:
+    render::Legend legend(const Screen& screen, const render::Scene& scene, bool atRest) {
+        Explorer e = screen.explorer;
+        e.view = {};  // nothing is said of it
+        if (!legend_ || of_ != e || step_.lock() != screen.sorted) {
+            if (!sameData(of_, e)) mixed_ = false;
+            legend_ = makeLegend(screen.explorer, screen.about, screen.step, scene,
+                                 screen.explorer.play.tick);
+            of_ = std::move(e);
+            step_ = screen.sorted;
+            view_.reset();
+        }
+        if (atRest && view_ != screen.explorer.view) {
+            mixed_ = isMixed(screen.explorer, scene);
+            view_ = screen.explorer.view;
+        }
+        render::Legend legend = *legend_;
+        if (mixed_ && render::mixesColors(scene)) legend.notes.emplace_back(kMixedColors);
+        return legend;
+    }
+    // Whether that was worked out for this picture. REQUIRES: its legend was asked for last.
+    bool isOf(const Screen& screen, const render::Scene& scene) const {
+        return view_ == screen.explorer.view || !render::mixesColors(scene);
+    }
+
+ private:
+    std::optional<render::Legend> legend_;
+    Explorer of_;
+    std::weak_ptr<const timeseries::SortedStep> step_;
+    std::optional<ViewChoice> view_;  // for which `mixed_` is known
+    bool mixed_ = false;
+};
+
+// Which layer of the explorer is the scene's k-th: hidden ones are not in the scene, and the swept
+// window comes first.
+std::optional<std::size_t> layerOf(const Explorer& e, std::size_t k) {
+    if (e.sweep && e.sweepLayer.visible && k-- == 0) return std::nullopt;
+    std::size_t layer = 0;
+    while (!e.layers[layer].visible || k-- > 0) ++layer;
+    return layer;
+}
+
+// What is on the screen, being refined.
+struct Resting {
+    Screen of;
+    Refinement refinement;
+
+    Resting(render::FrameRenderer& renderer, const Screen& screen, Picture picture,
+            std::span<const render::View> eyes)
+        : of(screen), refinement(renderer, std::move(picture), screen.held->onGpu, eyes) {}
+    bool is(const Screen& screen, std::span<const render::View> eyes) const {
+        return of.sorted == screen.sorted && of.explorer == screen.explorer &&
+               std::ranges::equal(refinement.eyes(), eyes);
+    }
+};
+
+}  // namespace
+
+struct Canvas::State {
+    State(render::SplatterChoice splatter, render::LightAs as) : renderer(splatter, as) {}
+
+    render::FrameRenderer renderer;
+    render::gl::GpuTimer timer, refineTimer;
+    GpuSteps steps;
+    std::optional<Screen> screen;
+    std::uint32_t stride = 1;        // of what was shown last
+    std::optional<Resting> resting;  // uses the renderer alone
+    Telling telling;
+
+    // What every frame begins with: brings what is shown and tells of it.
+    CanvasReport begin(const Shown& shown, const CanvasLimits& limits, render::gl::GpuTimer& of);
+    // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
+    // screen. Returns the step shown.
+    GpuSteps::Held& bring(const Shown& shown, std::uint64_t uploadBytes, CanvasReport& report);
+    // The step on the screen takes other choices, if all that they select is there to be drawn.
+    void choose(const Explorer& choices);
+    bool isThere(const GpuSteps::Held& held, const render::Scene& scene) const {
+        return !renderer.takesPointsFromGpu() || held.onGpu.ready(scene);
+    }
+    // What of the layers is on the screen.
+    void tell(CanvasReport& report, const std::vector<render::Layer>& layers) const;
+};
+
+void Canvas::State::choose(const Explorer& choices) {
+    Screen changed = *screen;
+    changed.explorer = choices;
+    if (!isThere(*changed.held, sceneOf(changed))) return;
+    changed.held->stretch(choices.scale);
+    screen = std::move(changed);
+}
+
+GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadBytes,
+                                     CanvasReport& report) {
+    GpuSteps::Held& held = steps.use(shown.sorted, shown.explorer.scale);
+    Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
+    const render::Scene scene = sceneOf(next);
+    const bool onScreen = screen && screen->held == &held;
+    if (renderer.takesPointsFromGpu()) {
+        std::optional<render::ValueScale> scale = render::neededScale(scene);
+        if (scale) scale = held.onGpu.serving(*scale);
+        constexpr std::uint64_t kOnScreen = 8;
+        held.onGpu.upload(scene, scale, onScreen ? kOnScreen * uploadBytes : uploadBytes);
+        if (const std::uint64_t missing = held.onGpu.missingBytes(scene, scale); missing > 0)
+            report.uploaded =
+                1 - static_cast<double>(missing) /
+                        static_cast<double>(render::GpuStep::neededBytes(scene, scale));
+    }
+    if (isThere(held, scene)) {
+        screen.emplace(std::move(next));
+    } else if (onScreen) {
+        screen->explorer.scale = shown.explorer.scale;  // which use() has taken over
+    } else if (screen && sameData(screen->explorer, shown.explorer)) {
+        choose(shown.explorer);
+    }
+    return held;
+}
+
+Canvas::Canvas(render::SplatterChoice splatter, render::LightAs as)
+    : state_(std::make_unique<State>(splatter, as)) {}
+Canvas::~Canvas() = default;
+
+CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits,
+                                  render::gl::GpuTimer& of) {
+    CanvasReport report;
+    const GpuSteps::Held& coming = bring(shown, limits.uploadBytes, report);
+    steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
+    report.gpuBytes = steps.bytes();
+    if (const auto timed = of.poll()) {
+        report.gpuTime = timed->took;
+        report.gpuSplats = timed->label;
+    }
+    if (screen) report.step = screen->step;
+    return report;
+}
+
+void Canvas::State::tell(CanvasReport& report, const std::vector<render::Layer>& layers) const {
+    report.selected = drawnSplats(layers, 1);
+    report.counts = pointCounts(screen->explorer, *screen->sorted);
+    report.stride = stride;
+    report.drawn = drawnSplats(layers, stride);
+    report.whole = stride == 1 && report.uploaded == 1;
+}
+
+CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
+                          const CanvasLimits& limits, bool moving, const Show& show,
+                          const CanvasScene& scene) {
+    state_->resting.reset();
+    CanvasReport report = state_->begin(shown, limits, state_->timer);
+    auto& screen = state_->screen;
+    if (!screen) return report;
+
+    render::Scene drawn = sceneOf(*screen);
+    render::Legend legend;
+    if (scene.legend) {
+        legend = state_->telling.legend(*screen, drawn, !moving);
+        report.told = state_->telling.isOf(*screen, drawn);
+    }
+    if (moving) thinOut(drawn, eyes, limits.splats);
+    state_->stride = drawn.stride;
+    state_->tell(report, drawn.layers);
+
+    state_->timer.begin();
+    const render::FrameContent content{drawn, screen->sorted->grid(), std::move(legend),
+                                       kBackground, scene.placards};
+    const auto frame = state_->renderer.prepare(content, screen->held->onGpu, eyes);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        state_->renderer.drawEye(frame, eyes[i]);
+        show(i, state_->renderer.targets());
+    }
+    state_->timer.end(static_cast<std::uint64_t>(costOf(drawn, eyes)));
+    return report;
+}
+
+CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> eyes,
+                            const CanvasLimits& limits, const Show& show) {
+    CanvasReport report = state_->begin(shown, limits, state_->refineTimer);
+    auto& screen = state_->screen;
+    if (!screen) return report;
+    auto& resting = state_->resting;
+    if (!resting || !resting->is(*screen, eyes)) {
+        render::Scene scene = sceneOf(*screen);
+        render::Legend legend = state_->telling.legend(*screen, scene, true);
+        resting.emplace(state_->renderer, *screen, Picture{std::move(scene), std::move(legend)},
+                        eyes);
+    }
+    Refinement& refinement = resting->refinement;
+    if (refinement.order()) {
+        state_->refineTimer.begin();
+        const double cost = refinement.goOn(static_cast<double>(limits.splats), show);
+        state_->refineTimer.end(static_cast<std::uint64_t>(cost));
+    }
+    const bool done = refinement.done();
+    if (done) state_->stride = 1;
+    state_->tell(report, refinement.scene().layers);
+    report.refined = refinement.share();
+    report.whole = report.whole && done;
+    if (done) resting.reset();
+    return report;
+}
+
+void Canvas::drawPlacards(std::span<const render::Placard> placards,
+                          std::span<const render::View> eyes, const Show& show) {
+    state_->resting.reset();
+    state_->renderer.drawPlacards(placards, kBackground, eyes, show);
+}
+
+std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
+    const Explorer& e = shown.explorer;
+    return eyes(e.view, e.stereo,
+                render::PlacedPoints(shown.sorted->grid(), e.scale).boxHalfEdges(), e.size);
+}
+
+bool Canvas::shows(const Explorer& data) const {
+    return state_->screen && sameData(state_->screen->explorer, data);
+}
+
+std::optional<Drawn> Canvas::drawn() const {
+    if (!state_->screen) return std::nullopt;
+    return Drawn{&state_->screen->held->placed, state_->screen->sorted, state_->screen->step};
+}
+
+std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& window) const {
+    if (!state_->screen) return std::nullopt;
+    render::Scene scene = sceneOf(*state_->screen);
+    scene.stride = state_->stride;
+    scene.footprint = footprintFor(state_->screen->explorer.footprint, scene.stride);
+    const auto picked = render::pick(scene, eye, window);
+    if (!picked) return std::nullopt;
+    const timeseries::SortedStep& step = *state_->screen->sorted;
+    const std::uint64_t i = picked->gridIndex;
+    const auto at = step.grid().indices(i);
+    return Probe{*picked,
+                 layerOf(state_->screen->explorer, picked->layer),
+                 step.value(picked->point),
+                 step.grid().position(i),
+                 {at.x, at.y, at.z}};
+}
+
+void Canvas::save(const Shown& shown, const std::filesystem::path& file) {
+    state_->resting.reset();
+    GpuSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
+    writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, held.placed,
+                shown.explorer.play.tick},
+               state_->renderer, held.onGpu, {}, file);
+}
+
+}  // namespace app

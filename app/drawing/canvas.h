@@ -1,0 +1,113 @@
+// Draws what an Exploration shows, for any number of eyes, so that frames keep their pace: steps go
+// to the GPU in slices, and above a budget of splats a subset stands for all until the picture
+// rests. Desktop and headset share it; a headless render needs neither slices nor subsets.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/drawing/drawn.h"
+#include "app/exploration/exploration.h"
+#include "app/picture/picture.h"
+#include "render/frame/frame.h"
+#include "render/model/pick.h"
+
+namespace app {
+
+struct CanvasLimits {
+    // In one frame, all layers and eyes, in ordinary splats (render/model/splat_cost.h); see
+    // FramePace.
+    std::uint64_t splats = 1'000'000;
+    // In one frame, of a step that comes; eight times as many of the step on the screen, so that
+    // another selection of it is seen at once.
+    std::uint64_t uploadBytes = std::uint64_t{16} << 20;
+    // Of steps on the GPU that are not drawn, so that scrubbing back and forth is instant.
+    std::uint64_t cacheBytes = std::uint64_t{1} << 30;
+};
+
+// What the picture on the screen is after one draw() or refine(), as the overlay tells it.
+struct CanvasReport {
+    std::size_t step = 0;                   // the step on the screen
+    std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
+    // Of that step, under the choices on the screen; none before the first picture.
+    std::optional<PointCounts> counts = {};
+    std::uint32_t stride = 1;  // one of so many points stands for its neighbours
+    bool whole = false;        // nothing is missing: all points, all uploaded
+    bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
+    double uploaded = 1;  // share of what the picture asked for needs
+    double refined = 0;   // share that refine() has drawn; it shows all at once
+    std::uint64_t gpuBytes = 0;  // of steps held there
+    // Of an earlier call of the same function (gl::GpuTimer), and what its splats cost: what
+    // FramePace learns from. None in most frames of a GPU that is behind.
+    std::optional<std::chrono::nanoseconds> gpuTime;
+    std::uint64_t gpuSplats = 0;
+};
+
+// What stands around the points.
+struct CanvasScene {
+    bool legend = true;
+    std::span<const render::Placard> placards = {};
+};
+
+// A point of the step on the screen, in the file's own terms.
+struct Probe {
+    render::Picked picked;
+    std::optional<std::size_t> layer;  // of Explorer::layers; none: of the swept window
+    timeseries::Number value;
+    glm::dvec3 coordinates;            // the grid's, in its units
+    std::array<std::size_t, 3> index;  // along x, y, z
+};
+
+// Needs a current GL context, from construction to destruction.
+class Canvas {
+ public:
+    // `as`: what `show` takes light in memory as.
+    explicit Canvas(render::SplatterChoice splatter = render::SplatterChoice::ByDevice,
+                    render::LightAs as = render::LightAs::Linear);
+    ~Canvas();
+
+    using Show = std::function<void(std::size_t eye, render::Targets&)>;
+    // Draws the eyes one after the other and hands each one's light (render::Targets) to `show`
+    // before the next is drawn. Order is taken and uploaded once. What is not on the GPU yet is not
+    // drawn: the step or the choices before stay, and the report says so. Nothing is drawn, and
+    // `show` is not called, before the first step is there. `moving`: the picture is expected to
+    // change again at once, so the limits hold; else all points are drawn. Never waits for the GPU.
+    // REQUIRES: at least one eye.
+    CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
+                      const CanvasLimits& limits, bool moving, const Show& show,
+                      const CanvasScene& scene = {});
+    // The picture that draw() makes of all points, for a window at rest: each call draws no more
+    // than the limits and a little, and `show` gets an eye when the last of its points is drawn;
+    // what was shown before holds until then. Begins anew when something else is asked for, by this
+    // or another function.
+    CanvasReport refine(const Shown& shown, std::span<const render::View> eyes,
+                        const CanvasLimits& limits, const Show& show);
+    // Likewise, placards alone: where draw() has nothing to draw.
+    void drawPlacards(std::span<const render::Placard> placards, std::span<const render::View> eyes,
+                      const Show& show);
+
+    // The eyes of the shown explorer on a picture of its size (camera.h).
+    std::vector<render::View> eyesOf(const Shown& shown) const;
+    // Whether what is on the screen is of these data, which may have come since it was drawn.
+    bool shows(const Explorer& data) const;
+    // What is on the screen, until the next draw(); none before the first.
+    std::optional<Drawn> drawn() const;
+    // What an eye sees at a window position (pixels, y up), of what was drawn last; see pick.h.
+    std::optional<Probe> probe(const render::View& eye, const glm::dvec2& window) const;
+    // The picture as files have it: drawn whole and read back, with the session embedded. The step
+    // shown, also when it is not on the screen yet. Throws ImageError.
+    void save(const Shown& shown, const std::filesystem::path& file);
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace app

@@ -1,0 +1,47 @@
+#include "app/drawing/gpu_steps.h"
+
+#include <algorithm>
+
+namespace app {
+
+GpuSteps::Held::Held(const std::shared_ptr<const timeseries::SortedStep>& of,
+                     const std::optional<glm::dvec3>& stretch)
+    : sorted(of), scale(stretch), placed(of->grid(), stretch), onGpu(*of, placed) {}
+
+void GpuSteps::Held::stretch(const std::optional<glm::dvec3>& by) {
+    if (scale == by) return;
+    scale = by;
+    placed = render::PlacedPoints(sorted.lock()->grid(), by);
+    onGpu.place(placed);
+}
+
+GpuSteps::Held& GpuSteps::use(const std::shared_ptr<const timeseries::SortedStep>& sorted,
+                              const std::optional<glm::dvec3>& scale) {
+    const auto found =
+        std::ranges::find_if(held_, [&](const Held& held) { return held.sorted.lock() == sorted; });
+    if (found == held_.end())
+        held_.emplace_front(sorted, scale);
+    else
+        held_.splice(held_.begin(), held_, found);
+    held_.front().stretch(scale);
+    return held_.front();
+}
+
+void GpuSteps::trim(std::uint64_t budgetBytes, const Held* drawn, const Held* coming) {
+    std::uint64_t kept = 0;
+    held_.remove_if([&](const Held& held) {
+        if (&held == drawn || &held == coming) return false;
+        // A step read again is another object: this one will never be asked for.
+        if (held.sorted.expired()) return true;
+        kept += held.onGpu.bytes();
+        return kept > budgetBytes;
+    });
+}
+
+std::uint64_t GpuSteps::bytes() const {
+    std::uint64_t sum = 0;
+    for (const Held& held : held_) sum += held.onGpu.bytes();
+    return sum;
+}
+
+}  // namespace app

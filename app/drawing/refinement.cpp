@@ -1,0 +1,64 @@
+#include "app/drawing/refinement.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/picture/still.h"
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Of what is to be done: the list's share, where there is one.
+constexpr double kOrdering = 0.2;
+
+}  // namespace
+
+Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
+                       const render::GpuStep& onGpu, std::span<const render::View> eyes)
+    : renderer_(renderer),
+      picture_(std::move(picture)),
+      eyes_(eyes.begin(), eyes.end()),
+      content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
+      onGpu_(onGpu) {
+    order_.begin(picture_.scene, render::midEye(eyes_));
+}
+
+bool Refinement::order() {
+    if (frame_) return true;
+    constexpr std::uint64_t kAtOnce = 1 << 17;
+    const auto until = std::chrono::steady_clock::now() + 4ms;
+    while (!order_.done()) {
+        order_.goOn(kAtOnce);
+        if (std::chrono::steady_clock::now() >= until) break;
+    }
+    if (!order_.done()) return false;
+    frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_, order_.take()));
+    for (const render::View& eye : eyes_) cost_ += renderer_.cost(*frame_, eye);
+    return true;
+}
+
+double Refinement::goOn(double cost,
+                        const std::function<void(std::size_t eye, render::Targets&)>& show) {
+    const double before = drawn_;
+    do {
+        if (!work_) work_.emplace(renderer_.begin(*frame_, eyes_[eye_]));
+        const double of = work_->cost;
+        const bool whole = renderer_.goOn(*work_, cost - (drawn_ - before));
+        drawn_ += work_->cost - of;
+        if (!whole) break;
+        show(eye_++, renderer_.targets());
+        work_.reset();
+    } while (!done() && drawn_ - before < cost);
+    return drawn_ - before;
+}
+
+double Refinement::share() const {
+    const double ordering = picture_.scene.order == render::Order::None ? 0 : kOrdering;
+    if (!frame_) return ordering * order_.share();
+    const double drawn = cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1;
+    return ordering + (1 - ordering) * drawn;
+}
+
+}  // namespace app

@@ -1,0 +1,185 @@
+// How other data become what is shown: opened beside it, and taken over with their first step.
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+#include <utility>
+
+#include "app/choices/clip_flaw.h"
+#include "app/exploration/exploration_state.h"
+#include "app/exploration/followed_playback.h"
+#include "app/files/chosen_axes.h"
+#include "app/picture/picture.h"
+
+namespace app {
+namespace {
+
+// How it is looked at, whatever the data are.
+void takeLook(Explorer& e, const Explorer& from) {
+    e.view = from.view;
+    e.stereo = from.stereo;
+    e.footprint = from.footprint;
+    e.order = from.order;
+    e.size = from.size;
+}
+
+}  // namespace
+
+void Exploration::open(std::vector<std::filesystem::path> named) {
+    assert(!named.empty());
+    Explorer wish;
+    wish.files = std::move(named);
+    begin({.wish = std::move(wish), .rest = Pending::Rest::LookOfNow});
+}
+
+void Exploration::open(Explorer session) {
+    assert(!session.files.empty());
+    begin({.wish = std::move(session)});
+}
+
+// An edit to other data.
+void Exploration::openEdited(Explorer next, std::string_view gesture) {
+    const Explorer& now = explorer();
+    if (next.files == now.files && next.variable == now.variable) {
+        Explorer wish = next;
+        next.keep = now.keep;
+        next.axes = now.axes;
+        change(std::move(next), gesture);
+        begin({.wish = std::move(wish), .rest = Pending::Rest::AllOfNow});
+        return;
+    }
+    if (next.layers == now.layers) {
+        next.layers.clear();
+        next.noLayers = false;
+    }
+    if (next.sweep == now.sweep) {
+        next.sweep.reset();
+        next.sweepLayer = {};
+    }
+    if (next.keep == now.keep) next.keep.reset();
+    if (next.files != now.files && next.clip == now.clip) next.clip.reset();
+    if (next.files != now.files && next.axes == now.axes) next.axes = {};
+    begin({.wish = std::move(next), .rest = Pending::Rest::LookOfNow});
+}
+
+void Exploration::begin(Pending wish) {
+    pending_ = std::make_unique<Pending>(std::move(wish));
+    pending_->opening.emplace(pending_->wish.files, pending_->wish.variable, settings_.openDataset,
+                              wake_.callable());
+}
+
+std::optional<std::string> Exploration::opening() const {
+    if (!pending_) return std::nullopt;
+    const Explorer& wish = pending_->wish;
+    if (open_ && wish.files == explorer().files && !wish.variable.empty()) return wish.variable;
+    const auto& first = wish.files.front();
+    return (first.has_filename() ? first.filename() : first).string();
+}
+
+void Exploration::cancelOpening() { pending_.reset(); }
+
+void Exploration::fail(std::string why) {
+    pending_.reset();
+    tell(std::move(why), true);
+}
+
+void Exploration::takeOpened() {
+    if (!pending_ || !pending_->opening) return;
+    auto result = pending_->opening->poll();
+    if (!result) return;
+    pending_->opening.reset();
+    if (auto* why = std::get_if<std::string>(&*result)) return fail(std::move(*why));
+    auto& dataset = std::get<Dataset>(*result);
+    Explorer& wish = pending_->wish;
+    wish.variable = dataset.about.name;
+    chooseAxes(dataset, wish.axes);
+    const std::size_t last = dataset.stepCount() - 1;
+    const StepChoice asked =
+        wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});
+    const std::size_t first = std::min(asked.first, last);
+    // Several steps are what is to be played.
+    timeseries::CursorSettings& play = wish.play.time;
+    if (asked.last != asked.first && play.first == 0 && play.last >= last && play.stride == 1) {
+        play.first = first;
+        play.last = asked.last.value_or(play.last);
+        play.stride = asked.stride;
+    }
+    wish.steps = StepChoice{first, first};
+    wish.oneTick = false;
+    if (!open_ || wish.files != explorer().files)
+        for (const std::string& note : dataset.series.notes) tell(note);
+    pending_->opened = std::make_unique<Open>(std::move(dataset), wish, settings_, wake_);
+    pending_->opened->steps.want({first});
+}
+
+// The wish comes true with any step that can be read: where the one asked for fails, LiveSteps goes
+// on to read the others.
+void Exploration::takeFirstStep() {
+    if (!pending_ || !pending_->opened) return;
+    for (LiveSteps::Arrival& arrival : pending_->opened->steps.poll()) {
+        if (arrival.sorted) return adopt(std::move(arrival));
+        const timeseries::Series& series = pending_->opened->steps.series();
+        if (++pending_->failedSteps == series.stepCount()) return fail(series.why(arrival.step));
+        if (pending_->failedSteps > 1) continue;
+        tell(series.why(arrival.step), true);
+        pending_->opened->toldFailed.insert(arrival.step);
+    }
+}
+
+// The wish with what the user has chosen since.
+Explorer Exploration::restOf(const Pending& pending) const {
+    Explorer next = pending.wish;
+    switch (pending.rest) {
+        case Pending::Rest::AsWished:
+            break;
+        case Pending::Rest::LookOfNow:
+            takeLook(next, explorer());
+            break;
+        case Pending::Rest::AllOfNow:
+            next = explorer();
+            next.keep = pending.wish.keep;
+            next.axes = pending.wish.axes;
+    }
+    if (pending.travel != 0) {  // as History::undo()
+        next.size = explorer().size;
+        next.play.tick = explorer().play.tick;
+    }
+    return next;
+}
+
+void Exploration::adopt(LiveSteps::Arrival first) {
+    Explorer next = restOf(*pending_);
+    Open& opened = *pending_->opened;
+    // Nothing would be seen, and nothing would say why.
+    if (next.clip)
+        if (std::string flaw = clipFlaw(*next.clip, first.sorted->grid()); !flaw.empty()) {
+            tell(std::move(flaw), true);
+            next.clip.reset();
+        }
+    timeseries::Playback playback;
+    try {
+        if (needsSamples(next)) next = resolved(next, {{first.step, first.sorted}});
+        playback = playbackOf(next, *opened.dataset.about.time);
+        opened.counts = pointCounts(next, *first.sorted);
+    } catch (const std::invalid_argument& error) {
+        return fail(error.what());
+    }
+    opened.step = first.step;
+    opened.sorted = std::move(first.sorted);
+    if (playback_.playing && next.files == explorer().files) playback.play();
+    if (!open_) {
+        history_ = History(next);
+    } else if (pending_->travel != 0) {
+        move(pending_->travel);
+        history_.replace(next);
+    } else {
+        history_.edit(next);
+        history_.endGesture();
+    }
+    playback_ = std::move(playback);
+    playedFrom_.reset();
+    if (playback_.playing) playedFrom_ = next.steps;
+    open_ = std::move(pending_->opened);
+    pending_.reset();
+}
+
+}  // namespace app

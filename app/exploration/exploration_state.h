@@ -1,0 +1,37 @@
+// What an Exploration holds beside its history; for exploration*.cpp alone.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "app/exploration/exploration.h"
+
+namespace app {
+
+struct Exploration::Open {
+    Open(Dataset opened, const Explorer& wish, const Settings& settings, const Wake& wake)
+        : dataset(std::move(opened)),
+          steps(dataset, wish.keep.value_or(timeseries::RangeSet::everything()),
+                settings.budgetBytes, wake.callable()) {}
+
+    Dataset dataset;
+    LiveSteps steps;
+    std::size_t step = 0;  // shown
+    std::shared_ptr<const timeseries::SortedStep> sorted;
+    PointCounts counts;
+    std::set<std::size_t> passed;      // asked for since the step asked for was last there
+    std::set<std::size_t> toldFailed;  // steps that were asked for, and whose failure was told
+};
+
+struct Exploration::Pending {
+    Explorer wish;
+    enum class Rest { AsWished, LookOfNow, AllOfNow } rest = Rest::AsWished;  // beside the data
+    int travel = 0;  // states of the history to go back (-) or forward; 0: a new one
+    std::optional<Opening> opening = {};
+    std::unique_ptr<Open> opened = {};  // nothing to show yet
+    std::size_t failedSteps = 0;        // of `opened`
+};
+
+}  // namespace app

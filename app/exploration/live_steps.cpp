@@ -1,0 +1,86 @@
+#include "app/exploration/live_steps.h"
+
+#include <algorithm>
+#include <iterator>
+#include <thread>
+#include <utility>
+
+namespace app {
+
+using timeseries::SlotState;
+
+namespace {
+
+// A read that runs, and freeing large steps, takes long enough to be seen.
+template <typename... T>
+void endElsewhere(T... things) {
+    std::thread([... ending = std::move(things)] {}).detach();
+}
+
+}  // namespace
+
+LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::uint64_t budgetBytes,
+                     std::function<void()> wake)
+    : series_(dataset.stepCount(), budgetBytes),
+      loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader), dataset.variable,
+                                                       kept, std::move(wake),
+                                                       timeseries::Ready::Whole)) {}
+
+LiveSteps::~LiveSteps() {
+    endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_));
+}
+
+void LiveSteps::want(std::vector<std::size_t> mostUrgentFirst) {
+    if (mostUrgentFirst == wished_) return;
+    wished_ = std::move(mostUrgentFirst);
+    ask();
+}
+
+std::vector<LiveSteps::Arrival> LiveSteps::poll() {
+    std::vector<Arrival> arrivals;
+    while (auto result = loader_->poll()) {
+        if (auto* failed = std::get_if<timeseries::Failed>(&*result)) {
+            series_.failed(failed->step, std::move(failed->why));
+            arrivals.push_back({failed->step, nullptr});
+        } else {
+            const auto& loaded = std::get<timeseries::Loaded>(*result);
+            for (auto& left : series_.loaded(loaded.step, loaded.sorted))
+                leaving_.push_back(std::move(left));
+            arrivals.push_back({loaded.step, loaded.sorted});
+        }
+    }
+    freeLeaving();
+    if (!arrivals.empty()) ask();
+    return arrivals;
+}
+
+void LiveSteps::freeLeaving() {
+    const auto isShared = [](const auto& step) { return step.use_count() > 1; };
+    const auto alone = std::partition(leaving_.begin(), leaving_.end(), isShared);
+    if (alone == leaving_.end()) return;
+    endElsewhere(
+        timeseries::Series::Steps(std::move_iterator(alone), std::move_iterator(leaving_.end())));
+    leaving_.erase(alone, leaving_.end());
+}
+
+void LiveSteps::retry(std::size_t step) {
+    series_.retry(step);
+    ask();
+}
+
+void LiveSteps::ask() {
+    std::vector<std::size_t> missing = series_.want(wished_);
+    if (missing.empty()) {
+        const auto seen = [this](std::size_t step) {
+            return series_.summary(step) != nullptr || series_.state(step) == SlotState::Failed;
+        };
+        while (seenBelow_ < series_.stepCount() && seen(seenBelow_)) ++seenBelow_;
+        // Two, so that the loader does not wait for the next frame.
+        for (std::size_t step = seenBelow_; step < series_.stepCount() && missing.size() < 2;
+             ++step)
+            if (!seen(step)) missing.push_back(step);
+    }
+    loader_->want(std::move(missing));
+}
+
+}  // namespace app

@@ -1,0 +1,29 @@
+#include "app/exploration/reading.h"
+
+#include <fmt/format.h>
+
+#include "render/annotate/ticks.h"
+
+namespace app {
+
+std::string withUnit(const std::string& number, const std::string& unit) {
+    const std::string shown = render::shownUnit(unit);
+    return shown.empty() || shown == "index" ? number : number + " " + shown;
+}
+
+std::string valueText(const Reading& reading, const Shown& shown) {
+    const std::string number =
+        shown.sorted->type() == timeseries::ValueType::F32
+            ? fmt::format("{}", static_cast<float>(timeseries::toDouble(reading.value)))
+            : timeseries::toText(reading.value);
+    return withUnit(number, shown.dataset.about.units);
+}
+
+std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis) {
+    const std::string& unit = shown.sorted->grid().axes()[axis].units;
+    const double place = reading.position[static_cast<int>(axis)];
+    return fmt::format("{}   [{}]", withUnit(fmt::format("{:.6g}", place), unit),
+                       reading.index[axis]);
+}
+
+}  // namespace app

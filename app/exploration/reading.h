@@ -1,0 +1,29 @@
+// A point that a user has asked for, in the file's own terms; and its parts in words.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "app/exploration/exploration.h"
+#include "timeseries/index/number.h"
+
+namespace app {
+
+struct Reading {
+    std::array<std::size_t, 3> index{};  // along x, y, z
+    timeseries::Number value;
+    glm::dvec3 position{0};  // the grid's
+    glm::dvec3 world{0};     // render::PlacedPoints's
+    std::size_t step = 0;
+};
+
+// A number with a unit, where there is one to be shown.
+std::string withUnit(const std::string& number, const std::string& unit);
+// "612.34 K": as few digits as tell the value among those of its own type.
+std::string valueText(const Reading& reading, const Shown& shown);
+// "0.125 m   [37]": along an axis (0 x, 1 y, 2 z), with the index.
+std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis);
+
+}  // namespace app

@@ -1,0 +1,30 @@
+#include "app/exploration/step_source.h"
+
+namespace app {
+namespace {
+
+constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
+
+}  // namespace
+
+StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept)
+    : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
+      loader_(std::move(dataset.reader), dataset.variable, std::move(kept)) {}
+
+std::shared_ptr<const timeseries::SortedStep> StepSource::get(std::size_t step, std::size_t next) {
+    loader_.want(series_.want({step, next}));
+    for (;;) {
+        if (series_.state(step) == timeseries::SlotState::Failed)
+            throw timeseries::FileError(series_.why(step));
+        if (auto sorted = series_.use(step)) return sorted;
+        auto result = loader_.waitAndPoll().value();
+        if (auto* failed = std::get_if<timeseries::Failed>(&result)) {
+            series_.failed(failed->step, failed->why);  // the next one's is told at its turn
+        } else {
+            auto& loaded = std::get<timeseries::Loaded>(result);
+            series_.loaded(loaded.step, std::move(loaded.sorted));
+        }
+    }
+}
+
+}  // namespace app

@@ -1,0 +1,81 @@
+#include "app/files/chosen_axes.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace app {
+namespace {
+
+using timeseries::Field;
+using timeseries::Grid;
+using timeseries::Reader;
+using timeseries::Variable;
+
+using Axes = std::array<AxisChoice, 3>;
+
+// Grids by those that they stand for: who shares one before shares one after.
+class Grids {
+ public:
+    explicit Grids(const Axes& chosen) : chosen_(chosen) {}
+
+    std::shared_ptr<const Grid> of(const std::shared_ptr<const Grid>& file) {
+        auto& grid = made_[file];
+        if (!grid) {
+            std::array<timeseries::Axis, 3> axes = file->axes();
+            for (std::size_t a = 0; a < 3; ++a) {
+                axes[a].down = axes[a].down != chosen_[a].flip;
+                if (!chosen_[a].name.empty()) axes[a].name = chosen_[a].name;
+            }
+            grid = std::make_shared<const Grid>(std::move(axes), file->frame());
+        }
+        return grid;
+    }
+
+ private:
+    Axes chosen_;
+    std::map<std::shared_ptr<const Grid>, std::shared_ptr<const Grid>> made_;
+};
+
+class AxesReader : public Reader {
+ public:
+    AxesReader(std::unique_ptr<Reader> file, const Axes& chosen)
+        : file_(std::move(file)), grids_(chosen) {
+        const auto all = file_->variables();
+        variables_.assign(all.begin(), all.end());
+        for (Variable& each : variables_) each.grid = grids_.of(each.grid);
+    }
+    std::string format() const override { return file_->format(); }
+    std::span<const std::filesystem::path> files() const override { return file_->files(); }
+    std::span<const Variable> variables() const override { return variables_; }
+    std::span<const timeseries::DamagedVariable> damaged() const override {
+        return file_->damaged();
+    }
+    Field read(std::size_t variable, std::size_t step) override {
+        Field field = file_->read(variable, step);
+        field.grid = grids_.of(field.grid);
+        return field;
+    }
+    std::optional<timeseries::StepSpan> stepsOf(std::size_t variable,
+                                                std::size_t file) const override {
+        return file_->stepsOf(variable, file);
+    }
+
+ private:
+    std::unique_ptr<Reader> file_;
+    Grids grids_;
+    std::vector<Variable> variables_;
+};
+
+}  // namespace
+
+void chooseAxes(Dataset& dataset, const Axes& axes) {
+    if (axes == Axes{}) return;
+    dataset.reader = std::make_unique<AxesReader>(std::move(dataset.reader), axes);
+    const auto all = dataset.reader->variables();
+    dataset.variables.assign(all.begin(), all.end());
+    dataset.about = dataset.variables[dataset.variable];
+}
+
+}  // namespace app

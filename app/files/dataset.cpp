@@ -1,0 +1,102 @@
+#include "app/files/dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "render/annotate/ticks.h"
+
+namespace app {
+
+using timeseries::FileError;
+
+namespace {
+
+OpenedSeries joinedOrAlone(timeseries::ExpandedSeries series) {
+    try {
+        auto reader = timeseries::openReader(series.files);
+        return {std::move(reader), std::move(series)};
+    } catch (const FileError& error) {
+        if (!series.here) throw;
+        const auto& file = series.files[*series.here];
+        const std::string note = fmt::format("only this file is opened, not the {}: {}",
+                                             series.recognised, error.what());
+        auto reader = timeseries::openReader(std::span(&file, 1));
+        return {std::move(reader), {{file}, {}, "", {note}}};
+    }
+}
+
+}  // namespace
+
+OpenedSeries openSeries(std::span<const std::filesystem::path> named) {
+    OpenedSeries opened = joinedOrAlone(timeseries::expandSeries(named));
+    for (const timeseries::DamagedVariable& each : opened.reader->damaged())
+        opened.series.notes.push_back(fmt::format("'{}' is left out: {}", each.name, each.why));
+    return opened;
+}
+
+std::size_t defaultVariable(std::span<const timeseries::Variable> variables) {
+    const auto worth = [](const timeseries::Variable& v) {
+        const auto [nx, ny, nz] = v.grid->size();
+        // A section of one column or row has levels too, but is no volume.
+        return std::tuple(nx > 1 && ny > 1 ? nz : 1, v.time->points.size(), v.grid->count());
+    };
+    return static_cast<std::size_t>(std::ranges::max_element(variables, {}, worth) -
+                                    variables.begin());
+}
+
+Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable) {
+    auto [reader, series] = openSeries(named);
+    Dataset dataset{std::move(reader), std::move(series), 0, {}, named.front().string(), 0, {}};
+    for (const timeseries::DamagedVariable& each : dataset.reader->damaged())
+        if (each.name == variable) throw FileError(each.why);
+    const auto variables = dataset.reader->variables();
+    dataset.variable = defaultVariable(variables);
+    std::string names;
+    bool found = variable.empty();
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+        names += (names.empty() ? "" : ", ") + variables[i].name;
+        if (variables[i].name != variable) continue;
+        dataset.variable = i;
+        found = true;
+    }
+    if (!found)
+        throw FileError(
+            fmt::format("{}: no variable '{}'; it has {}", dataset.name, variable, names));
+    dataset.about = variables[dataset.variable];
+    dataset.variables.assign(variables.begin(), variables.end());
+    timeseries::StepSpan span{0, dataset.stepCount()};
+    if (dataset.series.here)
+        span = dataset.reader->stepsOf(dataset.variable, *dataset.series.here).value_or(span);
+    dataset.defaultStep = span.first + span.count / 2;
+    return dataset;
+}
+
+std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice) {
+    const std::size_t count = dataset.stepCount(), last = choice.last.value_or(count - 1);
+    if (last >= count || choice.first > last)
+        throw FileError(fmt::format("{}: no step {}; variable {} has steps 0 to {}", dataset.name,
+                                    std::max(last, choice.first), dataset.about.name, count - 1));
+    std::vector<std::size_t> steps((last - choice.first) / choice.stride + 1);
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = choice.first + i * choice.stride;
+    return steps;
+}
+
+std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
+    const timeseries::TimePoint& point = axis.points[step];
+    if (!point.date.empty()) return point.date;
+    if (axis.counted) return fmt::format("step {}", step);
+    return render::shownUnit(axis.units).empty()
+               ? fmt::format("{} {:.10g}", axis.name, point.value)
+               : fmt::format("{:.10g} {}", point.value, axis.units);
+}
+
+std::string withCommas(std::uint64_t count) {
+    std::string text = std::to_string(count);
+    for (std::ptrdiff_t at = std::ssize(text) - 3; at > 0; at -= 3)
+        text.insert(static_cast<std::size_t>(at), ",");
+    return text;
+}
+
+}  // namespace app

@@ -1,0 +1,58 @@
+// A file opened and one of its variables chosen.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/choices/explorer.h"
+#include "timeseries/index/sorted_step.h"
+#include "timeseries/readers/reader.h"
+#include "timeseries/readers/series_files.h"
+
+namespace app {
+
+// What a user named, opened.
+struct OpenedSeries {
+    std::unique_ptr<timeseries::Reader> reader;
+    timeseries::ExpandedSeries series;  // the files opened, and what is told of them
+};
+
+// A member of a numbered series, a folder, a pattern, or several files. Files that were found
+// beside the one named, but cannot be joined with it, are left out with a note that tells why; so
+// are damaged variables. Throws FileError.
+OpenedSeries openSeries(std::span<const std::filesystem::path> named);
+
+struct Dataset {
+    std::unique_ptr<timeseries::Reader> reader;
+    timeseries::ExpandedSeries series;
+    std::size_t variable = 0;
+    timeseries::Variable about;  // a copy: it outlives the reader's move to a loader
+
+    std::string name;             // the file, folder or pattern named first, for messages
+    std::size_t defaultStep = 0;  // the middle one; of the member's own when one was named
+    std::vector<timeseries::Variable> variables = {};  // all that the reader has; copies too
+
+    std::size_t stepCount() const { return about.time->points.size(); }
+};
+
+// Which variable is meant when none is named: the one of the most levels, then of the most steps,
+// then of the most points; of equals the first. REQUIRES: one at least.
+std::size_t defaultVariable(std::span<const timeseries::Variable> variables);
+
+// `variable`: by name; "" is the default one. Throws FileError, also for a name that is not there
+// or of what is damaged.
+Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable);
+
+// The chosen steps, all there; throws FileError when one is not.
+std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice);
+
+// "2000-01-04 12:00:00", "1.1 s", or "step 3".
+std::string timeText(const timeseries::TimeAxis& axis, std::size_t step);
+
+// "13402" -> "13,402".
+std::string withCommas(std::uint64_t count);
+
+}  // namespace app

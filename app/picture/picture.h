@@ -1,0 +1,64 @@
+// From a user's choices and the data of one step to what is drawn. No GL.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "app/choices/explorer.h"
+#include "app/files/dataset.h"
+#include "render/annotate/legend.h"
+#include "render/model/scene.h"
+
+namespace app {
+
+using Steps = std::map<std::size_t, std::shared_ptr<const timeseries::SortedStep>>;
+
+// Whether something is left to choose from the data: a range, a colour map's ends, an opacity, an
+// unbounded sweep.
+bool needsSamples(const Explorer& explorer);
+// The choices with nothing left open, hidden layers' too (showing one later changes no other's
+// colour), from a few steps of the series. A resolved Explorer draws the
+// same picture again whatever is sampled. Throws ChoiceError when an unbounded sweep does not reach
+// the data.
+Explorer resolved(const Explorer& explorer, const Steps& sampled);
+
+// The swept window where it stands at `tick`, as a layer's ranges: it reaches beyond the
+// animation's ends, and only what was kept can be shown. REQUIRES: a resolved explorer with a
+// sweep.
+timeseries::RangeSet sweptRanges(const Explorer& explorer, const timeseries::SortedStep& step,
+                                 std::int64_t tick);
+
+// The choices of one picture of a series: its step alone, and a sweep that stands at `tick`. Draws
+// the same pixels.
+Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, std::int64_t tick);
+
+// "600 to 1600 K", "≥ 600 K", "all values"; "≈ 0.3333333 to 1 K" where doubles were rounded.
+std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& units);
+
+// Where the swept window stands, in as many digits as its width needs: "1426.5 ± 40".
+std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick);
+
+// One step as the explorer wants it drawn. REQUIRES: a resolved explorer; `tick` of its sweep, if
+// it has one. Hidden layers are neither in the scene nor in the legend. `step` and `placed` must
+// outlive the scene. Throws OutsideKeptError when a visible layer asks for values that were
+// dropped.
+render::Scene makeScene(const Explorer& explorer, const timeseries::SortedStep& step,
+                        const render::PlacedPoints& placed, std::int64_t tick = 0);
+// What is said of it. With a clip box every selected point is looked at, for the counts.
+render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& about,
+                          std::size_t stepIndex, const render::Scene& scene, std::int64_t tick = 0);
+// Whether the picture is to say that its colours are mixed (render/frame/mean_depth.h), and how it
+// does. Apart from the legend, for it depends on the view and takes milliseconds.
+bool isMixed(const Explorer& explorer, const render::Scene& scene);
+inline constexpr const char* kMixedColors =
+    "colours mixed, not in depth order (--order depth, or Quality: By depth)";
+struct Picture {
+    render::Scene scene;
+    render::Legend legend;
+};
+Picture makePicture(const Explorer& explorer, const timeseries::Variable& about,
+                    std::size_t stepIndex, const timeseries::SortedStep& step,
+                    const render::PlacedPoints& placed, std::int64_t tick = 0);
+
+}  // namespace app

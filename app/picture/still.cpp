@@ -1,0 +1,31 @@
+#include "app/picture/still.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/choices/camera.h"
+#include "app/files/picture_files.h"
+#include "app/json_text.h"
+#include "app/picture/picture.h"
+#include "render/image/color.h"
+
+namespace app {
+
+const glm::dvec3 kBackground = render::linearFromSrgb(glm::dvec3(13, 17, 23) / 255.0);
+
+bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
+                const render::Extras& extras, const std::filesystem::path& file) {
+    const Explorer& e = still.explorer;
+    const auto views = eyes(e.view, e.stereo, still.placed.boxHalfEdges(), e.size);
+    Picture picture =
+        makePicture(e, still.about, still.stepIndex, still.step, still.placed, still.tick);
+    const bool mixed = isMixed(e, picture.scene);
+    if (mixed) picture.legend.notes.emplace_back(kMixedColors);
+    const Explorer alone = onlyThis(e, still.stepIndex, still.tick);
+    auto eyePictures = renderer.render(
+        {picture.scene, still.step.grid(), picture.legend, kBackground}, onGpu, views, extras);
+    write(file, e.stereo.mode, std::move(eyePictures),
+          {{kSessionKey, jsonText(toJson(alone, file.parent_path(), still.paths), -1)}});
+    return mixed;
+}
+
+}  // namespace app

@@ -1,0 +1,34 @@
+// A picture of one step as files have it: drawn whole, read back, written with its session. The
+// headless command and a window's save are this one path, so that their pictures are the same.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "app/choices/explorer.h"
+#include "app/choices/session.h"
+#include "app/files/dataset.h"
+#include "render/frame/frame.h"
+
+namespace app {
+
+// Of every picture; linear.
+extern const glm::dvec3 kBackground;
+
+struct Still {
+    const Explorer& explorer;  // resolved
+    const timeseries::Variable& about;
+    std::size_t stepIndex;
+    const timeseries::SortedStep& step;
+    const render::PlacedPoints& placed;  // of the explorer's scale
+    std::int64_t tick;                   // of the explorer's sweep, if it has one
+    Paths paths = Paths::Both;           // that its session keeps
+};
+
+// Whether the picture says that its colours are mixed. By the file's ending; two files where the
+// stereo mode makes two. `onGpu` holds the step. Throws ImageError; std::runtime_error on a GL
+// error.
+bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
+                const render::Extras& extras, const std::filesystem::path& file);
+
+}  // namespace app

@@ -1,0 +1,30 @@
+// The opaque reference scene: the points' box and its axes with ticks, numbers and units.
+#pragma once
+
+#include "render/annotate/flat_mesh.h"
+#include "render/points/placed_points.h"
+#include "render/points/view.h"
+
+namespace render {
+
+// Label and title sizes that suit a picture: legible in a small one, not loud in a large one. The
+// font of axes and legend has both.
+FontStyle labelStyle(glm::ivec2 pictureSize);
+FontStyle titleStyle(glm::ivec2 pictureSize);
+
+// All carry the window depth of what they show or stand beside. Edges are cut at the near plane and
+// stand before ticks, six vertices a line; where a text stands, lines are left out.
+struct AxesMeshes {
+    FlatMesh behind;   // edges behind all that the box holds: drawn before the volume
+    FlatMesh before;   // edges before it or on its outline, and ticks: drawn over it
+    FlatMesh grounds;  // of the labels
+    FlatMesh labels;
+};
+// Labels lie inside the picture, apart from each other and from what `legend` draws: render/
+// axis_labels.h has the rules. All is chosen for the middle, `midEye` (world), so that both eyes
+// have the same labels. REQUIRES: `font` has labelStyle(view.size).
+AxesMeshes axesMeshes(const timeseries::Grid& grid, const PlacedPoints& placed, const View& view,
+                      const glm::dvec3& midEye, const Font& font, const FlatMesh& legend = {},
+                      const glm::dvec3& background = glm::dvec3(0));
+
+}  // namespace render

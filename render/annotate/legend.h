@@ -1,0 +1,34 @@
+// What a picture says of itself in words: variable, time, layers, and what was bent to draw it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/annotate/flat_mesh.h"
+#include "render/model/scene.h"
+
+namespace render {
+
+struct LegendLayer {
+    RangeStyle style;
+    std::string range;   // "600:1600 K"
+    std::string amount;  // "13,402 points, 6.2 %"
+    // The values that a colour bar covers, in order; the map's ends where absent.
+    std::optional<std::pair<double, double>> shown = {};
+};
+
+struct Legend {
+    std::string title;                // "T, temperature (K)"
+    std::string time;                 // "1.10 s, step 13 of 31"
+    std::vector<LegendLayer> layers;  // in the order of the scene's
+    std::vector<std::string> notes;   // "depth drawn stretched", "drawn in index space"
+    std::string emptiness = {};       // "all 8 points of this step are missing"; "" when not
+};
+
+FlatMesh legendMesh(const Legend& legend, const Font& font, glm::ivec2 pictureSize);
+// What is drawn under it: one plate under texts that stand close to each other.
+FlatMesh legendGround(const FlatMesh& legend, glm::ivec2 pictureSize, const glm::dvec3& background);
+
+}  // namespace render

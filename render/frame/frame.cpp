@@ -1,0 +1,258 @@
+#include "render/frame/frame.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "render/gl/debug_output.h"
+#include "render/model/splat_cost.h"
+
+namespace render {
+namespace {
+
+constexpr double kAll = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t kAllSplats = std::numeric_limits<std::uint64_t>::max();
+
+std::array<FontStyle, 2> stylesFor(glm::ivec2 size) { return {labelStyle(size), titleStyle(size)}; }
+
+}  // namespace
+
+glm::dvec3 midEye(std::span<const View> eyes) {
+    glm::dvec3 sum(0);
+    for (const View& eye : eyes) sum += pixelRays(eye).eye;
+    return sum / static_cast<double>(eyes.size());
+}
+
+// A driver that draws on the processor takes several times longer for point sprites than the
+// program does for their pixels (tests/bench/NOTES.md).
+FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
+    : styles_(stylesFor({64, 64})),
+      font_(styles_),
+      by_(splatter == SplatterChoice::ByDevice
+              ? (gl::drawsOnProcessor() ? SplatterChoice::Cpu : SplatterChoice::Gl)
+              : splatter),
+      as_(as) {
+    inMemory_.setFont(font_);
+}
+
+FrameRenderer::Gl& FrameRenderer::needGl() {
+    if (!gl_) {
+        gl_ = std::make_unique<Gl>();
+        gl_->light.setFont(font_);
+    }
+    return *gl_;
+}
+
+void FrameRenderer::makeRoom(std::span<const View> eyes, const LightPass& light) {
+    const auto isFor = [&](const Held& held, const View& eye) {
+        return held.of == &light && held.targets->size() == eye.size;
+    };
+    for (const View& eye : eyes)
+        if (std::ranges::none_of(targets_, [&](const Held& held) { return isFor(held, eye); }))
+            targets_.push_back({&light, light.targets(eye.size)});
+    std::erase_if(targets_, [&](const Held& held) {
+        return std::ranges::none_of(eyes, [&](const View& eye) { return isFor(held, eye); });
+    });
+    // Letters of one size for all eyes, or they would not be seen as one.
+    const auto styles = stylesFor(eyes.front().size);
+    if (styles == styles_) return;
+    font_ = Font(styles);
+    if (gl_) gl_->light.setFont(font_);
+    styles_ = styles;
+}
+
+Targets& FrameRenderer::use(glm::ivec2 size, const LightPass& light) {
+    const auto found = std::ranges::find_if(targets_, [&](const Held& held) {
+        return held.of == &light && held.targets->size() == size;
+    });
+    assert(found != targets_.end());
+    current_ = static_cast<std::size_t>(found - targets_.begin());
+    return targets();
+}
+
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+                                               std::span<const View> eyes) {
+    return prepare(content, step, eyes, listFor(content.scene, eyes));
+}
+
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+                                               std::span<const View> eyes, DrawList list) {
+    return prepare(content, step, eyes, std::move(list), as_);
+}
+
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+                                               std::span<const View> eyes, DrawList list,
+                                               LightAs as) {
+    LightPass& light = lightFor(content, eyes);
+    makeRoom(eyes, light);
+    ++orders_;
+    const Scene& scene = content.scene;
+    // GL's own upload does it.
+    if (&light != &inMemory_ && !takesPointsFromGpu())
+        needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
+    return {content, splatter().prepare(scene, std::move(list), step), midEye(eyes), light, as};
+}
+
+LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
+    if (takesPointsFromGpu() || !MemoryLight::canDraw(content.placards, eyes))
+        return needGl().light;
+    return inMemory_;
+}
+
+Splatter& FrameRenderer::splatter() {
+    if (takesPointsFromGpu()) return needGl().splatter;
+    if (by_ == SplatterChoice::Exact) return exact_;
+    return processor_;
+}
+
+DrawList FrameRenderer::listFor(const Scene& scene, std::span<const View> eyes) {
+    return by_ == SplatterChoice::Exact ? orderExactly(scene, midEye(eyes))
+                                        : order_(scene, midEye(eyes));
+}
+
+void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
+    EyeInWork work = begin(frame, eye);
+    goOn(work, kAll);
+}
+
+FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View& eye) {
+    ++eyes_;
+    const FrameContent& content = frame.content;
+    FlatMesh legend = legendMesh(content.legend, font_, eye.size);
+    AxesMeshes axes = axesMeshes(content.grid, content.scene.placed, eye, frame.midEye, font_,
+                                 legend, content.background);
+    return {frame, eye, std::move(legend), std::move(axes), splatCosts(content.scene, eye)};
+}
+
+bool FrameRenderer::goOn(EyeInWork& work, double cost) {
+    if (!drawSplats(work, cost)) return false;
+    const Prepared& frame = work.frame;
+    const FrameContent& content = frame.content;
+    frame.light.drawLight(
+        {content.scene, work.eye, content.background, work.axes, work.legend, content.placards},
+        frame.as, use(work.eye.size, frame.light));
+    return true;
+}
+
+void FrameRenderer::drawWhole(const Prepared& frame, const View& eye,
+                              const std::function<void(double)>& progress) {
+    constexpr double kAtOnce = 1 << 18;  // half a second on two cores without a GPU
+    if (!progress) return drawEye(frame, eye);
+    const double whole = cost(frame, eye);
+    EyeInWork work = begin(frame, eye);
+    while (!goOn(work, kAtOnce)) progress(std::min(work.cost / whole, 1.0));
+}
+
+// Of the planes in turn; one that takes every layer has their mean.
+std::vector<double> FrameRenderer::splatCosts(const Scene& scene, const View& eye) const {
+    std::vector<double> costs;
+    if (scene.order == Order::None) {
+        for (std::size_t k = 0; k < scene.layers.size(); ++k)
+            costs.push_back(splatCost(scene, k, eye));
+        return costs;
+    }
+    std::uint64_t splats = 0;
+    for (const Layer& layer : scene.layers) splats += splatCount(layer, scene.stride);
+    const auto count = static_cast<double>(std::max(splats, std::uint64_t{1}));
+    return {std::max(1.0, sceneCost(scene, eye) / count)};
+}
+
+double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
+    const Scene& scene = frame.content.scene;
+    const std::vector<Channels> channels = channelsFor(scene);
+    const std::vector<double> each = splatCosts(scene, eye);
+    double sum = 0;
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        sum += each[i] * static_cast<double>(frame.splats->splats(channels[i], i));
+    return sum;
+}
+
+std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
+                                              std::span<const View> eyes, const Extras& extras) {
+    if (takesPointsFromGpu()) step.upload(content.scene, neededScale(content.scene));
+    const Prepared frame =
+        prepare(content, step, eyes, listFor(content.scene, eyes), LightAs::Linear);
+    std::vector<EyePicture> pictures;
+    for (const View& eye : eyes) {
+        drawWhole(frame, eye, extras.progress);
+        pictures.push_back({targets().readLight(), {}, {}});
+    }
+    if (extras.opticalDepth || extras.splatCount)
+        addData(content, step, eyes, frame.light, extras, pictures);
+    if (gl_) gl::throwOnError();
+    return pictures;
+}
+
+void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
+                                 std::span<const View> eyes,
+                                 const std::function<void(std::size_t eye, Targets&)>& show) {
+    GlLight& light = needGl().light;
+    makeRoom(eyes, light);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        light.drawPlacards(placards, background, eyes[i], use(eyes[i].size, light));
+        show(i, targets());
+    }
+}
+
+bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
+    const FrameContent& content = work.frame.content;
+    const std::vector<Channels> channels = channelsFor(content.scene);
+    LightPass& light = work.frame.light;
+    Targets& targets = use(work.eye.size, light);
+    if (work.plane == 0 && !work.sum)
+        light.drawDepth(work.axes.behind, content.placards, work.eye, targets);
+    const double until = work.cost + std::max(cost, 1.0);
+    for (; work.plane < channels.size(); ++work.plane, work.sum.reset()) {
+        if (work.cost >= until) return false;
+        if (!work.sum)
+            work.sum =
+                work.frame.splats->begin(work.eye, channels[work.plane], work.plane, targets);
+        const double each = work.splatCosts[work.plane];
+        constexpr double kMost = 1e18;
+        while (!work.sum->done() && work.cost < until) {
+            const double splats = std::min(std::ceil((until - work.cost) / each), kMost);
+            work.cost +=
+                each * static_cast<double>(work.sum->add(static_cast<std::uint64_t>(splats)));
+        }
+        if (!work.sum->done()) return false;
+    }
+    return true;
+}
+
+// From the runs: an ordered list interleaves the layers.
+void FrameRenderer::addData(const FrameContent& content, GpuStep& step, std::span<const View> eyes,
+                            LightPass& light, const Extras& extras,
+                            std::vector<EyePicture>& pictures) {
+    Scene scene = content.scene;
+    scene.order = Order::None;
+    if (takesPointsFromGpu()) step.upload(scene, neededScale(scene));
+    const auto splats = splatter().prepare(scene, Runs{}, step);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        EyePicture& picture = pictures[i];
+        if (extras.splatCount)
+            picture.splatCount = dataPlane(*splats, eyes[i], Channels::Count, 0, light);
+        if (!extras.opticalDepth) continue;
+        picture.opticalDepth.resize(picture.image.pixels.size());
+        for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+            const auto perWeight =
+                static_cast<float>(opticalDepthPerWeight(scene.layers[k].style.opacity));
+            const std::vector<float> weight =
+                dataPlane(*splats, eyes[i], Channels::Weight, k, light);
+            for (std::size_t p = 0; p < weight.size(); ++p)
+                picture.opticalDepth[p] += perWeight * weight[p];
+        }
+    }
+}
+
+std::vector<float> FrameRenderer::dataPlane(SplatFrame& splats, const View& view, Channels channels,
+                                            std::size_t layer, LightPass& light) {
+    Targets& targets = use(view.size, light);
+    light.drawDepth({}, {}, view, targets);
+    const auto sum = splats.begin(view, channels, layer, targets);
+    while (!sum->done()) sum->add(kAllSplats);
+    return targets.readScalarPlane(layer);
+}
+
+}  // namespace render

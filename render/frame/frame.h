@@ -1,0 +1,149 @@
+// One frame for any number of eyes: opaque scene, splats, resolve, legend. The draw list is ordered
+// and uploaded once and drawn once an eye, whichever front end asks.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/frame/gl_light.h"
+#include "render/frame/memory_light.h"
+#include "render/gl/driver.h"
+#include "render/reference/exact_splatter.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/gl_list.h"
+#include "render/splat/processor_splatter.h"
+
+namespace render {
+
+struct FrameContent {
+    const Scene& scene;
+    const timeseries::Grid& grid;  // the scene's, for axes
+    Legend legend;
+    glm::dvec3 background{0};  // linear
+    // Opaque, like the axes; they hide labels.
+    std::span<const Placard> placards = {};
+};
+
+// What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for. These
+// hold data alone: what the picture shows beside it, lines and placards, hides nothing of them.
+struct EyePicture {
+    Image image;
+    std::vector<float> opticalDepth;  // of all layers together
+    std::vector<float> splatCount;    // splats that touch the pixel
+};
+struct Extras {
+    bool opticalDepth = false, splatCount = false;
+    // Told now and then which share of a picture's splats is drawn, [0, 1].
+    std::function<void(double)> progress = {};
+};
+
+// Where all eyes' draw list is made for.
+glm::dvec3 midEye(std::span<const View> eyes);
+
+// Needs a current GL context, from construction to destruction, unless it is Cpu or Exact and what
+// it draws has neither placards nor hidden areas.
+class FrameRenderer {
+ public:
+    // `as`: what front ends want of light that the program makes in memory.
+    explicit FrameRenderer(SplatterChoice splatter = SplatterChoice::ByDevice,
+                           LightAs as = LightAs::Linear);
+
+    // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
+    // picture does not depend on what was drawn before. Order is taken from the point midway
+    // between the eyes. REQUIRES: at least one eye. Throws std::runtime_error on a GL error.
+    std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
+                                   std::span<const View> eyes, const Extras& extras = {});
+
+    // Whether drawing takes a scene's points from the GPU; else the program sums them itself.
+    bool takesPointsFromGpu() const { return by_ == SplatterChoice::Gl; }
+    // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
+    // step that is ready for the scene, if its points are taken from it.
+    struct Prepared {
+        const FrameContent& content;
+        std::unique_ptr<SplatFrame> splats;
+        glm::dvec3 midEye;
+        LightPass& light;
+        LightAs as;
+    };
+    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
+    // With a list that somebody else has made for midEye(eyes), if it is not Exact's.
+    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
+                     DrawList list);
+    // One of the eyes that the frame was prepared for; its light is then in targets().
+    void drawEye(const Prepared& frame, const View& eye);
+    // The same bit for bit over several frames, in which nothing else is drawn. Frame and view must
+    // outlive it.
+    struct EyeInWork {
+        const Prepared& frame;
+        const View& eye;
+        FlatMesh legend;
+        AxesMeshes axes;
+        std::vector<double> splatCosts;  // of each plane; render/model/splat_cost.h
+        std::size_t plane = 0;           // to go on with
+        std::unique_ptr<PlaneSum> sum = {};
+        double cost = 0;  // of what is drawn so far, in ordinary splats
+    };
+    EyeInWork begin(const Prepared& frame, const View& eye);
+    // Draws until this cost is reached, or a little more: what a splatter adds at least.
+    // True when the light is in targets(); before, there is nothing to see.
+    bool goOn(EyeInWork& work, double cost);
+    double cost(const Prepared& frame, const View& eye) const;  // of the whole eye
+    // Eyes that see nothing but placards, each shown once it is drawn.
+    void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
+                      std::span<const View> eyes,
+                      const std::function<void(std::size_t eye, Targets&)>& show);
+    Targets& targets() { return *targets_[current_].targets; }  // of the eye drawn last
+
+    struct Counts {
+        std::uint64_t orders = 0, eyes = 0;
+    };
+    Counts counts() const { return {orders_, eyes_}; }
+
+ private:
+    // Keeps targets of these eyes' sizes, and no others.
+    void makeRoom(std::span<const View> eyes, const LightPass& light);
+    Targets& use(glm::ivec2 size, const LightPass& light);  // which targets() then are
+    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
+                     DrawList list, LightAs as);
+    struct Gl {
+        GlSplatter splatter;
+        GlLight light{splatter.layerBlock()};
+    };
+    Gl& needGl();  // made when it is first needed
+    LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
+    Splatter& splatter();
+    DrawList listFor(const Scene& scene, std::span<const View> eyes);
+    std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
+    bool drawSplats(EyeInWork& work, double cost);
+    void drawWhole(const Prepared& frame, const View& eye,
+                   const std::function<void(double)>& progress);
+    // Data alone: what the picture shows beside it hides nothing.
+    void addData(const FrameContent& content, GpuStep& step, std::span<const View> eyes,
+                 LightPass& light, const Extras& extras, std::vector<EyePicture>& pictures);
+    // Row 0 at the top.
+    std::vector<float> dataPlane(SplatFrame& splats, const View& view, Channels channels,
+                                 std::size_t layer, LightPass& light);
+
+    std::array<FontStyle, 2> styles_;  // that font_ holds
+    Font font_;
+    DepthOrder order_;
+    ProcessorSplatter processor_;
+    ExactSplatter exact_;
+    MemoryLight inMemory_;
+    std::unique_ptr<Gl> gl_;
+    struct Held {
+        const LightPass* of;
+        std::unique_ptr<Targets> targets;
+    };
+    std::vector<Held> targets_;  // all of different sizes
+    std::size_t current_ = 0;
+    SplatterChoice by_;  // never ByDevice
+    LightAs as_;
+    std::uint64_t orders_ = 0, eyes_ = 0;
+};
+
+}  // namespace render

@@ -1,0 +1,76 @@
+#include "render/frame/frame_pace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace render {
+namespace {
+
+constexpr std::size_t kFrames = 8;
+// Times of 0, from a clock that is too coarse, must not stop the model for good.
+constexpr double kLeastPerSplatNs = 1e-4;
+// Frames whose splats differ by less say nothing of what a splat costs.
+constexpr double kTellingDifference = 0.05;
+// A model from few frames may promise too much.
+constexpr double kMostGrowth = 3;
+
+double ns(std::chrono::nanoseconds time) { return static_cast<double>(time.count()); }
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+}  // namespace
+
+FramePace::FramePace(std::chrono::nanoseconds target, std::uint64_t first)
+    : targetNs_(ns(target)), budget_(first) {}
+
+void FramePace::setTarget(std::chrono::nanoseconds target) {
+    targetNs_ = ns(target);
+    if (!recent_.empty()) follow();
+}
+
+void FramePace::took(std::uint64_t splats, std::chrono::nanoseconds time) {
+    recent_.push_back({static_cast<double>(splats), std::max(ns(time), 0.0)});
+    if (recent_.size() > kFrames) recent_.pop_front();
+    fit();
+    follow();
+}
+
+std::chrono::nanoseconds FramePace::costOf(std::uint64_t splats) const {
+    return std::chrono::nanoseconds(std::llround(perSplatNs_ * static_cast<double>(splats)));
+}
+
+void FramePace::fit() {
+    std::vector<double> slopes, fixed, shares;
+    for (std::size_t i = 1; i < recent_.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const Frame &a = recent_[i], &b = recent_[j];
+            const double apart = a.splats - b.splats;
+            if (std::abs(apart) > kTellingDifference * std::max(a.splats, b.splats))
+                slopes.push_back((a.ns - b.ns) / apart);
+        }
+    for (const Frame& f : recent_) shares.push_back(f.ns / std::max(f.splats, 1.0));
+    // Nothing tells the two apart in a first frame.
+    if (recent_.size() == 1) perSplatNs_ = shares[0] / 2;
+    if (!slopes.empty()) perSplatNs_ = median(std::move(slopes));
+    perSplatNs_ = std::max(perSplatNs_, kLeastPerSplatNs);
+    for (const Frame& f : recent_) fixed.push_back(f.ns - perSplatNs_ * f.splats);
+    fixedNs_ = median(std::move(fixed));
+    if (fixedNs_ >= 0) return;
+    fixedNs_ = 0;
+    perSplatNs_ = std::max(median(std::move(shares)), kLeastPerSplatNs);
+}
+
+void FramePace::follow() {
+    const auto now = static_cast<double>(budget_);
+    const double most = std::min(kMostGrowth * now, static_cast<double>(kMost));
+    const double wanted =
+        std::clamp((targetNs_ - fixedNs_) / perSplatNs_, static_cast<double>(kFewest), most);
+    if (std::abs(wanted - now) >= 0.1 * now) budget_ = static_cast<std::uint64_t>(wanted);
+}
+
+}  // namespace render

@@ -1,0 +1,127 @@
+// What is drawn: layers of runs of one step's sorted points, each with its style, and how splats
+// are shaped and ordered. Plain values; no GL.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <variant>
+#include <vector>
+
+#include "render/model/color_map.h"
+#include "render/points/placed_points.h"
+#include "render/points/subset.h"
+#include "timeseries/index/sorted_step.h"
+
+namespace render {
+
+struct Constant {
+    glm::dvec3 linearRgb;
+};
+struct ByValue {
+    ColorMap map;
+    double lo, hi;  // values of the map's two ends; lo >= hi gives its middle everywhere
+    double halfWidth() const { return 0.5 * hi - 0.5 * lo; }  // halves: the whole may overflow
+};
+
+// Where a value stands on a scale from 0 at `lo` to 1, two half widths farther. All that turns
+// values into colours asks this. REQUIRES: halfWidth > 0.
+inline double placeOnScale(double value, double lo, double halfWidth) {
+    return (0.5 * value - 0.5 * lo) / halfWidth;
+}
+
+// Position of a value in its map, [0, 1]; the limit case lo == hi is the middle.
+inline double mapPosition(const ByValue& style, double value) {
+    if (!(style.halfWidth() > 0)) return 0.5;
+    return std::clamp(placeOnScale(value, style.lo, style.halfWidth()), 0.0, 1.0);
+}
+
+struct RangeStyle {
+    std::variant<Constant, ByValue> color;
+    double opacity = 0.5;  // of one unit length l of fully selected points, [0, 1]
+};
+
+// Linear, of a point of this value.
+inline glm::dvec3 colorOf(const RangeStyle& style, double value) {
+    if (const auto* constant = std::get_if<Constant>(&style.color)) return constant->linearRgb;
+    const auto& byValue = std::get<ByValue>(style.color);
+    return glm::dvec3(byValue.map.at(mapPosition(byValue, value)));
+}
+
+// Optical depth per unit of accumulated weight W. Opacity 1 stands for the 16 at which nothing
+// visible (1e-7) comes through: infinity would make 0 * inf of empty pixels.
+inline double opticalDepthPerWeight(double opacity) {
+    constexpr double kOpaque = 16;
+    return opacity >= 1 ? kOpaque : std::min(kOpaque, -std::log1p(-opacity));
+}
+
+struct Layer {
+    std::vector<timeseries::Run> runs;  // as SortedStep::select gives them
+    RangeStyle style;
+};
+constexpr std::size_t kMaxLayers = 8;
+
+// All have one and the same constant colour, or there is none: what is in front of what does not
+// show, whatever their opacities.
+bool areOneColor(const std::vector<Layer>& layers);
+
+std::uint64_t pointCount(const Layer& layer);
+// What a scene's stride is for this layer: halved until a point is drawn, if there is one.
+std::uint32_t strideOf(const Layer& layer, std::uint32_t stride);
+std::uint64_t splatCount(const Layer& layer, std::uint32_t stride);  // drawn of the points
+// The exact share: a layer's mass is the same at every stride.
+double pointsPerSplat(const Layer& layer, std::uint32_t stride);
+
+enum class Kernel {
+    Point,   // a square of `size` pixels, rounded to whole ones
+    Quartic  // (1 - q)^4, `size` times the radius that suits the spacing
+};
+struct Footprint {
+    Kernel kernel = Kernel::Quartic;
+    double size = 1;
+    friend bool operator==(const Footprint&, const Footprint&) = default;
+};
+enum class Order { None, BackToFront };
+
+// Refers to the step and the placed points, which must outlive it.
+struct Scene {
+    const timeseries::SortedStep& step;
+    const PlacedPoints& placed;
+    std::vector<Layer> layers;  // at most kMaxLayers
+    Footprint footprint;
+    Order order = Order::None;
+    IndexBox clip;
+    // One of so many points is drawn and stands for its neighbours in value: less to draw, for the
+    // same mass. A power of two, at most kMaxStride; which points: render/points/subset.h.
+    std::uint32_t stride = 1;
+};
+
+// What the step knows of its points, of which only those of the scene's runs may be read.
+timeseries::Columns columnsOf(const Scene& scene);
+// As colours take it.
+inline double valueOf(const timeseries::Columns& columns, std::uint64_t point) {
+    return std::visit([&](auto values) { return static_cast<double>(values[point]); },
+                      columns.values);
+}
+
+// The draw list: the runs as they lie, or one list of all layers' points, farthest first.
+struct Runs {};
+struct Sorted {
+    std::vector<std::uint32_t> point;  // position in the sorted step
+    std::vector<std::uint8_t> layer;
+};
+using DrawList = std::variant<Runs, Sorted>;
+
+// What a plane of pixels accumulates. Weight (W) and WeightedColor (W times colour, W) belong to
+// one layer each; Over (premultiplied colour, opacity) and Count (splats that touch the pixel) take
+// every layer and stand alone.
+enum class Channels { Weight, WeightedColor, Over, Count };
+inline std::size_t floatsPerPixel(Channels channels) {
+    return channels == Channels::Weight || channels == Channels::Count ? 1 : 4;
+}
+// What the scene's picture needs: one entry a layer, or a single Over when it is ordered.
+std::vector<Channels> channelsFor(const Scene& scene);
+
+}  // namespace render

@@ -1,0 +1,214 @@
+#include "render/points/placed_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace render {
+namespace {
+
+using timeseries::Axis;
+using timeseries::Grid;
+
+using Wide = long double;
+
+Wide extent(const Axis& axis) {
+    return std::abs(Wide{axis.coordinates.back()} - Wide{axis.coordinates.front()});
+}
+
+// Lengths of other units cannot be compared: such an axis might be drawn as a sheet or a needle.
+std::array<Wide, 3> fittedStretch(const Grid& grid) {
+    constexpr Wide kFittedShare = 0.5;
+    const auto& axes = grid.axes();
+    // The axes that share the first axis's unit keep their proportions and lead.
+    const std::string leading = comparableUnit(axes[0]);
+    Wide longest = 0;
+    for (const Axis& axis : axes)
+        if (comparableUnit(axis) == leading) longest = std::max(longest, extent(axis));
+    if (longest == 0)
+        for (const Axis& axis : axes) longest = std::max(longest, extent(axis));
+    std::array<Wide, 3> stretch{1, 1, 1};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Wide length = extent(axes[a]);
+        if (length == 0) continue;
+        if (comparableUnit(axes[a]) != leading) stretch[a] = kFittedShare * longest / length;
+    }
+    return stretch;
+}
+
+// How far the box's corners are from its centre, at most.
+Wide farthestCorner(const glm::dmat3& directions, const std::array<Wide, 3>& half) {
+    Wide farthest2 = 0;
+    for (int corner = 0; corner < 4; ++corner) {  // the other four lie opposite
+        Wide distance2 = 0;
+        for (int c = 0; c < 3; ++c) {
+            const Wide sum = half[0] * Wide{directions[0][c]} +
+                             (corner & 1 ? half[1] : -half[1]) * Wide{directions[1][c]} +
+                             (corner & 2 ? half[2] : -half[2]) * Wide{directions[2][c]};
+            distance2 += sum * sum;
+        }
+        farthest2 = std::max(farthest2, distance2);
+    }
+    return std::sqrt(farthest2);
+}
+
+double mean(const std::vector<double>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
+
+}  // namespace
+
+std::string comparableUnit(const Axis& axis) {
+    return axis.units.starts_with("degree") ? "degree" : axis.units;
+}
+
+PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch)
+    : worldFromAxes_(grid.frame().directions) {
+    // Thinner boxes and cells could not be seen; their volumes would leave the GPU's floats.
+    constexpr Wide kThinnestBox = 1e-9L, kThinnestCell = 1e-15L;
+    const auto stretched =
+        stretch ? std::array<Wide, 3>{stretch->x, stretch->y, stretch->z} : fittedStretch(grid);
+    std::array<Wide, 3> half{};
+    for (std::size_t a = 0; a < 3; ++a) half[a] = extent(grid.axes()[a]) / 2 * stretched[a];
+    Wide radius = farthestCorner(worldFromAxes_, half);
+    if (!(radius > 0)) radius = 1;
+    double thinnest = 0;  // an axis of one point takes the smallest mean width of the others
+    for (int a = 0; a < 3; ++a) {
+        const Axis& axis = grid.axes()[a];
+        const Wide length = extent(axis);
+        const Wide size = length > 0 ? std::max(half[a] / radius, kThinnestBox) : 0;
+        const Wide perUnit = length > 0 ? 2 * size / length : stretched[a] / radius;
+        boxHalf_[a] = static_cast<double>(size);
+        centre_[a] = (Wide{axis.coordinates.front()} + Wide{axis.coordinates.back()}) / 2;
+        scale_[a] = axis.down ? -perUnit : perUnit;
+        for (std::size_t i = 0; i < axis.coordinates.size(); ++i) {
+            positions_[a].push_back(
+                static_cast<double>((Wide{axis.coordinates[i]} - centre_[a]) * scale_[a]));
+            // No cell is longer than its axis: the width of the widest overflows.
+            const Wide width = std::min(std::abs(Wide{axis.width(i)}), length) * perUnit;
+            widths_[a].push_back(static_cast<double>(std::max(width, kThinnestCell)));
+        }
+        if (axis.coordinates.size() > 1 && (thinnest == 0 || mean(widths_[a]) < thinnest))
+            thinnest = mean(widths_[a]);
+    }
+    if (thinnest == 0) thinnest = 1;
+    for (int a = 0; a < 3; ++a)
+        if (widths_[a].size() == 1) widths_[a][0] = thinnest;
+    unitLength_ = std::cbrt(mean(widths_[0]) * mean(widths_[1]) * mean(widths_[2]) *
+                            std::abs(glm::determinant(worldFromAxes_)));
+    constexpr double kLong = 3;
+    double longest = 0;
+    for (const auto& widths : widths_)
+        longest = std::max(longest, *std::ranges::max_element(widths));
+    longCells_ = longest > kLong * thinnest;
+}
+
+glm::uvec3 PlacedPoints::size() const {
+    return {positions_[0].size(), positions_[1].size(), positions_[2].size()};
+}
+
+glm::dvec3 PlacedPoints::scale() const {
+    constexpr Wide kMost = std::numeric_limits<double>::max();
+    glm::dvec3 scale;
+    for (int a = 0; a < 3; ++a)
+        scale[a] = static_cast<double>(std::clamp(scale_[a], -kMost, kMost));
+    return scale;
+}
+
+glm::dvec3 PlacedPoints::axesFromGrid(const glm::dvec3& grid) const {
+    glm::dvec3 along;
+    for (int a = 0; a < 3; ++a)
+        along[a] = static_cast<double>((Wide{grid[a]} - centre_[a]) * scale_[a]);
+    return along;
+}
+
+glm::dvec3 PlacedPoints::gridFromAxes(const glm::dvec3& axes) const {
+    glm::dvec3 along;
+    for (int a = 0; a < 3; ++a)
+        along[a] = static_cast<double>(Wide{axes[a]} / scale_[a] + centre_[a]);
+    return along;
+}
+
+PlacedPoints::Lengthening PlacedPoints::lengthening() const {
+    // The squares are the eigenvalues of the columns' scalar products: 1 + t with
+    // t^3 - (p^2 + q^2 + r^2) t - 2 p q r = 0, whose three real roots are cosines (Viete).
+    const glm::dmat3& m = worldFromAxes_;
+    const double p = glm::dot(m[0], m[1]), q = glm::dot(m[0], m[2]), r = glm::dot(m[1], m[2]);
+    const double third = (p * p + q * q + r * r) / 3;
+    if (!(third > 0)) return {1, 1};
+    const double amplitude = 2 * std::sqrt(third);
+    const double cosine = std::clamp(p * q * r / (third * std::sqrt(third)), -1.0, 1.0);
+    const double angle = std::acos(cosine) / 3;  // [0, pi / 3]
+    const double least = amplitude * std::cos(angle + 2 * std::numbers::pi / 3);
+    return {std::sqrt(1 + least), std::sqrt(1 + amplitude * std::cos(angle))};
+}
+
+View PlacedPoints::inAxes(const View& view) const {
+    return {view.clipFromView, view.viewFromWorld * glm::dmat4(worldFromAxes_), view.size};
+}
+
+glm::dmat3 PlacedPoints::boxHalfEdges() const {
+    return {worldFromAxes_[0] * boxHalf_.x, worldFromAxes_[1] * boxHalf_.y,
+            worldFromAxes_[2] * boxHalf_.z};
+}
+
+bool PlacedPoints::cubes() const {
+    const glm::dmat3 products = glm::transpose(worldFromAxes_) * worldFromAxes_;
+    for (int a = 0; a < 3; ++a)
+        if (std::abs(products[a][(a + 1) % 3]) > 1e-12) return false;
+    for (const auto& widths : widths_)
+        for (const double w : widths)
+            if (std::abs(w - unitLength_) > 1e-12 * unitLength_) return false;
+    return true;
+}
+
+PlacedPoints::Box PlacedPoints::domain() const {
+    Box box{};
+    for (int a = 0; a < 3; ++a) {
+        const auto &at = positions_[a], &width = widths_[a];
+        const bool down = at.front() > at.back();
+        const auto [lo, hi] = std::pair(down ? at.size() - 1 : 0, down ? 0 : at.size() - 1);
+        box.lo[a] = at[lo] - width[lo] / 2;
+        box.hi[a] = at[hi] + width[hi] / 2;
+    }
+    return box;
+}
+
+glm::uvec3 PlacedPoints::indices(std::uint64_t index) const {
+    return timeseries::indicesOf(index, glm::vec<3, std::uint64_t>(size()));
+}
+
+glm::dvec3 PlacedPoints::position(std::uint64_t index) const {
+    return worldFromAxes_ * alongAxes(index);
+}
+
+glm::dvec3 PlacedPoints::alongAxes(std::uint64_t index) const {
+    const glm::uvec3 at = indices(index);
+    return {positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]};
+}
+
+glm::dvec3 PlacedPoints::cell(std::uint64_t index) const {
+    const glm::uvec3 at = indices(index);
+    return {widths_[0][at.x], widths_[1][at.y], widths_[2][at.z]};
+}
+
+IndexBox indexBox(const Grid& grid, const glm::dvec3& lo, const glm::dvec3& hi) {
+    IndexBox box{glm::uvec3(1), glm::uvec3(0)};
+    for (int a = 0; a < 3; ++a) {
+        const auto& c = grid.axes()[a].coordinates;
+        const auto inside = [&](double x) { return lo[a] <= x && x <= hi[a]; };
+        const auto first = std::find_if(c.begin(), c.end(), inside);
+        if (first == c.end()) return {glm::uvec3(1), glm::uvec3(0)};
+        const auto past = std::find_if_not(first, c.end(), inside);  // monotonic: one stretch
+        box.lo[a] = static_cast<std::uint32_t>(first - c.begin());
+        box.hi[a] = static_cast<std::uint32_t>(past - c.begin() - 1);
+    }
+    return box;
+}
+
+}  // namespace render

@@ -1,0 +1,101 @@
+// A grid placed in the world: where its points are drawn and how large their cells are there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/points/view.h"
+#include "timeseries/grid/grid.h"
+
+namespace render {
+
+// World coordinates: z up, the centre of the grid's box at 0, and the box scaled so that its
+// farthest corners are 1 away. That keeps every coordinate near 1 whatever the grid's units and
+// offsets are.
+//
+// Axis coordinates: world lengths along the grid's axes from the same centre. There every box and
+// cell is upright; worldFromAxes() turns and shears them to where they stand, and is the identity
+// for a grid whose axes are those of its space.
+class PlacedPoints {
+ public:
+    // `stretch` multiplies the grid's units, each along its axis, before the uniform scaling.
+    // Without it axes of one unit keep their proportions, however flat, and axes of other units are
+    // fitted to half the length of the longest. Axes that count downwards are drawn downwards.
+    explicit PlacedPoints(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch = {});
+
+    glm::uvec3 size() const;
+    // In the world.
+    glm::dvec3 position(std::uint64_t index) const;
+    glm::dvec3 alongAxes(std::uint64_t index) const;  // in axis coordinates
+    // Lengths of the cell's sides, all > 0.
+    glm::dvec3 cell(std::uint64_t index) const;
+    glm::uvec3 indices(std::uint64_t index) const;  // along the axes
+    // Per axis, by index along it, in axis coordinates.
+    const std::array<std::vector<double>, 3>& positions() const { return positions_; }
+    const std::array<std::vector<double>, 3>& widths() const { return widths_; }
+
+    // Columns: the directions of the axes in the world, of length 1.
+    const glm::dmat3& worldFromAxes() const { return worldFromAxes_; }
+    // What a length in axis coordinates is in the world, at least and at most: the singular values
+    // of worldFromAxes().
+    struct Lengthening {
+        double least, most;
+    };
+    Lengthening lengthening() const;
+    // The view as it sees axis coordinates: no longer rigid when the axes are oblique.
+    View inAxes(const View& view) const;
+
+    // The length l in which optical depth is counted: the cube root of the mean cell volume.
+    double unitLength() const { return unitLength_; }
+    // All cells are cubes of one size, to 1e-12.
+    bool cubes() const;
+    // Cells along some axis are more than 3 times as long as those of another are in the mean:
+    // their splats end where the cells do (render/model/footprint.h).
+    bool longCells() const { return longCells_; }
+    // What the cells fill, the half ones around the outermost points included; in axis coordinates.
+    struct Box {
+        glm::dvec3 lo, hi;
+    };
+    Box domain() const;
+    // Half sides of the points' box, in axis coordinates; all zero for a single point.
+    glm::dvec3 boxHalf() const { return boxHalf_; }
+    // The same in the world: columns from the centre of the box to the middles of its faces.
+    glm::dmat3 boxHalfEdges() const;
+    // World length per grid unit along each axis, signed; their ratios are what a picture states.
+    glm::dvec3 scale() const;
+    // In axis coordinates, from the grid's coordinates along its axes.
+    glm::dvec3 axesFromGrid(const glm::dvec3& grid) const;
+    glm::dvec3 gridFromAxes(const glm::dvec3& axes) const;  // and back
+
+ private:
+    std::array<std::vector<double>, 3> positions_, widths_;
+    // Long doubles: products and squares of very large or small extents leave the doubles.
+    std::array<long double, 3> scale_{}, centre_{};
+    glm::dmat3 worldFromAxes_{1.0};
+    glm::dvec3 boxHalf_{0};
+    double unitLength_ = 1;
+    bool longCells_ = false;
+};
+
+// The unit that lengths along an axis are compared in: degrees of longitude and of latitude are
+// drawn alike.
+std::string comparableUnit(const timeseries::Axis& axis);
+
+// Inclusive index ranges per axis; lo > hi along an axis holds nothing.
+struct IndexBox {
+    glm::uvec3 lo{0}, hi{0xffffffffu};
+    bool holds(const glm::uvec3& at) const {
+        return at.x >= lo.x && at.y >= lo.y && at.z >= lo.z && at.x <= hi.x && at.y <= hi.y &&
+               at.z <= hi.z;
+    }
+};
+// The points inside closed ranges of the grid's coordinates along its axes: what `info` and the
+// labels of a picture tell, also of a rotated or sheared grid.
+IndexBox indexBox(const timeseries::Grid& grid, const glm::dvec3& lo, const glm::dvec3& hi);
+
+}  // namespace render

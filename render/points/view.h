@@ -1,0 +1,54 @@
+// One eye: all that drawing code knows of cameras. Perspective, any asymmetric frustum.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+
+namespace render {
+
+struct HiddenArea;
+
+// Right-handed; view looks along -z, y up. Clip depth is [0, 1], 0 at the near plane. Pixels: (0,
+// 0) is the lower left corner, as in GL; pictures are turned over when they are read back.
+struct View {
+    glm::dmat4 clipFromView{1.0};
+    glm::dmat4 viewFromWorld{1.0};  // rigid, or rigid and one uniform scale
+    glm::ivec2 size{0};
+    // What of the picture nobody sees (render/annotate/hidden_area.h): GL leaves it out. None: all
+    // is seen.
+    std::shared_ptr<const HiddenArea> hidden = {};
+    friend bool operator==(const View&, const View&) = default;
+};
+
+// What GL's depth buffer has for a view depth > 0.
+inline double windowDepth(const View& view, double depth) {
+    return (view.clipFromView[3][2] - view.clipFromView[2][2] * depth) / depth;
+}
+
+// Tangents of the half angles, left and down negative: x / -z of the frustum's sides.
+struct Frustum {
+    double left, right, down, up, near, far;
+};
+glm::dmat4 clipFromView(const Frustum& frustum);
+
+// What the pixels of a view see, in world space. Offsets are window positions (in pixels, pixel
+// centres at .5) less `centre`: the ray of offset d leaves `eye` along
+// axis + d.x perPixelX + d.y perPixelY, whose view depth is 1.
+struct PixelRays {
+    glm::dvec3 eye, axis, perPixelX, perPixelY;
+    glm::dvec2 focal;   // pixels per unit of x / -z and y / -z
+    glm::dvec2 centre;  // window position of the view axis
+    double near;        // view depth of the near plane
+};
+PixelRays pixelRays(const View& view);
+
+// View depth (> 0 in front of the eye) and window position of a world point.
+struct Projected {
+    double depth;
+    glm::dvec2 window;
+};
+Projected project(const View& view, const glm::dvec3& world);
+
+}  // namespace render

@@ -1,0 +1,18 @@
+// The truth as a splatter: the same model in double (render/reference/cpu_splatter.h), in the exact
+// order of depth, on one thread. What other splatters' pictures can be held against.
+#pragma once
+
+#include <vector>
+
+#include "render/splat/splatter.h"
+
+namespace render {
+
+class ExactSplatter final : public Splatter {
+ public:
+    // Asks nothing of the step on the GPU.
+    std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
+                                        const GpuStep& step) override;
+};
+
+}  // namespace render

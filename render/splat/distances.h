@@ -1,0 +1,31 @@
+// How far points of the grid are from one place, many at once, for every processor that the program
+// may meet: Highway chooses among the targets when the program runs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "render/model/scene.h"
+
+namespace render {
+
+class Distances {
+ public:
+    // In the world. the scene's points must outlive this.
+    Distances(const Scene& scene, const glm::dvec3& from);
+
+    // Of the points of these grid indices, each into its place; negative outside of the clip box.
+    void find(std::span<const std::uint32_t> index, std::span<double> away) const;
+
+    // What the kernels take: the grid's size, its positions along each axis, what takes them to
+    // where `from` is the origin (columns), and the clip box.
+    std::array<double, 3> size;
+    std::array<const double*, 3> position;
+    std::array<std::array<double, 3>, 4> fromAxes;
+    std::array<double, 3> clipLo, clipHi;
+    bool clips = false;
+};
+
+}  // namespace render

@@ -1,0 +1,35 @@
+// One frame's draw list on the GPU: what GlSplatter::upload makes and GlSplatter::draw draws.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "render/splat/gl_splatter.h"
+#include "render/splat/pieces.h"
+
+namespace render {
+
+class GpuList {
+ public:
+    // Both must outlive the list. REQUIRES: a step that is ready for the scene.
+    GpuList(const Scene& scene, const DrawList& list, const GpuStep& step, const ValueScale& scale);
+
+    const Scene& scene() const { return scene_; }
+    const GpuStep& step() const { return step_; }
+    bool cubes() const { return cubes_; }
+
+    // What makes up a plane, in the order of drawing; see GlSplatter::draw.
+    std::span<const Piece> pieces(Channels channels, std::size_t layer) const;
+    // Issues the draw calls of some that follow each other; program and state are set.
+    void draw(bool quads, std::span<const Piece> pieces) const;
+
+ private:
+    const Scene& scene_;
+    const GpuStep& step_;
+    bool cubes_;
+    std::vector<Piece> pieces_;
+    std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first
+    gl::VertexArray points_, quads_;    // per vertex and per instance
+};
+
+}  // namespace render

@@ -1,0 +1,240 @@
+#include "render/splat/gl_splatter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "render/gl/pass.h"
+#include "render/model/covered.h"
+#include "render/model/footprint.h"
+#include "render/shader_sources.h"
+#include "render/splat/gl_list.h"
+#include "render/splat/gl_targets.h"
+
+namespace render {
+namespace {
+
+// GLSL mirror: SplatView in shaders/splat.vert.
+struct SplatViewBlock {
+    glm::mat4 viewFromAxes;
+    glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slopeAndLengths;
+    glm::vec4 domainLo, domainHi, boxHalf;
+    glm::uvec4 placed, clipLo, clipHi;
+};
+
+// GLSL mirror: Layers in shaders/splat.vert and shaders/resolve.frag.
+struct LayerBlock {
+    std::array<glm::vec4, kMaxLayers> style, map;
+};
+
+SplatViewBlock viewBlock(const Scene& scene, const View& view, const PointsView& seen, int guard) {
+    SplatViewBlock b{};
+    const glm::dmat4& clip = view.clipFromView;
+    const PixelRays& rays = seen.rays;
+    const Footprint& footprint = scene.footprint;
+    b.viewFromAxes = glm::mat4(scene.placed.inAxes(view).viewFromWorld);
+    b.rayAxis = glm::vec4(glm::dvec4(rays.axis, seen.rayLength));
+    b.perPixelX = glm::vec4(glm::dvec4(rays.perPixelX, rays.focal.x));
+    b.perPixelY = glm::vec4(glm::dvec4(rays.perPixelY, rays.focal.y));
+    b.window = {glm::vec2(rays.centre), glm::vec2(view.size)};
+    b.depths = {rays.near, -clip[2][2], clip[3][2], guard};
+    // A point's mass is its cell's volume; a kernel's is that over the kernel's.
+    const double perSides = footprint.kernel == Kernel::Point ? seen.cellVolume : 1;
+    b.kernel = {footprint.size * kQuarticRadius, seen.smallestRadius, perSides / seen.unitLength,
+                static_cast<float>(pointSide(footprint))};
+    b.slopeAndLengths = glm::vec4(glm::dvec4(
+        1.0 / (rays.focal * rays.focal), seen.lengthening.most / seen.rayLength, seen.pixelArea));
+    b.domainLo = glm::vec4(glm::dvec4(seen.domain.lo, kQuarticRadius));
+    b.domainHi = glm::vec4(glm::dvec4(seen.domain.hi, 0));
+    b.boxHalf = glm::vec4(glm::dvec4(scene.placed.boxHalf(), 0));
+    b.placed = {scene.placed.size(), 0};
+    b.clipLo = {scene.clip.lo, 0};
+    b.clipHi = {scene.clip.hi, 0};
+    return b;
+}
+
+const char* define(Channels channels) {
+    switch (channels) {
+        case Channels::Weight:
+            return "#define WEIGHT\n";
+        case Channels::WeightedColor:
+            return "#define WEIGHTED_COLOR\n";
+        case Channels::Over:
+            return "#define OVER\n";
+        case Channels::Count:
+            return "#define COUNT\n";
+    }
+    return "";
+}
+
+// Position in the map = x s + y of a value s on the scale: affine, in double.
+glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
+    const double halfWidth = map.halfWidth();
+    if (!(halfWidth > 0)) return {0, 0.5};
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return {scale.halfWidth / halfWidth,
+            std::clamp(placeOnScale(scale.lo, map.lo, halfWidth), -kMost, kMost)};
+}
+
+constexpr int kMapEntries = 257;  // the most that a ColorMap has
+
+class GlPlane final : public PlaneSum {
+ public:
+    GlPlane(GlSplatter& splatter, const GpuList& list, const View& view, Channels channels,
+            std::size_t layer, GLuint framebuffer)
+        : splatter_(splatter),
+          list_(list),
+          view_(view),
+          channels_(channels),
+          framebuffer_(framebuffer),
+          left_(list.pieces(channels, layer)) {}
+
+    std::uint64_t add(std::uint64_t splats) override {
+        std::size_t pieces = 0;
+        std::uint64_t added = 0;
+        while (pieces < left_.size() && added < std::max(splats, std::uint64_t{1}))
+            added += left_[pieces++].cost;
+        splatter_.draw(list_, view_, channels_, left_.first(pieces), framebuffer_);
+        left_ = left_.subspan(pieces);
+        return added;
+    }
+    bool done() const override { return left_.empty(); }
+
+ private:
+    GlSplatter& splatter_;
+    const GpuList& list_;
+    const View& view_;
+    Channels channels_;
+    GLuint framebuffer_;
+    std::span<const Piece> left_;
+};
+
+class GlFrame final : public SplatFrame {
+ public:
+    GlFrame(GlSplatter& splatter, std::unique_ptr<GpuList> list)
+        : splatter_(splatter), list_(std::move(list)) {}
+
+    std::uint64_t splats(Channels channels, std::size_t layer) const override {
+        std::uint64_t sum = 0;
+        for (const Piece& piece : list_->pieces(channels, layer)) sum += piece.cost;
+        return sum;
+    }
+    std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
+                                    Targets& targets) override {
+        return std::make_unique<GlPlane>(splatter_, *list_, view, channels, layer,
+                                         targets.onGl().clearedPlane(layer, channels));
+    }
+
+ private:
+    GlSplatter& splatter_;
+    std::unique_ptr<GpuList> list_;
+};
+
+}  // namespace
+
+GlSplatter::GlSplatter()
+    : view_(sizeof(SplatViewBlock)),
+      layers_(sizeof(LayerBlock)),
+      colorMaps_(GL_RGBA32F, {kMapEntries, static_cast<int>(kMaxLayers)}) {
+    std::array<GLfloat, 2> range{};
+    glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
+    largestPoint_ = range[1];
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largestViewport_.x);
+}
+
+GlSplatter::~GlSplatter() = default;
+
+const gl::Program& GlSplatter::program(const Variant& variant) {
+    if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
+    std::string defines = define(variant.channels);
+    if (variant.quads) defines += "#define QUADS\n";
+    if (variant.cut) defines += "#define CUT\n";
+    if (variant.cubes) defines += "#define CUBES\n";
+    if (variant.kernel == Kernel::Point) defines += "#define KERNEL_POINT\n";
+    return programs_
+        .emplace(variant,
+                 gl::Program("splat", shaders::splat_vert, shaders::splat_frag, defines.c_str()))
+        .first->second;
+}
+
+void GlSplatter::setLayers(const Scene& scene, const ValueScale& scale) {
+    LayerBlock block{};
+    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+        const RangeStyle& style = scene.layers[k].style;
+        const double tau = opticalDepthPerWeight(style.opacity);
+        if (const auto* constant = std::get_if<Constant>(&style.color)) {
+            block.style[k] = glm::vec4(glm::dvec4(constant->linearRgb, tau));
+            block.map[k].w = static_cast<float>(pointsPerSplat(scene.layers[k], scene.stride));
+            continue;
+        }
+        const auto& map = std::get<ByValue>(style.color);
+        const auto entries = map.map.entries();
+        block.style[k] = glm::vec4(0, 0, 0, tau);
+        block.map[k] = glm::vec4(positionOnScale(map, scale), entries.size(),
+                                 pointsPerSplat(scene.layers[k], scene.stride));
+        std::vector<glm::vec4> row;
+        for (const glm::vec3& color : entries) row.emplace_back(color, 1.0f);
+        glTextureSubImage2D(colorMaps_.id(), 0, 0, static_cast<GLint>(k),
+                            static_cast<GLsizei>(row.size()), 1, GL_RGBA, GL_FLOAT, row.data());
+    }
+    layers_.write(0, sizeof block, &block);
+}
+
+std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& list,
+                                            const GpuStep& step) {
+    ++counts_.uploads;
+    // A sorted list brings its own values.
+    const bool own = std::holds_alternative<Sorted>(list) || step.values() == nullptr;
+    const ValueScale scale = own ? ValueScale::of(scene.layers) : step.valueScale();
+    setLayers(scene, scale);
+    return std::make_unique<GpuList>(scene, list, step, scale);
+}
+
+std::unique_ptr<SplatFrame> GlSplatter::prepare(const Scene& scene, DrawList list,
+                                                const GpuStep& step) {
+    return std::make_unique<GlFrame>(*this, upload(scene, list, step));
+}
+
+void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
+                      GLuint framebuffer) {
+    draw(list, view, channels, list.pieces(channels, layer), framebuffer);
+}
+
+void GlSplatter::draw(const GpuList& list, const View& view, Channels channels,
+                      std::span<const Piece> pieces, GLuint framebuffer) {
+    ++counts_.draws;
+    const PointsView seen(list.scene().placed, view);
+    const double reach = farthestReach(list.scene(), seen);
+    // A point sprite whose centre leaves the clip volume vanishes whole, so the viewport is wider
+    // than the picture by the farthest reach; sprites also have a largest size, as has a viewport.
+    const double sides = 2 * (reach + 2);
+    // Slim footprints fill little of a sprite.
+    const bool cut =
+        list.scene().placed.longCells() && list.scene().footprint.kernel != Kernel::Point;
+    const bool quads = cut || !(sides <= static_cast<double>(largestPoint_) &&
+                                view.size.x + sides <= largestViewport_.x &&
+                                view.size.y + sides <= largestViewport_.y);
+    const int guard = quads ? 0 : static_cast<int>(std::ceil(reach)) + 1;
+    const SplatViewBlock block = viewBlock(list.scene(), view, seen, guard);
+    view_.write(0, sizeof block, &block);
+    const gl::Program& with =
+        program({channels, list.scene().footprint.kernel, quads, list.cubes(), cut});
+    gl::begin({.framebuffer = framebuffer,
+               .size = view.size,
+               .guard = guard,
+               .blend = channels == Channels::Over ? gl::Blend::Premultiplied : gl::Blend::Add,
+               .depth = gl::DepthTest::Test});
+    glUseProgram(with.id());
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_.id());
+    glBindBufferBase(GL_UNIFORM_BUFFER, 1, layers_.id());
+    glBindTextureUnit(0, list.step().axisPoints().id());
+    glBindTextureUnit(1, colorMaps_.id());
+    list.draw(quads, pieces);
+}
+
+}  // namespace render

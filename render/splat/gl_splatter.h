@@ -1,0 +1,64 @@
+// The splatter on GL 4.5: a draw list is uploaded once a frame, and drawn once an eye.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+
+#include "render/gl/object.h"
+#include "render/splat/pieces.h"
+#include "render/splat/splatter.h"
+
+namespace render {
+
+// One frame's list, ready to draw for any number of eyes.
+class GpuList;
+
+class GlSplatter final : public Splatter {
+ public:
+    GlSplatter();
+    ~GlSplatter() override;
+
+    std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
+                                        const GpuStep& step) override;
+    // What resolving a frame's planes needs, whoever sums them; upload() does it.
+    void setLayers(const Scene& scene, const ValueScale& scale);
+
+    // Once a frame. `step` holds the scene's step and is ready for it. The list refers to both.
+    std::unique_ptr<GpuList> upload(const Scene& scene, const DrawList& list, const GpuStep& step);
+
+    // Once an eye: adds one plane into a framebuffer whose one colour attachment is of that kind
+    // (R32F or RGBA32F) and whose depth attachment is the opaque scene's, tested, not written.
+    // `layer` is the plane's layer for Weight and WeightedColor. Clears nothing.
+    void draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
+              GLuint framebuffer);
+    // Adds some of the plane's pieces, list.pieces(channels, layer).
+    void draw(const GpuList& list, const View& view, Channels channels,
+              std::span<const Piece> pieces, GLuint framebuffer);
+
+    // How often each was called: two eyes are one list drawn twice.
+    struct Counts {
+        std::uint64_t uploads = 0, draws = 0;
+    };
+    const Counts& counts() const { return counts_; }
+    const gl::Buffer& layerBlock() const { return layers_; }
+
+ private:
+    struct Variant {
+        Channels channels;
+        Kernel kernel;
+        bool quads, cubes, cut;
+        auto operator<=>(const Variant&) const = default;
+    };
+    const gl::Program& program(const Variant& variant);
+
+    std::map<Variant, gl::Program> programs_;  // compiled when first drawn with
+    gl::Buffer view_, layers_;
+    gl::Texture colorMaps_;
+    float largestPoint_ = 1;         // side in pixels
+    glm::ivec2 largestViewport_{0};  // a larger one is cut without a word
+    Counts counts_;
+};
+
+}  // namespace render

@@ -1,0 +1,192 @@
+#include "render/splat/gpu_step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "render/points/block_order.h"
+
+namespace render {
+namespace {
+
+constexpr std::uint64_t kPointBytes = sizeof(std::uint32_t) + sizeof(std::uint16_t);
+constexpr std::uint64_t kValueBytes = sizeof(float);
+
+std::vector<glm::vec2> axisTable(const PlacedPoints& placed) {
+    std::vector<glm::vec2> table;
+    for (int a = 0; a < 3; ++a)
+        for (std::size_t i = 0; i < placed.positions()[a].size(); ++i)
+            table.emplace_back(placed.positions()[a][i], placed.widths()[a][i]);
+    return table;
+}
+
+constexpr std::uint64_t kMostDrawable = std::numeric_limits<GLint>::max();
+
+const timeseries::SortedStep& drawable(const timeseries::SortedStep& step) {
+    if (step.size() > kMostDrawable)
+        throw std::length_error(
+            fmt::format("{} kept points are more than the {} that can be drawn: keep fewer",
+                        step.size(), kMostDrawable));
+    return step;
+}
+
+std::uint64_t blockCount(std::uint64_t points) {
+    return (points + GpuStep::kBlock - 1) / GpuStep::kBlock;
+}
+
+std::uint64_t pointsOf(std::uint64_t block, std::uint64_t points) {
+    return std::min(GpuStep::kBlock, points - block * GpuStep::kBlock);
+}
+
+// Ascending.
+std::vector<std::uint64_t> neededBlocks(const Scene& scene) {
+    if (scene.order != Order::None) return {};
+    std::vector<bool> touched(blockCount(scene.step.size()));
+    for (const Layer& layer : scene.layers)
+        for (const timeseries::Run& run : layer.runs)
+            for (std::uint64_t b = run.first / GpuStep::kBlock;
+                 b * GpuStep::kBlock < run.first + run.count; ++b)
+                touched[b] = true;
+    std::vector<std::uint64_t> blocks;
+    for (std::uint64_t b = 0; b < touched.size(); ++b)
+        if (touched[b]) blocks.push_back(b);
+    return blocks;
+}
+
+template <typename T>
+void write(gl::Buffer& buffer, std::uint64_t first, const std::vector<T>& what) {
+    buffer.write(first * sizeof(T), what.size() * sizeof(T), what.data());
+}
+
+}  // namespace
+
+GpuStep::GpuStep(const timeseries::SortedStep& step, const PlacedPoints& placed)
+    : axisTable_(axisTable(placed)), present_(blockCount(step.size())) {}
+
+void GpuStep::makeRoom(const timeseries::SortedStep& step) {
+    if (gridIndex_ && placeInBlock_) return;
+    gridIndex_.emplace(drawable(step).size() * sizeof(std::uint32_t));
+    placeInBlock_.emplace(step.size() * sizeof(std::uint16_t));
+}
+
+void GpuStep::place(const PlacedPoints& placed) {
+    axisTable_ = axisTable(placed);
+    axisPoints_.reset();
+}
+
+const gl::BufferTexture& GpuStep::axisPoints() const {
+    if (!axisPoints_) {
+        gl::Buffer buffer{std::span<const glm::vec2>(axisTable_)};
+        gl::BufferTexture texture(GL_RG32F, buffer);
+        axisPoints_.emplace(AxisPoints{std::move(buffer), std::move(texture)});
+    }
+    return axisPoints_->texture;
+}
+
+void GpuStep::upload(const Scene& scene, const std::optional<ValueScale>& scale,
+                     std::uint64_t bytes) {
+    makeRoom(scene.step);
+    ScaledValues* const values = valuesOn(scale, scene.step.size());
+    const auto blocks = neededBlocks(scene);
+    std::uint64_t sent = 0;
+    for (const std::uint64_t block : blocks) {
+        if (sent > 0 && sent >= bytes) break;
+        sent += send(scene, block, values);
+    }
+    if (!coming_ || !std::ranges::all_of(blocks, [&](auto b) { return coming_->present[b]; }))
+        return;
+    values_.emplace(std::move(*coming_));
+    coming_.reset();
+}
+
+GpuStep::ScaledValues* GpuStep::valuesOn(const std::optional<ValueScale>& scale,
+                                         std::uint64_t points) {
+    if (!scale || (values_ && values_->scale == *scale)) {
+        coming_.reset();
+        return scale ? &*values_ : nullptr;
+    }
+    if (!coming_ || coming_->scale != *scale)
+        coming_.emplace(
+            ScaledValues{gl::Buffer(points * kValueBytes), *scale, Blocks(present_.size())});
+    return &*coming_;
+}
+
+std::uint64_t GpuStep::send(const Scene& scene, std::uint64_t block, ScaledValues* values) {
+    const bool sendPoints = !present_[block];
+    const bool sendValues = values != nullptr && !values->present[block];
+    if (!sendPoints && !sendValues) return 0;
+    const std::uint64_t first = block * kBlock;
+    const std::uint64_t count = pointsOf(block, scene.step.size());
+    const timeseries::Run run{first, count};
+    const timeseries::Columns columns = scene.step.columns({&run, 1});
+    const auto index = columns.gridIndex.subspan(first, count);
+    const std::vector<std::uint16_t> places = blockOrder(index, scene.placed.size());
+    if (sendPoints) {
+        std::vector<std::uint32_t> ordered;
+        ordered.reserve(count);
+        for (const std::uint16_t place : places) ordered.push_back(index[place]);
+        write(*gridIndex_, first, ordered);
+        write(*placeInBlock_, first, places);
+        present_[block] = true;
+    }
+    if (sendValues) {
+        std::vector<float> scaled;
+        scaled.reserve(count);
+        std::visit(
+            [&](const auto& of) {
+                for (const std::uint16_t place : places)
+                    scaled.push_back(values->scale(static_cast<double>(of[first + place])));
+            },
+            columns.values);
+        write(values->buffer, first, scaled);
+        values->present[block] = true;
+    }
+    return count * ((sendPoints ? kPointBytes : 0) + (sendValues ? kValueBytes : 0));
+}
+
+std::uint64_t GpuStep::missingBytes(const Scene& scene,
+                                    const std::optional<ValueScale>& scale) const {
+    const ScaledValues* values = nullptr;
+    for (const auto* held : {&values_, &coming_})
+        if (*held && scale && (*held)->scale == *scale) values = &**held;
+    std::uint64_t missing = 0;
+    for (const std::uint64_t block : neededBlocks(scene)) {
+        const std::uint64_t count = pointsOf(block, scene.step.size());
+        if (!present_[block]) missing += count * kPointBytes;
+        if (scale && !(values != nullptr && values->present[block])) missing += count * kValueBytes;
+    }
+    return missing;
+}
+
+std::uint64_t GpuStep::neededBytes(const Scene& scene, const std::optional<ValueScale>& scale) {
+    std::uint64_t points = 0;
+    for (const std::uint64_t block : neededBlocks(scene))
+        points += pointsOf(block, scene.step.size());
+    return points * (kPointBytes + (scale ? kValueBytes : 0));
+}
+
+bool GpuStep::ready(const Scene& scene) const {
+    const bool byValue = neededScale(scene).has_value();
+    return std::ranges::all_of(neededBlocks(scene), [&](std::uint64_t block) {
+        return present_[block] && (!byValue || (values_ && values_->present[block]));
+    });
+}
+
+ValueScale GpuStep::serving(const ValueScale& wanted) const {
+    for (const auto* held : {&values_, &coming_})
+        if (*held && (*held)->scale.serves(wanted)) return (*held)->scale;
+    return wanted;
+}
+
+std::uint64_t GpuStep::bytes() const {
+    std::uint64_t bytes = axisTable_.size() * sizeof axisTable_[0];
+    for (const auto* held : {&gridIndex_, &placeInBlock_})
+        if (*held) bytes += (*held)->bytes();
+    for (const auto* held : {&values_, &coming_})
+        if (*held) bytes += (*held)->buffer.bytes();
+    return bytes;
+}
+
+}  // namespace render

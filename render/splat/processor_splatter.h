@@ -1,0 +1,27 @@
+// The splatter on the processor, as FrameRenderer drives it.
+#pragma once
+
+#include <vector>
+
+#include "render/splat/splatter.h"
+#include "render/splat/tile_splatter.h"
+
+namespace render {
+
+class ProcessorSplatter final : public Splatter {
+ public:
+    // Asks nothing of the step on the GPU.
+    std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
+                                        const GpuStep& step) override;
+
+    // Kept from frame to frame: pages that are new cost more than what is done with them.
+    struct Memory {
+        std::vector<float> opaqueDepth, rows;
+        TileMemory tiles;
+    };
+
+ private:
+    Memory memory_;
+};
+
+}  // namespace render

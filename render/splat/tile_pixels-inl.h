@@ -1,0 +1,214 @@
+// What the splats of a batch add to the pixels of a tile. Compiled once for each of Highway's
+// targets, so not guarded as other headers are.
+#if defined(RENDER_TILE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_TILE_PIXELS_INL_H_
+#undef RENDER_TILE_PIXELS_INL_H_
+#else
+#define RENDER_TILE_PIXELS_INL_H_
+#endif
+
+#include <hwy/contrib/math/math-inl.h>
+
+#include "render/model/footprint.h"
+#include "render/splat/tile_batch-inl.h"
+#include "render/splat/tile_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class Lanes>
+HWY_INLINE hn::Vec<Lanes> reciprocalRoot(Lanes lanes, hn::Vec<Lanes> x) {
+    const auto half = hn::Mul(x, hn::Set(lanes, 0.5f)), most = hn::Set(lanes, 1.5f);
+    auto r = hn::ApproximateReciprocalSqrt(x);
+    r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, most));
+    if (HWY_TARGET != HWY_AVX3)  // whose first guess has 14 bits, others' 8 or 12
+        r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, most));
+    return r;
+}
+
+// 1 - e^-x. Small: of x in [0, 1/2], by Chebyshev's interpolation of (1 - e^-x) / x, to 1.5e-9.
+template <bool kSmall, class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V opacity(Lanes lanes, V x) {
+    const auto set = [&](double c) HWY_ATTR { return hn::Set(lanes, static_cast<float>(c)); };
+    if constexpr (kSmall) {
+        V p = hn::MulAdd(x, set(-0.0011234042190441439), set(0.008189613631091872));
+        p = hn::MulAdd(p, x, set(-0.041630072831850246));
+        p = hn::MulAdd(p, x, set(0.16666241868658546));
+        p = hn::MulAdd(p, x, set(-0.4999998187742346));
+        return hn::Mul(x, hn::MulAdd(p, x, set(0.999999998742602)));
+    }
+    return hn::Neg(hn::Expm1(lanes, hn::Neg(hn::Min(x, set(80)))));
+}
+
+// What a splat adds to a vector of pixels whose share of it is t, from this place of the sums on.
+template <class Lanes>
+struct AddWeight {
+    Lanes lanes;
+    hn::Vec<Lanes> weight;
+    float* HWY_RESTRICT sums;
+    AddWeight(Lanes l, const Batch& b, std::size_t k, TileRoom& room)
+        : lanes(l), weight(hn::Set(l, b.weight[k])), sums(room.sums.data()) {}
+    HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
+        hn::StoreU(hn::MulAdd(t, weight, hn::LoadU(lanes, sums + at)), lanes, sums + at);
+    }
+};
+
+template <class Lanes>
+struct AddColor {
+    Lanes lanes;
+    hn::Vec<Lanes> channel[4];
+    float* HWY_RESTRICT sums;
+    std::size_t plane;
+    AddColor(Lanes l, const Batch& b, std::size_t k, TileRoom& room)
+        : lanes(l), sums(room.sums.data()), plane(room.plane) {
+        const auto weight = hn::Set(l, b.weight[k]);
+        channel[0] = hn::Mul(weight, hn::Set(l, b.red[k]));
+        channel[1] = hn::Mul(weight, hn::Set(l, b.green[k]));
+        channel[2] = hn::Mul(weight, hn::Set(l, b.blue[k]));
+        channel[3] = weight;
+    }
+    HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
+        for (std::size_t c = 0; c < 4; ++c) {
+            float* const to = sums + c * plane + at;
+            hn::StoreU(hn::MulAdd(t, channel[c], hn::LoadU(lanes, to)), lanes, to);
+        }
+    }
+};
+
+// Front to back: what it takes of what comes through is added. Where less than a 10^7th does,
+// nothing does any more. The sum is of what is taken, not what is left of 1, which would lose the
+// faintest.
+template <class Lanes, bool kSmall>
+struct LayUnder {
+    Lanes lanes;
+    hn::Vec<Lanes> color[3], depth;  // optical
+    float* HWY_RESTRICT sums;
+    const float* HWY_RESTRICT factor;
+    std::size_t plane;
+    LayUnder(Lanes l, const Batch& b, std::size_t k, TileRoom& room)
+        : lanes(l),
+          depth(hn::Set(l, b.weight[k])),
+          sums(room.sums.data()),
+          factor(room.factor.data()),
+          plane(room.plane) {
+        color[0] = hn::Set(l, b.red[k]);
+        color[1] = hn::Set(l, b.green[k]);
+        color[2] = hn::Set(l, b.blue[k]);
+    }
+    HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
+        const auto x = hn::Mul(hn::Mul(t, depth), hn::LoadU(lanes, factor + at));
+        float* const all = sums + 3 * plane + at;
+        const auto one = hn::Set(lanes, 1.0f), before = hn::LoadU(lanes, all);
+        const auto taken = hn::Mul(hn::Sub(one, before), opacity<kSmall>(lanes, x));
+        for (std::size_t c = 0; c < 3; ++c) {
+            float* const to = sums + c * plane + at;
+            hn::StoreU(hn::MulAdd(taken, color[c], hn::LoadU(lanes, to)), lanes, to);
+        }
+        const auto now = hn::Add(before, taken);
+        hn::StoreU(hn::IfThenElse(hn::Lt(now, hn::Set(lanes, 1 - 1e-7f)), now, one), lanes, all);
+    }
+};
+
+// What of a splat's weight the pixels of its box take: (1 - q)^4, / sqrt(d) where it is not even,
+// nothing where the opaque scene hides it, and exactly nothing beside the footprint.
+template <bool kEven, bool kHidden, class Lanes, class Sink>
+HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const TileRoom& room,
+                          const Sink& sink) {
+    using V = hn::Vec<Lanes>;
+    constexpr int kStep = static_cast<int>(hn::MaxLanes(Lanes()));
+    const V one = hn::Set(lanes, 1.0f), zero = hn::Zero(lanes);
+    const V least = hn::Set(lanes, kLeastDenominator);
+    const V nyy = hn::Set(lanes, b.nyy[k]), dyy = hn::Set(lanes, kEven ? 0.0f : b.dyy[k]);
+    const V depth = hn::Set(lanes, b.depth[k]);
+    const V steps = hn::ConvertTo(lanes, hn::Iota(hn::RebindToSigned<Lanes>(), 0));
+    const int columns = b.columns[k], rows = b.rows[k];
+    const float* HWY_RESTRICT perRay2 = room.perRay2.data();
+    const float* HWY_RESTRICT opaque = room.opaque.data();
+    for (int i = 0; i < columns; i += kStep) {
+        const V ox = hn::Add(hn::Set(lanes, b.ox[k] + static_cast<float>(i)), steps);
+        const V n0 = hn::Mul(hn::Mul(hn::Set(lanes, b.nxx[k]), ox), ox);
+        const V n1 = hn::Mul(hn::Set(lanes, b.nxy[k]), ox);
+        V d0 = one, d1 = zero;
+        if constexpr (!kEven) {
+            d0 = hn::MulAdd(hn::MulAdd(hn::Set(lanes, b.dxx[k]), ox, hn::Set(lanes, b.lx[k])), ox,
+                            one);
+            d1 = hn::MulAdd(hn::Set(lanes, b.dxy[k]), ox, hn::Set(lanes, b.ly[k]));
+        }
+        auto at = static_cast<std::size_t>(b.y[k] * kTileStride + b.x[k] + i);
+        V oy = hn::Set(lanes, b.oy[k]);
+        for (int row = 0; row < rows; ++row, at += kTileStride, oy = hn::Add(oy, one)) {
+            const V n = hn::MulAdd(hn::MulAdd(nyy, oy, n1), oy, n0);
+            V t;
+            if constexpr (kEven) {
+                t = hn::Max(hn::NegMulAdd(n, hn::LoadU(lanes, perRay2 + at), one), zero);
+                t = hn::Mul(t, t);
+                t = hn::Mul(t, t);
+            } else {
+                const V d = hn::MulAdd(hn::MulAdd(dyy, oy, d1), oy, d0);
+                const V root = reciprocalRoot(lanes, hn::Max(d, least));
+                t = hn::Max(hn::NegMulAdd(hn::Mul(n, root), root, one), zero);
+                t = hn::Mul(t, t);
+                t = hn::IfThenElseZero(hn::Gt(d, least), hn::Mul(hn::Mul(t, t), root));
+            }
+            if constexpr (kHidden)
+                t = hn::IfThenElseZero(hn::Le(depth, hn::LoadU(lanes, opaque + at)), t);
+            sink(t, at);
+        }
+    }
+}
+
+// A point splat is the same on all of its pixels.
+template <class Lanes, class Sink>
+HWY_INLINE void forSquare(Lanes lanes, const Batch& b, std::size_t k, const TileRoom& room,
+                          bool hidden, const Sink& sink) {
+    constexpr int kStep = static_cast<int>(hn::MaxLanes(Lanes()));
+    const auto depth = hn::Set(lanes, b.depth[k]), one = hn::Set(lanes, 1.0f);
+    const auto columns = static_cast<std::size_t>(std::max(b.columns[k], 0));
+    for (std::size_t i = 0; i < columns; i += kStep) {
+        const auto some = hn::FirstN(lanes, std::min<std::size_t>(columns - i, kStep));
+        auto at = static_cast<std::size_t>(b.y[k] * kTileStride + b.x[k]) + i;
+        for (int row = 0; row < b.rows[k]; ++row, at += kTileStride) {
+            auto t = hn::IfThenElseZero(some, one);
+            if (hidden)
+                t = hn::IfThenElseZero(hn::Le(depth, hn::LoadU(lanes, room.opaque.data() + at)), t);
+            sink(t, at);
+        }
+    }
+}
+
+template <class Lanes, class Sink>
+HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std::size_t k,
+                         TileRoom& room, const Sink& sink) {
+    const bool hidden = b.depth[k] > room.nearestOpaque;
+    if (view.pointSide > 0) return forSquare(lanes, b, k, room, hidden, sink);
+    if (view.even)
+        return hidden ? forPixels<true, true>(lanes, b, k, room, sink)
+                      : forPixels<true, false>(lanes, b, k, room, sink);
+    return hidden ? forPixels<false, true>(lanes, b, k, room, sink)
+                  : forPixels<false, false>(lanes, b, k, room, sink);
+}
+
+template <class Lanes>
+HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std::size_t k,
+                         TileRoom& room) {
+    switch (view.channels) {
+        case Channels::Weight:
+            return addSplat(lanes, view, b, k, room, AddWeight<Lanes>(lanes, b, k, room));
+        case Channels::WeightedColor:
+            return addSplat(lanes, view, b, k, room, AddColor<Lanes>(lanes, b, k, room));
+        default:
+            break;
+    }
+    // Of an even splat, t is 1 at most.
+    if (view.even && b.weight[k] * room.largestFactor <= 0.5f)
+        return addSplat(lanes, view, b, k, room, LayUnder<Lanes, true>(lanes, b, k, room));
+    addSplat(lanes, view, b, k, room, LayUnder<Lanes, false>(lanes, b, k, room));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,138 @@
+#include "timeseries/grid/grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace timeseries {
+namespace {
+
+double meanStep(const Axis& axis) {
+    const auto& c = axis.coordinates;
+    return (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+}
+
+}  // namespace
+
+std::vector<double> indexCoordinates(std::uint64_t length) {
+    std::vector<double> index(length);
+    std::iota(index.begin(), index.end(), 0.0);
+    return index;
+}
+
+std::string flawOf(const std::vector<double>& c) {
+    if (!std::ranges::all_of(c, [](double v) { return std::isfinite(v); }))
+        return "its coordinates are not all finite";
+    const bool ascending = c.back() > c.front();
+    for (std::size_t i = 1; i < c.size(); ++i)
+        if (ascending ? !(c[i] > c[i - 1]) : !(c[i] < c[i - 1]))
+            return "its coordinates are not strictly monotonic";
+    return "";
+}
+
+std::optional<std::array<int, 3>> alignedWith(const glm::dmat3& directions) {
+    constexpr double kRounding = 1e-6;
+    std::array<int, 3> along{};
+    std::array<bool, 3> taken{};
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int c = 0; c < 3; ++c)
+            if (std::abs(directions[axis][c]) > 1 - kRounding)
+                along[axis] = c;
+            else if (!(std::abs(directions[axis][c]) <= kRounding))
+                return std::nullopt;
+        taken[along[axis]] = true;
+    }
+    if (!taken[0] || !taken[1] || !taken[2]) return std::nullopt;
+    return along;
+}
+
+std::string flawOf(const glm::dmat3& directions) {
+    // Far flatter than any real cell; floats would no longer draw it.
+    constexpr double kFlattest = 1e-3;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(glm::length(directions[axis]) - 1) < 1e-9))
+            return "an axis has no direction";
+    return std::abs(glm::determinant(directions)) < kFlattest ? "its axes lie in one plane" : "";
+}
+
+bool Axis::uniform() const {
+    if (coordinates.size() < 3) return true;
+    const double step = meanStep(*this);
+    for (std::size_t i = 1; i < coordinates.size(); ++i)
+        if (std::abs(coordinates[i] - coordinates[i - 1] - step) > 1e-4 * std::abs(step))
+            return false;
+    return true;
+}
+
+double Axis::width(std::size_t i) const {
+    const std::size_t last = coordinates.size() - 1;
+    if (last == 0) return 0;
+    if (i == 0) return coordinates[1] - coordinates[0];
+    if (i == last) return coordinates[last] - coordinates[last - 1];
+    // Halved before the difference: the sum of two huge coordinates may overflow.
+    return 0.5 * coordinates[i + 1] - 0.5 * coordinates[i - 1];
+}
+
+Grid::Grid(std::array<Axis, 3> axes, Frame frame)
+    : axes_(std::move(axes)), frame_(std::move(frame)) {
+    if (const std::string flaw = flawOf(frame_.directions); !flaw.empty())
+        throw std::invalid_argument("directions: " + flaw);
+    std::uint64_t count = 1;
+    for (const Axis& axis : axes_) {
+        if (axis.coordinates.empty())
+            throw std::invalid_argument(fmt::format("axis {} has no points", axis.name));
+        if (const std::string flaw = flawOf(axis.coordinates); !flaw.empty())
+            throw std::invalid_argument(fmt::format("axis {}: {}", axis.name, flaw));
+        const std::uint64_t n = axis.coordinates.size();
+        if (count > (std::uint64_t{1} << 63) / n)
+            throw std::invalid_argument("the grid has more than 2^63 points");
+        count *= n;
+    }
+}
+
+std::array<std::size_t, 3> Grid::size() const {
+    return {axes_[0].coordinates.size(), axes_[1].coordinates.size(), axes_[2].coordinates.size()};
+}
+
+std::uint64_t Grid::count() const {
+    const auto n = size();
+    return std::uint64_t{n[0]} * n[1] * n[2];
+}
+
+bool Grid::uniform() const {
+    return axes_[0].uniform() && axes_[1].uniform() && axes_[2].uniform();
+}
+
+glm::vec<3, std::uint64_t> Grid::indices(std::uint64_t index) const {
+    const auto n = size();
+    return indicesOf(index, glm::vec<3, std::uint64_t>(n[0], n[1], n[2]));
+}
+
+glm::dvec3 Grid::position(std::uint64_t index) const {
+    const auto at = indices(index);
+    const glm::dvec3 along(axes_[0].coordinates[at[0]], axes_[1].coordinates[at[1]],
+                           axes_[2].coordinates[at[2]]);
+    return frame_.origin + frame_.directions * along;
+}
+
+glm::dmat3 Grid::cell(std::uint64_t index) const {
+    const auto at = indices(index);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Axis& axis : axes_)
+        if (axis.coordinates.size() > 1) smallest = std::min(smallest, std::abs(meanStep(axis)));
+    if (!std::isfinite(smallest)) smallest = 1;
+    glm::dmat3 steps(0.0);
+    for (int a = 0; a < 3; ++a) {
+        const double width = axes_[a].width(at[a]);
+        steps[a][a] = axes_[a].coordinates.size() > 1 ? width : smallest;
+    }
+    return frame_.directions * steps;
+}
+
+}  // namespace timeseries

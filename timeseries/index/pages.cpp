@@ -1,0 +1,32 @@
+#include "timeseries/index/pages.h"
+
+#include <sys/mman.h>
+#include <sys/sysinfo.h>
+
+namespace timeseries {
+namespace {
+
+constexpr std::size_t kLargePage = std::size_t{2} << 20;
+
+// Whether so much is free without taking it from what the system keeps of files: else it would
+// first move memory about to make large pages, for seconds at 512^3 (measured).
+bool muchIsFree(std::size_t bytes) {
+    struct sysinfo now {};
+    return sysinfo(&now) == 0 && bytes <= now.freeram * std::size_t{now.mem_unit} / 2;
+}
+
+}  // namespace
+
+RawPages::RawPages(std::size_t bytes) {
+    if (bytes == 0) return;
+    const bool large = bytes >= 4 * kLargePage;
+    if (large) align_ = std::align_val_t{kLargePage};
+    at_ = ::operator new(bytes, align_);
+    // A wish; where it is not granted, pages are small.
+    if (large && muchIsFree(bytes))
+        (void)madvise(at_, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
+}
+
+RawPages::~RawPages() { ::operator delete(at_, align_); }
+
+}  // namespace timeseries

@@ -1,0 +1,212 @@
+#include "timeseries/index/sorted_step.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "timeseries/index/lazy_column.h"
+
+namespace timeseries {
+namespace {
+
+template <typename T>
+Number numberOf(T value) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return static_cast<double>(value);
+    } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+        return value;
+    } else {
+        return static_cast<std::int64_t>(value);
+    }
+}
+
+// The least and the greatest of those that count.
+template <typename T, typename Counts>
+std::pair<Number, Number> extentOf(std::span<const T> values, const Counts& counts) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    bool any = false;
+    T lo{}, hi{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!counts(i)) continue;
+        lo = any ? std::min(lo, values[i]) : values[i];
+        hi = any ? std::max(hi, values[i]) : values[i];
+        any = true;
+    }
+    return any ? std::pair{numberOf(lo), numberOf(hi)} : std::pair<Number, Number>{kNan, kNan};
+}
+
+// Of the whole field, of which the partition found what is valid.
+template <typename T>
+StepStatistics statisticsOf(const Field& field, std::span<const T> values,
+                            const Partition<T>& points) {
+    StepStatistics s;
+    s.points = points.valid;
+    s.missing = values.size() - s.points;
+    s.min = s.max = std::numeric_limits<double>::quiet_NaN();
+    const T lo = points.leastValid, hi = points.greatestValid;
+    if (s.points > 0) {
+        s.min = numberOf(lo);
+        s.max = numberOf(hi);
+    }
+    s.finiteMin = s.min;
+    s.finiteMax = s.max;
+    if (std::isinf(lo) || std::isinf(hi))  // rare: the others are spared the look
+        std::tie(s.finiteMin, s.finiteMax) = extentOf(values, [&](std::size_t i) {
+            return (field.missing.empty() || !field.missing[i]) && std::isfinite(values[i]);
+        });
+    return s;
+}
+
+// REQUIRES: both as RangeSet::toIntervals gives them.
+template <typename T>
+bool inside(const Interval<T>& query, const std::vector<Interval<T>>& kept) {
+    for (const Interval<T>& k : kept)
+        if (k.lo <= query.lo && query.hi <= k.hi) return true;
+    return false;
+}
+
+template <typename T, typename Visit>
+void forEachRun(const LazyColumn<T>& points, const RangeSet& ranges, const RangeSet& kept,
+                const Visit& visit) {
+    const auto keptIntervals = kept.toIntervals<T>();
+    for (const Interval<T>& query : ranges.toIntervals<T>()) {
+        if (!inside(query, keptIntervals))
+            throw OutsideKeptError(fmt::format(
+                "range {} reaches outside what was kept, {}: keep more, or ask inside it",
+                ranges.text(), kept.empty() ? "nothing" : kept.text()));
+        const Run run = points.find(query);
+        if (run.count > 0) visit(run);
+    }
+}
+
+// The values of T that both ranges hold, by the bounds as they are written where these say it. A
+// range that holds nothing, or none, where there are no such values.
+template <typename T>
+std::optional<Range> commonPart(const Range& a, const Range& b) {
+    Interval<T> x, y, both;
+    if (!toInterval(a, x) || !toInterval(b, y)) return std::nullopt;
+    const Interval<T> common{std::max(x.lo, y.lo), std::min(x.hi, y.hi)};
+    const Range written{x.lo < y.lo ? b.lo : a.lo, y.hi < x.hi ? b.hi : a.hi};
+    if (toInterval(written, both)) return written;  // no, if its bounds cross though T joins them
+    return Range{{numberOf(common.lo)}, {numberOf(common.hi)}};
+}
+
+// More of them look into most of a step's buckets.
+constexpr std::size_t kFewQuantiles = 64;
+
+}  // namespace
+
+SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
+    SortedStep step;
+    step.grid_ = field.grid;
+    step.kept_ = kept;
+    std::visit(
+        [&]<typename T>(const std::vector<T>& all) {
+            if (all.size() > (std::uint64_t{1} << 32))
+                throw std::length_error(fmt::format(
+                    "a step of {} points is more than the 2^32 that one list holds", all.size()));
+            const std::span<const T> values(all);
+            const auto intervals = kept.toIntervals<T>();
+            Partition<T> points = partition<T>(values, field.missing, intervals, {threads});
+            step.statistics_ = statisticsOf(field, values, points);
+            step.size_ = points.points();
+            step.columns_ = std::make_shared<const LazyColumn<T>>(std::move(points), threads);
+        },
+        field.values);
+    return step;
+}
+
+std::vector<Run> SortedStep::select(const RangeSet& ranges) const {
+    std::vector<Run> runs;
+    std::visit(
+        [&](const auto& points) {
+            forEachRun(*points, ranges, kept_, [&](const Run& run) { runs.push_back(run); });
+        },
+        columns_);
+    return runs;
+}
+
+std::uint64_t SortedStep::count(const RangeSet& ranges) const {
+    std::uint64_t count = 0;
+    std::visit(
+        [&](const auto& points) {
+            forEachRun(*points, ranges, kept_, [&](const Run& run) { count += run.count; });
+        },
+        columns_);
+    return count;
+}
+
+RangeSet SortedStep::keptPart(const RangeSet& ranges) const {
+    std::vector<Range> parts;
+    std::visit(
+        [&]<typename T>(const std::shared_ptr<const LazyColumn<T>>&) {
+            for (const Range& range : ranges.ranges())
+                for (const Range& kept : kept_.ranges())
+                    if (const auto part = commonPart<T>(range, kept)) parts.push_back(*part);
+        },
+        columns_);
+    return RangeSet(std::move(parts));
+}
+
+Columns SortedStep::columns() const {
+    const Run all{0, size_};
+    return columns({&all, 1});
+}
+
+Columns SortedStep::columns(std::span<const Run> runs) const {
+    return std::visit(
+        [&](const auto& points) {
+            for (const Run& run : runs) points->order(run);
+            return Columns{points->values(), points->gridIndex()};
+        },
+        columns_);
+}
+
+std::uint32_t SortedStep::gridIndex(std::uint64_t point) const {
+    const Run only{point, 1};
+    return columns({&only, 1}).gridIndex[point];
+}
+
+Number SortedStep::value(std::uint64_t point) const {
+    const Run only{point, 1};
+    return std::visit([&](auto values) { return numberOf(values[point]); },
+                      columns({&only, 1}).values);
+}
+
+std::uint64_t SortedStep::bytes() const {
+    return std::visit([](const auto& points) { return points->bytes(); }, columns_);
+}
+
+Run SortedStep::finite() const {
+    return std::visit(
+        [&]<typename T>(const std::shared_ptr<const LazyColumn<T>>& points) {
+            if constexpr (std::is_floating_point_v<T>) {
+                constexpr T kMost = std::numeric_limits<T>::max();
+                return points->find(Interval<T>{-kMost, kMost});
+            } else {
+                return Run{0, points->size()};
+            }
+        },
+        columns_);
+}
+
+std::vector<double> SortedStep::quantiles(std::size_t n) const {
+    std::vector<double> out;
+    const Run among = finite();
+    if (among.count == 0) return out;
+    if (n > kFewQuantiles) columns();  // all at once, on all threads
+    out.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double fraction = n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
+        const double rank = fraction * static_cast<double>(among.count - 1);
+        out.push_back(
+            toDouble(value(among.first + static_cast<std::uint64_t>(std::llround(rank)))));
+    }
+    return out;
+}
+
+}  // namespace timeseries

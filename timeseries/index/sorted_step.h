@@ -1,0 +1,113 @@
+// One time step with its points sorted by value (Crawfis 1996, "Fast volume rendering of data
+// slices"): any value range is then one run of consecutive points, found by two binary searches.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <variant>
+#include <vector>
+
+#include "timeseries/grid/field.h"
+#include "timeseries/index/range_set.h"
+#include "timeseries/together.h"
+
+namespace timeseries {
+
+// Consecutive points of a SortedStep: [first, first + count).
+struct Run {
+    std::uint64_t first = 0, count = 0;
+    friend bool operator==(const Run&, const Run&) = default;
+};
+
+// A query that reaches outside the ranges that were kept. what() is one sentence.
+struct OutsideKeptError : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
+
+// Values as they lie in memory, of the types of Values in its order.
+using ValueSpan = std::variant<std::span<const std::uint8_t>, std::span<const std::int8_t>,
+                               std::span<const std::uint16_t>, std::span<const std::int16_t>,
+                               std::span<const std::uint32_t>, std::span<const std::int32_t>,
+                               std::span<const std::uint64_t>, std::span<const std::int64_t>,
+                               std::span<const float>, std::span<const double>>;
+
+// What a step knows of its points, each in order of value. Of the step, which must outlive them.
+struct Columns {
+    ValueSpan values;                          // ascending
+    std::span<const std::uint32_t> gridIndex;  // ties ascend, too
+};
+
+// The whole step before anything was dropped.
+struct StepStatistics {
+    std::uint64_t points = 0;   // valid: neither missing nor NaN
+    std::uint64_t missing = 0;  // marked missing, or NaN
+    Number min, max;            // of the valid points, infinities included; NaN when there is none
+    Number finiteMin, finiteMax;  // infinities aside; NaN when there is none
+};
+
+template <typename T>
+class LazyColumn;  // timeseries/index/lazy_column.h
+
+// Immutable, but for what nobody can tell: points are put in order where somebody first looks.
+// Every member is safe to call from any thread. Memory: sizeof(value) + 4 bytes a kept point; 4,
+// and 16 a value that there is, of large steps of 8 and 16 bits whose values are not asked for. Any
+// member may throw std::bad_alloc.
+class SortedStep {
+ public:
+    // Points ascend by value; equal values (also -0 and +0) ascend by grid index. Values outside
+    // `kept` are dropped. Throws std::length_error for a field of more than 2^32 points. So many
+    // threads build it, and put points in order later.
+    static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
+                            unsigned threads = sharingThreads());
+
+    // Disjoint, ascending, none empty. At most 2 (log2 n + 2) comparisons a range, and half a
+    // millisecond where an end of a range falls among points of which none was asked for yet.
+    // Throws OutsideKeptError when `ranges`, in the field's type, is not inside what was kept.
+    std::vector<Run> select(const RangeSet& ranges) const;
+    // The sum of select()'s counts; touches no point.
+    std::uint64_t count(const RangeSet& ranges) const;
+
+    // What of `ranges` was kept, in the field's type: select() takes it whatever the rounding of
+    // its bounds.
+    RangeSet keptPart(const RangeSet& ranges) const;
+
+    std::uint64_t size() const { return size_; }
+    // Of all points, which puts all in order: a few times what building took.
+    Columns columns() const;
+    // Of all points, but only those in `runs` may be read: a step may not have put the others in
+    // order yet.
+    Columns columns(std::span<const Run> runs) const;
+    std::span<const std::uint32_t> gridIndex() const { return columns().gridIndex; }
+    std::uint32_t gridIndex(std::uint64_t point) const;
+    Number value(std::uint64_t point) const;
+    ValueType type() const { return static_cast<ValueType>(columns_.index()); }
+    const Grid& grid() const { return *grid_; }
+    const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
+    const RangeSet& kept() const { return kept_; }
+    const StepStatistics& statistics() const { return statistics_; }
+    std::uint64_t bytes() const;  // of memory held, the grid aside
+
+    // The points between the infinities: all but the first and the last ones that are infinite.
+    Run finite() const;
+
+    // Value at the fractions 0, 1/(n-1), ..., 1 of the kept points that are finite (nearest rank);
+    // empty when there is none.
+    std::vector<double> quantiles(std::size_t n) const;
+
+ private:
+    SortedStep() = default;
+    std::shared_ptr<const Grid> grid_;
+    // In the order of Values' alternatives.
+    template <typename... T>
+    using Shared = std::variant<std::shared_ptr<const LazyColumn<T>>...>;
+    Shared<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t,
+           std::uint64_t, std::int64_t, float, double>
+        columns_;
+    std::uint64_t size_ = 0;
+    RangeSet kept_;
+    StepStatistics statistics_;
+};
+
+}  // namespace timeseries

@@ -1,0 +1,376 @@
+#include "timeseries/index/value_partition.h"
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "timeseries/index/value_bins.h"
+
+namespace timeseries {
+namespace {
+
+constexpr std::size_t kLine = 16;  // points that are written at once
+
+// The points of a field that count.
+template <typename T>
+struct Points {
+    std::span<const T> field;
+    const std::vector<bool>& missing;
+    std::span<const Interval<T>> kept;
+    bool all;  // valid ones are kept
+
+    Points(std::span<const T> values, const std::vector<bool>& marks,
+           std::span<const Interval<T>> intervals)
+        : field(values),
+          missing(marks),
+          kept(intervals),
+          all(intervals.size() == 1 && holds(orderedKey(lowest())) &&
+              holds(orderedKey(highest()))) {}
+
+    bool keeps(T value) const {
+        if (all) return true;
+        for (const Interval<T>& i : kept)
+            if (i.lo <= value && value <= i.hi) return true;
+        return false;
+    }
+    // visit(i, value) for the valid ones of [from, to), ascending.
+    template <typename Visit>
+    void forEachValid(std::size_t from, std::size_t to, const Visit& visit) const {
+        const bool marked = !missing.empty();
+        const T* const values = field.data();
+        for (std::size_t i = from; i < to; ++i) {
+            const T value = values[i];
+            if (value != value || (marked && missing[i])) continue;
+            visit(i, value);
+        }
+    }
+    // The part of thread k: never shares a word of marks.
+    std::size_t begin(unsigned k, unsigned threads) const {
+        return k == threads ? field.size() : field.size() * k / threads / 64 * 64;
+    }
+
+ private:
+    static T lowest() {
+        using L = std::numeric_limits<T>;
+        return L::has_infinity ? static_cast<T>(-L::infinity()) : L::lowest();
+    }
+    static T highest() {
+        using L = std::numeric_limits<T>;
+        return L::has_infinity ? L::infinity() : L::max();
+    }
+    bool holds(OrderedKey<T> key) const {
+        return orderedKey(kept[0].lo) <= key && key <= orderedKey(kept[0].hi);
+    }
+};
+
+// What a thread found in its part of the field.
+template <typename T>
+struct Counted {
+    std::uint64_t valid = 0;
+    T least{}, greatest{};
+    std::vector<std::uint32_t> inBin;  // of those that are kept
+};
+
+template <typename T, typename Bin>
+Counted<T> countPart(const Points<T>& points, std::size_t from, std::size_t to, std::size_t bins,
+                     const Bin& binOf) {
+    // Neighbours are counted by turns: equal ones would wait for each other.
+    constexpr std::size_t kTurns = sizeof(T) == 1 ? 8 : 1;
+    std::vector<std::uint32_t> counts(bins * kTurns);
+    std::uint32_t* const in = counts.data();
+    const bool all = points.all;
+    std::uint64_t valid = 0;
+    T least{}, greatest{};
+    points.forEachValid(from, to, [&](std::size_t i, T value) {
+        if (valid++ == 0) least = greatest = value;
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
+        if (all || points.keeps(value)) ++in[binOf(orderedKey(value)) * kTurns + i % kTurns];
+    });
+    for (std::size_t bin = 0; bin < bins; ++bin)
+        in[bin] = std::accumulate(in + bin * kTurns, in + (bin + 1) * kTurns, 0u);
+    counts.resize(bins);
+    return {valid, least, greatest, std::move(counts)};
+}
+
+template <typename T, typename Bin>
+std::vector<Counted<T>> countAll(const Points<T>& points, unsigned threads, std::size_t bins,
+                                 const Bin& binOf) {
+    std::vector<Counted<T>> parts(threads);
+    sharing(threads, [&](unsigned k) {
+        parts[k] =
+            countPart(points, points.begin(k, threads), points.begin(k + 1, threads), bins, binOf);
+    });
+    return parts;
+}
+
+template <typename T>
+void takeStatistics(const std::vector<Counted<T>>& parts, Partition<T>& out) {
+    for (const Counted<T>& part : parts) {
+        if (part.valid == 0) continue;
+        if (out.valid == 0) out.leastValid = part.least, out.greatestValid = part.greatest;
+        out.leastValid = std::min(out.leastValid, part.least);
+        out.greatestValid = std::max(out.greatestValid, part.greatest);
+        out.valid += part.valid;
+    }
+}
+
+// What a thread has of a bucket and not written yet: the points whose places are in one line of
+// the columns.
+template <typename T>
+struct alignas(64) Line {
+    std::array<std::uint32_t, kLine> gridIndex;
+    std::array<T, kLine> value;
+};
+struct alignas(64) IndexLine {
+    std::array<std::uint32_t, kLine> gridIndex;
+};
+
+// Past the caches: nobody reads it soon.
+template <typename V>
+void stream(const std::array<V, kLine>& line, V* to) {
+#ifdef __SSE2__
+    const auto* from = reinterpret_cast<const __m128i*>(line.data());
+    auto* at = reinterpret_cast<__m128i*>(to);
+    for (std::size_t i = 0; i < sizeof line / sizeof(__m128i); ++i)
+        _mm_stream_si128(at + i, _mm_load_si128(from + i));
+#else
+    std::ranges::copy(line, to);
+#endif
+}
+
+// Writes the points of a thread's part to the slots that binOf() and slotOf say, by whole lines.
+template <typename T, bool kValues>
+class Scatter {
+ public:
+    // `next`: where this thread's first point of each slot goes.
+    Scatter(Partition<T>& out, std::vector<std::uint64_t> next)
+        : gridIndex_(out.gridIndex.data()),
+          values_(out.values.data()),
+          next_(std::move(next)),
+          first_(next_),
+          lines_(std::make_unique_for_overwrite<Room[]>(next_.size())) {}
+    Scatter(const Scatter&) = delete;
+    Scatter& operator=(const Scatter&) = delete;
+
+    void put(std::size_t slot, std::size_t i, T value) {
+        const std::uint64_t at = next_[slot]++;
+        Room& line = lines_[slot];
+        line.gridIndex[at % kLine] = static_cast<std::uint32_t>(i);
+        if constexpr (kValues) line.value[at % kLine] = value;
+        if (at % kLine == kLine - 1) write(slot, at + 1);
+    }
+    // What is left; the last thing done.
+    void finish() {
+        for (std::size_t slot = 0; slot < next_.size(); ++slot)
+            if (next_[slot] % kLine != 0) copy(slot, next_[slot]);
+#ifdef __SSE2__
+        _mm_sfence();  // others may read what was streamed once this thread has ended
+#endif
+    }
+
+ private:
+    using Room = std::conditional_t<kValues, Line<T>, IndexLine>;
+
+    void write(std::size_t slot, std::uint64_t end) {
+        const std::uint64_t from = end - kLine;
+        if (first_[slot] > from) return copy(slot, end);
+        stream(lines_[slot].gridIndex, gridIndex_ + from);
+        if constexpr (kValues) stream(lines_[slot].value, values_ + from);
+    }
+    // The part of the line before `end` that is this thread's.
+    void copy(std::size_t slot, std::uint64_t end) {
+        const std::uint64_t line = (end - 1) / kLine * kLine;
+        for (std::uint64_t at = std::max(line, first_[slot]); at < end; ++at) {
+            gridIndex_[at] = lines_[slot].gridIndex[at % kLine];
+            if constexpr (kValues) values_[at] = lines_[slot].value[at % kLine];
+        }
+    }
+
+    std::uint32_t* gridIndex_;
+    T* values_;
+    std::vector<std::uint64_t> next_;
+    const std::vector<std::uint64_t> first_;
+    std::unique_ptr<Room[]> lines_;
+};
+
+// Where each thread's points of each slot begin, the slots one after the other.
+template <typename T>
+std::vector<std::vector<std::uint64_t>> startsOf(std::vector<Counted<T>>& parts,
+                                                 std::size_t slots) {
+    std::vector<std::vector<std::uint64_t>> starts(parts.size(), std::vector<std::uint64_t>(slots));
+    std::uint64_t at = 0;
+    for (std::size_t slot = 0; slot < slots; ++slot)
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            starts[k][slot] = at;
+            at += parts[k].inBin[slot];
+        }
+    return starts;
+}
+
+template <typename T, bool kValues, typename Slot>
+void scatterAll(const Points<T>& points, std::vector<std::vector<std::uint64_t>> starts,
+                const Slot& slotOf, Partition<T>& out) {
+    const auto threads = static_cast<unsigned>(starts.size());
+    sharing(threads, [&](unsigned k) {
+        Scatter<T, kValues> scatter(out, std::move(starts[k]));
+        const bool all = points.all;
+        points.forEachValid(points.begin(k, threads), points.begin(k + 1, threads),
+                            [&](std::size_t i, T value) {
+                                if (!all && !points.keeps(value)) return;
+                                const auto key = orderedKey(value);
+                                scatter.put(slotOf(key), i, valueOfKey<T>(key));
+                            });
+        scatter.finish();
+    });
+}
+
+// Each value a bucket: a counting sort (8 and 16 bits).
+template <typename T>
+Partition<T> byEachValue(const Points<T>& points, unsigned threads) {
+    constexpr std::size_t kKeys = std::size_t{1} << (8 * sizeof(T));
+    const auto itself = [](OrderedKey<T> key) { return std::size_t{key}; };
+    auto parts = countAll(points, threads, kKeys, itself);
+    Partition<T> out;
+    takeStatistics(parts, out);
+    for (std::size_t key = 0; key < kKeys; ++key) {
+        std::uint64_t count = 0;
+        for (const Counted<T>& part : parts) count += part.inBin[key];
+        if (count == 0) continue;
+        out.least.push_back(static_cast<OrderedKey<T>>(key));
+        out.begin.push_back(out.begin.back() + count);
+    }
+    out.least.shrink_to_fit();
+    out.begin.shrink_to_fit();
+    out.oneValueEach = true;
+    out.gridIndex = Pages<std::uint32_t>(out.points());
+    out.values = Pages<T>(out.points());
+    scatterAll<T, false>(points, startsOf(parts, kKeys), itself, out);
+    return out;
+}
+
+// One bucket, not worth tables or threads.
+template <typename T>
+Partition<T> asOneBucket(const Points<T>& points) {
+    auto parts = countAll(points, 1, 1, [](OrderedKey<T>) { return std::size_t{0}; });
+    Partition<T> out;
+    takeStatistics(parts, out);
+    const std::uint64_t kept = parts[0].inBin[0];
+    if (kept == 0) return out;
+    out.least = {0};
+    out.begin.push_back(kept);
+    out.gridIndex = Pages<std::uint32_t>(kept);
+    out.values = Pages<T>(kept);
+    std::size_t at = 0;
+    points.forEachValid(0, points.field.size(), [&](std::size_t i, T value) {
+        if (!points.keeps(value)) return;
+        out.gridIndex.data()[at] = static_cast<std::uint32_t>(i);
+        out.values.data()[at++] = valueOfKey<T>(orderedKey(value));
+    });
+    return out;
+}
+
+// Keys of the kept points among some that are spread over the field.
+template <typename T>
+std::vector<OrderedKey<T>> sampleOf(const Points<T>& points) {
+    constexpr std::size_t kSample = 1 << 14;
+    // A step that has no factor in common with what grids are wide.
+    const std::size_t n = points.field.size(), step = (n / kSample) | 1;
+    std::vector<OrderedKey<T>> keys;
+    for (std::size_t i = 0; i < n; i += step)
+        points.forEachValid(i, i + 1, [&](std::size_t, T value) {
+            if (points.keeps(value)) keys.push_back(orderedKey(value));
+        });
+    return keys;
+}
+
+// Neighbouring bins become a bucket while it has no more points than it should.
+template <typename T>
+std::vector<std::uint32_t> joinBins(const std::vector<Counted<T>>& parts,
+                                    const std::vector<OrderedKey<T>>& leastKeys, std::uint64_t most,
+                                    Partition<T>& out) {
+    std::vector<std::uint32_t> bucketOf(leastKeys.size());
+    for (std::size_t bin = 0; bin < leastKeys.size(); ++bin) {
+        std::uint64_t count = 0;
+        for (const Counted<T>& part : parts) count += part.inBin[bin];
+        const bool none = out.least.empty();
+        const std::uint64_t before = none ? 0 : out.begin.back() - out.begin[out.begin.size() - 2];
+        if (none || (before > 0 && before + count > most)) {
+            out.least.push_back(leastKeys[bin]);
+            out.begin.push_back(out.begin.back());
+        }
+        out.begin.back() += count;
+        bucketOf[bin] = static_cast<std::uint32_t>(out.least.size() - 1);
+    }
+    return bucketOf;
+}
+
+template <typename T>
+Partition<T> byBuckets(const Points<T>& points, unsigned threads, std::uint64_t most) {
+    std::vector<OrderedKey<T>> sample = sampleOf(points);
+    const std::uint64_t inSample = most * sample.size() / points.field.size();
+    const ValueBins<T> bins(std::move(sample), std::max<std::uint64_t>(inSample, 1));
+    auto parts = countAll(points, threads, bins.count(), bins);
+    Partition<T> out;
+    takeStatistics(parts, out);
+    const auto bucketOf = joinBins(parts, bins.leastKeys(), most, out);
+    const std::vector<std::uint32_t> bucketOfPrefix = bins.ofWholePrefixes(bucketOf);
+    for (Counted<T>& part : parts) {
+        std::vector<std::uint32_t> inBucket(out.least.size());
+        for (std::size_t bin = 0; bin < bucketOf.size(); ++bin)
+            inBucket[bucketOf[bin]] += part.inBin[bin];
+        part.inBin = std::move(inBucket);
+    }
+    out.gridIndex = Pages<std::uint32_t>(out.points());
+    out.values = Pages<T>(out.points());
+    scatterAll<T, true>(
+        points, startsOf(parts, out.least.size()),
+        [&, ofPrefix = bucketOfPrefix.data()](OrderedKey<T> key) {
+            const std::uint32_t whole = ofPrefix[bins.prefixOf(key)];
+            return std::size_t{whole != bins.kDivided ? whole : bucketOf[bins(key)]};
+        },
+        out);
+    return out;
+}
+
+}  // namespace
+
+template <typename T>
+Partition<T> partition(std::span<const T> field, const std::vector<bool>& missing,
+                       std::span<const Interval<T>> kept, const PartitionSize& size) {
+    const Points<T> points(field, missing, kept);
+    // No part has more points than a count of 32 bits.
+    const unsigned least = field.size() > std::numeric_limits<std::uint32_t>::max() ? 2 : 1;
+    const unsigned threads =
+        std::max(least, threadsFor(field.size(), size.worthAThread, size.threads));
+    if (field.size() < size.least && (sizeof(T) > 1 || field.size() < 1024))
+        return asOneBucket(points);
+    if constexpr (sizeof(T) <= 2) {
+        return byEachValue(points, threads);
+    } else {
+        return byBuckets(points, threads, std::max(size.bucket, field.size() / size.mostBuckets));
+    }
+}
+
+#define PARTITION(T)                                                              \
+    template Partition<T> partition(std::span<const T>, const std::vector<bool>&, \
+                                    std::span<const Interval<T>>, const PartitionSize&);
+PARTITION(std::uint8_t)
+PARTITION(std::int8_t)
+PARTITION(std::uint16_t)
+PARTITION(std::int16_t)
+PARTITION(std::uint32_t)
+PARTITION(std::int32_t)
+PARTITION(std::uint64_t)
+PARTITION(std::int64_t)
+PARTITION(float)
+PARTITION(double)
+#undef PARTITION
+
+}  // namespace timeseries

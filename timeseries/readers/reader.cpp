@@ -1,0 +1,124 @@
+#include "timeseries/readers/reader.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "timeseries/readers/netcdf_reader.h"
+#include "timeseries/readers/nrrd_reader.h"
+#include "timeseries/readers/ordinary_file.h"
+#include "timeseries/readers/other_formats.h"
+#include "timeseries/readers/sequence_reader.h"
+#ifdef ISOCHRON_VTK
+#include "timeseries/readers/vtk_reader.h"
+#else
+#include "timeseries/readers/shell_word.h"
+#endif
+
+namespace timeseries {
+namespace {
+
+using namespace std::string_view_literals;
+
+std::string beginning(const std::filesystem::path& path) {
+    const auto fail = [&](std::string_view what) {
+        throw FileError(fmt::format("{}: {}", path.string(), what));
+    };
+    if (const std::string flaw = flawOfFile(path); !flaw.empty()) fail(flaw);
+    std::ifstream file(path, std::ios::binary);
+    std::string start(kBeginningBytes, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(kBeginningBytes));
+    if (file.bad() || !file.is_open()) fail("expected a file that can be read");
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    return start;
+}
+
+struct Format {
+    bool (*begins)(std::string_view start);
+    std::unique_ptr<Reader> (*open)(std::span<const std::filesystem::path> paths);
+    bool joins = false;  // open() makes several files one series; else it is given one at a time
+};
+
+const Format& recognise(const std::filesystem::path& path);
+
+#ifndef ISOCHRON_VTK
+std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths) {
+    // Nobody shall build anew for a collection that is not read then either.
+    if (const std::string member = firstMember(beginning(paths[0])); !member.empty())
+        recognise(paths[0].parent_path() / member);
+    throw FileError(
+        fmt::format("{}: expected a build that reads VTK files, which `./run --with-vtk {}` makes",
+                    paths[0].string(), shellWord(paths[0].string())));
+}
+#endif
+
+const std::array kFormats = {
+    Format{[](std::string_view start) {
+               return start.starts_with("CDF\1"sv) || start.starts_with("CDF\2"sv) ||
+                      start.starts_with("CDF\5"sv) || start.starts_with("\x89HDF\r\n\x1a\n"sv);
+           },
+           openNetcdf, true},
+    Format{[](std::string_view start) { return start.starts_with("NRRD0"sv); }, openNrrd},
+    Format{[](std::string_view start) {
+               const bool vtk =
+                   start.starts_with("# vtk DataFile"sv) ||
+                   (start.find("<VTKFile"sv) != start.npos &&
+                    start.find_first_not_of("\xEF\xBB\xBF \t\r\n"sv) == start.find('<'));
+               return vtk && otherVtk(start).empty();
+           },
+           openVtk},
+};
+
+std::string otherFormatOf(const std::filesystem::path& path, std::string_view start) {
+    std::error_code ignored;
+    return otherFormat(start, std::filesystem::file_size(path, ignored));
+}
+
+const Format& recognise(const std::filesystem::path& path) {
+    const std::string start = beginning(path);
+    for (const Format& format : kFormats)
+        if (format.begins(start)) return format;
+    const std::string other = otherFormatOf(path, start);
+    if (!other.empty()) throw FileError(notReadSentence(path, other));
+    throw FileError(
+        fmt::format("{}: expected a NetCDF, NRRD or VTK file, {}", path.string(),
+                    start.empty() ? "but it is empty" : "found no format that is known"));
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths) {
+    if (paths.empty()) throw FileError("expected a file to open, but none is named");
+    // All of them first: a wrong file among many is told before any is read.
+    const Format& format = recognise(paths.front());
+    for (const std::filesystem::path& path : paths)
+        if (&recognise(path) != &format)
+            throw FileError(
+                fmt::format("{}: expected the format of {}, so that they make one series",
+                            path.string(), paths.front().string()));
+    if (format.joins || paths.size() == 1) return format.open(paths);
+    return openSequence(paths, [open = format.open](const std::filesystem::path& path) {
+        return open(std::span(&path, 1));
+    });
+}
+
+bool isReadable(const std::filesystem::path& path) {
+    try {
+        recognise(path);
+        return true;
+    } catch (const FileError&) {
+        return false;
+    }
+}
+
+std::string formatNotRead(const std::filesystem::path& path) {
+    try {
+        return isReadable(path) ? "" : otherFormatOf(path, beginning(path));
+    } catch (const FileError&) {
+        return "";
+    }
+}
+
+}  // namespace timeseries

@@ -1,0 +1,87 @@
+// A file (or several that make one series) opened for reading: what it holds, and one step at a
+// time.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "timeseries/grid/field.h"
+
+namespace timeseries {
+
+// A file that cannot be used. what() is one sentence: the file, the place in it, what was expected.
+struct FileError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct TimePoint {
+    double value = 0;  // in TimeAxis::units, exactly as stored (integers beyond 2^53 are rounded)
+    std::string date;  // "2000-01-04 12:00:00" in the axis's calendar; "" for plain numbers
+};
+
+struct TimeAxis {
+    std::string name;      // "time"; "step" when steps are counted
+    std::string units;     // "s", "hours since 0000-01-01"; "" for none
+    std::string calendar;  // CF calendar of dates; "" for plain numbers
+    std::vector<TimePoint>
+        points;            // [steps] in the order of the steps, which the reader keeps as stored
+    bool counted = false;  // the file has no time: steps are counted, points[i].value is i
+};
+
+struct Variable {
+    std::string name, longName, units;
+    bool nameless = false;  // the file's only array, called as the file is for want of a name
+    ValueType type{};       // what selection compares: the unpacked type
+    std::string storedAs;   // how the file holds it: "int16 packed, scale 0.001, offset 15"
+    std::string missing;    // how missing values are told: "_FillValue -1e+34"; "" for none
+    std::shared_ptr<const Grid> grid;
+    std::shared_ptr<const TimeAxis> time;
+    std::vector<std::string>
+        notes;  // what a user must know: "drawn in index space: lon(y,x) is 2-D"
+};
+
+// A variable that cannot be read for what its file says of it.
+struct DamagedVariable {
+    std::string name;
+    std::string why;  // a FileError's sentence
+};
+
+// Consecutive steps.
+struct StepSpan {
+    std::size_t first, count;
+};
+
+// Not thread-safe: one thread at a time. Different Readers may be used on different threads.
+class Reader {
+ public:
+    virtual ~Reader() = default;
+    virtual std::string format() const = 0;  // "NetCDF-4"
+    virtual std::span<const std::filesystem::path> files() const = 0;
+    virtual std::span<const Variable> variables() const = 0;  // at least one
+    // Those that are no part of variables().
+    virtual std::span<const DamagedVariable> damaged() const { return {}; }
+    // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
+    virtual Field read(std::size_t variable, std::size_t step) = 0;
+    // Which steps of a variable files()[file] holds; none where the reader does not know. A reader
+    // that joins files tells it.
+    virtual std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const {
+        if (files().size() != 1 || file != 0) return std::nullopt;
+        return StepSpan{0, variables()[variable].time->points.size()};
+    }
+};
+
+// Opens by content. Several paths are one series. Throws FileError.
+std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths);
+
+// Whether the file begins as one of the formats does that are read.
+bool isReadable(const std::filesystem::path& path);
+// "a NIfTI file": what a file is that begins otherwise; "" where that is not known.
+std::string formatNotRead(const std::filesystem::path& path);
+
+}  // namespace timeseries

@@ -1,0 +1,117 @@
+#include "timeseries/series/step_loader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace timeseries {
+
+namespace {
+
+// A step that waits to be polled takes memory outside any budget, so there are few: one that was
+// just finished and one more, so that the disk does not wait for the next frame.
+constexpr std::size_t kMostResults = 2;
+
+std::size_t stepOf(const LoadResult& result) {
+    return std::visit([](const auto& r) { return r.step; }, result);
+}
+
+}  // namespace
+
+StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
+                       std::function<void()> wake, Ready ready)
+    : reader_(std::move(reader)),
+      variable_(variable),
+      stepCount_(reader_->variables()[variable].time->points.size()),
+      kept_(std::move(kept)),
+      wake_(std::move(wake)),
+      ready_(ready),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+StepLoader::~StepLoader() = default;  // jthread asks to stop, which ends its waits, and joins
+
+void StepLoader::want(std::vector<std::size_t> mostUrgentFirst) {
+    for (const std::size_t step : mostUrgentFirst)
+        if (step >= stepCount_)
+            throw std::out_of_range(
+                fmt::format("step {} was asked for, but the series has {}", step, stepCount_));
+    {
+        const std::lock_guard lock(mutex_);
+        std::vector<bool> underWay(stepCount_);
+        if (reading_) underWay[*reading_] = true;
+        for (const LoadResult& result : results_) underWay[stepOf(result)] = true;
+        wishes_.clear();
+        for (const std::size_t step : mostUrgentFirst) {
+            if (underWay[step]) continue;
+            underWay[step] = true;  // each once
+            wishes_.push_back(step);
+        }
+    }
+    work_.notify_one();
+}
+
+std::optional<LoadResult> StepLoader::poll() {
+    const std::lock_guard lock(mutex_);
+    return takeFirst();
+}
+
+std::optional<LoadResult> StepLoader::waitAndPoll(std::chrono::nanoseconds timeout) {
+    using Clock = std::chrono::steady_clock;
+    std::unique_lock lock(mutex_);
+    const auto something = [this] { return !results_.empty() || idle(); };
+    const auto now = Clock::now();
+    if (timeout < Clock::time_point::max() - now)
+        done_.wait_until(lock, now + timeout, something);
+    else
+        done_.wait(lock, something);
+    return takeFirst();
+}
+
+bool StepLoader::idle() const { return wishes_.empty() && !reading_; }
+
+std::optional<LoadResult> StepLoader::takeFirst() {
+    if (results_.empty()) return std::nullopt;
+    LoadResult result = std::move(results_.front());
+    results_.pop_front();
+    work_.notify_one();
+    return result;
+}
+
+void StepLoader::run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    const auto mayBegin = [this] { return !wishes_.empty() && results_.size() < kMostResults; };
+    while (work_.wait(lock, stop, mayBegin) && !stop.stop_requested()) {
+        const std::size_t step = wishes_.front();
+        wishes_.pop_front();
+        reading_ = step;
+        lock.unlock();
+        LoadResult result = load(step);
+        lock.lock();
+        reading_.reset();
+        results_.push_back(std::move(result));
+        done_.notify_one();
+        lock.unlock();
+        wake_();
+        lock.lock();
+    }
+}
+
+LoadResult StepLoader::load(std::size_t step) {
+    try {
+        const Field field = reader_->read(variable_, step);
+        auto sorted = std::make_shared<const SortedStep>(SortedStep::build(field, kept_));
+        if (ready_ == Ready::Whole) sorted->columns();
+        return Loaded{step, std::move(sorted)};
+    } catch (const std::bad_alloc&) {
+        return Failed{step, fmt::format("there is not enough memory for step {}", step)};
+    } catch (const std::exception& e) {
+        return Failed{step, e.what()};
+    }
+}
+
+}  // namespace timeseries
