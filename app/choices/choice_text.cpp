@@ -266,7 +266,8 @@ std::string mapText(const MapChoice& map) {
 double parseNumber(std::string_view what, std::string_view text) {
     const auto number = numberIn<double>(text);
     if (!number || !std::isfinite(*number))
-        throw ChoiceError(fmt::format("{} '{}' is not a finite number", what, text));
+        throw ChoiceError(
+            fmt::format("{}{}'{}' is not a finite number", what, what.empty() ? "" : " ", text));
     return *number;
 }
 

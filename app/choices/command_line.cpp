@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/choices.h"
 #include "app/choices/options.h"
 #include "app/choices/paths.h"
 #include "timeseries/readers/shell_word.h"
@@ -41,8 +42,6 @@ class Arguments {
     std::vector<std::string> all_;
 };
 
-std::string triple(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
-
 void addAxes(const Explorer& e, Arguments& arguments) {
     if (const std::string flips = flipsText(e.axes); flips != "none")
         arguments.option("--flip", flips);
@@ -67,17 +66,7 @@ void addLayers(const Explorer& e, Arguments& arguments) {
         if (!layer.visible) arguments.option("--hide", std::to_string(place));
         ++place;
     };
-    if (e.sweep) {
-        const timeseries::SweepSettings& s = *e.sweep;
-        arguments.option("--sweep", s.animation.text());
-        arguments.number("--delta", s.delta);
-        arguments.option("--timer-steps", std::to_string(s.timerSteps));
-        arguments.option("--timer-step", std::to_string(s.step));
-        arguments.number("--frequency", s.frequency);
-        arguments.flag("--swing", s.path == timeseries::SweepPath::Swing);
-        if (e.oneTick) arguments.option("--tick", std::to_string(e.play.tick));
-        add(e.sweepLayer);
-    }
+    if (e.sweep) add(e.sweepLayer);
     for (const LayerChoice& layer : e.layers) {
         arguments.option("--range", layer.ranges.text());
         add(layer);
@@ -88,28 +77,20 @@ void addLayers(const Explorer& e, Arguments& arguments) {
     }
 }
 
-void addView(const Explorer& e, Arguments& arguments) {
+// What differs from a picture that nobody has chosen anything of, and the view.
+void addChoices(const Explorer& e, Arguments& arguments) {
     const Explorer plain;
-    const ViewChoice& view = e.view;
-    std::string text = fmt::format("{},{}", view.azimuthDegrees, view.elevationDegrees);
-    if (view.distance) text += fmt::format(",{}", *view.distance);
-    arguments.option("--view", text);
-    if (view.target != plain.view.target) arguments.option("--target", triple(view.target));
-    arguments.flag("--orthographic", view.projection == Projection::Orthographic);
-    if (e.stereo.mode != plain.stereo.mode) arguments.option("--stereo", stereoName(e.stereo.mode));
-    if (e.stereo.eyeDistance) arguments.number("--eye-distance", *e.stereo.eyeDistance);
-    if (e.stereo.convergence) arguments.number("--convergence", *e.stereo.convergence);
-    arguments.option("--size", fmt::format("{}x{}", e.size.x, e.size.y));
-}
-
-void addSplats(const Explorer& e, Arguments& arguments) {
-    const render::Footprint plain;
-    if (e.footprint.kernel != plain.kernel)
-        arguments.option("--splat", kernelName(e.footprint.kernel));
-    if (e.footprint.size != plain.size) arguments.number("--splat-size", e.footprint.size);
-    if (e.order != Explorer{}.order) arguments.option("--order", orderName(e.order));
-    if (e.clip) arguments.option("--clip", clipText(*e.clip));
-    if (e.scale) arguments.option("--scale", triple(*e.scale));
+    for (const Choice& choice : choices()) {
+        const auto text = choice.text(e);
+        if (*choice.option == '\0' || !text || text == choice.text(plain)) continue;
+        if (choice.flag)
+            arguments.flag(choice.option, *text == choice.flag);
+        else
+            arguments.option(choice.option, *text);
+    }
+    std::string view = fmt::format("{},{}", e.view.azimuthDegrees, e.view.elevationDegrees);
+    if (e.view.distance) view += fmt::format(",{}", *e.view.distance);
+    arguments.option("--view", view);
 }
 
 }  // namespace
@@ -119,13 +100,9 @@ std::vector<std::string> renderArguments(const Explorer& e, const fs::path& outp
     assert(!e.layers.empty() || e.sweep || e.noLayers);
     Arguments arguments({"render"});
     for (const fs::path& file : e.files) arguments.file(relativeTo(folder, file));
-    if (!e.variable.empty()) arguments.option("--variable", e.variable);
-    if (e.steps) arguments.option("--step", stepsText(*e.steps));
-    if (e.keep) arguments.option("--keep", e.keep->text());
+    addChoices(e, arguments);
     addAxes(e, arguments);
     addLayers(e, arguments);
-    addSplats(e, arguments);
-    addView(e, arguments);
     arguments.option("--output", relativeTo(folder, output).generic_string());
     return arguments.take();
 }

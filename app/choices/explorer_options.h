@@ -1,7 +1,6 @@
 // The options that choose what is looked at and how: those of `render` and of `view`.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,18 +25,12 @@ class ExplorerOptions {
  private:
     std::vector<std::variant<glm::dvec3, MapChoice>> colorsInOrder(const CLI::App& command) const;
     void applyAxes(const CLI::App& command, Explorer& explorer) const;
-    void applySweep(const CLI::App& command, Explorer& explorer) const;
     void applyLayers(const CLI::App& command, Explorer& explorer) const;
-    void applyView(const CLI::App& command, Explorer& explorer) const;
 
+    std::vector<std::string> texts_;  // of each of choices(), where its option takes one
     std::vector<std::string> files_, ranges_, colors_, colormaps_, opacities_, axisNames_;
     std::vector<std::size_t> hidden_;
-    std::string session_, variable_, steps_, keep_, flips_, splat_, splatSize_, order_, clip_,
-        scale_;
-    std::string sweep_, delta_, frequency_;
-    std::string view_, target_, size_, stereo_, eyeDistance_, convergence_;
-    std::int64_t timerSteps_ = 0, timerStep_ = 0, tick_ = 0;
-    bool swing_ = false, orthographic_ = false;
+    std::string session_, flips_, view_;
 };
 
 }  // namespace app

@@ -9,6 +9,7 @@
 #include <array>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/choices.h"
 #include "app/choices/explorer_options.h"
 #include "app/choices/option_checks.h"
 
@@ -32,10 +33,9 @@ struct CountText {
 
 void addCount(CLI::App& app, CountText& into) {
     app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
-    app.add_option("--variable", into.variable,
-                   "Which variable; without it the one of the most levels, then steps");
+    app.add_option("--variable", into.variable, choiceOf("--variable").help);
     app.add_option("--range", into.ranges, kRangeHelp)->required()->allow_extra_args(false);
-    app.add_option("--keep", into.keep, "Values to keep when the sorted list is built");
+    app.add_option("--keep", into.keep, choiceOf("--keep").help);
     app.add_option("--step", into.steps,
                    "A step counted from 0, A:B, A:B:S for every S-th, or all (the default)");
     app.add_flag("--json", into.json, "Machine-readable");

@@ -6,10 +6,11 @@
 
 #include <array>
 #include <fstream>
-#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/choices.h"
 #include "app/choices/json_object.h"
 #include "app/choices/paths.h"
 #include "render/image/exr.h"
@@ -25,12 +26,6 @@ using timeseries::RangeSet;
 
 constexpr int kVersion = 1;
 constexpr std::array kAxes = {"x", "y", "z"};
-
-double within(double value, const char* what, double lo, double hi) {
-    if (!(value >= lo && value <= hi))
-        throw ChoiceError(fmt::format("{} {} is not a number from {} to {}", what, value, lo, hi));
-    return value;
-}
 
 void writeStyle(json& out, const LayerChoice& layer) {
     if (!layer.visible) out["visible"] = false;
@@ -69,42 +64,6 @@ LayerChoice readStyle(JsonObject& object) {
     return layer;
 }
 
-json sweepJson(const Explorer& explorer) {
-    const timeseries::SweepSettings& s = *explorer.sweep;
-    json out{{"animation", s.animation.text()}, {"delta", s.delta},
-             {"timerSteps", s.timerSteps},      {"timerStep", s.step},
-             {"frequency", s.frequency},        {"swing", s.path == timeseries::SweepPath::Swing}};
-    if (explorer.oneTick) out["tick"] = explorer.play.tick;
-    writeStyle(out, explorer.sweepLayer);
-    return out;
-}
-
-void readSweep(const json& value, const std::string& where, Explorer& explorer) {
-    JsonObject object(value, where);
-    timeseries::SweepSettings s;
-    s.path = timeseries::SweepPath::Loop;
-    object.read<std::string>("animation",
-                             [&](const std::string& t) { s.animation = RangeSet::parse(t); });
-    object.read<double>("delta", [&](double d) { s.delta = d; });
-    object.read<std::int64_t>("timerSteps", [&](std::int64_t n) { s.timerSteps = n; });
-    object.read<std::int64_t>("timerStep", [&](std::int64_t n) { s.step = n; });
-    object.read<double>("frequency", [&](double f) { s.frequency = f; });
-    object.read<bool>("swing", [&](bool b) {
-        s.path = b ? timeseries::SweepPath::Swing : timeseries::SweepPath::Loop;
-    });
-    object.read<std::int64_t>("tick", [&](std::int64_t n) {
-        explorer.oneTick = true;
-        explorer.play.tick = n;
-    });
-    explorer.sweepLayer = readStyle(object);
-    object.refuseOthers();
-    if (s.animation.empty()) throw ChoiceError("has no animation");
-    const std::int64_t ticks = ticksOf(s);
-    if (explorer.oneTick && !(explorer.play.tick >= 0 && explorer.play.tick < ticks))
-        throw ChoiceError(fmt::format("tick {} is none of 0 to {}", explorer.play.tick, ticks - 1));
-    explorer.sweep = s;
-}
-
 void readAxes(const json& value, const std::string& where, Explorer& explorer) {
     JsonObject object(value, where);
     for (std::size_t a = 0; a < 3; ++a)
@@ -118,111 +77,76 @@ void readAxes(const json& value, const std::string& where, Explorer& explorer) {
     object.refuseOthers();
 }
 
-json viewJson(const ViewChoice& view) {
-    json out{{"azimuth", view.azimuthDegrees}, {"elevation", view.elevationDegrees}};
-    if (view.distance) out["distance"] = *view.distance;
-    if (view.target != glm::dvec3(0)) out["target"] = {view.target.x, view.target.y, view.target.z};
-    if (view.projection != Projection::Perspective)
-        out["projection"] = projectionName(view.projection);
-    return out;
+// The value that a session has for a choice's text.
+json valueOf(Choice::Form form, const std::string& text) {
+    switch (form) {
+        case Choice::Form::Text:
+            return text;
+        case Choice::Form::Flag:
+            return text == "true";
+        case Choice::Form::Numbers:
+            return json::parse("[" + text + "]");
+        default:
+            return json::parse(text);
+    }
 }
 
-ViewChoice readView(const json& value, const std::string& where) {
-    JsonObject object(value, where);
-    ViewChoice view;
-    object.read<double>("azimuth", [&](double d) { view.azimuthDegrees = d; });
-    object.read<double>("elevation", [&](double d) { view.elevationDegrees = d; });
-    object.read<double>(
-        "distance", [&](double d) { view.distance = within(d, "distance", kNearest, kFarthest); });
-    object.read<std::vector<double>>("target", [&](const std::vector<double>& t) {
-        view.target = parseTarget(fmt::format("{}", fmt::join(t, ",")));
-    });
-    object.read<std::string>("projection",
-                             [&](const std::string& p) { view.projection = parseProjection(p); });
-    object.refuseOthers();
-    return view;
+// And back: gives the text of the value at that key, if there is one, to `take`.
+template <typename Take>
+void readValue(JsonObject& object, Choice::Form form, const char* key, const Take& take) {
+    const auto number = [&](auto value) { take(fmt::format("{}", value)); };
+    switch (form) {
+        case Choice::Form::Text:
+            return object.read<std::string>(key, take);
+        case Choice::Form::Flag:
+            return object.read<bool>(key, number);
+        case Choice::Form::Numbers:
+            return object.read<std::vector<double>>(key, [&](const std::vector<double>& list) {
+                take(fmt::format("{}", fmt::join(list, ",")));
+            });
+        case Choice::Form::Whole:
+            return object.read<std::int64_t>(key, number);
+        case Choice::Form::Number:
+            return object.read<double>(key, number);
+    }
 }
 
-// Only what differs from a play that nobody has touched; nothing at all, if so. The tick of a sweep
-// that stands is the sweep's.
-json playJson(const PlayChoice& play, bool oneTick) {
-    json out = json::object();
-    const auto put = [&out](const char* key, const auto& value, const auto& untouched) {
-        if (value != untouched) out[key] = value;
-    };
-    const PlayChoice untouched;
-    const timeseries::CursorSettings &time = play.time, &plain = untouched.time;
-    put("first", time.first, plain.first);
-    put("last", time.last, plain.last);
-    put("stride", time.stride, plain.stride);
-    put("ending", endingName(time.ending), endingName(plain.ending));
-    put("backward", time.direction == timeseries::Direction::Backward, false);
-    put("realTimes", time.pace == timeseries::Pace::RealTimes, false);
-    put("stepsPerSecond", time.stepsPerSecond, plain.stepsPerSecond);
-    put("timeUnitsPerSecond", time.timeUnitsPerSecond, plain.timeUnitsPerSecond);
-    put("timeMoves", play.timeMoves, untouched.timeMoves);
-    put("sweepMoves", play.sweepMoves, untouched.sweepMoves);
-    if (!oneTick) put("tick", play.tick, untouched.tick);
-    return out;
+// "view" and "target" of "view.target"; "" and all of it where there is no dot.
+std::pair<std::string, const char*> splitKey(const char* key) {
+    const std::string_view text = key;
+    const std::size_t dot = text.find('.');
+    if (dot == std::string_view::npos) return {"", key};
+    return {std::string(text.substr(0, dot)), key + dot + 1};
 }
 
-PlayChoice readPlay(const json& value, const std::string& where) {
-    JsonObject object(value, where);
-    PlayChoice play;
-    timeseries::CursorSettings& time = play.time;
-    const auto count = [&](const char* key, std::int64_t least, auto& into) {
-        object.read<std::int64_t>(key, [&, least](std::int64_t n) {
-            if (n < least) throw ChoiceError(fmt::format("{} is less than {}", n, least));
-            into = static_cast<std::decay_t<decltype(into)>>(n);
+void writeChoices(const Explorer& e, json& out) {
+    for (const Choice& choice : choices()) {
+        const auto text = choice.text(e);
+        if (!text) continue;
+        const auto [object, key] = splitKey(choice.key);
+        (object.empty() ? out : out[object])[key] = valueOf(choice.form, *text);
+    }
+    if (e.sweep) writeStyle(out["sweep"], e.sweepLayer);
+}
+
+void readChoices(JsonObject& session, Explorer& e) {
+    std::map<std::string, JsonObject> objects;
+    for (const char* name : {"view", "stereo", "sweep", "play"})
+        session.read<json>(name, [&](const json& value) {
+            objects.emplace(name, JsonObject(value, session.place(name)));
         });
-    };
-    const auto speed = [&](const char* key, double& into) {
-        object.read<double>(key, [&](double d) {
-            into = within(d, "speed", 0, std::numeric_limits<double>::max());
-        });
-    };
-    count("first", 0, time.first);
-    count("last", 0, time.last);
-    if (time.first > time.last)
-        throw ChoiceError(
-            fmt::format("the first step {} lies after the last {}", time.first, time.last));
-    count("stride", 1, time.stride);
-    object.read<std::string>("ending",
-                             [&](const std::string& name) { time.ending = parseEnding(name); });
-    object.read<bool>("backward", [&](bool b) {
-        time.direction = b ? timeseries::Direction::Backward : timeseries::Direction::Forward;
-    });
-    object.read<bool>("realTimes", [&](bool b) {
-        time.pace = b ? timeseries::Pace::RealTimes : timeseries::Pace::Even;
-    });
-    speed("stepsPerSecond", time.stepsPerSecond);
-    speed("timeUnitsPerSecond", time.timeUnitsPerSecond);
-    object.read<bool>("timeMoves", [&](bool b) { play.timeMoves = b; });
-    object.read<bool>("sweepMoves", [&](bool b) { play.sweepMoves = b; });
-    count("tick", 0, play.tick);
-    object.refuseOthers();
-    return play;
-}
-
-json stereoJson(const StereoChoice& stereo) {
-    json out{{"mode", stereoName(stereo.mode)}};
-    if (stereo.eyeDistance) out["eyeDistance"] = *stereo.eyeDistance;
-    if (stereo.convergence) out["convergence"] = *stereo.convergence;
-    return out;
-}
-
-StereoChoice readStereo(const json& value, const std::string& where) {
-    JsonObject object(value, where);
-    StereoChoice stereo;
-    object.read<std::string>("mode", [&](const std::string& m) { stereo.mode = parseStereo(m); });
-    object.read<double>("eyeDistance", [&](double d) {
-        stereo.eyeDistance = within(d, "eye distance", 0, kFarthest);
-    });
-    object.read<double>("convergence", [&](double d) {
-        stereo.convergence = within(d, "convergence", kNearest, kFarthest);
-    });
-    object.refuseOthers();
-    return stereo;
+    for (const Choice& choice : choices()) {
+        const auto [name, key] = splitKey(choice.key);
+        const auto found = objects.find(name);
+        if (!name.empty() && found == objects.end()) continue;
+        readValue(name.empty() ? session : found->second, choice.form, key,
+                  [&](const std::string& text) { choice.take(e, text); });
+    }
+    if (const auto sweep = objects.find("sweep"); sweep != objects.end()) {
+        if (!e.sweep) throw ChoiceError("session.sweep has no animation");
+        e.sweepLayer = readStyle(sweep->second);
+    }
+    for (const auto& [name, object] : objects) object.refuseOthers();
 }
 
 }  // namespace
@@ -235,9 +159,7 @@ json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths)
             out["filesWere"].push_back(
                 std::filesystem::absolute(file).lexically_normal().generic_string());
     }
-    if (!e.variable.empty()) out["variable"] = e.variable;
-    if (e.steps) out["steps"] = stepsText(*e.steps);
-    if (e.keep) out["keep"] = e.keep->text();
+    writeChoices(e, out);
     for (std::size_t a = 0; a < 3; ++a) {
         if (e.axes[a].flip) out["axes"][kAxes[a]]["flip"] = true;
         if (!e.axes[a].name.empty()) out["axes"][kAxes[a]]["name"] = e.axes[a].name;
@@ -249,16 +171,6 @@ json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths)
         out["layers"].push_back(each);
     }
     if (e.layers.empty() && e.noLayers) out["layers"] = json::array();
-    if (e.sweep) out["sweep"] = sweepJson(e);
-    out["splat"] = kernelName(e.footprint.kernel);
-    out["splatSize"] = e.footprint.size;
-    out["order"] = orderName(e.order);
-    if (e.clip) out["clip"] = clipText(*e.clip);
-    if (e.scale) out["scale"] = {e.scale->x, e.scale->y, e.scale->z};
-    out["view"] = viewJson(e.view);
-    out["stereo"] = stereoJson(e.stereo);
-    out["size"] = fmt::format("{}x{}", e.size.x, e.size.y);
-    if (json play = playJson(e.play, e.oneTick); !play.empty()) out["play"] = std::move(play);
     return out;
 }
 
@@ -280,9 +192,6 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
         for (std::size_t i = 0; i < were.size(); ++i)
             if (isThere(were[i]) || !isThere(e.files[i])) e.files[i] = were[i];
     });
-    object.read<std::string>("variable", [&](const std::string& v) { e.variable = v; });
-    object.read<std::string>("steps", [&](const std::string& s) { e.steps = parseSteps(s); });
-    object.read<std::string>("keep", [&](const std::string& k) { e.keep = RangeSet::parse(k); });
     object.read<json>("axes", [&](const json& a) { readAxes(a, object.place("axes"), e); });
     object.read<json>("layers", [&](const json& layers) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
@@ -296,35 +205,11 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
             e.layers.push_back(layer);
         }
     });
-    object.read<json>("sweep", [&](const json& s) { readSweep(s, object.place("sweep"), e); });
-    if (e.layers.size() + (e.sweep ? 1 : 0) > render::kMaxLayers)
-        throw ChoiceError(fmt::format("session.layers has more than the {} that are drawn at once",
-                                      render::kMaxLayers));
-    object.read<std::string>("splat",
-                             [&](const std::string& s) { e.footprint.kernel = parseKernel(s); });
-    object.read<double>("splatSize",
-                        [&](double s) { e.footprint.size = within(s, "size", 1e-3, 1e3); });
-    object.read<std::string>("order", [&](const std::string& o) { e.order = parseOrder(o); });
-    object.read<std::string>("clip", [&](const std::string& c) { e.clip = parseClip(c); });
-    object.read<std::vector<double>>("scale", [&](const std::vector<double>& s) {
-        e.scale = parseScale(fmt::format("{}", fmt::join(s, ",")));
-    });
-    object.read<json>("view", [&](const json& v) { e.view = readView(v, object.place("view")); });
-    object.read<json>("stereo",
-                      [&](const json& v) { e.stereo = readStereo(v, object.place("stereo")); });
-    object.read<json>("play", [&](const json& p) {
-        const std::int64_t standing = e.play.tick;
-        e.play = readPlay(p, object.place("play"));
-        if (e.oneTick) e.play.tick = standing;
-    });
-    object.read<std::string>("size", [&](const std::string& s) { e.size = parseSize(s); });
+    readChoices(object, e);
+    if (const auto flaw = flawOf(e))
+        throw ChoiceError(fmt::format("session.{}: {}", flaw->key, flaw->why));
     object.refuseOthers();
     return e;
-}
-
-std::int64_t ticksOf(timeseries::SweepSettings settings) {
-    settings.animation = RangeSet::parse("0");  // unbounded ends become finite later
-    return timeseries::ValueSweep(settings).ticksPerCycle();
 }
 
 std::optional<std::filesystem::path> missingFile(const Explorer& session) {

@@ -34,8 +34,4 @@ Explorer readSession(const std::filesystem::path& file);
 // Of a session's data, the first that is not there any more.
 std::optional<std::filesystem::path> missingFile(const Explorer& session);
 
-// How many pictures one cycle of the sweep has, whatever its ranges are. Throws
-// std::invalid_argument for settings that are no sweep's.
-std::int64_t ticksOf(timeseries::SweepSettings settings);
-
 }  // namespace app

@@ -332,7 +332,7 @@ TEST(Options, ATickIsOneOfTheSweeps) {
     const Explorer e = explorer(ticked("3"));
     EXPECT_TRUE(e.oneTick);
     EXPECT_EQ(e.play.tick, 3);
-    EXPECT_THAT(renderRefused(ticked("4")), HasSubstr("--tick 4: the sweep has ticks 0 to 3"));
+    EXPECT_THAT(renderRefused(ticked("4")), HasSubstr("--tick: 4 is none of the sweep's, 0 to 3"));
     EXPECT_THAT(renderRefused(ticked("-1")), HasSubstr("--tick"));
     EXPECT_THAT(renderRefused(ticked("a")), HasSubstr("--tick"));
 }

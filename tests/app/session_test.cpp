@@ -238,8 +238,8 @@ TEST(Session, ValuesOutOfBoundsAreRefused) {
     // As the command line: what it cannot have written is not read.
     expectRefused(with("view", {{"distance", 1e7}}), "distance");
     expectRefused(with("stereo", {{"convergence", 1e7}}), "convergence");
-    expectRefused(with("stereo", {{"eyeDistance", 1e7}}), "eye distance");
-    expectRefused(with("splatSize", 1e4), "size");
+    expectRefused(with("stereo", {{"eyeDistance", 1e7}}), "session.stereo.eyeDistance");
+    expectRefused(with("splatSize", 1e4), "session.splatSize");
     expectRefused(with("stereo", {{"convergence", 0}}), "convergence");
     expectRefused(with("stereo", {{"eyeDistance", -0.1}}), "eye");
     for (const json& target : {json{1, 2}, json{1, 2, 3, 4}, json{1e7, 0, 0}})

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
+#include "app/choices/choices.h"
 #include "app/choices/explorer.h"
-#include "app/choices/session.h"
 
 namespace tests {
 

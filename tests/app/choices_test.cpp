@@ -1,0 +1,66 @@
+#include "app/choices/choices.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "tests/support/random_explorer.h"
+
+namespace app {
+namespace {
+
+TEST(Choices, AreSpelledOnceEach) {
+    std::set<std::string> options, keys;
+    for (const Choice& choice : choices()) {
+        EXPECT_TRUE(keys.insert(choice.key).second) << choice.key;
+        if (*choice.option == '\0') continue;
+        EXPECT_TRUE(options.insert(choice.option).second) << choice.option;
+        EXPECT_STRNE(choice.group, "") << choice.option;
+        EXPECT_STRNE(choice.help, "") << choice.option;
+    }
+}
+
+TEST(Choices, TakenFromTheirTextsAreTheSame) {
+    tests::RandomExplorer random(5);
+    for (int i = 0; i < 300; ++i) {
+        const Explorer e = random();
+        Explorer copy;
+        for (const Choice& choice : choices())
+            if (const auto text = choice.text(e)) choice.take(copy, *text);
+        // What is spelled elsewhere.
+        copy.files = e.files;
+        copy.axes = e.axes;
+        copy.layers = e.layers;
+        copy.noLayers = e.noLayers;
+        copy.sweepLayer = e.sweepLayer;
+        EXPECT_EQ(copy, e) << i;
+    }
+}
+
+TEST(Choices, WhatCannotStandTogetherIsNamed) {
+    const auto keyOf = [](const Explorer& e) {
+        const auto flaw = flawOf(e);
+        return flaw ? flaw->key : "";
+    };
+    Explorer e;
+    EXPECT_EQ(keyOf(e), "");
+    e.sweep.emplace().animation = timeseries::RangeSet::parse("0:9");
+    e.layers.resize(render::kMaxLayers - 1);
+    EXPECT_EQ(keyOf(e), "");
+    e.layers.emplace_back();
+    EXPECT_EQ(keyOf(e), "layers") << "the swept one counts";
+    e.layers.clear();
+    e.oneTick = true;
+    e.play.tick = ticksOf(*e.sweep) - 1;
+    EXPECT_EQ(keyOf(e), "");
+    ++e.play.tick;
+    EXPECT_EQ(keyOf(e), "sweep.tick");
+    e.oneTick = false;
+    e.play.time.last = e.play.time.first = 3;
+    EXPECT_EQ(keyOf(e), "");
+    e.play.time.last = 2;
+    EXPECT_EQ(keyOf(e), "play.last");
+}
+
+}  // namespace
+}  // namespace app
