@@ -7,6 +7,7 @@
 #include "app/command/commands.h"
 #include "app/say.h"
 #include "timeseries/index/sorted_step.h"
+#include "timeseries/together.h"
 
 namespace {
 
@@ -28,8 +29,10 @@ struct Run {
 
 int main(int argc, char** argv) {
     try {
-        const int code =
-            std::visit(Run{}, app::parse(std::span<const char* const>(argv + 1, argv + argc)));
+        const app::Command command =
+            app::parse(std::span<const char* const>(argv + 1, argv + argc));
+        timeseries::threadLimit = app::threadsOf(command);
+        const int code = std::visit(Run{}, command);
         // A full disk behind a redirection shows only now.
         if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
         return code;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -10,9 +11,15 @@
 
 namespace timeseries {
 
+// Of the whole program, where others need the machine's cores, too; 0: no limit. To be set before
+// there is anything to share.
+inline std::atomic<unsigned> threadLimit{0};
+
 // How many share what there is to do; more of them only wait for memory.
 inline unsigned sharingThreads() {
-    return std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+    const unsigned limit = threadLimit, most = 16;
+    return std::clamp(std::thread::hardware_concurrency(), 1u,
+                      limit > 0 ? std::min(limit, most) : most);
 }
 
 // work(k) for every k below `threads`, each on a thread. REQUIRES: it does not throw.

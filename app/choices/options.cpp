@@ -123,15 +123,18 @@ void addDisplay(CLI::App& app, DisplayText& into) {
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr, with --display headless");
 }
 
-Command viewOptions(Explorer explorer, const DisplayText& text) {
-    if (text.display == "headless") {
-        if (text.output.empty()) throw ChoiceError("--display headless needs -o OUT.png beside it");
-        return renderOptions(std::move(explorer), {.channels = {}, .output = text.output});
-    }
+RenderOptions headlessOptions(Explorer explorer, const DisplayText& text) {
+    if (text.output.empty()) throw ChoiceError("--display headless needs -o OUT.png beside it");
+    return renderOptions(std::move(explorer), {.channels = {}, .output = text.output});
+}
+
+ViewOptions viewOptions(Explorer explorer, const DisplayText& text) {
     if (!text.output.empty()) throw ChoiceError("-o needs --display headless beside it");
-    return ViewOptions{std::move(explorer), text.display == "desktop"   ? Display::Desktop
-                                            : text.display == "headset" ? Display::Headset
-                                                                        : Display::Auto};
+    ViewOptions options;
+    options.explorer = std::move(explorer);
+    if (text.display == "desktop") options.display = Display::Desktop;
+    if (text.display == "headset") options.display = Display::Headset;
+    return options;
 }
 
 constexpr const char* kFooter = R"(
@@ -149,6 +152,17 @@ std::vector<std::string> withCommand(std::span<const char* const> arguments) {
 }
 
 }  // namespace
+
+unsigned threadsOf(const Command& command) {
+    return std::visit(
+        []<typename Options>(const Options& options) {
+            if constexpr (std::is_base_of_v<CommonOptions, Options>)
+                return options.threads;
+            else
+                return 0u;
+        },
+        command);
+}
 
 bool isCommand(std::string_view argument) {
     return std::ranges::find(kCommands, argument) != kCommands.end();
@@ -179,15 +193,27 @@ Command parse(std::span<const char* const> arguments) {
     addOutput(*renderApp, outputText);
     addInfo(*infoApp, info);
     addCount(*countApp, countText);
-    for (CLI::App* each : {viewApp, renderApp, infoApp, countApp}) each->footer(kFooter);
+    CommonOptions common;
+    for (CLI::App* each : {viewApp, renderApp, infoApp, countApp}) {
+        each->add_option("--threads", common.threads,
+                         "At most so many cores; without it, as many as there are, 16 at most")
+            ->check(CLI::Range(1, 1024));
+        each->footer(kFooter);
+    }
+    const auto with = [&common](auto options) {
+        static_cast<CommonOptions&>(options) = common;
+        return options;
+    };
     try {
         std::vector<std::string> all = withCommand(arguments);
         std::ranges::reverse(all);  // CLI11 takes them last first
         app.parse(std::move(all));
-        if (*infoApp) return info;
-        if (*countApp) return countOptions(*countApp, countText);
-        if (*viewApp) return viewOptions(viewText.explorer(*viewApp), displayText);
-        return renderOptions(renderText.explorer(*renderApp), outputText);
+        if (*infoApp) return with(info);
+        if (*countApp) return with(countOptions(*countApp, countText));
+        if (*renderApp) return with(renderOptions(renderText.explorer(*renderApp), outputText));
+        if (displayText.display == "headless")
+            return with(headlessOptions(viewText.explorer(*viewApp), displayText));
+        return with(viewOptions(viewText.explorer(*viewApp), displayText));
     } catch (const CLI::CallForHelp&) {
         return Exit{0, app.help()};  // of the command, where one was given
     } catch (const CLI::CallForVersion& version) {

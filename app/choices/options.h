@@ -14,12 +14,17 @@
 
 namespace app {
 
-struct InfoOptions {
+// What every command takes.
+struct CommonOptions {
+    unsigned threads = 0;  // at most; 0: as many as the machine has
+};
+
+struct InfoOptions : CommonOptions {
     std::vector<std::filesystem::path> files;
     bool json = false;
 };
 
-struct CountOptions {
+struct CountOptions : CommonOptions {
     std::vector<std::filesystem::path> files;
     std::string variable;
     std::vector<timeseries::RangeSet> ranges;  // a layer each
@@ -28,7 +33,7 @@ struct CountOptions {
     bool json = false;
 };
 
-struct RenderOptions {
+struct RenderOptions : CommonOptions {
     Explorer explorer;
     std::filesystem::path output;
     bool opticalDepth = false, splatCount = false;  // further EXR channels
@@ -43,7 +48,7 @@ struct RenderOptions {
 enum class Display { Auto, Desktop, Headset };
 
 // A window or a headset on these choices; without files, on nothing yet.
-struct ViewOptions {
+struct ViewOptions : CommonOptions {
     Explorer explorer;
     Display display = Display::Auto;
 };
@@ -56,6 +61,7 @@ struct Exit {
 };
 
 using Command = std::variant<InfoOptions, CountOptions, RenderOptions, ViewOptions, Exit>;
+unsigned threadsOf(const Command& command);  // CommonOptions::threads
 
 // Whether a first argument is a command's name, and not a file's.
 bool isCommand(std::string_view argument);

@@ -24,6 +24,7 @@
 #include "app/choices/session.h"
 #include "app/json_text.h"
 #include "app/picture/picture.h"
+#include "timeseries/together.h"
 
 namespace app {
 namespace {
@@ -168,8 +169,16 @@ void ExportJob::start(const fs::path& program) {
     Spawn spawn;
     spawn.redirect(out_.writing, STDOUT_FILENO);
     spawn.redirect(errors_.writing, STDERR_FILENO);
-    child_ = spawn.run(program, {"isochron", "render", "--session", session_.string(), "--progress",
-                                 "-o", frames_.output().string()});
+    std::vector<std::string> arguments = {"isochron",
+                                          "render",
+                                          "--session",
+                                          session_.string(),
+                                          "--progress",
+                                          "-o",
+                                          frames_.output().string()};
+    if (const unsigned limit = timeseries::threadLimit)
+        arguments.push_back(fmt::format("--threads={}", limit));
+    child_ = spawn.run(program, arguments);
     // The child alone holds these, so that their end is its end.
     for (Pipe* const pipe : {&out_, &errors_}) close(std::exchange(pipe->writing, -1));
 }

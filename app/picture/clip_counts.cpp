@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <future>
-#include <thread>
+
+#include "timeseries/together.h"
 
 namespace app {
 namespace {
@@ -43,8 +44,7 @@ std::uint64_t count(std::span<const std::uint32_t> points, const Inside& inside)
 // The same, its parts on as many threads as there are.
 std::uint64_t countAll(std::span<const std::uint32_t> points, const Inside& inside) {
     constexpr std::size_t kWorthAThread = std::size_t{1} << 19;
-    const std::size_t parts = std::clamp<std::size_t>(
-        points.size() / kWorthAThread, 1, std::max(1u, std::thread::hardware_concurrency()));
+    const std::size_t parts = timeseries::threadsFor(points.size(), kWorthAThread);
     std::vector<std::future<std::uint64_t>> others;
     const auto part = [&](std::size_t i) {
         const std::size_t from = points.size() * i / parts, to = points.size() * (i + 1) / parts;

@@ -109,6 +109,21 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
     EXPECT_THAT(help, Not(HasSubstr("--display")));
 }
 
+TEST(Options, EveryCommandTakesALimitOfThreads) {
+    for (std::vector<std::string> line :
+         {std::vector<std::string>{"info", "a.nc"},
+          {"count", "a.nc", "--range", "0:1"},
+          {"render", "a.nc", "-o", "a.png"},
+          {"view", "a.nc"},
+          {"view", "--display", "headless", "a.nc", "-o", "a.png"}}) {
+        EXPECT_EQ(threadsOf(parsed(line)), 0u) << line[0];
+        line.insert(line.end(), {"--threads", "3"});
+        EXPECT_EQ(threadsOf(parsed(line)), 3u) << line[0];
+        line.back() = "0";
+        EXPECT_THAT(refused(line), HasSubstr("--threads")) << line[0];
+    }
+}
+
 TEST(Options, WrongCommandLinesExitWithTwo) {
     refused({""});
     EXPECT_THAT(refused({"info"}), HasSubstr("FILE"));

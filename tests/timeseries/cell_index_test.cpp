@@ -1,0 +1,169 @@
+#include "timeseries/index/cell_index.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace timeseries {
+namespace {
+
+std::shared_ptr<const Grid> gridOf(std::array<std::size_t, 3> size) {
+    std::array<Axis, 3> axes;
+    for (std::size_t a = 0; a < 3; ++a)
+        axes[a] = {"xyz"[a] + std::string(), "", indexCoordinates(size[a])};
+    return std::make_shared<Grid>(axes);
+}
+
+// Waves with noise, of a type's own extent; some values missing.
+template <typename T>
+Field waves(std::array<std::size_t, 3> size, unsigned seed, bool gaps) {
+    Field field;
+    field.grid = gridOf(size);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> noise(-1, 1);
+    std::vector<T> values;
+    const double scale = std::is_floating_point_v<T>
+                             ? 1
+                             : std::min(100.0, double(std::numeric_limits<T>::max()) / 4);
+    const double middle = std::is_unsigned_v<T> ? 2 * scale : 0;
+    for (std::uint64_t i = 0; i < field.grid->count(); ++i) {
+        const auto at = field.grid->indices(i);
+        const double smooth =
+            std::sin(0.3 * double(at.x)) * std::cos(0.2 * double(at.y) + 0.1 * double(at.z));
+        values.push_back(static_cast<T>(middle + scale * (smooth + 0.05 * noise(random))));
+        if (gaps) field.missing.push_back(random() % 7 == 0);
+    }
+    field.values = std::move(values);
+    return field;
+}
+
+std::vector<std::uint32_t> selected(const CellIndex& index,
+                                    std::vector<Interval<double>> intervals) {
+    std::vector<std::uint32_t> cells;
+    for (const Run& run : index.select(intervals))
+        for (std::uint64_t i = 0; i < run.count; ++i) cells.push_back(index.cell(run.first + i));
+    return cells;
+}
+
+// Every cell with finite corners, by looking at all of them: whether it reaches into one of these.
+std::set<std::uint32_t> byLooking(const CellIndex& index,
+                                  const std::vector<Interval<double>>& intervals) {
+    std::set<std::uint32_t> cells;
+    const glm::uvec3 n = index.size();
+    for (std::uint32_t c = 0; c < n.x * n.y * n.z; ++c) {
+        double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+        for (const double v : index.corners(indicesOf(c, n)))
+            if (!std::isnan(v)) lo = std::min(lo, v), hi = std::max(hi, v);
+        for (const Interval<double>& i : intervals)
+            if (lo <= i.hi && hi >= i.lo) cells.insert(c);
+    }
+    return cells;
+}
+
+template <typename T>
+class CellIndexOf : public testing::Test {};
+using Types = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                             std::int32_t, std::uint64_t, std::int64_t, float, double>;
+TYPED_TEST_SUITE(CellIndexOf, Types);
+
+TYPED_TEST(CellIndexOf, HoldsEveryCellThatRangesReachIntoAndFewOthers) {
+    for (const bool gaps : {false, true}) {
+        const CellIndex index(waves<TypeParam>({19, 12, 9}, 3, gaps), 3);
+        const std::set<std::uint32_t> all = byLooking(index, {{-1e300, 1e300}});
+        EXPECT_EQ(index.count(), all.size());
+        std::vector<double> values;
+        for (const std::uint32_t c : all)
+            for (const double v : index.corners(indicesOf(c, index.size())))
+                if (!std::isnan(v)) values.push_back(v);
+        std::mt19937 random(4);
+        std::size_t looked = 0, needed = 0;
+        for (int i = 0; i < 60; ++i) {
+            const auto value = [&] { return values[random() % values.size()]; };
+            std::vector<Interval<double>> intervals;
+            double lo = value();
+            const double span = i % 3 == 0 ? 0 : std::abs(value() - lo) * (i % 3 == 1 ? 1 : 0.01);
+            intervals.push_back({lo, lo + span});
+            if (i % 2 == 0) intervals.push_back({lo + 2 * span, lo + 3 * span});
+            std::vector<std::uint32_t> found = selected(index, intervals);
+            const std::set<std::uint32_t> once(found.begin(), found.end());
+            EXPECT_EQ(once.size(), found.size()) << "twice";
+            const std::set<std::uint32_t> wanted = byLooking(index, intervals);
+            EXPECT_TRUE(std::ranges::includes(once, wanted));
+            looked += found.size();
+            needed += wanted.size();
+        }
+        EXPECT_LE(static_cast<double>(looked), 1.4 * static_cast<double>(needed));
+    }
+}
+
+TEST(CellIndex, IsTheSameForAnyNumberOfThreads) {
+    const Field field = waves<float>({17, 9, 8}, 5, true);
+    const CellIndex one(field, 1), five(field, 5);
+    const std::vector<Interval<double>> intervals = {{-0.1, 0.1}, {0.5, 0.6}};
+    EXPECT_EQ(one.select(intervals), five.select(intervals));
+    EXPECT_EQ(selected(one, intervals), selected(five, intervals));
+}
+
+// Beyond the outermost points values are repeated; an axis of one point has two half cells.
+TEST(CellIndex, HalfCellsRepeatTheOutermostValues) {
+    Field field;
+    field.grid = gridOf({2, 1, 1});
+    field.values = std::vector<float>{3, 7};
+    const CellIndex index(std::move(field));
+    EXPECT_EQ(index.size(), glm::uvec3(3, 2, 2));
+    EXPECT_THAT(index.corners({0, 0, 0}), testing::Each(3.0));
+    EXPECT_THAT(index.corners({1, 1, 0}), testing::ElementsAre(3, 7, 3, 7, 3, 7, 3, 7));
+    EXPECT_THAT(index.corners({2, 0, 1}), testing::Each(7.0));
+    EXPECT_EQ(selected(index, {{4, 5}}).size(), 4u) << "the cells between the two";
+    EXPECT_EQ(selected(index, {{3, 3}}).size(), 8u);
+    EXPECT_EQ(selected(index, {{20, 21}}).size(), 0u);
+}
+
+// Values beyond all floats, of one sign and of both, tiny ones, infinities and steps of one ulp.
+TEST(CellIndex, ExtremeValuesAreFound) {
+    Field field;
+    field.grid = gridOf({10, 1, 1});
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    field.values =
+        std::vector<double>{1e300,  -1e300,   -kInfinity, 5e-324, 0,
+                            1e-300, -1.7e308, 1.7e308,    1e15,   std::nextafter(1e15, 2e15)};
+    const CellIndex index(std::move(field));
+    for (const double v : {1e300, -1e300, 0.0, 5e-324, 1e-300, 1.7e308, -1.7e308, 1e15, 1e9}) {
+        const std::vector<std::uint32_t> found = selected(index, {{v, v}});
+        EXPECT_TRUE(
+            std::ranges::includes(std::set(found.begin(), found.end()), byLooking(index, {{v, v}})))
+            << v;
+    }
+    EXPECT_EQ(byLooking(index, {{-kInfinity, kInfinity}}).size(), index.count());
+}
+
+TEST(CellIndex, OfNothingHoldsNothing) {
+    Field field;
+    field.grid = gridOf({3, 3, 3});
+    field.values = std::vector<float>(27, std::numeric_limits<float>::quiet_NaN());
+    const CellIndex index(std::move(field));
+    EXPECT_EQ(index.count(), 0u);
+    EXPECT_TRUE(index.select(std::vector<Interval<double>>{{-1, 1}}).empty());
+}
+
+TEST(CellIndex, TheFieldOfAStepIsTheFieldItWasBuiltFrom) {
+    for (const bool gaps : {false, true}) {
+        const Field whole = waves<std::int16_t>({9, 8, 7}, 8, gaps);
+        const Field back = fieldOf(SortedStep::build(whole));
+        ASSERT_EQ(back.type(), whole.type());
+        EXPECT_EQ(back.missing, whole.missing);
+        const auto &was = std::get<std::vector<std::int16_t>>(whole.values),
+                   &is = std::get<std::vector<std::int16_t>>(back.values);
+        for (std::size_t i = 0; i < was.size(); ++i) {
+            const bool isMissing = !whole.missing.empty() && whole.missing[i];
+            EXPECT_TRUE(isMissing || is[i] == was[i]) << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace timeseries

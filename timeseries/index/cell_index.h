@@ -1,0 +1,66 @@
+// The cells of a grid by the values that a field takes in them: which cells an interval of values
+// reaches into is a few contiguous runs, found by binary search, as it is for points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "timeseries/grid/field.h"
+#include "timeseries/index/range_set.h"
+#include "timeseries/index/sorted_step.h"
+#include "timeseries/together.h"
+
+namespace timeseries {
+
+// A cell is the box between eight neighbouring points. Beyond the outermost points lie half cells,
+// whose outer corners repeat the points' values, so that cells fill what the points stand for:
+// along each axis there is one more of them than of points, and cell i lies between points i - 1
+// and i. Cells are numbered x fastest.
+//
+// They are kept in classes of half their range of values, two an octave, each in order of the
+// middle of that range: in a class of ranges up to 2 H, the cells that reach into [a, b] have their
+// middles in [a - H, b + H]. Memory: 8 bytes a cell, and the field's values.
+class CellIndex {
+ public:
+    // Whether cells of such a field can be numbered.
+    static bool canIndex(const Field& field);
+    // Looks at every value, on so many threads. Cells without a finite corner are left out.
+    // REQUIRES: canIndex(field).
+    explicit CellIndex(Field field, unsigned threads = sharingThreads());
+
+    const Field& field() const { return field_; }
+    glm::uvec3 size() const { return size_; }  // cells along the axes
+    std::uint64_t count() const { return list_.size(); }
+
+    // Places in the list: disjoint, ascending, none empty. They hold every cell that reaches into
+    // one of these, and few others. Two binary searches for each class and interval.
+    std::vector<Run> select(std::span<const Interval<double>> intervals) const;
+    // Its number, of a place in the list.
+    std::uint32_t cell(std::uint64_t place) const {
+        return static_cast<std::uint32_t>(list_[place]);
+    }
+    // Of a cell, x fastest; NaN where a value is missing or not finite.
+    std::array<double, 8> corners(const glm::uvec3& cell) const;
+    std::uint64_t bytes() const;
+
+ private:
+    struct Class {
+        double halfRange;  // at most, of the cells in it
+        std::uint64_t first, count;
+    };
+    struct Row;
+    void rowOfCells(std::uint64_t row, Row& into) const;
+
+    Field field_;
+    glm::uvec3 size_{0};
+    std::vector<Class> classes_;       // none empty
+    std::vector<std::uint64_t> list_;  // ordered middle << 32 | number
+};
+
+// All values in the grid's order, from a step that keeps all of them.
+Field fieldOf(const SortedStep& step);
+
+}  // namespace timeseries
