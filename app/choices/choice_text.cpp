@@ -78,6 +78,8 @@ constexpr std::array<std::pair<std::string_view, Stereo>, 5> kStereo = {
      {"top-bottom", Stereo::TopBottom},
      {"multiview", Stereo::MultiView},
      {"left-right", Stereo::LeftRight}}};
+constexpr std::array<std::pair<std::string_view, Model>, 2> kModels = {
+    {{"points", Model::Points}, {"cells", Model::Cells}}};
 constexpr std::array<std::pair<std::string_view, render::Kernel>, 2> kKernels = {
     {{"kernel", render::Kernel::Quartic}, {"point", render::Kernel::Point}}};
 constexpr std::array<std::pair<std::string_view, render::Order>, 2> kOrders = {
@@ -285,6 +287,8 @@ std::string_view endingName(timeseries::Ending ending) {
 }
 Stereo parseStereo(std::string_view name) { return named<Stereo>("stereo", name, kStereo); }
 std::string_view stereoName(Stereo stereo) { return nameOf<Stereo>(stereo, kStereo); }
+Model parseModel(std::string_view name) { return named<Model>("model", name, kModels); }
+std::string_view modelName(Model model) { return nameOf<Model>(model, kModels); }
 render::Kernel parseKernel(std::string_view name) {
     return named<render::Kernel>("splat", name, kKernels);
 }

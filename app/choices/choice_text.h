@@ -56,6 +56,8 @@ timeseries::Ending parseEnding(std::string_view name);  // once loop ping-pong
 std::string_view endingName(timeseries::Ending ending);
 Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multiview left-right
 std::string_view stereoName(Stereo stereo);
+Model parseModel(std::string_view name);  // points cells
+std::string_view modelName(Model model);
 render::Kernel parseKernel(std::string_view name);  // kernel point
 std::string_view kernelName(render::Kernel kernel);
 render::Order parseOrder(std::string_view name);  // none depth

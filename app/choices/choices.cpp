@@ -128,6 +128,11 @@ constexpr std::array kChoices = {
            },
            "Sweep", "Only this picture of the sweep, counted from 0"},
 
+    Choice{"--model", "model", Form::Text,
+           [](const Explorer& e) { return Text(modelName(e.model)); },
+           [](Explorer& e, std::string_view t) { e.model = parseModel(t); }, "Splats",
+           "points (default): those in the ranges, each a splat; cells: what lies in the ranges "
+           "between points, too, so that thin ranges are closed shells; slower"},
     Choice{"--splat", "splat", Form::Text,
            [](const Explorer& e) { return Text(kernelName(e.footprint.kernel)); },
            [](Explorer& e, std::string_view t) { e.footprint.kernel = parseKernel(t); }, "Splats",

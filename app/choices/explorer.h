@@ -88,6 +88,10 @@ struct PlayChoice {
     friend bool operator==(const PlayChoice&, const PlayChoice&) = default;
 };
 
+// What of the field is drawn: the points in a range, or the cells between them
+// (render/model/cell_splat.h).
+enum class Model { Points, Cells };
+
 struct Explorer {
     std::vector<std::filesystem::path> files;
     std::string variable;             // "": the file's first
@@ -102,6 +106,7 @@ struct Explorer {
     // One picture of the sweep, where it stands (play.tick), instead of its whole cycle. A window
     // shows one at a time anyway and has no use for it.
     bool oneTick = false;
+    Model model = Model::Points;
     render::Footprint footprint;
     render::Order order = render::Order::BackToFront;  // where it shows
     std::optional<ClipBox> clip;

@@ -106,6 +106,13 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     if (text.splatter == "exact") options.splatter = render::SplatterChoice::Exact;
     options.portable = text.portable;
     options.progress = text.progress;
+    if (options.explorer.model == Model::Cells) {
+        if (options.splatter == render::SplatterChoice::Gl ||
+            options.splatter == render::SplatterChoice::Exact)
+            throw ChoiceError(fmt::format(
+                "--splatter {} draws points: --model cells is drawn by any or cpu", text.splatter));
+        options.splatter = render::SplatterChoice::Cpu;
+    }
     checkOutput(options);
     return options;
 }

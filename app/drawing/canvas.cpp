@@ -137,7 +137,7 @@ struct Canvas::State {
     // The step on the screen takes other choices, if all that they select is there to be drawn.
     void choose(const Explorer& choices);
     bool isThere(const GpuSteps::Held& held, const render::Scene& scene) const {
-        return !renderer.takesPointsFromGpu() || held.onGpu.ready(scene);
+        return !renderer.takesPointsFromGpu(scene) || held.onGpu.ready(scene);
     }
     // What of the layers is on the screen.
     void tell(CanvasReport& report, const std::vector<render::Layer>& layers) const;
@@ -157,7 +157,7 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
     Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
     const render::Scene scene = sceneOf(next);
     const bool onScreen = screen && screen->held == &held;
-    if (renderer.takesPointsFromGpu()) {
+    if (renderer.takesPointsFromGpu(scene)) {
         std::optional<render::ValueScale> scale = render::neededScale(scene);
         if (scale) scale = held.onGpu.serving(*scale);
         constexpr std::uint64_t kOnScreen = 8;

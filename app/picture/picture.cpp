@@ -247,8 +247,14 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
                         .order = e.order,
                         .clip = {}};
     if (e.clip) scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
+    if (e.model == Model::Cells) scene.cells = step.cells();
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
-        if (layer.visible) scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
+        if (!layer.visible) return;
+        scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
+        if (!scene.cells) return;
+        render::Cells& cells = scene.layers.back().cells;
+        cells.ranges = timeseries::betweenPoints(ranges, step.type());
+        cells.candidates = scene.cells->select(cells.ranges);
     };
     if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
@@ -324,6 +330,10 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
     if (const std::string stretch = render::stretchText(scene.step.grid(), scene.placed);
         !stretch.empty())
         legend.notes.push_back(stretch);
+    if (scene.cells)
+        legend.notes.push_back("interpolated between points");
+    else if (e.model == Model::Cells)
+        legend.notes.push_back("drawn by points: cells need every value kept");
     if (e.clip) legend.notes.push_back("drawn inside " + clipText(*e.clip) + " only");
     return legend;
 }

@@ -90,24 +90,26 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     ++orders_;
     const Scene& scene = content.scene;
     // GL's own upload does it.
-    if (&light != &inMemory_ && !takesPointsFromGpu())
+    if (&light != &inMemory_ && !takesPointsFromGpu(scene))
         needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatter().prepare(scene, std::move(list), step), midEye(eyes), light, as};
+    return {content, splatter(scene).prepare(scene, std::move(list), step), midEye(eyes), light,
+            as};
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
-    if (takesPointsFromGpu() || !MemoryLight::canDraw(content.placards, eyes))
+    if (takesPointsFromGpu(content.scene) || !MemoryLight::canDraw(content.placards, eyes))
         return needGl().light;
     return inMemory_;
 }
 
-Splatter& FrameRenderer::splatter() {
-    if (takesPointsFromGpu()) return needGl().splatter;
-    if (by_ == SplatterChoice::Exact) return exact_;
+Splatter& FrameRenderer::splatter(const Scene& scene) {
+    if (takesPointsFromGpu(scene)) return needGl().splatter;
+    if (!scene.cells && by_ == SplatterChoice::Exact) return exact_;
     return processor_;
 }
 
 DrawList FrameRenderer::listFor(const Scene& scene, std::span<const View> eyes) {
+    if (scene.cells) return Runs{};  // cells come in an order of their own
     return by_ == SplatterChoice::Exact ? orderExactly(scene, midEye(eyes))
                                         : order_(scene, midEye(eyes));
 }
@@ -171,7 +173,7 @@ double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
-    if (takesPointsFromGpu()) step.upload(content.scene, neededScale(content.scene));
+    if (takesPointsFromGpu(content.scene)) step.upload(content.scene, neededScale(content.scene));
     const Prepared frame =
         prepare(content, step, eyes, listFor(content.scene, eyes), LightAs::Linear);
     std::vector<EyePicture> pictures;
@@ -227,8 +229,8 @@ void FrameRenderer::addData(const FrameContent& content, GpuStep& step, std::spa
                             std::vector<EyePicture>& pictures) {
     Scene scene = content.scene;
     scene.order = Order::None;
-    if (takesPointsFromGpu()) step.upload(scene, neededScale(scene));
-    const auto splats = splatter().prepare(scene, Runs{}, step);
+    if (takesPointsFromGpu(scene)) step.upload(scene, neededScale(scene));
+    const auto splats = splatter(scene).prepare(scene, Runs{}, step);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         EyePicture& picture = pictures[i];
         if (extras.splatCount)

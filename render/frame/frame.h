@@ -58,8 +58,11 @@ class FrameRenderer {
     std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
-    // Whether drawing takes a scene's points from the GPU; else the program sums them itself.
-    bool takesPointsFromGpu() const { return by_ == SplatterChoice::Gl; }
+    // Whether drawing takes the scene's points from the GPU; else the program sums them itself, as
+    // it does all cells.
+    bool takesPointsFromGpu(const Scene& scene) const {
+        return by_ == SplatterChoice::Gl && !scene.cells;
+    }
     // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
     // step that is ready for the scene, if its points are taken from it.
     struct Prepared {
@@ -115,7 +118,7 @@ class FrameRenderer {
     };
     Gl& needGl();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
-    Splatter& splatter();
+    Splatter& splatter(const Scene& scene);
     DrawList listFor(const Scene& scene, std::span<const View> eyes);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
     bool drawSplats(EyeInWork& work, double cost);

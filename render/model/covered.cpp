@@ -56,8 +56,10 @@ double farthestReach(const Scene& scene, const PointsView& view) {
 PixelBox coveredPixels(const Scene& scene, const View& view) {
     const PixelBox whole{{0, 0}, view.size};
     const PointsView seen(scene.placed, view);
-    // Splats of long cells end at the domain's faces, or the least radius beyond the points.
-    const bool cut = scene.placed.longCells() && scene.footprint.kernel != Kernel::Point;
+    // Cells fill the domain; splats of long ones end at the domain's faces, or the least radius
+    // beyond the points.
+    const bool cut =
+        scene.cells || (scene.placed.longCells() && scene.footprint.kernel != Kernel::Point);
     const Corners at = corners(scene.placed, cut ? seen.domain : pointsBox(scene.placed));
     // What the rasteriser's rounding may add; a point splat is moved to whole pixels, too.
     const double reach = (cut ? reachOf(0, at, seen) : farthestReach(scene, seen)) + 2;

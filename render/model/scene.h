@@ -7,12 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include "render/model/color_map.h"
 #include "render/points/placed_points.h"
 #include "render/points/subset.h"
+#include "timeseries/index/cell_index.h"
 #include "timeseries/index/sorted_step.h"
 
 namespace render {
@@ -57,9 +59,17 @@ inline double opticalDepthPerWeight(double opacity) {
     return opacity >= 1 ? kOpaque : std::min(kOpaque, -std::log1p(-opacity));
 }
 
+// The cells between points, of which a ray takes what lies in the ranges
+// (render/model/cell_splat.h): the interval volume of the field interpolated between its points.
+struct Cells {
+    std::vector<timeseries::Run> candidates;  // as CellIndex::select gives them
+    std::vector<timeseries::Interval<double>> ranges;
+};
+
 struct Layer {
     std::vector<timeseries::Run> runs;  // as SortedStep::select gives them
     RangeStyle style;
+    Cells cells = {};  // where the scene is drawn by cells
 };
 constexpr std::size_t kMaxLayers = 8;
 
@@ -96,6 +106,8 @@ struct Scene {
     // One of so many points is drawn and stands for its neighbours in value: less to draw, for the
     // same mass. A power of two, at most kMaxStride; which points: render/points/subset.h.
     std::uint32_t stride = 1;
+    // The step's, where layers are drawn by cells instead of points; all of them then, always.
+    std::shared_ptr<const timeseries::CellIndex> cells = {};
 };
 
 // What the step knows of its points, of which only those of the scene's runs may be read.

@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "render/splat/cell_splatter.h"
 #include "render/splat/row_splatter.h"
 
 namespace render {
@@ -44,7 +45,8 @@ class Frame final : public SplatFrame {
     Frame(const Scene& scene, DrawList list, ProcessorSplatter::Memory& memory)
         : scene_(scene), list_(std::move(list)), memory_(memory) {}
 
-    std::uint64_t splats(Channels, std::size_t layer) const override {
+    std::uint64_t splats(Channels channels, std::size_t layer) const override {
+        if (scene_.cells) return cellCount(scene_, channels, layer);
         if (const auto* sorted = std::get_if<Sorted>(&list_)) return sorted->point.size();
         return splatCount(scene_.layers[layer], scene_.stride);
     }
@@ -55,6 +57,10 @@ class Frame final : public SplatFrame {
             return std::make_unique<Plane<decltype(sum), std::decay_t<decltype(memory)>>>(
                 std::move(sum), channels, layer, targets, memory);
         };
+        if (scene_.cells)
+            return plane(CellSum(scene_, view, channels, layer, opaqueDepth_, sharingThreads(),
+                                 std::move(memory_.rows)),
+                         memory_.rows);
         if (TileSum::canSum(scene_, channels))
             return plane(TileSum(scene_, list_, view, channels, layer, opaqueDepth_,
                                  sharingThreads(), std::move(memory_.tiles)),

@@ -83,9 +83,9 @@ struct CellIndex::Row {
     }
 };
 
-bool CellIndex::canIndex(const Field& field) {
+bool CellIndex::canIndex(const Grid& grid) {
     double cells = 1;
-    for (const std::size_t points : field.grid->size()) cells *= static_cast<double>(points) + 1;
+    for (const std::size_t points : grid.size()) cells *= static_cast<double>(points) + 1;
     return cells < 4294967296.0;
 }
 
@@ -201,6 +201,49 @@ std::uint64_t CellIndex::bytes() const {
     const std::uint64_t values =
         std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, field_.values);
     return values + field_.missing.size() / 8 + list_.size() * sizeof(list_[0]);
+}
+
+std::vector<Interval<double>> betweenPoints(const RangeSet& ranges, ValueType type) {
+    std::vector<Interval<double>> out;
+    const auto add = [&]<typename T>(T) {
+        constexpr double kRounding = std::is_integral_v<T> ? 0.5 : 0;
+        for (const Interval<T>& i : ranges.toIntervals<T>())
+            out.push_back(
+                {static_cast<double>(i.lo) - kRounding, static_cast<double>(i.hi) + kRounding});
+    };
+    switch (type) {
+        case ValueType::U8:
+            add(std::uint8_t{});
+            break;
+        case ValueType::I8:
+            add(std::int8_t{});
+            break;
+        case ValueType::U16:
+            add(std::uint16_t{});
+            break;
+        case ValueType::I16:
+            add(std::int16_t{});
+            break;
+        case ValueType::U32:
+            add(std::uint32_t{});
+            break;
+        case ValueType::I32:
+            add(std::int32_t{});
+            break;
+        case ValueType::U64:
+            add(std::uint64_t{});
+            break;
+        case ValueType::I64:
+            add(std::int64_t{});
+            break;
+        case ValueType::F32:
+            add(float{});
+            break;
+        case ValueType::F64:
+            add(double{});
+            break;
+    }
+    return out;
 }
 
 Field fieldOf(const SortedStep& step) {

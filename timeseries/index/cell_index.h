@@ -25,10 +25,10 @@ namespace timeseries {
 // middles in [a - H, b + H]. Memory: 8 bytes a cell, and the field's values.
 class CellIndex {
  public:
-    // Whether cells of such a field can be numbered.
-    static bool canIndex(const Field& field);
+    // Whether cells of such a grid can be numbered.
+    static bool canIndex(const Grid& grid);
     // Looks at every value, on so many threads. Cells without a finite corner are left out.
-    // REQUIRES: canIndex(field).
+    // REQUIRES: canIndex(*field.grid).
     explicit CellIndex(Field field, unsigned threads = sharingThreads());
 
     const Field& field() const { return field_; }
@@ -59,6 +59,10 @@ class CellIndex {
     std::vector<Class> classes_;       // none empty
     std::vector<std::uint64_t> list_;  // ordered middle << 32 | number
 };
+
+// Ranges of a field's own type as ranges of the field between its points, ascending. Those of whole
+// numbers reach half a number farther: what was rounded to 7 was anything from 6.5 to 7.5.
+std::vector<Interval<double>> betweenPoints(const RangeSet& ranges, ValueType type);
 
 // All values in the grid's order, from a step that keeps all of them.
 Field fieldOf(const SortedStep& step);

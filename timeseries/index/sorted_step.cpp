@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "timeseries/index/cell_index.h"
 #include "timeseries/index/lazy_column.h"
 
 namespace timeseries {
@@ -100,10 +102,17 @@ constexpr std::size_t kFewQuantiles = 64;
 
 }  // namespace
 
+struct SortedStep::LazyCells {
+    std::once_flag once;
+    std::shared_ptr<const CellIndex> index;
+};
+
 SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
     SortedStep step;
     step.grid_ = field.grid;
     step.kept_ = kept;
+    step.threads_ = threads;
+    step.cells_ = std::make_shared<LazyCells>();
     std::visit(
         [&]<typename T>(const std::vector<T>& all) {
             if (all.size() > (std::uint64_t{1} << 32))
@@ -179,6 +188,14 @@ Number SortedStep::value(std::uint64_t point) const {
 
 std::uint64_t SortedStep::bytes() const {
     return std::visit([](const auto& points) { return points->bytes(); }, columns_);
+}
+
+std::shared_ptr<const CellIndex> SortedStep::cells() const {
+    if (size_ != statistics_.points || !CellIndex::canIndex(*grid_)) return nullptr;
+    std::call_once(cells_->once, [&] {
+        cells_->index = std::make_shared<const CellIndex>(fieldOf(*this), threads_);
+    });
+    return cells_->index;
 }
 
 Run SortedStep::finite() const {

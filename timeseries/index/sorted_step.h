@@ -49,6 +49,7 @@ struct StepStatistics {
 
 template <typename T>
 class LazyColumn;  // timeseries/index/lazy_column.h
+class CellIndex;   // timeseries/index/cell_index.h
 
 // Immutable, but for what nobody can tell: points are put in order where somebody first looks.
 // Every member is safe to call from any thread. Memory: sizeof(value) + 4 bytes a kept point; 4,
@@ -89,6 +90,11 @@ class SortedStep {
     const StepStatistics& statistics() const { return statistics_; }
     std::uint64_t bytes() const;  // of memory held, the grid aside
 
+    // The cells between the points, made when they are first asked for; that takes as long as
+    // looking at every value twice, and 8 bytes a cell beside the values. Null where points were
+    // dropped, or where there are more cells than can be numbered.
+    std::shared_ptr<const CellIndex> cells() const;
+
     // The points between the infinities: all but the first and the last ones that are infinite.
     Run finite() const;
 
@@ -106,8 +112,11 @@ class SortedStep {
            std::uint64_t, std::int64_t, float, double>
         columns_;
     std::uint64_t size_ = 0;
+    unsigned threads_ = 1;
     RangeSet kept_;
     StepStatistics statistics_;
+    struct LazyCells;
+    std::shared_ptr<LazyCells> cells_;
 };
 
 }  // namespace timeseries

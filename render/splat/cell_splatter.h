@@ -1,0 +1,42 @@
+// Interval volumes summed on the processor cell by cell, a row of pixels after another, in float:
+// the model of render/model/cell_splat.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/model/covered.h"
+#include "render/model/scene.h"
+#include "render/points/view.h"
+#include "render/together.h"
+
+namespace render {
+
+// How many cells are looked at for a plane: of all layers for Over and Count, else of `layer`.
+std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer);
+
+// As RowSum (render/splat/row_splatter.h): what one plane of a scene that is drawn by cells adds up
+// to in a view; not a bit depends on calls or threads. Over takes cells in their exact order, the
+// nearest first. What lies behind `opaqueDepth` is left out of each ray.
+class CellSum {
+ public:
+    CellSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
+            std::span<const float> opaqueDepth, unsigned threads = sharingThreads(),
+            std::vector<float> memory = {});
+    CellSum(CellSum&&) noexcept;
+    ~CellSum();
+
+    std::uint64_t add(std::uint64_t cells);  // so many, or what is left; returns how many
+    bool done() const;
+    const PixelBox& box() const;
+    std::vector<float>& plane();
+    std::vector<float> takeMemory();  // the last thing asked for
+
+ private:
+    struct Work;
+    std::unique_ptr<Work> work_;
+};
+
+}  // namespace render
