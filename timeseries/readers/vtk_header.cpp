@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "timeseries/grid/with_type.h"
+
 namespace timeseries {
 namespace {
 
@@ -70,29 +72,7 @@ bool isVtkNumber(const VtkType& type, std::string_view text) {
             return error == std::errc();
         }
     };
-    switch (type.type) {
-        case ValueType::U8:
-            return is(std::uint8_t{});
-        case ValueType::I8:
-            return is(std::int8_t{});
-        case ValueType::U16:
-            return is(std::uint16_t{});
-        case ValueType::I16:
-            return is(std::int16_t{});
-        case ValueType::U32:
-            return is(std::uint32_t{});
-        case ValueType::I32:
-            return is(std::int32_t{});
-        case ValueType::U64:
-            return is(std::uint64_t{});
-        case ValueType::I64:
-            return is(std::int64_t{});
-        case ValueType::F32:
-            return is(float{});
-        case ValueType::F64:
-            return is(double{});
-    }
-    return false;
+    return withType(type.type, is);
 }
 
 bool isVtkGhostName(std::string_view name) {

@@ -6,7 +6,8 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+
+#include "timeseries/grid/with_type.h"
 
 namespace timeseries {
 namespace {
@@ -15,39 +16,15 @@ constexpr std::size_t kMaxWord = 255;  // of VTK's reader
 
 bool blank(int c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-template <typename T>
-double bigEndian(const unsigned char* bytes) {
-    std::array<unsigned char, sizeof(T)> native;
-    std::reverse_copy(bytes, bytes + sizeof(T), native.begin());
-    return static_cast<double>(std::bit_cast<T>(native));
-}
 static_assert(std::endian::native == std::endian::little);
 
-double decode(const VtkType& type, const unsigned char* bytes) {
-    switch (type.type) {
-        case ValueType::U8:
-            return *bytes;
-        case ValueType::I8:
-            return static_cast<std::int8_t>(*bytes);
-        case ValueType::U16:
-            return bigEndian<std::uint16_t>(bytes);
-        case ValueType::I16:
-            return bigEndian<std::int16_t>(bytes);
-        case ValueType::U32:
-            return bigEndian<std::uint32_t>(bytes);
-        case ValueType::I32:
-            return bigEndian<std::int32_t>(bytes);
-        case ValueType::U64:
-            return bigEndian<std::uint64_t>(bytes);
-        case ValueType::I64:
-            return type.bytes == 4 ? bigEndian<std::int32_t>(bytes)
-                                   : bigEndian<std::int64_t>(bytes);
-        case ValueType::F32:
-            return bigEndian<float>(bytes);
-        case ValueType::F64:
-            return bigEndian<double>(bytes);
-    }
-    return 0;
+// Of the file's big-endian bytes. An id has 32 bits there and 64 in memory.
+double decode(const VtkType& type, const char* bytes) {
+    const bool id = type.type == ValueType::I64 && type.bytes == 4;
+    return withType(id ? ValueType::I32 : type.type, [&](auto number) {
+        std::reverse_copy(bytes, bytes + sizeof number, reinterpret_cast<char*>(&number));
+        return static_cast<double>(number);
+    });
 }
 
 int hexDigit(char c) {
@@ -221,9 +198,7 @@ std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, st
     std::array<char, 8> bytes{};
     while (found.size() < kept) {
         file_.read(bytes.data(), static_cast<std::streamsize>(type.bytes));
-        std::array<unsigned char, 8> raw{};
-        std::memcpy(raw.data(), bytes.data(), raw.size());
-        found.push_back(decode(type, raw.data()));
+        found.push_back(decode(type, bytes.data()));
     }
     file_.seekg(static_cast<std::streamoff>(at + count * type.bytes));
     return found;
