@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
-#include <cmath>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/vtk_number.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {
@@ -75,13 +75,7 @@ std::string VtkText::word() {
     return text;
 }
 
-std::string VtkText::lowerWord() {
-    std::string text = word();
-    std::ranges::transform(text, text.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return text;
-}
+std::string VtkText::lowerWord() { return lower(word()); }
 
 // VTK 9.1 reads on behind a '%' that ends a word of one or two characters.
 void VtkText::checkCodes(std::string_view word) const {
@@ -112,23 +106,17 @@ std::string VtkText::name() {
 
 std::uint64_t VtkText::count(std::string_view what) {
     const std::string text = word();
-    std::uint64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // As many as VTK's int holds.
-    if (text.empty() || error != std::errc() || stop != text.data() + text.size() ||
-        value > 2147483647)
+    const auto value = vtkNumber<std::int32_t>(text);  // VTK's int
+    if (!value || *value < 0)
         fail(fmt::format("expected {}, a whole number, found \"{}\"", what, text));
-    return value;
+    return static_cast<std::uint64_t>(*value);
 }
 
 double VtkText::number(std::string_view what) {
     const std::string text = word();
-    double value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc() || stop != text.data() + text.size() ||
-        !std::isfinite(value))
-        fail(fmt::format("expected {}, a finite number, found \"{}\"", what, text));
-    return value;
+    const auto value = vtkNumber<double>(text);
+    if (!value) fail(fmt::format("expected {}, a finite number, found \"{}\"", what, text));
+    return *value;
 }
 
 std::optional<std::size_t> VtkText::skipEncodedLine() {
@@ -153,66 +141,55 @@ void VtkText::skipParagraph() {
     }
 }
 
+void VtkText::beginBytes(std::uint64_t bytes) {
+    for (int c = next(); c != '\n'; c = next())
+        if (c < 0) fail("expected values, but the file ends");
+    const auto at = static_cast<std::uint64_t>(file_.tellg());
+    if (bytes > bytes_ - at)
+        fail(fmt::format("expected {} bytes of values, but the file ends after {}", bytes,
+                         bytes_ - at));
+}
+
 void VtkText::skipBytesOrWords(std::uint64_t bytes, std::uint64_t words) {
     if (binary_) {
-        for (int c = next(); c != '\n'; c = next())
-            if (c < 0) fail("expected values, but the file ends");
-        const auto at = static_cast<std::uint64_t>(file_.tellg());
-        if (bytes > bytes_ - at)
-            fail(fmt::format("expected {} bytes of values, but the file ends after {}", bytes,
-                             bytes_ - at));
+        beginBytes(bytes);
         file_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
         return;
     }
-    // A value takes a character and a blank.
-    if (words > bytes_) fail(fmt::format("expected {} values, but the file is too small", words));
-    std::uint64_t found = 0;
-    int c = file_.rdbuf()->sgetc();
-    while (found < words) {
-        while (blank(c)) next(), c = file_.rdbuf()->sgetc();
-        if (c < 0) fail(fmt::format("expected {} values, found {}", words, found));
-        while (c >= 0 && !blank(c)) c = file_.rdbuf()->snextc();
-        ++found;
-    }
+    checkWords(words);
+    for (std::uint64_t i = 0; i < words; ++i)
+        if (word().empty()) fail(fmt::format("expected {} values, found {}", words, i));
 }
 
-std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, std::uint64_t kept) {
-    if (kept == 0) {
-        if (binary_)
-            skipBytesOrWords(count * type.bytes, 0);
-        else
-            checkNumbers(type, count);
-        return {};
-    }
-    std::vector<double> found;
-    if (!binary_) {
-        while (found.size() < kept) found.push_back(number("a value"));
-        skipBytesOrWords(0, count - kept);
-        return found;
-    }
-    skipBytesOrWords(0, 0);
-    const auto at = static_cast<std::uint64_t>(file_.tellg());
-    if (count * type.bytes > bytes_ - at)
-        fail(fmt::format("expected {} bytes of values, but the file ends after {}",
-                         count * type.bytes, bytes_ - at));
-    std::array<char, 8> bytes{};
-    while (found.size() < kept) {
-        file_.read(bytes.data(), static_cast<std::streamsize>(type.bytes));
-        found.push_back(decode(type, bytes.data()));
-    }
-    file_.seekg(static_cast<std::streamoff>(at + count * type.bytes));
-    return found;
-}
-
-void VtkText::checkNumbers(const VtkType& type, std::uint64_t count) {
+void VtkText::checkWords(std::uint64_t count) const {
     if (count > bytes_) fail(fmt::format("expected {} values, but the file is too small", count));
+}
+
+void VtkText::skipNumbers(const VtkType& type, std::uint64_t count) {
+    if (binary_) return skipBytesOrWords(count * type.bytes, 0);
+    checkWords(count);
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::string text = word();
         if (text.empty()) fail(fmt::format("expected {} values, found {}", count, i));
-        if (!isVtkNumber(type, text))
+        if (!isVtkNumber(type.type, text))
             fail(fmt::format("expected a finite number of type {}, found \"{}\"",
                              typeName(type.type), text));
     }
+}
+
+std::vector<double> VtkText::numbers(const VtkType& type, std::uint64_t count) {
+    std::vector<double> found;
+    if (!binary_) {
+        while (found.size() < count) found.push_back(number("a value"));
+        return found;
+    }
+    beginBytes(count * type.bytes);
+    std::array<char, 8> bytes{};
+    while (found.size() < count) {
+        file_.read(bytes.data(), static_cast<std::streamsize>(type.bytes));
+        found.push_back(decode(type, bytes.data()));
+    }
+    return found;
 }
 
 // A line each, or each after its length: two bits tell how long the length is, in 6, 14, 30 or 62
