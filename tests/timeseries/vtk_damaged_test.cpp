@@ -364,8 +364,18 @@ TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
     EXPECT_THAT(
         refusal(imageText({.attributes = "Direction=\"1 0 0 0 nan 0 0 0 1\"", .points = points})),
         HasSubstr("Direction: expected 9 finite numbers"));
-    EXPECT_THAT(refusal(imageText({.extent = "0 nan 0 1 0 1", .points = points})),
-                HasSubstr("WholeExtent: expected 6 integers of 32 bits"));
+    for (const std::string wrong : {"0 nan 0 1 0 1", "0 2.5 0 1 0 1", "0 2 0 1 0 1 0"})
+        EXPECT_THAT(refusal(imageText({.extent = wrong, .points = points})),
+                    HasSubstr("WholeExtent: expected 6 integers of 32 bits"));
+    // VTK takes a sign, too.
+    EXPECT_EQ(
+        refusal(imageText(
+            {.extent = "+0 +2 0 1 0 1", .attributes = "Spacing=\"+1 1 1\"", .points = points})),
+        "");
+    EXPECT_EQ(refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                      "DIMENSIONS +2 1 1\nSPACING +1 1 1\nPOINT_DATA +2\nSCALARS v int\n"
+                      "LOOKUP_TABLE d\n1 2\n"),
+              "");
 }
 
 // VTK takes the lower bits of what is beyond a byte, and of what is below 0 for an unsigned type.

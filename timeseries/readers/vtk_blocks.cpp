@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 
 #include "timeseries/readers/vtk_header.h"
@@ -17,9 +16,6 @@ std::uint64_t unpackedPerByte(std::string_view compressor) {
     if (compressor == "vtkLZ4DataCompressor") return 256;
     return compressor == "vtkLZMADataCompressor" ? 8000 : 1100;
 }
-
-// A block that is larger than the values themselves.
-constexpr std::uint64_t kMaxBlock = std::uint64_t{1} << 28;
 
 // The bytes of one array where they lie, decoded where they are base64.
 class Source {
@@ -101,8 +97,7 @@ struct Check {
             fail("expected values, but the file ends");
         // The last block may be a part, also when it is the only one.
         const std::uint64_t full = blocks - (lastBytes != 0 ? 1 : 0);
-        const bool possible = blocks > 0 && blocks <= available &&
-                              blockBytes <= std::max(bytes, kMaxBlock) && lastBytes <= blockBytes &&
+        const bool possible = blocks > 0 && blocks <= available && lastBytes <= blockBytes &&
                               (full == 0 || blockBytes <= bytes / full) &&
                               full * blockBytes + lastBytes == bytes;
         if (!possible)

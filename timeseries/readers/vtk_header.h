@@ -1,7 +1,6 @@
 // What a VTK file declares, checked against its own size before VTK is asked for a value: plain
-// data, told by our own look at the XML header or at the lines of a legacy file. VTK itself cannot
-// be asked: of a legacy file it tells types only with all values, and of both kinds it takes most
-// damaged headers without a word (ARCHITECTURE.md).
+// data, told by our own look at the XML header or at the lines of a legacy file. ARCHITECTURE.md
+// ("One load") says why VTK is not asked.
 #pragma once
 
 #include <array>
@@ -73,6 +72,7 @@ struct VtkMember {
 
 // Of the points, of the cells and of the field data each: VTK looks for each among the others.
 constexpr std::uint64_t kMaxVtkArrays = 4096;
+constexpr std::uint64_t kMaxVtkComponents = 1024;
 
 // Each throws FileError when sizes are absurd or exceed the file's.
 VtkHeader readVtkLegacyHeader(const std::filesystem::path& path);

@@ -12,8 +12,6 @@
 namespace timeseries {
 namespace {
 
-constexpr std::uint64_t kMaxComponents = 1024;
-
 struct Attribute {
     std::string_view word;
     std::uint64_t components;  // 0 where the file says how many
@@ -175,9 +173,9 @@ void LegacyHeader::countArray() {
 void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t components,
                        VtkKeyword keyword) {
     countArray();
-    if (components < 1 || components > kMaxComponents)
+    if (components < 1 || components > kMaxVtkComponents)
         text_.fail(
-            fmt::format("expected 1 to {} components, found {}", kMaxComponents, components));
+            fmt::format("expected 1 to {} components, found {}", kMaxVtkComponents, components));
     const std::uint64_t values = header_.count(*place_) * components;
     if (!names_.emplace(*place_, name).second)
         text_.fail(fmt::format("expected names that differ, found '{}' again", name));
@@ -254,9 +252,9 @@ void LegacyHeader::readFieldArray() {
     const std::uint64_t components = text_.count("a number of components");
     const std::uint64_t tuples = text_.count("a number of tuples");
     const VtkType* type = readType();
-    if (components > kMaxComponents)
+    if (components > kMaxVtkComponents)
         text_.fail(
-            fmt::format("expected at most {} components, found {}", kMaxComponents, components));
+            fmt::format("expected at most {} components, found {}", kMaxVtkComponents, components));
     if (place_ && tuples == header_.count(*place_))
         return add(std::move(name), type, components, VtkKeyword::Field);
 

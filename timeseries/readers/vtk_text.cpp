@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/readers/vtk_number.h"
@@ -25,12 +26,6 @@ double decode(const VtkType& type, const char* bytes) {
         std::reverse_copy(bytes, bytes + sizeof number, reinterpret_cast<char*>(&number));
         return static_cast<double>(number);
     });
-}
-
-int hexDigit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
 }  // namespace
@@ -87,13 +82,12 @@ std::string VtkText::decoded(std::string_view name) const {
     checkCodes(name);
     std::string plain;
     for (std::size_t i = 0; i < name.size(); ++i) {
-        if (name[i] == '%' && i + 2 < name.size() && hexDigit(name[i + 1]) >= 0 &&
-            hexDigit(name[i + 2]) >= 0) {
-            plain += static_cast<char>(hexDigit(name[i + 1]) * 16 + hexDigit(name[i + 2]));
-            i += 2;
-        } else {
-            plain += name[i];
-        }
+        unsigned char code = 0;
+        const char* const digits = name.data() + i + 1;
+        const bool coded = name[i] == '%' && i + 2 < name.size() &&
+                           std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        plain += coded ? static_cast<char>(code) : name[i];
+        if (coded) i += 2;
     }
     return plain;
 }

@@ -19,8 +19,6 @@ class VtkText {
     explicit VtkText(const std::filesystem::path& path);
 
     void setBinary(bool binary) { binary_ = binary; }
-    bool binary() const { return binary_; }
-    const std::filesystem::path& path() const { return path_; }
 
     // "line 3" (the lines of binary values are not counted).
     std::string place() const;

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMaxElements = std::size_t{1} << 18;
 constexpr std::size_t kMaxDepth = 32;
-constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 26;
 // Of one tag or comment: expat 2.5 looks at it from its start again with every piece of the file
 // (CVE-2023-52425), which takes 35 s for 60 MB.
 constexpr std::uint64_t kMaxTokenBytes = std::uint64_t{1} << 20;
@@ -35,7 +34,7 @@ struct Parsing {
     XML_Parser parser;
     XmlElement root;
     std::vector<Open> open;  // from the root down
-    std::size_t elements = 0, attributeBytes = 0;
+    std::size_t elements = 0;
     std::string refusal;
     std::uint64_t appendedTagEnd = 0;
     std::string appendedEncoding;
@@ -55,13 +54,8 @@ void start(void* user, const XML_Char* name, const XML_Char** attributes) {
     XmlElement element;
     element.name = name;
     element.line = XML_GetCurrentLineNumber(parsing.parser);
-    for (; *attributes; attributes += 2) {
+    for (; *attributes; attributes += 2)
         element.attributes.emplace_back(attributes[0], attributes[1]);
-        parsing.attributeBytes +=
-            element.attributes.back().first.size() + element.attributes.back().second.size();
-        if (parsing.attributeBytes > kMaxAttributeBytes)
-            return parsing.refuse("expected less than 64 MiB of attributes");
-    }
     if (element.name == "AppendedData" && parsing.open.size() == 1) {
         parsing.appendedEncoding = element.attribute("encoding");
         parsing.appendedTagEnd = static_cast<std::uint64_t>(
@@ -155,7 +149,7 @@ XmlFile readXml(const std::filesystem::path& path) {
     const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
         XML_ParserCreate(nullptr), &XML_ParserFree);
     if (!parser) throw std::bad_alloc();
-    Parsing parsing{parser.get(), {}, {}, 0, 0, "", 0, ""};
+    Parsing parsing{parser.get(), {}, {}, 0, "", 0, ""};
     XML_SetUserData(parser.get(), &parsing);
     XML_SetElementHandler(parser.get(), start, end);
     XML_SetCharacterDataHandler(parser.get(), characterData);
