@@ -139,7 +139,7 @@ TEST(VtkCollection, WhatDiffersIsTold) {
     EXPECT_THAT(refusal(collection("<DataSet part=\"0\" file=\"a.vti\"/>"
                                    "<DataSet part=\"1\" file=\"b.vti\"/>")),
                 HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected 1 finite numbers"));
+    EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected a finite number"));
     EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
     const Path gap = collection(member("0", good) + member("1", "none.vti"));
     EXPECT_THAT(open(gap)->variables()[0].notes,

@@ -121,9 +121,9 @@ TEST(DamagedVtk, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
     EXPECT_THAT(refusal(sized("0 99999 0 99999 0 99999", appended)),
                 HasSubstr("expected at most 2^32 points"));
     EXPECT_THAT(refusal(sized("0 99999999999999999999 0 1 0 1", appended)),
-                HasSubstr("expected 32-bit integers"));
+                HasSubstr("expected 6 integers of 32 bits"));
     EXPECT_THAT(refusal(sized("5 2 0 1 0 1", appended)), HasSubstr("found the indices 5 to 2"));
-    EXPECT_THAT(refusal(sized("0 1 0 1", appended)), HasSubstr("expected 6 finite numbers"));
+    EXPECT_THAT(refusal(sized("0 1 0 1", appended)), HasSubstr("expected 6 integers of 32 bits"));
     const std::string start = "# vtk DataFile Version 4.2\nt\nBINARY\nDATASET STRUCTURED_POINTS\n";
     const std::string rest = "SCALARS v double 1\nLOOKUP_TABLE default\nabc";
     EXPECT_THAT(refusal(start + "DIMENSIONS 1000 1000 1000\nPOINT_DATA 1000000000\n" + rest),
@@ -277,7 +277,7 @@ TEST(DamagedVtk, ArraysThatTheFileLacksAreToldOf) {
                 HasSubstr("expected appended values, but the file ends before"));
     EXPECT_THAT(refusal(array("format=\"hex\"")), HasSubstr("found \"hex\""));
     EXPECT_THAT(refusal(array("NumberOfComponents=\"nan\"")),
-                HasSubstr("NumberOfComponents: expected 1 finite numbers"));
+                HasSubstr("NumberOfComponents: expected a count"));
     EXPECT_THAT(refusal(array("NumberOfComponents=\"-3\"")), HasSubstr("expected a count"));
 
     const std::string start = "<VTKFile type=\"RectilinearGrid\"><RectilinearGrid WholeExtent=\"";
@@ -333,7 +333,7 @@ TEST(DamagedVtk, CollectionsThatLieAreRefused) {
     EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
     EXPECT_THAT(refusal(collection("<DataSet/>")), HasSubstr("expected the name of a file"));
     EXPECT_THAT(refusal(collection("<DataSet timestep=\"nan\" file=\"a.vti\"/>")),
-                HasSubstr("timestep: expected 1 finite numbers"));
+                HasSubstr("timestep: expected a finite number"));
     EXPECT_THAT(refusal("<VTKFile type=\"Collection\"/>"), HasSubstr("expected one Collection"));
     // Of itself.
     const Path path = tests::write(
@@ -364,8 +364,18 @@ TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
     EXPECT_THAT(
         refusal(imageText({.attributes = "Direction=\"1 0 0 0 nan 0 0 0 1\"", .points = points})),
         HasSubstr("Direction: expected 9 finite numbers"));
-    EXPECT_THAT(refusal(imageText({.extent = "0 nan 0 1 0 1", .points = points})),
-                HasSubstr("WholeExtent: expected 6 finite numbers"));
+    for (const std::string wrong : {"0 nan 0 1 0 1", "0 2.5 0 1 0 1", "0 2 0 1 0 1 0"})
+        EXPECT_THAT(refusal(imageText({.extent = wrong, .points = points})),
+                    HasSubstr("WholeExtent: expected 6 integers of 32 bits"));
+    // VTK takes a sign, too.
+    EXPECT_EQ(
+        refusal(imageText(
+            {.extent = "+0 +2 0 1 0 1", .attributes = "Spacing=\"+1 1 1\"", .points = points})),
+        "");
+    EXPECT_EQ(refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                      "DIMENSIONS +2 1 1\nSPACING +1 1 1\nPOINT_DATA +2\nSCALARS v int\n"
+                      "LOOKUP_TABLE d\n1 2\n"),
+              "");
 }
 
 // VTK takes the lower bits of what is beyond a byte, and of what is below 0 for an unsigned type.

@@ -130,7 +130,7 @@ std::vector<Form> allForms() {
          {"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"})
         for (const char* order : {"LittleEndian", "BigEndian"})
             for (const char* width : {"UInt32", "UInt64"})
-                for (const std::size_t block : {256, 32768}) {  // several, and one in part
+                for (const std::size_t block : {256, 1 << 30}) {  // several, and one in part
                     for (const char* encoding : {"raw", "base64"})
                         forms.push_back({"appended", encoding, compressor, order, width, block});
                     for (const char* mode : {"ascii", "binary"})

@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "timeseries/grid/with_type.h"
+
 namespace timeseries {
 namespace {
 
@@ -17,33 +19,6 @@ using Malformed = std::function<void(const std::string&)>;
 
 bool floating(ValueType type) { return type == ValueType::F32 || type == ValueType::F64; }
 bool wide(ValueType type) { return type == ValueType::I64 || type == ValueType::U64; }
-
-// Calls use(T{}) with the C++ type.
-template <typename Use>
-void withType(ValueType type, Use use) {
-    switch (type) {
-        case ValueType::U8:
-            return use(std::uint8_t{});
-        case ValueType::I8:
-            return use(std::int8_t{});
-        case ValueType::U16:
-            return use(std::uint16_t{});
-        case ValueType::I16:
-            return use(std::int16_t{});
-        case ValueType::U32:
-            return use(std::uint32_t{});
-        case ValueType::I32:
-            return use(std::int32_t{});
-        case ValueType::U64:
-            return use(std::uint64_t{});
-        case ValueType::I64:
-            return use(std::int64_t{});
-        case ValueType::F32:
-            return use(float{});
-        case ValueType::F64:
-            return use(double{});
-    }
-}
 
 // The other signedness, for the attribute _Unsigned: classic files have no unsigned types.
 ValueType withSign(ValueType type, bool isUnsigned) {

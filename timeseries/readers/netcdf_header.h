@@ -11,6 +11,7 @@
 
 #include "timeseries/grid/field.h"
 #include "timeseries/index/number.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 
@@ -61,9 +62,5 @@ struct NcHeader {
         return dimensions[variable.dimensions[position]];
     }
 };
-
-// The words of a blank-separated list such as the attribute `coordinates`.
-std::vector<std::string> words(std::string_view text);
-std::string lower(std::string_view text);
 
 }  // namespace timeseries

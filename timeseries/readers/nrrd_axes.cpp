@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "timeseries/readers/netcdf_header.h"
 #include "timeseries/readers/units.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "timeseries/readers/netcdf_header.h"
 #include "timeseries/readers/ordinary_file.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {

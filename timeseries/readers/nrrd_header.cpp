@@ -11,8 +11,8 @@
 #include <memory>
 #include <mutex>
 
-#include "timeseries/readers/netcdf_header.h"
 #include "timeseries/readers/reader.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "timeseries/grid/with_type.h"
 #include "timeseries/readers/nrrd_piece.h"
 
 namespace timeseries {
@@ -45,33 +46,6 @@ bool parseNumber(const std::string& word, T& number) {
         }
     }
     return error == std::errc() && stop == end;
-}
-
-// Calls f with a value of the type.
-template <typename F>
-void ofType(ValueType type, F f) {
-    switch (type) {
-        case ValueType::U8:
-            return f(std::uint8_t{});
-        case ValueType::I8:
-            return f(std::int8_t{});
-        case ValueType::U16:
-            return f(std::uint16_t{});
-        case ValueType::I16:
-            return f(std::int16_t{});
-        case ValueType::U32:
-            return f(std::uint32_t{});
-        case ValueType::I32:
-            return f(std::int32_t{});
-        case ValueType::U64:
-            return f(std::uint64_t{});
-        case ValueType::I64:
-            return f(std::int64_t{});
-        case ValueType::F32:
-            return f(float{});
-        case ValueType::F64:
-            return f(double{});
-    }
 }
 
 }  // namespace
@@ -162,7 +136,7 @@ bool NrrdStream::nextWord() {
 }
 
 void NrrdStream::parseWord(void* out, std::uint64_t index) const {
-    ofType(header_.type, [&](auto number) {
+    withType(header_.type, [&](auto number) {
         if (word_.size() > kMaxWord || !parseNumber(word_, number)) {
             std::string shown = word_.substr(0, 40);
             for (char& c : shown)

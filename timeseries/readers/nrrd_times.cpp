@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "timeseries/readers/cf_time.h"
-#include "timeseries/readers/netcdf_header.h"
 #include "timeseries/readers/units.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <fstream>
 
 #include "timeseries/readers/vtk_header.h"
+#include "timeseries/readers/vtk_number.h"
 
 namespace timeseries {
 namespace {
@@ -18,9 +17,6 @@ std::uint64_t unpackedPerByte(std::string_view compressor) {
     return compressor == "vtkLZMADataCompressor" ? 8000 : 1100;
 }
 
-// A block that is larger than the values themselves.
-constexpr std::uint64_t kMaxBlock = std::uint64_t{1} << 28;
-
 // The bytes of one array where they lie, decoded where they are base64.
 class Source {
  public:
@@ -31,20 +27,14 @@ class Source {
 
     // False at the end of the file, of the text, or of the characters that mean something.
     bool get(unsigned char& byte) {
-        if (!base64_) {
-            char c = 0;
-            if (!file_.get(c)) return false;
-            byte = static_cast<unsigned char>(c);
-            return true;
-        }
         while (bits_ < 8) {
             char c = 0;
             if (!file_.get(c)) return false;
-            if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
-            const int digit = digitOf(c);
-            if (digit < 0) return false;
-            held_ = (held_ << 6 | static_cast<unsigned>(digit)) & 0xFFFF;
-            bits_ += 6;
+            if (base64_ && (c == ' ' || c == '\n' || c == '\r' || c == '\t')) continue;
+            const std::size_t digit = base64_ ? kDigits.find(c) : static_cast<unsigned char>(c);
+            if (digit == kDigits.npos) return false;
+            held_ = (held_ << (base64_ ? 6 : 8) | static_cast<unsigned>(digit)) & 0xFFFF;
+            bits_ += base64_ ? 6 : 8;
         }
         bits_ -= 8;
         byte = static_cast<unsigned char>(held_ >> bits_);
@@ -65,12 +55,8 @@ class Source {
     }
 
  private:
-    static int digitOf(char c) {
-        if (c >= 'A' && c <= 'Z') return c - 'A';
-        if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-        if (c >= '0' && c <= '9') return c - '0' + 52;
-        return c == '+' ? 62 : c == '/' ? 63 : -1;
-    }
+    static constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
     std::ifstream file_;
     bool base64_;
@@ -111,8 +97,7 @@ struct Check {
             fail("expected values, but the file ends");
         // The last block may be a part, also when it is the only one.
         const std::uint64_t full = blocks - (lastBytes != 0 ? 1 : 0);
-        const bool possible = blocks > 0 && blocks <= available &&
-                              blockBytes <= std::max(bytes, kMaxBlock) && lastBytes <= blockBytes &&
+        const bool possible = blocks > 0 && blocks <= available && lastBytes <= blockBytes &&
                               (full == 0 || blockBytes <= bytes / full) &&
                               full * blockBytes + lastBytes == bytes;
         if (!possible)
@@ -140,12 +125,13 @@ struct Check {
 
 }  // namespace
 
-VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& root) {
+VtkEncoding vtkEncodingOf(const XmlFile& file) {
+    const XmlElement& root = file.root;
     VtkEncoding encoding;
     const auto choice = [&](std::string_view name, std::string_view usual, std::string_view other) {
         const std::string_view value = root.has(name) ? root.attribute(name) : usual;
         if (value != usual && value != other)
-            failVtk(path, "VTKFile",
+            failVtk(file.path, "VTKFile",
                     fmt::format("expected {} {} or {}, found \"{}\"", name, usual, other, value));
         return value == other;
     };
@@ -155,17 +141,17 @@ VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& r
     if (!encoding.compressor.empty() && encoding.compressor != "vtkZLibDataCompressor" &&
         encoding.compressor != "vtkLZ4DataCompressor" &&
         encoding.compressor != "vtkLZMADataCompressor")
-        failVtk(path, "VTKFile",
+        failVtk(file.path, "VTKFile",
                 fmt::format("expected a compressor of zlib, LZ4 or LZMA, found \"{}\"",
                             encoding.compressor));
     return encoding;
 }
 
-std::uint64_t checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
-                             const VtkEncoding& encoding, const XmlElement& array,
-                             std::string_view place, std::uint64_t values, std::size_t valueBytes) {
+std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
+                             const XmlElement& array, std::string_view place, std::uint64_t values,
+                             std::size_t valueBytes) {
     const std::string_view format = array.has("format") ? array.attribute("format") : "ascii";
-    Check check{path, encoding, place, true, array.characters, values * valueBytes};
+    Check check{file.path, encoding, place, true, array.characters, values * valueBytes};
     if (format == "ascii") {
         if (array.words != values)
             check.fail(fmt::format("expected {} values, found {}", values, array.words));
@@ -174,13 +160,11 @@ std::uint64_t checkVtkValues(const std::filesystem::path& path, const XmlFile& f
     std::uint64_t at = array.textAt;
     if (format == "appended") {
         const std::string_view text = array.attribute("offset");
-        std::uint64_t offset = 0;
-        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), offset);
-        if (text.empty() || error != std::errc() || stop != text.data() + text.size())
-            check.fail(fmt::format("expected an offset, found \"{}\"", text));
-        if (file.appendedAt == 0 || offset >= file.bytes - file.appendedAt)
+        const auto offset = vtkNumber<std::uint64_t>(text);
+        if (!offset) check.fail(fmt::format("expected an offset, found \"{}\"", text));
+        if (file.appendedAt == 0 || *offset >= file.bytes - file.appendedAt)
             check.fail("expected appended values, but the file ends before");
-        at = file.appendedAt + offset;
+        at = file.appendedAt + *offset;
         check.available = file.bytes - at;
         check.base64 = file.appendedEncoding == "base64";
     } else if (format != "binary") {
@@ -188,7 +172,7 @@ std::uint64_t checkVtkValues(const std::filesystem::path& path, const XmlFile& f
             fmt::format("expected the format ascii, binary or appended, found \"{}\"", format));
     }
     if (check.bytes == 0) return 0;
-    Source source(path, at, check.base64);
+    Source source(file.path, at, check.base64);
     return encoding.compressor.empty() ? check.plain(source) : check.compressed(source);
 }
 

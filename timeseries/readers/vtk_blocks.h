@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -19,12 +18,12 @@ struct VtkEncoding {
 };
 
 // From the attributes of the root. Throws FileError.
-VtkEncoding vtkEncodingOf(const std::filesystem::path& path, const XmlElement& root);
+VtkEncoding vtkEncodingOf(const XmlFile& file);
 
 // Throws FileError unless the file holds `values` values of `valueBytes` bytes for the DataArray.
 // Returns the bytes of the file that they take; other arrays may name the same ones.
-std::uint64_t checkVtkValues(const std::filesystem::path& path, const XmlFile& file,
-                             const VtkEncoding& encoding, const XmlElement& array,
-                             std::string_view place, std::uint64_t values, std::size_t valueBytes);
+std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
+                             const XmlElement& array, std::string_view place, std::uint64_t values,
+                             std::size_t valueBytes);
 
 }  // namespace timeseries

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
+
+#include "timeseries/grid/with_type.h"
+#include "timeseries/readers/vtk_number.h"
 
 namespace timeseries {
 namespace {
@@ -55,44 +55,8 @@ const VtkType* vtkLegacyType(std::string_view lowerCase) {
     return found == kTypes.end() ? nullptr : &*found;
 }
 
-bool isVtkNumber(const VtkType& type, std::string_view text) {
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-    const auto is = [&]<typename T>(T number) {
-        const char* const last = text.data() + text.size();
-        const auto [stop, error] = std::from_chars(text.data(), last, number);
-        if (stop != last) return false;
-        if constexpr (std::is_floating_point_v<T>) {
-            // Too small to be told from 0 is a number, too large is none.
-            if (error == std::errc::result_out_of_range)
-                return std::abs(std::strtod(std::string(text).c_str(), nullptr)) < 1;
-            return error == std::errc() && std::isfinite(number);
-        } else {
-            return error == std::errc();
-        }
-    };
-    switch (type.type) {
-        case ValueType::U8:
-            return is(std::uint8_t{});
-        case ValueType::I8:
-            return is(std::int8_t{});
-        case ValueType::U16:
-            return is(std::uint16_t{});
-        case ValueType::I16:
-            return is(std::int16_t{});
-        case ValueType::U32:
-            return is(std::uint32_t{});
-        case ValueType::I32:
-            return is(std::int32_t{});
-        case ValueType::U64:
-            return is(std::uint64_t{});
-        case ValueType::I64:
-            return is(std::int64_t{});
-        case ValueType::F32:
-            return is(float{});
-        case ValueType::F64:
-            return is(double{});
-    }
-    return false;
+bool isVtkNumber(ValueType type, std::string_view text) {
+    return withType(type, [&]<typename T>(T) { return vtkNumber<T>(text).has_value(); });
 }
 
 bool isVtkGhostName(std::string_view name) {
@@ -136,29 +100,6 @@ void checkVtkExtent(const VtkHeader& header, std::string_view place) {
         if (points > kMaxPoints)
             failVtk(header.path, place, "expected at most 2^32 points, found more");
     }
-}
-
-std::vector<double> vtkNumbers(const VtkHeader& header, std::string_view place,
-                               std::string_view text, std::size_t count) {
-    std::vector<double> numbers;
-    const std::string shown(text.substr(0, 100));
-    const auto fail = [&] {
-        failVtk(header.path, place,
-                fmt::format("expected {} finite numbers, found \"{}\"", count, shown));
-    };
-    constexpr std::string_view kBlanks = " \t\r\n";
-    for (std::size_t at = 0; (at = text.find_first_not_of(kBlanks, at)) != text.npos;) {
-        const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-        double value = 0;
-        const char* last = text.data() + end;
-        const auto [stop, error] = std::from_chars(text.data() + at, last, value);
-        if (error != std::errc() || stop != last || !std::isfinite(value)) fail();
-        numbers.push_back(value);
-        if (numbers.size() > count) fail();
-        at = end;
-    }
-    if (numbers.size() != count) fail();
-    return numbers;
 }
 
 }  // namespace timeseries

@@ -1,5 +1,6 @@
 // What a VTK file declares, checked against its own size before VTK is asked for a value: plain
-// data, told by our own look at the XML header or at the lines of a legacy file.
+// data, told by our own look at the XML header or at the lines of a legacy file. ARCHITECTURE.md
+// ("One load") says why VTK is not asked.
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 
 #include "timeseries/grid/field.h"
 #include "timeseries/readers/reader.h"
+#include "timeseries/readers/vtk_xml.h"
 
 namespace timeseries {
 
@@ -30,6 +32,7 @@ struct VtkArray {
     VtkKeyword keyword{};  // of legacy files
     // A word of its text that is no number of its type, for which it cannot be read.
     std::string notNumber = {};
+    std::uint64_t fileBytes = 0;  // of an XML file: what all its pieces take of the file
 };
 
 struct VtkTime {
@@ -69,13 +72,14 @@ struct VtkMember {
 
 // Of the points, of the cells and of the field data each: VTK looks for each among the others.
 constexpr std::uint64_t kMaxVtkArrays = 4096;
+constexpr std::uint64_t kMaxVtkComponents = 1024;
 
 // Each throws FileError when sizes are absurd or exceed the file's.
 VtkHeader readVtkLegacyHeader(const std::filesystem::path& path);
-VtkHeader readVtkXmlHeader(const std::filesystem::path& path);
-bool isVtkCollection(const std::filesystem::path& path);
+VtkHeader readVtkXmlHeader(const XmlFile& file);
+bool isVtkCollection(const XmlFile& file);
 // In the order of their times. Throws FileError.
-std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path);
+std::vector<VtkMember> readVtkCollection(const XmlFile& file);
 
 // Shared by the two kinds of header.
 struct VtkType {
@@ -87,14 +91,11 @@ const VtkType* vtkXmlType(std::string_view name);
 const VtkType* vtkLegacyType(std::string_view lowerCase);
 // Whether text is a number of the type. VTK reads none that is not finite, and wraps what is beyond
 // the range of a byte or below that of an unsigned type.
-bool isVtkNumber(const VtkType& type, std::string_view text);
+bool isVtkNumber(ValueType type, std::string_view text);
 bool isVtkGhostName(std::string_view name);
 // Throws FileError when there are too many points, none, or too many along an axis.
 void checkVtkExtent(const VtkHeader& header, std::string_view place);
 // The name under which a field data array of one number tells the time; nothing when it does not.
 std::optional<std::string> vtkTimeName(std::string_view arrayName);
-// Whitespace-separated numbers, all finite; throws FileError.
-std::vector<double> vtkNumbers(const VtkHeader& header, std::string_view place,
-                               std::string_view text, std::size_t count);
 
 }  // namespace timeseries

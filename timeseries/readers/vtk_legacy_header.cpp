@@ -6,12 +6,29 @@
 #include <cmath>
 #include <set>
 
+#include "timeseries/readers/vtk_number.h"
 #include "timeseries/readers/vtk_text.h"
 
 namespace timeseries {
 namespace {
 
-constexpr std::uint64_t kMaxComponents = 1024;
+struct Attribute {
+    std::string_view word;
+    std::uint64_t components;  // 0 where the file says how many
+    VtkKeyword keyword;
+};
+constexpr std::array kAttributes{
+    Attribute{"scalars", 1, VtkKeyword::Scalars},
+    Attribute{"color_scalars", 0, VtkKeyword::Scalars},
+    Attribute{"vectors", 3, VtkKeyword::Vectors},
+    Attribute{"normals", 3, VtkKeyword::Normals},
+    Attribute{"tensors", 9, VtkKeyword::Tensors},
+    Attribute{"tensors6", 6, VtkKeyword::Tensors},
+    Attribute{"texture_coordinates", 0, VtkKeyword::TextureCoordinates},
+    Attribute{"global_ids", 1, VtkKeyword::Ids},
+    Attribute{"pedigree_ids", 1, VtkKeyword::Ids},
+    Attribute{"edge_flags", 1, VtkKeyword::Ids},
+};
 
 class LegacyHeader {
  public:
@@ -42,6 +59,8 @@ class LegacyHeader {
     void skipLookupTable();
     void countArray();
     const VtkType* readType();
+    // Of the type that was read last.
+    void skipValues(const VtkType* type, std::uint64_t values);
     std::array<double, 3> three(std::string_view what);
     // The values come next.
     void add(std::string name, const VtkType* type, std::uint64_t components, VtkKeyword keyword);
@@ -135,7 +154,7 @@ void LegacyHeader::readCoordinates(std::size_t axis) {
                                header_.size(VtkPlace::Points)[axis], count));
     const VtkType* type = readType();
     if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
-    header_.coordinates[axis] = text_.values(*type, count, count);
+    header_.coordinates[axis] = text_.numbers(*type, count);
 }
 
 void LegacyHeader::beginAttributes(VtkPlace place) {
@@ -154,25 +173,27 @@ void LegacyHeader::countArray() {
 void LegacyHeader::add(std::string name, const VtkType* type, std::uint64_t components,
                        VtkKeyword keyword) {
     countArray();
-    if (components < 1 || components > kMaxComponents)
+    if (components < 1 || components > kMaxVtkComponents)
         text_.fail(
-            fmt::format("expected 1 to {} components, found {}", kMaxComponents, components));
+            fmt::format("expected 1 to {} components, found {}", kMaxVtkComponents, components));
     const std::uint64_t values = header_.count(*place_) * components;
     if (!names_.emplace(*place_, name).second)
         text_.fail(fmt::format("expected names that differ, found '{}' again", name));
-    if (type) {
-        if (typeName_.empty())
-            text_.skipBytesOrWords(values, values);
-        else
-            text_.values(*type, values);
-        if (isVtkGhostName(name))
-            header_.ghosts[static_cast<std::size_t>(*place_)] = true;
-        else
-            header_.arrays.push_back({std::move(name), *place_, type->type, components, keyword});
-        return;
-    }
-    header_.passedOver.push_back(fmt::format("'{}' has the type {}", name, typeName_));
-    if (typeName_ == "bit")
+    skipValues(type, values);
+    if (!type)
+        header_.passedOver.push_back(fmt::format("'{}' has the type {}", name, typeName_));
+    else if (isVtkGhostName(name))
+        header_.ghosts[static_cast<std::size_t>(*place_)] = true;
+    else
+        header_.arrays.push_back({std::move(name), *place_, type->type, components, keyword});
+}
+
+void LegacyHeader::skipValues(const VtkType* type, std::uint64_t values) {
+    if (type && typeName_.empty())
+        text_.skipBytesOrWords(values, values);
+    else if (type)
+        text_.skipNumbers(*type, values);
+    else if (typeName_ == "bit")
         text_.skipBytesOrWords((values + 7) / 8, values);
     else if (typeName_ == "string" || typeName_ == "utf8_string")
         text_.skipStrings(values);
@@ -188,46 +209,28 @@ void LegacyHeader::skipLookupTable() {
 
 void LegacyHeader::readAttribute(const std::string& word) {
     if (word == "lookup_table") return skipLookupTable();
-    static constexpr std::array kKnown{
-        "scalars",  "color_scalars",       "vectors",    "normals",      "tensors",
-        "tensors6", "texture_coordinates", "global_ids", "pedigree_ids", "edge_flags"};
-    if (std::ranges::find(kKnown, word) == kKnown.end())
+    const auto attribute = std::ranges::find(kAttributes, word, &Attribute::word);
+    if (attribute == kAttributes.end())
         text_.fail(fmt::format("expected an attribute such as SCALARS, found \"{}\"", word));
     std::string name = text_.name();
+    std::uint64_t components = attribute->components;
+    if (components == 0) components = text_.count("a number of components");
     if (word == "color_scalars") {
-        const std::uint64_t components = text_.count("a number of components");
         typeName_.clear();  // bytes, but numbers from 0 to 1 in text
-        return add(std::move(name), vtkLegacyType("unsigned_char"), components,
-                   VtkKeyword::Scalars);
-    }
-    std::uint64_t components = 3;
-    VtkKeyword keyword = VtkKeyword::Ids;
-    if (word == "texture_coordinates") {
-        components = text_.count("a number of components");
-        keyword = VtkKeyword::TextureCoordinates;
+        return add(std::move(name), vtkLegacyType("unsigned_char"), components, attribute->keyword);
     }
     const VtkType* type = readType();
-    if (word == "vectors") keyword = VtkKeyword::Vectors;
-    if (word == "normals") keyword = VtkKeyword::Normals;
-    if (word == "tensors" || word == "tensors6") keyword = VtkKeyword::Tensors;
-    if (word.starts_with("tensors")) components = word == "tensors" ? 9 : 6;
-    if (word.ends_with("_ids") || word == "edge_flags") components = 1;
     if (word == "scalars") {
-        keyword = VtkKeyword::Scalars;
-        components = 1;
         std::string next = text_.lowerWord();
-        if (next != "lookup_table") {
-            if (next.size() > 4 || next.find_first_not_of("0123456789") != next.npos ||
-                next.empty())
-                text_.fail(fmt::format("expected LOOKUP_TABLE, found \"{}\"", next));
-            components = std::stoul(next);
+        if (const auto number = vtkNumber<std::uint16_t>(next)) {
+            components = *number;
             next = text_.lowerWord();
         }
         if (next != "lookup_table")
             text_.fail(fmt::format("expected LOOKUP_TABLE, found \"{}\"", next));
         text_.name();
     }
-    add(std::move(name), type, components, keyword);
+    add(std::move(name), type, components, attribute->keyword);
 }
 
 void LegacyHeader::readField() {
@@ -249,23 +252,20 @@ void LegacyHeader::readFieldArray() {
     const std::uint64_t components = text_.count("a number of components");
     const std::uint64_t tuples = text_.count("a number of tuples");
     const VtkType* type = readType();
-    if (components > kMaxComponents)
+    if (components > kMaxVtkComponents)
         text_.fail(
-            fmt::format("expected at most {} components, found {}", kMaxComponents, components));
+            fmt::format("expected at most {} components, found {}", kMaxVtkComponents, components));
     if (place_ && tuples == header_.count(*place_))
         return add(std::move(name), type, components, VtkKeyword::Field);
 
     countArray();
     const std::uint64_t values = tuples * components;
     if (place_) header_.passedOver.push_back(fmt::format("'{}' has {} tuples", name, tuples));
-    if (!type && (typeName_ == "string" || typeName_ == "utf8_string"))
-        return text_.skipStrings(values);
-    if (!type && typeName_ == "bit") return text_.skipBytesOrWords((values + 7) / 8, values);
-    if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
-    const auto time = place_ || values != 1 ? std::nullopt : vtkTimeName(name);
-    const auto number = text_.values(*type, values, time ? 1 : 0);
-    if (time && std::isfinite(number[0]) && (!header_.time || *time == "time"))
-        header_.time = VtkTime{*time, number[0]};
+    const auto time = place_ || values != 1 || !type ? std::nullopt : vtkTimeName(name);
+    if (!time) return skipValues(type, values);
+    const double number = text_.numbers(*type, 1)[0];
+    if (std::isfinite(number) && (!header_.time || *time == "time"))
+        header_.time = VtkTime{*time, number};
 }
 
 }  // namespace

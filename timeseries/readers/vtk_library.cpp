@@ -23,6 +23,9 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <type_traits>
+
+#include "timeseries/grid/with_type.h"
 
 namespace timeseries {
 namespace {
@@ -158,37 +161,15 @@ vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray& 
     return reader->GetOutput();
 }
 
-std::optional<ValueType> valueTypeOf(int vtkType) {
-    switch (vtkType) {
-        case VTK_CHAR:
-        case VTK_SIGNED_CHAR:
-            return ValueType::I8;
-        case VTK_UNSIGNED_CHAR:
-            return ValueType::U8;
-        case VTK_SHORT:
-            return ValueType::I16;
-        case VTK_UNSIGNED_SHORT:
-            return ValueType::U16;
-        case VTK_INT:
-            return ValueType::I32;
-        case VTK_UNSIGNED_INT:
-            return ValueType::U32;
-        case VTK_LONG:
-        case VTK_LONG_LONG:
-        case VTK_ID_TYPE:
-            return ValueType::I64;
-        case VTK_UNSIGNED_LONG:
-        case VTK_UNSIGNED_LONG_LONG:
-            return ValueType::U64;
-        case VTK_FLOAT:
-            return ValueType::F32;
-        case VTK_DOUBLE:
-            return ValueType::F64;
-        default:
-            return std::nullopt;
-    }
+// VTK has several types for one of C++ (long and long long, char and signed char).
+bool holds(vtkDataArray& array, ValueType type) {
+    return withType(type, [&]<typename T>(T) {
+        const int found = array.GetDataType();
+        return array.GetDataTypeSize() == sizeof(T) &&
+               (found == VTK_FLOAT || found == VTK_DOUBLE) == std::is_floating_point_v<T> &&
+               (array.GetDataTypeMin() < 0) == std::is_signed_v<T>;
+    });
 }
-static_assert(sizeof(long) == 8 && sizeof(vtkIdType) == 8);
 
 struct Arrays {
     vtkSmartPointer<vtkDataArray> values, ghosts;
@@ -297,7 +278,7 @@ void mark(vtkDataArray& ghosts, VtkPlace place, const VtkLayout& layout,
 
 void fill(vtkDataArray& stored, const VtkArray& array, VtkPart part, const VtkLayout& layout,
           Field& field) {
-    const auto typed = [&]<typename T>(T) {
+    withType(array.type, [&]<typename T>(T) {
         const T* from = static_cast<const T*>(stored.GetVoidPointer(0));
         if (part.kind == VtkPart::Kind::Component) {
             copyComponent(from, array.components, part.component, layout,
@@ -306,29 +287,7 @@ void fill(vtkDataArray& stored, const VtkArray& array, VtkPart part, const VtkLa
             using Result = std::conditional_t<std::is_same_v<T, float>, float, double>;
             magnitudes(from, array.components, layout, field.values.emplace<std::vector<Result>>());
         }
-    };
-    switch (array.type) {
-        case ValueType::U8:
-            return typed(std::uint8_t{});
-        case ValueType::I8:
-            return typed(std::int8_t{});
-        case ValueType::U16:
-            return typed(std::uint16_t{});
-        case ValueType::I16:
-            return typed(std::int16_t{});
-        case ValueType::U32:
-            return typed(std::uint32_t{});
-        case ValueType::I32:
-            return typed(std::int32_t{});
-        case ValueType::U64:
-            return typed(std::uint64_t{});
-        case ValueType::I64:
-            return typed(std::int64_t{});
-        case ValueType::F32:
-            return typed(float{});
-        case ValueType::F64:
-            return typed(double{});
-    }
+    });
 }
 
 std::vector<double> numbersOf(vtkDataArray* array) {
@@ -366,7 +325,7 @@ void readVtkArray(const VtkHeader& header, const VtkArray& array, VtkPart part,
     const auto count = static_cast<vtkIdType>(header.count(array.place));
     if (!arrays.values || arrays.values->GetNumberOfTuples() != count ||
         static_cast<std::size_t>(arrays.values->GetNumberOfComponents()) != array.components ||
-        valueTypeOf(arrays.values->GetDataType()) != array.type ||
+        !holds(*arrays.values, array.type) ||
         (arrays.ghosts && arrays.ghosts->GetNumberOfTuples() != count))
         failVtk(header.path, place,
                 fmt::format("expected {} {} of {} values, but VTK reads something else", count,

@@ -22,10 +22,9 @@ bool legacy(const Path& path) {
     return start == "# vtk";
 }
 
-// The header, with the coordinates of a rectilinear grid.
-VtkHeader headerOf(const Path& path) {
-    if (legacy(path)) return readVtkLegacyHeader(path);
-    VtkHeader header = readVtkXmlHeader(path);
+// With the coordinates of a rectilinear grid.
+VtkHeader headerOf(const XmlFile& file) {
+    VtkHeader header = readVtkXmlHeader(file);
     VtkFrame frame = readVtkFrame(header);
     header.coordinates = std::move(frame.coordinates);
     header.time = frame.time;
@@ -33,7 +32,7 @@ VtkHeader headerOf(const Path& path) {
         for (std::size_t i = 0; i < 3; ++i)
             if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])
                 failVtk(
-                    path, "Coordinates",
+                    file.path, "Coordinates",
                     fmt::format("expected {} along {}, found {}", header.size(VtkPlace::Points)[i],
                                 "xyz"[i], header.coordinates[i].size()));
     return header;
@@ -45,9 +44,8 @@ struct Frame {
     std::array<std::optional<VtkGrid>, 2> grids;  // by VtkPlace, where there is an array
 };
 
-Frame frameOf(const Path& path) {
-    if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
-    Frame frame{headerOf(path), {}};
+Frame frameOf(VtkHeader header) {
+    Frame frame{std::move(header), {}};
     for (const VtkArray& array : frame.header.arrays) {
         auto& grid = frame.grids[static_cast<std::size_t>(array.place)];
         if (!grid) grid = vtkGridOf(frame.header, array.place);
@@ -55,10 +53,16 @@ Frame frameOf(const Path& path) {
     return frame;
 }
 
+Frame frameOf(const Path& path) {
+    if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
+    return frameOf(legacy(path) ? readVtkLegacyHeader(path) : headerOf(readXml(path)));
+}
+
 class VtkReader final : public Reader {
  public:
-    VtkReader(const Path& path, std::vector<VtkMember> members, bool collection)
-        : files_{path}, members_(std::move(members)), frame_(frameOf(members_[0].path)) {
+    // `first` is of the first member.
+    VtkReader(const Path& path, std::vector<VtkMember> members, Frame first, bool collection)
+        : files_{path}, members_(std::move(members)), frame_(std::move(first)) {
         const VtkHeader& header = frame_.header;
         if (header.arrays.empty()) {
             std::string why;
@@ -201,10 +205,14 @@ std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
         throw FileError(fmt::format("{}: expected one VTK file, or a collection (.pvd) of several",
                                     paths[1].string()));
     const Path& path = paths[0];
-    if (legacy(path) || !isVtkCollection(path))
-        return std::make_unique<VtkReader>(path, std::vector{VtkMember{path, std::nullopt}}, false);
-    std::vector<VtkMember> members = readVtkCollection(path);
-    return std::make_unique<VtkReader>(path, std::move(members), true);
+    std::vector<VtkMember> members{{path, std::nullopt}};
+    if (legacy(path))
+        return std::make_unique<VtkReader>(path, std::move(members), frameOf(path), false);
+    const XmlFile file = readXml(path);
+    const bool collection = isVtkCollection(file);
+    if (collection) members = readVtkCollection(file);
+    auto first = collection ? frameOf(members[0].path) : frameOf(headerOf(file));
+    return std::make_unique<VtkReader>(path, std::move(members), std::move(first), collection);
 }
 
 }  // namespace timeseries

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
-#include <cmath>
-#include <cstring>
+
+#include "timeseries/grid/with_type.h"
+#include "timeseries/readers/vtk_number.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {
@@ -15,45 +17,15 @@ constexpr std::size_t kMaxWord = 255;  // of VTK's reader
 
 bool blank(int c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-template <typename T>
-double bigEndian(const unsigned char* bytes) {
-    std::array<unsigned char, sizeof(T)> native;
-    std::reverse_copy(bytes, bytes + sizeof(T), native.begin());
-    return static_cast<double>(std::bit_cast<T>(native));
-}
 static_assert(std::endian::native == std::endian::little);
 
-double decode(const VtkType& type, const unsigned char* bytes) {
-    switch (type.type) {
-        case ValueType::U8:
-            return *bytes;
-        case ValueType::I8:
-            return static_cast<std::int8_t>(*bytes);
-        case ValueType::U16:
-            return bigEndian<std::uint16_t>(bytes);
-        case ValueType::I16:
-            return bigEndian<std::int16_t>(bytes);
-        case ValueType::U32:
-            return bigEndian<std::uint32_t>(bytes);
-        case ValueType::I32:
-            return bigEndian<std::int32_t>(bytes);
-        case ValueType::U64:
-            return bigEndian<std::uint64_t>(bytes);
-        case ValueType::I64:
-            return type.bytes == 4 ? bigEndian<std::int32_t>(bytes)
-                                   : bigEndian<std::int64_t>(bytes);
-        case ValueType::F32:
-            return bigEndian<float>(bytes);
-        case ValueType::F64:
-            return bigEndian<double>(bytes);
-    }
-    return 0;
-}
-
-int hexDigit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+// Of the file's big-endian bytes. An id has 32 bits there and 64 in memory.
+double decode(const VtkType& type, const char* bytes) {
+    const bool id = type.type == ValueType::I64 && type.bytes == 4;
+    return withType(id ? ValueType::I32 : type.type, [&](auto number) {
+        std::reverse_copy(bytes, bytes + sizeof number, reinterpret_cast<char*>(&number));
+        return static_cast<double>(number);
+    });
 }
 
 }  // namespace
@@ -98,13 +70,7 @@ std::string VtkText::word() {
     return text;
 }
 
-std::string VtkText::lowerWord() {
-    std::string text = word();
-    std::ranges::transform(text, text.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return text;
-}
+std::string VtkText::lowerWord() { return lower(word()); }
 
 // VTK 9.1 reads on behind a '%' that ends a word of one or two characters.
 void VtkText::checkCodes(std::string_view word) const {
@@ -116,13 +82,12 @@ std::string VtkText::decoded(std::string_view name) const {
     checkCodes(name);
     std::string plain;
     for (std::size_t i = 0; i < name.size(); ++i) {
-        if (name[i] == '%' && i + 2 < name.size() && hexDigit(name[i + 1]) >= 0 &&
-            hexDigit(name[i + 2]) >= 0) {
-            plain += static_cast<char>(hexDigit(name[i + 1]) * 16 + hexDigit(name[i + 2]));
-            i += 2;
-        } else {
-            plain += name[i];
-        }
+        unsigned char code = 0;
+        const char* const digits = name.data() + i + 1;
+        const bool coded = name[i] == '%' && i + 2 < name.size() &&
+                           std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        plain += coded ? static_cast<char>(code) : name[i];
+        if (coded) i += 2;
     }
     return plain;
 }
@@ -135,23 +100,17 @@ std::string VtkText::name() {
 
 std::uint64_t VtkText::count(std::string_view what) {
     const std::string text = word();
-    std::uint64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // As many as VTK's int holds.
-    if (text.empty() || error != std::errc() || stop != text.data() + text.size() ||
-        value > 2147483647)
+    const auto value = vtkNumber<std::int32_t>(text);  // VTK's int
+    if (!value || *value < 0)
         fail(fmt::format("expected {}, a whole number, found \"{}\"", what, text));
-    return value;
+    return static_cast<std::uint64_t>(*value);
 }
 
 double VtkText::number(std::string_view what) {
     const std::string text = word();
-    double value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc() || stop != text.data() + text.size() ||
-        !std::isfinite(value))
-        fail(fmt::format("expected {}, a finite number, found \"{}\"", what, text));
-    return value;
+    const auto value = vtkNumber<double>(text);
+    if (!value) fail(fmt::format("expected {}, a finite number, found \"{}\"", what, text));
+    return *value;
 }
 
 std::optional<std::size_t> VtkText::skipEncodedLine() {
@@ -176,68 +135,55 @@ void VtkText::skipParagraph() {
     }
 }
 
+void VtkText::beginBytes(std::uint64_t bytes) {
+    for (int c = next(); c != '\n'; c = next())
+        if (c < 0) fail("expected values, but the file ends");
+    const auto at = static_cast<std::uint64_t>(file_.tellg());
+    if (bytes > bytes_ - at)
+        fail(fmt::format("expected {} bytes of values, but the file ends after {}", bytes,
+                         bytes_ - at));
+}
+
 void VtkText::skipBytesOrWords(std::uint64_t bytes, std::uint64_t words) {
     if (binary_) {
-        for (int c = next(); c != '\n'; c = next())
-            if (c < 0) fail("expected values, but the file ends");
-        const auto at = static_cast<std::uint64_t>(file_.tellg());
-        if (bytes > bytes_ - at)
-            fail(fmt::format("expected {} bytes of values, but the file ends after {}", bytes,
-                             bytes_ - at));
+        beginBytes(bytes);
         file_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
         return;
     }
-    // A value takes a character and a blank.
-    if (words > bytes_) fail(fmt::format("expected {} values, but the file is too small", words));
-    std::uint64_t found = 0;
-    int c = file_.rdbuf()->sgetc();
-    while (found < words) {
-        while (blank(c)) next(), c = file_.rdbuf()->sgetc();
-        if (c < 0) fail(fmt::format("expected {} values, found {}", words, found));
-        while (c >= 0 && !blank(c)) c = file_.rdbuf()->snextc();
-        ++found;
-    }
+    checkWords(words);
+    for (std::uint64_t i = 0; i < words; ++i)
+        if (word().empty()) fail(fmt::format("expected {} values, found {}", words, i));
 }
 
-std::vector<double> VtkText::values(const VtkType& type, std::uint64_t count, std::uint64_t kept) {
-    if (kept == 0) {
-        if (binary_)
-            skipBytesOrWords(count * type.bytes, 0);
-        else
-            checkNumbers(type, count);
-        return {};
-    }
-    std::vector<double> found;
-    if (!binary_) {
-        while (found.size() < kept) found.push_back(number("a value"));
-        skipBytesOrWords(0, count - kept);
-        return found;
-    }
-    skipBytesOrWords(0, 0);
-    const auto at = static_cast<std::uint64_t>(file_.tellg());
-    if (count * type.bytes > bytes_ - at)
-        fail(fmt::format("expected {} bytes of values, but the file ends after {}",
-                         count * type.bytes, bytes_ - at));
-    std::array<char, 8> bytes{};
-    while (found.size() < kept) {
-        file_.read(bytes.data(), static_cast<std::streamsize>(type.bytes));
-        std::array<unsigned char, 8> raw{};
-        std::memcpy(raw.data(), bytes.data(), raw.size());
-        found.push_back(decode(type, raw.data()));
-    }
-    file_.seekg(static_cast<std::streamoff>(at + count * type.bytes));
-    return found;
-}
-
-void VtkText::checkNumbers(const VtkType& type, std::uint64_t count) {
+void VtkText::checkWords(std::uint64_t count) const {
     if (count > bytes_) fail(fmt::format("expected {} values, but the file is too small", count));
+}
+
+void VtkText::skipNumbers(const VtkType& type, std::uint64_t count) {
+    if (binary_) return skipBytesOrWords(count * type.bytes, 0);
+    checkWords(count);
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::string text = word();
         if (text.empty()) fail(fmt::format("expected {} values, found {}", count, i));
-        if (!isVtkNumber(type, text))
+        if (!isVtkNumber(type.type, text))
             fail(fmt::format("expected a finite number of type {}, found \"{}\"",
                              typeName(type.type), text));
     }
+}
+
+std::vector<double> VtkText::numbers(const VtkType& type, std::uint64_t count) {
+    std::vector<double> found;
+    if (!binary_) {
+        while (found.size() < count) found.push_back(number("a value"));
+        return found;
+    }
+    beginBytes(count * type.bytes);
+    std::array<char, 8> bytes{};
+    while (found.size() < count) {
+        file_.read(bytes.data(), static_cast<std::streamsize>(type.bytes));
+        found.push_back(decode(type, bytes.data()));
+    }
+    return found;
 }
 
 // A line each, or each after its length: two bits tell how long the length is, in 6, 14, 30 or 62

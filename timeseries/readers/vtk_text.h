@@ -19,8 +19,6 @@ class VtkText {
     explicit VtkText(const std::filesystem::path& path);
 
     void setBinary(bool binary) { binary_ = binary; }
-    bool binary() const { return binary_; }
-    const std::filesystem::path& path() const { return path_; }
 
     // "line 3" (the lines of binary values are not counted).
     std::string place() const;
@@ -36,10 +34,10 @@ class VtkText {
     double number(std::string_view what);
     // Up to a blank line or the end of the file.
     void skipParagraph();
-    // Values in the file's own form, after the rest of the line when they are binary. The first
-    // `kept` of them are returned. Throws FileError when there are fewer, or words that are no
-    // numbers of the type.
-    std::vector<double> values(const VtkType& type, std::uint64_t count, std::uint64_t kept = 0);
+    // Values in the file's own form, after the rest of the line when they are binary. Throw
+    // FileError when there are fewer, or words that are no numbers of the type.
+    void skipNumbers(const VtkType& type, std::uint64_t count);
+    std::vector<double> numbers(const VtkType& type, std::uint64_t count);
     void skipBytesOrWords(std::uint64_t bytes, std::uint64_t words);
     void skipStrings(std::uint64_t count);
 
@@ -50,7 +48,10 @@ class VtkText {
     void checkCodes(std::string_view word) const;
     // How many characters of the rest of the line are not blank; none when the file ends in it.
     std::optional<std::size_t> skipEncodedLine();
-    void checkNumbers(const VtkType& type, std::uint64_t count);
+    // To the line behind this one, which so many bytes of values begin.
+    void beginBytes(std::uint64_t bytes);
+    // Throws FileError when the file is too small for so many words.
+    void checkWords(std::uint64_t count) const;
 
     std::filesystem::path path_;
     std::uint64_t bytes_ = 0;

@@ -14,29 +14,27 @@ namespace {
 
 constexpr std::size_t kMaxElements = std::size_t{1} << 18;
 constexpr std::size_t kMaxDepth = 32;
-constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 26;
 // Of one tag or comment: expat 2.5 looks at it from its start again with every piece of the file
 // (CVE-2023-52425), which takes 35 s for 60 MB.
 constexpr std::uint64_t kMaxTokenBytes = std::uint64_t{1} << 20;
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-// The text of an open element.
-struct Text {
-    bool inWord = false;
-    const VtkType* numbers = nullptr;  // what its words have to be
-    std::string word;                  // of numbers alone: the one that goes on
-};
-
 constexpr std::size_t kMaxWord = 255;
+
+// An element whose end has not come.
+struct Open {
+    XmlElement element;
+    const VtkType* numbers = nullptr;  // what the words of its text have to be
+    std::string word;                  // of its text, as much of it as is kept; "" between words
+};
 
 // expat calls back through C, so nothing may be thrown here: a refusal is kept and parsing stops.
 struct Parsing {
     XML_Parser parser;
     XmlElement root;
-    std::vector<XmlElement> open;  // from the root down
-    std::vector<Text> texts;       // of each open element
-    std::size_t elements = 0, attributeBytes = 0;
+    std::vector<Open> open;  // from the root down
+    std::size_t elements = 0;
     std::string refusal;
     std::uint64_t appendedTagEnd = 0;
     std::string appendedEncoding;
@@ -56,13 +54,8 @@ void start(void* user, const XML_Char* name, const XML_Char** attributes) {
     XmlElement element;
     element.name = name;
     element.line = XML_GetCurrentLineNumber(parsing.parser);
-    for (; *attributes; attributes += 2) {
+    for (; *attributes; attributes += 2)
         element.attributes.emplace_back(attributes[0], attributes[1]);
-        parsing.attributeBytes +=
-            element.attributes.back().first.size() + element.attributes.back().second.size();
-        if (parsing.attributeBytes > kMaxAttributeBytes)
-            return parsing.refuse("expected less than 64 MiB of attributes");
-    }
     if (element.name == "AppendedData" && parsing.open.size() == 1) {
         parsing.appendedEncoding = element.attribute("encoding");
         parsing.appendedTagEnd = static_cast<std::uint64_t>(
@@ -72,26 +65,25 @@ void start(void* user, const XML_Char* name, const XML_Char** attributes) {
     }
     const bool text = !element.has("format") || element.attribute("format") == "ascii";
     const bool numbers = text && element.name == "DataArray";
-    parsing.texts.push_back({false, numbers ? vtkXmlType(element.attribute("type")) : nullptr, ""});
-    parsing.open.push_back(std::move(element));
+    const VtkType* type = numbers ? vtkXmlType(element.attribute("type")) : nullptr;
+    parsing.open.push_back({std::move(element), type, ""});
 }
 
-void endWord(XmlElement& element, Text& text) {
-    text.inWord = false;
-    if (text.numbers && element.notNumber.empty() && !isVtkNumber(*text.numbers, text.word))
-        element.notNumber = text.word;
-    text.word.clear();
+void endWord(Open& open) {
+    if (open.numbers && open.element.notNumber.empty() && !open.word.empty() &&
+        !isVtkNumber(open.numbers->type, open.word))
+        open.element.notNumber = open.word;
+    open.word.clear();
 }
 
 void close(Parsing& parsing) {
-    XmlElement done = std::move(parsing.open.back());
-    if (parsing.texts.back().inWord) endWord(done, parsing.texts.back());
+    endWord(parsing.open.back());
+    XmlElement done = std::move(parsing.open.back().element);
     parsing.open.pop_back();
-    parsing.texts.pop_back();
     if (parsing.open.empty())
         parsing.root = std::move(done);
     else
-        parsing.open.back().children.push_back(std::move(done));
+        parsing.open.back().element.children.push_back(std::move(done));
 }
 
 void end(void* user, const XML_Char*) {
@@ -102,19 +94,18 @@ void end(void* user, const XML_Char*) {
 void characterData(void* user, const XML_Char* characters, int length) {
     auto& parsing = *static_cast<Parsing*>(user);
     if (parsing.open.empty()) return;
-    XmlElement& element = parsing.open.back();
-    Text& text = parsing.texts.back();
+    Open& open = parsing.open.back();
+    XmlElement& element = open.element;
     for (int i = 0; i < length; ++i) {
         if (blank(characters[i])) {
-            if (text.inWord) endWord(element, text);
+            endWord(open);
             continue;
         }
         if (element.characters++ == 0)
             element.textAt =
                 static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parsing.parser) + i);
-        element.words += !text.inWord;
-        text.inWord = true;
-        if (text.numbers && text.word.size() < kMaxWord) text.word += characters[i];
+        element.words += open.word.empty();
+        if (open.word.size() < kMaxWord) open.word += characters[i];
     }
 }
 
@@ -158,7 +149,7 @@ XmlFile readXml(const std::filesystem::path& path) {
     const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
         XML_ParserCreate(nullptr), &XML_ParserFree);
     if (!parser) throw std::bad_alloc();
-    Parsing parsing{parser.get(), {}, {}, {}, 0, 0, "", 0, ""};
+    Parsing parsing{parser.get(), {}, {}, 0, "", 0, ""};
     XML_SetUserData(parser.get(), &parsing);
     XML_SetElementHandler(parser.get(), start, end);
     XML_SetCharacterDataHandler(parser.get(), characterData);
@@ -187,7 +178,7 @@ XmlFile readXml(const std::filesystem::path& path) {
                             XML_ErrorString(XML_GetErrorCode(parser.get()))));
     }
     while (!parsing.open.empty()) close(parsing);  // those around the appended data
-    XmlFile result{std::move(parsing.root), std::filesystem::file_size(path), 0,
+    XmlFile result{path, std::move(parsing.root), std::filesystem::file_size(path), 0,
                    std::move(parsing.appendedEncoding)};
     if (parsing.appendedTagEnd != 0) {
         if (result.appendedEncoding != "raw" && result.appendedEncoding != "base64")

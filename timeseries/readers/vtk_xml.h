@@ -26,6 +26,7 @@ struct XmlElement {
 };
 
 struct XmlFile {
+    std::filesystem::path path;
     XmlElement root;
     std::uint64_t bytes = 0;       // of the file
     std::uint64_t appendedAt = 0;  // the byte after the '_'; 0 when nothing is appended

@@ -2,27 +2,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <concepts>
 #include <set>
 
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/vtk_blocks.h"
 #include "timeseries/readers/vtk_header.h"
-#include "timeseries/readers/vtk_xml.h"
+#include "timeseries/readers/vtk_number.h"
+#include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {
-
-constexpr std::uint64_t kMaxComponents = 1024;
-
-// The bytes of the file that all pieces of each array name.
-using Claims = std::map<std::pair<VtkPlace, std::string>, std::uint64_t>;
 
 struct Context {
     const XmlFile& file;
     VtkEncoding encoding;
     VtkHeader& header;
-    Claims& claims;
 };
 
 // Counts what one more of several, which VTK holds together, takes in the file. Each is there, but
@@ -31,7 +26,7 @@ void claim(const Context& context, std::uint64_t& claimed, std::string_view plac
            std::uint64_t bytes) {
     claimed += bytes;
     if (claimed > context.file.bytes)
-        failVtk(context.header.path, place,
+        failVtk(context.file.path, place,
                 fmt::format("expected values of its own, but with those before it they are {} "
                             "bytes in a file of {}",
                             claimed, context.file.bytes));
@@ -48,31 +43,34 @@ std::string placeOf(const XmlElement& element) {
     return fmt::format("line {}, {}", element.line, element.name);
 }
 
-std::array<std::array<std::int64_t, 2>, 3> extentOf(const VtkHeader& header,
-                                                    const XmlElement& element,
-                                                    std::string_view attribute) {
-    const std::string place = fmt::format("{} {}", placeOf(element), attribute);
-    const auto numbers = vtkNumbers(header, place, element.attribute(attribute), 6);
-    std::array<std::array<std::int64_t, 2>, 3> extent{};
-    for (std::size_t i = 0; i < 6; ++i) {
-        if (numbers[i] != static_cast<double>(static_cast<std::int32_t>(
-                              std::clamp(numbers[i], -2147483648.0, 2147483647.0))))
-            failVtk(header.path, place,
-                    fmt::format("expected 32-bit integers, found \"{}\"",
-                                element.attribute(attribute)));
-        extent[i / 2][i % 2] = static_cast<std::int64_t>(numbers[i]);
-    }
-    return extent;
+// So many numbers, separated by blanks; a count where it is one of an integer type.
+template <typename T>
+std::vector<T> numbersOf(const XmlFile& file, const XmlElement& element, std::string_view attribute,
+                         std::size_t count) {
+    const std::string_view text = element.attribute(attribute);
+    const std::vector<std::string> all = words(text);
+    std::vector<T> numbers;
+    for (const std::string& word : all)
+        if (const auto number = vtkNumber<T>(word)) numbers.push_back(*number);
+    if (all.size() == count && numbers.size() == count) return numbers;
+    const bool one = count == 1;
+    std::string what = one ? "a count" : fmt::format("{} integers of 32 bits", count);
+    if (std::floating_point<T>)
+        what = one ? "a finite number" : fmt::format("{} finite numbers", count);
+    failVtk(file.path, fmt::format("{} {}", placeOf(element), attribute),
+            fmt::format("expected {}, found \"{}\"", what, text.substr(0, 100)));
 }
 
-std::uint64_t wholeNumber(const Context& context, const XmlElement& element,
-                          std::string_view attribute, std::uint64_t absent) {
-    if (!element.has(attribute)) return absent;
-    const std::string place = fmt::format("{} {}", placeOf(element), attribute);
-    const double number = vtkNumbers(context.header, place, element.attribute(attribute), 1)[0];
-    if (number < 0 || number > 1e15 || number != static_cast<double>(static_cast<long>(number)))
-        failVtk(context.header.path, place, fmt::format("expected a count, found {}", number));
-    return static_cast<std::uint64_t>(number);
+std::array<std::array<std::int64_t, 2>, 3> extentOf(const XmlFile& file, const XmlElement& element,
+                                                    std::string_view attribute) {
+    const auto n = numbersOf<std::int32_t>(file, element, attribute, 6);
+    return {{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}}};
+}
+
+std::uint64_t countOf(const XmlFile& file, const XmlElement& element, std::string_view attribute,
+                      std::uint64_t absent) {
+    return element.has(attribute) ? numbersOf<std::uint32_t>(file, element, attribute, 1)[0]
+                                  : absent;
 }
 
 // The name that VTK gives an array without one.
@@ -85,7 +83,7 @@ std::string nameOf(const XmlElement& array, std::size_t index) {
 std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& element, std::string name,
                                 VtkPlace place, std::uint64_t tuples) {
     const std::string where = fmt::format("{} '{}'", placeOf(element), name);
-    const std::uint64_t components = wholeNumber(context, element, "NumberOfComponents", 1);
+    const std::uint64_t components = countOf(context.file, element, "NumberOfComponents", 1);
     const VtkType* type = vtkXmlType(element.attribute("type"));
     if (element.name != "DataArray" || !type) {
         context.header.passedOver.push_back(
@@ -93,21 +91,21 @@ std::optional<VtkArray> arrayOf(const Context& context, const XmlElement& elemen
                         element.name == "DataArray" ? element.attribute("type") : element.name));
         return std::nullopt;
     }
-    if (components < 1 || components > kMaxComponents)
-        failVtk(context.header.path, where,
-                fmt::format("expected 1 to {} components, found {}", kMaxComponents, components));
+    if (components < 1 || components > kMaxVtkComponents)
+        failVtk(
+            context.file.path, where,
+            fmt::format("expected 1 to {} components, found {}", kMaxVtkComponents, components));
     if (element.has("TimeStep"))
-        failVtk(context.header.path, where,
+        failVtk(context.file.path, where,
                 "expected one time step in a file, found an array of one of several");
-    claim(context, context.claims[{place, name}], where,
-          checkVtkValues(context.header.path, context.file, context.encoding, element, where,
-                         tuples * components, type->bytes));
-    return VtkArray{std::move(name), place, type->type, components, {}, element.notNumber};
+    const std::uint64_t bytes = checkVtkValues(context.file, context.encoding, element, where,
+                                               tuples * components, type->bytes);
+    return VtkArray{std::move(name), place, type->type, components, {}, element.notNumber, bytes};
 }
 
 void checkArrayCount(const Context& context, const XmlElement& group) {
     if (group.children.size() > kMaxVtkArrays)
-        failVtk(context.header.path, placeOf(group),
+        failVtk(context.file.path, placeOf(group),
                 fmt::format("expected at most {} arrays, found {}", kMaxVtkArrays,
                             group.children.size()));
 }
@@ -118,7 +116,7 @@ std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, 
     const std::string_view group = place == VtkPlace::Points ? "PointData" : "CellData";
     const auto groups = named(piece, group);
     if (groups.size() > 1)
-        failVtk(context.header.path, placeOf(*groups[1]), "expected one in a piece");
+        failVtk(context.file.path, placeOf(*groups[1]), "expected one in a piece");
     if (!groups.empty()) checkArrayCount(context, *groups[0]);
     std::vector<VtkArray> arrays;
     std::set<std::string> names;
@@ -126,7 +124,7 @@ std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, 
         const XmlElement& element = groups[0]->children[i];
         std::string name = nameOf(element, i);
         if (!names.insert(name).second)
-            failVtk(context.header.path, placeOf(element),
+            failVtk(context.file.path, placeOf(element),
                     fmt::format("expected names that differ, found '{}' again", name));
         if (auto array = arrayOf(context, element, std::move(name), place, tuples))
             arrays.push_back(std::move(*array));
@@ -137,20 +135,19 @@ std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, 
 void checkCoordinates(const Context& context, const XmlElement& piece, const VtkHeader& shape) {
     const auto groups = named(piece, "Coordinates");
     if (groups.size() != 1 || groups[0]->children.size() != 3)
-        failVtk(context.header.path, placeOf(piece),
+        failVtk(context.file.path, placeOf(piece),
                 "expected Coordinates of three arrays, x, y and z");
     const auto size = shape.size(VtkPlace::Points);
     for (std::size_t i = 0; i < 3; ++i) {
         const XmlElement& array = groups[0]->children[i];
         const VtkType* type = vtkXmlType(array.attribute("type"));
         if (array.name != "DataArray" || !type ||
-            wholeNumber(context, array, "NumberOfComponents", 1) != 1)
-            failVtk(context.header.path, placeOf(array), "expected a DataArray of numbers");
-        checkVtkValues(context.header.path, context.file, context.encoding, array, placeOf(array),
-                       size[i], type->bytes);
+            countOf(context.file, array, "NumberOfComponents", 1) != 1)
+            failVtk(context.file.path, placeOf(array), "expected a DataArray of numbers");
+        checkVtkValues(context.file, context.encoding, array, placeOf(array), size[i], type->bytes);
         if (!array.notNumber.empty())
             failVtk(
-                context.header.path, placeOf(array),
+                context.file.path, placeOf(array),
                 fmt::format("expected finite numbers of its type, found \"{}\"", array.notNumber));
     }
 }
@@ -164,18 +161,18 @@ void checkFieldData(const Context& context, const XmlElement& grid) {
             const std::string_view name = array.attribute("type");
             const VtkType* type = vtkXmlType(name);
             if (!type && name != "String" && name != "Bit")
-                failVtk(context.header.path, placeOf(array),
+                failVtk(context.file.path, placeOf(array),
                         fmt::format("expected a type that VTK knows, found \"{}\"", name));
-            const std::uint64_t tuples = wholeNumber(context, array, "NumberOfTuples", 0);
-            const std::uint64_t components = wholeNumber(context, array, "NumberOfComponents", 1);
-            if (components < 1 || components > kMaxComponents)
-                failVtk(context.header.path, placeOf(array), "expected fewer components");
+            const std::uint64_t tuples = countOf(context.file, array, "NumberOfTuples", 0);
+            const std::uint64_t components = countOf(context.file, array, "NumberOfComponents", 1);
+            if (components < 1 || components > kMaxVtkComponents)
+                failVtk(context.file.path, placeOf(array), "expected fewer components");
             if (type)
                 claim(context, claimed, placeOf(array),
-                      checkVtkValues(context.header.path, context.file, context.encoding, array,
-                                     placeOf(array), tuples * components, type->bytes));
+                      checkVtkValues(context.file, context.encoding, array, placeOf(array),
+                                     tuples * components, type->bytes));
             else if (tuples * components > context.file.bytes)
-                failVtk(context.header.path, placeOf(array),
+                failVtk(context.file.path, placeOf(array),
                         fmt::format("expected values within the file, found {} of them",
                                     tuples * components));
         }
@@ -228,9 +225,8 @@ void addPieces(const Context& context, const XmlElement& grid) {
     for (const XmlElement* piece : named(grid, "Piece")) {
         VtkHeader shape;
         shape.path = header.path;
-        shape.extent = extentOf(header, *piece, "Extent");
+        shape.extent = extentOf(context.file, *piece, "Extent");
         if (isEmpty(shape.extent)) continue;
-        checkVtkExtent(shape, placeOf(*piece));
         for (std::size_t i = 0; i < 3; ++i)
             if (shape.extent[i][0] < header.extent[i][0] ||
                 shape.extent[i][1] > header.extent[i][1])
@@ -248,10 +244,13 @@ void addPieces(const Context& context, const XmlElement& grid) {
             header.arrays = arrays;
         else if (!std::ranges::equal(arrays, header.arrays, same))
             failVtk(header.path, placeOf(*piece), "expected the arrays of the first piece");
+        for (std::size_t i = 0; !shapes.empty() && i < arrays.size(); ++i) {
+            VtkArray& array = header.arrays[i];
+            claim(context, array.fileBytes, fmt::format("{} '{}'", placeOf(*piece), array.name),
+                  arrays[i].fileBytes);
+            if (array.notNumber.empty()) array.notNumber = arrays[i].notNumber;
+        }
         shapes.push_back(std::move(shape));
-        for (std::size_t i = 0; i < arrays.size(); ++i)
-            if (header.arrays[i].notNumber.empty())
-                header.arrays[i].notNumber = arrays[i].notNumber;
     }
     if (shapes.empty())
         failVtk(header.path, placeOf(grid), "expected a Piece that holds points, found none");
@@ -268,10 +267,10 @@ void addPieces(const Context& context, const XmlElement& grid) {
     });
 }
 
-const XmlElement& rootOf(const std::filesystem::path& path, const XmlFile& file) {
+const XmlElement& rootOf(const XmlFile& file) {
     if (file.root.name != "VTKFile")
         failVtk(
-            path, "",
+            file.path, "",
             fmt::format("expected a VTK file, whose root is VTKFile, found {}", file.root.name));
     return file.root;
 }
@@ -288,29 +287,28 @@ bool before(const Listed& a, const Listed& b) {
 
 // Several parts of one time are one step together, and several without a time may be.
 // REQUIRES: ascending.
-void checkParts(const std::filesystem::path& path, std::span<const Listed> all) {
+void checkParts(const XmlFile& file, std::span<const Listed> all) {
     for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
         std::set<std::pair<std::string, std::string>> parts;
         for (end = first; end < all.size() && !before(all[first], all[end]); ++end)
             parts.insert(all[end].part);
         if (parts.size() > 1)
-            failVtk(path, "Collection",
+            failVtk(file.path, "Collection",
                     fmt::format("expected one part a time step, found {} parts", parts.size()));
     }
 }
 
 }  // namespace
 
-VtkHeader readVtkXmlHeader(const std::filesystem::path& path) {
-    const XmlFile file = readXml(path);
-    const XmlElement& root = rootOf(path, file);
+VtkHeader readVtkXmlHeader(const XmlFile& file) {
+    const XmlElement& root = rootOf(file);
     const std::string_view type = root.attribute("type");
     VtkHeader header;
-    header.path = path;
+    header.path = file.path;
     if (const std::string other = otherVtkType(type); !other.empty())
-        throw FileError(notReadSentence(path, other));
+        throw FileError(notReadSentence(file.path, other));
     if (type != "ImageData" && type != "RectilinearGrid")
-        failVtk(path, "VTKFile",
+        failVtk(file.path, "VTKFile",
                 fmt::format("expected the type ImageData, RectilinearGrid or Collection, found "
                             "\"{}\"",
                             type));
@@ -318,66 +316,55 @@ VtkHeader readVtkXmlHeader(const std::filesystem::path& path) {
     header.format = type == "ImageData" ? "VTK image data (XML)" : "VTK rectilinear grid (XML)";
     const auto grids = named(root, type);
     if (grids.size() != 1)
-        failVtk(path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));
+        failVtk(file.path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));
     const XmlElement& grid = *grids[0];
-    header.extent = extentOf(header, grid, "WholeExtent");
+    header.extent = extentOf(file, grid, "WholeExtent");
     checkVtkExtent(header, placeOf(grid) + " WholeExtent");
     if (grid.has("TimeValues"))
-        failVtk(path, placeOf(grid), "expected one time step in a file, found TimeValues");
+        failVtk(file.path, placeOf(grid), "expected one time step in a file, found TimeValues");
 
     const auto take = [&](std::string_view name, auto& numbers) {
         if (!grid.has(name)) return;
-        const auto found = vtkNumbers(header, fmt::format("{} {}", placeOf(grid), name),
-                                      grid.attribute(name), numbers.size());
-        std::ranges::copy(found, numbers.begin());
+        std::ranges::copy(numbersOf<double>(file, grid, name, numbers.size()), numbers.begin());
     };
     if (header.kind == VtkKind::XmlImage) {
         take("Origin", header.origin);
         take("Spacing", header.spacing);
         take("Direction", header.direction);
     }
-    Claims claims;
-    const Context context{file, vtkEncodingOf(path, root), header, claims};
+    const Context context{file, vtkEncodingOf(file), header};
     checkFieldData(context, grid);
     addPieces(context, grid);
     return header;
 }
 
-bool isVtkCollection(const std::filesystem::path& path) {
-    const XmlFile file = readXml(path);
-    return rootOf(path, file).attribute("type") == "Collection";
-}
+bool isVtkCollection(const XmlFile& file) { return rootOf(file).attribute("type") == "Collection"; }
 
-std::vector<VtkMember> readVtkCollection(const std::filesystem::path& path) {
-    const XmlFile file = readXml(path);
-    const auto collections = named(rootOf(path, file), "Collection");
-    if (collections.size() != 1) failVtk(path, "VTKFile", "expected one Collection");
-    VtkHeader header;
-    header.path = path;
+std::vector<VtkMember> readVtkCollection(const XmlFile& file) {
+    const auto collections = named(rootOf(file), "Collection");
+    if (collections.size() != 1) failVtk(file.path, "VTKFile", "expected one Collection");
     std::vector<Listed> listed;
     for (const XmlElement* set : named(*collections[0], "DataSet")) {
         const std::string_view name = set->attribute("file");
-        if (name.empty()) failVtk(path, placeOf(*set), "expected the name of a file");
-        VtkMember member{path.parent_path() / name, std::nullopt};
-        if (set->has("timestep"))
-            member.time =
-                vtkNumbers(header, placeOf(*set) + " timestep", set->attribute("timestep"), 1)[0];
+        if (name.empty()) failVtk(file.path, placeOf(*set), "expected the name of a file");
+        VtkMember member{file.path.parent_path() / name, std::nullopt};
+        if (set->has("timestep")) member.time = numbersOf<double>(file, *set, "timestep", 1)[0];
         listed.push_back(
             {std::move(member),
              {std::string(set->attribute("group")), std::string(set->attribute("part"))}});
     }
-    if (listed.empty()) failVtk(path, "Collection", "expected a DataSet, found none");
+    if (listed.empty()) failVtk(file.path, "Collection", "expected a DataSet, found none");
     const auto timed =
         std::ranges::count_if(listed, [](const Listed& each) { return !!each.member.time; });
     if (timed != 0 && static_cast<std::size_t>(timed) != listed.size())
-        failVtk(path, "Collection", "expected a timestep of each DataSet or of none");
+        failVtk(file.path, "Collection", "expected a timestep of each DataSet or of none");
     std::ranges::stable_sort(listed, before);
-    checkParts(path, listed);
+    checkParts(file, listed);
     std::vector<VtkMember> members;
     for (Listed& each : listed) members.push_back(std::move(each.member));
     for (std::size_t i = 1; timed && i < members.size(); ++i)
         if (*members[i - 1].time == *members[i].time)
-            failVtk(path, "Collection",
+            failVtk(file.path, "Collection",
                     fmt::format("expected times that differ, found {} twice ({} and {})",
                                 *members[i].time, members[i - 1].path.string(),
                                 members[i].path.string()));
