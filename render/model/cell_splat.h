@@ -64,7 +64,9 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     using Vec3 = glm::vec<3, Real>;
     CellSplat<Real> s;
     const auto [lo, hi] = std::minmax_element(cell.corners.begin(), cell.corners.end());
-    if (!(*lo <= cell.hi && *hi >= cell.lo)) return s;
+    // One that only touches the range takes nothing of it.
+    const bool reaches = *lo < *hi ? *lo<cell.hi&& * hi> cell.lo : *lo <= cell.hi && *hi >= cell.lo;
+    if (!reaches) return s;
     const PixelRays& rays = view.rays;
     const glm::dmat4 viewFromAxes = view.viewFromWorld * glm::dmat4(view.placed.worldFromAxes());
     const glm::dvec2 focal = rays.focal;

@@ -98,7 +98,8 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
           "--frequency", "--swing",    "--clip",         "--scale",       "--view",
           "--size",      "--stereo",   "--eye-distance", "--convergence", "--channel",
           "--device",    "--output",   "--hide",         "--target",      "--orthographic",
-          "--tick",      "--portable", "--flip",         "--name-axis",   "--splatter"}) {
+          "--tick",      "--portable", "--flip",         "--name-axis",   "--splatter",
+          "--model"}) {
         EXPECT_THAT(help, HasSubstr(option));
         const bool isOfFiles =
             std::set<std::string_view>{"--device", "--splatter", "--channel", "--portable"}
@@ -305,6 +306,12 @@ TEST(Options, EveryStereoModeAndDeviceIsTaken) {
         EXPECT_EQ(render({"--device", device}).device, device);
     using Choice = ::render::SplatterChoice;
     EXPECT_EQ(render({}).splatter, Choice::ByDevice);
+    // The program alone draws cells.
+    EXPECT_EQ(render({"--model", "cells"}).splatter, Choice::Cpu);
+    EXPECT_EQ(render({"--model", "cells", "--splatter", "cpu"}).splatter, Choice::Cpu);
+    for (const char* splatter : {"gl", "exact"})
+        EXPECT_THAT(renderRefused({"--model", "cells", "--splatter", splatter}),
+                    HasSubstr(std::string("--splatter ") + splatter + " draws points"));
     EXPECT_EQ(render({"--splatter", "any"}).splatter, Choice::ByDevice);
     EXPECT_EQ(render({"--splatter", "gl"}).splatter, Choice::Gl);
     EXPECT_EQ(render({"--splatter", "cpu"}).splatter, Choice::Cpu);
@@ -438,6 +445,7 @@ TEST(Options, BadValuesAreRefusedByTheNameOfTheirOption) {
         {"splat", {"", "ball"}},
         {"splat-size", {"", "0", "-1", "1e9", "nan", "inf", "a"}},
         {"order", {"", "front"}},
+        {"model", {"", "voxels"}},
         {"clip", {"", "0:1", "1:0,0:1,0:1"}},
         {"scale", {"", "1", "0,1,1", "1,1,nan", "1e300,1,1", "1,1e-13,1", "1e300"}},
         {"view", {"", "1", "a,b", "1,2,0", "1,2,1e7", "1,2,1e-7"}},

@@ -51,6 +51,31 @@ class PictureOfARamp : public testing::Test {
     timeseries::Variable about_;
 };
 
+// Counts are of points, whatever is drawn.
+TEST_F(PictureOfARamp, CellsReachIntoTheRangesBetweenPoints) {
+    Explorer e = withRanges({"500.25:500.75"});
+    e.layers[0].opacity = 0.5;
+    EXPECT_EQ(pictureOf(e).scene.cells, nullptr);
+    e.model = Model::Cells;
+    const Picture picture = pictureOf(e);
+    ASSERT_NE(picture.scene.cells, nullptr);
+    EXPECT_TRUE(picture.scene.layers[0].runs.empty());
+    EXPECT_FALSE(picture.scene.layers[0].cells.candidates.empty());
+    EXPECT_THAT(picture.legend.layers[0].amount, HasSubstr("0 points"));
+    EXPECT_THAT(picture.legend.notes, testing::Contains("interpolated between points"));
+}
+
+TEST_F(PictureOfARamp, WithoutAllValuesPointsAreDrawnAndTheLegendSaysSo) {
+    step_ = ramp(0, RangeSet::parse("100:900"));
+    steps_ = {{1, step_}};
+    Explorer e = withRanges({"200:300"});
+    e.model = Model::Cells;
+    const Picture picture = pictureOf(e);
+    EXPECT_EQ(picture.scene.cells, nullptr);
+    EXPECT_THAT(picture.legend.notes,
+                testing::Contains("drawn by points: cells need every value kept"));
+}
+
 TEST(RangeLabel, SaysARangeAsPeopleDo) {
     const auto label = [](const char* text, const char* units = "K") {
         return rangeLabel(RangeSet::parse(text), units);

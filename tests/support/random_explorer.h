@@ -42,6 +42,7 @@ class RandomExplorer {
         const std::size_t most = render::kMaxLayers - (e.sweep ? 1 : 0);
         for (std::size_t i = random_() % (most + 1); i > 0; --i)
             e.layers.push_back(styled(random_() % 5 == 0 ? timeseries::RangeSet() : ranges()));
+        if (maybe()) e.model = app::Model::Cells;
         e.footprint = {maybe() ? render::Kernel::Point : render::Kernel::Quartic,
                        0.001 + 5 * unit()};
         e.order = maybe() ? render::Order::None : render::Order::BackToFront;

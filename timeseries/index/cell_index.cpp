@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "timeseries/grid/with_type.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/value_sort.h"
 
@@ -205,44 +206,12 @@ std::uint64_t CellIndex::bytes() const {
 
 std::vector<Interval<double>> betweenPoints(const RangeSet& ranges, ValueType type) {
     std::vector<Interval<double>> out;
-    const auto add = [&]<typename T>(T) {
+    withType(type, [&]<typename T>(T) {
         constexpr double kRounding = std::is_integral_v<T> ? 0.5 : 0;
         for (const Interval<T>& i : ranges.toIntervals<T>())
             out.push_back(
                 {static_cast<double>(i.lo) - kRounding, static_cast<double>(i.hi) + kRounding});
-    };
-    switch (type) {
-        case ValueType::U8:
-            add(std::uint8_t{});
-            break;
-        case ValueType::I8:
-            add(std::int8_t{});
-            break;
-        case ValueType::U16:
-            add(std::uint16_t{});
-            break;
-        case ValueType::I16:
-            add(std::int16_t{});
-            break;
-        case ValueType::U32:
-            add(std::uint32_t{});
-            break;
-        case ValueType::I32:
-            add(std::int32_t{});
-            break;
-        case ValueType::U64:
-            add(std::uint64_t{});
-            break;
-        case ValueType::I64:
-            add(std::int64_t{});
-            break;
-        case ValueType::F32:
-            add(float{});
-            break;
-        case ValueType::F64:
-            add(double{});
-            break;
-    }
+    });
     return out;
 }
 
