@@ -34,8 +34,11 @@ double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
     return sum;
 }
 
-// The least stride whose frame keeps to the limit.
+// The least stride whose frame keeps to the limit. Cells have none: where they are too many, points
+// stand for them.
 void thinOut(render::Scene& scene, std::span<const render::View> eyes, std::uint64_t limit) {
+    if (scene.cells && costOf(scene, eyes) > static_cast<double>(limit)) scene.cells.reset();
+    if (scene.cells) return;
     const render::Footprint whole = scene.footprint;
     while (scene.stride < render::kMaxStride && costOf(scene, eyes) > static_cast<double>(limit)) {
         scene.stride *= 2;
@@ -141,6 +144,10 @@ struct Canvas::State {
     }
     // What of the layers is on the screen.
     void tell(CanvasReport& report, const std::vector<render::Layer>& layers) const;
+    // Whether what is to be drawn by cells is drawn by points.
+    bool lacksCells(const render::Scene& drawn) const {
+        return screen->explorer.model == Model::Cells && !drawn.cells && screen->sorted->cells();
+    }
 };
 
 void Canvas::State::choose(const Explorer& choices) {
@@ -218,8 +225,10 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         report.told = state_->telling.isOf(*screen, drawn);
     }
     if (moving) thinOut(drawn, eyes, limits.splats);
+    if (!drawn.cells) std::erase(legend.notes, kInterpolated);
     state_->stride = drawn.stride;
     state_->tell(report, drawn.layers);
+    report.whole = report.whole && !state_->lacksCells(drawn);
 
     state_->timer.begin();
     const render::FrameContent content{drawn, screen->sorted->grid(), std::move(legend),

@@ -22,21 +22,27 @@ Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
       eyes_(eyes.begin(), eyes.end()),
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
       onGpu_(onGpu) {
-    order_.begin(picture_.scene, render::midEye(eyes_));
+    if (!picture_.scene.cells) order_.begin(picture_.scene, render::midEye(eyes_));
 }
 
 bool Refinement::order() {
     if (frame_) return true;
+    const bool byCells = picture_.scene.cells != nullptr;  // which come in an order of their own
+    if (!byCells && !orderPoints()) return false;
+    frame_.emplace(
+        renderer_.prepare(content_, onGpu_, eyes_, byCells ? render::DrawList() : order_.take()));
+    for (const render::View& eye : eyes_) cost_ += renderer_.cost(*frame_, eye);
+    return true;
+}
+
+bool Refinement::orderPoints() {
     constexpr std::uint64_t kAtOnce = 1 << 17;
     const auto until = std::chrono::steady_clock::now() + 4ms;
     while (!order_.done()) {
         order_.goOn(kAtOnce);
         if (std::chrono::steady_clock::now() >= until) break;
     }
-    if (!order_.done()) return false;
-    frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_, order_.take()));
-    for (const render::View& eye : eyes_) cost_ += renderer_.cost(*frame_, eye);
-    return true;
+    return order_.done();
 }
 
 double Refinement::goOn(double cost,
@@ -55,7 +61,9 @@ double Refinement::goOn(double cost,
 }
 
 double Refinement::share() const {
-    const double ordering = picture_.scene.order == render::Order::None ? 0 : kOrdering;
+    const bool isListed = !picture_.scene.cells && picture_.scene.order != render::Order::None;
+    const double ordering = isListed ? kOrdering : 0;
+    if (!frame_ && !isListed) return 0;
     if (!frame_) return ordering * order_.share();
     const double drawn = cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1;
     return ordering + (1 - ordering) * drawn;

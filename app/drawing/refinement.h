@@ -35,6 +35,8 @@ class Refinement {
     std::span<const render::View> eyes() const { return eyes_; }
 
  private:
+    bool orderPoints();  // a slice of it; true when there is a list
+
     render::FrameRenderer& renderer_;
     const Picture picture_;
     const std::vector<render::View> eyes_;

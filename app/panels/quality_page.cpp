@@ -29,6 +29,18 @@ void sizeSlider(Desk& desk, Form& form) {
          desk.theme.small);
 }
 
+void pointRows(Desk& desk, Form& form) {
+    constexpr std::array kKernels = {"Squares", "Soft splats"};
+    const Explorer& e = desk.exploration.explorer();
+    if (const auto kernel = segmented(desk.theme, "kernel", form.row("Points as"), kKernels,
+                                      static_cast<std::size_t>(e.footprint.kernel)))
+        edit(desk, {}, [&](Explorer& next) {
+            next.footprint = {.kernel = static_cast<render::Kernel>(*kernel),
+                              .size = *kernel == 0 ? 3.0 : 1.0};
+        });
+    sizeSlider(desk, form);
+}
+
 void budget(Desk& desk, Form& form) {
     constexpr std::array kRates = {"60", "30", "20", "10"};
     constexpr std::array<std::int64_t, 4> kPerSecond = {60, 30, 20, 10};
@@ -56,17 +68,17 @@ void interfaceScale(Desk& desk, Form& form) {
 
 void drawQualityPage(Desk& desk, const Rect& at) {
     if (!desk.exploration.shown()) return;
-    constexpr std::array kKernels = {"Points", "Soft splats"};
     constexpr std::array kOrders = {"None", "By depth"};
     Form form(desk.theme, "##quality", at);
     const Explorer& e = desk.exploration.explorer();
-    if (const auto kernel = segmented(desk.theme, "kernel", form.row("Points as"), kKernels,
-                                      static_cast<std::size_t>(e.footprint.kernel)))
-        edit(desk, {}, [&](Explorer& next) {
-            next.footprint = {.kernel = static_cast<render::Kernel>(*kernel),
-                              .size = *kernel == 0 ? 3.0 : 1.0};
-        });
-    sizeSlider(desk, form);
+    constexpr std::array kModels = {"Points", "Cells"};
+    if (const auto model = segmented(desk.theme, "model", form.row("Draw"), kModels,
+                                     static_cast<std::size_t>(e.model)))
+        edit(desk, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
+    if (e.model == Model::Cells)
+        form.note("Between points, too: a thin range is a closed shell. Slower.");
+    else
+        pointRows(desk, form);
     if (const auto order = segmented(desk.theme, "order", form.row("Order"), kOrders,
                                      static_cast<std::size_t>(e.order)))
         edit(desk, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });

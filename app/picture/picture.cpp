@@ -331,7 +331,7 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
         !stretch.empty())
         legend.notes.push_back(stretch);
     if (scene.cells)
-        legend.notes.push_back("interpolated between points");
+        legend.notes.emplace_back(kInterpolated);
     else if (e.model == Model::Cells)
         legend.notes.push_back("drawn by points: cells need every value kept");
     if (e.clip) legend.notes.push_back("drawn inside " + clipText(*e.clip) + " only");

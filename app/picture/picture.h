@@ -53,6 +53,8 @@ render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& 
 bool isMixed(const Explorer& explorer, const render::Scene& scene);
 inline constexpr const char* kMixedColors =
     "colours mixed, not in depth order (--order depth, or Quality: By depth)";
+// What the legend says of a scene that is drawn by cells.
+inline constexpr const char* kInterpolated = "interpolated between points";
 struct Picture {
     render::Scene scene;
     render::Legend legend;

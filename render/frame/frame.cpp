@@ -156,7 +156,7 @@ std::vector<double> FrameRenderer::splatCosts(const Scene& scene, const View& ey
         return costs;
     }
     std::uint64_t splats = 0;
-    for (const Layer& layer : scene.layers) splats += splatCount(layer, scene.stride);
+    for (const Layer& layer : scene.layers) splats += drawnCount(scene, layer);
     const auto count = static_cast<double>(std::max(splats, std::uint64_t{1}));
     return {std::max(1.0, sceneCost(scene, eye) / count)};
 }

@@ -12,6 +12,12 @@ std::uint64_t countOf(const Layer& layer, std::uint32_t stride) {
 
 }  // namespace
 
+std::uint64_t cellCount(const Layer& layer) {
+    std::uint64_t count = 0;
+    for (const timeseries::Run& run : layer.cells.candidates) count += run.count;
+    return count;
+}
+
 std::uint64_t pointCount(const Layer& layer) { return countOf(layer, 1); }
 
 std::uint32_t strideOf(const Layer& layer, std::uint32_t stride) {

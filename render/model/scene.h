@@ -81,6 +81,7 @@ std::uint64_t pointCount(const Layer& layer);
 // What a scene's stride is for this layer: halved until a point is drawn, if there is one.
 std::uint32_t strideOf(const Layer& layer, std::uint32_t stride);
 std::uint64_t splatCount(const Layer& layer, std::uint32_t stride);  // drawn of the points
+std::uint64_t cellCount(const Layer& layer);                         // looked at
 // The exact share: a layer's mass is the same at every stride.
 double pointsPerSplat(const Layer& layer, std::uint32_t stride);
 
@@ -109,6 +110,11 @@ struct Scene {
     // The step's, where layers are drawn by cells instead of points; all of them then, always.
     std::shared_ptr<const timeseries::CellIndex> cells = {};
 };
+
+// Splats or cells that are drawn of a layer.
+inline std::uint64_t drawnCount(const Scene& scene, const Layer& layer) {
+    return scene.cells ? cellCount(layer) : splatCount(layer, scene.stride);
+}
 
 // What the step knows of its points, of which only those of the scene's runs may be read.
 timeseries::Columns columnsOf(const Scene& scene);

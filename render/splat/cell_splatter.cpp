@@ -230,7 +230,7 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
     const bool all = channels == Channels::Over || channels == Channels::Count;
     std::uint64_t count = 0;
     for (std::size_t k = all ? 0 : layer; k < (all ? scene.layers.size() : layer + 1); ++k)
-        for (const timeseries::Run& run : scene.layers[k].cells.candidates) count += run.count;
+        count += cellCount(scene.layers[k]);
     return count;
 }
 

@@ -119,6 +119,33 @@ TEST_F(CanvasOfNoise, MovingKeepsToTheLimitOfAllEyesAndRestsWhole) {
     }
 }
 
+TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLong) {
+    const Image points = draw(world_.shown())[0];
+    world_.explorer.model = Model::Cells;
+    for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
+        world_.explorer.order = order;
+        const Image cells = draw(world_.shown())[0];
+        EXPECT_TRUE(report_.whole);
+        EXPECT_NE(cells, points);
+        EXPECT_EQ(draw(world_.shown(), {.splats = 100'000'000}, true)[0], cells);
+        EXPECT_TRUE(report_.whole);
+        EXPECT_NE(draw(world_.shown(), {.splats = 2'000}, true)[0], cells);
+        EXPECT_FALSE(report_.whole);
+        EXPECT_GT(report_.stride, 1u) << "of points";
+        // In slices.
+        Image refined;
+        int calls = 0;
+        do {
+            const auto views = canvas_.eyesOf(world_.shown());
+            report_ = canvas_.refine(
+                world_.shown(), views, {.splats = 2'000},
+                [&](std::size_t, const render::Targets& light) { refined = light.readLight(); });
+        } while (!report_.whole && ++calls < 1000);
+        EXPECT_GT(calls, 1);
+        EXPECT_EQ(refined, cells);
+    }
+}
+
 TEST_F(CanvasOfNoise, MovingBelowTheLimitDrawsAll) {
     const Image resting = draw(world_.shown())[0];
     EXPECT_EQ(draw(world_.shown(), {.splats = 100 * report_.selected}, true)[0], resting);
