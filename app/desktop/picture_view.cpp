@@ -76,18 +76,7 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     timed_ = report_.gpuTime && report_.gpuSplats > 0;
     if (report_.gpuTime) pace.took(report_.gpuSplats, *report_.gpuTime);
     if (timed_) performance_.frame = *report_.gpuTime;
-    const std::uint64_t picture = performance_.picture + 1;
-    performance_ = {.frame = performance_.frame,
-                    .budget = frameBudget,
-                    .drawn = report_.drawn,
-                    .selected = report_.selected,
-                    .gpuBytes = report_.gpuBytes,
-                    .counts = report_.counts,
-                    .whole = report_.whole,
-                    .uploaded = report_.uploaded,
-                    .refined = report_.refined,
-                    .step = report_.step,
-                    .picture = picture};
+    performance_ = {performance_.frame, frameBudget, report_, performance_.picture + 1};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
     if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->placed->boxHalfEdges();
 }

@@ -1,7 +1,10 @@
 #include "app/drawing/canvas.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <new>
+#include <thread>
 
 #include "app/choices/camera.h"
 #include "app/drawing/gpu_steps.h"
@@ -57,8 +60,34 @@ struct Screen {
 
 render::Scene sceneOf(const Screen& screen) {
     return makeScene(screen.explorer, *screen.sorted, screen.held->placed,
-                     screen.explorer.play.tick);
+                     screen.explorer.play.tick, Await::Nothing);
 }
+
+// Makes steps' cells where they are wanted: few at once, many on a thread of its own, a step after
+// another, which nobody waits for.
+class CellMaker {
+ public:
+    void want(const Screen& screen) {
+        constexpr std::uint64_t kAtOnce = 1 << 20;  // 30 ms
+        const auto& step = screen.sorted;
+        if (screen.explorer.model != Model::Cells || !step->canHaveCells() || step->cellsIfMade())
+            return;
+        if (step->grid().count() <= kAtOnce) {
+            step->cells();
+        } else if (!busy_->exchange(true)) {
+            std::thread([step, busy = busy_] {
+                try {
+                    step->cells();
+                } catch (const std::bad_alloc&) {  // points are drawn, as before
+                }
+                *busy = false;
+            }).detach();
+        }
+    }
+
+ private:
+    std::shared_ptr<std::atomic<bool>> busy_ = std::make_shared<std::atomic<bool>>(false);
+};
 
 // The legend of what is on the screen. Whether colours are mixed is worked out for a picture at
 // rest alone; a moving one says what the one before it said of the same data.
@@ -127,6 +156,7 @@ struct Canvas::State {
     render::FrameRenderer renderer;
     render::gl::GpuTimer timer, refineTimer;
     GpuSteps steps;
+    CellMaker cells;
     std::optional<Screen> screen;
     std::uint32_t stride = 1;        // of what was shown last
     std::optional<Resting> resting;  // uses the renderer alone
@@ -146,7 +176,8 @@ struct Canvas::State {
     void tell(CanvasReport& report, const std::vector<render::Layer>& layers) const;
     // Whether what is to be drawn by cells is drawn by points.
     bool lacksCells(const render::Scene& drawn) const {
-        return screen->explorer.model == Model::Cells && !drawn.cells && screen->sorted->cells();
+        return screen->explorer.model == Model::Cells && !drawn.cells &&
+               screen->sorted->canHaveCells();
     }
 };
 
@@ -198,7 +229,9 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
         report.gpuTime = timed->took;
         report.gpuSplats = timed->label;
     }
-    if (screen) report.step = screen->step;
+    if (!screen) return report;
+    report.step = screen->step;
+    cells.want(*screen);
     return report;
 }
 
@@ -228,7 +261,8 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     if (!drawn.cells) std::erase(legend.notes, kInterpolated);
     state_->stride = drawn.stride;
     state_->tell(report, drawn.layers);
-    report.whole = report.whole && !state_->lacksCells(drawn);
+    report.lacksCells = state_->lacksCells(drawn);
+    report.whole = report.whole && !report.lacksCells;
 
     state_->timer.begin();
     const render::FrameContent content{drawn, screen->sorted->grid(), std::move(legend),
@@ -263,8 +297,10 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     const bool done = refinement.done();
     if (done) state_->stride = 1;
     state_->tell(report, refinement.scene().layers);
-    report.refined = refinement.share();
-    report.whole = report.whole && done;
+    report.lacksCells = state_->lacksCells(refinement.scene());
+    // Until they are there nothing is left to refine.
+    report.refined = done && report.lacksCells ? 0 : refinement.share();
+    report.whole = report.whole && done && !report.lacksCells;
     if (done) resting.reset();
     return report;
 }

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "app/drawing/canvas_report.h"
 #include "app/drawing/drawn.h"
 #include "app/exploration/exploration.h"
 #include "app/picture/picture.h"
@@ -30,24 +31,6 @@ struct CanvasLimits {
     std::uint64_t uploadBytes = std::uint64_t{16} << 20;
     // Of steps on the GPU that are not drawn, so that scrubbing back and forth is instant.
     std::uint64_t cacheBytes = std::uint64_t{1} << 30;
-};
-
-// What the picture on the screen is after one draw() or refine(), as the overlay tells it.
-struct CanvasReport {
-    std::size_t step = 0;                   // the step on the screen
-    std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
-    // Of that step, under the choices on the screen; none before the first picture.
-    std::optional<PointCounts> counts = {};
-    std::uint32_t stride = 1;  // one of so many points stands for its neighbours
-    bool whole = false;        // nothing is missing: all points, all uploaded
-    bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
-    double uploaded = 1;  // share of what the picture asked for needs
-    double refined = 0;   // share that refine() has drawn; it shows all at once
-    std::uint64_t gpuBytes = 0;  // of steps held there
-    // Of an earlier call of the same function (gl::GpuTimer), and what its splats cost: what
-    // FramePace learns from. None in most frames of a GPU that is behind.
-    std::optional<std::chrono::nanoseconds> gpuTime;
-    std::uint64_t gpuSplats = 0;
 };
 
 // What stands around the points.

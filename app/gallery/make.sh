@@ -21,6 +21,10 @@ picture datasets/pool_fire_T.nc pool_fire.png --size 1000x750 --step 14 \
     --range 1000:max --color '#ffe08a' --opacity 0.5
 picture datasets/pool_fire_T.nc pool_fire_stereo.png --step 14 --size 700x700 \
     --range 500:max --colormap inferno --opacity 0.2 --stereo side-by-side
+for model in points cells; do
+    picture datasets/pool_fire_T.nc "pool_fire_$model.png" --step 14 --size 600x600 \
+        --range 850~5 --color '#ffb15c' --opacity 0.8 --model "$model"
+done
 picture "$data/woa_temp_monthly_f32.nc" ocean.png --size 1000x750 --step 7 --view 0,40 \
     --range 18:22 --color '#56b4e9' --opacity 0.12 \
     --range 28:max --color '#e69f00' --opacity 0.5 --scale 1,1,0.06

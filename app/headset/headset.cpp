@@ -139,19 +139,12 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
 const panels::Performance& Headset::performance(const xr::Session::Frame& frame) {
     const CanvasReport& report = eyes_.report();
     const bool waits = frame.displayTime() - performanceOf_ < 500ms;
-    if (waits && performance_.whole == report.whole && performance_.step == report.step &&
-        performance_.selected == report.selected)
+    const CanvasReport& told = performance_.report;
+    if (waits && told.whole == report.whole && told.step == report.step &&
+        told.selected == report.selected)
         return performance_;
     performanceOf_ = frame.displayTime();
-    performance_ = {.frame = eyes_.work(),
-                    .budget = frame.period(),
-                    .drawn = report.drawn,
-                    .selected = report.selected,
-                    .gpuBytes = report.gpuBytes,
-                    .counts = report.counts,
-                    .whole = report.whole,
-                    .uploaded = report.uploaded,
-                    .step = report.step};
+    performance_ = {eyes_.work(), frame.period(), report};
     return performance_;
 }
 

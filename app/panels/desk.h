@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/drawing/canvas_report.h"
 #include "app/exploration/exploration.h"
 #include "app/exploration/reading.h"
 #include "app/panels/keys.h"
@@ -22,12 +23,7 @@ enum class Page { Animation, View, Quality, Probe };
 // The picture on the screen, and how long it took: all of one frame.
 struct Performance {
     std::chrono::nanoseconds frame{0}, budget{0};
-    std::uint64_t drawn = 0, selected = 0, gpuBytes = 0;
-    std::optional<PointCounts> counts = {};  // none before the first picture
-    bool whole = true;
-    double uploaded = 1;        // share of the step shown that is on the GPU
-    double refined = 0;         // share of all points that is drawn and not shown yet
-    std::size_t step = 0;       // on the screen
+    CanvasReport report = {};
     std::uint64_t picture = 0;  // another number, another picture
 };
 

@@ -21,8 +21,8 @@ float nameColumn(ImFont& font, std::span<const std::string> names, float scale) 
 void HoverTip::follow(Desk& desk, const std::optional<glm::vec2>& cursor,
                       std::chrono::nanoseconds dt) {
     const std::uint64_t picture = desk.performance.picture;
-    const bool rests = cursor && cursor == at_ && picture == picture_ && desk.performance.whole &&
-                       !desk.exploration.playback().playing;
+    const bool rests = cursor && cursor == at_ && picture == picture_ &&
+                       desk.performance.report.whole && !desk.exploration.playback().playing;
     at_ = cursor;
     picture_ = picture;
     isNew_ = false;

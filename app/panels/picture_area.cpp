@@ -22,9 +22,12 @@ double milliseconds(std::chrono::nanoseconds ns) {
 
 // What keeps the picture from being whole, or why it takes long, in a word.
 std::string limitText(const Performance& p) {
-    if (p.uploaded < 1) return fmt::format("sending to the GPU, {:.0f} %", 100 * p.uploaded);
-    if (!p.whole && p.refined > 0) return fmt::format("refining, {:.0f} %", 100 * p.refined);
-    if (!p.whole) return "a subset while it moves";
+    const CanvasReport& r = p.report;
+    if (r.uploaded < 1) return fmt::format("sending to the GPU, {:.0f} %", 100 * r.uploaded);
+    if (!r.whole && r.refined > 0) return fmt::format("refining, {:.0f} %", 100 * r.refined);
+    if (!r.whole && r.stride > 1) return "a subset while it moves";
+    if (r.lacksCells) return "points stand for cells";
+    if (!r.whole) return "a subset while it moves";
     if (p.frame > p.budget) return "all points drawn";
     return "";
 }
@@ -33,9 +36,10 @@ std::string limitText(const Performance& p) {
 std::string waitingText(const Desk& desk) {
     std::string waiting = desk.exploration.waiting();
     const auto shown = desk.exploration.shown();
-    if (waiting.empty() && shown && desk.performance.uploaded < 1 &&
-        desk.performance.step != shown->step)
-        waiting = fmt::format("requested step {}, showing {}", shown->step, desk.performance.step);
+    if (waiting.empty() && shown && desk.performance.report.uploaded < 1 &&
+        desk.performance.report.step != shown->step)
+        waiting =
+            fmt::format("requested step {}, showing {}", shown->step, desk.performance.report.step);
     return waiting;
 }
 
@@ -123,16 +127,17 @@ void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>&
 }
 
 std::vector<std::string> figuresOf(const Performance& p, const timeseries::Series* series) {
-    if (series == nullptr || !p.counts) return {};
-    const PointCounts& counts = *p.counts;
+    if (series == nullptr || !p.report.counts) return {};
+    const CanvasReport& r = p.report;
+    const PointCounts& counts = *r.counts;
     std::vector<std::string> lines;
     // Of the splats nobody knows which are in the box; where all are drawn, its points are.
-    if (counts.inClipBox && p.whole)
+    if (counts.inClipBox && r.whole)
         lines.push_back(withCommas(counts.selected) + " points drawn");
     else
-        lines.push_back(drawnText({.splats = p.drawn,
-                                   .allSplats = p.selected,
-                                   .points = counts.inClipBox ? p.selected : counts.selected}) +
+        lines.push_back(drawnText({.splats = r.drawn,
+                                   .allSplats = r.selected,
+                                   .points = counts.inClipBox ? r.selected : counts.selected}) +
                         (counts.inClipBox ? ", before clipping" : ""));
     lines.push_back(fmt::format(
         "{} selected{}  ·  {}{}", withCommas(counts.selected),
@@ -141,7 +146,7 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
         withCommas(counts.total) + " in all"));
     std::string last =
         fmt::format("{:.1f} of {:.0f} ms  ·  {} memory  ·  {} GPU", milliseconds(p.frame),
-                    milliseconds(p.budget), bytesText(series->bytes()), bytesText(p.gpuBytes));
+                    milliseconds(p.budget), bytesText(series->bytes()), bytesText(r.gpuBytes));
     if (const std::string limit = limitText(p); !limit.empty()) last += "  ·  " + limit;
     lines.push_back(last);
     return lines;

@@ -239,7 +239,7 @@ std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick) {
 }
 
 render::Scene makeScene(const Explorer& e, const SortedStep& step,
-                        const render::PlacedPoints& placed, std::int64_t tick) {
+                        const render::PlacedPoints& placed, std::int64_t tick, Await await) {
     render::Scene scene{.step = step,
                         .placed = placed,
                         .layers = {},
@@ -247,7 +247,8 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
                         .order = e.order,
                         .clip = {}};
     if (e.clip) scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
-    if (e.model == Model::Cells) scene.cells = step.cells();
+    if (e.model == Model::Cells)
+        scene.cells = await == Await::Cells ? step.cells() : step.cellsIfMade();
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
         if (!layer.visible) return;
         scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
@@ -332,7 +333,7 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
         legend.notes.push_back(stretch);
     if (scene.cells)
         legend.notes.emplace_back(kInterpolated);
-    else if (e.model == Model::Cells)
+    else if (e.model == Model::Cells && !scene.step.canHaveCells())
         legend.notes.push_back("drawn by points: cells need every value kept");
     if (e.clip) legend.notes.push_back("drawn inside " + clipText(*e.clip) + " only");
     return legend;

@@ -39,12 +39,16 @@ std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& un
 // Where the swept window stands, in as many digits as its width needs: "1426.5 ± 40".
 std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick);
 
+// Who does not wait for a step's cells draws points until they are there.
+enum class Await { Cells, Nothing };
+
 // One step as the explorer wants it drawn. REQUIRES: a resolved explorer; `tick` of its sweep, if
 // it has one. Hidden layers are neither in the scene nor in the legend. `step` and `placed` must
 // outlive the scene. Throws OutsideKeptError when a visible layer asks for values that were
 // dropped.
 render::Scene makeScene(const Explorer& explorer, const timeseries::SortedStep& step,
-                        const render::PlacedPoints& placed, std::int64_t tick = 0);
+                        const render::PlacedPoints& placed, std::int64_t tick = 0,
+                        Await await = Await::Cells);
 // What is said of it. With a clip box every selected point is looked at, for the counts.
 render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& about,
                           std::size_t stepIndex, const render::Scene& scene, std::int64_t tick = 0);

@@ -6,7 +6,7 @@
     tests/bench/results.py --page       writes the page from what was last measured
 
 What a part measured stays in build/results, with its commit, time and load. On a quiet machine only:
-what else runs is in the figures. The parts: index stages draw vtk window headset.
+what else runs is in the figures. The parts: index stages draw cells vtk window headset.
 """
 import datetime
 import json
@@ -25,6 +25,7 @@ FILTERS = {
               "--benchmark_report_aggregates_only=true"],
     "stages": ["--benchmark_filter=^stage"],
     "draw": ["--benchmark_filter=^(BM_|costFollows|tiles)"],
+    "cells": ["--benchmark_filter=^cell"],
     "vtk": ["--benchmark_filter=^vtk"],
 }
 PARTS = [*FILTERS, "window", "headset"]
@@ -260,6 +261,29 @@ def draw_page(part):
     return text
 
 
+def cells_page(part):
+    built = part("cellIndex/256")
+    per_second = 257**3 / seconds(built) / 1e6
+    target("index of cells, 256³, million cells/s", per_second, 20, at_least=True)
+    text = (f"The field of the index. Made at 256³: {time(seconds(built))}, {digits(per_second)} million cells/s on all cores. "
+            "Ranges of so much of the\nfield's spread; looked at are the cells in its runs, needed those that it reaches into.\n\n")
+    rows = []
+    for thousandths in [1000, 100, 10]:
+        f = part(f"cellSelect/{thousandths}")
+        rows.append([f"{thousandths / 1000:g}", f"{int(f['cells']):,}", time(seconds(f)), digits(f["looked/needed"])])
+        target(f"cells looked at / needed, a range of {thousandths / 1000:g}", f["looked/needed"], 1.4)
+    text += table(["range", "cells", "`select`", "looked at / needed"], rows)
+    rows = []
+    for n, thousandths, ordered in [(96, 100, 0), (96, 1000, 0), (96, 100, 1), (192, 100, 0)]:
+        f = part(f"cellsBesidePoints/points:{n}/thousandths:{thousandths}/ordered:{ordered}")
+        rows.append([points(n), f"{thousandths / 1000:g}", "front to back" if ordered else "none", f"{int(f['cells']):,}",
+                     ms(f, "second_ms"), ms(f, "first_ms"), digits(f["second/first"])])
+        if (n, ordered) == (96, 0):
+            target(f"a cell / a splat, 96³, a range of {thousandths / 1000:g}", f["second/first"], 3)
+    return (text + "\nDrawn in 1024 x 1024, one colour, beside as many points of the same field by tiles, by turns.\n\n"
+            + table(["points", "range", "order", "cells", "cells drawn", "points drawn", "ratio"], rows))
+
+
 def vtk_page(part):
     rows = []
     for count, diameter in [(100000, 8), (1000000, 8), (100000, 0), (1000000, 0)]:
@@ -297,7 +321,7 @@ def headset_page(part):
 
 def page():
     sections = [("index", "The index", index_page), ("stages", "From a file to a picture", stages_page),
-                ("draw", "Drawing", draw_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
+                ("draw", "Drawing", draw_page), ("cells", "Cells", cells_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
                 ("headset", "In a headset", headset_page)]
     body, driver = "", ""
     for name, title, write in sections:

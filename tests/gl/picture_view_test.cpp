@@ -23,13 +23,13 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
         render::gl::takeRecordedError();  // there is no window to show it in
     };
     draw(false);
-    while (view.performance().refined == 0) draw(false);
-    ASSERT_FALSE(view.performance().whole);
+    while (view.performance().report.refined == 0) draw(false);
+    ASSERT_FALSE(view.performance().report.whole);
     EXPECT_EQ(view.untilNextDraw(), 0ns);
     // Between two steps that play: nothing is drawn.
     draw(true);
     EXPECT_GT(view.untilNextDraw().value(), 0ns);
-    while (!view.performance().whole) draw(false);
+    while (!view.performance().report.whole) draw(false);
     EXPECT_FALSE(view.untilNextDraw());
 }
 

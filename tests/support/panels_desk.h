@@ -55,7 +55,7 @@ class PanelsDesk : public ExplorationDesk {
                         .exporting = exporting,
                         .dt = kFrame,
                         .key = key,
-                        .performance = {}},
+                        .performance = {.report = {.whole = true}}},
                        asked);
         ImGui::EndFrame();
         for (const app::panels::Command command : asked.commands)

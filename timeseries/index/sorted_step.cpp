@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -105,6 +106,7 @@ constexpr std::size_t kFewQuantiles = 64;
 struct SortedStep::LazyCells {
     std::once_flag once;
     std::shared_ptr<const CellIndex> index;
+    std::atomic<bool> made = false;
 };
 
 SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
@@ -191,11 +193,20 @@ std::uint64_t SortedStep::bytes() const {
 }
 
 std::shared_ptr<const CellIndex> SortedStep::cells() const {
-    if (size_ != statistics_.points || !CellIndex::canIndex(*grid_)) return nullptr;
+    if (!canHaveCells()) return nullptr;
     std::call_once(cells_->once, [&] {
         cells_->index = std::make_shared<const CellIndex>(fieldOf(*this), threads_);
+        cells_->made = true;
     });
     return cells_->index;
+}
+
+std::shared_ptr<const CellIndex> SortedStep::cellsIfMade() const {
+    return cells_->made ? cells_->index : nullptr;
+}
+
+bool SortedStep::canHaveCells() const {
+    return size_ == statistics_.points && CellIndex::canIndex(*grid_);
 }
 
 Run SortedStep::finite() const {

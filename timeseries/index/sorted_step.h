@@ -91,9 +91,13 @@ class SortedStep {
     std::uint64_t bytes() const;  // of memory held, the grid aside
 
     // The cells between the points, made when they are first asked for; that takes as long as
-    // looking at every value twice, and 8 bytes a cell beside the values. Null where points were
-    // dropped, or where there are more cells than can be numbered.
+    // looking at every value twice, and 8 bytes a cell beside the values. Null unless
+    // canHaveCells().
     std::shared_ptr<const CellIndex> cells() const;
+    // Null as long as nobody has made them.
+    std::shared_ptr<const CellIndex> cellsIfMade() const;
+    // No points were dropped, and there are no more cells than can be numbered.
+    bool canHaveCells() const;
 
     // The points between the infinities: all but the first and the last ones that are infinite.
     Run finite() const;

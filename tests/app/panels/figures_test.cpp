@@ -16,26 +16,34 @@ using testing::HasSubstr;
 // Of the picture, whatever the exploration has come to since.
 TEST(Figures, AreOfThePictureAlone) {
     tests::ScriptedExploration desk;
-    Performance p{.frame = 5ms, .budget = 33ms, .drawn = 1000, .selected = 4000};
-    p.counts =
+    Performance p{.frame = 5ms, .budget = 33ms};
+    CanvasReport& r = p.report;
+    r.drawn = 1000;
+    r.selected = 4000;
+    r.stride = 4;
+    r.counts =
         PointCounts{.layers = {4000}, .swept = 0, .selected = 4000, .kept = 9000, .total = 10000};
-    p.whole = false;
+    r.whole = false;
     const auto lines = figuresOf(p, desk.exploration.series());
     EXPECT_THAT(lines, ElementsAre("1,000 of 4,000 points drawn",
                                    "4,000 selected  ·  9,000 kept  ·  10,000 in all",
                                    EndsWith("a subset while it moves")));
-    p.whole = true;
+    r.whole = true;
+    r.stride = 1;
     p.frame = 50ms;
-    p.drawn = 4000;
+    r.drawn = 4000;
     EXPECT_THAT(figuresOf(p, desk.exploration.series()),
                 ElementsAre("4,000 points drawn", HasSubstr("4,000 selected"),
                             EndsWith("all points drawn")));
+    r.whole = false;
+    r.lacksCells = true;
+    EXPECT_THAT(figuresOf(p, desk.exploration.series()).back(), EndsWith("points stand for cells"));
 }
 
 TEST(Figures, AreNoneBeforeThereIsAPicture) {
     tests::ScriptedExploration desk;
     EXPECT_TRUE(figuresOf({}, desk.exploration.series()).empty());
-    EXPECT_TRUE(figuresOf({.counts = PointCounts{}}, nullptr).empty());
+    EXPECT_TRUE(figuresOf({.report = {.counts = PointCounts{}}}, nullptr).empty());
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// What is said of the picture on the screen.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "app/exploration/point_counts.h"
+
+namespace app {
+
+// What the picture on the screen is after one draw() or refine(), as the overlay tells it.
+struct CanvasReport {
+    std::size_t step = 0;                   // the step on the screen
+    std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
+    // Of that step, under the choices on the screen; none before the first picture.
+    std::optional<PointCounts> counts = {};
+    std::uint32_t stride = 1;  // one of so many points stands for its neighbours
+    bool whole = false;        // nothing is missing: all points or cells, all uploaded
+    bool lacksCells = false;   // points stand for the cells that were asked for
+    bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
+    double uploaded = 1;  // share of what the picture asked for needs
+    double refined = 0;   // share that refine() has drawn; it shows all at once
+    std::uint64_t gpuBytes = 0;  // of steps held there
+    // Of an earlier call of the same function (gl::GpuTimer), and what its splats cost: what
+    // FramePace learns from. None in most frames of a GPU that is behind.
+    std::optional<std::chrono::nanoseconds> gpuTime = {};
+    std::uint64_t gpuSplats = 0;
+};
+
+}  // namespace app

@@ -1,0 +1,121 @@
+// Interval volumes by cells: making the index, finding cells in it, and drawing them beside as many
+// points of the same field, by tiles.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "render/splat/cell_splatter.h"
+#include "render/splat/tile_splatter.h"
+#include "tests/bench/alternate.h"
+#include "tests/bench/turbulence.h"
+#include "tests/support/scenes.h"
+#include "timeseries/index/cell_index.h"
+
+namespace {
+
+using namespace render;
+using timeseries::CellIndex;
+using timeseries::Interval;
+using timeseries::SortedStep;
+
+// The field's values have a spread of about a third.
+constexpr double kMiddle = 0.1, kSpread = 0.33;
+
+void cellIndex(benchmark::State& state) {
+    const timeseries::Field field =
+        bench::turbulence<float>(static_cast<std::size_t>(state.range(0)));
+    std::uint64_t cells = 0;
+    for (auto _ : state) {
+        state.PauseTiming();
+        timeseries::Field copy = field;
+        state.ResumeTiming();
+        const CellIndex index(std::move(copy));
+        cells = index.count();
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells));
+}
+BENCHMARK(cellIndex)->Arg(256)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// A range of so many thousandths of the spread. Counters: cells looked at, and those that it needs.
+void cellSelect(benchmark::State& state) {
+    const CellIndex index(bench::turbulence<float>(256));
+    const double half = kSpread * static_cast<double>(state.range(0)) / 2000;
+    const std::vector<Interval<double>> range = {{kMiddle - half, kMiddle + half}};
+    for (auto _ : state) benchmark::DoNotOptimize(index.select(range));
+    double looked = 0, needed = 0;
+    for (const timeseries::Run& run : index.select(range))
+        for (std::uint64_t i = 0; i < run.count; ++i) {
+            const auto corners =
+                index.corners(timeseries::indicesOf(index.cell(run.first + i), index.size()));
+            const auto [lo, hi] = std::ranges::minmax(corners);
+            ++looked;
+            needed += lo <= range[0].hi && hi >= range[0].lo ? 1 : 0;
+        }
+    state.counters["looked/needed"] = looked / needed;
+    state.counters["cells"] = needed;
+}
+BENCHMARK(cellSelect)->Arg(1000)->Arg(100)->Arg(10)->Unit(benchmark::kMicrosecond);
+
+void cellsBesidePoints(benchmark::State& state) {
+    const SortedStep step =
+        SortedStep::build(bench::turbulence<float>(static_cast<std::size_t>(state.range(0))));
+    const PlacedPoints placed(step.grid());
+    Scene scene{.step = step,
+                .placed = placed,
+                .layers = {},
+                .footprint = {},
+                .order = state.range(2) ? Order::BackToFront : Order::None,
+                .clip = {}};
+    scene.cells = step.cells();
+    const double half = kSpread * static_cast<double>(state.range(1)) / 2000;
+    Layer layer{{}, {Constant{{1, 0.5, 0.1}}, 0.3}};
+    layer.cells.ranges = {{kMiddle - half, kMiddle + half}};
+    layer.cells.candidates = scene.cells->select(layer.cells.ranges);
+    scene.layers.push_back(layer);
+    const std::uint64_t count = cellCount(layer);
+    const View view = tests::lookFrom({1.2, -2.6, 0.9}, {1024, 1024}, 0.36);
+    const Channels channels = channelsFor(scene)[0];
+
+    Scene points = scene;
+    points.cells.reset();
+    const timeseries::Run middle{step.size() / 2 - count / 2, count};
+    points.layers[0].runs = {middle};
+    DrawList list = Runs{};
+    if (state.range(2)) {
+        Sorted sorted;
+        for (std::uint64_t i = 0; i < count; ++i)
+            sorted.point.push_back(static_cast<std::uint32_t>(middle.first + i));
+        sorted.layer.assign(count, 0);
+        list = std::move(sorted);
+    }
+    constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+    std::vector<float> memory;
+    TileMemory tiles;
+    bench::alternate(
+        state,
+        [&] {
+            TileSum sum(points, list, view, channels, 0, {}, sharingThreads(), std::move(tiles));
+            sum.add(kAll);
+            tiles = sum.takeMemory();
+        },
+        [&] {
+            CellSum sum(scene, view, channels, 0, {}, sharingThreads(), std::move(memory));
+            sum.add(kAll);
+            memory = sum.takeMemory();
+        });
+    state.counters["cells"] = static_cast<double>(count);
+}
+BENCHMARK(cellsBesidePoints)
+    ->ArgNames({"points", "thousandths", "ordered"})
+    ->Args({96, 100, 0})
+    ->Args({96, 1000, 0})
+    ->Args({96, 100, 1})
+    ->Args({192, 100, 0})
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
