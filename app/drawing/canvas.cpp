@@ -95,13 +95,15 @@ class Telling {
  public:
     render::Legend legend(const Screen& screen, const render::Scene& scene, bool atRest) {
         Explorer e = screen.explorer;
-        e.view = {};  // nothing is said of it
-        if (!legend_ || of_ != e || step_.lock() != screen.sorted) {
+        e.view = {};                                  // nothing is said of it
+        const bool byCells = scene.cells != nullptr;  // they may come later
+        if (!legend_ || of_ != e || step_.lock() != screen.sorted || byCells_ != byCells) {
             if (!sameData(of_, e)) mixed_ = false;
             legend_ = makeLegend(screen.explorer, screen.about, screen.step, scene,
                                  screen.explorer.play.tick);
             of_ = std::move(e);
             step_ = screen.sorted;
+            byCells_ = byCells;
             view_.reset();
         }
         if (atRest && view_ != screen.explorer.view) {
@@ -122,7 +124,7 @@ class Telling {
     Explorer of_;
     std::weak_ptr<const timeseries::SortedStep> step_;
     std::optional<ViewChoice> view_;  // for which `mixed_` is known
-    bool mixed_ = false;
+    bool mixed_ = false, byCells_ = false;
 };
 
 // Which layer of the explorer is the scene's k-th: hidden ones are not in the scene, and the swept

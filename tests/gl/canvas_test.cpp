@@ -146,6 +146,34 @@ TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLo
     }
 }
 
+// Points stand for them until then; afterwards the picture is the one that files have.
+TEST_F(CanvasOfNoise, CellsOfALargeStepComeLater) {
+    world_ = tests::ShownSteps(102, 1);
+    world_.explorer.model = Model::Cells;
+    world_.explorer.layers = {
+        tests::ShownSteps::layer("0.5:0.501", app::MapChoice{{}, 0.5, 0.501})};
+    Canvas canvas(render::SplatterChoice::Cpu);
+    const auto views = canvas.eyesOf(world_.shown());
+    Image image;
+    CanvasReport report;
+    const auto draw = [&] {
+        report = canvas.draw(
+            world_.shown(), views, {}, false,
+            [&](std::size_t, const render::Targets& light) { image = light.readLight(); });
+    };
+    draw();
+    EXPECT_TRUE(report.lacksCells);
+    EXPECT_FALSE(report.whole);
+    const Image points = image;
+    world_.steps[0]->cells();  // waits for whoever makes them
+    draw();
+    EXPECT_TRUE(report.whole);
+    EXPECT_NE(image, points);
+    const auto file = tests::freshFolder() / "saved.exr";
+    canvas.save(world_.shown(), file);
+    EXPECT_EQ(render::readExr(file).views[0].image, image) << "the legend's words, too";
+}
+
 TEST_F(CanvasOfNoise, MovingBelowTheLimitDrawsAll) {
     const Image resting = draw(world_.shown())[0];
     EXPECT_EQ(draw(world_.shown(), {.splats = 100 * report_.selected}, true)[0], resting);
