@@ -63,8 +63,7 @@ double Refinement::goOn(double cost,
 double Refinement::share() const {
     const bool isListed = !picture_.scene.cells && picture_.scene.order != render::Order::None;
     const double ordering = isListed ? kOrdering : 0;
-    if (!frame_ && !isListed) return 0;
-    if (!frame_) return ordering * order_.share();
+    if (!frame_) return isListed ? ordering * order_.share() : 0;
     const double drawn = cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1;
     return ordering + (1 - ordering) * drawn;
 }

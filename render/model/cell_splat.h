@@ -53,6 +53,7 @@ struct CellSplat {
     Real weight{};  // W of a unit of depth along the view axis
     // Values less `reference`.
     std::array<Real, 8> corners{};
+    Real leastDelta{};     // what rounding makes of their differences
     Real least{}, most{};  // of the range
     bool crossesLeast = false, crossesMost = false;
     double reference = 0;
@@ -68,10 +69,9 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     const bool reaches = *lo < *hi ? *lo<cell.hi&& * hi> cell.lo : *lo <= cell.hi && *hi >= cell.lo;
     if (!reaches) return s;
     const PixelRays& rays = view.rays;
-    const glm::dmat4 viewFromAxes = view.viewFromWorld * glm::dmat4(view.placed.worldFromAxes());
     const glm::dvec2 focal = rays.focal;
     const auto seen = [&](const glm::dvec3& axes) {
-        return glm::dvec3(viewFromAxes * glm::dvec4(axes, 1.0));
+        return glm::dvec3(view.viewFromAxes * glm::dvec4(axes, 1.0));
     };
     glm::dvec2 least(std::numeric_limits<double>::infinity()), most = -least;
     double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
@@ -111,6 +111,7 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     s.reference = 0.5 * *lo + 0.5 * *hi;
     for (std::size_t c = 0; c < 8; ++c)
         s.corners[c] = static_cast<Real>(cell.corners[c] - s.reference);
+    s.leastDelta = static_cast<Real>(1e-5 * (0.5 * *hi - 0.5 * *lo));
     s.crossesLeast = *lo < cell.lo;
     s.crossesMost = *hi > cell.hi;
     if (s.crossesLeast) s.least = static_cast<Real>(cell.lo - s.reference);
@@ -202,11 +203,9 @@ CellFragment<Real> fragmentOn(const CellSplat<Real>& s, const glm::vec<2, Real>&
     const Vec3 gradient = cell::gradientAt(s.corners, middle);
     // Half of what the pixel's width and height change together; no less than rounding does.
     const Real depth = s.base + half;
-    Real extent = 0;
-    for (const Real c : s.corners) extent = std::max(extent, std::abs(c));
     const Real delta = std::max(
         depth / 2 * (std::abs(glm::dot(gradient, s.x)) + std::abs(glm::dot(gradient, s.y))),
-        Real(1e-5) * extent);
+        s.leastDelta);
     const Real first = cell::valueAt(s.corners, at + from * along);
     const Real last = cell::valueAt(s.corners, at + to * along);
     const Real before = std::clamp(cell::share(s, first, f, delta), Real(0), Real(1));

@@ -205,6 +205,7 @@ struct PointsView {
           domain(of.domain()),
           rays(pixelRays(placed.inAxes(view))),
           viewFromWorld(view.viewFromWorld),
+          viewFromAxes(placed.inAxes(view).viewFromWorld),
           rayLength(1 / glm::length(glm::dvec3(view.viewFromWorld[0]))),
           pixelArea(rayLength * rayLength / (rays.focal.x * rays.focal.y)),
           unitLength(placed.unitLength()),
@@ -216,7 +217,7 @@ struct PointsView {
     const PlacedPoints& placed;
     PlacedPoints::Box domain;
     PixelRays rays;  // in axis coordinates
-    glm::dmat4 viewFromWorld;
+    glm::dmat4 viewFromWorld, viewFromAxes;
     double rayLength;   // of rays.axis, in the world
     double pixelArea;   // at unit depth, in the world
     double unitLength;  // l

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/model/cell_splat.h"
+#include "render/splat/rows_in_turns.h"
 
 namespace render {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 using timeseries::CellIndex;
 using timeseries::Interval;
 
-// Threads take the rows of a picture in turns, so many at a time.
-constexpr int kRows = 16;
 constexpr std::uint64_t kAtOnce = 1 << 15;
 
 struct CellOfLayer {
@@ -26,6 +25,9 @@ struct CellOfLayer {
 // Of these layers, as their candidates lie.
 std::vector<CellOfLayer> candidates(const Scene& scene, std::size_t layer, std::size_t last) {
     std::vector<CellOfLayer> cells;
+    std::uint64_t count = 0;
+    for (std::size_t k = layer; k < last; ++k) count += cellCount(scene.layers[k]);
+    cells.reserve(count);
     for (; layer < last; ++layer)
         for (const timeseries::Run& run : scene.layers[layer].cells.candidates)
             for (std::uint64_t i = 0; i < run.count; ++i)
@@ -129,17 +131,11 @@ void SeenCells::place(const CellOfLayer& of, const PixelBox& box, std::vector<Pl
     unsigned octants = 0;
     double sum = 0;
     int valid = 0;
-    const glm::uvec3 points = scene_.placed.size();
     for (unsigned c = 0; c < 8; ++c) {
         if (std::isnan(cell.corners[c])) continue;
         sum += cell.corners[c] / 8;
         ++valid;
-        glm::uvec3 point;
-        for (int a = 0; a < 3; ++a) {
-            const unsigned side = c >> a & 1;
-            point[a] = std::min(at[a] + side > 0 ? at[a] + side - 1 : 0u, points[a] - 1);
-        }
-        if (scene_.clip.holds(point)) octants |= 1u << c;
+        if (scene_.clip.holds(scene_.cells->pointAt(at, c))) octants |= 1u << c;
     }
     if (octants == 0) return;
     for (double& v : cell.corners)
@@ -250,18 +246,12 @@ struct CellSum::Work {
 };
 
 void CellSum::Work::addRows(const Placed& p, unsigned thread) {
-    for (int y = p.y.first; y < p.y.last;) {
-        const int strip = y / kRows;
-        const int last = std::min((strip + 1) * kRows, p.y.last);
-        if (static_cast<unsigned>(strip) % threads == thread)
-            for (; y < last; ++y)
-                seen.addRow(p, y, box,
-                            opaqueDepth.empty()
-                                ? nullptr
-                                : &opaqueDepth[static_cast<std::size_t>(y) * pictureWidth],
-                            &plane[static_cast<std::size_t>(y - box.at.y) * rowFloats]);
-        y = last;
-    }
+    forEachRowOf(thread, threads, p.y, [&](int y) {
+        seen.addRow(p, y, box,
+                    opaqueDepth.empty() ? nullptr
+                                        : &opaqueDepth[static_cast<std::size_t>(y) * pictureWidth],
+                    &plane[static_cast<std::size_t>(y - box.at.y) * rowFloats]);
+    });
 }
 
 void CellSum::Work::sum(std::span<const CellOfLayer> part) {

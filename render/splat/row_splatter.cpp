@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/model/footprint.h"
+#include "render/splat/rows_in_turns.h"
 #include "render/splat/splat_source.h"
 #include "render/together.h"
 
@@ -155,8 +156,6 @@ void deposit(Channels channels, std::span<const float> weights, glm::vec4 color,
     }
 }
 
-// Threads take the rows of a picture in turns, so many at a time.
-constexpr int kRows = 16;
 constexpr std::uint64_t kAtOnce = 1 << 15;
 
 }  // namespace
@@ -202,13 +201,7 @@ void RowSum::Work::sum() {
     together(threads, [&](unsigned k) {
         for (const Placed& p : placed) {
             if (p.x.first >= p.x.last) continue;
-            for (int y = p.y.first; y < p.y.last;) {
-                const int strip = y / kRows;
-                const int last = std::min((strip + 1) * kRows, p.y.last);
-                if (static_cast<unsigned>(strip) % threads == k)
-                    for (; y < last; ++y) addRow(p, y, &rowWeights[width * k]);
-                y = last;
-            }
+            forEachRowOf(k, threads, p.y, [&](int y) { addRow(p, y, &rowWeights[width * k]); });
         }
     });
 }

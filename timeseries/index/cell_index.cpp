@@ -181,16 +181,20 @@ std::vector<Run> CellIndex::select(std::span<const Interval<double>> intervals) 
     return runs;
 }
 
+glm::uvec3 CellIndex::pointAt(const glm::uvec3& cell, unsigned corner) const {
+    const glm::uvec3 points = size_ - 1u;
+    return {neighbour(cell.x, corner & 1, points.x), neighbour(cell.y, corner >> 1 & 1, points.y),
+            neighbour(cell.z, corner >> 2, points.z)};
+}
+
 std::array<double, 8> CellIndex::corners(const glm::uvec3& cell) const {
-    const glm::uvec3 points = pointsOf(field_);
+    const glm::vec<3, std::uint64_t> points(size_ - 1u);
     std::array<double, 8> out{};
     std::visit(
         [&](const auto& values) {
-            for (std::uint32_t c = 0; c < 8; ++c) {
-                const std::uint64_t x = neighbour(cell.x, c & 1, points.x);
-                const std::uint64_t y = neighbour(cell.y, c >> 1 & 1, points.y);
-                const std::uint64_t z = neighbour(cell.z, c >> 2, points.z);
-                const std::uint64_t at = x + points.x * (y + points.y * z);
+            for (unsigned c = 0; c < 8; ++c) {
+                const glm::uvec3 p = pointAt(cell, c);
+                const std::uint64_t at = p.x + points.x * (p.y + points.y * p.z);
                 out[c] = finiteOr(values[at], !field_.missing.empty() && field_.missing[at]);
             }
         },

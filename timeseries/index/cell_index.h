@@ -42,7 +42,9 @@ class CellIndex {
     std::uint32_t cell(std::uint64_t place) const {
         return static_cast<std::uint32_t>(list_[place]);
     }
-    // Of a cell, x fastest; NaN where a value is missing or not finite.
+    // Corners are numbered x fastest: the point, along the axes, whose value a corner has.
+    glm::uvec3 pointAt(const glm::uvec3& cell, unsigned corner) const;
+    // Of a cell; NaN where a value is missing or not finite.
     std::array<double, 8> corners(const glm::uvec3& cell) const;
     std::uint64_t bytes() const;
 
