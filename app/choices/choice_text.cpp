@@ -80,6 +80,8 @@ constexpr std::array<std::pair<std::string_view, Stereo>, 5> kStereo = {
      {"left-right", Stereo::LeftRight}}};
 constexpr std::array<std::pair<std::string_view, Model>, 2> kModels = {
     {{"points", Model::Points}, {"cells", Model::Cells}}};
+constexpr std::array<std::pair<std::string_view, render::Light>, 3> kLights = {
+    {{"off", render::Light::Off}, {"soft", render::Light::Soft}, {"full", render::Light::Full}}};
 constexpr std::array<std::pair<std::string_view, render::Kernel>, 2> kKernels = {
     {{"kernel", render::Kernel::Quartic}, {"point", render::Kernel::Point}}};
 constexpr std::array<std::pair<std::string_view, render::Order>, 2> kOrders = {
@@ -289,6 +291,12 @@ Stereo parseStereo(std::string_view name) { return named<Stereo>("stereo", name,
 std::string_view stereoName(Stereo stereo) { return nameOf<Stereo>(stereo, kStereo); }
 Model parseModel(std::string_view name) { return named<Model>("model", name, kModels); }
 std::string_view modelName(Model model) { return nameOf<Model>(model, kModels); }
+
+render::Light parseLight(std::string_view name) {
+    return named<render::Light>("light", name, kLights);
+}
+
+std::string_view lightName(render::Light light) { return nameOf<render::Light>(light, kLights); }
 render::Kernel parseKernel(std::string_view name) {
     return named<render::Kernel>("splat", name, kKernels);
 }

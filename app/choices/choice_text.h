@@ -58,6 +58,8 @@ Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multi
 std::string_view stereoName(Stereo stereo);
 Model parseModel(std::string_view name);  // points cells
 std::string_view modelName(Model model);
+render::Light parseLight(std::string_view name);  // off soft full
+std::string_view lightName(render::Light light);
 render::Kernel parseKernel(std::string_view name);  // kernel point
 std::string_view kernelName(render::Kernel kernel);
 render::Order parseOrder(std::string_view name);  // none depth

@@ -133,6 +133,10 @@ constexpr std::array kChoices = {
            [](Explorer& e, std::string_view t) { e.model = parseModel(t); }, "Splats",
            "points (default): those in the ranges, each a splat; cells: what lies in the ranges "
            "between points, too, so that thin ranges are closed shells; slower"},
+    Choice{"--light", "light", Form::Text,
+           [](const Explorer& e) { return Text(lightName(e.light)); },
+           [](Explorer& e, std::string_view t) { e.light = parseLight(t); }, "Splats",
+           "on cells in depth order, from the eye: off (default), soft, or full with highlights"},
     Choice{"--splat", "splat", Form::Text,
            [](const Explorer& e) { return Text(kernelName(e.footprint.kernel)); },
            [](Explorer& e, std::string_view t) { e.footprint.kernel = parseKernel(t); }, "Splats",

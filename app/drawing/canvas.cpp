@@ -40,8 +40,12 @@ double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
 // The least stride whose frame keeps to the limit. Cells have none: where they are too many, points
 // stand for them.
 void thinOut(render::Scene& scene, std::span<const render::View> eyes, std::uint64_t limit) {
-    if (scene.cells && costOf(scene, eyes) > static_cast<double>(limit)) scene.cells.reset();
-    if (scene.cells) return;
+    if (scene.cells && costOf(scene, eyes) <= static_cast<double>(limit)) return;
+    if (scene.cells) {
+        scene.cells.reset();
+        scene.light = render::Light::Off;
+        if (render::areOneColor(scene.layers)) scene.order = render::Order::None;
+    }
     const render::Footprint whole = scene.footprint;
     while (scene.stride < render::kMaxStride && costOf(scene, eyes) > static_cast<double>(limit)) {
         scene.stride *= 2;

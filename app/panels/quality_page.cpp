@@ -75,9 +75,14 @@ void drawQualityPage(Desk& desk, const Rect& at) {
     if (const auto model = segmented(desk.theme, "model", form.row("Draw"), kModels,
                                      static_cast<std::size_t>(e.model)))
         edit(desk, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
-    if (e.model == Model::Cells)
+    constexpr std::array kLights = {"Off", "Soft", "Full"};
+    if (e.model == Model::Cells) {
         form.note("Between points, too: a thin range is a closed shell. Slower.");
-    else
+        if (const auto light = segmented(desk.theme, "light", form.row("Light"), kLights,
+                                         static_cast<std::size_t>(e.light)))
+            edit(desk, {},
+                 [&](Explorer& next) { next.light = static_cast<render::Light>(*light); });
+    } else
         pointRows(desk, form);
     if (const auto order = segmented(desk.theme, "order", form.row("Order"), kOrders,
                                      static_cast<std::size_t>(e.order)))

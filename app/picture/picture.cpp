@@ -249,6 +249,7 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
     if (e.clip) scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
     if (e.model == Model::Cells)
         scene.cells = await == Await::Cells ? step.cells() : step.cellsIfMade();
+    if (scene.cells && scene.order == render::Order::BackToFront) scene.light = e.light;
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
         if (!layer.visible) return;
         scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
@@ -260,7 +261,8 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
     if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
     // The same picture without it.
-    if (render::areOneColor(scene.layers)) scene.order = render::Order::None;
+    if (scene.light == render::Light::Off && render::areOneColor(scene.layers))
+        scene.order = render::Order::None;
     return scene;
 }
 

@@ -2,16 +2,15 @@
 // range of values. The field in a cell is trilinear between its eight corners; along a ray it is
 // taken as two linear pieces, from where the ray enters to the middle and on to where it leaves.
 //
-// Of a piece of length s along which f goes from fa to fb, the part in the range is
-// s (K(fb) - K(fa)) / (fb - fa), K being the integral of membership: 1 inside the range and 0
-// outside, and over a pixel, across which f changes by 2 delta, a ramp of that width about each
-// end:
-//   K(f) = 2 delta (Q((f - lo + delta) / 2 delta) - Q((f - hi + delta) / 2 delta)),
-//   Q(x) = 0, x^2 / 2, x - 1/2 below 0, between, and above 1.
-// An end that the cell does not cross is left out, or a plateau at the end's value would count
-// half.
+// Membership of a value is 1 inside the range and 0 outside, and over a pixel, across which the
+// field changes by 2 delta, a ramp of that width about each end. With a and b the places of a
+// piece's ends on such a ramp, which is clamp(x, 0, 1), its mean along the piece is
+//   (Q(b) - Q(a)) / (b - a),  Q(x) = 0, x^2 / 2, x - 1/2 below 0, between, and above 1,
+// and of a range the difference of the means of two ramps. An end that the cell does not cross is
+// left out, or a plateau at the end's value would count half.
 //
 // W is that length in units of l, as of splats (render/model/footprint.h). Cells do not overlap.
+// The kernels of render/splat/cell_kernels.cpp compute the same in float.
 #pragma once
 
 #include <algorithm>
@@ -35,6 +34,11 @@ struct ValuedCell {
     double lo, hi;
 };
 
+// Less than this of the cell's own change is what rounding leaves of a difference.
+inline constexpr double kLeastChange = 1e-5;
+// Of a ray along an axis, so that one along a face divides by something.
+inline constexpr double kLeastStep = 1e-12;
+
 template <typename Real>
 struct CellSplat {
     using Vec2 = glm::vec<2, Real>;
@@ -44,20 +48,53 @@ struct CellSplat {
     // pixels: those of the cell's middle, or the eye's where a corner is nearer than the near
     // plane.
     Real base{};
-    Vec2 centre{};
-    Vec2 lo{}, hi{};  // offsets from there between which the cell lies
-    // In units of the cell, [0, 1] in it: the place there, that ray a unit of depth, and what a
-    // pixel adds to it.
-    Vec3 at{}, ray{}, x{}, y{};
-    Real near{};    // view depth of the near plane
-    Real weight{};  // W of a unit of depth along the view axis
-    // Values less `reference`.
-    std::array<Real, 8> corners{};
-    Real leastDelta{};     // what rounding makes of their differences
-    Real least{}, most{};  // of the range
+    glm::dvec2 centre{0};
+    Vec2 lo{}, hi{};  // offsets from there between which the cell lies, or a little more
+    // In units of the cell, [-1/2, 1/2] in it: the place there, and that ray a unit of depth.
+    Vec3 at{}, ray{};
+    Vec3 perSize{};  // units of the cell a length in axis coordinates, signed
+    // The field is reference + extent f, f in [-1, 1] at the corners being the sum of these times
+    // 1, u, v, w, uv, uw, vw, uvw at a place (u, v, w).
+    std::array<Real, 8> f{};
+    double reference = 0, extent = 0;
+    Real least{}, most{};  // of the range, as f
     bool crossesLeast = false, crossesMost = false;
-    double reference = 0;
 };
+
+namespace cell {
+
+// Of the field at a place of the cell, from its corners.
+template <typename Real>
+Real valueAt(const std::array<Real, 8>& f, const glm::vec<3, Real>& u) {
+    const auto mix = [](Real a, Real b, Real t) { return a + t * (b - a); };
+    const Real low = mix(mix(f[0], f[1], u.x), mix(f[2], f[3], u.x), u.y);
+    const Real high = mix(mix(f[4], f[5], u.x), mix(f[6], f[7], u.x), u.y);
+    return mix(low, high, u.z);
+}
+
+// As CellSplat::f, of values at the corners.
+inline std::array<double, 8> coefficients(const std::array<double, 8>& corners) {
+    std::array<double, 8> c = corners;
+    for (unsigned step : {1u, 2u, 4u})
+        for (unsigned i = 0; i < 8; ++i)
+            if ((i & step) == 0) {
+                const double a = c[i], b = c[i + step];
+                c[i] = (a + b) / 2;
+                c[i + step] = b - a;
+            }
+    return {c[0], c[1], c[2], c[4], c[3], c[5], c[6], c[7]};
+}
+
+// The mean of clamp(x, 0, 1) between a and b.
+template <typename Real>
+Real meanRamp(Real a, Real b) {
+    const Real xa = std::clamp(a, Real(0), Real(1)), xb = std::clamp(b, Real(0), Real(1));
+    const Real between = b - a;
+    if (std::abs(between) < Real(kLeastStep)) return (xa + xb) / 2;
+    return ((xb - xa) * (xb + xa) / 2 + (std::max(b, Real(1)) - std::max(a, Real(1)))) / between;
+}
+
+}  // namespace cell
 
 template <typename Real>
 CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
@@ -69,156 +106,126 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     const bool reaches = *lo < *hi ? *lo<cell.hi&& * hi> cell.lo : *lo <= cell.hi && *hi >= cell.lo;
     if (!reaches) return s;
     const PixelRays& rays = view.rays;
-    const glm::dvec2 focal = rays.focal;
-    const auto seen = [&](const glm::dvec3& axes) {
-        return glm::dvec3(view.viewFromAxes * glm::dvec4(axes, 1.0));
-    };
-    glm::dvec2 least(std::numeric_limits<double>::infinity()), most = -least;
-    double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-    for (int c = 0; c < 8; ++c) {
-        const glm::dvec3 v = seen({c & 1 ? cell.to.x : cell.from.x, c & 2 ? cell.to.y : cell.from.y,
-                                   c & 4 ? cell.to.z : cell.from.z});
-        nearest = std::min(nearest, -v.z);
-        farthest = std::max(farthest, -v.z);
-        least = glm::min(least, focal * glm::dvec2(v) / -v.z);
-        most = glm::max(most, focal * glm::dvec2(v) / -v.z);
-    }
-    if (!(farthest > rays.near)) return s;
+    const glm::dvec3 size = cell.to - cell.from, middle = 0.5 * (cell.from + cell.to);
+    const glm::dvec3 seen(view.viewFromAxes * glm::dvec4(middle, 1.0));
+    std::array<Vec3, 3> half;  // edges, as the view sees them
+    for (int a = 0; a < 3; ++a)
+        half[static_cast<std::size_t>(a)] = Vec3(0.5 * size[a] * glm::dvec3(view.viewFromAxes[a]));
+    const double depth = -seen.z;
+    const auto deep =
+        static_cast<double>(std::abs(half[0].z) + std::abs(half[1].z) + std::abs(half[2].z));
+    if (!(depth + deep > rays.near)) return s;
     s.visible = true;
-    const glm::dvec3 size = cell.to - cell.from;
-    glm::dvec2 centre(0);
-    double base = 0;
-    glm::dvec3 at = (rays.eye - cell.from) / size;
-    if (nearest > rays.near) {
-        const glm::dvec3 middle = seen(0.5 * (cell.from + cell.to));
-        base = -middle.z;
-        centre = focal * glm::dvec2(middle) / base;
-        at = glm::dvec3(0.5);
-        s.lo = Vec2(least - centre);
-        s.hi = Vec2(most - centre);
+    s.perSize = Vec3(1.0 / size);
+    if (depth - deep > rays.near) {
+        constexpr Real kMore = Real(0.01);  // than arithmetic loses
+        const Vec2 focal(rays.focal), at(seen);
+        s.base = static_cast<Real>(depth);
+        s.centre = rays.focal * glm::dvec2(seen) / depth;
+        const Vec2 centre(s.centre);
+        Vec2 least(std::numeric_limits<Real>::max()), most = -least;
+        for (unsigned c = 0; c < 8; ++c) {
+            Vec3 v(at, s.base);
+            for (unsigned a = 0; a < 3; ++a) {
+                const Vec3& edge = half[a];
+                const Real side = c >> a & 1 ? Real(1) : Real(-1);
+                v += side * Vec3(edge.x, edge.y, -edge.z);
+            }
+            const Vec2 offset = focal * Vec2(v) / v.z - centre;
+            least = glm::min(least, offset);
+            most = glm::max(most, offset);
+        }
+        s.lo = least - kMore;
+        s.hi = most + kMore;
     } else {
-        s.lo = Vec2(-std::numeric_limits<Real>::infinity());
+        s.at = Vec3((rays.eye - middle) / size);
+        s.lo = Vec2(-std::numeric_limits<Real>::max());
         s.hi = -s.lo;
     }
-    s.base = static_cast<Real>(base);
-    s.centre = Vec2(centre);
-    s.at = Vec3(at);
-    s.ray = Vec3((rays.axis + centre.x * rays.perPixelX + centre.y * rays.perPixelY) / size);
-    s.x = Vec3(rays.perPixelX / size);
-    s.y = Vec3(rays.perPixelY / size);
-    s.near = static_cast<Real>(rays.near);
-    s.weight = static_cast<Real>(view.rayLength / view.unitLength);
+    s.ray = Vec3((rays.axis + s.centre.x * rays.perPixelX + s.centre.y * rays.perPixelY) / size);
     s.reference = 0.5 * *lo + 0.5 * *hi;
-    for (std::size_t c = 0; c < 8; ++c)
-        s.corners[c] = static_cast<Real>(cell.corners[c] - s.reference);
-    s.leastDelta = static_cast<Real>(1e-5 * (0.5 * *hi - 0.5 * *lo));
+    s.extent = 0.5 * *hi - 0.5 * *lo;
+    if (!(s.extent > 0)) return s;
+    std::array<double, 8> f{};
+    for (std::size_t c = 0; c < 8; ++c) f[c] = (cell.corners[c] - s.reference) / s.extent;
+    f = cell::coefficients(f);
+    for (std::size_t c = 0; c < 8; ++c) s.f[c] = static_cast<Real>(f[c]);
     s.crossesLeast = *lo < cell.lo;
     s.crossesMost = *hi > cell.hi;
-    if (s.crossesLeast) s.least = static_cast<Real>(cell.lo - s.reference);
-    if (s.crossesMost) s.most = static_cast<Real>(cell.hi - s.reference);
+    const auto within = [&](double end) {
+        return static_cast<Real>((end - s.reference) / s.extent);
+    };
+    if (s.crossesLeast) s.least = within(cell.lo);
+    if (s.crossesMost) s.most = within(cell.hi);
     return s;
 }
-
-namespace cell {
-
-template <typename Real>
-Real mix(Real a, Real b, Real t) {
-    return a + t * (b - a);
-}
-
-// Of the field at a place of the cell.
-template <typename Real>
-Real valueAt(const std::array<Real, 8>& f, const glm::vec<3, Real>& u) {
-    const Real low = mix(mix(f[0], f[1], u.x), mix(f[2], f[3], u.x), u.y);
-    const Real high = mix(mix(f[4], f[5], u.x), mix(f[6], f[7], u.x), u.y);
-    return mix(low, high, u.z);
-}
-// A unit of the cell.
-template <typename Real>
-glm::vec<3, Real> gradientAt(const std::array<Real, 8>& f, const glm::vec<3, Real>& u) {
-    const auto across = [&](int low, int step, Real v, Real w, int sv, int sw) {
-        const auto d = [&](int i) { return f[i + step] - f[i]; };
-        return mix(mix(d(low), d(low + sv), v), mix(d(low + sw), d(low + sv + sw), v), w);
-    };
-    return {across(0, 1, u.y, u.z, 2, 4), across(0, 2, u.x, u.z, 1, 4),
-            across(0, 4, u.x, u.y, 1, 2)};
-}
-
-// The integral of a ramp from 0 at -delta to 1 at delta, and the ramp.
-template <typename Real>
-Real rampIntegral(Real f, Real delta) {
-    const Real x = std::clamp((f + delta) / (2 * delta), Real(0), Real(1));
-    return delta * x * x + std::max(f - delta, Real(0));
-}
-template <typename Real>
-Real ramp(Real f, Real delta) {
-    return std::clamp((f + delta) / (2 * delta), Real(0), Real(1));
-}
-
-// The mean of membership along a piece from fa to fb.
-template <typename Real>
-Real share(const CellSplat<Real>& s, Real fa, Real fb, Real delta) {
-    if (std::abs(fb - fa) < Real(1e-2) * delta) {  // what is left of the difference says little
-        const Real f = (fa + fb) / 2;
-        return (s.crossesLeast ? ramp(f - s.least, delta) : Real(1)) -
-               (s.crossesMost ? ramp(f - s.most, delta) : Real(0));
-    }
-    const auto integral = [&](Real f) {
-        return (s.crossesLeast ? rampIntegral(f - s.least, delta) : f) -
-               (s.crossesMost ? rampIntegral(f - s.most, delta) : Real(0));
-    };
-    return (integral(fb) - integral(fa)) / (fb - fa);
-}
-
-}  // namespace cell
 
 template <typename Real>
 struct CellFragment {
     Real weight{};  // W, no less than 0
-    Real value{};   // less the cell's reference: of the field there, within the range
+    Real value{};   // as f: of the field there, within the range
 };
 
-// On the ray of a pixel, `offset` pixels from the cell's centre and of this x / -z and y / -z, as
-// far as view depth `opaque`.
+// On the ray of a pixel, `offset` pixels from the cell's centre, as far as view depth `opaque`.
 template <typename Real>
-CellFragment<Real> fragmentOn(const CellSplat<Real>& s, const glm::vec<2, Real>& offset,
-                              const glm::vec<2, Real>& slope, Real opaque) {
+CellFragment<Real> fragmentOn(const PointsView& view, const CellSplat<Real>& s,
+                              const glm::vec<2, Real>& offset, Real opaque) {
+    using Vec2 = glm::vec<2, Real>;
     using Vec3 = glm::vec<3, Real>;
-    constexpr Real kLeastStep = Real(1e-12);  // so that a ray along a face divides by something
-    const Vec3 shift = offset.x * s.x + offset.y * s.y;
+    const PixelRays& rays = view.rays;
+    const Vec3 x = Vec3(rays.perPixelX) * s.perSize, y = Vec3(rays.perPixelY) * s.perSize;
+    const Vec3 shift = offset.x * x + offset.y * y;
     const Vec3 at = s.at + s.base * shift, along = s.ray + shift;
-    Real from = s.near - s.base, to = opaque - s.base;
+    Real from = static_cast<Real>(rays.near) - s.base, to = opaque - s.base;
     for (int a = 0; a < 3; ++a) {
-        const Real step = std::abs(along[a]) < kLeastStep ? kLeastStep : along[a];
-        const Real one = -at[a] / step, other = (1 - at[a]) / step;
-        from = std::max(from, std::min(one, other));
-        to = std::min(to, std::max(one, other));
+        const Real step = std::copysign(std::max(std::abs(along[a]), Real(kLeastStep)), along[a]);
+        const Real middle = -at[a] / step, half = std::abs(Real(0.5) / step);
+        from = std::max(from, middle - half);
+        to = std::min(to, middle + half);
     }
     if (!(to > from)) return {};
-    const Real whole = s.weight * (to - from) * std::sqrt(1 + glm::dot(slope, slope));
-    const Real half = (from + to) / 2;
-    const Vec3 middle = at + half * along;
-    const Real f = cell::valueAt(s.corners, middle);
-    if (!s.crossesLeast && !s.crossesMost) return {whole, f};
-    const Vec3 gradient = cell::gradientAt(s.corners, middle);
+    const Vec2 slope = (offset + Vec2(s.centre)) / Vec2(rays.focal);
+    const Real whole = static_cast<Real>(view.rayLength / view.unitLength) * (to - from) *
+                       std::sqrt(1 + glm::dot(slope, slope));
+    // The field's derivatives in the middle, and along the ray from there.
+    const Real depth = (from + to) / 2, half = (to - from) / 2;
+    const Vec3 m = at + depth * along, d = along;
+    const auto& f = s.f;
+    const Vec3 mixed(f[6] + f[7] * m.x, f[5] + f[7] * m.y, f[4] + f[7] * m.z);  // vw, uw, uv
+    const Vec3 gradient(f[1] + f[5] * m.z + mixed.z * m.y, f[2] + f[6] * m.z + mixed.z * m.x,
+                        f[3] + f[6] * m.y + mixed.y * m.x);
+    const Real value = f[0] + f[1] * m.x + m.y * (f[2] + f[4] * m.x) + m.z * gradient.z;
+    if (!s.crossesLeast && !s.crossesMost) return {whole, value};
+    const Real first = glm::dot(gradient, d);
+    const Real second = d.x * d.y * mixed.z + d.z * (d.x * mixed.y + d.y * mixed.x);
+    const Real third = d.x * d.y * d.z * f[7];
+    const Real even = value + half * half * second, odd = half * (first + half * half * third);
+    const std::array<Real, 3> ends = {even - odd, value, even + odd};
     // Half of what the pixel's width and height change together; no less than rounding does.
-    const Real depth = s.base + half;
     const Real delta = std::max(
-        depth / 2 * (std::abs(glm::dot(gradient, s.x)) + std::abs(glm::dot(gradient, s.y))),
-        s.leastDelta);
-    const Real first = cell::valueAt(s.corners, at + from * along);
-    const Real last = cell::valueAt(s.corners, at + to * along);
-    const Real before = std::clamp(cell::share(s, first, f, delta), Real(0), Real(1));
-    const Real after = std::clamp(cell::share(s, f, last, delta), Real(0), Real(1));
+        (s.base + depth) / 2 * (std::abs(glm::dot(gradient, x)) + std::abs(glm::dot(gradient, y))),
+        Real(kLeastChange));
+    const auto share = [&](std::size_t piece) {
+        const auto onRamp = [&](std::size_t k, Real end) {
+            return (ends[k] - end) / (2 * delta) + Real(0.5);
+        };
+        const auto mean = [&](Real end) {
+            return cell::meanRamp(onRamp(piece, end), onRamp(piece + 1, end));
+        };
+        const Real is =
+            (s.crossesLeast ? mean(s.least) : Real(1)) - (s.crossesMost ? mean(s.most) : Real(0));
+        return std::max(is, Real(0));
+    };
+    const Real before = share(0), after = share(1);
     if (!(before + after > 0)) return {};
     // What of a linear piece lies in the range has the mean of its ends there.
     const auto within = [&](Real v) {
         if (s.crossesLeast) v = std::max(v, s.least);
         return s.crossesMost ? std::min(v, s.most) : v;
     };
-    const Real value = (before * (within(first) + within(f)) + after * (within(f) + within(last))) /
-                       (2 * (before + after));
-    return {whole * (before + after) / 2, value};
+    const Real at0 = within(ends[0]), at1 = within(ends[1]), at2 = within(ends[2]);
+    return {whole * (before + after) / 2,
+            (before * (at0 + at1) + after * (at1 + at2)) / (2 * (before + after))};
 }
 
 }  // namespace render

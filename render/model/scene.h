@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "render/model/color_map.h"
+#include "render/model/light.h"
 #include "render/points/placed_points.h"
 #include "render/points/subset.h"
 #include "timeseries/index/cell_index.h"
@@ -109,6 +110,7 @@ struct Scene {
     std::uint32_t stride = 1;
     // The step's, where layers are drawn by cells instead of points; all of them then, always.
     std::shared_ptr<const timeseries::CellIndex> cells = {};
+    Light light = Light::Off;  // on cells, where they are drawn in order
 };
 
 // Splats or cells that are drawn of a layer.

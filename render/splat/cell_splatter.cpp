@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+#include <tuple>
 #include <utility>
 
-#include "render/model/cell_splat.h"
-#include "render/splat/rows_in_turns.h"
+#include "render/splat/cell_kernels.h"
+#include "render/splat/tile_bins.h"
+#include "render/splat/tile_plane.h"
 
 namespace render {
 namespace {
@@ -15,7 +16,10 @@ namespace {
 using timeseries::CellIndex;
 using timeseries::Interval;
 
-constexpr std::uint64_t kAtOnce = 1 << 15;
+// Looked at before they are summed: 22 MB of them.
+constexpr std::uint64_t kAtOnce = 1 << 17;
+// Less is done before another thread has begun.
+constexpr std::size_t kWorthAThread = 1 << 9;
 
 struct CellOfLayer {
     std::uint32_t cell;
@@ -64,53 +68,6 @@ void orderByDepth(const Scene& scene, const View& view, std::vector<CellOfLayer>
     cells = std::move(ordered);
 }
 
-// A piece of a cell that a range reaches into, ready to be drawn.
-struct Placed {
-    CellSplat<float> splat;
-    PixelSpan x, y;
-    std::uint8_t layer = 0;
-};
-
-class SeenCells {
- public:
-    SeenCells(const Scene& scene, const View& view, Channels channels)
-        : scene_(scene),
-          view_(view),
-          channels_(channels),
-          seen_(scene.placed, view),
-          axis_(seen_.rays.centre),
-          slope_(1.0 / seen_.rays.focal) {
-        for (const Layer& layer : scene.layers)
-            depthPerWeight_.push_back(
-                static_cast<float>(opticalDepthPerWeight(layer.style.opacity)));
-    }
-
-    // Adds the cell's pieces in the box, in the order in which they stand.
-    void place(const CellOfLayer& cell, const PixelBox& box, std::vector<Placed>& into) const;
-    // Adds to the pixels of row y, the box's first one first.
-    void addRow(const Placed& placed, int y, const PixelBox& box, const float* opaqueRow,
-                float* row) const;
-
- private:
-    void placePiece(const ValuedCell& piece, std::size_t layer, const PixelBox& box,
-                    std::vector<Placed>& into) const;
-    void placeOctants(const ValuedCell& cell, unsigned octants, std::size_t layer,
-                      const PixelBox& box, std::vector<Placed>& into) const;
-    void deposit(const Placed& placed, const CellFragment<float>& fragment, float* pixel) const;
-    float viewDepth(float windowDepth) const {
-        const glm::dmat4& m = view_.clipFromView;
-        return static_cast<float>(m[3][2] / (static_cast<double>(windowDepth) + m[2][2]));
-    }
-
-    const Scene& scene_;
-    const View& view_;
-    Channels channels_;
-    PointsView seen_;
-    glm::vec2 axis_;   // window position of the view axis
-    glm::vec2 slope_;  // x / -z and y / -z a pixel
-    std::vector<float> depthPerWeight_;
-};
-
 // The grid's coordinates of a cell's two ends along an axis: points, or half a cell beyond them.
 std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,
                                     std::uint32_t cell) {
@@ -120,14 +77,16 @@ std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis
             cell == at.size() ? at.back() + up * width.back() : at[cell]};
 }
 
-void SeenCells::place(const CellOfLayer& of, const PixelBox& box, std::vector<Placed>& into) const {
-    const glm::uvec3 at = timeseries::indicesOf(of.cell, scene_.cells->size());
+// Calls use(piece) for what is to be seen of a cell: all of it, or its octants, of which that is
+// left out that is nearest to a missing point, or to one outside the clip box.
+template <typename Use>
+void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
+    const glm::uvec3 at = timeseries::indicesOf(number, scene.cells->size());
     ValuedCell cell{};
-    cell.corners = scene_.cells->corners(at);
+    cell.corners = scene.cells->corners(at);
     for (int a = 0; a < 3; ++a)
         std::tie(cell.from[a], cell.to[a]) =
-            endsAlong(scene_.placed, static_cast<std::size_t>(a), at[a]);
-    // What is nearest to a missing point, or to one outside the clip box, is nowhere.
+            endsAlong(scene.placed, static_cast<std::size_t>(a), at[a]);
     unsigned octants = 0;
     double sum = 0;
     int valid = 0;
@@ -135,24 +94,16 @@ void SeenCells::place(const CellOfLayer& of, const PixelBox& box, std::vector<Pl
         if (std::isnan(cell.corners[c])) continue;
         sum += cell.corners[c] / 8;
         ++valid;
-        if (scene_.clip.holds(scene_.cells->pointAt(at, c))) octants |= 1u << c;
+        octants |= 1u << c;
     }
+    const bool isInside = scene.clip.holds(scene.cells->pointAt(at, 0)) &&
+                          scene.clip.holds(scene.cells->pointAt(at, 7));
+    for (unsigned c = 0; c < 8 && !isInside; ++c)
+        if (!scene.clip.holds(scene.cells->pointAt(at, c))) octants &= ~(1u << c);
     if (octants == 0) return;
     for (double& v : cell.corners)
         if (std::isnan(v)) v = sum * (8.0 / valid);
-    for (const Interval<double>& range : scene_.layers[of.layer].cells.ranges) {
-        cell.lo = range.lo;
-        cell.hi = range.hi;
-        if (octants == 255)
-            placePiece(cell, of.layer, box, into);
-        else
-            placeOctants(cell, octants, of.layer, box, into);
-    }
-}
-
-// Each with the field's values at its own corners.
-void SeenCells::placeOctants(const ValuedCell& cell, unsigned octants, std::size_t layer,
-                             const PixelBox& box, std::vector<Placed>& into) const {
+    if (octants == 255) return use(cell);
     for (unsigned o = 0; o < 8; ++o) {
         if ((octants >> o & 1) == 0) continue;
         ValuedCell piece = cell;
@@ -162,62 +113,17 @@ void SeenCells::placeOctants(const ValuedCell& cell, unsigned octants, std::size
         for (unsigned c = 0; c < 8; ++c)
             piece.corners[c] = render::cell::valueAt(
                 cell.corners, first + 0.5 * glm::dvec3(c & 1, c >> 1 & 1, c >> 2));
-        placePiece(piece, layer, box, into);
+        use(piece);
     }
 }
 
-void SeenCells::placePiece(const ValuedCell& piece, std::size_t layer, const PixelBox& box,
-                           std::vector<Placed>& into) const {
-    Placed placed;
-    placed.splat = cellSplatAt<float>(seen_, piece);
-    const CellSplat<float>& s = placed.splat;
-    if (!s.visible) return;
-    const auto span = [&](int a) {
-        const PixelSpan whole =
-            pixelSpan(axis_[a] + s.centre[a], s.lo[a], s.hi[a], Kernel::Quartic, view_.size[a]);
-        return PixelSpan{std::max(whole.first, box.at[a]),
-                         std::min(whole.last, box.at[a] + box.size[a])};
-    };
-    placed.x = span(0);
-    placed.y = span(1);
-    placed.layer = static_cast<std::uint8_t>(layer);
-    if (placed.x.first < placed.x.last && placed.y.first < placed.y.last) into.push_back(placed);
-}
-
-void SeenCells::addRow(const Placed& placed, int y, const PixelBox& box, const float* opaqueRow,
-                       float* row) const {
-    const CellSplat<float>& s = placed.splat;
-    const std::size_t floats = floatsPerPixel(channels_);
-    const float atY = static_cast<float>(y) + 0.5f - axis_.y;
-    for (int x = placed.x.first; x < placed.x.last; ++x) {
-        const float atX = static_cast<float>(x) + 0.5f - axis_.x;
-        const glm::vec2 at(atX, atY);
-        const float opaque =
-            opaqueRow ? viewDepth(opaqueRow[x]) : std::numeric_limits<float>::max();
-        const CellFragment<float> fragment = fragmentOn(s, at - s.centre, at * slope_, opaque);
-        if (fragment.weight > 0)
-            deposit(placed, fragment, row + static_cast<std::size_t>(x - box.at.x) * floats);
-    }
-}
-
-void SeenCells::deposit(const Placed& placed, const CellFragment<float>& fragment,
-                        float* pixel) const {
-    if (channels_ == Channels::Weight) {
-        *pixel += fragment.weight;
-        return;
-    }
-    if (channels_ == Channels::Count) {
-        *pixel += 1;
-        return;
-    }
-    const RangeStyle& style = scene_.layers[placed.layer].style;
-    const glm::vec4 color(
-        glm::vec3(colorOf(style, placed.splat.reference + static_cast<double>(fragment.value))), 1);
-    const float taken =
-        channels_ == Channels::WeightedColor
-            ? fragment.weight
-            : (1 - pixel[3]) * -std::expm1(-depthPerWeight_[placed.layer] * fragment.weight);
-    for (int c = 0; c < 4; ++c) pixel[c] += taken * color[c];
+// The tiles that a cell's pixels are in.
+TileSpan spanOf(const CellView& view, const SeenCell& c) {
+    const glm::ivec2 first = glm::ivec2(c.x, c.y) / view.tile;
+    const glm::ivec2 last = (glm::ivec2(c.x + c.columns, c.y + c.rows) - 1) / view.tile;
+    return {static_cast<std::uint32_t>(first.y * view.tiles.x + first.x),
+            static_cast<std::uint16_t>(last.x - first.x + 1),
+            static_cast<std::uint16_t>(last.y - first.y + 1)};
 }
 
 }  // namespace
@@ -230,60 +136,101 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
     return count;
 }
 
-struct CellSum::Work {
-    SeenCells seen;
-    PixelBox box;
-    std::size_t rowFloats, pictureWidth;
-    std::span<const float> opaqueDepth;
-    unsigned threads;
-    std::vector<float> plane;
-    std::vector<CellOfLayer> cells;
-    std::size_t passed = 0;
-    std::vector<std::vector<Placed>> placed;  // a part of those in work a thread
+// Pieces of cells that one thread has looked at, and which tiles they touch.
+struct CellMemory::Seen {
+    std::vector<SeenCell> cells;
+    std::vector<TileSpan> spans;
+    TileBins bins;
+    std::vector<std::uint32_t> binned;
 
-    void sum(std::span<const CellOfLayer> part);
-    void addRows(const Placed& p, unsigned thread);
+    void look(const Scene& scene, const CellView& view, std::span<const CellOfLayer> part);
+    void sum(const CellView& view, std::size_t tile, TileRoom& room) const {
+        sumCells(view, cells, std::span(binned).subspan(bins.first(tile), bins.count(tile)), room);
+    }
 };
 
-void CellSum::Work::addRows(const Placed& p, unsigned thread) {
-    forEachRowOf(thread, threads, p.y, [&](int y) {
-        seen.addRow(p, y, box,
-                    opaqueDepth.empty() ? nullptr
-                                        : &opaqueDepth[static_cast<std::size_t>(y) * pictureWidth],
-                    &plane[static_cast<std::size_t>(y - box.at.y) * rowFloats]);
-    });
+void CellMemory::Seen::look(const Scene& scene, const CellView& view,
+                            std::span<const CellOfLayer> part) {
+    cells.clear();
+    spans.clear();
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const CellOfLayer& of = part[i];
+        if (i + kAhead < part.size()) scene.cells->prefetch(part[i + kAhead].cell);
+        const Layer& layer = scene.layers[of.layer];
+        forEachPiece(scene, of.cell, [&](ValuedCell& piece) {
+            for (const Interval<double>& range : layer.cells.ranges) {
+                piece.lo = range.lo;
+                piece.hi = range.hi;
+                const SeenCell seen = seenCell(view, piece, of.layer, layer.style);
+                if (seen.columns == 0) continue;
+                cells.push_back(seen);
+                spans.push_back(spanOf(view, seen));
+            }
+        });
+    }
+    bins.fill(
+        view.count(), view.tiles.x, spans, 0, spans.size(),
+        [&](std::size_t places) { binned.resize(places); },
+        [&](std::uint32_t to, std::size_t i) { binned[to] = static_cast<std::uint32_t>(i); });
 }
 
-void CellSum::Work::sum(std::span<const CellOfLayer> part) {
-    together(threads, [&](unsigned k) {
-        placed[k].clear();
-        for (std::size_t i = part.size() * k / threads; i < part.size() * (k + 1) / threads; ++i)
-            seen.place(part[i], box, placed[k]);
+struct CellMemory::Kept {
+    std::vector<float> plane;
+    std::vector<Seen> seen;  // one a thread
+};
+
+CellMemory::CellMemory() : kept(std::make_unique<Kept>()) {}
+CellMemory::CellMemory(CellMemory&&) noexcept = default;
+CellMemory& CellMemory::operator=(CellMemory&&) noexcept = default;
+CellMemory::~CellMemory() = default;
+
+struct CellSum::Work {
+    const Scene& scene;
+    CellView view;
+    unsigned threads;
+    CellMemory memory;
+    TilePlane plane;
+    std::vector<CellOfLayer> cells;
+    std::size_t passed = 0;
+
+    Work(const Scene& drawn, const View& of, Channels channels, std::size_t layer,
+         std::span<const float> opaqueDepth, unsigned shared, CellMemory kept)
+        : scene(drawn),
+          view(drawn, of, channels),
+          threads(std::max(shared, 1u)),
+          memory(kept.kept ? std::move(kept) : CellMemory()),
+          plane(view, opaqueDepth, of.size.x, threads, memory.kept->plane) {
+        const bool all = channels == Channels::Over || channels == Channels::Count;
+        cells = candidates(scene, all ? 0 : layer, all ? scene.layers.size() : layer + 1);
+        if (channels == Channels::Over) orderByDepth(scene, of, cells);
+        memory.kept->seen.resize(threads);
+    }
+    void sum(std::span<const CellOfLayer> part, bool lastOfAll);
+};
+
+void CellSum::Work::sum(std::span<const CellOfLayer> part, bool lastOfAll) {
+    const unsigned shared = threadsFor(part.size(), kWorthAThread, threads);
+    const std::span<CellMemory::Seen> seen = std::span(memory.kept->seen).first(shared);
+    together(shared, [&](unsigned k) {
+        const std::size_t first = part.size() * k / shared, last = part.size() * (k + 1) / shared;
+        seen[k].look(scene, view, part.subspan(first, last - first));
     });
-    together(threads, [&](unsigned k) {
-        for (const std::vector<Placed>& some : placed)
-            for (const Placed& p : some) addRows(p, k);
-    });
+    plane.sum(
+        shared, lastOfAll,
+        [&](std::size_t tile) {
+            return std::ranges::any_of(
+                seen, [&](const CellMemory::Seen& some) { return some.bins.count(tile) > 0; });
+        },
+        [&](std::size_t tile, TileRoom& room) {
+            for (const CellMemory::Seen& some : seen) some.sum(view, tile, room);
+        });
 }
 
 CellSum::CellSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-                 std::span<const float> opaqueDepth, unsigned threads, std::vector<float> memory) {
-    threads = std::max(threads, 1u);
-    const PixelBox box = coveredPixels(scene, view);
-    const std::size_t rowFloats = static_cast<std::size_t>(box.size.x) * floatsPerPixel(channels);
-    memory.assign(rowFloats * static_cast<std::size_t>(box.size.y), 0);
-    const bool all = channels == Channels::Over || channels == Channels::Count;
-    auto cells = candidates(scene, all ? 0 : layer, all ? scene.layers.size() : layer + 1);
-    if (channels == Channels::Over) orderByDepth(scene, view, cells);
-    work_.reset(new Work{.seen{scene, view, channels},
-                         .box = box,
-                         .rowFloats = rowFloats,
-                         .pictureWidth = static_cast<std::size_t>(view.size.x),
-                         .opaqueDepth = opaqueDepth,
-                         .threads = threads,
-                         .plane = std::move(memory),
-                         .cells = std::move(cells),
-                         .placed = std::vector<std::vector<Placed>>(threads)});
+                 std::span<const float> opaqueDepth, unsigned threads, CellMemory memory)
+    : work_(new Work(scene, view, channels, layer, opaqueDepth, threads, std::move(memory))) {
+    if (done()) work_->sum({}, true);  // nothing, which also is to be written
 }
 
 CellSum::CellSum(CellSum&&) noexcept = default;
@@ -295,16 +242,17 @@ std::uint64_t CellSum::add(std::uint64_t cells) {
         const std::span<const CellOfLayer> all(work_->cells);
         const std::uint64_t count =
             std::min({kAtOnce, cells - added, std::uint64_t{all.size() - work_->passed}});
-        work_->sum(all.subspan(work_->passed, count));
+        const std::span<const CellOfLayer> part = all.subspan(work_->passed, count);
         work_->passed += count;
+        work_->sum(part, done());
         added += count;
     }
     return added;
 }
 
 bool CellSum::done() const { return work_->passed == work_->cells.size(); }
-const PixelBox& CellSum::box() const { return work_->box; }
-std::vector<float>& CellSum::plane() { return work_->plane; }
-std::vector<float> CellSum::takeMemory() { return std::move(work_->plane); }
+const PixelBox& CellSum::box() const { return work_->view.box; }
+std::vector<float>& CellSum::plane() { return work_->memory.kept->plane; }
+CellMemory CellSum::takeMemory() { return std::move(work_->memory); }
 
 }  // namespace render

@@ -1,5 +1,5 @@
-// Interval volumes summed on the processor cell by cell, a row of pixels after another, in float:
-// the model of render/model/cell_splat.h.
+// Interval volumes summed on the processor cell by cell, tile by tile, in float: the model of
+// render/model/cell_splat.h.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,29 @@ namespace render {
 // How many cells are looked at for a plane: of all layers for Over and Count, else of `layer`.
 std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer);
 
-// As RowSum (render/splat/row_splatter.h): what one plane of a scene that is drawn by cells adds up
-// to in a view; not a bit depends on calls or threads. Over takes cells in their exact order, the
-// nearest first. What lies behind `opaqueDepth` is left out of each ray.
+// What planes are made in, to be used again. One that was moved from is like a new one.
+class CellMemory {
+ public:
+    CellMemory();
+    CellMemory(CellMemory&&) noexcept;
+    CellMemory& operator=(CellMemory&&) noexcept;
+    ~CellMemory();
+
+ private:
+    friend class CellSum;
+    struct Seen;
+    struct Kept;
+    std::unique_ptr<Kept> kept;
+};
+
+// As TileSum (render/splat/tile_splatter.h): what one plane of a scene that is drawn by cells adds
+// up to in a view; not a bit depends on calls or threads. Over takes cells in their exact order,
+// the nearest first. What lies behind `opaqueDepth` is left out of each ray.
 class CellSum {
  public:
     CellSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
             std::span<const float> opaqueDepth, unsigned threads = sharingThreads(),
-            std::vector<float> memory = {});
+            CellMemory memory = {});
     CellSum(CellSum&&) noexcept;
     ~CellSum();
 
@@ -32,7 +47,7 @@ class CellSum {
     bool done() const;
     const PixelBox& box() const;
     std::vector<float>& plane();
-    std::vector<float> takeMemory();  // the last thing asked for
+    CellMemory takeMemory();  // the last thing asked for
 
  private:
     struct Work;

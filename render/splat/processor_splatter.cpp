@@ -59,8 +59,8 @@ class Frame final : public SplatFrame {
         };
         if (scene_.cells)
             return plane(CellSum(scene_, view, channels, layer, opaqueDepth_, sharingThreads(),
-                                 std::move(memory_.rows)),
-                         memory_.rows);
+                                 std::move(memory_.cells)),
+                         memory_.cells);
         if (TileSum::canSum(scene_, channels))
             return plane(TileSum(scene_, list_, view, channels, layer, opaqueDepth_,
                                  sharingThreads(), std::move(memory_.tiles)),

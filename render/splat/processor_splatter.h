@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "render/splat/cell_splatter.h"
 #include "render/splat/splatter.h"
 #include "render/splat/tile_splatter.h"
 
@@ -18,6 +19,7 @@ class ProcessorSplatter final : public Splatter {
     struct Memory {
         std::vector<float> opaqueDepth, rows;
         TileMemory tiles;
+        CellMemory cells;
     };
 
  private:

@@ -91,38 +91,6 @@ HWY_ATTR void SumTile(const TileView& view, std::span<const std::uint32_t> index
     }
 }
 
-// |ray| times what even splats share, and 1 / |ray / a|^2 of those.
-HWY_ATTR void FillRays(const TileView& view, TileRoom& room) {
-    const Floats lanes;
-    const F steps = hn::ConvertTo(lanes, hn::Iota(Ints(), 0));
-    F most = hn::Zero(lanes);
-    for (int row = 0; row < room.size.y; ++row) {
-        const double y = room.at.y + row + 0.5 - view.centre[1];
-        const F ray0 = f(static_cast<float>(1 + static_cast<double>(view.slope2[1]) * y * y));
-        for (int i = 0; i < kTileStride; i += static_cast<int>(kLanes)) {
-            const F x = hn::Add(f(static_cast<float>(room.at.x + i + 0.5 - view.centre[0])), steps);
-            F factor = hn::Sqrt(hn::MulAdd(hn::Mul(f(view.slope2[0]), x), x, ray0));
-            const auto at = static_cast<std::size_t>(row * kTileStride + i);
-            if (view.even) {
-                F sum = hn::Zero(lanes);
-                for (std::size_t a = 0; a < 3; ++a) {
-                    const auto atY = static_cast<float>(view.axis[a] +
-                                                        y * static_cast<double>(view.perPixelY[a]));
-                    const F ray = hn::Mul(hn::MulAdd(x, f(view.perPixelX[a]), f(atY)),
-                                          f(1 / view.semiAxes[a]));
-                    sum = hn::MulAdd(ray, ray, sum);
-                }
-                const F perRay2 = hn::Div(f(1), sum);
-                hn::StoreU(perRay2, lanes, room.perRay2.data() + at);
-                factor = hn::Mul(factor, hn::Sqrt(perRay2));
-            }
-            hn::StoreU(factor, lanes, room.factor.data() + at);
-            most = hn::Max(most, factor);
-        }
-    }
-    room.largestFactor = hn::GetLane(hn::MaxOfLanes(lanes, most));
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace render
 HWY_AFTER_NAMESPACE();
@@ -130,37 +98,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace render {
 HWY_EXPORT(FindTiles);
-HWY_EXPORT(FillRays);
 HWY_EXPORT(SumTile);
 
 void findTiles(const TileView& view, const SplatList& list, std::size_t first, std::size_t last,
                std::span<TileSpan> spans) {
     HWY_DYNAMIC_DISPATCH(FindTiles)(view, list, first, last, spans);
-}
-
-TileRoom::TileRoom(const TileView& view) {
-    plane = static_cast<std::size_t>(kTileStride * view.tile.y) + 16;
-    sums.resize(plane * floatsPerPixel(view.channels));
-    factor.resize(plane);
-    perRay2.resize(plane);
-    opaque.resize(plane);
-}
-
-void TileRoom::enter(const TileView& view, std::size_t tile, std::span<const float> opaqueDepth,
-                     int pictureWidth) {
-    at = cornerOf(view, tile);
-    size = glm::min(view.tile, view.box.size - at);
-    nearestOpaque = 1;
-    if (!opaqueDepth.empty())
-        for (int row = 0; row < size.y; ++row) {
-            const auto from = opaqueDepth.begin() +
-                              std::ptrdiff_t(view.box.at.y + at.y + row) * pictureWidth +
-                              view.box.at.x + at.x;
-            const auto to = opaque.begin() + row * kTileStride;
-            std::copy_n(from, size.x, to);
-            nearestOpaque = std::min(nearestOpaque, *std::min_element(to, to + size.x));
-        }
-    HWY_DYNAMIC_DISPATCH(FillRays)(view, *this);
 }
 
 void sumTile(const TileView& view, std::span<const std::uint32_t> index,

@@ -7,9 +7,8 @@
 #define RENDER_TILE_PIXELS_INL_H_
 #endif
 
-#include <hwy/contrib/math/math-inl.h>
-
 #include "render/model/footprint.h"
+#include "render/splat/lanes-inl.h"
 #include "render/splat/tile_batch-inl.h"
 #include "render/splat/tile_kernels.h"
 
@@ -17,30 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <class Lanes>
-HWY_INLINE hn::Vec<Lanes> reciprocalRoot(Lanes lanes, hn::Vec<Lanes> x) {
-    const auto half = hn::Mul(x, hn::Set(lanes, 0.5f)), most = hn::Set(lanes, 1.5f);
-    auto r = hn::ApproximateReciprocalSqrt(x);
-    r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, most));
-    if (HWY_TARGET != HWY_AVX3)  // whose first guess has 14 bits, others' 8 or 12
-        r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, most));
-    return r;
-}
-
-// 1 - e^-x. Small: of x in [0, 1/2], by Chebyshev's interpolation of (1 - e^-x) / x, to 1.5e-9.
-template <bool kSmall, class Lanes, class V = hn::Vec<Lanes>>
-HWY_INLINE V opacity(Lanes lanes, V x) {
-    const auto set = [&](double c) HWY_ATTR { return hn::Set(lanes, static_cast<float>(c)); };
-    if constexpr (kSmall) {
-        V p = hn::MulAdd(x, set(-0.0011234042190441439), set(0.008189613631091872));
-        p = hn::MulAdd(p, x, set(-0.041630072831850246));
-        p = hn::MulAdd(p, x, set(0.16666241868658546));
-        p = hn::MulAdd(p, x, set(-0.4999998187742346));
-        return hn::Mul(x, hn::MulAdd(p, x, set(0.999999998742602)));
-    }
-    return hn::Neg(hn::Expm1(lanes, hn::Neg(hn::Min(x, set(80)))));
-}
 
 // What a splat adds to a vector of pixels whose share of it is t, from this place of the sums on.
 template <class Lanes>
@@ -77,9 +52,6 @@ struct AddColor {
     }
 };
 
-// Front to back: what it takes of what comes through is added. Where less than a 10^7th does,
-// nothing does any more. The sum is of what is taken, not what is left of 1, which would lose the
-// faintest.
 template <class Lanes, bool kSmall>
 struct LayUnder {
     Lanes lanes;
@@ -99,15 +71,7 @@ struct LayUnder {
     }
     HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
         const auto x = hn::Mul(hn::Mul(t, depth), hn::LoadU(lanes, factor + at));
-        float* const all = sums + 3 * plane + at;
-        const auto one = hn::Set(lanes, 1.0f), before = hn::LoadU(lanes, all);
-        const auto taken = hn::Mul(hn::Sub(one, before), opacity<kSmall>(lanes, x));
-        for (std::size_t c = 0; c < 3; ++c) {
-            float* const to = sums + c * plane + at;
-            hn::StoreU(hn::MulAdd(taken, color[c], hn::LoadU(lanes, to)), lanes, to);
-        }
-        const auto now = hn::Add(before, taken);
-        hn::StoreU(hn::IfThenElse(hn::Lt(now, hn::Set(lanes, 1 - 1e-7f)), now, one), lanes, all);
+        layUnder<kSmall>(lanes, x, color, sums + at, plane);
     }
 };
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "render/points/grid_indices-inl.h"
+#include "render/splat/lanes-inl.h"
 #include "render/splat/tile_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,16 +21,7 @@ namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of splats, one a lane, and of the pixels of a row; doubles and their indices half as many.
-using Floats = hn::CappedTag<float, 16>;
-using Ints = hn::Rebind<std::int32_t, Floats>;
 using HalfFloats = hn::Rebind<float, Doubles>;
-using FewFloats = hn::CappedTag<float, 8>;  // pixels of narrow splats
-constexpr std::size_t kLanes = hn::MaxLanes(Floats());
-using F = hn::Vec<Floats>;
-using I = hn::Vec<Ints>;
-
-HWY_INLINE F f(float x) { return hn::Set(Floats(), x); }
 HWY_INLINE F joined(const D* halves) {
     return hn::Combine(Floats(), hn::DemoteTo(HalfFloats(), halves[1]),
                        hn::DemoteTo(HalfFloats(), halves[0]));

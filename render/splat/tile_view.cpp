@@ -12,10 +12,6 @@
 namespace render {
 namespace {
 
-std::array<float, 3> floats(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 // The largest view depth of any of the points.
 double farthestDepth(const PlacedPoints& placed, const View& view) {
     double farthest = 0;
@@ -39,20 +35,21 @@ bool sameCells(const PlacedPoints& placed) {
 }  // namespace
 
 TileView::TileView(const Scene& scene, const View& view, Channels of, std::size_t layer)
-    : channels(of), box(coveredPixels(scene, view)) {
+    : TileView(scene, view, PointsView(scene.placed, view), of, layer) {}
+
+TileView::TileView(const Scene& scene, const View& view, const PointsView& seen, Channels of,
+                   std::size_t layer)
+    : TileLayout(scene, view, seen, of) {
     assert(!scene.placed.longCells());
     assert(channels != Channels::Count);
-    // Sums and tables of a tile stay in the first-level cache.
-    tile = {kTileWidth, channels == Channels::Weight ? 48 : 32};
-    tiles = (box.size + tile - 1) / tile;
-    takeGrid(scene, view);
-    takeFootprint(scene, PointsView(scene.placed, view), view);
-    takeTints(scene, layer);
+    takeGrid(scene, seen);
+    takeFootprint(scene, seen, view);
+    if (channels == Channels::Weight)
+        weight *= static_cast<float>(pointsPerSplat(scene.layers[layer], scene.stride));
 }
 
-void TileView::takeGrid(const Scene& scene, const View& view) {
+void TileView::takeGrid(const Scene& scene, const PointsView& seen) {
     const PlacedPoints& placed = scene.placed;
-    const glm::dmat4 viewFrom = placed.inAxes(view).viewFromWorld;
     clips = false;
     for (std::size_t a = 0; a < 3; ++a) {
         const auto at = static_cast<int>(a);
@@ -67,23 +64,11 @@ void TileView::takeGrid(const Scene& scene, const View& view) {
     }
     for (std::size_t column = 0; column < 4; ++column)
         for (std::size_t k = 0; k < 3; ++k)
-            viewFromAxes[column][k] = viewFrom[static_cast<int>(column)][static_cast<int>(k)];
+            viewFromAxes[column][k] =
+                seen.viewFromAxes[static_cast<int>(column)][static_cast<int>(k)];
 }
 
 void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const View& view) {
-    const PixelRays& rays = seen.rays;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const auto at = static_cast<int>(k);
-        focal[k] = rays.focal[at];
-        centre[k] = rays.centre[at] - box.at[at];
-        slope2[k] = static_cast<float>(1 / (focal[k] * focal[k]));
-    }
-    near = static_cast<float>(rays.near);
-    depthA = view.clipFromView[3][2];
-    depthB = -view.clipFromView[2][2];
-    axis = floats(rays.axis);
-    perPixelX = floats(rays.perPixelX);
-    perPixelY = floats(rays.perPixelY);
     const double radius = kQuarticRadius * scene.footprint.size;
     kernel = static_cast<float>(radius);
     least = static_cast<float>(seen.smallestRadius);
@@ -91,7 +76,8 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     const PlacedPoints& placed = scene.placed;
     const glm::dvec3 sides(placed.widths()[0][0], placed.widths()[1][0], placed.widths()[2][0]);
     const double shortest = radius * std::min({sides.x, sides.y, sides.z});
-    semiAxes = floats(radius * sides);
+    for (std::size_t a = 0; a < 3; ++a)
+        semiAxes[a] = static_cast<float>(radius * sides[static_cast<int>(a)]);
     pointSide = scene.footprint.kernel == Kernel::Point ? render::pointSide(scene.footprint) : 0;
     even = pointSide == 0 &&
            (placed.cubes() ||
@@ -101,33 +87,6 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     if (pointSide > 0)
         mass = seen.cellVolume / (seen.unitLength * seen.pixelArea * pointSide * pointSide);
     weight = static_cast<float>(mass);
-}
-
-void TileView::takeTints(const Scene& scene, std::size_t layer) {
-    const auto perSplat = [&](std::size_t k) {
-        return static_cast<float>(pointsPerSplat(scene.layers[k], scene.stride));
-    };
-    if (channels == Channels::Weight) {
-        weight *= perSplat(layer);
-        return;
-    }
-    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
-        const RangeStyle& style = scene.layers[k].style;
-        const float factor =
-            channels == Channels::Over
-                ? perSplat(k) * static_cast<float>(opticalDepthPerWeight(style.opacity))
-                : perSplat(k);
-        const auto add = [&](const glm::vec3& c) { tints.push_back({c.x, c.y, c.z, factor}); };
-        const std::size_t first = tints.size();
-        if (const auto* one = std::get_if<Constant>(&style.color)) {
-            add(glm::vec3(one->linearRgb));
-            add(glm::vec3(one->linearRgb));
-        } else {
-            for (const glm::vec3& entry : std::get<ByValue>(style.color).map.entries()) add(entry);
-        }
-        tintsOf.push_back(
-            {static_cast<float>(first), static_cast<float>(tints.size() - 1 - first)});
-    }
 }
 
 }  // namespace render

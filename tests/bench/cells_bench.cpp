@@ -93,7 +93,7 @@ void cellsBesidePoints(benchmark::State& state) {
         list = std::move(sorted);
     }
     constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
-    std::vector<float> memory;
+    CellMemory memory;
     TileMemory tiles;
     bench::alternate(
         state,

@@ -354,7 +354,7 @@ double redByDepth(const World& world, const View& view, int x, int y) {
                 cell.hi = range.hi;
                 const auto s = cellSplatAt<double>(seen, cell);
                 if (!s.visible) continue;
-                const auto f = fragmentOn<double>(s, at - s.centre, at / seen.rays.focal, 1e9);
+                const auto f = fragmentOn<double>(seen, s, at - s.centre, 1e9);
                 if (f.weight > 0) parts.push_back({inside(ray, box).first, f.weight, k});
             }
     }
@@ -381,6 +381,58 @@ TEST(CellSplatter, CellsHideWhatIsBehindThem) {
                             redByDepth(world, view, x, y), 1e-4)
                     << x << ' ' << y << " from " << from.x;
     }
+}
+
+// A ramp along x has one gradient everywhere: how bright it is depends on the ray alone. Of one
+// colour and one layer, light multiplies what is drawn without.
+TEST(CellSplatter, LightIsThatOfARampsOneGradient) {
+    const auto lean = tests::leaning({1, 0, 0.2}, {0.5, 1, 0}, {-0.3, 0.3, 1});
+    const std::array axes{axis(6), axis(5, 0, 0.7), axis(4)};
+    const auto grid = std::make_shared<const Grid>(axes, timeseries::Frame{lean});
+    World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                {"2.2:3.6"});
+    world.scene.order = Order::BackToFront;
+    const View view = tests::lookFrom({1.1, -2.5, 0.8}, {40, 30});
+    const std::vector<float> dark = drawn(world.scene, view, Channels::Over);
+    // Across the planes x = const of the grid: along the product of the two other axes.
+    const glm::dmat3& m = world.placed.worldFromAxes();
+    const glm::dvec3 normal = glm::normalize(glm::cross(m[1], m[2]));
+    const double perLength =
+        1 / std::abs(world.placed.positions()[0][1] - world.placed.positions()[0][0]) /
+        std::abs(glm::dot(m[0], normal));
+    const double steep = world.scene.cells->halfRange(world.scene.layers[0].cells.candidates, 0.9);
+    const double certainty = perLength / (perLength + 0.2 * steep / world.placed.unitLength());
+    int lit = 0;
+    for (const Light light : {Light::Soft, Light::Full}) {
+        world.scene.light = light;
+        const std::vector<float> is = drawn(world.scene, view, Channels::Over);
+        for (int y = 0; y < 30; ++y)
+            for (int x = 0; x < 40; ++x) {
+                const std::size_t at = 4 * (std::size_t(y) * 40 + std::size_t(x));
+                ASSERT_NEAR(is[at + 3], dark[at + 3], 1e-6);
+                if (dark[at + 3] < 0.01f) continue;
+                ++lit;
+                const Ray ray = rayOf(world, view, {x + 0.5, y + 0.5});
+                const double facing = std::abs(glm::dot(glm::normalize(m * ray.along), normal));
+                const double diffuse = certainty * (0.25 + 0.75 * facing) + (1 - certainty) * 0.625;
+                const double specular =
+                    light == Light::Full ? certainty * 0.35 * std::pow(facing, 30) : 0;
+                ASSERT_NEAR(is[at], double(dark[at]) * diffuse + double(dark[at + 3]) * specular,
+                            2e-4)
+                    << x << ' ' << y;
+            }
+    }
+    EXPECT_GT(lit, 200);
+}
+
+TEST(CellSplatter, APlateauIsLitEvenly) {
+    World world(tests::stepOf(tests::cube(4), [](std::size_t) { return 7.0; }), {"min:max"});
+    world.scene.order = Order::BackToFront;
+    const View view = tests::lookFrom({1.1, -2.5, 0.8}, {40, 30});
+    const std::vector<float> dark = drawn(world.scene, view, Channels::Over);
+    world.scene.light = Light::Full;
+    const std::vector<float> is = drawn(world.scene, view, Channels::Over);
+    for (std::size_t i = 0; i < is.size(); i += 4) ASSERT_NEAR(is[i], 0.625f * dark[i], 1e-5);
 }
 
 // Opaque things cut rays where they stand.

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "timeseries/grid/with_type.h"
@@ -181,10 +182,42 @@ std::vector<Run> CellIndex::select(std::span<const Interval<double>> intervals) 
     return runs;
 }
 
-glm::uvec3 CellIndex::pointAt(const glm::uvec3& cell, unsigned corner) const {
-    const glm::uvec3 points = size_ - 1u;
-    return {neighbour(cell.x, corner & 1, points.x), neighbour(cell.y, corner >> 1 & 1, points.y),
-            neighbour(cell.z, corner >> 2, points.z)};
+double CellIndex::halfRange(std::span<const Run> runs, double share) const {
+    std::vector<std::uint64_t> counts(classes_.size());
+    std::uint64_t all = 0;
+    for (const Run& run : runs)
+        for (std::size_t k = 0; k < classes_.size(); ++k) {
+            const std::uint64_t first = std::max(run.first, classes_[k].first);
+            const std::uint64_t last =
+                std::min(run.first + run.count, classes_[k].first + classes_[k].count);
+            if (first >= last) continue;
+            counts[k] += last - first;
+            all += last - first;
+        }
+    std::vector<std::size_t> order(classes_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t k) { return classes_[k].halfRange; });
+    std::uint64_t passed = 0;
+    for (const std::size_t k : order) {
+        passed += counts[k];
+        if (counts[k] > 0 && static_cast<double>(passed) >= share * static_cast<double>(all))
+            return classes_[k].halfRange;
+    }
+    return 0;
+}
+
+void CellIndex::prefetch(std::uint32_t cell) const {
+    const glm::vec<3, std::uint64_t> points(size_ - 1u);
+    const glm::uvec3 at = indicesOf(cell, size_);
+    std::visit(
+        [&](const auto& values) {
+            for (const unsigned c : {0u, 2u, 4u, 6u}) {
+                asm volatile("");  // or compilers take this for a function without an effect
+                const glm::uvec3 p = pointAt(at, c);
+                __builtin_prefetch(&values[p.x + points.x * (p.y + points.y * p.z)]);
+            }
+        },
+        field_.values);
 }
 
 std::array<double, 8> CellIndex::corners(const glm::uvec3& cell) const {

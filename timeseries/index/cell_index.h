@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -38,14 +39,24 @@ class CellIndex {
     // Places in the list: disjoint, ascending, none empty. They hold every cell that reaches into
     // one of these, and few others. Two binary searches for each class and interval.
     std::vector<Run> select(std::span<const Interval<double>> intervals) const;
+    // Half the range of values in a cell that this share of the cells of these runs has or less, to
+    // half an octave; 0 where there are none.
+    double halfRange(std::span<const Run> runs, double share) const;
     // Its number, of a place in the list.
     std::uint32_t cell(std::uint64_t place) const {
         return static_cast<std::uint32_t>(list_[place]);
     }
     // Corners are numbered x fastest: the point, along the axes, whose value a corner has.
-    glm::uvec3 pointAt(const glm::uvec3& cell, unsigned corner) const;
+    glm::uvec3 pointAt(const glm::uvec3& cell, unsigned corner) const {
+        const glm::uvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::uvec3 up = glm::max(cell + side, glm::uvec3(1)) - 1u;
+        return glm::min(up, size_ - 2u);
+    }
     // Of a cell; NaN where a value is missing or not finite.
     std::array<double, 8> corners(const glm::uvec3& cell) const;
+    // Begins to fetch what corners() of that cell will read: cells of like values lie all over the
+    // field.
+    void prefetch(std::uint32_t cell) const;
     std::uint64_t bytes() const;
 
  private:

@@ -1,0 +1,81 @@
+#include "render/splat/cell_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/splat/cell_kernels.cpp"
+#include <hwy/foreach_target.h>  // the first of these
+//
+#include <hwy/highway.h>
+//
+#include "render/splat/cell_pixels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <Channels kChannels, bool kByValue, bool kLit, class Lanes>
+HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, TileRoom& room) {
+    switch (int{c.crossesLeast} + int{c.crossesMost}) {
+        case 0:
+            return addCell<kChannels, kByValue, kLit, 0>(lanes, view, c, room);
+        case 1:
+            return addCell<kChannels, kByValue, kLit, 1>(lanes, view, c, room);
+        default:
+            return addCell<kChannels, kByValue, kLit, 2>(lanes, view, c, room);
+    }
+}
+
+template <Channels kChannels, bool kByValue, bool kLit>
+HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
+                         std::span<const std::uint32_t> which, TileRoom& room) {
+    for (const std::uint32_t k : which) {
+        const SeenCell& c = cells[k];
+        if (c.columns <= 8)
+            addCell<kChannels, kByValue, kLit>(FewFloats(), view, c, room);
+        else
+            addCell<kChannels, kByValue, kLit>(Floats(), view, c, room);
+    }
+}
+
+HWY_ATTR void SumCells(const CellView& view, std::span<const SeenCell> cells,
+                       std::span<const std::uint32_t> which, TileRoom& room) {
+    const auto add = [&]<Channels kChannels>() HWY_ATTR {
+        if (view.byValue)
+            addCells<kChannels, true, false>(view, cells, which, room);
+        else
+            addCells<kChannels, false, false>(view, cells, which, room);
+    };
+    switch (view.channels) {
+        case Channels::Weight:
+            return addCells<Channels::Weight, false, false>(view, cells, which, room);
+        case Channels::Count:
+            return addCells<Channels::Count, false, false>(view, cells, which, room);
+        case Channels::WeightedColor:
+            return add.template operator()<Channels::WeightedColor>();
+        case Channels::Over:
+            break;
+    }
+    if (view.light == Light::Off) return add.template operator()<Channels::Over>();
+    if (view.byValue)
+        addCells<Channels::Over, true, true>(view, cells, which, room);
+    else
+        addCells<Channels::Over, false, true>(view, cells, which, room);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace render {
+HWY_EXPORT(SumCells);
+
+void sumCells(const CellView& view, std::span<const SeenCell> cells,
+              std::span<const std::uint32_t> which, TileRoom& room) {
+    HWY_DYNAMIC_DISPATCH(SumCells)(view, cells, which, room);
+}
+}  // namespace render
+#endif

@@ -1,0 +1,319 @@
+// What a cell adds to the pixels of a tile. Compiled once for each of Highway's targets, so not
+// guarded as other headers are.
+#if defined(RENDER_CELL_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_CELL_PIXELS_INL_H_
+#undef RENDER_CELL_PIXELS_INL_H_
+#else
+#define RENDER_CELL_PIXELS_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "render/splat/cell_view.h"
+#include "render/splat/lanes-inl.h"
+#include "render/splat/tile_room.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// What rays of a vector of pixels have in a cell, in its units. Names as in fragmentOn().
+template <class Lanes>
+struct RayParts {
+    using V = hn::Vec<Lanes>;
+    V from, to, depth;
+    V middle[3], along[3], mixed[3], gradient[3], value;
+};
+
+// A cell's numbers, the same in every lane.
+template <class Lanes>
+struct CellLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    V base, from, at[3], ray[3], x[3], y[3], f[8];
+    CellLanes(Lanes l, const CellView& view, const SeenCell& c)
+        : lanes(l), base(hn::Set(l, c.base)), from(hn::Set(l, view.near - c.base)) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            at[a] = hn::Set(l, c.at[a]);
+            ray[a] = hn::Set(l, c.ray[a]);
+            x[a] = hn::Set(l, view.perPixelX[a] * c.perSize[a]);
+            y[a] = hn::Set(l, view.perPixelY[a] * c.perSize[a]);
+        }
+        for (std::size_t k = 0; k < 8; ++k) f[k] = hn::Set(l, c.f[k]);
+    }
+
+    // Where rays at these offsets are inside.
+    HWY_INLINE void meet(V ox, V oy, V to, RayParts<Lanes>& r) const {
+        const V least = hn::Set(lanes, static_cast<float>(kLeastStep));
+        const V half = hn::Set(lanes, 0.5f);
+        r.from = from;
+        r.to = to;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const V shift = hn::MulAdd(ox, x[a], hn::Mul(oy, y[a]));
+            r.middle[a] = hn::MulAdd(base, shift, at[a]);  // of the ray at the base, as yet
+            r.along[a] = hn::Add(ray[a], shift);
+            const V step = hn::CopySign(hn::Max(hn::Abs(r.along[a]), least), r.along[a]);
+            const V per = reciprocal(lanes, step);
+            const V centre = hn::Neg(hn::Mul(r.middle[a], per)), way = hn::Mul(half, hn::Abs(per));
+            r.from = hn::Max(r.from, hn::Sub(centre, way));
+            r.to = hn::Min(r.to, hn::Add(centre, way));
+        }
+    }
+    // The field half way through, and how it changes there.
+    HWY_INLINE void lookHalfWay(RayParts<Lanes>& r) const {
+        r.depth = hn::Mul(hn::Set(lanes, 0.5f), hn::Add(r.from, r.to));
+        for (std::size_t a = 0; a < 3; ++a)
+            r.middle[a] = hn::MulAdd(r.depth, r.along[a], r.middle[a]);
+        const V* m = r.middle;
+        for (std::size_t a = 0; a < 3; ++a) r.mixed[a] = hn::MulAdd(f[7], m[a], f[6 - a]);
+        r.gradient[0] = hn::MulAdd(r.mixed[2], m[1], hn::MulAdd(f[5], m[2], f[1]));
+        r.gradient[1] = hn::MulAdd(r.mixed[2], m[0], hn::MulAdd(f[6], m[2], f[2]));
+        r.gradient[2] = hn::MulAdd(r.mixed[1], m[0], hn::MulAdd(f[6], m[1], f[3]));
+        const V slice =
+            hn::MulAdd(m[1], hn::MulAdd(f[4], m[0], f[2]), hn::MulAdd(f[1], m[0], f[0]));
+        r.value = hn::MulAdd(m[2], r.gradient[2], slice);
+    }
+    HWY_INLINE V dot(const V* a, const V* b) const {
+        return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
+    }
+};
+
+// How much of each piece of a ray lies in a cell's range, and what values are there.
+template <class Lanes>
+struct RangeLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    V end[2], least, most;
+    // Of a range with one end in the cell, its share is sign * mean + offset.
+    V sign, offset;
+    RangeLanes(Lanes l, const SeenCell& c) : lanes(l) {
+        const bool first = c.crossesLeast;
+        end[0] = hn::Set(l, first ? c.least : c.most);
+        end[1] = hn::Set(l, c.most);
+        sign = hn::Set(l, first ? 1.0f : -1.0f);
+        offset = hn::Set(l, first ? 0.0f : 1.0f);
+        least = hn::Set(l, c.crossesLeast ? c.least : -1e30f);
+        most = hn::Set(l, c.crossesMost ? c.most : 1e30f);
+    }
+    HWY_INLINE V within(V value) const { return hn::Min(hn::Max(value, least), most); }
+
+    // Of the two pieces between three values, along which ramps have this width's reciprocal.
+    template <int kEnds>
+    HWY_INLINE void shares(const V* values, V perWidth, V* share) const {
+        const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f), zero = hn::Zero(lanes);
+        V means[2][2];
+        for (int e = 0; e < kEnds; ++e) {
+            V a[3], clamped[3], above[3];
+            for (int k = 0; k < 3; ++k) {
+                a[k] = hn::MulAdd(hn::Sub(values[k], end[e]), perWidth, half);
+                above[k] = hn::Max(a[k], one);
+                clamped[k] = hn::Min(hn::Max(a[k], zero), one);
+            }
+            for (int k = 0; k < 2; ++k) {
+                const V between = hn::Sub(a[k + 1], a[k]);
+                const V both = hn::Mul(half, hn::Add(clamped[k], clamped[k + 1]));
+                const V sum = hn::MulAdd(hn::Sub(clamped[k + 1], clamped[k]), both,
+                                         hn::Sub(above[k + 1], above[k]));
+                const V step = hn::Set(lanes, static_cast<float>(kLeastStep));
+                const auto differ = hn::Ge(hn::Abs(between), step);
+                const V per = reciprocal(lanes, hn::IfThenElse(differ, between, one));
+                means[e][k] = hn::IfThenElse(differ, hn::Mul(sum, per), both);
+            }
+        }
+        for (int k = 0; k < 2; ++k)
+            share[k] = kEnds == 2 ? hn::Max(hn::Sub(means[0][k], means[1][k]), zero)
+                                  : hn::Max(hn::MulAdd(sign, means[0][k], offset), zero);
+    }
+};
+
+// What light makes of a colour. At the pixels that begin at `at`, whose rays are `factor` times as
+// long as the view axis'.
+template <class Lanes>
+struct LightLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    V perSize[3], metric[6], steep, perUnit;
+    Light light;
+    LightLanes(Lanes l, const CellView& view, const SeenCell& c)
+        : lanes(l),
+          steep(hn::Set(l, c.steep)),
+          perUnit(hn::Set(l, 1 / view.rayLength)),
+          light(view.light) {
+        for (std::size_t a = 0; a < 3; ++a) perSize[a] = hn::Set(l, c.perSize[a]);
+        for (std::size_t k = 0; k < 6; ++k) metric[k] = hn::Set(l, view.metric[k]);
+    }
+    HWY_INLINE void shade(const RayParts<Lanes>& r, V change, V factor, V& diffuse,
+                          V& specular) const {
+        const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
+        V g[3];
+        for (std::size_t a = 0; a < 3; ++a) g[a] = hn::Mul(r.gradient[a], perSize[a]);
+        V g2 = hn::Mul(hn::Mul(metric[0], g[0]), g[0]);
+        g2 = hn::MulAdd(hn::Mul(metric[1], g[1]), g[1], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[2], g[2]), g[2], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[3], g[0]), g[1], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[4], g[0]), g[2], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[5], g[1]), g[2], g2);
+        const V per = reciprocalRoot(lanes, hn::Max(g2, tiny));
+        const V certainty = reciprocal(lanes, hn::MulAdd(steep, per, one));
+        const V facing = hn::Min(one, hn::Mul(hn::Mul(hn::Abs(change), per),
+                                              hn::Mul(perUnit, reciprocal(lanes, factor))));
+        const V ambient = hn::Set(lanes, static_cast<float>(kAmbient));
+        const V rest = hn::Set(lanes, static_cast<float>(1 - kAmbient));
+        const V even = hn::Set(lanes, static_cast<float>(kEven));
+        diffuse = hn::MulAdd(certainty, hn::Sub(hn::MulAdd(rest, facing, ambient), even), even);
+        specular = hn::Zero(lanes);
+        if (light == Light::Soft) return;
+        const V f2 = hn::Mul(facing, facing), f4 = hn::Mul(f2, f2), f8 = hn::Mul(f4, f4);
+        const V f30 = hn::Mul(hn::Mul(hn::Mul(f8, f8), f8), hn::Mul(f4, f2));
+        specular = hn::Mul(hn::Mul(certainty, hn::Set(lanes, static_cast<float>(kSpecular))), f30);
+    }
+};
+
+// Linear colours of a vector of values: of a layer's map, or one for all.
+template <bool kByValue, class Lanes>
+struct ColorLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    const float* table;
+    V place, perValue, first, last, lastWhole;
+    V color[3];
+    float weight;
+    ColorLanes(Lanes l, const CellView& view, const SeenCell& c)
+        : lanes(l),
+          table(view.tints[0].data()),
+          place(hn::Set(l, c.tint)),
+          perValue(hn::Set(l, c.tintPerValue)),
+          first(hn::Set(l, c.firstTint)),
+          last(hn::Set(l, c.lastTint)),
+          lastWhole(hn::Set(l, c.lastTint - 1)),
+          weight(view.tints[static_cast<std::size_t>(c.firstTint)][3]) {
+        const auto& one = view.tints[static_cast<std::size_t>(c.firstTint)];
+        for (std::size_t k = 0; k < 3; ++k) color[k] = hn::Set(l, one[k]);
+    }
+    HWY_INLINE void of(V value, V* is) const {
+        if constexpr (!kByValue) {
+            std::copy_n(color, 3, is);
+        } else {
+            const V at = hn::Min(hn::Max(hn::MulAdd(value, perValue, place), first), last);
+            const V below = hn::Min(hn::Floor(at), lastWhole), share = hn::Sub(at, below);
+            const auto entry = hn::ShiftLeft<2>(hn::ConvertTo(hn::RebindToSigned<Lanes>(), below));
+            for (int k = 0; k < 3; ++k) {
+                const V low = hn::GatherIndex(lanes, table + k, entry);
+                const V high = hn::GatherIndex(lanes, table + k + 4, entry);
+                is[k] = hn::MulAdd(share, hn::Sub(high, low), low);
+            }
+        }
+    }
+};
+
+template <Channels kChannels, bool kByValue, bool kLit, int kEnds, class Lanes>
+HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, TileRoom& room) {
+    using V = hn::Vec<Lanes>;
+    constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
+    constexpr int kStep = static_cast<int>(hn::MaxLanes(Lanes()));
+    const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
+    const glm::ivec2 most =
+        glm::min(glm::ivec2(c.x + c.columns, c.y + c.rows), room.at + room.size);
+    const CellLanes<Lanes> cell(lanes, view, c);
+    const RangeLanes<Lanes> range(lanes, c);
+    [[maybe_unused]] const auto color = [&] {
+        if constexpr (kColors)
+            return ColorLanes<kByValue, Lanes>(lanes, view, c);
+        else
+            return 0;
+    }();
+    [[maybe_unused]] const LightLanes<Lanes> light(lanes, view, c);
+    float scale = view.weight;
+    if constexpr (kColors) scale *= color.weight;
+    const V weight = hn::Set(lanes, scale), zero = hn::Zero(lanes);
+    const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f);
+    const V far = hn::Set(lanes, 3e38f);
+    const bool hides = room.nearestOpaque < 1;
+    const V depthA = hn::Set(lanes, static_cast<float>(view.depthA));
+    const V depthB = hn::Set(lanes, static_cast<float>(view.depthB));
+    const V steps = hn::ConvertTo(lanes, hn::Iota(hn::RebindToSigned<Lanes>(), 0));
+    RayParts<Lanes> r;
+    for (int x = least.x; x < most.x; x += kStep) {
+        const V ox = hn::Add(hn::Set(lanes, c.ox + static_cast<float>(x - c.x)), steps);
+        for (int y = least.y; y < most.y; ++y) {
+            const auto at = static_cast<std::size_t>((y - room.at.y) * kTileStride + x - room.at.x);
+            const V oy = hn::Set(lanes, c.oy + static_cast<float>(y - c.y));
+            V to = far;
+            if (hides) {
+                const V opaque = hn::LoadU(lanes, room.opaque.data() + at);
+                to = hn::Sub(hn::Div(depthA, hn::Sub(opaque, depthB)), cell.base);
+            }
+            cell.meet(ox, oy, to, r);
+            const auto inside = hn::Gt(r.to, r.from);
+            if (hn::AllFalse(lanes, inside)) continue;
+            V t = hn::Mul(weight, hn::Sub(r.to, r.from)), value = zero;
+            V change = zero;  // of the field along the ray
+            if constexpr (kEnds > 0 || kByValue || kLit) {
+                cell.lookHalfWay(r);
+                value = r.value;
+                change = cell.dot(r.gradient, r.along);
+            }
+            if constexpr (kEnds > 0) {
+                const V* d = r.along;
+                const V second = hn::MulAdd(
+                    hn::Mul(d[0], d[1]), r.mixed[2],
+                    hn::Mul(d[2], hn::MulAdd(d[0], r.mixed[1], hn::Mul(d[1], r.mixed[0]))));
+                const V third = hn::Mul(hn::Mul(hn::Mul(d[0], d[1]), d[2]), cell.f[7]);
+                const V way = hn::Mul(half, hn::Sub(r.to, r.from)), way2 = hn::Mul(way, way);
+                const V even = hn::MulAdd(way2, second, r.value);
+                const V odd = hn::Mul(way, hn::MulAdd(way2, third, change));
+                const V values[3] = {hn::Sub(even, odd), r.value, hn::Add(even, odd)};
+                const V width = hn::Max(hn::Mul(hn::Add(cell.base, r.depth),
+                                                hn::Add(hn::Abs(cell.dot(r.gradient, cell.x)),
+                                                        hn::Abs(cell.dot(r.gradient, cell.y)))),
+                                        hn::Set(lanes, static_cast<float>(2 * kLeastChange)));
+                V share[2];
+                range.template shares<kEnds>(values, reciprocal(lanes, width), share);
+                const V both = hn::Add(share[0], share[1]);
+                t = hn::Mul(t, hn::Mul(half, both));
+                if constexpr (kByValue) {
+                    const V first = range.within(values[0]), mid = range.within(values[1]);
+                    const V last = range.within(values[2]);
+                    const V sum = hn::MulAdd(share[0], hn::Add(first, mid),
+                                             hn::Mul(share[1], hn::Add(mid, last)));
+                    const V per =
+                        reciprocal(lanes, hn::Max(hn::Add(both, both), hn::Set(lanes, 1e-30f)));
+                    value = hn::Mul(sum, per);
+                }
+            }
+            t = hn::IfThenElseZero(inside, t);
+            float* const sums = room.sums.data() + at;
+            if constexpr (kChannels == Channels::Weight) {
+                hn::StoreU(hn::Add(t, hn::LoadU(lanes, sums)), lanes, sums);
+            } else if constexpr (kChannels == Channels::Count) {
+                const V counted = hn::IfThenElseZero(hn::Gt(t, zero), one);
+                hn::StoreU(hn::Add(counted, hn::LoadU(lanes, sums)), lanes, sums);
+            } else {
+                V colors[3];
+                color.of(value, colors);
+                if constexpr (kChannels == Channels::WeightedColor) {
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        float* const sum = sums + k * room.plane;
+                        const V share = k < 3 ? hn::Mul(t, colors[k]) : t;
+                        hn::StoreU(hn::Add(share, hn::LoadU(lanes, sum)), lanes, sum);
+                    }
+                } else {
+                    const V factor = hn::LoadU(lanes, room.factor.data() + at);
+                    if constexpr (kLit) {
+                        V diffuse, specular;
+                        light.shade(r, change, factor, diffuse, specular);
+                        for (V& of : colors) of = hn::MulAdd(of, diffuse, specular);
+                    }
+                    layUnder<false>(lanes, hn::Mul(t, factor), colors, sums, room.plane);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,50 @@
+// A scene of cells in one view, and one of its cells there, as the kernels of cell_kernels.h take
+// them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "render/model/cell_splat.h"
+#include "render/model/light.h"
+#include "render/splat/tile_layout.h"
+
+namespace render {
+
+// The placed points must outlive it.
+struct CellView : TileLayout {
+    CellView(const Scene& scene, const View& view, Channels channels);
+
+    PointsView seen;
+    float weight;     // W of a unit of depth along the view axis
+    float rayLength;  // of a unit of depth there, in the world
+    Light light;      // Off, but for Over
+    double steep;     // what gradients are measured against, of the field a length of the world
+    bool byValue;     // some layer's colours are
+    // A gradient's square in the world is metric[0..2] of the squares of what it is along the axes
+    // and metric[3..5] of their products xy, xz, yz.
+    std::array<float, 6> metric;
+
+ private:
+    CellView(const PointsView& seen, const Scene& scene, const View& view, Channels channels);
+};
+
+// A CellSplat in a picture.
+struct SeenCell {
+    float base = 0;
+    float ox = 0, oy = 0;  // of its first pixel's centre from its own
+    std::array<float, 3> at{}, ray{}, perSize{};
+    std::array<float, 8> f{};
+    float least = 0, most = 0;
+    bool crossesLeast = false, crossesMost = false;
+    float tint = 0, tintPerValue = 0;  // place among the tints where f = 0, and what f adds to it
+    float firstTint = 0, lastTint = 0;
+    float steep = 0;  // CellView::steep as the gradient of f
+    // In the layout's box; none where the view does not see it.
+    std::int32_t x = 0, y = 0, columns = 0, rows = 0;
+};
+
+SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t layer,
+                  const RangeStyle& style);
+
+}  // namespace render

@@ -1,0 +1,84 @@
+// Vectors of floats and what is computed with them, for splats and cells. Compiled once for each of
+// Highway's targets, so not guarded as other headers are.
+#if defined(RENDER_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_LANES_INL_H_
+#undef RENDER_LANES_INL_H_
+#else
+#define RENDER_LANES_INL_H_
+#endif
+
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Of splats, one a lane, and of the pixels of a row; doubles and their indices half as many.
+using Floats = hn::CappedTag<float, 16>;
+using Ints = hn::Rebind<std::int32_t, Floats>;
+using FewFloats = hn::CappedTag<float, 8>;  // pixels of narrow splats
+constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+using F = hn::Vec<Floats>;
+using I = hn::Vec<Ints>;
+
+HWY_INLINE F f(float x) { return hn::Set(Floats(), x); }
+
+// AVX3's first guess has 14 bits, others' 8 or 12.
+template <class Lanes>
+HWY_INLINE hn::Vec<Lanes> reciprocal(Lanes lanes, hn::Vec<Lanes> x) {
+    const auto two = hn::Set(lanes, 2.0f);
+    auto r = hn::ApproximateReciprocal(x);
+    r = hn::Mul(r, hn::NegMulAdd(x, r, two));
+    if (HWY_TARGET != HWY_AVX3) r = hn::Mul(r, hn::NegMulAdd(x, r, two));
+    return r;
+}
+template <class Lanes>
+HWY_INLINE hn::Vec<Lanes> reciprocalRoot(Lanes lanes, hn::Vec<Lanes> x) {
+    const auto half = hn::Mul(x, hn::Set(lanes, 0.5f)), most = hn::Set(lanes, 1.5f);
+    auto r = hn::ApproximateReciprocalSqrt(x);
+    r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, most));
+    if (HWY_TARGET != HWY_AVX3) r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, most));
+    return r;
+}
+
+// 1 - e^-x. Small: of x in [0, 1/2], by Chebyshev's interpolation of (1 - e^-x) / x, to 1.5e-9.
+template <bool kSmall, class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V opacity(Lanes lanes, V x) {
+    const auto set = [&](double c) HWY_ATTR { return hn::Set(lanes, static_cast<float>(c)); };
+    if constexpr (kSmall) {
+        V p = hn::MulAdd(x, set(-0.0011234042190441439), set(0.008189613631091872));
+        p = hn::MulAdd(p, x, set(-0.041630072831850246));
+        p = hn::MulAdd(p, x, set(0.16666241868658546));
+        p = hn::MulAdd(p, x, set(-0.4999998187742346));
+        return hn::Mul(x, hn::MulAdd(p, x, set(0.999999998742602)));
+    }
+    return hn::Neg(hn::Expm1(lanes, hn::Neg(hn::Min(x, set(80)))));
+}
+
+// Front to back: of what comes through, a layer of optical depth x takes its share, and what it has
+// of each colour is added to what stands at `sums` and `plane` floats on. Where less than a 10^7th
+// comes through, nothing does any more. The sum is of what is taken, not what is left of 1, which
+// would lose the faintest.
+template <bool kSmall, class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE void layUnder(Lanes lanes, V x, const V* color, float* sums, std::size_t plane) {
+    float* const all = sums + 3 * plane;
+    const auto one = hn::Set(lanes, 1.0f), before = hn::LoadU(lanes, all);
+    const auto taken = hn::Mul(hn::Sub(one, before), opacity<kSmall>(lanes, x));
+    for (std::size_t c = 0; c < 3; ++c) {
+        float* const to = sums + c * plane;
+        hn::StoreU(hn::MulAdd(taken, color[c], hn::LoadU(lanes, to)), lanes, to);
+    }
+    const auto now = hn::Add(before, taken);
+    hn::StoreU(hn::IfThenElse(hn::Lt(now, hn::Set(lanes, 1 - 1e-7f)), now, one), lanes, all);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#endif

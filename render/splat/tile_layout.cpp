@@ -1,0 +1,53 @@
+#include "render/splat/tile_layout.h"
+
+namespace render {
+namespace {
+
+std::array<float, 3> floats(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+}  // namespace
+
+TileLayout::TileLayout(const Scene& scene, const View& view, const PointsView& seen, Channels of)
+    : channels(of), box(coveredPixels(scene, view)) {
+    // Sums and tables of a tile stay in the first-level cache.
+    tile = {kTileWidth, floatsPerPixel(channels) == 1 ? 48 : 32};
+    tiles = (box.size + tile - 1) / tile;
+    const PixelRays& rays = seen.rays;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto at = static_cast<int>(k);
+        focal[k] = rays.focal[at];
+        centre[k] = rays.centre[at] - box.at[at];
+        slope2[k] = static_cast<float>(1 / (focal[k] * focal[k]));
+    }
+    near = static_cast<float>(rays.near);
+    depthA = view.clipFromView[3][2];
+    depthB = -view.clipFromView[2][2];
+    axis = floats(rays.axis);
+    perPixelX = floats(rays.perPixelX);
+    perPixelY = floats(rays.perPixelY);
+    if (floatsPerPixel(channels) > 1) takeTints(scene);
+}
+
+void TileLayout::takeTints(const Scene& scene) {
+    for (const Layer& layer : scene.layers) {
+        const RangeStyle& style = layer.style;
+        double factor = scene.cells ? 1 : pointsPerSplat(layer, scene.stride);
+        if (channels == Channels::Over) factor *= opticalDepthPerWeight(style.opacity);
+        const auto add = [&](const glm::vec3& c) {
+            tints.push_back({c.x, c.y, c.z, static_cast<float>(factor)});
+        };
+        const std::size_t first = tints.size();
+        if (const auto* one = std::get_if<Constant>(&style.color)) {
+            add(glm::vec3(one->linearRgb));
+            add(glm::vec3(one->linearRgb));
+        } else {
+            for (const glm::vec3& entry : std::get<ByValue>(style.color).map.entries()) add(entry);
+        }
+        tintsOf.push_back(
+            {static_cast<float>(first), static_cast<float>(tints.size() - 1 - first)});
+    }
+}
+
+}  // namespace render

@@ -1,0 +1,61 @@
+// A picture cut into tiles, and the rays of its pixels, as the kernels of tile_kernels.h and
+// cell_kernels.h take them: plain numbers in the types that they compute in.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "render/model/covered.h"
+#include "render/model/footprint.h"
+#include "render/model/scene.h"
+
+namespace render {
+
+constexpr int kTileWidth = 64;
+
+// Tiles are numbered row by row from the lower left corner of `box`.
+struct TileLayout {
+    TileLayout(const Scene& scene, const View& view, const PointsView& seen, Channels channels);
+
+    Channels channels;
+    PixelBox box;
+    glm::ivec2 tile, tiles;  // size of one, and how many along each side
+    // The projection. Window positions are counted from the box's corner; the depth in the depth
+    // buffer is depthA / z + depthB.
+    std::array<double, 2> focal, centre;
+    float near;
+    double depthA, depthB;
+    // Rays in axis coordinates, and the squares of a pixel's x / -z and y / -z.
+    std::array<float, 3> axis, perPixelX, perPixelY;
+    std::array<float, 2> slope2;
+    // All splats have these semi-axes, or those of cubes as `least` makes them: |ray / a| depends
+    // on the pixel alone then.
+    bool even = false;
+    std::array<float, 3> semiAxes{};
+    // Linear colours, and what a splat's W is multiplied by: the tints of all layers. Empty for
+    // Weight and Count.
+    std::vector<std::array<float, 4>> tints;
+    // A layer's tints are [first, first + span], at places between them interpolated.
+    struct Tints {
+        float first, span;
+    };
+    std::vector<Tints> tintsOf;
+
+    std::size_t count() const {
+        return static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
+    }
+
+ private:
+    void takeTints(const Scene& scene);
+};
+
+// Of a tile, in the box.
+inline glm::ivec2 cornerOf(const TileLayout& layout, std::size_t tile) {
+    return glm::ivec2(static_cast<int>(tile) % layout.tiles.x,
+                      static_cast<int>(tile) / layout.tiles.x) *
+           layout.tile;
+}
+
+}  // namespace render

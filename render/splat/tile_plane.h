@@ -1,0 +1,59 @@
+// One plane of a picture, summed a tile after another, in as many goes as one likes.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/splat/tile_layout.h"
+#include "render/splat/tile_room.h"
+#include "render/together.h"
+
+namespace render {
+
+class TilePlane {
+ public:
+    // `opaqueDepth` is the picture's, a pixel each, or none. `plane` is where sums stand between
+    // goes, and when all is done the result: [y][x][channel] of the layout's box. The layout and
+    // both of these must outlive this.
+    TilePlane(const TileLayout& layout, std::span<const float> opaqueDepth, int pictureWidth,
+              unsigned threads, std::vector<float>& plane);
+
+    // Calls add(tile, room) for every tile that holds(tile), on so many threads, a tile on one. The
+    // last go of all also writes those that nothing has touched.
+    template <typename Holds, typename Add>
+    void sum(unsigned threads, bool lastOfAll, const Holds& holds, const Add& add) {
+        std::atomic<std::size_t> next{0};
+        together(threads, [&](unsigned k) {
+            for (std::size_t tile; (tile = next++) < begun_.size();) {
+                const bool held = holds(tile);
+                if (!held && !lastOfAll) continue;
+                if (!held && begun_[tile] == 0) {
+                    clear(tile);
+                    continue;
+                }
+                load(tile, rooms_[k]);
+                add(tile, rooms_[k]);
+                store(rooms_[k], lastOfAll);
+            }
+        });
+    }
+
+ private:
+    void clear(std::size_t tile);
+    void load(std::size_t tile, TileRoom& room);
+    void store(const TileRoom& room, bool lastOfAll);
+    float* rowOf(glm::ivec2 tileAt, int row);
+
+    const TileLayout& layout_;
+    std::span<const float> opaqueDepth_;
+    int pictureWidth_;
+    std::vector<float>& plane_;
+    std::size_t floats_;
+    std::vector<TileRoom> rooms_;
+    std::vector<std::uint8_t> begun_;  // tiles
+};
+
+}  // namespace render

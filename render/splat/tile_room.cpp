@@ -1,0 +1,85 @@
+#include "render/splat/tile_room.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/splat/tile_room.cpp"
+#include <hwy/foreach_target.h>  // the first of these
+//
+#include <hwy/highway.h>
+//
+#include "render/splat/tile_points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// |ray| times what even splats share, and 1 / |ray / a|^2 of those.
+HWY_ATTR void FillRays(const TileLayout& layout, TileRoom& room) {
+    const Floats lanes;
+    const F steps = hn::ConvertTo(lanes, hn::Iota(Ints(), 0));
+    F most = hn::Zero(lanes);
+    for (int row = 0; row < room.size.y; ++row) {
+        const double y = room.at.y + row + 0.5 - layout.centre[1];
+        const F ray0 = f(static_cast<float>(1 + static_cast<double>(layout.slope2[1]) * y * y));
+        for (int i = 0; i < kTileStride; i += static_cast<int>(kLanes)) {
+            const F x =
+                hn::Add(f(static_cast<float>(room.at.x + i + 0.5 - layout.centre[0])), steps);
+            F factor = hn::Sqrt(hn::MulAdd(hn::Mul(f(layout.slope2[0]), x), x, ray0));
+            const auto at = static_cast<std::size_t>(row * kTileStride + i);
+            if (layout.even) {
+                F sum = hn::Zero(lanes);
+                for (std::size_t a = 0; a < 3; ++a) {
+                    const auto atY = static_cast<float>(
+                        layout.axis[a] + y * static_cast<double>(layout.perPixelY[a]));
+                    const F ray = hn::Mul(hn::MulAdd(x, f(layout.perPixelX[a]), f(atY)),
+                                          f(1 / layout.semiAxes[a]));
+                    sum = hn::MulAdd(ray, ray, sum);
+                }
+                const F perRay2 = hn::Div(f(1), sum);
+                hn::StoreU(perRay2, lanes, room.perRay2.data() + at);
+                factor = hn::Mul(factor, hn::Sqrt(perRay2));
+            }
+            hn::StoreU(factor, lanes, room.factor.data() + at);
+            most = hn::Max(most, factor);
+        }
+    }
+    room.largestFactor = hn::GetLane(hn::MaxOfLanes(lanes, most));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace render {
+HWY_EXPORT(FillRays);
+
+TileRoom::TileRoom(const TileLayout& layout) {
+    plane = static_cast<std::size_t>(kTileStride * layout.tile.y) + 16;
+    sums.resize(plane * floatsPerPixel(layout.channels));
+    factor.resize(plane);
+    perRay2.resize(plane);
+    opaque.resize(plane);
+}
+
+void TileRoom::enter(const TileLayout& layout, std::size_t tile, std::span<const float> opaqueDepth,
+                     int pictureWidth) {
+    at = cornerOf(layout, tile);
+    size = glm::min(layout.tile, layout.box.size - at);
+    nearestOpaque = 1;
+    if (!opaqueDepth.empty())
+        for (int row = 0; row < size.y; ++row) {
+            const auto from = opaqueDepth.begin() +
+                              std::ptrdiff_t(layout.box.at.y + at.y + row) * pictureWidth +
+                              layout.box.at.x + at.x;
+            const auto to = opaque.begin() + row * kTileStride;
+            std::copy_n(from, size.x, to);
+            nearestOpaque = std::min(nearestOpaque, *std::min_element(to, to + size.x));
+        }
+    HWY_DYNAMIC_DISPATCH(FillRays)(layout, *this);
+}
+
+}  // namespace render
+#endif
