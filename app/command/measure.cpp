@@ -111,12 +111,12 @@ int measureModes(const MeasureOptions& options) {
                     {.views = options.views, .frames = options.frames, .raysAcross = options.rays},
                     [&](double share) { progress.drawn(share); });
     }
-    if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
-    if (!options.svg.empty()) writeWhole(options.svg, tradePlot(modes, subject.title()));
     if (options.json)
         say("{}\n", jsonText(json(subject, modes), 2));
     else
         print(subject, modes);
+    if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
+    if (!options.svg.empty()) writeWhole(options.svg, tradePlot(modes, subject.title()));
     return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/measure/report.h"
+#include "render/annotate/utf8.h"
 
 namespace app {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kMark = 5;
 
 std::string escaped(std::string_view text) {
     std::string out;
-    for (const char c : text) switch (c) {
+    for (const char c : render::wellFormed(text)) switch (c) {
             case '&':
                 out += "&amp;";
                 break;

@@ -52,8 +52,8 @@ TEST(TradePlot, IsLogarithmicInBoth) {
 }
 
 TEST(TradePlot, EscapesText) {
-    const std::string svg = tradePlot(std::vector{at(1, 1)}, "a<b> & \"c\"\x01");
-    EXPECT_THAT(svg, HasSubstr("a&lt;b&gt; &amp; &quot;c&quot; <"));
+    const std::string svg = tradePlot(std::vector{at(1, 1)}, "a<b> & \"c\"\x01 \xb0");
+    EXPECT_THAT(svg, HasSubstr("a&lt;b&gt; &amp; &quot;c&quot;  \ufffd<"));  // a Latin-1 degree
     EXPECT_EQ(count(svg, "<svg"), count(svg, "</svg>"));
     EXPECT_EQ(count(svg, "<text"), count(svg, "</text>"));
     EXPECT_EQ(count(svg, "<g>"), count(svg, "</g>"));
