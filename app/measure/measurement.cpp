@@ -105,27 +105,24 @@ class Bench {
         return secondsSince(start);
     }
 
-    // Times it; what it shows is in the second.
-    std::pair<Measured, Views> draw(const Mode& mode) {
-        Measured out;
-        out.mode = mode;
-        const render::Scene scene = sceneOf(mode);
-        for (const render::Layer& layer : scene.layers)
-            out.drawn += static_cast<double>(drawnCount(scene, layer));
+    Views draw(const render::Scene& scene) {
         Views shown(explorer_.size, views_.size());
-        std::vector<double> times;
         for (std::size_t v = 0; v < views_.size(); ++v) {
             frame_.draw(scene, views_[v]);
             const render::Image light = frame_.light();
-            for (unsigned i = 0; i < how_.frames; ++i) {
-                const auto begin = Clock::now();
-                frame_.draw(scene, views_[v]);
-                times.push_back(secondsSince(begin));
-            }
             shown.add(v, frame_.opticalDepth(scene, views_[v]), light);
         }
-        out.frame = medianOf(std::move(times));
-        return {out, std::move(shown)};
+        return shown;
+    }
+
+    // Adds the time of a frame of each view, after one that makes room for them.
+    void time(const render::Scene& scene, std::vector<double>& into) {
+        frame_.draw(scene, views_.front());
+        for (const render::View& view : views_) {
+            const auto start = Clock::now();
+            frame_.draw(scene, view);
+            into.push_back(secondsSince(start));
+        }
     }
 
     Views truth() const {
@@ -195,22 +192,39 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     const double beforePoints = bench.prepare(Model::Points);
     const double beforeCells = bench.prepare(Model::Cells);
     const std::vector<Mode> modes = modesFor(!render::areOneColor(bench.sceneOf({}).layers));
-    std::vector<Measured> all;
-    std::vector<Views> shown;
-    const auto tell = [&] {
-        if (progress)
-            progress(static_cast<double>(all.size()) / static_cast<double>(modes.size() + 1));
+    struct Drawn {
+        render::Scene scene;
+        Views shown;
+        std::vector<double> times;
     };
+    std::vector<Drawn> drawn;
+    const double rounds = how.frames + 2.0;  // one for what is shown, one for the truth
+    const auto tell = [&](double done) {
+        if (progress) progress(done / rounds);
+    };
+    tell(0);
     for (const Mode& mode : modes) {
-        tell();
-        auto [measured, views] = bench.draw(mode);
-        measured.before = mode.model == Model::Points ? beforePoints : beforeCells;
-        all.push_back(measured);
-        shown.push_back(std::move(views));
+        render::Scene scene = bench.sceneOf(mode);
+        Views shown = bench.draw(scene);
+        drawn.push_back({std::move(scene), std::move(shown), {}});
     }
-    tell();
+    // By turns, so that what else the machine does is in the times of all.
+    for (unsigned i = 0; i < how.frames; ++i) {
+        tell(1.0 + i);
+        for (Drawn& each : drawn) bench.time(each.scene, each.times);
+    }
+    tell(rounds - 1);
     const Views truth = bench.truth();
-    for (std::size_t i = 0; i < all.size(); ++i) compare(shown[i], truth, all[i]);
+    std::vector<Measured> all;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        Measured& m = all.emplace_back();
+        m.mode = modes[i];
+        m.frame = medianOf(std::move(drawn[i].times));
+        m.before = m.mode.model == Model::Points ? beforePoints : beforeCells;
+        for (const render::Layer& layer : drawn[i].scene.layers)
+            m.drawn += static_cast<double>(drawnCount(drawn[i].scene, layer));
+        compare(drawn[i].shown, truth, m);
+    }
     return all;
 }
 

@@ -56,9 +56,10 @@ struct Measuring {
 // so that no two are alike.
 std::vector<ViewChoice> viewsAbout(const ViewChoice& view, unsigned count);
 
-// Draws on the processor, without axes and legend, which all modes share. `progress` is told the
-// share that is done. REQUIRES: a resolved explorer; step.canHaveCells(), and no mode asked for its
-// cells before, or their time is not in `before`. Throws OutsideKeptError as makeScene does.
+// Draws on the processor, without axes and legend, which all modes share; timed by turns.
+// `progress` is told the share that is done. REQUIRES: a resolved explorer; step.canHaveCells(),
+// and no mode asked for its cells before, or their time is not in `before`. Throws OutsideKeptError
+// as makeScene does.
 std::vector<Measured> measure(const Explorer& explorer, const timeseries::SortedStep& step,
                               const render::PlacedPoints& placed, const Measuring& how,
                               const std::function<void(double)>& progress = {});

@@ -44,6 +44,8 @@ class MeasuredRamp : public testing::Test {
 TEST_F(MeasuredRamp, WhatIsSelectedWholeHasItsWholeMass) {
     const auto modes = measured({"min:max"}, 1);
     ASSERT_EQ(modes.size(), 5u);
+    EXPECT_NEAR(modes[0].drawn, 9 * 9 * 9 / 8.0, double(render::kSubsetUnevenness));
+    EXPECT_GT(modes[0].depthError, modes[3].depthError);
     EXPECT_EQ(modes[3].mode.name(), "points");
     EXPECT_EQ(modes[3].drawn, 9 * 9 * 9);
     EXPECT_EQ(modes[4].mode.name(), "cells");
