@@ -108,8 +108,8 @@ def reading(scenes):
     coarse = [find(d["figures"], "points 1/8")["depthError"] / find(d["figures"], "points")["depthError"] for _, d in scenes]
     return (f"""A point stands for all that is nearest to it, and is drawn or not as its own value lies in the range or not. Where the range is
 wider than the step from one point to the next, few are wrongly in or out, and points are a fair picture. Where it is thinner, most of
-what lies in the range passes between points: the closed shell becomes dots, and what is measured in the picture, its optical depth,
-is wrong by {span([100 * e for e in lost], '{:.0f}')} % here. In {off} of these {len(both)} scenes its sum is more than 5 % off as well (bold), so that even a mean over the picture misleads.
+what lies in the range passes between points: the closed shell becomes dots. Over these scenes what is measured in a picture by points, its optical
+depth, is wrong by {span([100 * e for e in lost], '{:.0f}')} %. In {off} of these {len(both)} scenes its sum is more than 5 % off as well (bold), so that even a mean over the picture misleads.
 Cells take what each ray truly has of the range between the points: {span([100 * e for e in kept_], '{:.1f}')} %, for {span(slower, '{:.1f}')} times the time of a frame.
 Drawing one point of eight, larger, is what a moving picture does: the mass stays that of the points, while the error grows by {span(coarse, '{:.1f}')}
 times. So: points to look around, cells for a thin range or for anything that is read off the picture; and neither tells
@@ -126,7 +126,7 @@ def page():
     cpu = said(["sed", "-n", "0,/^model name/s/^model name[^:]*: *//p", "/proc/cpuinfo"]).strip()
     text = f"""# Speed against accuracy
 
-`tests/bench/trade.py` makes this page by `isochron measure`. {cpu}, {first['threads']} threads, no GPU; none has been measured.
+`tests/bench/trade.py` makes this page by `isochron measure`. {cpu}, {first['threads']} threads; no GPU has been measured.
 {first['size'][0]} x {first['size'][1]} pixels, {len(first['views'])} views, {first['frames']} frames of each, their median. A frame is order, splats or cells, and light,
 without axes and legend. Error is the relative L2 of optical depth, and mass its sum, against the truth: the interval volume of the
 field that is trilinear between its points, exact along each ray, the mean of {first['rays']} x {first['rays']} rays a pixel. RMSE, PSNR and the 95th percentile of
