@@ -15,6 +15,7 @@ struct Run {
     int operator()(const app::InfoOptions& options) const { return app::info(options); }
     int operator()(const app::CountOptions& options) const { return app::count(options); }
     int operator()(const app::RenderOptions& options) const { return app::renderHeadless(options); }
+    int operator()(const app::MeasureOptions& options) const { return app::measureModes(options); }
     int operator()(const app::ViewOptions& options) const { return app::view(options); }
     int operator()(const app::Exit& exit) const {
         if (exit.code == 0)

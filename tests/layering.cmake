@@ -65,7 +65,7 @@ macro(rooms folder)
 endmacro()
 rooms(timeseries grid index readers series)
 rooms(render image gl points model splat reference annotate frame)
-rooms(app choices files picture exploration drawing panels desktop headset command)
+rooms(app choices files picture measure exploration drawing panels desktop headset command)
 
 if(violations)
   list(REMOVE_DUPLICATES violations)

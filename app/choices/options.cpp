@@ -18,7 +18,8 @@ namespace {
 
 using timeseries::RangeSet;
 
-constexpr std::array<std::string_view, 4> kCommands = {"view", "render", "info", "count"};
+constexpr std::array<std::string_view, 5> kCommands = {"view", "render", "measure", "info",
+                                                       "count"};
 
 void addInfo(CLI::App& app, InfoOptions& into) {
     app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
@@ -117,6 +118,44 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     return options;
 }
 
+// What `measure` takes beside the choices of a picture.
+struct MeasureText {
+    unsigned views = 3, frames = 5, rays = 3;
+    bool json = false;
+    std::string csv, svg;
+};
+
+void addMeasure(CLI::App& app, MeasureText& into) {
+    app.add_option("--views", into.views,
+                   "From how many sides: the view chosen, and others turned about it; 3 by default")
+        ->check(CLI::Range(1, 64));
+    app.add_option("--frames", into.frames, "Timed of each view; 5 by default")
+        ->check(CLI::Range(3, 1000));
+    app.add_option("--rays", into.rays,
+                   "The truth is the mean of so many rays across and down a pixel; 3 by default")
+        ->check(CLI::Range(1, 32));
+    app.add_flag("--json", into.json, "Machine-readable");
+    app.add_option("--csv", into.csv, "Writes the table into a file");
+    app.add_option("--svg", into.svg, "Writes a plot of error against time into a file");
+}
+
+MeasureOptions measureOptions(Explorer explorer, const MeasureText& text) {
+    MeasureOptions options;
+    options.explorer = std::move(explorer);
+    const Explorer& e = options.explorer;
+    if (e.files.empty()) throw ChoiceError("measure needs a FILE or a --session that names one");
+    if (e.stereo.mode != Stereo::Off)
+        throw ChoiceError("measure looks with one eye: leave --stereo out");
+    if (e.keep) throw ChoiceError("measure needs every value: leave --keep out");
+    options.views = text.views;
+    options.frames = text.frames;
+    options.rays = text.rays;
+    options.json = text.json;
+    options.csv = text.csv;
+    options.svg = text.svg;
+    return options;
+}
+
 // What `view` takes beside the choices of a picture. Headless, it is `render`.
 struct DisplayText {
     std::string display = "auto", output;
@@ -185,11 +224,15 @@ Command parse(std::span<const char* const> arguments) {
     CountText countText;
     ExplorerOptions renderText, viewText;
     OutputText outputText;
+    ExplorerOptions measuredText;
+    MeasureText measureText;
     DisplayText displayText;
     CLI::App* viewApp =
         app.add_subcommand("view", "A window or a headset in which a file is explored");
     CLI::App* renderApp =
         app.add_subcommand("render", "Pictures of value ranges, without a window");
+    CLI::App* measureApp = app.add_subcommand(
+        "measure", "What each way of drawing a picture costs, and how far it is from the truth");
     CLI::App* infoApp =
         app.add_subcommand("info", "What a file holds: grid, variables, time steps");
     CLI::App* countApp =
@@ -198,10 +241,12 @@ Command parse(std::span<const char* const> arguments) {
     addDisplay(*viewApp, displayText);
     renderText.addTo(*renderApp);
     addOutput(*renderApp, outputText);
+    measuredText.addTo(*measureApp);
+    addMeasure(*measureApp, measureText);
     addInfo(*infoApp, info);
     addCount(*countApp, countText);
     CommonOptions common;
-    for (CLI::App* each : {viewApp, renderApp, infoApp, countApp}) {
+    for (CLI::App* each : {viewApp, renderApp, measureApp, infoApp, countApp}) {
         each->add_option("--threads", common.threads,
                          "At most so many cores; without it, as many as there are, 16 at most")
             ->check(CLI::Range(1, 1024));
@@ -218,6 +263,8 @@ Command parse(std::span<const char* const> arguments) {
         if (*infoApp) return with(info);
         if (*countApp) return with(countOptions(*countApp, countText));
         if (*renderApp) return with(renderOptions(renderText.explorer(*renderApp), outputText));
+        if (*measureApp)
+            return with(measureOptions(measuredText.explorer(*measureApp), measureText));
         if (displayText.display == "headless")
             return with(headlessOptions(viewText.explorer(*viewApp), displayText));
         return with(viewOptions(viewText.explorer(*viewApp), displayText));

@@ -43,6 +43,16 @@ struct RenderOptions : CommonOptions {
     bool progress = false;  // "picture 3 of 31" on stdout after each
 };
 
+// One step, drawn in every way and held against the truth.
+struct MeasureOptions : CommonOptions {
+    Explorer explorer;
+    unsigned views = 3;
+    unsigned frames = 5;  // timed, of each view
+    unsigned rays = 3;    // of the truth, across a pixel
+    bool json = false;
+    std::filesystem::path csv, svg;  // empty: not wanted
+};
+
 // Where a file is explored. Auto: in a headset where one answers, else in a window. From a headset
 // that is lost, both go on in a window.
 enum class Display { Auto, Desktop, Headset };
@@ -60,7 +70,8 @@ struct Exit {
     std::string text;
 };
 
-using Command = std::variant<InfoOptions, CountOptions, RenderOptions, ViewOptions, Exit>;
+using Command =
+    std::variant<InfoOptions, CountOptions, RenderOptions, MeasureOptions, ViewOptions, Exit>;
 unsigned threadsOf(const Command& command);  // CommonOptions::threads
 
 // Whether a first argument is a command's name, and not a file's.

@@ -10,6 +10,8 @@ int info(const InfoOptions& options);
 int count(const CountOptions& options);
 // Draws without a window and writes files.
 int renderHeadless(const RenderOptions& options);
+// Draws one step in every way, and tells times and errors.
+int measureModes(const MeasureOptions& options);
 // Opens a window; returns when it is closed.
 int view(const ViewOptions& options);
 

@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include "app/choices/choice_text.h"
-#include "app/choices/clip_flaw.h"
 #include "app/command/commands.h"
-#include "app/exploration/step_source.h"
-#include "app/files/chosen_axes.h"
+#include "app/exploration/chosen_data.h"
 #include "app/files/dataset.h"
 #include "app/files/frames.h"
 #include "app/files/progress.h"
@@ -19,14 +17,6 @@ namespace app {
 namespace {
 
 using timeseries::SortedStep;
-
-// First, middle and last of the chosen steps.
-Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
-    Steps sampled;
-    for (const std::size_t step : {steps.front(), steps[steps.size() / 2], steps.back()})
-        sampled[step] = source.get(step, step);
-    return sampled;
-}
 
 void tellStyle(const Explorer& e, const timeseries::Variable& about) {
     const auto tell = [&](const timeseries::RangeSet& ranges, const LayerChoice& layer) {
@@ -111,21 +101,13 @@ class Drawing {
 }  // namespace
 
 int renderHeadless(const RenderOptions& options) {
-    Explorer e = options.explorer;
-    Dataset dataset = openDataset(e.files, e.variable);
-    e.variable = dataset.about.name;
-    chooseAxes(dataset, e.axes);
-    if (e.clip)
-        if (const std::string flaw = clipFlaw(*e.clip, *dataset.about.grid); !flaw.empty())
-            throw ChoiceError(flaw);
-    if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
-    const auto steps = stepsOf(dataset, *e.steps);
-    StepSource source(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
-    if (needsSamples(e)) e = resolved(e, sample(source, steps));
+    ChosenData chosen = openChosen(options.explorer);
+    const Explorer& e = chosen.explorer;
+    const Dataset& dataset = chosen.dataset;
     Drawing drawing(options);
-    const Frames frames(options.output, e, steps);
+    const Frames frames(options.output, e, chosen.steps);
     const std::size_t mixed =
-        drawFrames(options, e, dataset.about, frames, source, drawing.renderer());
+        drawFrames(options, e, dataset.about, frames, *chosen.source, drawing.renderer());
     tellFiles(frames, dataset.about);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);

@@ -26,15 +26,20 @@ template <class Tested, class Reference>
 ScalarError compare(std::span<const Tested> tested, std::span<const Reference> reference) {
     assert(tested.size() == reference.size());
     ScalarError error;
-    double errorSquared = 0, referenceSquared = 0;
+    double errorSquared = 0, referenceSquared = 0, testedSum = 0, referenceSum = 0;
     for (std::size_t i = 0; i < tested.size(); ++i) {
         const double wanted = reference[i];
         const double off = std::abs(difference(tested[i], wanted));
         errorSquared += off * off;
         referenceSquared += wanted * wanted;
+        testedSum += static_cast<double>(tested[i]);
+        referenceSum += wanted;
         error.maxAbsolute = maxOrNan(error.maxAbsolute, off);
     }
-    if (errorSquared != 0) error.relativeL2 = std::sqrt(errorSquared / referenceSquared);
+    if (errorSquared != 0) {
+        error.relativeL2 = std::sqrt(errorSquared / referenceSquared);
+        error.massRatio = testedSum / referenceSum;
+    }
     return error;
 }
 

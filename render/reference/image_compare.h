@@ -12,11 +12,12 @@ namespace render {
 struct ScalarError {
     double relativeL2 = 0;   // ||tested - reference|| / ||reference||; see below for reference 0
     double maxAbsolute = 0;  // max |tested - reference|
+    double massRatio = 1;    // sum of tested / sum of reference
 };
 
-// Against a reference that is zero everywhere, relativeL2 is 0 if `tested` is zero too, else
-// infinite. REQUIRES: equal lengths. Sums are in double; `tested` and `reference` may be float or
-// double.
+// Against a reference that is zero everywhere, relativeL2 is 0 and massRatio 1 if `tested` is zero
+// too, else both are infinite. REQUIRES: equal lengths. Sums are in double; `tested` and
+// `reference` may be float or double.
 ScalarError compareScalars(std::span<const float> tested, std::span<const float> reference);
 ScalarError compareScalars(std::span<const float> tested, std::span<const double> reference);
 ScalarError compareScalars(std::span<const double> tested, std::span<const double> reference);

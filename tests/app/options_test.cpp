@@ -211,6 +211,25 @@ TEST(Options, CountTakesWhatItSays) {
     EXPECT_FALSE(plain.keep);
 }
 
+TEST(Options, MeasureTakesWhatItSays) {
+    const auto measure = as<MeasureOptions>(
+        {"measure", "a.nc", "--range", "0:1", "--size", "320x240", "--step", "4", "--views", "2",
+         "--frames", "7", "--rays", "5", "--json", "--csv", "t.csv", "--svg", "t.svg"});
+    EXPECT_EQ(measure.explorer.layers.front().ranges, RangeSet::parse("0:1"));
+    EXPECT_EQ(measure.explorer.size, glm::ivec2(320, 240));
+    EXPECT_EQ(measure.views, 2u);
+    EXPECT_EQ(measure.frames, 7u);
+    EXPECT_EQ(measure.rays, 5u);
+    EXPECT_TRUE(measure.json);
+    EXPECT_EQ(measure.csv, "t.csv");
+    EXPECT_EQ(measure.svg, "t.svg");
+    const auto plain = as<MeasureOptions>({"measure", "a.nc"});
+    EXPECT_EQ(plain.views, 3u);
+    EXPECT_GE(plain.frames, 3u);
+    EXPECT_FALSE(plain.json);
+    EXPECT_TRUE(plain.csv.empty() && plain.svg.empty());
+}
+
 TEST(Options, RangesKeepTheirBracketsCommasAndSigns) {
     for (const char* text : {"[600,1600]", "[600,1600)", "(600,1600]", "(600,1600)", "-3:0", "-3",
                              "-3:-1", "min:-2", "-1e5~3", "[1,2],[3,4]", "(1,2),(3,4)", "min:max",

@@ -1,9 +1,9 @@
-# Runs every `./run info|count|render` of the README with the program itself, in an empty folder.
+# Runs every `./run info|count|render|measure` of the README with the program itself, in an empty folder.
 #   cmake -DPROGRAM=... -DREADME=... -DSOURCE=... -DWORK=... -P readme.cmake
 file(READ ${README} text)
 string(REPLACE ";" "\;" text "${text}")
 string(REGEX REPLACE "\\\\\n *" "" text "${text}")  # continued lines
-string(REGEX MATCHALL "\n    \\./run (info|count|render) [^\n]*" commands "${text}")
+string(REGEX MATCHALL "\n    \\./run (info|count|render|measure) [^\n]*" commands "${text}")
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/out)
 set(count 0)

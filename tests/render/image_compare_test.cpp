@@ -18,6 +18,7 @@ TEST(CompareScalars, RelativeErrorIsTheNormOfTheDifferenceOverThatOfTheReference
     const auto error = compareScalars(tested, reference);
     EXPECT_DOUBLE_EQ(error.relativeL2, 2.0 / 5);
     EXPECT_DOUBLE_EQ(error.maxAbsolute, 2);
+    EXPECT_DOUBLE_EQ(error.massRatio, 9.0 / 7);
 }
 
 TEST(CompareScalars, FloatsAreComparedInDouble) {
@@ -30,6 +31,8 @@ TEST(CompareScalars, AgainstAZeroReferenceOnlyZeroIsRight) {
     const std::vector<float> zero(5), small{0, 0, 1e-20f, 0, 0};
     EXPECT_EQ(compareScalars(zero, zero).relativeL2, 0);
     EXPECT_EQ(compareScalars(small, zero).relativeL2, kInf);
+    EXPECT_EQ(compareScalars(small, zero).massRatio, kInf);
+    EXPECT_EQ(compareScalars(zero, zero).massRatio, 1);
     EXPECT_EQ(compareScalars(std::span<const float>(), std::span<const float>()).relativeL2, 0);
 }
 
@@ -37,6 +40,7 @@ TEST(CompareScalars, NanIsNeverHidden) {
     const std::vector<double> reference{1, 2, 3}, tested{1, std::nan(""), 30};
     EXPECT_TRUE(std::isnan(compareScalars(tested, reference).relativeL2));
     EXPECT_TRUE(std::isnan(compareScalars(tested, reference).maxAbsolute));
+    EXPECT_TRUE(std::isnan(compareScalars(tested, reference).massRatio));
     EXPECT_TRUE(std::isnan(compareScalars(reference, tested).relativeL2));
 }
 

@@ -1,0 +1,123 @@
+// `isochron measure`: one step drawn in every way; times and errors out.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/choices/choice_text.h"
+#include "app/choices/user_files.h"
+#include "app/command/commands.h"
+#include "app/exploration/chosen_data.h"
+#include "app/files/progress.h"
+#include "app/json_text.h"
+#include "app/measure/measurement.h"
+#include "app/measure/report.h"
+#include "app/measure/trade_plot.h"
+#include "app/picture/picture.h"
+#include "app/say.h"
+#include "render/together.h"
+
+namespace app {
+namespace {
+
+using nlohmann::ordered_json;
+
+// The ranges drawn, with their unit: "600 to 1000 K; 320 to 400 K".
+std::string rangesText(const ChosenData& data, const timeseries::SortedStep& step) {
+    const Explorer& e = data.explorer;
+    std::string text;
+    const auto add = [&](const timeseries::RangeSet& ranges, bool isVisible) {
+        if (isVisible)
+            text += (text.empty() ? "" : "; ") + rangeLabel(ranges, data.dataset.about.units);
+    };
+    if (e.sweep) add(sweptRanges(e, step, e.play.tick), e.sweepLayer.visible);
+    for (const LayerChoice& layer : e.layers) add(layer.ranges, layer.visible);
+    return text;
+}
+
+// What the figures are of.
+struct Subject {
+    const MeasureOptions& options;
+    const ChosenData& data;
+    const timeseries::SortedStep& step;
+    std::size_t stepIndex;
+
+    std::string title() const {
+        const timeseries::Variable& about = data.dataset.about;
+        const std::string time = about.time->points.size() > 1
+                                     ? fmt::format(", {}", timeText(*about.time, stepIndex))
+                                     : "";
+        return fmt::format("{}: {}{}, {}", data.explorer.files.front().filename().string(),
+                           about.name, time, rangesText(data, step));
+    }
+};
+
+std::string truthText(const MeasureOptions& options) {
+    return fmt::format(
+        "the field interpolated between its points, exactly, mean of {0} x {0} rays a "
+        "pixel",
+        options.rays);
+}
+
+ordered_json json(const Subject& subject, const std::vector<Measured>& modes) {
+    const MeasureOptions& options = subject.options;
+    const Explorer& e = subject.data.explorer;
+    ordered_json out{{"file", subject.data.dataset.name},
+                     {"variable", subject.data.dataset.about.name},
+                     {"units", subject.data.dataset.about.units},
+                     {"step", subject.stepIndex},
+                     {"ranges", rangesText(subject.data, subject.step)},
+                     {"points", subject.step.statistics().points},
+                     {"size", {e.size.x, e.size.y}},
+                     {"frames", options.frames},
+                     {"rays", options.rays},
+                     {"threads", render::sharingThreads()},
+                     {"truth", truthText(options)},
+                     {"views", ordered_json::array()},
+                     {"modes", ordered_json::array()}};
+    for (const ViewChoice& view : viewsAbout(e.view, options.views))
+        out["views"].push_back(
+            {{"azimuth", view.azimuthDegrees}, {"elevation", view.elevationDegrees}});
+    for (const Measured& m : modes) out["modes"].push_back(json(m));
+    return out;
+}
+
+void print(const Subject& subject, const std::vector<Measured>& modes) {
+    const MeasureOptions& options = subject.options;
+    const Explorer& e = subject.data.explorer;
+    const unsigned threads = render::sharingThreads();
+    say("{}\n{} x {} pixels, {} view{}, {} frames of each, {} thread{}\ntruth: {}\n\n{}",
+        subject.title(), e.size.x, e.size.y, options.views, options.views == 1 ? "" : "s",
+        options.frames, threads, threads == 1 ? "" : "s", truthText(options), table(modes));
+}
+
+}  // namespace
+
+int measureModes(const MeasureOptions& options) {
+    ChosenData data = openChosen(options.explorer);
+    if (data.steps.size() != 1)
+        throw ChoiceError(fmt::format("measure draws one step, not {}: name it, --step {}",
+                                      data.steps.size(), data.steps.front()));
+    const std::size_t index = data.steps.front();
+    const auto step = data.source->get(index, index);
+    if (!step->canHaveCells())
+        throw ChoiceError("measure needs the cells between the points: this grid has too many");
+    const Subject subject{options, data, *step, index};
+    const render::PlacedPoints placed(step->grid(), data.explorer.scale);
+    std::vector<Measured> modes;
+    {
+        const Progress progress("mode", 1);
+        modes =
+            measure(data.explorer, *step, placed,
+                    {.views = options.views, .frames = options.frames, .raysAcross = options.rays},
+                    [&](double share) { progress.drawn(share); });
+    }
+    if (options.json)
+        say("{}\n", jsonText(json(subject, modes), 2));
+    else
+        print(subject, modes);
+    if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
+    if (!options.svg.empty()) writeWhole(options.svg, tradePlot(modes, subject.title()));
+    return 0;
+}
+
+}  // namespace app

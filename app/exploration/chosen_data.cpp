@@ -1,0 +1,39 @@
+#include "app/exploration/chosen_data.h"
+
+#include <string>
+#include <utility>
+
+#include "app/choices/choice_text.h"
+#include "app/choices/clip_flaw.h"
+#include "app/files/chosen_axes.h"
+#include "app/picture/picture.h"
+
+namespace app {
+namespace {
+
+Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
+    Steps sampled;
+    for (const std::size_t step : {steps.front(), steps[steps.size() / 2], steps.back()})
+        sampled[step] = source.get(step, step);
+    return sampled;
+}
+
+}  // namespace
+
+ChosenData openChosen(const Explorer& choices) {
+    Explorer e = choices;
+    Dataset dataset = openDataset(e.files, e.variable);
+    e.variable = dataset.about.name;
+    chooseAxes(dataset, e.axes);
+    if (e.clip)
+        if (const std::string flaw = clipFlaw(*e.clip, *dataset.about.grid); !flaw.empty())
+            throw ChoiceError(flaw);
+    if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
+    std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);
+    auto source =
+        std::make_unique<StepSource>(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
+    if (needsSamples(e)) e = resolved(e, sample(*source, steps));
+    return {std::move(dataset), std::move(e), std::move(steps), std::move(source)};
+}
+
+}  // namespace app

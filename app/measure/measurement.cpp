@@ -1,0 +1,231 @@
+#include "app/measure/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "app/choices/camera.h"
+#include "app/choices/choice_text.h"
+#include "app/picture/picture.h"
+#include "app/picture/still.h"
+#include "render/frame/plain_frame.h"
+#include "render/reference/color_difference.h"
+#include "render/reference/image_compare.h"
+#include "render/reference/interval_truth.h"
+
+namespace app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + std::ssize(values) / 2;
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+// All views' pixels in one, so that each figure is of all of them: [view][y][x].
+struct Views {
+    std::vector<double> opticalDepth;
+    render::Image light;
+
+    Views(glm::ivec2 size, std::size_t count)
+        : light(glm::ivec2(size.x, size.y * static_cast<int>(count))) {}
+    template <typename Real>
+    void add(std::size_t view, const std::vector<Real>& depth, const render::Image& picture) {
+        opticalDepth.insert(opticalDepth.end(), depth.begin(), depth.end());
+        std::ranges::copy(
+            picture.pixels,
+            light.pixels.begin() + std::ssize(picture.pixels) * static_cast<std::ptrdiff_t>(view));
+    }
+};
+
+std::vector<double> opticalDepth(const render::IntervalTruth& truth, const render::Scene& scene,
+                                 const render::View& view) {
+    std::vector<double> depth(static_cast<std::size_t>(view.size.x) *
+                              static_cast<std::size_t>(view.size.y));
+    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+        const std::vector<double> weight = truth.weight(view, k);
+        const double each = render::opticalDepthPerWeight(scene.layers[k].style.opacity);
+        for (std::size_t i = 0; i < depth.size(); ++i) depth[i] += each * weight[i];
+    }
+    return depth;
+}
+
+// Of rows from the bottom.
+render::Image onBackground(const std::vector<glm::dvec4>& light, glm::ivec2 size) {
+    render::Image image(size);
+    auto pixel = light.begin();
+    for (int y = size.y - 1; y >= 0; --y)
+        for (int x = 0; x < size.x; ++x, ++pixel)
+            image.at(x, y) =
+                glm::vec4(glm::vec3(glm::dvec3(*pixel) + (1 - pixel->a) * kBackground), 1);
+    return image;
+}
+
+class Bench {
+ public:
+    Bench(const Explorer& explorer, const timeseries::SortedStep& step,
+          const render::PlacedPoints& placed, const Measuring& how)
+        : explorer_(explorer),
+          step_(step),
+          placed_(placed),
+          how_(how),
+          frame_(explorer.size, kBackground) {
+        for (const ViewChoice& view : viewsAbout(explorer.view, how.views))
+            views_.push_back(eyes(view, {}, placed.boxHalfEdges(), explorer.size).front());
+    }
+
+    render::Scene sceneOf(const Mode& mode) const {
+        Explorer e = explorer_;
+        e.model = mode.model;
+        e.order = mode.order;
+        render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
+        scene.stride = mode.stride;
+        // As a moving picture's: a splat fills the place of the points that it stands for.
+        if (scene.footprint.kernel != render::Kernel::Point)
+            scene.footprint.size *= std::cbrt(mode.stride);
+        return scene;
+    }
+
+    // What a model needs before its first frame: the selection, its points in order of value, or
+    // the index of cells. The first time; later it is there.
+    double prepare(Model model) const {
+        const auto start = Clock::now();
+        const render::Scene scene = sceneOf({.model = model});
+        if (!scene.cells) columnsOf(scene);
+        return secondsSince(start);
+    }
+
+    Views draw(const render::Scene& scene) {
+        Views shown(explorer_.size, views_.size());
+        for (std::size_t v = 0; v < views_.size(); ++v) {
+            frame_.draw(scene, views_[v]);
+            const render::Image light = frame_.light();
+            shown.add(v, frame_.opticalDepth(scene, views_[v]), light);
+        }
+        return shown;
+    }
+
+    // Adds the time of a frame of each view, after one that makes room for them.
+    void time(const render::Scene& scene, std::vector<double>& into) {
+        frame_.draw(scene, views_.front());
+        for (const render::View& view : views_) {
+            const auto start = Clock::now();
+            frame_.draw(scene, view);
+            into.push_back(secondsSince(start));
+        }
+    }
+
+    Views truth() const {
+        const render::Scene scene = sceneOf({Model::Cells, 1, render::Order::BackToFront});
+        const render::IntervalTruth truth(scene, scene.cells->field(),
+                                          static_cast<int>(how_.raysAcross));
+        Views shown(explorer_.size, views_.size());
+        for (std::size_t v = 0; v < views_.size(); ++v)
+            shown.add(v, opticalDepth(truth, scene, views_[v]),
+                      onBackground(truth.light(views_[v]), explorer_.size));
+        return shown;
+    }
+
+ private:
+    const Explorer& explorer_;
+    const timeseries::SortedStep& step_;
+    const render::PlacedPoints& placed_;
+    const Measuring how_;
+    render::PlainFrame frame_;
+    std::vector<render::View> views_;
+};
+
+void compare(const Views& shown, const Views& truth, Measured& into) {
+    const render::ScalarError depth =
+        render::compareScalars(std::span<const double>(shown.opticalDepth), truth.opticalDepth);
+    into.depthError = depth.relativeL2;
+    into.mass = depth.massRatio;
+    const render::PictureError light = comparePictures(shown.light, truth.light);
+    into.rmse = light.rmseLinear;
+    into.psnr = light.psnrLinear;
+    into.largest = light.maxAbsolute;
+    constexpr double kShare = 0.95;
+    into.colorDifference =
+        colorDifferenceQuantile(shown.light, truth.light, glm::vec3(kBackground), kShare);
+}
+
+}  // namespace
+
+std::string Mode::name() const {
+    std::string name(modelName(model));
+    return stride == 1 ? name : fmt::format("{} 1/{}", name, stride);
+}
+
+std::vector<Mode> modesFor(bool severalColors) {
+    std::vector<render::Order> orders = {render::Order::None};
+    if (severalColors) orders.insert(orders.begin(), render::Order::BackToFront);
+    std::vector<Mode> modes;
+    for (const render::Order order : orders)
+        for (const std::uint32_t stride : {8u, 4u, 2u, 1u})
+            modes.push_back({Model::Points, stride, order});
+    for (const render::Order order : orders) modes.push_back({Model::Cells, 1, order});
+    return modes;
+}
+
+std::vector<ViewChoice> viewsAbout(const ViewChoice& view, unsigned count) {
+    constexpr double kGoldenAngle = 137.50776405003785;
+    std::vector<ViewChoice> views(count, view);
+    for (unsigned i = 0; i < count; ++i)
+        views[i].azimuthDegrees = std::remainder(view.azimuthDegrees + i * kGoldenAngle, 360.0);
+    return views;
+}
+
+std::vector<Measured> measure(const Explorer& explorer, const timeseries::SortedStep& step,
+                              const render::PlacedPoints& placed, const Measuring& how,
+                              const std::function<void(double)>& progress) {
+    Bench bench(explorer, step, placed, how);
+    const double beforePoints = bench.prepare(Model::Points);
+    const double beforeCells = bench.prepare(Model::Cells);
+    const std::vector<Mode> modes = modesFor(!render::areOneColor(bench.sceneOf({}).layers));
+    struct Drawn {
+        render::Scene scene;
+        Views shown;
+        std::vector<double> times;
+    };
+    std::vector<Drawn> drawn;
+    const double rounds = how.frames + 2.0;  // one for what is shown, one for the truth
+    const auto tell = [&](double done) {
+        if (progress) progress(done / rounds);
+    };
+    tell(0);
+    for (const Mode& mode : modes) {
+        render::Scene scene = bench.sceneOf(mode);
+        Views shown = bench.draw(scene);
+        drawn.push_back({std::move(scene), std::move(shown), {}});
+    }
+    // By turns, so that what else the machine does is in the times of all.
+    for (unsigned i = 0; i < how.frames; ++i) {
+        tell(1.0 + i);
+        for (Drawn& each : drawn) bench.time(each.scene, each.times);
+    }
+    tell(rounds - 1);
+    const Views truth = bench.truth();
+    std::vector<Measured> all;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        Measured& m = all.emplace_back();
+        m.mode = modes[i];
+        m.frame = medianOf(std::move(drawn[i].times));
+        m.before = m.mode.model == Model::Points ? beforePoints : beforeCells;
+        for (const render::Layer& layer : drawn[i].scene.layers)
+            m.drawn += static_cast<double>(drawnCount(drawn[i].scene, layer));
+        compare(drawn[i].shown, truth, m);
+    }
+    return all;
+}
+
+}  // namespace app

@@ -1,0 +1,67 @@
+// What each way of drawing a scene costs and how far it is from the continuous truth
+// (render/reference/interval_truth.h): the trade of speed for accuracy, measured.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/choices/explorer.h"
+#include "render/model/scene.h"
+#include "timeseries/index/sorted_step.h"
+
+namespace app {
+
+// One way to draw.
+struct Mode {
+    Model model = Model::Points;
+    std::uint32_t stride = 1;  // one of so many points stands for all
+    // Front to back or back to front; None mixes colours along the ray.
+    render::Order order = render::Order::None;
+
+    std::string name() const;  // "points", "points 1/4", "cells"
+    friend bool operator==(const Mode&, const Mode&) = default;
+};
+// In which a scene can be drawn: points, subsets of them, cells; both orders where it has more than
+// one colour.
+std::vector<Mode> modesFor(bool severalColors);
+
+// A mass that is more than 5 % off is not to be overlooked beside a short time.
+inline constexpr double kMassTolerance = 0.05;
+
+struct Measured {
+    Mode mode;
+    double frame = 0;   // seconds, the median of all views' frames
+    double before = 0;  // seconds for what the mode needs first: its selection, the cells' index
+    double drawn = 0;   // splats or cells a frame
+    // Of optical depth, all layers together, over all views, against the truth's.
+    double depthError = 0;  // relative L2
+    double mass = 1;        // its sum over the truth's
+    // Of the light, over all views, against the truth's; of the whole picture.
+    double rmse = 0, psnr = 0;   // linear; dB, infinite for the same picture
+    double largest = 0;          // linear, of one channel
+    double colorDifference = 0;  // CIEDE2000, the 95th percentile of pixels that show something
+
+    bool massIsOff() const { return !(mass >= 1 - kMassTolerance && mass <= 1 + kMassTolerance); }
+};
+
+struct Measuring {
+    unsigned views = 3;
+    unsigned frames = 5;      // timed, of each view
+    unsigned raysAcross = 3;  // the truth's in a pixel
+};
+
+// The explorer's view, and others about it: each turned by 137.5 degrees (the golden angle) more,
+// so that no two are alike.
+std::vector<ViewChoice> viewsAbout(const ViewChoice& view, unsigned count);
+
+// Draws on the processor, without axes and legend, which all modes share; timed by turns.
+// `progress` is told the share that is done. REQUIRES: a resolved explorer; step.canHaveCells(),
+// and no mode asked for its cells before, or their time is not in `before`. Throws OutsideKeptError
+// as makeScene does.
+std::vector<Measured> measure(const Explorer& explorer, const timeseries::SortedStep& step,
+                              const render::PlacedPoints& placed, const Measuring& how,
+                              const std::function<void(double)>& progress = {});
+
+}  // namespace app

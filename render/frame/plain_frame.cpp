@@ -1,0 +1,57 @@
+#include "render/frame/plain_frame.h"
+
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace render {
+namespace {
+
+constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+
+void sum(SplatFrame& splats, const View& view, Channels channels, std::size_t plane,
+         Targets& targets) {
+    const auto sums = splats.begin(view, channels, plane, targets);
+    while (!sums->done()) sums->add(kAll);
+}
+
+}  // namespace
+
+PlainFrame::PlainFrame(glm::ivec2 size, const glm::dvec3& background)
+    : font_(std::array{labelStyle(size), titleStyle(size)}),
+      background_(background),
+      targets_(size) {
+    light_.setFont(font_);
+}
+
+void PlainFrame::draw(const Scene& scene, const View& view) {
+    // Cells come in an order of their own.
+    DrawList list = scene.cells ? DrawList(Runs{}) : order_(scene, pixelRays(view).eye);
+    const auto splats =
+        splatter_.prepare(scene, std::move(list), GpuStep(scene.step, scene.placed));
+    light_.drawDepth({}, {}, view, targets_);
+    const std::vector<Channels> channels = channelsFor(scene);
+    for (std::size_t i = 0; i < channels.size(); ++i) sum(*splats, view, channels[i], i, targets_);
+    const AxesMeshes noAxes;
+    const FlatMesh noLegend;
+    light_.drawLight({scene, view, background_, noAxes, noLegend, {}}, LightAs::Linear, targets_);
+}
+
+std::vector<float> PlainFrame::opticalDepth(const Scene& scene, const View& view) {
+    Scene plain = scene;
+    plain.order = Order::None;
+    const auto splats = splatter_.prepare(plain, Runs{}, GpuStep(scene.step, scene.placed));
+    light_.drawDepth({}, {}, view, targets_);
+    std::vector<float> depth(static_cast<std::size_t>(view.size.x) *
+                             static_cast<std::size_t>(view.size.y));
+    for (std::size_t k = 0; k < plain.layers.size(); ++k) {
+        sum(*splats, view, Channels::Weight, k, targets_);
+        const auto perWeight =
+            static_cast<float>(opticalDepthPerWeight(plain.layers[k].style.opacity));
+        const std::vector<float> weight = turnedOver(targets_.readScalarPlane(k), view.size);
+        for (std::size_t i = 0; i < depth.size(); ++i) depth[i] += perWeight * weight[i];
+    }
+    return depth;
+}
+
+}  // namespace render

@@ -1,0 +1,36 @@
+// What a scene alone looks like, drawn by the program on the processor as a frame is, without axes,
+// legend and what else stands in a picture: for those who measure it.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "render/frame/memory_light.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/memory_targets.h"
+#include "render/splat/processor_splatter.h"
+
+namespace render {
+
+class PlainFrame {
+ public:
+    // Of pictures of this size on this background (linear).
+    PlainFrame(glm::ivec2 size, const glm::dvec3& background);
+
+    // The whole frame: order, sums, light. REQUIRES of both: view.size is this one's.
+    void draw(const Scene& scene, const View& view);
+    // What was drawn last. Linear, premultiplied.
+    Image light() const { return targets_.readLight(); }
+    // Of all layers together, whatever the scene's order. [y][x], row 0 at the bottom.
+    std::vector<float> opticalDepth(const Scene& scene, const View& view);
+
+ private:
+    Font font_;
+    glm::dvec3 background_;
+    MemoryTargets targets_;
+    MemoryLight light_;
+    ProcessorSplatter splatter_;
+    DepthOrder order_;
+};
+
+}  // namespace render

@@ -1,0 +1,25 @@
+#include "render/reference/cell_walk.h"
+
+namespace render {
+
+CellWalk::CellWalk(const PlacedPoints& placed) : size_(placed.size() + 1u) {
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto &at = placed.positions()[a], &width = placed.widths()[a];
+        const double half = at.front() > at.back() ? -0.5 : 0.5;
+        faces_[a].reserve(at.size() + 2);
+        faces_[a].push_back(at.front() - half * width.front());
+        faces_[a].insert(faces_[a].end(), at.begin(), at.end());
+        faces_[a].push_back(at.back() + half * width.back());
+    }
+}
+
+std::size_t CellWalk::cellAt(int axis, double place) const {
+    const std::vector<double>& faces = faces_[static_cast<std::size_t>(axis)];
+    const bool down = faces.front() > faces.back();
+    const auto isPassed = [&](double face) { return down ? face >= place : face <= place; };
+    const auto passed = std::ranges::partition_point(faces, isPassed) - faces.begin();
+    return static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(passed - 1, 0, std::ssize(faces) - 2));
+}
+
+}  // namespace render

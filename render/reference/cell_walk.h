@@ -1,0 +1,92 @@
+// The cells that a ray passes, in axis coordinates (Amanatides and Woo 1987, "A Fast Voxel
+// Traversal Algorithm for Ray Tracing", with faces at any distances from each other).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <vector>
+
+#include "render/points/placed_points.h"
+
+namespace render {
+
+// Cells as CellIndex numbers them: between points, and half ones beyond the outermost.
+class CellWalk {
+ public:
+    explicit CellWalk(const PlacedPoints& placed);
+
+    glm::uvec3 size() const { return size_; }  // cells along the axes
+    // A place counted from the cell's first corner, in units of its sides: [0, 1] inside.
+    glm::dvec3 inCell(const glm::uvec3& cell, const glm::dvec3& place) const {
+        glm::dvec3 out(0);
+        for (int a = 0; a < 3; ++a) {
+            const double first = face(a, cell[a]);
+            out[a] = std::clamp((place[a] - first) / (face(a, cell[a] + 1) - first), 0.0, 1.0);
+        }
+        return out;
+    }
+    // visit(cell, from, to) for every cell that eye + t along passes at t >= near, the nearest
+    // first; from < to.
+    template <typename Visit>
+    void operator()(const glm::dvec3& eye, const glm::dvec3& along, double near,
+                    const Visit& visit) const;
+
+ private:
+    static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+    double face(int axis, std::size_t i) const { return faces_[static_cast<std::size_t>(axis)][i]; }
+    std::size_t cellAt(int axis, double place) const;
+
+    // Per axis, in the order of indices, ascending or descending: one more than cells.
+    std::array<std::vector<double>, 3> faces_;
+    glm::uvec3 size_{0};
+};
+
+template <typename Visit>
+void CellWalk::operator()(const glm::dvec3& eye, const glm::dvec3& along, double near,
+                          const Visit& visit) const {
+    double at = near, end = kNever;
+    for (int a = 0; a < 3; ++a) {
+        const double one = face(a, 0), other = face(a, size_[a]);
+        if (along[a] == 0) {
+            if (!(eye[a] > std::min(one, other) && eye[a] < std::max(one, other))) return;
+            continue;
+        }
+        const double t = (one - eye[a]) / along[a], u = (other - eye[a]) / along[a];
+        at = std::max(at, std::min(t, u));
+        end = std::min(end, std::max(t, u));
+    }
+    if (!(at < end)) return;
+    glm::uvec3 cell{0};
+    std::array<bool, 3> up{};
+    glm::dvec3 leaves(kNever);
+    const auto leave = [&](int a) {
+        return (face(a, up[static_cast<std::size_t>(a)] ? cell[a] + 1 : cell[a]) - eye[a]) /
+               along[a];
+    };
+    const auto isLast = [&](int a) {
+        return cell[a] == (up[static_cast<std::size_t>(a)] ? size_[a] - 1 : 0);
+    };
+    for (int a = 0; a < 3; ++a) {
+        cell[a] = static_cast<unsigned>(cellAt(a, eye[a] + at * along[a]));
+        if (along[a] == 0) continue;
+        up[static_cast<std::size_t>(a)] = (along[a] > 0) == (face(a, size_[a]) > face(a, 0));
+        for (leaves[a] = leave(a); leaves[a] <= at && !isLast(a); leaves[a] = leave(a))
+            cell[a] += up[static_cast<std::size_t>(a)] ? 1u : -1u;  // rounding put it one behind
+    }
+    while (true) {
+        const int a =
+            leaves.x < leaves.y ? (leaves.x < leaves.z ? 0 : 2) : (leaves.y < leaves.z ? 1 : 2);
+        const double to = std::min(leaves[a], end);
+        if (to > at) visit(cell, at, to);
+        if (!(leaves[a] < end) || isLast(a)) return;
+        at = std::max(at, to);
+        cell[a] += up[static_cast<std::size_t>(a)] ? 1u : -1u;
+        leaves[a] = leave(a);
+    }
+}
+
+}  // namespace render

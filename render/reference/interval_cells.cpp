@@ -1,0 +1,164 @@
+#include "render/reference/interval_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <utility>
+
+namespace render {
+namespace {
+
+using timeseries::Interval;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr unsigned kAllOctants = 255;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+double finiteOrNan(double v) { return std::isfinite(v) ? v : kNan; }
+
+// Of a point at the cell's corner on a side, along an axis of so many points.
+std::uint32_t pointBeside(std::uint32_t cell, std::uint32_t side, std::uint32_t points) {
+    return std::clamp(cell + side, 1u, points) - 1;
+}
+
+// A scale on which a cell's values go from 0 to 1, however large, small or near each other they
+// are. REQUIRES: least < greatest.
+class OwnScale {
+ public:
+    OwnScale(double least, double greatest)
+        : exponent_(-std::ilogb(std::max(std::abs(least), std::abs(greatest)))),
+          least_(std::ldexp(least, exponent_)),
+          extent_(std::ldexp(greatest, exponent_) - least_) {}
+    double operator()(double value) const {
+        return (std::ldexp(value, exponent_) - least_) / extent_;
+    }
+
+ private:
+    int exponent_;
+    double least_, extent_;
+};
+
+// Where a line from a to b, places in a cell, passes from one octant to another: [0, 1] in pieces.
+struct Octants {
+    std::array<double, 5> at{0, 1, 1, 1, 1};
+    std::size_t count = 1;
+
+    Octants(const glm::dvec3& a, const glm::dvec3& b) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((a[axis] < 0.5) == (b[axis] < 0.5)) continue;
+            at[count] = (0.5 - a[axis]) / (b[axis] - a[axis]);
+            for (std::size_t i = count++; at[i] < at[i - 1]; --i) std::swap(at[i], at[i - 1]);
+        }
+    }
+};
+
+unsigned octantOf(const glm::dvec3& place) {
+    return (place.x < 0.5 ? 0u : 1u) + (place.y < 0.5 ? 0u : 2u) + (place.z < 0.5 ? 0u : 4u);
+}
+
+}  // namespace
+
+IntervalCells::IntervalCells(const timeseries::Field& field, const IndexBox& clip,
+                             std::vector<Interval<double>> ranges, unsigned threads)
+    : field_(field), clip_(clip), ranges_(std::move(ranges)) {
+    const auto points = field.grid->size();
+    size_ = glm::uvec3(points[0], points[1], points[2]) + 1u;
+    kinds_.resize(std::size_t{size_.x} * size_.y * size_.z);
+    inParts(std::size_t{size_.y} * size_.z, threads, [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row)
+            for (unsigned x = 0; x < size_.x; ++x) {
+                const glm::uvec3 cell(x, row % size_.y, row / size_.y);
+                kinds_[numberOf(cell)] = kindOf(cornersOf(cell));
+            }
+    });
+}
+
+IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
+    const glm::uvec3 points = size_ - 1u;
+    Corners out{.least = kInfinity, .greatest = -kInfinity};
+    double eighths = 0;
+    int valid = 0;
+    std::visit(
+        [&](const auto& values) {
+            for (unsigned c = 0; c < 8; ++c) {
+                const glm::uvec3 p(pointBeside(cell.x, c & 1, points.x),
+                                   pointBeside(cell.y, c >> 1 & 1, points.y),
+                                   pointBeside(cell.z, c >> 2, points.z));
+                const std::size_t i =
+                    p.x + std::size_t{points.x} * (p.y + std::size_t{points.y} * p.z);
+                const bool isMissing = !field_.missing.empty() && field_.missing[i];
+                const double v = isMissing ? kNan : finiteOrNan(static_cast<double>(values[i]));
+                out.values[c] = v;
+                if (std::isnan(v)) continue;
+                eighths += v / 8;
+                ++valid;
+                out.least = std::min(out.least, v);
+                out.greatest = std::max(out.greatest, v);
+                if (clip_.holds(p)) out.octants |= 1u << c;
+            }
+        },
+        field_.values);
+    if (valid < 8)
+        for (double& v : out.values)
+            if (std::isnan(v)) v = std::clamp(eighths * (8.0 / valid), out.least, out.greatest);
+    return out;
+}
+
+IntervalCells::Kind IntervalCells::kindOf(const Corners& corners) const {
+    if (corners.octants == 0) return Kind::Nothing;
+    Kind kind = Kind::Nothing;
+    for (const Interval<double>& range : ranges_) {
+        if (corners.least >= range.lo && corners.greatest <= range.hi)
+            return corners.octants == kAllOctants ? Kind::Whole : Kind::Part;
+        if (corners.least < range.hi && corners.greatest > range.lo) kind = Kind::Part;
+    }
+    return kind;
+}
+
+void IntervalCells::addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                             std::vector<LinePart>& into) const {
+    const Corners corners = cornersOf(cell);
+    if (kindOf(corners) == Kind::Nothing) return;
+    if (corners.octants == kAllOctants) return addParts(corners, from, to, {0, 1}, into);
+    const Octants pieces(from, to);
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+        const LinePart piece{pieces.at[i], pieces.at[i + 1]};
+        const glm::dvec3 middle = glm::mix(from, to, 0.5 * (piece.from + piece.to));
+        if (corners.octants >> octantOf(middle) & 1) addParts(corners, from, to, piece, into);
+    }
+}
+
+void IntervalCells::addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
+                             const LinePart& piece, std::vector<LinePart>& into) const {
+    if (corners.least == corners.greatest) {
+        into.push_back(piece);
+        return;
+    }
+    const std::size_t before = into.size();
+    const OwnScale scale(corners.least, corners.greatest);
+    std::array<double, 8> scaled{};
+    for (std::size_t c = 0; c < 8; ++c) scaled[c] = scale(corners.values[c]);
+    const Cubic cubic =
+        cubicOnLine(scaled, glm::mix(from, to, piece.from), glm::mix(from, to, piece.to));
+    for (const Interval<double>& range : ranges_) {
+        if (!(corners.least < range.hi && corners.greatest > range.lo)) continue;
+        // An end that no corner is beyond is left out: rounding must not cross it.
+        addPartsWithin(cubic, corners.least < range.lo ? scale(range.lo) : -kInfinity,
+                       corners.greatest > range.hi ? scale(range.hi) : kInfinity, into);
+    }
+    const double length = piece.to - piece.from;
+    for (std::size_t i = before; i < into.size(); ++i)
+        into[i] = {piece.from + length * into[i].from, piece.from + length * into[i].to};
+}
+
+double IntervalCells::valueAt(const glm::uvec3& cell, const glm::dvec3& place) const {
+    const Corners corners = cornersOf(cell);
+    double sum = 0;
+    for (unsigned c = 0; c < 8; ++c)
+        sum += corners.values[c] * (c & 1 ? place.x : 1 - place.x) *
+               (c & 2 ? place.y : 1 - place.y) * (c & 4 ? place.z : 1 - place.z);
+    return std::clamp(sum, corners.least, corners.greatest);
+}
+
+}  // namespace render

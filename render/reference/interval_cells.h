@@ -1,0 +1,60 @@
+// What of each cell lies in ranges of a field that is trilinear between its points: the interval
+// volume, exactly, cell by cell. The definition that CellSum approximates and shares with it:
+// constant half cells beyond the outermost points; a missing corner has the mean of the cell's
+// others, and what is nearest to it, or to a point beside the clip box, is nowhere.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "render/points/placed_points.h"
+#include "render/reference/cubic_on_line.h"
+#include "render/together.h"
+#include "timeseries/grid/field.h"
+#include "timeseries/index/range_set.h"
+
+namespace render {
+
+// The field must outlive it. Memory: a byte a cell.
+class IntervalCells {
+ public:
+    // `ranges`: disjoint, as timeseries::betweenPoints gives them.
+    IntervalCells(const timeseries::Field& field, const IndexBox& clip,
+                  std::vector<timeseries::Interval<double>> ranges,
+                  unsigned threads = sharingThreads());
+
+    enum class Kind : std::uint8_t { Nothing, Whole, Part };
+    Kind kind(const glm::uvec3& cell) const { return kinds_[numberOf(cell)]; }
+    // Adds the parts, of [0, 1], of the line between two places of the cell (in units of it) on
+    // which the field is in the ranges. Disjoint.
+    void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                  std::vector<LinePart>& into) const;
+    // The field there, of a cell that has a point which is not missing.
+    double valueAt(const glm::uvec3& cell, const glm::dvec3& place) const;
+
+ private:
+    struct Corners {
+        std::array<double, 8> values{};  // no NaN unless all are
+        double least, greatest;          // of them
+        unsigned octants = 0;            // bit c: what is nearest to corner c is somewhere
+    };
+    Corners cornersOf(const glm::uvec3& cell) const;
+    // Of a piece of the line, [0, 1].
+    void addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
+                  const LinePart& piece, std::vector<LinePart>& into) const;
+    Kind kindOf(const Corners& corners) const;
+    std::size_t numberOf(const glm::uvec3& cell) const {
+        return cell.x + std::size_t{size_.x} * (cell.y + std::size_t{size_.y} * cell.z);
+    }
+
+    const timeseries::Field& field_;
+    IndexBox clip_;
+    std::vector<timeseries::Interval<double>> ranges_;
+    glm::uvec3 size_{0};  // cells
+    std::vector<Kind> kinds_;
+};
+
+}  // namespace render

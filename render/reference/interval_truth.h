@@ -1,0 +1,42 @@
+// The continuous truth: what each pixel sees of the interval volume of a scene's layers
+// (render/reference/interval_cells.h), in double, whatever the scene is drawn by. Of a ray, what
+// lies in a cell is exact; a pixel is the mean of n x n rays, regularly spaced in it.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "render/model/scene.h"
+#include "render/points/view.h"
+#include "render/reference/cell_walk.h"
+#include "render/reference/interval_cells.h"
+#include "render/together.h"
+
+namespace render {
+
+// Of what the scene shows, its layers' ranges between points, clip box and styles count. `field` is
+// the scene's, in the grid's order, and must outlive this, as the scene.
+class IntervalTruth {
+ public:
+    // REQUIRES: raysAcross > 0; layers whose `cells.ranges` are there.
+    IntervalTruth(const Scene& scene, const timeseries::Field& field, int raysAcross,
+                  unsigned threads = sharingThreads());
+
+    // The plane W of a layer, as CellSum has it for Channels::Weight: the path length in its ranges
+    // in units of l, from the near plane on. [y][x], row 0 at the bottom. Not a bit depends on the
+    // threads.
+    std::vector<double> weight(const View& view, std::size_t layer) const;
+    // The light of all layers, ordered: emission and absorption along each ray, of optical depth
+    // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
+    // there. Premultiplied, linear. [y][x], row 0 at the bottom.
+    std::vector<glm::dvec4> light(const View& view) const;
+
+ private:
+    const Scene& scene_;
+    int raysAcross_;
+    unsigned threads_;
+    CellWalk walk_;
+    std::vector<IntervalCells> layers_;
+};
+
+}  // namespace render

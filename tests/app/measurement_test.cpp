@@ -1,0 +1,185 @@
+// What is measured of small worlds whose figures are known, and how it is told.
+#include "app/measure/measurement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/measure/report.h"
+#include "app/picture/picture.h"
+#include "tests/support/scenes.h"
+
+namespace app {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using timeseries::RangeSet;
+
+// The field is x, 0 to 8, on 9^3 points.
+class MeasuredRamp : public testing::Test {
+ protected:
+    std::vector<Measured> measured(const std::vector<const char*>& ranges,
+                                   unsigned raysAcross = 3) {
+        Explorer e;
+        e.size = {80, 60};
+        for (const char* range : ranges) {
+            const bool isFirst = e.layers.empty();
+            e.layers.push_back({RangeSet::parse(range), glm::dvec3(isFirst, 0, !isFirst), 0.3});
+        }
+        return measure(e, step_, placed_, {.views = 2, .frames = 3, .raysAcross = raysAcross});
+    }
+
+    std::shared_ptr<const timeseries::Grid> grid_ = tests::cube(9);
+    timeseries::SortedStep step_ =
+        tests::stepOf(grid_, [&](std::size_t i) { return double(grid_->indices(i).x); });
+    render::PlacedPoints placed_{step_.grid()};
+};
+
+// All of it: every point and every cell is drawn, and the mass is the domain's. Where all is
+// selected, cells are exact for the ray in a pixel's middle.
+TEST_F(MeasuredRamp, WhatIsSelectedWholeHasItsWholeMass) {
+    const auto modes = measured({"min:max"}, 1);
+    ASSERT_EQ(modes.size(), 5u);
+    EXPECT_NEAR(modes[0].drawn, 9 * 9 * 9 / 8.0, double(render::kSubsetUnevenness));
+    EXPECT_GT(modes[0].depthError, modes[3].depthError);
+    EXPECT_EQ(modes[3].mode.name(), "points");
+    EXPECT_EQ(modes[3].drawn, 9 * 9 * 9);
+    EXPECT_EQ(modes[4].mode.name(), "cells");
+    EXPECT_EQ(modes[4].drawn, 10 * 10 * 10);
+    for (const Measured& m : modes) {
+        EXPECT_NEAR(m.mass, 1, 0.05) << m.mode.name();
+        EXPECT_GT(m.frame, 0);
+        EXPECT_GE(m.before, 0);
+    }
+    EXPECT_LT(modes[4].depthError, 1e-5);
+    EXPECT_GT(modes[3].depthError, 1e-2);
+    EXPECT_GT(modes[4].psnr, 80);
+    EXPECT_LT(modes[4].rmse, modes[3].rmse);
+    EXPECT_LT(modes[4].colorDifference, modes[3].colorDifference);
+    EXPECT_LE(modes[4].rmse, modes[4].largest);
+}
+
+// A range between points holds none of them: points draw nothing, which is no picture of it.
+TEST_F(MeasuredRamp, ARangeBetweenPointsIsLostByPointsAndKeptByCells) {
+    const auto modes = measured({"4.2:4.6"});
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(modes[i].drawn, 0);
+        EXPECT_EQ(modes[i].mass, 0);
+        EXPECT_EQ(modes[i].depthError, 1);
+        EXPECT_TRUE(modes[i].massIsOff());
+    }
+    EXPECT_NEAR(modes[4].mass, 1, 0.01);
+    EXPECT_LT(modes[4].depthError, 0.05);
+    EXPECT_FALSE(modes[4].massIsOff());
+}
+
+// Mixed or in order, the optical depth is the same; the light is not.
+TEST_F(MeasuredRamp, SeveralColoursAreDrawnInBothOrders) {
+    const auto modes = measured({"0:3", "5:8"});
+    ASSERT_EQ(modes.size(), 10u);
+    const Measured &ordered = modes[8], &mixed = modes[9];
+    EXPECT_EQ(ordered.mode, (Mode{Model::Cells, 1, render::Order::BackToFront}));
+    EXPECT_EQ(mixed.mode, (Mode{Model::Cells, 1, render::Order::None}));
+    EXPECT_EQ(ordered.depthError, mixed.depthError);
+    EXPECT_EQ(ordered.mass, mixed.mass);
+    EXPECT_LT(3 * ordered.rmse, mixed.rmse);
+    EXPECT_LT(ordered.colorDifference, mixed.colorDifference);
+}
+
+TEST_F(MeasuredRamp, WhereNothingIsThereIsNothingWrong) {
+    for (const Measured& m : measured({"20:30"})) {
+        EXPECT_EQ(m.depthError, 0);
+        EXPECT_EQ(m.mass, 1);
+        EXPECT_EQ(m.rmse, 0);
+        EXPECT_EQ(m.psnr, std::numeric_limits<double>::infinity());
+        EXPECT_EQ(m.colorDifference, 0);
+    }
+}
+
+TEST_F(MeasuredRamp, ProgressRisesFromNothing) {
+    Explorer e;
+    e.size = {16, 12};
+    e.layers.push_back({RangeSet::parse("1:2"), glm::dvec3(1), 0.3});
+    std::vector<double> told;
+    measure(e, step_, placed_, {.views = 1, .frames = 3, .raysAcross = 1},
+            [&](double share) { told.push_back(share); });
+    EXPECT_EQ(told.front(), 0);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
+    EXPECT_LT(told.back(), 1);
+}
+
+TEST(ModesFor, AreSubsetsPointsAndCells) {
+    std::vector<std::string> names;
+    for (const Mode& mode : modesFor(false)) names.push_back(mode.name());
+    EXPECT_THAT(names, ElementsAre("points 1/8", "points 1/4", "points 1/2", "points", "cells"));
+    EXPECT_EQ(modesFor(true).size(), 10u);
+}
+
+TEST(ViewsAbout, BeginWithTheOneChosenAndNoTwoAreAlike) {
+    ViewChoice view;
+    view.azimuthDegrees = 100;
+    view.elevationDegrees = -10;
+    const auto views = viewsAbout(view, 8);
+    EXPECT_EQ(views.front(), view);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        EXPECT_EQ(views[i].elevationDegrees, -10);
+        EXPECT_LE(std::abs(views[i].azimuthDegrees), 180);
+        for (std::size_t k = 0; k < i; ++k) {
+            const double apart =
+                std::abs(std::remainder(views[i].azimuthDegrees - views[k].azimuthDegrees, 360));
+            EXPECT_GT(apart, 20);
+        }
+    }
+}
+
+std::vector<Measured> someModes() {
+    Measured points{
+        .mode = {Model::Points, 4, render::Order::None}, .frame = 0.002, .before = 1e-5};
+    points.drawn = 12345;
+    points.depthError = 0.25;
+    points.mass = 1.0625;
+    points.psnr = 20;
+    Measured cells{.mode = {Model::Cells, 1, render::Order::BackToFront}, .frame = 1.5};
+    cells.psnr = std::numeric_limits<double>::infinity();
+    return {points, cells};
+}
+
+TEST(MeasuredReport, MarksAMassThatIsOff) {
+    const auto modes = someModes();
+    EXPECT_THAT(table(modes), HasSubstr("points 1/4   mixed          2 ms   0.01 ms       12,345"));
+    EXPECT_THAT(table(modes), HasSubstr("+6.25 % !"));
+    EXPECT_THAT(table(modes), HasSubstr("\n! its mass is more than 5 % off"));
+    EXPECT_THAT(table(std::span(modes).subspan(1)), Not(HasSubstr("!")));
+}
+
+TEST(MeasuredReport, IsOffFromMoreThanFivePercentOnAndWhereItIsNoNumber) {
+    Measured m;
+    for (const double mass : {0.96, 1.0, 1.04}) {
+        m.mass = mass;
+        EXPECT_FALSE(m.massIsOff()) << mass;
+    }
+    for (const double mass : {0.94, 1.06, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        m.mass = mass;
+        EXPECT_TRUE(m.massIsOff()) << mass;
+    }
+}
+
+TEST(MeasuredReport, CsvHasARowAMode) {
+    EXPECT_EQ(csv(someModes()),
+              "mode,order,frame,before,drawn,depthError,mass,massIsOff,rmse,psnr,largest,"
+              "colorDifference\n"
+              "points 1/4,mixed,0.002,1e-05,12345,0.25,1.0625,true,0.0,20.0,0.0,0.0\n"
+              "cells,by depth,1.5,0.0,0,0.0,1.0,false,0.0,,0.0,0.0\n");
+}
+
+TEST(MeasuredReport, JsonHasNullForTheInfinite) {
+    EXPECT_TRUE(json(someModes()[1])["psnr"].is_null());
+    EXPECT_EQ(json(someModes()[0])["drawn"], 12345);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,97 @@
+#include "app/measure/trade_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <regex>
+
+namespace app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Measured at(double frame, double error, Mode mode = {}, double mass = 1) {
+    Measured m;
+    m.mode = mode;
+    m.frame = frame;
+    m.depthError = error;
+    m.mass = mass;
+    return m;
+}
+
+struct Mark {
+    double x, y;
+    std::string fill;
+};
+std::vector<Mark> marksOf(const std::string& svg) {
+    static const std::regex circle(R"re(<circle cx="([^"]+)" cy="([^"]+)" r="5" fill="([^"]+)")re");
+    std::vector<Mark> marks;
+    for (std::sregex_iterator i(svg.begin(), svg.end(), circle), end; i != end; ++i)
+        marks.push_back({std::stod((*i)[1]), std::stod((*i)[2]), (*i)[3]});
+    return marks;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t times = 0;
+    for (auto i = text.find(what); i != std::string::npos; i = text.find(what, i + 1)) ++times;
+    return times;
+}
+
+// Ten times the time is as far to the right wherever it is, and ten times the error as far up.
+TEST(TradePlot, IsLogarithmicInBoth) {
+    const std::vector modes = {at(0.001, 0.1), at(0.01, 0.01), at(0.1, 0.001)};
+    const auto marks = marksOf(tradePlot(modes, ""));
+    ASSERT_EQ(marks.size(), 3u);
+    EXPECT_NEAR(marks[1].x - marks[0].x, marks[2].x - marks[1].x, 0.11);
+    EXPECT_NEAR(marks[1].y - marks[0].y, marks[2].y - marks[1].y, 0.11);
+    EXPECT_GT(marks[1].x, marks[0].x + 100);
+    EXPECT_GT(marks[1].y, marks[0].y + 100);  // a smaller error stands lower
+}
+
+TEST(TradePlot, EscapesText) {
+    const std::string svg = tradePlot(std::vector{at(1, 1)}, "a<b> & \"c\"\x01 \xb0");
+    EXPECT_THAT(svg, HasSubstr("a&lt;b&gt; &amp; &quot;c&quot;  \ufffd<"));  // a Latin-1 degree
+    EXPECT_EQ(count(svg, "<svg"), count(svg, "</svg>"));
+    EXPECT_EQ(count(svg, "<text"), count(svg, "</text>"));
+    EXPECT_EQ(count(svg, "<g>"), count(svg, "</g>"));
+}
+
+TEST(TradePlot, AModeWhoseMassIsOffIsHollow) {
+    const std::string svg =
+        tradePlot(std::vector{at(0.01, 0.1, {}, 1.2), at(0.1, 0.01, {Model::Cells})}, "");
+    const auto marks = marksOf(svg);
+    EXPECT_EQ(marks[0].fill, "#ffffff");
+    EXPECT_NE(marks[1].fill, "#ffffff");
+    EXPECT_THAT(svg, HasSubstr("points (mass +20 %)"));
+    EXPECT_THAT(svg, HasSubstr("hollow: its mass is more than 5 % off"));
+    EXPECT_THAT(tradePlot(std::vector{at(0.01, 0.1)}, ""), Not(HasSubstr("hollow")));
+}
+
+// No error, or none that is a number, stands at the end of its axis.
+TEST(TradePlot, WhatHasNoLogarithmStaysInThePicture) {
+    for (const double error : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        const std::string svg = tradePlot(std::vector{at(0.01, error), at(0.1, 0.3)}, "");
+        for (const Mark& mark : marksOf(svg)) {
+            EXPECT_GE(mark.x, 0);
+            EXPECT_LE(mark.x, 720);
+            EXPECT_GE(mark.y, 0) << error;
+            EXPECT_LE(mark.y, 480) << error;
+        }
+        EXPECT_THAT(svg, Not(HasSubstr("\"nan\"")));
+        EXPECT_THAT(svg, Not(HasSubstr("\"inf\"")));
+    }
+    EXPECT_EQ(marksOf(tradePlot(std::vector{at(0, 0)}, "")).size(), 1u);
+}
+
+TEST(TradePlot, JoinsTheSubsetsOfOneOrder) {
+    const std::vector modes = {at(0.01, 0.3, {Model::Points, 2}), at(0.02, 0.2, {Model::Points}),
+                               at(0.02, 0.2, {Model::Points, 1, render::Order::BackToFront}),
+                               at(0.1, 0.01, {Model::Cells})};
+    EXPECT_EQ(count(tradePlot(modes, ""), "stroke-width=\"1.5\""), 1u);
+}
+
+}  // namespace
+}  // namespace app

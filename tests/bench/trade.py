@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Measures what each way of drawing costs and how true it is, on real data, and writes tests/bench/TRADE.md.
+
+    tests/bench/trade.py                measures with build/release (some minutes), writes the page
+    tests/bench/trade.py fire tooth     measures these scenes again; the others stay as last measured
+    tests/bench/trade.py --page         writes the page from what was last measured
+
+Data lie in ../shared/datasets, or in datasets below $ISOCHRON_SHARED; what is not there is left out.
+What was measured stays in build/trade. On a quiet machine only: what else runs is in the times.
+"""
+import datetime
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KEPT = ROOT / "build/trade"
+PROGRAM = ROOT / "build/release/app/isochron"
+DATA = pathlib.Path(os.environ.get("ISOCHRON_SHARED", ROOT.parent / "shared")) / "datasets"
+FIRE = "pool_fire_T.nc"
+# Name: file, title, options.
+SCENES = {
+    "fire": (FIRE, "Pool fire, 600 to 1000 K", ["--variable", "T", "--range", "600:1000"]),
+    "fire_edge": (FIRE, "Pool fire, 320 to 400 K", ["--variable", "T", "--range", "320:400"]),
+    "fire_shell": (FIRE, "Pool fire, 845 to 855 K", ["--variable", "T", "--range", "845:855"]),
+    "tooth": ("tooth_u8.nrrd", "Tooth, 80 to 90", ["--range", "80:90"]),
+    "aneurism": ("aneurism_256_u8.vti", "Aneurism, 100 to 120", ["--range", "100:120"]),
+    "hurricane": ("isabel_windspeed_4d.nrrd", "Hurricane Isabel, 39.5 to 40.5 m/s", ["--range", "39.5:40.5"]),
+    "ocean": ("woa_temp_monthly_f32.nc", "Ocean in August, 9.5 to 10.5 °C", ["--step", "7", "--range", "9.5:10.5"]),
+}
+
+
+def said(command):
+    return subprocess.run(command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
+def commit():
+    changed = said(["git", "status", "--porcelain", "--", ".", ":!tests/bench/TRADE.md"]).strip()
+    return said(["git", "rev-parse", "--short", "HEAD"]).strip() + (" and changes" if changed else "")
+
+
+def measure(name):
+    file, _, options = SCENES[name]
+    if not (DATA / file).exists():
+        print(f"{name}: {file} is not there", file=sys.stderr)
+        return
+    print(f"{name} ...", file=sys.stderr)
+    about = {"commit": commit(), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
+    figures = json.loads(said([PROGRAM, "measure", DATA / file, *options, "--size", "600x600", "--json"]))
+    KEPT.mkdir(parents=True, exist_ok=True)
+    (KEPT / f"{name}.json").write_text(json.dumps({"about": about, "figures": figures}, indent=1))
+
+
+def kept(name):
+    file = KEPT / f"{name}.json"
+    return json.loads(file.read_text()) if file.exists() else None
+
+
+def time(seconds):
+    if seconds >= 1:
+        return f"{seconds:.3g} s"
+    return f"{1e3 * seconds:.3g} ms" if seconds >= 1e-3 else f"{1e6 * seconds:.3g} µs"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def mass(mode):
+    text = f"{100 * (mode['mass'] - 1):+.1f} %"
+    return f"**{text}**" if mode["massIsOff"] else text
+
+
+def find(figures, name):
+    """By depth, where both orders were drawn."""
+    return next(m for m in figures["modes"] if m["mode"] == name)
+
+
+def rows_of(figures):
+    for m in figures["modes"]:
+        yield [m["mode"], m["order"], time(m["frame"]), time(m["before"]), f"{m['drawn']:,}",
+               f"{m['depthError']:.3f}", mass(m), f"{m['rmse']:.1e}",
+               "" if m["psnr"] is None else f"{m['psnr']:.1f} dB", f"{m['colorDifference']:.1f}"]
+
+
+def summary(scenes):
+    rows = []
+    for name, data in scenes:
+        points, cells = find(data["figures"], "points"), find(data["figures"], "cells")
+        rows.append([SCENES[name][1], f"{points['depthError']:.3f}", mass(points), time(points["frame"]),
+                     f"{cells['depthError']:.3f}", mass(cells), time(cells["frame"]),
+                     f"{cells['frame'] / points['frame']:.1f}"])
+    return table(["scene", "points: error", "mass", "frame", "cells: error", "mass", "frame", "cells / points"], rows)
+
+
+def reading(scenes):
+    """What the figures say, in words; the numbers are those of the table."""
+    both = [(find(d["figures"], "points"), find(d["figures"], "cells")) for _, d in scenes]
+    span = lambda values, form: f"{form.format(min(values))} to {form.format(max(values))}"
+    lost = [p["depthError"] for p, _ in both]
+    kept_ = [c["depthError"] for _, c in both]
+    slower = [c["frame"] / p["frame"] for p, c in both]
+    off = sum(p["massIsOff"] for p, _ in both)
+    coarse = [find(d["figures"], "points 1/8")["depthError"] / find(d["figures"], "points")["depthError"] for _, d in scenes]
+    return (f"""A point stands for all that is nearest to it, and is drawn or not as its own value lies in the range or not. Where the range is
+wider than the step from one point to the next, few are wrongly in or out, and points are a fair picture. Where it is thinner, most of
+what lies in the range passes between points: the closed shell becomes dots. Over these scenes what is measured in a picture by points, its optical
+depth, is wrong by {span([100 * e for e in lost], '{:.0f}')} %. In {off} of these {len(both)} scenes its sum is more than 5 % off as well (bold), so that even a mean over the picture misleads.
+Cells take what each ray truly has of the range between the points: {span([100 * e for e in kept_], '{:.1f}')} %, for {span(slower, '{:.1f}')} times the time of a frame.
+Drawing one point of eight, larger, is what a moving picture does: the mass stays that of the points, while the error grows by {span(coarse, '{:.1f}')}
+times. So: points to look around, cells for a thin range or for anything that is read off the picture; and neither tells
+what the field does between its points beyond a linear guess, which is what this truth is.
+""")
+
+
+def page():
+    scenes = [(name, kept(name)) for name in SCENES]
+    scenes = [(name, data) for name, data in scenes if data]
+    if not scenes:
+        sys.exit("nothing was measured yet")
+    first = scenes[0][1]["figures"]
+    cpu = said(["sed", "-n", "0,/^model name/s/^model name[^:]*: *//p", "/proc/cpuinfo"]).strip()
+    text = f"""# Speed against accuracy
+
+`tests/bench/trade.py` makes this page by `isochron measure`. {cpu}, {first['threads']} threads; no GPU has been measured.
+{first['size'][0]} x {first['size'][1]} pixels, {len(first['views'])} views, {first['frames']} frames of each, their median. A frame is order, splats or cells, and light,
+without axes and legend. Error is the relative L2 of optical depth, and mass its sum, against the truth: the interval volume of the
+field that is trilinear between its points, exact along each ray, the mean of {first['rays']} x {first['rays']} rays a pixel. RMSE, PSNR and the 95th percentile of
+CIEDE2000 (where something shows; 1 is about what an eye can tell) are of the picture in linear light, against the light of the same
+truth in exact order.
+
+{reading(scenes)}
+By depth, where a scene has more than one colour:
+
+{summary(scenes)}"""
+    head = ["mode", "order", "frame", "before", "drawn", "error", "mass", "RMSE", "PSNR", "ΔE 95 %"]
+    for name, data in scenes:
+        about, figures = data["about"], data["figures"]
+        text += (f"\n## {SCENES[name][1]}\n\n`{SCENES[name][0]}`, step {figures['step']}, {figures['points']:,} points. "
+                 f"*Commit {about['commit']}, {about['date']}, load {about['load']:.1f} at its start.*\n\n"
+                 + table(head, rows_of(figures)))
+    (ROOT / "tests/bench/TRADE.md").write_text(text)
+
+
+def main(arguments):
+    names = [a for a in arguments if a != "--page"]
+    if unknown := [n for n in names if n not in SCENES]:
+        sys.exit(f"{unknown[0]}: no such scene; there are: {' '.join(SCENES)}")
+    if "--page" not in arguments:
+        for name in names or SCENES:
+            measure(name)
+    page()
+
+
+main(sys.argv[1:])

@@ -1,0 +1,30 @@
+# `measure --json` says exactly what the documentation promises, in the promised types.
+include(${CMAKE_CURRENT_LIST_DIR}/functions.cmake)
+arguments(given ${begin} ${end})
+run("[==[${PROGRAM}]==] ${given}")
+if(NOT code EQUAL 0)
+  fail("measure failed")
+endif()
+
+expectMembers("${out}" file STRING variable STRING units STRING step NUMBER ranges STRING
+              points NUMBER size ARRAY frames NUMBER rays NUMBER threads NUMBER truth STRING
+              views ARRAY modes ARRAY)
+string(JSON views LENGTH "${out}" views)
+string(JSON modes LENGTH "${out}" modes)
+if(NOT views EQUAL 2 OR NOT modes EQUAL 5)
+  fail("${views} views and ${modes} modes, expected 2 and 5")
+endif()
+string(JSON view GET "${out}" views 1)
+expectMembers("${view}" azimuth NUMBER elevation NUMBER)
+foreach(i RANGE 4)
+  string(JSON mode GET "${out}" modes ${i})
+  expectMembers("${mode}" mode STRING order STRING frame NUMBER before NUMBER drawn NUMBER
+                depthError NUMBER mass NUMBER massIsOff BOOLEAN rmse NUMBER psnr NUMBER
+                largest NUMBER colorDifference NUMBER)
+endforeach()
+# Cells are the closest.
+string(JSON points GET "${out}" modes 3 depthError)
+string(JSON cells GET "${out}" modes 4 depthError)
+if(NOT cells LESS points)
+  fail("the error of cells, ${cells}, is not below that of points, ${points}")
+endif()

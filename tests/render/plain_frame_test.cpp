@@ -1,0 +1,76 @@
+// A scene alone is what its planes say: their optical depth, and their light on the background.
+#include "render/frame/plain_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/reference/accumulator.h"
+#include "render/reference/cpu_splatter.h"
+#include "tests/support/scenes.h"
+
+namespace render {
+namespace {
+
+const glm::ivec2 kSize(48, 36);
+const glm::dvec3 kGround(0.1, 0.2, 0.4);
+
+struct World {
+    World()
+        : scene{.step = step,
+                .placed = placed,
+                .layers = {},
+                .footprint = {},
+                .order = Order::None,
+                .clip = {}} {
+        for (const char* range : {"0:0.3", "0.5:0.6"})
+            scene.layers.push_back({step.select(timeseries::RangeSet::parse(range)),
+                                    {Constant{glm::dvec3(scene.layers.empty() ? 1 : 0, 0.5, 0.25)},
+                                     scene.layers.empty() ? 0.4 : 0.2}});
+    }
+    timeseries::SortedStep step = tests::noise(tests::cube(8));
+    PlacedPoints placed{step.grid()};
+    Scene scene;
+};
+
+void expectTheTruth(const Scene& scene, const DrawList& list) {
+    const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
+    Accumulator<double> sums(kSize, channelsFor(scene));
+    splat<double>(scene, list, view, {}, sums);
+    PlainFrame frame(kSize, kGround);
+    frame.draw(scene, view);
+    const Image light = frame.light();
+    const std::vector<float> depth = frame.opticalDepth(scene, view);
+    double most = 0;
+    for (int y = 0; y < kSize.y; ++y)
+        for (int x = 0; x < kSize.x; ++x) {
+            const Resolved wanted = resolvePixel(sums, scene.layers, x, y);
+            const glm::dvec3 seen = wanted.rgb + (1 - wanted.alpha) * kGround;
+            const glm::vec4& is = light.at(x, kSize.y - 1 - y);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(is[c], seen[c], 1e-4) << x << ' ' << y;
+            ASSERT_NEAR(depth[std::size_t(y * kSize.x + x)], wanted.opticalDepth,
+                        1e-4 * (1 + wanted.opticalDepth));
+            most = std::max(most, wanted.opticalDepth);
+        }
+    EXPECT_GT(most, 0.5);
+}
+
+TEST(PlainFrame, IsTheTruthsLightOnTheBackground) {
+    World world;
+    expectTheTruth(world.scene, Runs{});
+    world.scene.order = Order::BackToFront;
+    const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
+    expectTheTruth(world.scene, orderExactly(world.scene, pixelRays(view).eye));
+}
+
+TEST(PlainFrame, NothingSelectedIsTheBackground) {
+    World world;
+    world.scene.layers.clear();
+    const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
+    PlainFrame frame(kSize, kGround);
+    frame.draw(world.scene, view);
+    EXPECT_EQ(frame.light(), Image(kSize, glm::vec4(glm::vec3(kGround), 1)));
+}
+
+}  // namespace
+}  // namespace render
