@@ -170,7 +170,7 @@ TEST(IntervalTruth, ARangeOfALinearFieldIsASlabBetweenTwoPlanes) {
         for (const glm::dvec3& from : kFrom) {
             const View view = tests::lookFrom(from, kSize);
             const auto slab = [&](double lo, double hi) {
-                return [&world, &domain, lo, hi](const Ray& ray) {
+                return [&domain, lo, hi](const Ray& ray) {
                     glm::dvec3 first = domain.lo, last = domain.hi;
                     first.x = lo;
                     last.x = hi;
