@@ -74,12 +74,32 @@ struct CellLanes {
             hn::MulAdd(m[1], hn::MulAdd(f[4], m[0], f[2]), hn::MulAdd(f[1], m[0], f[0]));
         r.value = hn::MulAdd(m[2], r.gradient[2], slice);
     }
+    // The field at the ends of its pieces, of which it changes like this half way through.
+    HWY_INLINE void follow(const RayParts<Lanes>& r, V change, V* values) const {
+        const V* d = r.along;
+        const V mixed = hn::MulAdd(d[0], r.mixed[1], hn::Mul(d[1], r.mixed[0]));
+        const V second = hn::MulAdd(hn::Mul(d[0], d[1]), r.mixed[2], hn::Mul(d[2], mixed));
+        const V third = hn::Mul(hn::Mul(hn::Mul(d[0], d[1]), d[2]), f[7]);
+        const V half = hn::Mul(hn::Set(lanes, 0.5f), hn::Sub(r.to, r.from));
+        for (std::size_t k = 0; k <= kPieces; ++k) {
+            const V way = hn::Mul(half, hn::Set(lanes, static_cast<float>(2 * k) / kPieces - 1));
+            values[k] =
+                hn::MulAdd(way, hn::MulAdd(way, hn::MulAdd(way, third, second), change), r.value);
+        }
+    }
+    // The width of the ramp that a pixel makes of an end of the range.
+    HWY_INLINE V acrossPixel(const RayParts<Lanes>& r) const {
+        const V alongX = dot(r.gradient, x), alongY = dot(r.gradient, y);
+        const V length = hn::Sqrt(hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));
+        return hn::Max(hn::Mul(hn::Add(base, r.depth), length),
+                       hn::Set(lanes, static_cast<float>(2 * kLeastChange)));
+    }
     HWY_INLINE V dot(const V* a, const V* b) const {
         return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
     }
 };
 
-// How much of each piece of a ray lies in a cell's range, and what values are there.
+// How much of a piece of a ray lies in a cell's range, and what values are there.
 template <class Lanes>
 struct RangeLanes {
     using V = hn::Vec<Lanes>;
@@ -98,32 +118,26 @@ struct RangeLanes {
     }
     HWY_INLINE V within(V value) const { return hn::Min(hn::Max(value, least), most); }
 
-    // Of the two pieces between three values, along which ramps have this width's reciprocal.
+    // Of a piece between these values, with ramps of this width's reciprocal.
     template <int kEnds>
-    HWY_INLINE void shares(const V* values, V perWidth, V* share) const {
+    HWY_INLINE V share(V first, V last, V perWidth) const {
         const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f), zero = hn::Zero(lanes);
-        V means[2][2];
-        for (int e = 0; e < kEnds; ++e) {
-            V a[3], clamped[3], above[3];
-            for (int k = 0; k < 3; ++k) {
-                a[k] = hn::MulAdd(hn::Sub(values[k], end[e]), perWidth, half);
-                above[k] = hn::Max(a[k], one);
-                clamped[k] = hn::Min(hn::Max(a[k], zero), one);
-            }
-            for (int k = 0; k < 2; ++k) {
-                const V between = hn::Sub(a[k + 1], a[k]);
-                const V both = hn::Mul(half, hn::Add(clamped[k], clamped[k + 1]));
-                const V sum = hn::MulAdd(hn::Sub(clamped[k + 1], clamped[k]), both,
-                                         hn::Sub(above[k + 1], above[k]));
-                const V step = hn::Set(lanes, static_cast<float>(kLeastStep));
-                const auto differ = hn::Ge(hn::Abs(between), step);
-                const V per = reciprocal(lanes, hn::IfThenElse(differ, between, one));
-                means[e][k] = hn::IfThenElse(differ, hn::Mul(sum, per), both);
-            }
-        }
-        for (int k = 0; k < 2; ++k)
-            share[k] = kEnds == 2 ? hn::Max(hn::Sub(means[0][k], means[1][k]), zero)
-                                  : hn::Max(hn::MulAdd(sign, means[0][k], offset), zero);
+        const V between = hn::Mul(hn::Sub(last, first), perWidth);
+        const auto differ =
+            hn::Ge(hn::Abs(between), hn::Set(lanes, static_cast<float>(kLeastStep)));
+        const V per = reciprocal(lanes, hn::IfThenElse(differ, between, one));
+        const auto meanRamp = [&](V at) HWY_ATTR {
+            const V a = hn::MulAdd(hn::Sub(first, at), perWidth, half);
+            const V b = hn::MulAdd(hn::Sub(last, at), perWidth, half);
+            const V ca = hn::Min(hn::Max(a, zero), one), cb = hn::Min(hn::Max(b, zero), one);
+            const V both = hn::Mul(half, hn::Add(ca, cb));
+            const V sum =
+                hn::MulAdd(hn::Sub(cb, ca), both, hn::Sub(hn::Max(b, one), hn::Max(a, one)));
+            return hn::IfThenElse(differ, hn::Mul(sum, per), both);
+        };
+        const V mean = meanRamp(end[0]);
+        return hn::Max(
+            kEnds == 2 ? hn::Sub(mean, meanRamp(end[1])) : hn::MulAdd(sign, mean, offset), zero);
     }
 };
 
@@ -227,8 +241,7 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
     float scale = view.weight;
     if constexpr (kColors) scale *= color.weight;
     const V weight = hn::Set(lanes, scale), zero = hn::Zero(lanes);
-    const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f);
-    const V far = hn::Set(lanes, 3e38f);
+    const V one = hn::Set(lanes, 1.0f), far = hn::Set(lanes, 3e38f);
     const bool hides = room.nearestOpaque < 1;
     const V depthA = hn::Set(lanes, static_cast<float>(view.depthA));
     const V depthB = hn::Set(lanes, static_cast<float>(view.depthB));
@@ -255,31 +268,20 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                 change = cell.dot(r.gradient, r.along);
             }
             if constexpr (kEnds > 0) {
-                const V* d = r.along;
-                const V second = hn::MulAdd(
-                    hn::Mul(d[0], d[1]), r.mixed[2],
-                    hn::Mul(d[2], hn::MulAdd(d[0], r.mixed[1], hn::Mul(d[1], r.mixed[0]))));
-                const V third = hn::Mul(hn::Mul(hn::Mul(d[0], d[1]), d[2]), cell.f[7]);
-                const V way = hn::Mul(half, hn::Sub(r.to, r.from)), way2 = hn::Mul(way, way);
-                const V even = hn::MulAdd(way2, second, r.value);
-                const V odd = hn::Mul(way, hn::MulAdd(way2, third, change));
-                const V values[3] = {hn::Sub(even, odd), r.value, hn::Add(even, odd)};
-                const V width = hn::Max(hn::Mul(hn::Add(cell.base, r.depth),
-                                                hn::Add(hn::Abs(cell.dot(r.gradient, cell.x)),
-                                                        hn::Abs(cell.dot(r.gradient, cell.y)))),
-                                        hn::Set(lanes, static_cast<float>(2 * kLeastChange)));
-                V share[2];
-                range.template shares<kEnds>(values, reciprocal(lanes, width), share);
-                const V both = hn::Add(share[0], share[1]);
-                t = hn::Mul(t, hn::Mul(half, both));
+                V values[kPieces + 1], shares = zero, sum = zero;
+                cell.follow(r, change, values);
+                const V perWidth = reciprocal(lanes, cell.acrossPixel(r));
+                for (std::size_t k = 0; k < kPieces; ++k) {
+                    const V is = range.template share<kEnds>(values[k], values[k + 1], perWidth);
+                    shares = hn::Add(shares, is);
+                    if constexpr (kByValue)
+                        sum = hn::MulAdd(
+                            is, hn::Add(range.within(values[k]), range.within(values[k + 1])), sum);
+                }
+                t = hn::Mul(t, hn::Mul(hn::Set(lanes, 1.0f / kPieces), shares));
                 if constexpr (kByValue) {
-                    const V first = range.within(values[0]), mid = range.within(values[1]);
-                    const V last = range.within(values[2]);
-                    const V sum = hn::MulAdd(share[0], hn::Add(first, mid),
-                                             hn::Mul(share[1], hn::Add(mid, last)));
-                    const V per =
-                        reciprocal(lanes, hn::Max(hn::Add(both, both), hn::Set(lanes, 1e-30f)));
-                    value = hn::Mul(sum, per);
+                    const V twice = hn::Max(hn::Add(shares, shares), hn::Set(lanes, 1e-30f));
+                    value = hn::Mul(sum, reciprocal(lanes, twice));
                 }
             }
             t = hn::IfThenElseZero(inside, t);

@@ -12,8 +12,10 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "render/model/cell_splat.h"
+#include "render/reference/interval_truth.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -236,7 +238,7 @@ TEST(CellSplatter, IsTheIntervalVolumeOfTheInterpolatedField) {
                                        0.2 * p.z * std::sin(0.3 * p.y));
     }
     const World world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }), {"0.1:0.5"});
-    // What two linear pieces a cell leave of a cubic, and the samples of the truth.
+    // What linear pieces leave of a cubic, and the samples of the truth.
     for (const glm::dvec3& from : kFrom) {
         const View view = tests::lookFrom(from, {24, 20}, 0.12);
         std::vector<double> wanted;
@@ -244,6 +246,35 @@ TEST(CellSplatter, IsTheIntervalVolumeOfTheInterpolatedField) {
             for (int x = 0; x < 24; ++x)
                 wanted.push_back(sampled(world, values, view, x, y, 0.1, 0.5));
         EXPECT_LT(relativeL2(drawn(world.scene, view), wanted), 0.02) << from.x;
+    }
+}
+
+// Of a field of many waves, as turbulence is. A range's width is told in steps between neighbours,
+// root mean square.
+TEST(CellSplatter, AThinRangesErrorIsBoundedHoweverThinItIs) {
+    constexpr unsigned kSide = 20;
+    const auto grid = tests::cube(kSide);
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    std::vector<float> values(grid->count());
+    for (int wave = 0; wave < 60; ++wave) {
+        const glm::dvec3 k = 0.35 * glm::dvec3(normal(random), normal(random), normal(random));
+        const double phase = 10 * normal(random);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] += static_cast<float>(std::sin(glm::dot(k, grid->position(i)) + phase) /
+                                            std::sqrt(60));
+    }
+    double squares = 0;
+    for (std::size_t i = 0; i + 1 < values.size(); ++i)
+        if ((i + 1) % kSide != 0) squares += std::pow(double(values[i + 1]) - double(values[i]), 2);
+    const double between = std::sqrt(squares / double(values.size() - kSide * kSide));
+    // With two pieces, or ramps as wide as both changes together, at least one of them is passed.
+    for (const auto& [width, bound] : {std::pair(3.0, 0.0025), {0.3, 0.015}, {0.03, 0.06}}) {
+        const World world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
+                          {"0.2~" + std::to_string(width * between / 2)});
+        const IntervalTruth truth(world.scene, world.scene.cells->field(), 5);
+        const View view = tests::lookFrom({0.7, -2, 1.1}, {64, 64}, 0.1);
+        EXPECT_LT(relativeL2(drawn(world.scene, view), truth.weight(view, 0)), bound) << width;
     }
 }
 
