@@ -82,6 +82,8 @@ constexpr std::array<std::pair<std::string_view, Model>, 2> kModels = {
     {{"points", Model::Points}, {"cells", Model::Cells}}};
 constexpr std::array<std::pair<std::string_view, render::Light>, 3> kLights = {
     {{"off", render::Light::Off}, {"soft", render::Light::Soft}, {"full", render::Light::Full}}};
+constexpr std::array<std::pair<std::string_view, render::OpacityPer>, 2> kOpacityPers = {
+    {{"length", render::OpacityPer::Length}, {"crossing", render::OpacityPer::Crossing}}};
 constexpr std::array<std::pair<std::string_view, render::Kernel>, 2> kKernels = {
     {{"kernel", render::Kernel::Quartic}, {"point", render::Kernel::Point}}};
 constexpr std::array<std::pair<std::string_view, render::Order>, 2> kOrders = {
@@ -297,6 +299,12 @@ render::Light parseLight(std::string_view name) {
 }
 
 std::string_view lightName(render::Light light) { return nameOf<render::Light>(light, kLights); }
+render::OpacityPer parseOpacityPer(std::string_view name) {
+    return named<render::OpacityPer>("opacity per", name, kOpacityPers);
+}
+std::string_view opacityPerName(render::OpacityPer per) {
+    return nameOf<render::OpacityPer>(per, kOpacityPers);
+}
 render::Kernel parseKernel(std::string_view name) {
     return named<render::Kernel>("splat", name, kKernels);
 }

@@ -60,6 +60,8 @@ Model parseModel(std::string_view name);  // points cells
 std::string_view modelName(Model model);
 render::Light parseLight(std::string_view name);  // off soft full
 std::string_view lightName(render::Light light);
+render::OpacityPer parseOpacityPer(std::string_view name);  // length crossing
+std::string_view opacityPerName(render::OpacityPer per);
 render::Kernel parseKernel(std::string_view name);  // kernel point
 std::string_view kernelName(render::Kernel kernel);
 render::Order parseOrder(std::string_view name);  // none depth

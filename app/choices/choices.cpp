@@ -136,7 +136,12 @@ constexpr std::array kChoices = {
     Choice{"--light", "light", Form::Text,
            [](const Explorer& e) { return Text(lightName(e.light)); },
            [](Explorer& e, std::string_view t) { e.light = parseLight(t); }, "Splats",
-           "on cells in depth order, from the eye: off (default), soft, or full with highlights"},
+           "on cells in depth order, from the eye: off, soft (default), or full with highlights"},
+    Choice{"--opacity-per", "opacityPer", Form::Text,
+           [](const Explorer& e) { return Text(opacityPerName(e.opacityPer)); },
+           [](Explorer& e, std::string_view t) { e.opacityPer = parseOpacityPer(t); }, "Splats",
+           "of cells: length, of one cell's length of a ray in the ranges, or crossing (default), "
+           "of a passage through a whole range too, so that a thin one does not fade"},
     Choice{"--splat", "splat", Form::Text,
            [](const Explorer& e) { return Text(kernelName(e.footprint.kernel)); },
            [](Explorer& e, std::string_view t) { e.footprint.kernel = parseKernel(t); }, "Splats",

@@ -90,6 +90,9 @@ class Bench {
         e.order = mode.order;
         render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
         scene.stride = mode.stride;
+        // What the truth is: lengths, and light that comes from within.
+        scene.opacityPer = render::OpacityPer::Length;
+        scene.light = render::Light::Off;
         // As a moving picture's: a splat fills the place of the points that it stands for.
         if (scene.footprint.kernel != render::Kernel::Point)
             scene.footprint.size *= std::cbrt(mode.stride);

@@ -76,14 +76,21 @@ void drawQualityPage(Desk& desk, const Rect& at) {
                                      static_cast<std::size_t>(e.model)))
         edit(desk, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
     constexpr std::array kLights = {"Off", "Soft", "Full"};
+    constexpr std::array kPers = {"Length", "Crossing"};
     if (e.model == Model::Cells) {
         form.note("Between points, too: a thin range is a closed shell. Slower.");
         if (const auto light = segmented(desk.theme, "light", form.row("Light"), kLights,
                                          static_cast<std::size_t>(e.light)))
             edit(desk, {},
                  [&](Explorer& next) { next.light = static_cast<render::Light>(*light); });
-    } else
+        if (const auto per = segmented(desk.theme, "per", form.row("Opacity per"), kPers,
+                                       static_cast<std::size_t>(e.opacityPer)))
+            edit(desk, {},
+                 [&](Explorer& next) { next.opacityPer = static_cast<render::OpacityPer>(*per); });
+        form.note("Per crossing, a thin range is as opaque as a wide one.");
+    } else {
         pointRows(desk, form);
+    }
     if (const auto order = segmented(desk.theme, "order", form.row("Order"), kOrders,
                                      static_cast<std::size_t>(e.order)))
         edit(desk, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });

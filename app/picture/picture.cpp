@@ -250,6 +250,7 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
     if (e.model == Model::Cells)
         scene.cells = await == Await::Cells ? step.cells() : step.cellsIfMade();
     if (scene.cells && scene.order == render::Order::BackToFront) scene.light = e.light;
+    scene.opacityPer = e.opacityPer;
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
         if (!layer.visible) return;
         scene.layers.push_back({step.select(ranges), rangeStyle(layer)});

@@ -10,7 +10,9 @@
 // and of a range the difference of the means of two ramps. An end that the cell does not cross is
 // left out, or a plateau at the end's value would count half.
 //
-// W is that length in units of l, as of splats (render/model/footprint.h). Cells do not overlap.
+// W is that length in units of l, as of splats (render/model/footprint.h), or, where opacity is of
+// a crossing, of each piece what it changes of the range's width, if that is more. Cells do not
+// overlap.
 // The kernels of render/splat/cell_kernels.cpp compute the same in float.
 #pragma once
 
@@ -25,6 +27,7 @@
 #include <limits>
 
 #include "render/model/footprint.h"
+#include "render/model/scene.h"
 
 namespace render {
 
@@ -33,6 +36,7 @@ struct ValuedCell {
     glm::dvec3 from, to;  // opposite corners, in the order of indices
     std::array<double, 8> corners;
     double lo, hi;
+    OpacityPer per = OpacityPer::Length;
 };
 
 // Of the field along a ray. Two miss where it turns: a shell of a twentieth of the step between
@@ -40,8 +44,13 @@ struct ValuedCell {
 inline constexpr std::size_t kPieces = 3;
 // Less than this of the cell's own change is what rounding leaves of a difference.
 inline constexpr double kLeastChange = 1e-5;
+// Of half the cell's own change: what is crossed is no thinner, or rounding would show.
+inline constexpr double kThinnest = 1e-2;
 // Of a ray along an axis, so that one along a face divides by something.
 inline constexpr double kLeastStep = 1e-12;
+
+// What no value of f is near, and floats hold.
+inline constexpr double kBeyond = 1e30;
 
 template <typename Real>
 struct CellSplat {
@@ -63,6 +72,9 @@ struct CellSplat {
     double reference = 0, extent = 0;
     Real least{}, most{};  // of the range, as f
     bool crossesLeast = false, crossesMost = false;
+    // What a change of f is of the range's width; 0 where no passage counts for more than its
+    // length.
+    Real perRange{};
 };
 
 namespace cell {
@@ -96,6 +108,35 @@ Real meanRamp(Real a, Real b) {
     const Real between = b - a;
     if (std::abs(between) < Real(kLeastStep)) return (xa + xb) / 2;
     return ((xb - xa) * (xb + xa) / 2 + (std::max(b, Real(1)) - std::max(a, Real(1)))) / between;
+}
+
+// The range in a cell whose least and greatest corners are these; mostPerLength(): of the change
+// of f over a unit length l in it.
+template <typename Real>
+void seeRange(CellSplat<Real>& s, const ValuedCell& cell, double least, double greatest,
+              const auto& mostPerLength) {
+    s.crossesLeast = least < cell.lo;
+    s.crossesMost = greatest > cell.hi;
+    const auto within = [&](double end) {
+        return static_cast<Real>((end - s.reference) / s.extent);
+    };
+    if (s.crossesLeast) s.least = within(cell.lo);
+    if (s.crossesMost) s.most = within(cell.hi);
+    if (cell.per == OpacityPer::Length) return;
+    if (s.crossesLeast && s.crossesMost) {
+        const Real middle = (s.least + s.most) / 2;
+        const Real way = std::max(s.most - middle, Real(kThinnest / 2));
+        s.least = middle - way;
+        s.most = middle + way;
+        s.perRange = 1 / (2 * way);
+        return;
+    }
+    const double perRange = s.extent / (cell.hi - cell.lo);
+    if (!(perRange * mostPerLength() > 1)) return;
+    s.perRange = static_cast<Real>(perRange);
+    if (s.crossesLeast || s.crossesMost) return;
+    s.crossesMost = true;  // so that it is looked at piece by piece
+    s.most = Real(kBeyond);
 }
 
 }  // namespace cell
@@ -154,13 +195,11 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     for (std::size_t c = 0; c < 8; ++c) f[c] = (cell.corners[c] - s.reference) / s.extent;
     f = cell::coefficients(f);
     for (std::size_t c = 0; c < 8; ++c) s.f[c] = static_cast<Real>(f[c]);
-    s.crossesLeast = *lo < cell.lo;
-    s.crossesMost = *hi > cell.hi;
-    const auto within = [&](double end) {
-        return static_cast<Real>((end - s.reference) / s.extent);
-    };
-    if (s.crossesLeast) s.least = within(cell.lo);
-    if (s.crossesMost) s.most = within(cell.hi);
+    cell::seeRange(s, cell, *lo, *hi, [&] {
+        double squares = 0;  // f changes by no more than 2 along an edge
+        for (const Vec3& edge : half) squares += 1 / static_cast<double>(glm::dot(edge, edge));
+        return std::sqrt(squares) * view.unitLength;
+    });
     return s;
 }
 
@@ -220,18 +259,24 @@ CellFragment<Real> fragmentOn(const PointsView& view, const CellSplat<Real>& s,
         return std::max(is, Real(0));
     };
     const auto within = [&](Real v) {
+        v = std::clamp(v, Real(-1), Real(1));
         if (s.crossesLeast) v = std::max(v, s.least);
         return s.crossesMost ? std::min(v, s.most) : v;
     };
-    // What of a linear piece lies in the range has the mean of its ends there.
-    Real shares = 0, sum = 0;
+    // What of a linear piece lies in the range, over the pixel, has the mean of its ends there.
+    Real weight = 0, sum = 0;
     for (std::size_t k = 0; k < kPieces; ++k) {
-        const Real is = share(values[k], values[k + 1]);
-        shares += is;
-        sum += is * (within(values[k]) + within(values[k + 1])) / 2;
+        const Real begin = values[k], end = values[k + 1];
+        const Real is =
+            share(begin, end) * std::max(whole / kPieces, std::abs(end - begin) * s.perRange);
+        weight += is;
+        sum +=
+            is *
+            (within(std::min(begin, end) - width / 2) + within(std::max(begin, end) + width / 2)) /
+            2;
     }
-    if (!(shares > 0)) return {};
-    return {whole * shares / kPieces, sum / shares};
+    if (!(weight > 0)) return {};
+    return {weight, sum / weight};
 }
 
 }  // namespace render

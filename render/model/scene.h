@@ -97,6 +97,12 @@ struct Footprint {
 };
 enum class Order { None, BackToFront };
 
+// What a layer's opacity is of, where cells are drawn: a unit length l of a ray's way within a
+// range, or one passage through it from end to end, whichever makes more of each piece of the way,
+//   dW = max(ds / l, |df| / (hi - lo)),
+// so that a contour stays visible however thin its range is.
+enum class OpacityPer { Length, Crossing };
+
 // Refers to the step and the placed points, which must outlive it.
 struct Scene {
     const timeseries::SortedStep& step;
@@ -111,6 +117,7 @@ struct Scene {
     // The step's, where layers are drawn by cells instead of points; all of them then, always.
     std::shared_ptr<const timeseries::CellIndex> cells = {};
     Light light = Light::Off;  // on cells, where they are drawn in order
+    OpacityPer opacityPer = OpacityPer::Length;
 };
 
 // Splats or cells that are drawn of a layer.

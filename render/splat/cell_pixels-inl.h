@@ -113,10 +113,16 @@ struct RangeLanes {
         end[1] = hn::Set(l, c.most);
         sign = hn::Set(l, first ? 1.0f : -1.0f);
         offset = hn::Set(l, first ? 0.0f : 1.0f);
-        least = hn::Set(l, c.crossesLeast ? c.least : -1e30f);
-        most = hn::Set(l, c.crossesMost ? c.most : 1e30f);
+        least = hn::Set(l, first ? std::max(c.least, -1.0f) : -1.0f);
+        most = hn::Set(l, c.crossesMost ? std::min(c.most, 1.0f) : 1.0f);
     }
     HWY_INLINE V within(V value) const { return hn::Min(hn::Max(value, least), most); }
+    // Of the values in the range that a pixel sees of a piece, across which they change so much.
+    HWY_INLINE V twiceMean(V first, V last, V width) const {
+        const V reach = hn::Mul(hn::Set(lanes, 0.5f), width);
+        return hn::Add(within(hn::Sub(hn::Min(first, last), reach)),
+                       within(hn::Add(hn::Max(first, last), reach)));
+    }
 
     // Of a piece between these values, with ramps of this width's reciprocal.
     template <int kEnds>
@@ -241,6 +247,8 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
     float scale = view.weight;
     if constexpr (kColors) scale *= color.weight;
     const V weight = hn::Set(lanes, scale), zero = hn::Zero(lanes);
+    const V perRange = hn::Set(lanes, scale / view.weight * c.perRange);
+    const float* const factors = room.factor.data();
     const V one = hn::Set(lanes, 1.0f), far = hn::Set(lanes, 3e38f);
     const bool hides = room.nearestOpaque < 1;
     const V depthA = hn::Set(lanes, static_cast<float>(view.depthA));
@@ -268,19 +276,27 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                 change = cell.dot(r.gradient, r.along);
             }
             if constexpr (kEnds > 0) {
-                V values[kPieces + 1], shares = zero, sum = zero;
+                V values[kPieces + 1], sum = zero;
                 cell.follow(r, change, values);
-                const V perWidth = reciprocal(lanes, cell.acrossPixel(r));
+                const V width = cell.acrossPixel(r), perWidth = reciprocal(lanes, width);
+                const V length = hn::Mul(t, hn::Set(lanes, 1.0f / kPieces));
+                // As if along the view axis: the ray's own length is a factor later.
+                const V crossing =
+                    c.perRange > 0
+                        ? hn::Mul(perRange, reciprocal(lanes, hn::LoadU(lanes, factors + at)))
+                        : zero;
+                t = zero;
                 for (std::size_t k = 0; k < kPieces; ++k) {
-                    const V is = range.template share<kEnds>(values[k], values[k + 1], perWidth);
-                    shares = hn::Add(shares, is);
+                    const V first = values[k], last = values[k + 1];
+                    const V whole =
+                        hn::Max(length, hn::Mul(crossing, hn::Abs(hn::Sub(last, first))));
+                    const V is = hn::Mul(range.template share<kEnds>(first, last, perWidth), whole);
+                    t = hn::Add(t, is);
                     if constexpr (kByValue)
-                        sum = hn::MulAdd(
-                            is, hn::Add(range.within(values[k]), range.within(values[k + 1])), sum);
+                        sum = hn::MulAdd(is, range.twiceMean(first, last, width), sum);
                 }
-                t = hn::Mul(t, hn::Mul(hn::Set(lanes, 1.0f / kPieces), shares));
                 if constexpr (kByValue) {
-                    const V twice = hn::Max(hn::Add(shares, shares), hn::Set(lanes, 1e-30f));
+                    const V twice = hn::Max(hn::Add(t, t), hn::Set(lanes, 1e-30f));
                     value = hn::Mul(sum, reciprocal(lanes, twice));
                 }
             }
@@ -301,7 +317,7 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                         hn::StoreU(hn::Add(share, hn::LoadU(lanes, sum)), lanes, sum);
                     }
                 } else {
-                    const V factor = hn::LoadU(lanes, room.factor.data() + at);
+                    const V factor = hn::LoadU(lanes, factors + at);
                     if constexpr (kLit) {
                         V diffuse, specular;
                         light.shade(r, change, factor, diffuse, specular);

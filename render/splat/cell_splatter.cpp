@@ -84,6 +84,7 @@ void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
     const glm::uvec3 at = timeseries::indicesOf(number, scene.cells->size());
     ValuedCell cell{};
     cell.corners = scene.cells->corners(at);
+    cell.per = scene.opacityPer;
     for (int a = 0; a < 3; ++a)
         std::tie(cell.from[a], cell.to[a]) =
             endsAlong(scene.placed, static_cast<std::size_t>(a), at[a]);

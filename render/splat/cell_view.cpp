@@ -71,6 +71,7 @@ SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t laye
     c.most = s.most;
     c.crossesLeast = s.crossesLeast;
     c.crossesMost = s.crossesMost;
+    c.perRange = s.perRange;
     // A plateau is lit evenly; more than this would leave the floats.
     constexpr double kFlat = 1e10;
     c.steep = static_cast<float>(s.extent > 0 ? std::min(view.steep / s.extent, kFlat) : kFlat);

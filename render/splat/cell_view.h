@@ -37,6 +37,7 @@ struct SeenCell {
     std::array<float, 8> f{};
     float least = 0, most = 0;
     bool crossesLeast = false, crossesMost = false;
+    float perRange = 0;
     float tint = 0, tintPerValue = 0;  // place among the tints where f = 0, and what f adds to it
     float firstTint = 0, lastTint = 0;
     float steep = 0;  // CellView::steep as the gradient of f

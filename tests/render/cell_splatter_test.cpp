@@ -229,6 +229,86 @@ TEST(CellSplatter, AThinRangeOfALinearFieldIsAClosedShellOfItsThickness) {
     }
 }
 
+// Of a passage through all of a range that is thinner than a cell, a contour keeps W = 1; a range
+// that is so wide that its length says more has its length. Also of one value alone.
+TEST(CellSplatter, PerCrossingAThinRangeOfALinearFieldStaysVisible) {
+    const auto grid = tests::cube(9);
+    for (const std::string range : {"3.3:6.3", "4.25:4.35", "4.2999:4.3001", "4.3", "4.3:max"}) {
+        World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                    {range});
+        const View view = tests::lookFrom({3, -0.4, 0.3}, {64, 64}, 0.05);
+        const std::vector<float> length = drawn(world.scene, view);
+        world.scene.opacityPer = OpacityPer::Crossing;
+        const std::vector<float> w = drawn(world.scene, view);
+        const bool isWide = range == "3.3:6.3" || range == "4.3:max";
+        for (std::size_t i = 0; i < w.size(); ++i)
+            ASSERT_NEAR(w[i], isWide ? length[i] : 1, isWide ? 1e-6 * length[i] : 5e-3)
+                << range << " at " << i;
+    }
+}
+
+// Of a shell that is thinner than what a pixel sees of the field, a pixel sees all values,
+// whichever cells its rays have of it.
+TEST(CellSplatter, AThinShellHasTheColorOfItsMiddleEverywhere) {
+    const auto grid = tests::cube(9);
+    World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                {"4.29:4.31"});
+    world.scene.layers[0].style.color = ByValue{ColorMap(), 4.29, 4.31};
+    world.scene.order = Order::BackToFront;
+    world.scene.opacityPer = OpacityPer::Crossing;
+    const View view = tests::lookFrom({0.9, -3, 1.1}, {64, 64});
+    const std::vector<float> pixels = drawn(world.scene, view, Channels::Over);
+    const glm::dvec3 middle = colorOf(world.scene.layers[0].style, 4.3);
+    int seen = 0;
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        if (pixels[i + 3] < 0.05f) continue;
+        ++seen;
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(pixels[i + std::size_t(c)] / pixels[i + 3], middle[c], 0.05)
+                << "pixel " << i / 4;
+    }
+    EXPECT_GT(seen, 100);
+}
+
+// Against samples of dW = max(ds / l, |df| / (hi - lo)).
+TEST(CellSplatter, PerCrossingEachPieceOfTheWayCountsForItsLengthOrItsChange) {
+    const auto grid = tests::cube(8);
+    std::vector<float> values(grid->count());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const glm::dvec3 p = grid->position(i);
+        values[i] = static_cast<float>(std::sin(0.9 * p.x + 0.3) * std::cos(0.8 * p.y) +
+                                       0.3 * p.z * std::sin(0.6 * p.y));
+    }
+    constexpr int kSamples = 4000;
+    for (const double half : {0.25, 0.05}) {
+        World world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
+                    {"0.3~" + std::to_string(half)});
+        world.scene.opacityPer = OpacityPer::Crossing;
+        for (const glm::dvec3& from : kFrom) {
+            const View view = tests::lookFrom(from, {24, 20}, 0.002);
+            std::vector<double> wanted;
+            for (int pixel = 0; pixel < 480; ++pixel) {
+                const Ray ray = rayOf(world, view, {pixel % 24 + 0.5, pixel / 24 + 0.5});
+                const auto [begin, end] = inside(ray, world.placed.domain());
+                const double step = (end - begin) / kSamples;
+                const auto at = [&, begin = begin](int i) {
+                    return fieldAt(world, values, ray.from + (begin + step * i) * ray.along);
+                };
+                double sum = 0, last = at(0);
+                for (int i = 1; i <= kSamples && step > 0; ++i) {
+                    const double now = at(i), middle = (last + now) / 2;
+                    if (std::abs(middle - 0.3) <= half)
+                        sum += std::max(step * ray.length / world.placed.unitLength(),
+                                        std::abs(now - last) / (2 * half));
+                    last = now;
+                }
+                wanted.push_back(sum);
+            }
+            EXPECT_LT(relativeL2(drawn(world.scene, view), wanted), 0.02) << half << ' ' << from.x;
+        }
+    }
+}
+
 TEST(CellSplatter, IsTheIntervalVolumeOfTheInterpolatedField) {
     const auto grid = std::make_shared<Grid>(std::array{axis(12), axis(10, 7, -1.3), axis(9)});
     std::vector<float> values(grid->count());

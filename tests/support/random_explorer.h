@@ -43,6 +43,8 @@ class RandomExplorer {
         for (std::size_t i = random_() % (most + 1); i > 0; --i)
             e.layers.push_back(styled(random_() % 5 == 0 ? timeseries::RangeSet() : ranges()));
         if (maybe()) e.model = app::Model::Cells;
+        e.light = static_cast<render::Light>(random_() % 3);
+        if (maybe()) e.opacityPer = render::OpacityPer::Length;
         e.footprint = {maybe() ? render::Kernel::Point : render::Kernel::Quartic,
                        0.001 + 5 * unit()};
         e.order = maybe() ? render::Order::None : render::Order::BackToFront;
