@@ -107,7 +107,7 @@ struct Explorer {
     // shows one at a time anyway and has no use for it.
     bool oneTick = false;
     Model model = Model::Points;
-    render::Light light = render::Light::Off;                      // on cells in depth order
+    render::Light light = render::Light::Soft;                     // on cells in depth order
     render::OpacityPer opacityPer = render::OpacityPer::Crossing;  // of cells
     render::Footprint footprint;
     render::Order order = render::Order::BackToFront;  // where it shows
