@@ -15,8 +15,8 @@ double pixelsOf(const Splat<double>& s, const PointsView& seen, glm::ivec2 size)
     return sides.x * sides.y;
 }
 
-// Of a cell, in the mean: what setting it up and one of its pixels take, of an ordinary splat, which
-// takes twice as long in order, while a cell does not (tests/bench/NOTES.md).
+// Of a cell, in the mean: what setting it up and one of its pixels take, of an ordinary splat,
+// which takes twice as long in order, while a cell does not (tests/bench/NOTES.md).
 double cellCost(const Scene& scene, const View& view) {
     const double ordered = scene.order == Order::None ? 1 : 0.5;
     constexpr double kSetUp = 5, kPixel = 0.1;
