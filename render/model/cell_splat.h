@@ -49,9 +49,6 @@ inline constexpr double kThinnest = 1e-2;
 // Of a ray along an axis, so that one along a face divides by something.
 inline constexpr double kLeastStep = 1e-12;
 
-// What no value of f is near, and floats hold.
-inline constexpr double kBeyond = 1e30;
-
 template <typename Real>
 struct CellSplat {
     using Vec2 = glm::vec<2, Real>;
@@ -115,28 +112,23 @@ Real meanRamp(Real a, Real b) {
 template <typename Real>
 void seeRange(CellSplat<Real>& s, const ValuedCell& cell, double least, double greatest,
               const auto& mostPerLength) {
-    s.crossesLeast = least < cell.lo;
-    s.crossesMost = greatest > cell.hi;
-    const auto within = [&](double end) {
-        return static_cast<Real>((end - s.reference) / s.extent);
+    const auto within = [&](double end) {  // in halves, the whole may overflow
+        return 2 * ((0.5 * end - 0.5 * s.reference) / s.extent);
     };
-    if (s.crossesLeast) s.least = within(cell.lo);
-    if (s.crossesMost) s.most = within(cell.hi);
-    if (cell.per == OpacityPer::Length) return;
-    if (s.crossesLeast && s.crossesMost) {
-        const Real middle = (s.least + s.most) / 2;
-        const Real way = std::max(s.most - middle, Real(kThinnest / 2));
-        s.least = middle - way;
-        s.most = middle + way;
-        s.perRange = 1 / (2 * way);
-        return;
-    }
-    const double perRange = s.extent / (cell.hi - cell.lo);
-    if (!(perRange * mostPerLength() > 1)) return;
-    s.perRange = static_cast<Real>(perRange);
-    if (s.crossesLeast || s.crossesMost) return;
-    s.crossesMost = true;  // so that it is looked at piece by piece
-    s.most = Real(kBeyond);
+    const bool isThin =
+        cell.per == OpacityPer::Crossing && s.extent / (cell.hi - cell.lo) * mostPerLength() > 1;
+    s.crossesLeast = isThin || least < cell.lo;
+    s.crossesMost = isThin || greatest > cell.hi;
+    if (s.crossesLeast) s.least = static_cast<Real>(within(cell.lo));
+    if (s.crossesMost) s.most = static_cast<Real>(within(cell.hi));
+    if (!isThin) return;
+    // Both ends, also one that the cell does not reach: what a pixel sees of the field beyond the
+    // other is not in the range.
+    const Real middle = (s.least + s.most) / 2;
+    const Real way = std::max(s.most - middle, Real(kThinnest / 2));
+    s.least = middle - way;
+    s.most = middle + way;
+    s.perRange = 1 / (2 * way);
 }
 
 }  // namespace cell
