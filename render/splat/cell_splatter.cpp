@@ -26,17 +26,22 @@ struct CellOfLayer {
     std::uint8_t layer;
 };
 
+// The layers that a plane of these channels takes: from the first to before the second.
+std::pair<std::size_t, std::size_t> layersOf(const Scene& scene, Channels channels,
+                                             std::size_t layer) {
+    if (channels == Channels::Over || channels == Channels::Count) return {0, scene.layers.size()};
+    return {layer, layer + 1};
+}
+
 // Of these layers, as their candidates lie.
-std::vector<CellOfLayer> candidates(const Scene& scene, std::size_t layer, std::size_t last) {
+std::vector<CellOfLayer> candidates(const Scene& scene, Channels channels, std::size_t layer) {
     std::vector<CellOfLayer> cells;
-    std::uint64_t count = 0;
-    for (std::size_t k = layer; k < last; ++k) count += cellCount(scene.layers[k]);
-    cells.reserve(count);
-    for (; layer < last; ++layer)
-        for (const timeseries::Run& run : scene.layers[layer].cells.candidates)
+    cells.reserve(cellCount(scene, channels, layer));
+    const auto [first, last] = layersOf(scene, channels, layer);
+    for (std::size_t k = first; k < last; ++k)
+        for (const timeseries::Run& run : scene.layers[k].cells.candidates)
             for (std::uint64_t i = 0; i < run.count; ++i)
-                cells.push_back(
-                    {scene.cells->cell(run.first + i), static_cast<std::uint8_t>(layer)});
+                cells.push_back({scene.cells->cell(run.first + i), static_cast<std::uint8_t>(k)});
     return cells;
 }
 
@@ -130,10 +135,9 @@ TileSpan spanOf(const CellView& view, const SeenCell& c) {
 }  // namespace
 
 std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer) {
-    const bool all = channels == Channels::Over || channels == Channels::Count;
+    const auto [first, last] = layersOf(scene, channels, layer);
     std::uint64_t count = 0;
-    for (std::size_t k = all ? 0 : layer; k < (all ? scene.layers.size() : layer + 1); ++k)
-        count += cellCount(scene.layers[k]);
+    for (std::size_t k = first; k < last; ++k) count += cellCount(scene.layers[k]);
     return count;
 }
 
@@ -202,8 +206,7 @@ struct CellSum::Work {
           threads(std::max(shared, 1u)),
           memory(kept.kept ? std::move(kept) : CellMemory()),
           plane(view, opaqueDepth, of.size.x, threads, memory.kept->plane) {
-        const bool all = channels == Channels::Over || channels == Channels::Count;
-        cells = candidates(scene, all ? 0 : layer, all ? scene.layers.size() : layer + 1);
+        cells = candidates(scene, channels, layer);
         if (channels == Channels::Over) orderByDepth(scene, of, cells);
         memory.kept->seen.resize(threads);
     }
