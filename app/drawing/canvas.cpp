@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <new>
 #include <thread>
 
@@ -23,14 +22,6 @@ std::uint64_t drawnSplats(const std::vector<render::Layer>& layers, std::uint32_
     return sum;
 }
 
-// A splat of a subset fills the place of the points that it stands for: at equal cost that is
-// nearer to the whole than more, smaller splats (tests/bench/canvas_bench.cpp). Points keep their
-// pixels.
-render::Footprint footprintFor(render::Footprint footprint, std::uint32_t stride) {
-    if (footprint.kernel != render::Kernel::Point) footprint.size *= std::cbrt(stride);
-    return footprint;
-}
-
 double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
     double sum = 0;
     for (const render::View& eye : eyes) sum += render::sceneCost(scene, eye);
@@ -49,7 +40,7 @@ void thinOut(render::Scene& scene, std::span<const render::View> eyes, std::uint
     const render::Footprint whole = scene.footprint;
     while (scene.stride < render::kMaxStride && costOf(scene, eyes) > static_cast<double>(limit)) {
         scene.stride *= 2;
-        scene.footprint = footprintFor(whole, scene.stride);
+        scene.footprint = standingFor(whole, scene.stride);
     }
 }
 
@@ -336,7 +327,7 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
     if (!state_->screen) return std::nullopt;
     render::Scene scene = sceneOf(*state_->screen);
     scene.stride = state_->stride;
-    scene.footprint = footprintFor(state_->screen->explorer.footprint, scene.stride);
+    scene.footprint = standingFor(state_->screen->explorer.footprint, scene.stride);
     const auto picked = render::pick(scene, eye, window);
     if (!picked) return std::nullopt;
     const timeseries::SortedStep& step = *state_->screen->sorted;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -88,14 +87,12 @@ class Bench {
         Explorer e = explorer_;
         e.model = mode.model;
         e.order = mode.order;
+        // What the truth is: lengths, and light that comes from within.
+        e.opacityPer = render::OpacityPer::Length;
+        e.light = render::Light::Off;
         render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
         scene.stride = mode.stride;
-        // What the truth is: lengths, and light that comes from within.
-        scene.opacityPer = render::OpacityPer::Length;
-        scene.light = render::Light::Off;
-        // As a moving picture's: a splat fills the place of the points that it stands for.
-        if (scene.footprint.kernel != render::Kernel::Point)
-            scene.footprint.size *= std::cbrt(mode.stride);
+        scene.footprint = standingFor(scene.footprint, mode.stride);
         return scene;
     }
 

@@ -90,9 +90,9 @@ double meanOpticalDepth(const Scene& scene, const View& view) {
     const std::uint64_t all = points(scene), count = std::min(all, kMostSplats);
     if (all == 0) return 0;
     const double each = static_cast<double>(all) / static_cast<double>(count);
-    // As a moving picture's: a splat fills the place of the points that it stands for.
     Scene coarse = scene;
     coarse.stride = 1;
+    // Points of fixed size grow too: the picture becomes so much smaller.
     coarse.footprint.size *= std::cbrt(each);
     View small = view;
     small.size = coarseSize(coarse, view);

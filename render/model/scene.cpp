@@ -37,6 +37,11 @@ std::uint64_t splatCount(const Layer& layer, std::uint32_t stride) {
     return countOf(layer, strideOf(layer, stride));
 }
 
+Footprint standingFor(Footprint footprint, double points) {
+    if (footprint.kernel != Kernel::Point) footprint.size *= std::cbrt(points);
+    return footprint;
+}
+
 double pointsPerSplat(const Layer& layer, std::uint32_t stride) {
     const std::uint64_t splats = splatCount(layer, stride);
     if (splats == 0) return 1;

@@ -95,6 +95,9 @@ struct Footprint {
     double size = 1;
     friend bool operator==(const Footprint&, const Footprint&) = default;
 };
+// Of a splat that stands for so many points: it fills their place, which at equal cost is nearer to
+// the whole than more, smaller splats (tests/bench/canvas_bench.cpp). Points keep their pixels.
+Footprint standingFor(Footprint footprint, double points);
 enum class Order { None, BackToFront };
 
 // What a layer's opacity is of, where cells are drawn: a unit length l of a ray's way within a
