@@ -128,11 +128,20 @@ constexpr std::array kChoices = {
            },
            "Sweep", "Only this picture of the sweep, counted from 0"},
 
-    Choice{"--model", "model", Form::Text,
-           [](const Explorer& e) { return Text(modelName(e.model)); },
-           [](Explorer& e, std::string_view t) { e.model = parseModel(t); }, "Splats",
-           "points (default): those in the ranges, each a splat; cells: what lies in the ranges "
-           "between points, too, so that thin ranges are closed shells; slower"},
+    Choice{"--splat", "splat", Form::Text,
+           [](const Explorer& e) { return Text(kernelName(e.footprint.kernel)); },
+           [](Explorer& e, std::string_view t) { e.footprint.kernel = parseKernel(t); }, "Splats",
+           "of points: kernel (default), or point"},
+    Choice{"--splat-size", "splatSize", Form::Number,
+           [](const Explorer& e) { return numberText(e.footprint.size); },
+           [](Explorer& e, std::string_view t) { e.footprint.size = number(t, 1e-3, 1e3); },
+           "Splats", "kernel: times the radius that suits the spacing; point: pixels"},
+    Choice{
+        "--model", "model", Form::Text, [](const Explorer& e) { return Text(modelName(e.model)); },
+        [](Explorer& e, std::string_view t) { e.model = parseModel(t); }, "Splats",
+        "cells (default): what lies in the ranges between points, too, so that thin ranges are "
+        "closed shells; points: those in the ranges, each a splat, as categories and kept values "
+        "always are"},
     Choice{"--light", "light", Form::Text,
            [](const Explorer& e) { return Text(lightName(e.light)); },
            [](Explorer& e, std::string_view t) { e.light = parseLight(t); }, "Splats",
@@ -142,14 +151,6 @@ constexpr std::array kChoices = {
            [](Explorer& e, std::string_view t) { e.opacityPer = parseOpacityPer(t); }, "Splats",
            "of cells: length, of one cell's length of a ray in the ranges, or crossing (default), "
            "of a passage through a whole range too, so that a thin one does not fade"},
-    Choice{"--splat", "splat", Form::Text,
-           [](const Explorer& e) { return Text(kernelName(e.footprint.kernel)); },
-           [](Explorer& e, std::string_view t) { e.footprint.kernel = parseKernel(t); }, "Splats",
-           "kernel (default) or point"},
-    Choice{"--splat-size", "splatSize", Form::Number,
-           [](const Explorer& e) { return numberText(e.footprint.size); },
-           [](Explorer& e, std::string_view t) { e.footprint.size = number(t, 1e-3, 1e3); },
-           "Splats", "kernel: times the radius that suits the spacing; point: pixels"},
     Choice{"--order", "order", Form::Text,
            [](const Explorer& e) { return Text(orderName(e.order)); },
            [](Explorer& e, std::string_view t) { e.order = parseOrder(t); }, "Splats",

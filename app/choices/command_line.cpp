@@ -82,7 +82,10 @@ void addChoices(const Explorer& e, Arguments& arguments) {
     const Explorer plain;
     for (const Choice& choice : choices()) {
         const auto text = choice.text(e);
-        if (*choice.option == '\0' || !text || text == choice.text(plain)) continue;
+        // Splats alone would choose points.
+        const bool isModel = choice.option == std::string_view("--model");
+        const bool isTold = isModel && e.footprint != plain.footprint;
+        if (*choice.option == '\0' || !text || (text == choice.text(plain) && !isTold)) continue;
         if (choice.flag)
             arguments.flag(choice.option, *text == choice.flag);
         else

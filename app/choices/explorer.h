@@ -89,7 +89,7 @@ struct PlayChoice {
 };
 
 // What of the field is drawn: the points in a range, or the cells between them
-// (render/model/cell_splat.h).
+// (render/model/cell_splat.h), where a step has them; else points.
 enum class Model { Points, Cells };
 
 struct Explorer {
@@ -106,7 +106,7 @@ struct Explorer {
     // One picture of the sweep, where it stands (play.tick), instead of its whole cycle. A window
     // shows one at a time anyway and has no use for it.
     bool oneTick = false;
-    Model model = Model::Points;
+    Model model = Model::Cells;
     render::Light light = render::Light::Soft;                     // on cells in depth order
     render::OpacityPer opacityPer = render::OpacityPer::Crossing;  // of cells
     render::Footprint footprint;

@@ -162,6 +162,9 @@ Explorer ExplorerOptions::explorer(const CLI::App& app) const {
             throw ChoiceError(fmt::format("{} needs --sweep beside it", choice.option));
         take(choice, texts_[i], e);
     }
+    // Who chooses splats chooses points.
+    if ((given(app, "--splat") || given(app, "--splat-size")) && !given(app, "--model"))
+        e.model = Model::Points;
     applyLayers(app, e);
     if (const auto flaw = flawOf(e))
         throw ChoiceError(fmt::format("{}: {}", optionOf(flaw->key), flaw->why));

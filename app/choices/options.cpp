@@ -58,6 +58,7 @@ struct OutputText {
     std::vector<std::string> channels;
     std::string output, device = "any", splatter = "any";
     bool portable = false, progress = false;
+    bool modelGiven = false;  // among the choices of the picture
 };
 
 void addOutput(CLI::App& app, OutputText& into) {
@@ -107,12 +108,11 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     if (text.splatter == "exact") options.splatter = render::SplatterChoice::Exact;
     options.portable = text.portable;
     options.progress = text.progress;
-    if (options.explorer.model == Model::Cells) {
-        if (options.splatter == render::SplatterChoice::Gl ||
-            options.splatter == render::SplatterChoice::Exact)
-            throw ChoiceError(fmt::format(
-                "--splatter {} draws points: --model cells is drawn by any or cpu", text.splatter));
-        options.splatter = render::SplatterChoice::Cpu;
+    if (options.splatter == render::SplatterChoice::Exact) {
+        if (text.modelGiven && options.explorer.model == Model::Cells)
+            throw ChoiceError(
+                "--splatter exact draws points: --model cells is drawn by the others");
+        options.explorer.model = Model::Points;
     }
     checkOutput(options);
     return options;
@@ -262,6 +262,7 @@ Command parse(std::span<const char* const> arguments) {
         app.parse(std::move(all));
         if (*infoApp) return with(info);
         if (*countApp) return with(countOptions(*countApp, countText));
+        outputText.modelGiven = renderApp->count("--model") > 0;
         if (*renderApp) return with(renderOptions(renderText.explorer(*renderApp), outputText));
         if (*measureApp)
             return with(measureOptions(measuredText.explorer(*measureApp), measureText));

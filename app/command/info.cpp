@@ -56,9 +56,13 @@ ordered_json axisJson(const Axis& axis) {
 }
 
 ordered_json variableJson(const Variable& v) {
-    ordered_json out{{"name", v.name},         {"longName", v.longName},
-                     {"units", v.units},       {"type", timeseries::typeName(v.type)},
-                     {"storedAs", v.storedAs}, {"missing", v.missing},
+    ordered_json out{{"name", v.name},
+                     {"longName", v.longName},
+                     {"units", v.units},
+                     {"type", timeseries::typeName(v.type)},
+                     {"storedAs", v.storedAs},
+                     {"missing", v.missing},
+                     {"categories", v.categories},
                      {"notes", v.notes}};
     out["grid"] = {{"kind", kindOf(*v.grid)}, {"points", v.grid->count()}};
     for (const Axis& axis : v.grid->axes()) out["grid"]["axes"].push_back(axisJson(axis));
@@ -112,7 +116,7 @@ std::string unevenText(const timeseries::TimeAxis& time) {
 void print(const Variable& v, bool shownFirst) {
     say("\n{}{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
         v.units.empty() ? "" : " (" + v.units + ")", shownFirst ? "  * shown first" : "");
-    say("  type     {}{}\n", timeseries::typeName(v.type),
+    say("  type     {}{}{}\n", timeseries::typeName(v.type), v.categories ? ", categories" : "",
         v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
     if (!v.missing.empty()) say("  missing  {}\n", v.missing);
     const auto n = v.grid->size();

@@ -100,7 +100,10 @@ int measureModes(const MeasureOptions& options) {
     const std::size_t index = data.steps.front();
     const auto step = data.source->get(index, index);
     if (!step->canHaveCells())
-        throw ChoiceError("measure needs the cells between the points: this grid has too many");
+        throw ChoiceError(
+            step->ofCategories()
+                ? "measure needs values between the points: these are categories"
+                : "measure needs the cells between the points: this grid has too many");
     const Subject subject{options, data, *step, index};
     const render::PlacedPoints placed(step->grid(), data.explorer.scale);
     std::vector<Measured> modes;

@@ -48,6 +48,8 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
     const bool arriving = current && report_.uploaded < 1;
     if (!current || arriving || (!isDone() && resting))
         redraw(*shown, resting && !arriving, frameBudget);
+    else if (resting && waitsForError())
+        tellError();
     kept_->show(window, {0, window.y - static_cast<int>(place.max.y)}, kGroundColor);
 }
 
@@ -81,12 +83,21 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->placed->boxHalfEdges();
 }
 
+bool PictureView::waitsForError() const {
+    return drawn_ && isDone() && !performance_.error && eyes_.size() == 1 &&
+           PictureError::canBeTold(*drawn_->sorted);
+}
+
+void PictureView::tellError() {
+    performance_.error = error_.of({drawn_->sorted, drawn_->explorer, eyes_.front()});
+}
+
 void PictureView::took(std::chrono::nanoseconds frame) {
     if (!std::exchange(timed_, true)) performance_.frame = frame;
 }
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
-    if (!drawn_ || isDone()) return std::nullopt;
+    if (!drawn_ || (isDone() && (playing_ || !waitsForError()))) return std::nullopt;
     const bool goesOn = report_.uploaded < 1 || (report_.refined > 0 && !playing_);
     return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/drawing/canvas.h"
+#include "app/drawing/picture_error.h"
 #include "app/panels/desk.h"
 #include "render/frame/frame_pace.h"
 #include "render/frame/kept_picture.h"
@@ -55,6 +56,8 @@ class PictureView {
 
     bool isCurrent(const Shown& shown) const;
     bool isDone() const { return report_.whole && report_.told; }  // nothing more comes at rest
+    bool waitsForError() const;
+    void tellError();  // of a picture that is whole and rests
     void redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget);
 
     Canvas canvas_{render::SplatterChoice::ByDevice, render::LightAs::Srgb8};
@@ -66,6 +69,7 @@ class PictureView {
     std::optional<Drawn> drawn_;
     CanvasReport report_;
     panels::Performance performance_;
+    PictureError error_;
     glm::dmat3 boxHalfEdges_{0.5};
     std::vector<render::View> eyes_;
     glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other

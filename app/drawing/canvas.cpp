@@ -28,15 +28,17 @@ double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
     return sum;
 }
 
-// The least stride whose frame keeps to the limit. Cells have none: where they are too many, points
-// stand for them.
+// The same selection, of which points stand for cells.
+render::Scene byPoints(render::Scene scene) {
+    if (!scene.cells) return scene;
+    scene.cells.reset();
+    scene.light = render::Light::Off;
+    if (render::areOneColor(scene.layers)) scene.order = render::Order::None;
+    return scene;
+}
+
+// The least stride whose frame keeps to the limit.
 void thinOut(render::Scene& scene, std::span<const render::View> eyes, std::uint64_t limit) {
-    if (scene.cells && costOf(scene, eyes) <= static_cast<double>(limit)) return;
-    if (scene.cells) {
-        scene.cells.reset();
-        scene.light = render::Light::Off;
-        if (render::areOneColor(scene.layers)) scene.order = render::Order::None;
-    }
     const render::Footprint whole = scene.footprint;
     while (scene.stride < render::kMaxStride && costOf(scene, eyes) > static_cast<double>(limit)) {
         scene.stride *= 2;
@@ -161,6 +163,10 @@ struct Canvas::State {
 
     // What every frame begins with: brings what is shown and tells of it.
     CanvasReport begin(const Shown& shown, const CanvasLimits& limits, render::gl::GpuTimer& of);
+    // For a picture that moves: as much as keeps to the limit. Cells have no subsets: where they
+    // are too many, points stand for them, if they are there.
+    render::Scene thinned(render::Scene scene, std::span<const render::View> eyes,
+                          std::uint64_t limit) const;
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
     GpuSteps::Held& bring(const Shown& shown, std::uint64_t uploadBytes, CanvasReport& report);
@@ -178,6 +184,19 @@ struct Canvas::State {
     }
 };
 
+render::Scene Canvas::State::thinned(render::Scene scene, std::span<const render::View> eyes,
+                                     std::uint64_t limit) const {
+    if (scene.cells) {
+        if (costOf(scene, eyes) <= static_cast<double>(limit)) return scene;
+        render::Scene points = byPoints(scene);
+        if (!isThere(*screen->held, points)) return scene;
+        thinOut(points, eyes, limit);
+        return points;
+    }
+    thinOut(scene, eyes, limit);
+    return scene;
+}
+
 void Canvas::State::choose(const Explorer& choices) {
     Screen changed = *screen;
     changed.explorer = choices;
@@ -192,15 +211,16 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadByt
     Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
     const render::Scene scene = sceneOf(next);
     const bool onScreen = screen && screen->held == &held;
-    if (renderer.takesPointsFromGpu(scene)) {
-        std::optional<render::ValueScale> scale = render::neededScale(scene);
+    // While the picture moves, points may stand for cells.
+    if (const render::Scene points = byPoints(scene); renderer.takesPointsFromGpu(points)) {
+        std::optional<render::ValueScale> scale = render::neededScale(points);
         if (scale) scale = held.onGpu.serving(*scale);
         constexpr std::uint64_t kOnScreen = 8;
-        held.onGpu.upload(scene, scale, onScreen ? kOnScreen * uploadBytes : uploadBytes);
-        if (const std::uint64_t missing = held.onGpu.missingBytes(scene, scale); missing > 0)
+        held.onGpu.upload(points, scale, onScreen ? kOnScreen * uploadBytes : uploadBytes);
+        if (const std::uint64_t missing = held.onGpu.missingBytes(points, scale); missing > 0)
             report.uploaded =
                 1 - static_cast<double>(missing) /
-                        static_cast<double>(render::GpuStep::neededBytes(scene, scale));
+                        static_cast<double>(render::GpuStep::neededBytes(points, scale));
     }
     if (isThere(held, scene)) {
         screen.emplace(std::move(next));
@@ -248,13 +268,13 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     auto& screen = state_->screen;
     if (!screen) return report;
 
-    render::Scene drawn = sceneOf(*screen);
+    const render::Scene whole = sceneOf(*screen);
     render::Legend legend;
     if (scene.legend) {
-        legend = state_->telling.legend(*screen, drawn, !moving);
-        report.told = state_->telling.isOf(*screen, drawn);
+        legend = state_->telling.legend(*screen, whole, !moving);
+        report.told = state_->telling.isOf(*screen, whole);
     }
-    if (moving) thinOut(drawn, eyes, limits.splats);
+    const render::Scene drawn = moving ? state_->thinned(whole, eyes, limits.splats) : whole;
     if (!drawn.cells) std::erase(legend.notes, kInterpolated);
     state_->stride = drawn.stride;
     state_->tell(report, drawn.layers);

@@ -49,6 +49,7 @@ std::vector<LiveSteps::Arrival> LiveSteps::poll() {
             arrivals.push_back({loaded.step, loaded.sorted});
         }
     }
+    for (auto& left : series_.recount()) leaving_.push_back(std::move(left));
     freeLeaving();
     if (!arrivals.empty()) ask();
     return arrivals;

@@ -24,7 +24,8 @@ enum class Page { Animation, View, Quality, Probe };
 struct Performance {
     std::chrono::nanoseconds frame{0}, budget{0};
     CanvasReport report = {};
-    std::uint64_t picture = 0;  // another number, another picture
+    std::uint64_t picture = 0;         // another number, another picture
+    std::optional<double> error = {};  // of it (PictureError), once that is known
 };
 
 // What the user chose of the interface itself: no part of a picture, not undone.

@@ -126,6 +126,14 @@ void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>&
     }
 }
 
+// "error about 0.4 %"; "" where it is not known.
+std::string errorText(const std::optional<double>& error) {
+    if (!error || !std::isfinite(*error)) return "";
+    const double percent = 100 * *error;
+    if (percent < 0.1) return "error below 0.1 %";
+    return fmt::format("error about {:.{}f} %", percent, percent < 1 ? 1 : 0);
+}
+
 std::vector<std::string> figuresOf(const Performance& p, const timeseries::Series* series) {
     if (series == nullptr || !p.report.counts) return {};
     const CanvasReport& r = p.report;
@@ -139,6 +147,8 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
                                    .allSplats = r.selected,
                                    .points = counts.inClipBox ? r.selected : counts.selected}) +
                         (counts.inClipBox ? ", before clipping" : ""));
+    if (const std::string error = errorText(p.error); !error.empty())
+        lines.back() += "  ·  " + error;
     lines.push_back(fmt::format(
         "{} selected{}  ·  {}{}", withCommas(counts.selected),
         counts.inClipBox ? " in the clip box" : "",

@@ -254,10 +254,9 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
         if (!layer.visible) return;
         scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
-        if (!scene.cells) return;
         render::Cells& cells = scene.layers.back().cells;
         cells.ranges = timeseries::betweenPoints(ranges, step.type());
-        cells.candidates = scene.cells->select(cells.ranges);
+        if (scene.cells) cells.candidates = scene.cells->select(cells.ranges);
     };
     if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
     for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
@@ -334,10 +333,12 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
     if (const std::string stretch = render::stretchText(scene.step.grid(), scene.placed);
         !stretch.empty())
         legend.notes.push_back(stretch);
-    if (scene.cells)
+    if (scene.cells && !scene.layers.empty())
         legend.notes.emplace_back(kInterpolated);
     else if (e.model == Model::Cells && !scene.step.canHaveCells())
-        legend.notes.push_back("drawn by points: cells need every value kept");
+        legend.notes.push_back(scene.step.ofCategories()
+                                   ? "drawn by points: nothing lies between categories"
+                                   : "drawn by points: cells need every value kept");
     if (e.clip) legend.notes.push_back("drawn inside " + clipText(*e.clip) + " only");
     return legend;
 }

@@ -35,6 +35,7 @@ FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
               : splatter),
       as_(as) {
     inMemory_.setFont(font_);
+    if (by_ == SplatterChoice::Gl) mostCellBytes_ = GlCellSplatter::mostBytes();
 }
 
 FrameRenderer::Gl& FrameRenderer::needGl() {
@@ -89,7 +90,7 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     makeRoom(eyes, light);
     ++orders_;
     const Scene& scene = content.scene;
-    // GL's own upload does it.
+    // The upload of points does it.
     if (&light != &inMemory_ && !takesPointsFromGpu(scene))
         needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
     return {content, splatter(scene).prepare(scene, std::move(list), step), midEye(eyes), light,
@@ -97,13 +98,13 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
-    if (takesPointsFromGpu(content.scene) || !MemoryLight::canDraw(content.placards, eyes))
-        return needGl().light;
+    if (byGl(content.scene) || !MemoryLight::canDraw(content.placards, eyes)) return needGl().light;
     return inMemory_;
 }
 
 Splatter& FrameRenderer::splatter(const Scene& scene) {
     if (takesPointsFromGpu(scene)) return needGl().splatter;
+    if (byGl(scene)) return needGl().cells;
     if (!scene.cells && by_ == SplatterChoice::Exact) return exact_;
     return processor_;
 }

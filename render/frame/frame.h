@@ -14,6 +14,7 @@
 #include "render/gl/driver.h"
 #include "render/reference/exact_splatter.h"
 #include "render/splat/depth_order.h"
+#include "render/splat/gl_cell_splatter.h"
 #include "render/splat/gl_list.h"
 #include "render/splat/processor_splatter.h"
 
@@ -58,8 +59,7 @@ class FrameRenderer {
     std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
-    // Whether drawing takes the scene's points from the GPU; else the program sums them itself, as
-    // it does all cells.
+    // Whether drawing takes the scene's points from the GPU: GL sums them, and no cells.
     bool takesPointsFromGpu(const Scene& scene) const {
         return by_ == SplatterChoice::Gl && !scene.cells;
     }
@@ -114,10 +114,15 @@ class FrameRenderer {
                      DrawList list, LightAs as);
     struct Gl {
         GlSplatter splatter;
+        GlCellSplatter cells{splatter};
         GlLight light{splatter.layerBlock()};
     };
     Gl& needGl();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
+    // Whether GL sums the scene; else the program does it itself.
+    bool byGl(const Scene& scene) const {
+        return by_ == SplatterChoice::Gl && (!scene.cells || GlCells::fit(scene, mostCellBytes_));
+    }
     Splatter& splatter(const Scene& scene);
     DrawList listFor(const Scene& scene, std::span<const View> eyes);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
@@ -144,7 +149,8 @@ class FrameRenderer {
     };
     std::vector<Held> targets_;  // all of different sizes
     std::size_t current_ = 0;
-    SplatterChoice by_;  // never ByDevice
+    SplatterChoice by_;                // never ByDevice
+    std::uint64_t mostCellBytes_ = 0;  // on the GPU, where that draws
     LightAs as_;
     std::uint64_t orders_ = 0, eyes_ = 0;
 };

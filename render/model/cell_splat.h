@@ -44,6 +44,9 @@ struct ValuedCell {
 inline constexpr std::size_t kPieces = 3;
 // Less than this of the cell's own change is what rounding leaves of a difference.
 inline constexpr double kLeastChange = 1e-5;
+// As floats have it, a change of f along a piece that is worth dividing by: less has lost more than
+// a thousandth to rounding.
+inline constexpr double kLeastDifference = 1e-4;
 // Of half the cell's own change: what is crossed is no thinner, or rounding would show.
 inline constexpr double kThinnest = 1e-2;
 // Of a ray along an axis, so that one along a face divides by something.
@@ -107,14 +110,16 @@ Real meanRamp(Real a, Real b) {
     return ((xb - xa) * (xb + xa) / 2 + (std::max(b, Real(1)) - std::max(a, Real(1)))) / between;
 }
 
-// The range in a cell whose least and greatest corners are these; mostPerLength(): of the change
-// of f over a unit length l in it.
+// The range in a cell whose least and greatest corners are these; unitLength: l, in axis
+// coordinates.
 template <typename Real>
 void seeRange(CellSplat<Real>& s, const ValuedCell& cell, double least, double greatest,
-              const auto& mostPerLength) {
+              double unitLength) {
     const auto within = [&](double end) {  // in halves, the whole may overflow
         return 2 * ((0.5 * end - 0.5 * s.reference) / s.extent);
     };
+    // Of the change of f over a unit length: f changes by no more than 2 along an edge.
+    const auto mostPerLength = [&] { return 2 * glm::length(unitLength / (cell.to - cell.from)); };
     const bool isThin =
         cell.per == OpacityPer::Crossing && s.extent / (cell.hi - cell.lo) * mostPerLength() > 1;
     s.crossesLeast = isThin || least < cell.lo;
@@ -131,6 +136,25 @@ void seeRange(CellSplat<Real>& s, const ValuedCell& cell, double least, double g
     s.perRange = 1 / (2 * way);
 }
 
+// What no view changes: the field in the cell, and the range. False where the cell takes nothing of
+// it.
+template <typename Real>
+bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
+    const auto [lo, hi] = std::minmax_element(cell.corners.begin(), cell.corners.end());
+    // One that only touches the range takes nothing of it.
+    const bool reaches = *lo < *hi ? *lo<cell.hi&& * hi> cell.lo : *lo <= cell.hi && *hi >= cell.lo;
+    if (!reaches) return false;
+    s.reference = 0.5 * *lo + 0.5 * *hi;
+    s.extent = 0.5 * *hi - 0.5 * *lo;
+    if (!(s.extent > 0)) return true;
+    std::array<double, 8> f{};
+    for (std::size_t c = 0; c < 8; ++c) f[c] = (cell.corners[c] - s.reference) / s.extent;
+    f = cell::coefficients(f);
+    for (std::size_t c = 0; c < 8; ++c) s.f[c] = static_cast<Real>(f[c]);
+    seeRange(s, cell, *lo, *hi, unitLength);
+    return true;
+}
+
 }  // namespace cell
 
 template <typename Real>
@@ -138,10 +162,6 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     using Vec2 = glm::vec<2, Real>;
     using Vec3 = glm::vec<3, Real>;
     CellSplat<Real> s;
-    const auto [lo, hi] = std::minmax_element(cell.corners.begin(), cell.corners.end());
-    // One that only touches the range takes nothing of it.
-    const bool reaches = *lo < *hi ? *lo<cell.hi&& * hi> cell.lo : *lo <= cell.hi && *hi >= cell.lo;
-    if (!reaches) return s;
     const PixelRays& rays = view.rays;
     const glm::dvec3 size = cell.to - cell.from, middle = 0.5 * (cell.from + cell.to);
     const glm::dvec3 seen(view.viewFromAxes * glm::dvec4(middle, 1.0));
@@ -152,7 +172,8 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     const auto deep =
         static_cast<double>(std::abs(half[0].z) + std::abs(half[1].z) + std::abs(half[2].z));
     if (!(depth + deep > rays.near)) return s;
-    s.visible = true;
+    s.visible = cell::seeField(s, cell, view.unitLength);
+    if (!s.visible) return s;
     s.perSize = Vec3(1.0 / size);
     if (depth - deep > rays.near) {
         constexpr Real kMore = Real(0.01);  // than arithmetic loses
@@ -180,18 +201,6 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
         s.hi = -s.lo;
     }
     s.ray = Vec3((rays.axis + s.centre.x * rays.perPixelX + s.centre.y * rays.perPixelY) / size);
-    s.reference = 0.5 * *lo + 0.5 * *hi;
-    s.extent = 0.5 * *hi - 0.5 * *lo;
-    if (!(s.extent > 0)) return s;
-    std::array<double, 8> f{};
-    for (std::size_t c = 0; c < 8; ++c) f[c] = (cell.corners[c] - s.reference) / s.extent;
-    f = cell::coefficients(f);
-    for (std::size_t c = 0; c < 8; ++c) s.f[c] = static_cast<Real>(f[c]);
-    cell::seeRange(s, cell, *lo, *hi, [&] {
-        double squares = 0;  // f changes by no more than 2 along an edge
-        for (const Vec3& edge : half) squares += 1 / static_cast<double>(glm::dot(edge, edge));
-        return std::sqrt(squares) * view.unitLength;
-    });
     return s;
 }
 

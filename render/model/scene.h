@@ -63,14 +63,14 @@ inline double opticalDepthPerWeight(double opacity) {
 // The cells between points, of which a ray takes what lies in the ranges
 // (render/model/cell_splat.h): the interval volume of the field interpolated between its points.
 struct Cells {
-    std::vector<timeseries::Run> candidates;  // as CellIndex::select gives them
     std::vector<timeseries::Interval<double>> ranges;
+    std::vector<timeseries::Run> candidates;  // as CellIndex::select gives them
 };
 
 struct Layer {
     std::vector<timeseries::Run> runs;  // as SortedStep::select gives them
     RangeStyle style;
-    Cells cells = {};  // where the scene is drawn by cells
+    Cells cells = {};  // of which there are candidates where the scene is drawn by cells
 };
 constexpr std::size_t kMaxLayers = 8;
 

@@ -60,10 +60,11 @@ unsigned octantOf(const glm::dvec3& place) {
 }  // namespace
 
 IntervalCells::IntervalCells(const timeseries::Field& field, const IndexBox& clip,
-                             std::vector<Interval<double>> ranges, unsigned threads)
+                             std::vector<Interval<double>> ranges, unsigned threads, Look look)
     : field_(field), clip_(clip), ranges_(std::move(ranges)) {
     const auto points = field.grid->size();
     size_ = glm::uvec3(points[0], points[1], points[2]) + 1u;
+    if (look == Look::WhenAsked) return;
     kinds_.resize(std::size_t{size_.x} * size_.y * size_.z);
     inParts(std::size_t{size_.y} * size_.z, threads, [&](std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row)

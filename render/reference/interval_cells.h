@@ -18,16 +18,21 @@
 
 namespace render {
 
-// The field must outlive it. Memory: a byte a cell.
+// The field must outlive it.
 class IntervalCells {
  public:
+    // For every ray of a picture each cell is looked at once, before; for a few rays, when one
+    // comes to it. Memory: a byte a cell, or none.
+    enum class Look { Before, WhenAsked };
     // `ranges`: disjoint, as timeseries::betweenPoints gives them.
     IntervalCells(const timeseries::Field& field, const IndexBox& clip,
                   std::vector<timeseries::Interval<double>> ranges,
-                  unsigned threads = sharingThreads());
+                  unsigned threads = sharingThreads(), Look look = Look::Before);
 
     enum class Kind : std::uint8_t { Nothing, Whole, Part };
-    Kind kind(const glm::uvec3& cell) const { return kinds_[numberOf(cell)]; }
+    Kind kind(const glm::uvec3& cell) const {
+        return kinds_.empty() ? kindOf(cornersOf(cell)) : kinds_[numberOf(cell)];
+    }
     // Adds the parts, of [0, 1], of the line between two places of the cell (in units of it) on
     // which the field is in the ranges. Disjoint.
     void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,

@@ -11,38 +11,10 @@ namespace {
 
 using Kind = IntervalCells::Kind;
 
-struct Ray {
-    glm::dvec3 eye, along;  // axis coordinates; a unit of t is one of view depth
-    double weight;          // W of a unit of t
-};
-
-// The mean over a pixel's rays of sum(ray, work), for all pixels; each thread has a `Work`.
-template <typename Work, typename Pixel, typename Sum>
-std::vector<Pixel> meanOfRays(const Scene& scene, const View& view, int across, unsigned threads,
-                              const Sum& sum) {
-    const PixelRays rays = pixelRays(scene.placed.inAxes(view));
-    std::vector<Pixel> pixels(static_cast<std::size_t>(view.size.x) *
-                              static_cast<std::size_t>(view.size.y));
-    std::atomic<int> next{0};
-    const auto rayAt = [&](double x, double y) {
-        const glm::dvec2 o = glm::dvec2(x, y) - rays.centre;
-        const glm::dvec3 along = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
-        return Ray{rays.eye, along,
-                   glm::length(scene.placed.worldFromAxes() * along) / scene.placed.unitLength()};
-    };
-    together(threads, [&](unsigned) {
-        Work work;
-        for (int y; (y = next++) < view.size.y;)
-            for (int x = 0; x < view.size.x; ++x) {
-                Pixel all(0);
-                for (int j = 0; j < across; ++j)
-                    for (int i = 0; i < across; ++i)
-                        all += sum(rayAt(x + (i + 0.5) / across, y + (j + 0.5) / across), rays.near,
-                                   work);
-                pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) +
-                       static_cast<std::size_t>(x)] = all / static_cast<double>(across * across);
-            }
-    });
+std::vector<glm::ivec2> allPixels(glm::ivec2 size) {
+    std::vector<glm::ivec2> pixels;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) pixels.emplace_back(x, y);
     return pixels;
 }
 
@@ -66,30 +38,66 @@ struct Seen {
 
 }  // namespace
 
+template <typename Pixel, typename Work, typename Sum>
+std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const glm::ivec2> pixels,
+                                             const Sum& sum) const {
+    constexpr std::size_t kAtOnce = 64;
+    const PixelRays rays = pixelRays(scene_.placed.inAxes(view));
+    const auto rayAt = [&](const glm::dvec2& at) {
+        const glm::dvec2 o = at - rays.centre;
+        const glm::dvec3 along = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
+        return Ray{rays.eye, along, rays.near,
+                   glm::length(scene_.placed.worldFromAxes() * along) / scene_.placed.unitLength()};
+    };
+    std::vector<Pixel> means(pixels.size());
+    std::atomic<std::size_t> next{0};
+    together(threads_, [&](unsigned) {
+        Work work;
+        for (std::size_t first; (first = next.fetch_add(kAtOnce)) < pixels.size();)
+            for (std::size_t p = first; p < std::min(first + kAtOnce, pixels.size()); ++p) {
+                Pixel all(0);
+                for (int j = 0; j < raysAcross_; ++j)
+                    for (int i = 0; i < raysAcross_; ++i)
+                        all += sum(rayAt(glm::dvec2(pixels[p]) +
+                                         (glm::dvec2(i, j) + 0.5) / double(raysAcross_)),
+                                   work);
+                means[p] = all / static_cast<double>(raysAcross_ * raysAcross_);
+            }
+    });
+    return means;
+}
+
 IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::Field& field, int raysAcross,
-                             unsigned threads)
+                             unsigned threads, IntervalCells::Look look)
     : scene_(scene), raysAcross_(raysAcross), threads_(std::max(threads, 1u)), walk_(scene.placed) {
     for (const Layer& layer : scene.layers)
-        layers_.emplace_back(field, scene.clip, layer.cells.ranges, threads_);
+        layers_.emplace_back(field, scene.clip, layer.cells.ranges, threads_, look);
+}
+
+double IntervalTruth::weight(const Ray& ray, std::size_t layer,
+                             std::vector<LinePart>& parts) const {
+    const IntervalCells& cells = layers_[layer];
+    double length = 0;
+    walk_(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
+        const Kind kind = cells.kind(cell);
+        if (kind == Kind::Whole) length += to - from;
+        if (kind != Kind::Part) return;
+        parts.clear();
+        cells.addParts(cell, walk_.inCell(cell, ray.eye + from * ray.along),
+                       walk_.inCell(cell, ray.eye + to * ray.along), parts);
+        for (const LinePart& part : parts) length += (to - from) * (part.to - part.from);
+    });
+    return length * ray.weight;
 }
 
 std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer) const {
-    const IntervalCells& cells = layers_[layer];
-    using Parts = std::vector<LinePart>;
-    return meanOfRays<Parts, double>(
-        scene_, view, raysAcross_, threads_, [&](const Ray& ray, double near, Parts& parts) {
-            double length = 0;
-            walk_(ray.eye, ray.along, near, [&](const glm::uvec3& cell, double from, double to) {
-                const Kind kind = cells.kind(cell);
-                if (kind == Kind::Whole) length += to - from;
-                if (kind != Kind::Part) return;
-                parts.clear();
-                cells.addParts(cell, walk_.inCell(cell, ray.eye + from * ray.along),
-                               walk_.inCell(cell, ray.eye + to * ray.along), parts);
-                for (const LinePart& part : parts) length += (to - from) * (part.to - part.from);
-            });
-            return length * ray.weight;
-        });
+    return weight(view, layer, allPixels(view.size));
+}
+
+std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer,
+                                          std::span<const glm::ivec2> pixels) const {
+    return meanOfRays<double, std::vector<LinePart>>(
+        view, pixels, [&](const Ray& ray, auto& parts) { return weight(ray, layer, parts); });
 }
 
 std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
@@ -135,22 +143,23 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
             seen.through *= 1 - taken;
         }
     };
-    return meanOfRays<LightWork, glm::dvec4>(
-        scene_, view, raysAcross_, threads_, [&](const Ray& ray, double near, LightWork& work) {
+    return meanOfRays<glm::dvec4, LightWork>(
+        view, allPixels(view.size), [&](const Ray& ray, LightWork& work) {
             Seen seen;
-            walk_(ray.eye, ray.along, near, [&](const glm::uvec3& cell, double from, double to) {
-                const auto isIn = [&](const IntervalCells& layer) {
-                    return layer.kind(cell) != Kind::Nothing;
-                };
-                if (seen.through < kNothing || std::ranges::none_of(layers_, isIn)) return;
-                const glm::dvec3 a = walk_.inCell(cell, ray.eye + from * ray.along);
-                const glm::dvec3 b = walk_.inCell(cell, ray.eye + to * ray.along);
-                collect(cell, a, b, work);
-                for (std::size_t i = 1; i < work.ends.size(); ++i)
-                    if (work.ends[i] > work.ends[i - 1])
-                        pass(cell, a, b, {work.ends[i - 1], work.ends[i]}, (to - from) * ray.weight,
-                             work, seen);
-            });
+            walk_(ray.eye, ray.along, ray.near,
+                  [&](const glm::uvec3& cell, double from, double to) {
+                      const auto isIn = [&](const IntervalCells& layer) {
+                          return layer.kind(cell) != Kind::Nothing;
+                      };
+                      if (seen.through < kNothing || std::ranges::none_of(layers_, isIn)) return;
+                      const glm::dvec3 a = walk_.inCell(cell, ray.eye + from * ray.along);
+                      const glm::dvec3 b = walk_.inCell(cell, ray.eye + to * ray.along);
+                      collect(cell, a, b, work);
+                      for (std::size_t i = 1; i < work.ends.size(); ++i)
+                          if (work.ends[i] > work.ends[i - 1])
+                              pass(cell, a, b, {work.ends[i - 1], work.ends[i]},
+                                   (to - from) * ray.weight, work, seen);
+                  });
             return glm::dvec4(seen.rgb, 1 - seen.through);
         });
 }

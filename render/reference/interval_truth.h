@@ -3,7 +3,9 @@
 // lies in a cell is exact; a pixel is the mean of n x n rays, regularly spaced in it.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "render/model/scene.h"
@@ -20,18 +22,32 @@ class IntervalTruth {
  public:
     // REQUIRES: raysAcross > 0; layers whose `cells.ranges` are there.
     IntervalTruth(const Scene& scene, const timeseries::Field& field, int raysAcross,
-                  unsigned threads = sharingThreads());
+                  unsigned threads = sharingThreads(),
+                  IntervalCells::Look look = IntervalCells::Look::Before);
 
     // The plane W of a layer, as CellSum has it for Channels::Weight: the path length in its ranges
     // in units of l, from the near plane on. [y][x], row 0 at the bottom. Not a bit depends on the
     // threads.
     std::vector<double> weight(const View& view, std::size_t layer) const;
+    // The same of these pixels alone.
+    std::vector<double> weight(const View& view, std::size_t layer,
+                               std::span<const glm::ivec2> pixels) const;
     // The light of all layers, ordered: emission and absorption along each ray, of optical depth
     // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
     // there. Premultiplied, linear. [y][x], row 0 at the bottom.
     std::vector<glm::dvec4> light(const View& view) const;
 
  private:
+    struct Ray {
+        glm::dvec3 eye, along;  // axis coordinates; a unit of t is one of view depth
+        double near, weight;    // where it begins; W of a unit of t
+    };
+    // The mean over each pixel's rays of sum(ray, work); each thread has a `Work`.
+    template <typename Pixel, typename Work, typename Sum>
+    std::vector<Pixel> meanOfRays(const View& view, std::span<const glm::ivec2> pixels,
+                                  const Sum& sum) const;
+    double weight(const Ray& ray, std::size_t layer, std::vector<LinePart>& parts) const;
+
     const Scene& scene_;
     int raysAcross_;
     unsigned threads_;

@@ -128,9 +128,9 @@ struct RangeLanes {
     template <int kEnds>
     HWY_INLINE V share(V first, V last, V perWidth) const {
         const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f), zero = hn::Zero(lanes);
-        const V between = hn::Mul(hn::Sub(last, first), perWidth);
+        const V change = hn::Sub(last, first), between = hn::Mul(change, perWidth);
         const auto differ =
-            hn::Ge(hn::Abs(between), hn::Set(lanes, static_cast<float>(kLeastStep)));
+            hn::Ge(hn::Abs(change), hn::Set(lanes, static_cast<float>(kLeastDifference)));
         const V per = reciprocal(lanes, hn::IfThenElse(differ, between, one));
         const auto meanRamp = [&](V at) HWY_ATTR {
             const V a = hn::MulAdd(hn::Sub(first, at), perWidth, half);

@@ -14,9 +14,6 @@
 
 namespace render {
 
-// How many cells are looked at for a plane: of all layers for Over and Count, else of `layer`.
-std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer);
-
 // What planes are made in, to be used again. One that was moved from is like a new one.
 class CellMemory {
  public:

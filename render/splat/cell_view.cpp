@@ -5,9 +5,17 @@
 #include <glm/matrix.hpp>
 
 namespace render {
-namespace {
 
-// What gradients are measured against, of the field a length of the world.
+std::array<float, 6> gradientMetric(const PlacedPoints& placed) {
+    const glm::dmat3 back = glm::inverse(placed.worldFromAxes());
+    const glm::dmat3 m = back * glm::transpose(back);
+    const std::array<double, 6> products = {m[0][0],     m[1][1],     m[2][2],
+                                            2 * m[0][1], 2 * m[0][2], 2 * m[1][2]};
+    std::array<float, 6> metric{};
+    for (std::size_t k = 0; k < 6; ++k) metric[k] = static_cast<float>(products[k]);
+    return metric;
+}
+
 double steepnessOf(const Scene& scene) {
     if (scene.light == Light::Off) return 0;
     double most = 0;
@@ -16,10 +24,18 @@ double steepnessOf(const Scene& scene) {
     return kSteepnessShare * 2 * most / scene.placed.unitLength();
 }
 
-// Places among tints, and what is more than floats hold.
-float place(double at) { return static_cast<float>(std::clamp(at, -1e30, 1e30)); }
+float steepnessIn(const CellSplat<float>& cell, double steep) {
+    constexpr double kFlat = 1e10;  // more would leave the floats
+    return static_cast<float>(cell.extent > 0 ? std::min(steep / cell.extent, kFlat) : kFlat);
+}
 
-}  // namespace
+CellMapPlace mapPlaceOf(const ByValue& style, const CellSplat<float>& cell) {
+    const double half = style.halfWidth();
+    if (!(half > 0)) return {0.5, 0};
+    return {placeOnScale(cell.reference, style.lo, half), 0.5 * cell.extent / half};
+}
+
+float floatPlace(double at) { return static_cast<float>(std::clamp(at, -1e30, 1e30)); }
 
 CellView::CellView(const Scene& scene, const View& view, Channels of)
     : CellView(PointsView(scene.placed, view), scene, view, of) {}
@@ -31,15 +47,10 @@ CellView::CellView(const PointsView& from, const Scene& scene, const View& view,
       rayLength(static_cast<float>(seen.rayLength)),
       light(channels == Channels::Over ? scene.light : Light::Off),
       steep(steepnessOf(scene)),
-      byValue(std::ranges::any_of(scene.layers, [](const Layer& layer) {
-          return std::holds_alternative<ByValue>(layer.style.color);
-      })) {
-    const glm::dmat3 back = glm::inverse(scene.placed.worldFromAxes());
-    const glm::dmat3 m = back * glm::transpose(back);
-    const std::array<double, 6> products = {m[0][0],     m[1][1],     m[2][2],
-                                            2 * m[0][1], 2 * m[0][2], 2 * m[1][2]};
-    for (std::size_t k = 0; k < 6; ++k) metric[k] = static_cast<float>(products[k]);
-}
+      byValue(std::ranges::any_of(
+          scene.layers,
+          [](const Layer& layer) { return std::holds_alternative<ByValue>(layer.style.color); })),
+      metric(gradientMetric(scene.placed)) {}
 
 SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t layer,
                   const RangeStyle& style) {
@@ -72,9 +83,7 @@ SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t laye
     c.crossesLeast = s.crossesLeast;
     c.crossesMost = s.crossesMost;
     c.perRange = s.perRange;
-    // A plateau is lit evenly; more than this would leave the floats.
-    constexpr double kFlat = 1e10;
-    c.steep = static_cast<float>(s.extent > 0 ? std::min(view.steep / s.extent, kFlat) : kFlat);
+    c.steep = steepnessIn(s, view.steep);
     if (view.tintsOf.empty()) return c;
     const TileLayout::Tints& tints = view.tintsOf[layer];
     c.firstTint = tints.first;
@@ -82,11 +91,10 @@ SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t laye
     c.tint = tints.first;
     const auto* of = std::get_if<ByValue>(&style.color);
     if (of == nullptr) return c;
-    const double span1 = static_cast<double>(tints.span), half = of->halfWidth();
-    const bool isPoint = !(half > 0);
-    c.tint = place(static_cast<double>(tints.first) +
-                   span1 * (isPoint ? 0.5 : placeOnScale(s.reference, of->lo, half)));
-    c.tintPerValue = isPoint ? 0 : place(span1 * (0.5 * s.extent / half));
+    const CellMapPlace place = mapPlaceOf(*of, s);
+    const auto whole = static_cast<double>(tints.span);
+    c.tint = floatPlace(static_cast<double>(tints.first) + whole * place.at);
+    c.tintPerValue = floatPlace(whole * place.perValue);
     return c;
 }
 

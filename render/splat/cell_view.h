@@ -21,13 +21,27 @@ struct CellView : TileLayout {
     Light light;      // Off, but for Over
     double steep;     // what gradients are measured against, of the field a length of the world
     bool byValue;     // some layer's colours are
-    // A gradient's square in the world is metric[0..2] of the squares of what it is along the axes
-    // and metric[3..5] of their products xy, xz, yz.
-    std::array<float, 6> metric;
+    std::array<float, 6> metric;  // gradientMetric()
 
  private:
     CellView(const PointsView& seen, const Scene& scene, const View& view, Channels channels);
 };
+
+// A gradient's square in the world is the first three times the squares of what it is along the
+// axes, and the others times their products xy, xz, yz.
+std::array<float, 6> gradientMetric(const PlacedPoints& placed);
+// What gradients are measured against, of the field a length of the world (render/model/light.h).
+double steepnessOf(const Scene& scene);
+// The same of f in a cell: a plateau is lit evenly.
+float steepnessIn(const CellSplat<float>& cell, double steep);
+
+// Where values of a cell are in a map, [0, 1] in it: that of f is at + f perValue.
+struct CellMapPlace {
+    double at, perValue;
+};
+CellMapPlace mapPlaceOf(const ByValue& style, const CellSplat<float>& cell);
+// Such places as floats, and what is more than floats hold.
+float floatPlace(double at);
 
 // A CellSplat in a picture.
 struct SeenCell {

@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "render/splat/cell_pieces.h"
 #include "render/splat/cell_splatter.h"
 #include "render/splat/row_splatter.h"
 

@@ -325,16 +325,21 @@ TEST(Options, EveryStereoModeAndDeviceIsTaken) {
         EXPECT_EQ(render({"--device", device}).device, device);
     using Choice = ::render::SplatterChoice;
     EXPECT_EQ(render({}).splatter, Choice::ByDevice);
-    // The program alone draws cells.
-    EXPECT_EQ(render({"--model", "cells"}).splatter, Choice::Cpu);
-    EXPECT_EQ(render({"--model", "cells", "--splatter", "cpu"}).splatter, Choice::Cpu);
-    for (const char* splatter : {"gl", "exact"})
-        EXPECT_THAT(renderRefused({"--model", "cells", "--splatter", splatter}),
-                    HasSubstr(std::string("--splatter ") + splatter + " draws points"));
     EXPECT_EQ(render({"--splatter", "any"}).splatter, Choice::ByDevice);
     EXPECT_EQ(render({"--splatter", "gl"}).splatter, Choice::Gl);
     EXPECT_EQ(render({"--splatter", "cpu"}).splatter, Choice::Cpu);
     EXPECT_EQ(render({"--splatter", "exact"}).splatter, Choice::Exact);
+}
+
+TEST(Options, CellsAreDrawnUnlessSplatsAreChosen) {
+    EXPECT_EQ(explorer({}).model, Model::Cells);
+    EXPECT_EQ(explorer({"--splat", "point"}).model, Model::Points);
+    EXPECT_EQ(explorer({"--splat-size", "2"}).model, Model::Points);
+    EXPECT_EQ(explorer({"--splat-size", "2", "--model", "cells"}).model, Model::Cells);
+    // The truth of points.
+    EXPECT_EQ(render({"--splatter", "exact"}).explorer.model, Model::Points);
+    EXPECT_THAT(renderRefused({"--model", "cells", "--splatter", "exact"}),
+                HasSubstr("--splatter exact draws points"));
 }
 
 TEST(Options, TheSweepTakesItsSettings) {
@@ -610,9 +615,16 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
         e.play.tick = 9;
     });
     expectOnly({"--timer-steps", "9"}, [](Explorer& e) { e.sweep->timerSteps = 9; });
-    expectOnly({"--splat", "kernel"},
-               [](Explorer& e) { e.footprint.kernel = render::Kernel::Quartic; });
-    expectOnly({"--splat-size", "1"}, [](Explorer& e) { e.footprint.size = 1; });
+    // Which are of points.
+    expectOnly({"--splat", "kernel"}, [](Explorer& e) {
+        e.footprint.kernel = render::Kernel::Quartic;
+        e.model = Model::Points;
+    });
+    expectOnly({"--splat-size", "1"}, [](Explorer& e) {
+        e.footprint.size = 1;
+        e.model = Model::Points;
+    });
+    expectOnly({"--model", "points"}, [](Explorer& e) { e.model = Model::Points; });
     expectOnly({"--order", "none"}, [](Explorer& e) { e.order = render::Order::None; });
     expectOnly({"--clip", "1:2,1:2,1:2"}, [](Explorer& e) { e.clip = parseClip("1:2,1:2,1:2"); });
     expectOnly({"--scale", "1,1,1"}, [](Explorer& e) { e.scale = glm::dvec3(1); });

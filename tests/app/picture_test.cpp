@@ -41,6 +41,7 @@ class PictureOfARamp : public testing::Test {
     }
     static Explorer withRanges(const std::vector<const char*>& ranges) {
         Explorer e;
+        e.model = Model::Points;
         for (const char* range : ranges) e.layers.push_back({RangeSet::parse(range), {}, {}});
         return e;
     }

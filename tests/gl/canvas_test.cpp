@@ -146,6 +146,20 @@ TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLo
     }
 }
 
+// Of a step of which no points were drawn before.
+TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
+    world_.explorer.model = Model::Cells;
+    world_.explorer.order = render::Order::None;
+    const Image image = draw(world_.shown(), {.splats = 2'000}, true)[0];
+    EXPECT_TRUE(report_.lacksCells);
+    EXPECT_GT(report_.stride, 1u);
+    world_.explorer.model = Model::Points;
+    EXPECT_EQ(render::comparePictures(draw(world_.shown(), {.splats = 2'000}, true)[0], image)
+                  .maxAbsolute,
+              0)
+        << "but for what the legend says";
+}
+
 // Points stand for them until then; afterwards the picture is the one that files have.
 TEST_F(CanvasOfNoise, CellsOfALargeStepComeLater) {
     world_ = tests::ShownSteps(102, 1);

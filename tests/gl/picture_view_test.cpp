@@ -30,6 +30,12 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
     draw(true);
     EXPECT_GT(view.untilNextDraw().value(), 0ns);
     while (!view.performance().report.whole) draw(false);
+    // Its error comes from a thread, and is waited for unless something plays.
+    EXPECT_GT(view.untilNextDraw().value(), 0ns);
+    draw(true);
+    EXPECT_FALSE(view.untilNextDraw());
+    while (!view.performance().error) draw(false);
+    EXPECT_GT(*view.performance().error, 0);
     EXPECT_FALSE(view.untilNextDraw());
 }
 

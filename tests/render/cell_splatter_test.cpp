@@ -1,7 +1,5 @@
 // Interval volumes drawn cell by cell, against path lengths in closed form and against samples of
 // the interpolated field along rays.
-#include "render/splat/cell_splatter.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,61 +14,20 @@
 
 #include "render/model/cell_splat.h"
 #include "render/reference/interval_truth.h"
+#include "tests/support/cell_worlds.h"
 #include "tests/support/scenes.h"
 
 namespace render {
 namespace {
 
 using tests::axis;
+using tests::drawn;
+using World = tests::CellWorld;
 using timeseries::Grid;
 using timeseries::RangeSet;
 
-constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kAll = tests::kAllCells;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-// Layers of a step, drawn by cells.
-struct World {
-    World(timeseries::SortedStep s, const std::vector<std::string>& layers, double opacity = 0.5)
-        : step(std::move(s)),
-          placed(step.grid()),
-          scene{.step = step,
-                .placed = placed,
-                .layers = {},
-                .footprint = {},
-                .order = Order::None,
-                .clip = {}} {
-        scene.cells = step.cells();
-        for (const std::string& text : layers) {
-            const RangeSet ranges = RangeSet::parse(text);
-            Layer layer{step.select(ranges),
-                        {Constant{glm::dvec3(scene.layers.empty() ? 1.0 : 0.0, 0.25, 1)}, opacity}};
-            layer.cells.ranges = timeseries::betweenPoints(ranges, step.type());
-            layer.cells.candidates = scene.cells->select(layer.cells.ranges);
-            scene.layers.push_back(layer);
-        }
-    }
-    timeseries::SortedStep step;
-    PlacedPoints placed;
-    Scene scene;
-};
-
-// Of the whole picture, row 0 at the bottom.
-std::vector<float> drawn(const Scene& scene, const View& view, Channels channels = Channels::Weight,
-                         std::size_t layer = 0, unsigned threads = 2, std::uint64_t slice = kAll,
-                         std::span<const float> opaque = {}) {
-    CellSum sum(scene, view, channels, layer, opaque, threads);
-    while (!sum.done()) sum.add(slice);
-    const std::size_t floats = floatsPerPixel(channels);
-    std::vector<float> whole(static_cast<std::size_t>(view.size.x) * view.size.y * floats);
-    const PixelBox& box = sum.box();
-    for (int y = 0; y < box.size.y; ++y)
-        std::copy_n(sum.plane().begin() + std::ptrdiff_t(std::size_t(y) * box.size.x * floats),
-                    std::size_t(box.size.x) * floats,
-                    whole.begin() + std::ptrdiff_t((std::size_t(y + box.at.y) * view.size.x +
-                                                    std::size_t(box.at.x)) *
-                                                   floats));
-    return whole;
-}
 
 // A ray in axis coordinates, a unit of which is `length` long in the world.
 struct Ray {
@@ -250,6 +207,22 @@ TEST(CellSplatter, PerCrossingAThinRangeOfALinearFieldStaysVisible) {
         // Of pixels that are wider than the range, and of those at its rim, it is no more.
         const View oblique = tests::lookFrom({0.9, -3, 1.1}, {32, 32});
         EXPECT_LT(std::ranges::max(drawn(world.scene, oblique)), 1.1) << range;
+    }
+}
+
+// As a headset's views are scaled: how thin a range is, is asked of the world.
+TEST(CellSplatter, PerCrossingAViewsScaleChangesNothing) {
+    const auto grid = tests::cube(9);
+    World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                {"4.25:4.35"});
+    world.scene.opacityPer = OpacityPer::Crossing;
+    const View view = tests::lookFrom({3, -0.4, 0.3}, {32, 32}, 0.05);
+    const std::vector<float> w = drawn(world.scene, view);
+    for (const double scale : {0.02, 50.0}) {
+        View scaled = view;
+        scaled.viewFromWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(scale)) * view.viewFromWorld;
+        EXPECT_THAT(drawn(world.scene, scaled), testing::Pointwise(testing::FloatNear(1e-3f), w))
+            << scale;
     }
 }
 

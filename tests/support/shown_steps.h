@@ -18,6 +18,7 @@ struct ShownSteps {
         dataset.about.grid = steps[0]->sharedGrid();
         explorer.files = {"noise.nc"};
         explorer.size = {200, 150};
+        explorer.model = app::Model::Points;  // most tests are of them
         explorer.layers = {layer("0.1:0.4", app::MapChoice{{}, 0.1, 0.4}),
                            layer("0.8:0.9", glm::dvec3(255, 128, 0) / 255.0)};
     }

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tests/support/netcdf_builder.h"
+#include "timeseries/index/sorted_step.h"
 
 namespace timeseries {
 namespace {
@@ -169,6 +170,25 @@ ValueType unpackedType(const std::string& name) {
     std::visit([&](const auto& v) { EXPECT_EQ(v[3], static_cast<decltype(v[3])>(8)) << name; },
                field.values);
     return field.type();
+}
+
+// CF 1.11, section 3.5: flags are names of classes, between which nothing lies.
+TEST(NetcdfReader, FlagsAreCategories) {
+    NetcdfBuilder file("flags.nc");
+    const int d = file.dimension("x", 4), e = file.dimension("y", 3), f = file.dimension("z", 2);
+    const int type = file.variable("type", NC_BYTE, {f, e, d});
+    file.number(type, "flag_values", std::vector<std::int8_t>{0, 1, 2});
+    file.text(type, "flag_meanings", "sea land ice");
+    const int height = file.variable("height", NC_BYTE, {f, e, d});
+    for (const int variable : {type, height}) file.write(variable, std::vector<std::int8_t>(24, 1));
+    const auto reader = open(file.close());
+    ASSERT_EQ(reader->variables().size(), 2u);
+    for (std::size_t v = 0; v < 2; ++v) {
+        const bool expected = reader->variables()[v].name == "type";
+        EXPECT_EQ(reader->variables()[v].categories, expected);
+        EXPECT_EQ(reader->read(v, 0).categories, expected);
+        EXPECT_EQ(SortedStep::build(reader->read(v, 0)).canHaveCells(), !expected);
+    }
 }
 
 TEST(NetcdfReader, UnpackedTypeIsThatOfTheScaleAndNeverLosesIntegers) {

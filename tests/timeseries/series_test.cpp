@@ -172,6 +172,29 @@ TEST(Series, TheSummaryOutlivesEviction) {
     EXPECT_TRUE(std::is_sorted(summary->quantiles.begin(), summary->quantiles.end()));
 }
 
+// A step that has made its cells takes more than when it was loaded.
+TEST(Series, WhatAStepGrowsByCountsAndPushesOthersOut) {
+    const auto grown = stepOf(100);
+    const std::uint64_t before = grown->bytes();
+    Series series(3, 3 * before);
+    series.want({0, 1, 2});
+    series.loaded(0, grown);
+    series.loaded(1, stepOf(100));
+    series.loaded(2, stepOf(100));
+    EXPECT_TRUE(series.recount().empty());
+    EXPECT_EQ(series.bytes(), 3 * before);
+    ASSERT_NE(grown->cells(), nullptr);
+    ASSERT_GT(grown->bytes(), before + 8 * 100);
+    const auto left = series.recount();
+    ASSERT_FALSE(left.empty());
+    EXPECT_EQ(series.state(0), SlotState::Loaded);
+    EXPECT_EQ(series.state(2), SlotState::Empty) << "the least urgent";
+    EXPECT_EQ(series.summary(0)->bytes, grown->bytes());
+    EXPECT_EQ(series.bytes(), grown->bytes() + (2 - left.size()) * before);
+    series.loaded(0, stepOf(50));
+    EXPECT_EQ(series.bytes(), bytesOf(50) + (2 - left.size()) * before);
+}
+
 TEST(Series, AnEvictedStepLivesOnWithWhoeverSharesIt) {
     Series series(3, bytesOf(10));
     EXPECT_THAT(series.loaded(0, stepOf(10, 5)), IsEmpty());

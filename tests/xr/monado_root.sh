@@ -91,23 +91,26 @@ run() {
     enter bash -c 'cd "$0/source" && "$@"' "$inside" "$@"
 }
 
-# built TARGETS COMMAND...: builds the targets in it, then runs the command in the build's folder.
+# built BUILD FLAGS TARGETS COMMAND...: builds the targets in it, then runs the command in the build's
+# folder.
 built() {
-    run bash -c 'build=../build
+    run bash -c 'build=../$1
         source .ci/setup.sh
         quietly "Configuring in Debian 13" cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-            -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON
-        quietly "Building in Debian 13" cmake --build "$build" --target $1
-        cd "$build" && exec "${@:2}"' built "$@"
+            -DCMAKE_CXX_FLAGS_RELEASE="$2" -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON
+        quietly "Building in Debian 13" cmake --build "$build" --target $3
+        cd "$build" && exec "${@:4}"' built "$@"
 }
 
 tests() {
-    built "xr_tests panels_tests ui_over_tests" \
+    # Sooner compiled than as fast as can be.
+    built build-tests "-O1 -DNDEBUG" "xr_tests panels_tests ui_over_tests" \
         ctest --no-tests=error --output-on-failure -j3 -L 'xr|imgui' "$@"
 }
-bench() { built headset_frames tests/headset_frames; }
+fast="-O3 -DNDEBUG"
+bench() { built build "$fast" headset_frames tests/headset_frames; }
 picture() {
-    built headset_picture tests/headset_picture headset.png
+    built build "$fast" headset_picture tests/headset_picture headset.png
     cp "$folder$inside/build/headset.png" app/gallery/headset.png
 }
 

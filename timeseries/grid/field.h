@@ -27,7 +27,8 @@ struct Field {
     std::shared_ptr<const Grid> grid;
     Values values;  // [z][y][x], x fastest, grid->count() of them
     std::vector<bool>
-        missing;  // per point; empty when none is. NaN is missing without being marked
+        missing;              // per point; empty when none is. NaN is missing without being marked
+    bool categories = false;  // values are names of classes: nothing lies between two of them
 
     ValueType type() const { return static_cast<ValueType>(values.index()); }
 };

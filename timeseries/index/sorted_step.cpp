@@ -114,6 +114,7 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned 
     step.grid_ = field.grid;
     step.kept_ = kept;
     step.threads_ = threads;
+    step.ofCategories_ = field.categories;
     step.cells_ = std::make_shared<LazyCells>();
     std::visit(
         [&]<typename T>(const std::vector<T>& all) {
@@ -189,7 +190,9 @@ Number SortedStep::value(std::uint64_t point) const {
 }
 
 std::uint64_t SortedStep::bytes() const {
-    return std::visit([](const auto& points) { return points->bytes(); }, columns_);
+    const auto cells = cellsIfMade();
+    return std::visit([](const auto& points) { return points->bytes(); }, columns_) +
+           (cells ? cells->bytes() : 0);
 }
 
 std::shared_ptr<const CellIndex> SortedStep::cells() const {
@@ -206,7 +209,7 @@ std::shared_ptr<const CellIndex> SortedStep::cellsIfMade() const {
 }
 
 bool SortedStep::canHaveCells() const {
-    return size_ == statistics_.points && CellIndex::canIndex(*grid_);
+    return !ofCategories_ && size_ == statistics_.points && CellIndex::canIndex(*grid_);
 }
 
 Run SortedStep::finite() const {

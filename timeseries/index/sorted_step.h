@@ -88,7 +88,7 @@ class SortedStep {
     const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
     const RangeSet& kept() const { return kept_; }
     const StepStatistics& statistics() const { return statistics_; }
-    std::uint64_t bytes() const;  // of memory held, the grid aside
+    std::uint64_t bytes() const;  // of memory held, that of cells too, the grid aside
 
     // The cells between the points, made when they are first asked for; that takes as long as
     // looking at every value twice, and 8 bytes a cell beside the values. Null unless
@@ -96,8 +96,10 @@ class SortedStep {
     std::shared_ptr<const CellIndex> cells() const;
     // Null as long as nobody has made them.
     std::shared_ptr<const CellIndex> cellsIfMade() const;
-    // No points were dropped, and there are no more cells than can be numbered.
+    // No points were dropped, something lies between the values, and there are no more cells than
+    // can be numbered.
     bool canHaveCells() const;
+    bool ofCategories() const { return ofCategories_; }  // Field::categories
 
     // The points between the infinities: all but the first and the last ones that are infinite.
     Run finite() const;
@@ -117,6 +119,7 @@ class SortedStep {
         columns_;
     std::uint64_t size_ = 0;
     unsigned threads_ = 1;
+    bool ofCategories_ = false;
     RangeSet kept_;
     StepStatistics statistics_;
     struct LazyCells;

@@ -63,6 +63,12 @@ std::string meshOf(const NcHeader& header, const NcVariable& variable, const Rol
         places);
 }
 
+// Status codes and classes (CF 1.11, section 3.5, "Flags").
+bool isCategories(const NcVariable& variable) {
+    return variable.find("flag_values") || variable.find("flag_masks") ||
+           variable.find("flag_meanings");
+}
+
 // Longitudes and latitudes, of any rank.
 std::vector<const NcVariable*> geographicOf(const NcHeader& header) {
     std::vector<const NcVariable*> found;
@@ -124,6 +130,7 @@ FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const Nc
     for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
         result.lengths.push_back(header.dimension(variable, i).length);
     result.type = *variable.type;
+    result.categories = isCategories(variable);
     result.roles = roles;
     result.packing =
         packingOf(variable, [&](const std::string& what) { file.failAttribute(variable, what); });

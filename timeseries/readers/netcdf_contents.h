@@ -17,6 +17,7 @@ struct FileVariable {
     std::string name, longName, units;
     std::vector<std::uint64_t> lengths;  // of its dimensions, slowest first
     ValueType type{};                    // in the file
+    bool categories = false;             // as Field::categories
     Roles roles;
     Packing packing;
     std::array<Axis, 3> axes;

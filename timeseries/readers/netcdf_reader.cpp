@@ -125,6 +125,7 @@ void NetcdfReader::addVariable(std::size_t v) {
     variable.type = first.packing.unpacked;
     variable.storedAs = first.packing.storedAs;
     variable.missing = first.packing.missingText;
+    variable.categories = first.categories;
     variable.notes = first.notes;
 
     // A variable without time is the same in all files, unless nothing in them has time: then each
@@ -212,6 +213,7 @@ Field NetcdfReader::read(std::size_t variable, std::size_t step) {
 
     Field field;
     field.grid = variables_[variable].grid;
+    field.categories = source.categories;
     const Block block = blockOf(source, step);
     unpack(
         source.packing, block.layout,

@@ -36,10 +36,11 @@ struct TimeAxis {
 
 struct Variable {
     std::string name, longName, units;
-    bool nameless = false;  // the file's only array, called as the file is for want of a name
-    ValueType type{};       // what selection compares: the unpacked type
-    std::string storedAs;   // how the file holds it: "int16 packed, scale 0.001, offset 15"
-    std::string missing;    // how missing values are told: "_FillValue -1e+34"; "" for none
+    bool nameless = false;    // the file's only array, called as the file is for want of a name
+    ValueType type{};         // what selection compares: the unpacked type
+    std::string storedAs;     // how the file holds it: "int16 packed, scale 0.001, offset 15"
+    std::string missing;      // how missing values are told: "_FillValue -1e+34"; "" for none
+    bool categories = false;  // as Field::categories
     std::shared_ptr<const Grid> grid;
     std::shared_ptr<const TimeAxis> time;
     std::vector<std::string>

@@ -54,7 +54,7 @@ Series::Steps Series::loaded(std::size_t step, std::shared_ptr<const SortedStep>
     Steps left;
     if (auto before = drop(step)) left.push_back(std::move(before));
     Slot& slot = slots_[step];
-    slot.summary = std::make_unique<const StepSummary>(
+    slot.summary = std::make_unique<StepSummary>(
         StepSummary{sorted->quantiles(quantiles_ == Quantiles::Kept ? kQuantiles : 0),
                     sorted->statistics(), sorted->size(), sorted->finite(), sorted->bytes()});
     slot.state = SlotState::Loaded;
@@ -63,6 +63,19 @@ Series::Steps Series::loaded(std::size_t step, std::shared_ptr<const SortedStep>
     inMemory_.push_back(step);
     bytes_ += slot.summary->bytes;
     largest_ = std::max(largest_, slot.summary->bytes);
+    evict(left);
+    return left;
+}
+
+Series::Steps Series::recount() {
+    for (const std::size_t step : inMemory_) {
+        StepSummary& summary = *slots_[step].summary;
+        const std::uint64_t now = slots_[step].sorted->bytes();
+        bytes_ = bytes_ - summary.bytes + now;
+        summary.bytes = now;
+        largest_ = std::max(largest_, now);
+    }
+    Steps left;
     evict(left);
     return left;
 }

@@ -27,7 +27,7 @@ struct StepSummary {
     StepStatistics statistics;  // of the whole step, before anything was dropped
     std::uint64_t points = 0;   // kept
     Run finite;                 // of these; before it stand those at -inf, behind it at +inf
-    std::uint64_t bytes = 0;    // that the step takes when loaded
+    std::uint64_t bytes = 0;    // that the step takes when loaded, or took last
 };
 
 // Invariant: what is loaded takes at most the budget, or is one step alone.
@@ -64,6 +64,8 @@ class Series {
     // stay. Returns what left: freeing a large step takes long enough to be done elsewhere.
     using Steps = std::vector<std::shared_ptr<const SortedStep>>;
     Steps loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted);
+    // Steps grow while they are looked at: takes note of what they take now, and evicts.
+    Steps recount();
     // A step that failed is not handed out again before retry().
     void failed(std::size_t step, std::string why);
     void retry(std::size_t step);
@@ -73,7 +75,7 @@ class Series {
         SlotState state = SlotState::Empty;
         std::shared_ptr<const SortedStep> sorted;  // when loaded
         std::string why;                           // when failed
-        std::unique_ptr<const StepSummary> summary;
+        std::unique_ptr<StepSummary> summary;
         std::uint64_t lastUse = 0;
     };
     static constexpr std::size_t kUnwanted = static_cast<std::size_t>(-1);

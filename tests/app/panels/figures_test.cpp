@@ -40,6 +40,23 @@ TEST(Figures, AreOfThePictureAlone) {
     EXPECT_THAT(figuresOf(p, desk.exploration.series()).back(), EndsWith("points stand for cells"));
 }
 
+TEST(Figures, StateTheErrorOnceItIsKnown) {
+    tests::ScriptedExploration desk;
+    Performance p{.frame = 5ms, .budget = 33ms};
+    p.report.whole = true;
+    p.report.drawn = p.report.selected = 7;
+    p.report.counts =
+        PointCounts{.layers = {7}, .swept = 0, .selected = 7, .kept = 10, .total = 10};
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [error, text] : {std::pair(0.0004, "7 points drawn  ·  error below 0.1 %"),
+                                      {0.0041, "7 points drawn  ·  error about 0.4 %"},
+                                      {0.123, "7 points drawn  ·  error about 12 %"},
+                                      {kNan, "7 points drawn"}}) {
+        p.error = error;
+        EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(), text);
+    }
+}
+
 TEST(Figures, AreNoneBeforeThereIsAPicture) {
     tests::ScriptedExploration desk;
     EXPECT_TRUE(figuresOf({}, desk.exploration.series()).empty());

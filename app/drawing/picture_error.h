@@ -1,0 +1,37 @@
+// How far the picture on the screen is from the interval volume of the field between its points:
+// worked out on a thread of its own, which nobody waits for, when the picture rests.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/choices/explorer.h"
+#include "render/points/view.h"
+#include "timeseries/index/sorted_step.h"
+
+namespace app {
+
+// Of lengths in the ranges, whatever opacity is of: relative L2 of optical depth, from a sample of
+// the pixels (render/reference/sampled_error.h).
+class PictureError {
+ public:
+    struct Picture {
+        std::shared_ptr<const timeseries::SortedStep> sorted;
+        Explorer explorer;
+        render::View view;
+        friend bool operator==(const Picture&, const Picture&) = default;
+    };
+    // Of kept values and of categories nobody knows what lies between.
+    static bool canBeTold(const timeseries::SortedStep& step) { return step.canHaveCells(); }
+    // Of a picture that is drawn whole, once it is known: begins to work it out, one at a time.
+    // REQUIRES: canBeTold(*picture.sorted).
+    std::optional<double> of(const Picture& picture);
+
+    static double worked(const Picture& picture);  // out, on this thread
+
+ private:
+    struct Work;
+    std::shared_ptr<Work> work_;  // the one that was begun last
+};
+
+}  // namespace app

@@ -1,0 +1,79 @@
+#include "render/reference/sampled_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "render/model/covered.h"
+#include "render/reference/interval_truth.h"
+
+namespace render {
+namespace {
+
+// Of so many pixels some, one at random from each of as many equal stretches: of a picture's rows,
+// so that they lie all over it.
+std::vector<glm::ivec2> sampleOf(const std::vector<glm::ivec2>& all, std::size_t count,
+                                 std::mt19937& random) {
+    if (count >= all.size()) return all;
+    std::vector<glm::ivec2> some;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t first = all.size() * i / count, last = all.size() * (i + 1) / count;
+        some.push_back(all[first + random() % (last - first)]);
+    }
+    return some;
+}
+
+// Sums of squares over all pixels that these stand for.
+struct Squares {
+    double error = 0, truth = 0;
+};
+
+}  // namespace
+
+SampledError sampledError(const Scene& scene, const timeseries::Field& field, const View& view,
+                          std::span<const float> opticalDepth, const Sampling& sampling) {
+    const PixelBox box = coveredPixels(scene, view);
+    const auto depthAt = [&](const glm::ivec2& p) {
+        return static_cast<double>(
+            opticalDepth[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(view.size.x) +
+                         static_cast<std::size_t>(p.x)]);
+    };
+    std::vector<glm::ivec2> shown, rest;
+    for (int y = box.at.y; y < box.at.y + box.size.y; ++y)
+        for (int x = box.at.x; x < box.at.x + box.size.x; ++x)
+            (depthAt({x, y}) > 0 ? shown : rest).emplace_back(x, y);
+
+    const IntervalTruth truth(scene, field, sampling.raysAcross, sampling.threads,
+                              IntervalCells::Look::WhenAsked);
+    Squares sum;
+    std::size_t looked = 0;
+    std::mt19937 random(1);  // one picture, one figure
+    const auto add = [&](const std::vector<glm::ivec2>& all, std::size_t count) {
+        const std::vector<glm::ivec2> some = sampleOf(all, count, random);
+        if (some.empty()) return;
+        std::vector<double> depth(some.size());
+        for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+            const double perWeight = opticalDepthPerWeight(scene.layers[k].style.opacity);
+            const std::vector<double> weight = truth.weight(view, k, some);
+            for (std::size_t i = 0; i < some.size(); ++i) depth[i] += perWeight * weight[i];
+        }
+        Squares part;
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            part.error += std::pow(depthAt(some[i]) - depth[i], 2);
+            part.truth += depth[i] * depth[i];
+        }
+        const double each = static_cast<double>(all.size()) / static_cast<double>(some.size());
+        sum.error += each * part.error;
+        sum.truth += each * part.truth;
+        looked += some.size();
+    };
+    const std::size_t half = sampling.pixels / 2, beside = std::min(rest.size(), half);
+    add(shown, sampling.pixels - beside);
+    add(rest, std::max(beside, sampling.pixels - std::min(sampling.pixels, shown.size())));
+    if (sum.error == 0) return {0, looked};
+    return {std::sqrt(sum.error / sum.truth), looked};
+}
+
+}  // namespace render

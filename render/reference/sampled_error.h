@@ -1,0 +1,38 @@
+// How far a picture's optical depth is from the continuous truth (interval_truth.h), told from some
+// of its pixels: so soon that every picture at rest can say it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "render/model/scene.h"
+#include "render/points/view.h"
+#include "render/together.h"
+#include "timeseries/grid/field.h"
+
+namespace render {
+
+struct SampledError {
+    // ||picture - truth|| / ||truth|| of optical depth; 0 where both are nothing, infinite where
+    // the truth is nothing and the picture is not.
+    double relativeL2 = 0;
+    std::size_t pixels = 0;  // looked at
+};
+
+struct Sampling {
+    // Half of them, or more where it is small, from what the picture shows; the others from the
+    // rest of what the grid covers, where the truth may have what the picture lacks.
+    std::size_t pixels = 512;
+    // Of a range that is thinner than what a pixel sees of the field, few rays would tell their own
+    // error.
+    int raysAcross = 8;
+    unsigned threads = sharingThreads();
+};
+
+// `opticalDepth`: of all layers, of W as path length, [y][x], row 0 at the bottom, no lines.
+// `field`: the scene's, in the grid's order. The same for any number of threads. REQUIRES: layers
+// whose `cells.ranges` are there.
+SampledError sampledError(const Scene& scene, const timeseries::Field& field, const View& view,
+                          std::span<const float> opticalDepth, const Sampling& sampling = {});
+
+}  // namespace render

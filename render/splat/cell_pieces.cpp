@@ -1,0 +1,93 @@
+#include "render/splat/cell_pieces.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace render {
+namespace {
+
+// Before which point of its axis a place lies: the index of the cell that holds it.
+int cellAlong(const std::vector<double>& positions, double place) {
+    const bool down = positions.front() > positions.back();
+    const auto before = [&](double at) { return down ? at > place : at < place; };
+    return static_cast<int>(std::ranges::partition_point(positions, before) - positions.begin());
+}
+
+}  // namespace
+
+std::pair<std::size_t, std::size_t> layersOf(const Scene& scene, Channels channels,
+                                             std::size_t layer) {
+    if (channels == Channels::Over || channels == Channels::Count) return {0, scene.layers.size()};
+    return {layer, layer + 1};
+}
+
+std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer) {
+    const auto [first, last] = layersOf(scene, channels, layer);
+    std::uint64_t count = 0;
+    for (std::size_t k = first; k < last; ++k) count += cellCount(scene.layers[k]);
+    return count;
+}
+
+std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer) {
+    std::vector<CellOfLayer> cells;
+    cells.reserve(cellCount(scene, channels, layer));
+    const auto [first, last] = layersOf(scene, channels, layer);
+    for (std::size_t k = first; k < last; ++k)
+        for (const timeseries::Run& run : scene.layers[k].cells.candidates)
+            for (std::uint64_t i = 0; i < run.count; ++i)
+                cells.push_back({scene.cells->cell(run.first + i), static_cast<std::uint8_t>(k)});
+    return cells;
+}
+
+CellDistance::CellDistance(const Scene& scene, const View& view) : size_(scene.cells->size()) {
+    const glm::dvec3 eye = pixelRays(scene.placed.inAxes(view)).eye;
+    for (int a = 0; a < 3; ++a)
+        eye_[a] = cellAlong(scene.placed.positions()[static_cast<std::size_t>(a)], eye[a]);
+}
+
+std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,
+                                    std::uint32_t cell) {
+    const auto &at = placed.positions()[axis], &width = placed.widths()[axis];
+    const double up = at.front() > at.back() ? -0.5 : 0.5;
+    return {cell == 0 ? at.front() - up * width.front() : at[cell - 1],
+            cell == at.size() ? at.back() + up * width.back() : at[cell]};
+}
+
+SeenOctants seenOctants(const Scene& scene, std::uint32_t number) {
+    SeenOctants seen;
+    ValuedCell& cell = seen.cell;
+    const glm::uvec3 at = timeseries::indicesOf(number, scene.cells->size());
+    cell.corners = scene.cells->corners(at);
+    cell.per = scene.opacityPer;
+    for (int a = 0; a < 3; ++a)
+        std::tie(cell.from[a], cell.to[a]) =
+            endsAlong(scene.placed, static_cast<std::size_t>(a), at[a]);
+    double sum = 0;
+    int valid = 0;
+    for (unsigned c = 0; c < 8; ++c) {
+        if (std::isnan(cell.corners[c])) continue;
+        sum += cell.corners[c] / 8;
+        ++valid;
+        seen.octants |= 1u << c;
+    }
+    for (double& v : cell.corners)
+        if (std::isnan(v)) v = sum * (8.0 / valid);
+    const bool isInside = scene.clip.holds(scene.cells->pointAt(at, 0)) &&
+                          scene.clip.holds(scene.cells->pointAt(at, 7));
+    for (unsigned c = 0; c < 8 && !isInside; ++c)
+        if (!scene.clip.holds(scene.cells->pointAt(at, c))) seen.octants &= ~(1u << c);
+    return seen;
+}
+
+ValuedCell octantOf(const ValuedCell& cell, unsigned octant) {
+    ValuedCell piece = cell;
+    const glm::dvec3 first(octant & 1 ? 0.5 : 0, octant & 2 ? 0.5 : 0, octant & 4 ? 0.5 : 0);
+    piece.from = glm::mix(cell.from, cell.to, first);
+    piece.to = glm::mix(cell.from, cell.to, first + 0.5);
+    for (unsigned c = 0; c < 8; ++c)
+        piece.corners[c] = render::cell::valueAt(
+            cell.corners, first + 0.5 * glm::dvec3(c & 1, c >> 1 & 1, c >> 2));
+    return piece;
+}
+
+}  // namespace render

@@ -1,0 +1,90 @@
+// What is drawn of a scene's cells: which of them, in which order, and of each what is to be seen.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <utility>
+#include <vector>
+
+#include "render/model/cell_splat.h"
+#include "render/model/scene.h"
+#include "render/points/view.h"
+
+namespace render {
+
+struct CellOfLayer {
+    std::uint32_t cell;
+    std::uint8_t layer;
+};
+
+// The layers that a plane of these channels takes: from the first to before the second. All of them
+// for Over and Count, else `layer`.
+std::pair<std::size_t, std::size_t> layersOf(const Scene& scene, Channels channels,
+                                             std::size_t layer);
+// Their cells that are looked at, layer by layer, as their candidates lie.
+std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);
+std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer);
+
+// An order by depth. What hides a part of a cell lies, along each axis, no farther from the eye's
+// cell than it does, and nearer along one: the sum of these distances, in cells, is an order.
+class CellDistance {
+ public:
+    CellDistance(const Scene& scene, const View& view);
+    std::size_t operator()(std::uint32_t cell) const {
+        const glm::ivec3 from = glm::ivec3(timeseries::indicesOf(cell, size_)) - eye_;
+        return static_cast<std::size_t>(std::abs(from.x) + std::abs(from.y) + std::abs(from.z));
+    }
+    std::size_t count() const { return std::size_t{size_.x} + size_.y + size_.z + 1; }  // all less
+    const glm::ivec3& eye() const { return eye_; }  // the cell that it is in, or beside
+
+ private:
+    glm::uvec3 size_;
+    glm::ivec3 eye_{0};
+};
+
+// Their places, the nearest first; those at one distance as they come. cellAt(i) is the cell of i.
+template <typename CellAt>
+std::vector<std::uint32_t> nearestFirst(const CellDistance& distance, std::size_t count,
+                                        const CellAt& cellAt) {
+    std::vector<std::size_t> next(distance.count());
+    for (std::size_t i = 0; i < count; ++i) ++next[distance(cellAt(i))];
+    std::size_t first = 0;
+    for (std::size_t& n : next) first += std::exchange(n, first);
+    std::vector<std::uint32_t> places(count);
+    for (std::size_t i = 0; i < count; ++i)
+        places[next[distance(cellAt(i))]++] = static_cast<std::uint32_t>(i);
+    return places;
+}
+
+// The two ends of a cell along an axis, in axis coordinates: points, or half a cell beyond them.
+std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,
+                                    std::uint32_t cell);
+
+// Of a cell, of which all is seen, or some of its octants: those nearest to points that are there,
+// and inside the clip box.
+struct SeenOctants {
+    ValuedCell cell{};
+    unsigned octants = 0;  // a bit each, numbered x fastest
+};
+SeenOctants seenOctants(const Scene& scene, std::uint32_t number);
+// One of them.
+ValuedCell octantOf(const ValuedCell& cell, unsigned octant);
+
+// Calls use(piece, octant) for what is to be seen of a cell: all of it (octant kWholeCell), or
+// octants.
+inline constexpr unsigned kWholeCell = 8;
+template <typename Use>
+void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
+    SeenOctants seen = seenOctants(scene, number);
+    if (seen.octants == 255) return use(seen.cell, kWholeCell);
+    for (unsigned o = 0; o < 8; ++o) {
+        if ((seen.octants >> o & 1) == 0) continue;
+        ValuedCell piece = octantOf(seen.cell, o);
+        use(piece, o);
+    }
+}
+
+}  // namespace render

@@ -1,0 +1,152 @@
+#include "render/splat/gl_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/vec2.hpp>
+
+#include "render/splat/cell_view.h"
+#include "render/together.h"
+
+namespace render {
+namespace {
+
+constexpr std::size_t kEyes = 2;
+constexpr std::size_t kWorthAThread = 1 << 10;
+
+std::vector<glm::vec2> endsOf(const Scene& scene) {
+    std::vector<glm::vec2> ends;
+    const glm::uvec3 size = scene.cells->size();
+    for (int a = 0; a < 3; ++a)
+        for (std::uint32_t i = 0; i < size[a]; ++i) {
+            const auto [from, to] = endsAlong(scene.placed, static_cast<std::size_t>(a), i);
+            ends.emplace_back(from, to);
+        }
+    return ends;
+}
+
+// What cells depend on beside the field. Ends along axes say how the grid is placed.
+std::vector<double> choicesOf(const Scene& scene) {
+    std::vector<double> choices{static_cast<double>(scene.opacityPer),
+                                scene.light == Light::Off ? 0.0 : 1.0, scene.placed.unitLength()};
+    for (int a = 0; a < 3; ++a) {
+        choices.push_back(scene.clip.lo[a]);
+        choices.push_back(scene.clip.hi[a]);
+    }
+    for (const Layer& layer : scene.layers) {
+        const auto* map = std::get_if<ByValue>(&layer.style.color);
+        choices.insert(choices.end(), {map ? 1.0 : 0.0, map ? map->lo : 0, map ? map->hi : 0,
+                                       static_cast<double>(layer.cells.ranges.size())});
+        for (const auto& range : layer.cells.ranges)
+            choices.insert(choices.end(), {range.lo, range.hi});
+    }
+    for (const std::vector<double>& along : scene.placed.positions())
+        choices.insert(choices.end(), along.begin(), along.end());
+    return choices;
+}
+
+// Whether a cell may be parted into octants.
+bool mayPart(const Scene& scene) {
+    const IndexBox whole;
+    return scene.step.finite().count < scene.step.grid().count() || scene.clip.lo != whole.lo ||
+           scene.clip.hi != whole.hi;
+}
+
+GlCell glCell(const CellSplat<float>& s, const CellOfLayer& of, unsigned octant,
+              const RangeStyle& style, double steep) {
+    GlCell c{};
+    c.cell = of.cell;
+    c.kind = octant | static_cast<std::uint32_t>(s.crossesLeast) << 4 |
+             static_cast<std::uint32_t>(s.crossesMost) << 5 | std::uint32_t{of.layer} << 8;
+    c.least = s.least;
+    c.most = s.most;
+    c.perRange = s.perRange;
+    c.steep = steepnessIn(s, steep);
+    std::ranges::copy(s.f, c.f);
+    if (const auto* map = std::get_if<ByValue>(&style.color)) {
+        const CellMapPlace place = mapPlaceOf(*map, s);
+        c.mapPlace = floatPlace(place.at);
+        c.mapPerValue = floatPlace(place.perValue);
+    }
+    return c;
+}
+
+void look(const Scene& scene, std::span<const CellOfLayer> part, double steep,
+          std::vector<GlCell>& into) {
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const CellOfLayer& of = part[i];
+        if (i + kAhead < part.size()) scene.cells->prefetch(part[i + kAhead].cell);
+        const Layer& layer = scene.layers[of.layer];
+        forEachPiece(scene, of.cell, [&](ValuedCell& piece, unsigned octant) {
+            for (const timeseries::Interval<double>& range : layer.cells.ranges) {
+                piece.lo = range.lo;
+                piece.hi = range.hi;
+                CellSplat<float> s;
+                if (cell::seeField(s, piece, scene.placed.unitLength()))
+                    into.push_back(glCell(s, of, octant, layer.style, steep));
+            }
+        });
+    }
+}
+
+}  // namespace
+
+bool GlCells::fit(const Scene& scene, std::uint64_t bytes) {
+    std::uint64_t most = 0;
+    for (const Layer& layer : scene.layers)
+        most += cellCount(layer) * std::max<std::size_t>(layer.cells.ranges.size(), 1);
+    return most * (mayPart(scene) ? 8 : 1) * sizeof(GlCell) <= bytes;
+}
+
+GlCells::GlCells(const Scene& scene)
+    : index_(scene.cells),
+      choices_(choicesOf(scene)),
+      ends_(std::span<const glm::vec2>(endsOf(scene))),
+      endsTexture_(GL_RG32F, ends_) {
+    const std::vector<CellOfLayer> all = cellsOf(scene, Channels::Over, 0);
+    const double steep = steepnessOf(scene);
+    const unsigned shared = threadsFor(all.size(), kWorthAThread, sharingThreads());
+    std::vector<std::vector<GlCell>> parts(shared);
+    together(shared, [&](unsigned k) {
+        const std::size_t first = all.size() * k / shared, last = all.size() * (k + 1) / shared;
+        look(scene, std::span(all).subspan(first, last - first), steep, parts[k]);
+    });
+    std::size_t count = 0;
+    for (const auto& part : parts) count += part.size();
+    pieces_ = std::make_unique<gl::Buffer>(count * sizeof(GlCell));
+    cells_.reserve(count);
+    firsts_.assign(scene.layers.size() + 1, 0);
+    for (const auto& part : parts) {
+        pieces_->write(cells_.size() * sizeof(GlCell), part.size() * sizeof(GlCell), part.data());
+        for (const GlCell& piece : part) {
+            cells_.push_back(piece.cell);
+            ++firsts_[(piece.kind >> 8) + 1];
+        }
+    }
+    for (std::size_t k = 1; k < firsts_.size(); ++k) firsts_[k] += firsts_[k - 1];
+}
+
+bool GlCells::areOf(const Scene& scene) const {
+    return index_ == scene.cells && choices_ == choicesOf(scene);
+}
+
+std::pair<std::uint32_t, std::uint32_t> GlCells::placesOf(Channels channels,
+                                                          std::size_t layer) const {
+    if (channels == Channels::Over || channels == Channels::Count)
+        return {firsts_.front(), firsts_.back()};
+    return {firsts_[layer], firsts_[layer + 1]};
+}
+
+std::shared_ptr<const gl::Buffer> GlCells::farthestFirst(const CellDistance& distance) {
+    const auto found = std::ranges::find(ordered_, distance.eye(), &Ordered::eye);
+    if (found != ordered_.end()) return found->places;
+    std::vector<std::uint32_t> places =
+        nearestFirst(distance, cells_.size(), [&](std::size_t i) { return cells_[i]; });
+    std::ranges::reverse(places);
+    if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
+    ordered_.push_back({distance.eye(), std::make_shared<const gl::Buffer>(
+                                            std::span<const std::uint32_t>(places))});
+    return ordered_.back().places;
+}
+
+}  // namespace render

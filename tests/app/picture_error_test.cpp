@@ -1,0 +1,75 @@
+// The error that the window states.
+#include "app/drawing/picture_error.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "app/choices/camera.h"
+#include "tests/support/scenes.h"
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+
+PictureError::Picture waves(Model model, const char* range) {
+    const auto grid = tests::cube(24);
+    const auto step =
+        std::make_shared<const timeseries::SortedStep>(tests::stepOf(grid, [&](std::size_t i) {
+            const glm::dvec3 p(grid->indices(i));
+            return std::sin(0.45 * p.x) + std::cos(0.35 * p.y + 0.15 * p.x) * std::sin(0.4 * p.z);
+        }));
+    Explorer e;
+    e.model = model;
+    e.size = {160, 120};
+    e.layers = {{.ranges = timeseries::RangeSet::parse(range), .color = {}, .opacity = 0.4}};
+    const render::PlacedPoints placed(*grid);
+    return {step, e, eyes(e.view, {}, placed.boxHalfEdges(), e.size).front()};
+}
+
+// Figures of the design's table: rho here is 3 and .1.
+TEST(PictureError, OfCellsIsSmallAndOfAThinRangesPointsLarge) {
+    EXPECT_LT(PictureError::worked(waves(Model::Cells, "0.2:0.9")), 0.01);
+    EXPECT_LT(PictureError::worked(waves(Model::Cells, "0.2:0.23")), 0.1);
+    const double wide = PictureError::worked(waves(Model::Points, "0.2:0.9"));
+    EXPECT_GT(wide, 0.02);
+    EXPECT_LT(wide, 0.3);
+    EXPECT_GT(PictureError::worked(waves(Model::Points, "0.2:0.23")), 0.4);
+}
+
+// Neither order, light nor what opacity is of changes lengths.
+TEST(PictureError, IsOfLengths) {
+    PictureError::Picture picture = waves(Model::Cells, "0.2:0.23");
+    const double error = PictureError::worked(picture);
+    picture.explorer.opacityPer = render::OpacityPer::Length;
+    picture.explorer.light = render::Light::Full;
+    picture.explorer.order = render::Order::None;
+    EXPECT_EQ(PictureError::worked(picture), error);
+}
+
+TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
+    PictureError error;
+    for (const char* range : {"0.2:0.9", "0.2:0.5"}) {
+        const PictureError::Picture picture = waves(Model::Points, range);
+        std::optional<double> told;
+        const auto end = std::chrono::steady_clock::now() + 60s;
+        while (!(told = error.of(picture)) && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(1ms);
+        ASSERT_TRUE(told);
+        EXPECT_EQ(*told, PictureError::worked(picture));
+    }
+}
+
+TEST(PictureError, OfCategoriesIsNotTold) {
+    const auto grid = tests::cube(3);
+    timeseries::Field field{grid, std::vector<float>(27, 1.0f), {}};
+    EXPECT_TRUE(PictureError::canBeTold(timeseries::SortedStep::build(field)));
+    field.categories = true;
+    EXPECT_FALSE(PictureError::canBeTold(timeseries::SortedStep::build(field)));
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,233 @@
+// Interval volumes by GL, cell by cell: what the processor draws, which tests/render holds to the
+// truth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "render/gl/debug_output.h"
+#include "render/gl/headless_context.h"
+#include "render/gl/pass.h"
+#include "render/splat/gl_cell_splatter.h"
+#include "render/splat/gl_targets.h"
+#include "tests/support/cell_worlds.h"
+
+namespace render {
+namespace {
+
+using tests::CellWorld;
+using tests::drawn;
+using tests::lookFrom;
+using timeseries::Grid;
+
+constexpr glm::ivec2 kSize{120, 90};
+
+double wave(const glm::dvec3& p) {
+    return std::sin(0.9 * p.x) + std::cos(0.7 * p.y + 0.3 * p.x) * std::sin(0.8 * p.z);
+}
+template <typename F>
+timeseries::SortedStep sampled(const std::shared_ptr<const Grid>& grid, const F& f) {
+    return tests::stepOf(grid, [&](std::size_t i) { return f(glm::dvec3(grid->indices(i))); });
+}
+timeseries::SortedStep waves(std::size_t n = 10) { return sampled(tests::cube(n), wave); }
+
+class GlCellsOf : public testing::Test {
+ protected:
+    // Of the whole picture, row 0 at the bottom; the opaque scene is a wall at this window depth.
+    std::vector<float> plane(const Scene& scene, const View& view, Channels channels,
+                             std::size_t layer = 0, std::uint64_t slice = tests::kAllCells,
+                             float opaque = 1) {
+        GlTargets targets(view.size);
+        gl::begin({.framebuffer = targets.lightFramebuffer(),
+                   .size = view.size,
+                   .clearColor = glm::vec4(0),
+                   .clearDepth = opaque});
+        layers_.setLayers(scene, ValueScale::of(scene.layers));
+        const auto frame = cells_.prepare(scene, Runs{}, GpuStep(scene.step, scene.placed));
+        const auto sum = frame->begin(view, channels, layer, targets);
+        std::uint64_t added = 0;
+        while (!sum->done()) added += sum->add(slice);
+        EXPECT_EQ(added, frame->splats(channels, layer));
+        std::vector<float> pixels(std::size_t(view.size.x) * std::size_t(view.size.y) *
+                                  floatsPerPixel(channels));
+        glGetTextureSubImage(targets.plane(layer).id(), 0, 0, 0, 0, view.size.x, view.size.y, 1,
+                             floatsPerPixel(channels) == 1 ? GL_RED : GL_RGBA, GL_FLOAT,
+                             static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
+        gl::throwOnError();
+        return pixels;
+    }
+    // Each plane of the scene's picture, and how often it is touched.
+    void expectTheProcessors(const Scene& scene, const View& view, double error = 2e-5) {
+        std::vector<Channels> planes = channelsFor(scene);
+        for (std::size_t k = 0; k < planes.size(); ++k)
+            expectSame(plane(scene, view, planes[k], k), drawn(scene, view, planes[k], k), error);
+    }
+    // Relative L2.
+    static void expectSame(const std::vector<float>& is, const std::vector<float>& expected,
+                           double error) {
+        ASSERT_EQ(is.size(), expected.size());
+        double off = 0, all = 0;
+        for (std::size_t i = 0; i < is.size(); ++i) {
+            ASSERT_TRUE(std::isfinite(is[i])) << i;
+            off += std::pow(double{is[i]} - double{expected[i]}, 2);
+            all += std::pow(double{expected[i]}, 2);
+        }
+        ASSERT_GT(all, 0) << "nothing was compared";
+        EXPECT_LT(std::sqrt(off / all), error);
+    }
+
+    gl::HeadlessContext context_;
+    GlSplatter layers_;
+    GlCellSplatter cells_{layers_};
+};
+
+const View kOutside = lookFrom({1.2, -2.5, 1}, kSize);
+const View kInside = lookFrom({0.12, 0.2, -0.15}, kSize, 0.9);
+
+TEST_F(GlCellsOf, LengthsAreTheProcessorsFromOutsideAndInside) {
+    for (const char* range : {"-0.5:0.5", "min:max", "0.3:0.31", "0.2"}) {
+        CellWorld world(waves(), {range});
+        for (const OpacityPer per : {OpacityPer::Length, OpacityPer::Crossing}) {
+            if (per == OpacityPer::Length && std::string_view(range) == "0.2") continue;
+            world.scene.opacityPer = per;
+            for (const View& view : {kOutside, kInside}) {
+                SCOPED_TRACE(testing::Message()
+                             << range << (per == OpacityPer::Crossing) << (&view == &kInside));
+                expectTheProcessors(world.scene, view, 1.5e-4);
+            }
+        }
+    }
+}
+
+TEST_F(GlCellsOf, ColoursLightAndOrderAreTheProcessors) {
+    CellWorld world(waves(), {"-2:-0.5", "0.2:0.25", "0.8:2"}, 0.7);
+    world.scene.layers[1].style.color = ByValue{{}, 0.2, 0.25};
+    world.scene.layers[2].style.color = ByValue{{}, 0.5, 2.5};
+    world.scene.opacityPer = OpacityPer::Crossing;
+    for (const Order order : {Order::None, Order::BackToFront})
+        for (const Light light : {Light::Off, Light::Soft, Light::Full})
+            for (const View& view : {kOutside, kInside}) {
+                if (order == Order::None && light != Light::Off) continue;
+                world.scene.order = order;
+                world.scene.light = light;
+                SCOPED_TRACE(testing::Message()
+                             << static_cast<int>(order) << static_cast<int>(light)
+                             << view.viewFromWorld[3][2]);
+                expectTheProcessors(world.scene, view, 2e-4);
+            }
+}
+
+// Missing corners leave octants, and so does a clip box.
+TEST_F(GlCellsOf, OctantsAreTheProcessors) {
+    std::mt19937 random(3);
+    CellWorld world(sampled(tests::cube(9),
+                            [&](const glm::dvec3& p) {
+                                return random() % 8 == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                                         : wave(p);
+                            }),
+                    {"-0.4:0.6"});
+    expectTheProcessors(world.scene, kOutside, 1e-4);
+    world.scene.clip = {{2, 0, 1}, {6, 7, 5}};
+    expectTheProcessors(world.scene, kOutside, 1e-4);
+}
+
+TEST_F(GlCellsOf, AnyUprightOrLeaningGridIsTheProcessors) {
+    timeseries::Axis down = tests::axis(7, 100, -3), uneven = tests::axis(5);
+    uneven.coordinates = {0, 1, 4, 4.5, 9};
+    timeseries::Frame leaning;
+    leaning.directions = tests::leaning({1, 0.2, 0}, {-0.3, 1, 0.1}, {0.1, 0.4, 1});
+    for (const timeseries::Frame& frame : {timeseries::Frame{}, leaning}) {
+        CellWorld world(
+            sampled(std::make_shared<Grid>(std::array{down, uneven, tests::axis(6, -2, 2)}, frame),
+                    wave),
+            {"-0.5:0.2"});
+        world.scene.layers[0].style.color = ByValue{{}, -0.5, 0.2};
+        for (const Order order : {Order::None, Order::BackToFront}) {
+            world.scene.order = order;
+            world.scene.light = order == Order::None ? Light::Off : Light::Soft;
+            expectTheProcessors(world.scene, kOutside, 2e-4);
+        }
+    }
+}
+
+TEST_F(GlCellsOf, WhatIsOpaqueHidesTheRestOfARay) {
+    const CellWorld world(waves(), {"-0.5:0.5"});
+    const auto wall =
+        static_cast<float>(windowDepth(kOutside, glm::length(glm::dvec3(1.2, -2.5, 1))));
+    const std::vector<float> hides(std::size_t(kSize.x) * kSize.y, wall);
+    const std::vector<float> expected =
+        drawn(world.scene, kOutside, Channels::Weight, 0, 2, tests::kAllCells, hides);
+    expectSame(plane(world.scene, kOutside, Channels::Weight, 0, tests::kAllCells, wall), expected,
+               1e-4);
+    EXPECT_NE(drawn(world.scene, kOutside), expected) << "or nothing was hidden";
+}
+
+TEST_F(GlCellsOf, SlicesAreTheSameBitForBit) {
+    CellWorld world(waves(30), {"-0.5:0.5"});
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        world.scene.order = order;
+        const Channels channels = channelsFor(world.scene)[0];
+        ASSERT_GT(world.scene.layers[0].cells.candidates[0].count, 0u);
+        EXPECT_EQ(plane(world.scene, kOutside, channels, 0, 1),
+                  plane(world.scene, kOutside, channels));
+    }
+}
+
+// What is kept on the GPU is not taken for another scene's.
+TEST_F(GlCellsOf, EachOfSeveralScenesIsItsOwn) {
+    CellWorld world(waves(), {"-0.5:0.5", "0.7:0.8"});
+    const auto each = [&](const char* what, const std::function<void(Scene&)>& change) {
+        SCOPED_TRACE(what);
+        expectTheProcessors(world.scene, kOutside, 2e-4);
+        const std::vector<float> before = drawn(world.scene, kOutside, channelsFor(world.scene)[0]);
+        change(world.scene);
+        expectTheProcessors(world.scene, kOutside, 2e-4);
+        EXPECT_NE(drawn(world.scene, kOutside, channelsFor(world.scene)[0]), before);
+    };
+    each("range", [&](Scene& scene) {
+        Cells& cells = scene.layers[0].cells;
+        cells.ranges = {{-0.4, 0.4}};
+        cells.candidates = scene.cells->select(cells.ranges);
+    });
+    each("by value", [](Scene& scene) { scene.layers[0].style.color = ByValue{{}, -0.4, 0.4}; });
+    each("map", [](Scene& scene) { scene.layers[0].style.color = ByValue{{}, -0.4, 0.9}; });
+    each("clip", [](Scene& scene) { scene.clip = {{0, 0, 0}, {5, 9, 9}}; });
+    each("per crossing", [](Scene& scene) {
+        scene.layers[0].cells.ranges = {{0.1, 0.11}};
+        scene.layers[0].cells.candidates = scene.cells->select(scene.layers[0].cells.ranges);
+        scene.opacityPer = OpacityPer::Crossing;
+    });
+    each("order", [](Scene& scene) { scene.order = Order::BackToFront; });
+    each("opacity", [](Scene& scene) { scene.layers[0].style.opacity = 0.9; });
+    each("light", [](Scene& scene) { scene.light = Light::Full; });
+    // Another step of the same shape.
+    const CellWorld other(
+        sampled(tests::cube(10), [](const glm::dvec3& p) { return wave(p + 1.0); }),
+        {"0.1:0.11", "0.7:0.8"});
+    expectTheProcessors(other.scene, kOutside, 2e-4);
+    expectTheProcessors(world.scene, kOutside, 2e-4);
+}
+
+TEST_F(GlCellsOf, ValuesFarBeyondFloatsAreTheProcessors) {
+    const auto grid = tests::cube(8);
+    std::vector<double> huge(grid->count());
+    std::vector<std::int64_t> whole(grid->count());
+    for (std::size_t i = 0; i < huge.size(); ++i) {
+        const double at = wave(glm::dvec3(grid->indices(i)));
+        huge[i] = 1e300 * at;
+        whole[i] = (std::int64_t{1} << 60) + static_cast<std::int64_t>(std::round(1000 * at));
+    }
+    const CellWorld ofHuge(timeseries::SortedStep::build({grid, std::move(huge), {}}),
+                           {"-5e299:5e299"});
+    expectTheProcessors(ofHuge.scene, kOutside, 1e-4);
+    const CellWorld ofWhole(timeseries::SortedStep::build({grid, std::move(whole), {}}),
+                            {"1152921504606846776:1152921504606847176"});
+    expectTheProcessors(ofWhole.scene, kOutside, 1e-4);
+    const CellWorld plateau(sampled(grid, [](const glm::dvec3&) { return 3.0; }), {"2:4"});
+    expectTheProcessors(plateau.scene, kOutside, 1e-4);
+}
+
+}  // namespace
+}  // namespace render

@@ -1,0 +1,96 @@
+// The error that a picture states, against the one that all its pixels have.
+#include "render/reference/sampled_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/reference/image_compare.h"
+#include "render/reference/interval_truth.h"
+#include "tests/support/cell_worlds.h"
+
+namespace render {
+namespace {
+
+using tests::CellWorld;
+
+const View kView = tests::lookFrom({1.2, -2.5, 1}, {160, 120});
+
+timeseries::SortedStep waves() {
+    const auto grid = tests::cube(24);
+    return tests::stepOf(grid, [&](std::size_t i) {
+        const glm::dvec3 p(grid->indices(i));
+        return std::sin(0.45 * p.x) + std::cos(0.35 * p.y + 0.15 * p.x) * std::sin(0.4 * p.z);
+    });
+}
+
+std::vector<float> depthOf(const CellWorld& world) {
+    std::vector<float> depth(std::size_t(kView.size.x) * std::size_t(kView.size.y));
+    for (std::size_t k = 0; k < world.scene.layers.size(); ++k) {
+        const std::vector<float> weight = tests::drawn(world.scene, kView, Channels::Weight, k);
+        const double perWeight = opticalDepthPerWeight(world.scene.layers[k].style.opacity);
+        for (std::size_t i = 0; i < depth.size(); ++i)
+            depth[i] += static_cast<float>(perWeight * weight[i]);
+    }
+    return depth;
+}
+double errorOfAll(const CellWorld& world, const std::vector<float>& depth) {
+    const IntervalTruth truth(world.scene, world.scene.cells->field(), 3);
+    std::vector<double> expected(depth.size());
+    for (std::size_t k = 0; k < world.scene.layers.size(); ++k) {
+        const std::vector<double> weight = truth.weight(kView, k);
+        const double perWeight = opticalDepthPerWeight(world.scene.layers[k].style.opacity);
+        for (std::size_t i = 0; i < depth.size(); ++i) expected[i] += perWeight * weight[i];
+    }
+    return compareScalars(std::span<const float>(depth), expected).relativeL2;
+}
+SampledError sampled(const CellWorld& world, const std::vector<float>& depth, std::size_t pixels,
+                     unsigned threads = 2) {
+    return sampledError(world.scene, world.scene.cells->field(), kView, depth,
+                        {.pixels = pixels, .raysAcross = 3, .threads = threads});
+}
+
+// What cells leave out, and pictures that are worse: a tenth too bright, and another range's.
+TEST(SampledError, OfAThousandPixelsIsThatOfAll) {
+    const CellWorld other(waves(), {"0.3:1.2", "-0.8:-0.6"});
+    for (const char* first : {"0.2:1.2", "0.2:0.5", "0.2:0.21"}) {
+        const CellWorld world(waves(), {first, "-0.8:-0.6"}, 0.3);
+        const std::vector<float> right = depthOf(world);
+        std::vector<float> bright = right;
+        for (float& d : bright) d *= 1.1f;
+        for (const std::vector<float>& depth : {right, bright, depthOf(other)}) {
+            const double all = errorOfAll(world, depth);
+            ASSERT_GT(all, 0);
+            const SampledError some = sampled(world, depth, 1024);
+            EXPECT_EQ(some.pixels, 1024u);
+            EXPECT_LT(std::max(some.relativeL2 / all, all / some.relativeL2), 1.25)
+                << first << ": " << some.relativeL2 << " of " << all;
+        }
+    }
+}
+
+TEST(SampledError, OfEveryPixelIsExact) {
+    const CellWorld world(waves(), {"0.2:0.5"});
+    const std::vector<float> depth = depthOf(world);
+    EXPECT_NEAR(sampled(world, depth, 1 << 20).relativeL2, errorOfAll(world, depth), 1e-12);
+}
+
+// Where the picture shows nothing the truth may have something.
+TEST(SampledError, NothingForSomethingIsAllWrong) {
+    const CellWorld world(waves(), {"0.2:0.5"});
+    const std::vector<float> nothing(std::size_t(kView.size.x) * std::size_t(kView.size.y));
+    EXPECT_EQ(sampled(world, nothing, 512).relativeL2, 1);
+    const CellWorld empty(waves(), {"5:6"});
+    EXPECT_EQ(sampled(empty, nothing, 512).relativeL2, 0);
+    EXPECT_EQ(sampled(empty, depthOf(world), 512).relativeL2,
+              std::numeric_limits<double>::infinity());
+}
+
+TEST(SampledError, DoesNotDependOnThreads) {
+    const CellWorld world(waves(), {"0.2:0.5"});
+    const std::vector<float> depth = depthOf(world);
+    EXPECT_EQ(sampled(world, depth, 700, 1).relativeL2, sampled(world, depth, 700, 5).relativeL2);
+}
+
+}  // namespace
+}  // namespace render
