@@ -98,7 +98,7 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     if (!drawn_ || (isDone() && (playing_ || !waitsForError()))) return std::nullopt;
-    const bool goesOn = report_.uploaded < 1 || (report_.refined > 0 && !playing_);
+    const bool goesOn = !isDone() && (report_.uploaded < 1 || (report_.refined > 0 && !playing_));
     return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }
 
