@@ -12,6 +12,7 @@
 #include "app/choices/options.h"
 #include "tests/support/files.h"
 #include "tests/support/random_explorer.h"
+#include "tests/support/rounds.h"
 
 namespace app {
 namespace {
@@ -47,7 +48,7 @@ Explorer closed(Explorer e) {
 
 TEST(CommandLine, GivesBackTheSameExplorer) {
     tests::RandomExplorer next(86);
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < tests::rounds(1000); ++i) {
         Explorer e = closed(next());
         for (const char* folder : {"/data/run", "/elsewhere/deep"}) {
             const auto arguments = renderArguments(e, "/out/a.exr", folder);
