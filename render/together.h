@@ -6,6 +6,7 @@
 namespace render {
 
 using timeseries::inParts;
+using timeseries::sharing;
 using timeseries::sharingThreads;
 using timeseries::threadsFor;
 using timeseries::together;

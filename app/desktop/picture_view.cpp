@@ -54,6 +54,7 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
 }
 
 void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget) {
+    error_.forget();
     const Explorer& e = shown.explorer;
     const glm::ivec2 grid = tiles(e.stereo.mode), whole = e.size * grid;
     if (!kept_ || kept_->size() != whole) kept_.emplace(whole);

@@ -65,7 +65,7 @@ render::Scene sceneOf(const Screen& screen) {
 class CellMaker {
  public:
     void want(const Screen& screen) {
-        constexpr std::uint64_t kAtOnce = 1 << 20;  // 30 ms
+        constexpr std::uint64_t kAtOnce = 1 << 18;  // 8 ms
         const auto& step = screen.sorted;
         if (screen.explorer.model != Model::Cells || !step->canHaveCells() || step->cellsIfMade())
             return;
@@ -75,7 +75,7 @@ class CellMaker {
             std::thread([step, busy = busy_] {
                 try {
                     step->cells();
-                } catch (const std::bad_alloc&) {  // points are drawn, as before
+                } catch (...) {  // for want of memory or threads: points are drawn, as before
                 }
                 *busy = false;
             }).detach();

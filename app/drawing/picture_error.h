@@ -15,6 +15,10 @@ namespace app {
 // the pixels (render/reference/sampled_error.h).
 class PictureError {
  public:
+    PictureError() = default;
+    PictureError(const PictureError&) = delete;
+    PictureError& operator=(const PictureError&) = delete;
+    ~PictureError();
     struct Picture {
         std::shared_ptr<const timeseries::SortedStep> sorted;
         Explorer explorer;
@@ -24,14 +28,15 @@ class PictureError {
     // Of kept values and of categories nobody knows what lies between.
     static bool canBeTold(const timeseries::SortedStep& step) { return step.canHaveCells(); }
     // Of a picture that is drawn whole, once it is known: begins to work it out, one at a time.
-    // REQUIRES: canBeTold(*picture.sorted).
+    // NaN where it could not be. REQUIRES: canBeTold(*picture.sorted).
     std::optional<double> of(const Picture& picture);
+    void forget();  // the picture changes: nobody wants it any more
 
     static double worked(const Picture& picture);  // out, on this thread
 
  private:
     struct Work;
-    std::shared_ptr<Work> work_;  // the one that was begun last
+    std::shared_ptr<Work> work_;  // the one that was begun last, which its thread shares
 };
 
 }  // namespace app

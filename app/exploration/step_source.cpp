@@ -12,6 +12,7 @@ StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept)
       loader_(std::move(dataset.reader), dataset.variable, std::move(kept)) {}
 
 std::shared_ptr<const timeseries::SortedStep> StepSource::get(std::size_t step, std::size_t next) {
+    series_.recount();  // steps that were drawn have their cells now
     loader_.want(series_.want({step, next}));
     for (;;) {
         if (series_.state(step) == timeseries::SlotState::Failed)

@@ -77,8 +77,11 @@ void drawQualityPage(Desk& desk, const Rect& at) {
         edit(desk, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
     constexpr std::array kLights = {"Off", "Soft", "Full"};
     constexpr std::array kPers = {"Length", "Crossing"};
-    if (e.model == Model::Cells) {
-        form.note("Between points, too: a thin range is a closed shell. Slower.");
+    const bool canHaveCells = desk.exploration.shown()->sorted->canHaveCells();
+    if (e.model == Model::Cells && !canHaveCells)
+        form.note("Of categories and of kept values, points are drawn.");
+    if (e.model == Model::Cells && canHaveCells) {
+        form.note("Between points, too: a thin range is a closed shell.");
         if (const auto light = segmented(desk.theme, "light", form.row("Light"), kLights,
                                          static_cast<std::size_t>(e.light)))
             edit(desk, {},

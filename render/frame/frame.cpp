@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "render/gl/debug_output.h"
@@ -93,8 +94,18 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     // The upload of points does it.
     if (&light != &inMemory_ && !takesPointsFromGpu(scene))
         needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatter(scene).prepare(scene, std::move(list), step), midEye(eyes), light,
-            as};
+    return {content, splatsOf(scene, std::move(list), step), midEye(eyes), light, as};
+}
+
+std::unique_ptr<SplatFrame> FrameRenderer::splatsOf(const Scene& scene, DrawList list,
+                                                    const GpuStep& step) {
+    if (!scene.cells || !byGl(scene)) return splatter(scene).prepare(scene, std::move(list), step);
+    try {
+        return needGl().cells.prepare(scene, list, step);
+    } catch (const std::runtime_error&) {  // the GPU has no room: the program draws them
+        mostCellBytes_ = 0;
+        return processor_.prepare(scene, std::move(list), step);
+    }
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
@@ -231,7 +242,7 @@ void FrameRenderer::addData(const FrameContent& content, GpuStep& step, std::spa
     Scene scene = content.scene;
     scene.order = Order::None;
     if (takesPointsFromGpu(scene)) step.upload(scene, neededScale(scene));
-    const auto splats = splatter(scene).prepare(scene, Runs{}, step);
+    const auto splats = splatsOf(scene, Runs{}, step);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         EyePicture& picture = pictures[i];
         if (extras.splatCount)

@@ -124,6 +124,7 @@ class FrameRenderer {
         return by_ == SplatterChoice::Gl && (!scene.cells || GlCells::fit(scene, mostCellBytes_));
     }
     Splatter& splatter(const Scene& scene);
+    std::unique_ptr<SplatFrame> splatsOf(const Scene& scene, DrawList list, const GpuStep& step);
     DrawList listFor(const Scene& scene, std::span<const View> eyes);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
     bool drawSplats(EyeInWork& work, double cost);

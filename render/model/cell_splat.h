@@ -13,7 +13,7 @@
 // W is that length in units of l, as of splats (render/model/footprint.h), or, where opacity is of
 // a crossing, of each piece what it changes of the range's width, if that is more. Cells do not
 // overlap.
-// The kernels of render/splat/cell_kernels.cpp compute the same in float.
+// The kernels of render/splat/cell_kernels.cpp and shaders/cell.* compute the same in float.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,7 @@ enum class Light {
 //   specular = certainty kSpecular facing^30 (Full alone),
 // of facing = |n . v|, 1 where the surface faces the eye, and of how far there is one:
 // certainty = gradient / (gradient + steepness), the steepness being this share of what the
-// scene's steeper cells have.
+// scene's steeper cells have. shaders/cell.frag has the same numbers.
 inline constexpr double kAmbient = 0.25, kEven = 0.625, kSpecular = 0.35;
 inline constexpr double kSteepnessShare = 0.1, kSteepQuantile = 0.9;
 

@@ -27,7 +27,7 @@ layout(std430, binding = 0) readonly buffer Pieces { Piece pieces[]; };
 #ifdef ORDERED
 layout(std430, binding = 1) readonly buffer Places { uint places[]; };
 #endif
-layout(binding = 0) uniform samplerBuffer axisEnds;  // per axis and cell: from, to
+layout(binding = 0) uniform samplerBuffer axisSides;  // per axis and cell: middle, size
 layout(location = 0) uniform uint first;             // to draw
 
 layout(location = 0) flat out vec4 centreAndBase;  // window offset of the centre; base depth; tau's layer
@@ -51,18 +51,15 @@ void main() {
 #endif
     const uvec3 n = view.cells.xyz;
     const uint row = p.cell / n.x, slice = row / n.y;
-    const vec2 x = texelFetch(axisEnds, int(p.cell - row * n.x)).xy;
-    const vec2 y = texelFetch(axisEnds, int(n.x + row - slice * n.y)).xy;
-    const vec2 z = texelFetch(axisEnds, int(n.x + n.y + slice)).xy;
-    vec3 from = vec3(x.x, y.x, z.x), to = vec3(x.y, y.y, z.y);
+    const vec2 x = texelFetch(axisSides, int(p.cell - row * n.x)).xy;
+    const vec2 y = texelFetch(axisSides, int(n.x + row - slice * n.y)).xy;
+    const vec2 z = texelFetch(axisSides, int(n.x + n.y + slice)).xy;
+    vec3 middle = vec3(x.x, y.x, z.x), size = vec3(x.y, y.y, z.y);
     const uint octant = p.kind & 15u;
     if (octant < 8u) {
-        const vec3 share = 0.5 * vec3(octant & 1u, octant >> 1 & 1u, octant >> 2);
-        const vec3 size = to - from;
-        to = from + (share + 0.5) * size;
-        from += share * size;
+        size *= 0.5;
+        middle += size * (vec3(octant & 1u, octant >> 1 & 1u, octant >> 2) - 0.5);
     }
-    const vec3 size = to - from, middle = 0.5 * (from + to);
     const vec3 seen = (view.viewFromAxes * vec4(middle, 1.0)).xyz;
     const vec3 edge[3] = vec3[3](0.5 * size.x * view.viewFromAxes[0].xyz,
                                  0.5 * size.y * view.viewFromAxes[1].xyz,

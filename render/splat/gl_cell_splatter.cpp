@@ -102,6 +102,7 @@ class GlCellFrame final : public SplatFrame {
                                     Targets& targets) override {
         GlTargets& onGl = targets.onGl();
         onGl.clearedPlane(layer, channels);
+        glTextureBarrier();  // the opaque scene's depth, which shaders read
         return std::make_unique<GlCellPlane>(splatter_, scene_, cells_, view, channels, layer,
                                              onGl);
     }
@@ -118,6 +119,9 @@ GlCellSplatter::GlCellSplatter(const GlSplatter& layers)
     : layers_(layers), view_(sizeof(CellViewBlock)) {}
 
 std::uint64_t GlCellSplatter::mostBytes() {
+    GLint blocks = 0;  // GL 4.5 promises none to vertices
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
+    if (blocks < 2) return 0;
     constexpr GLint64 kMost = 1 << 29;
     GLint64 bound = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bound);
@@ -156,9 +160,10 @@ void GlCellSplatter::draw(const Draw& what, std::size_t plane, GlTargets& target
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, layers_.layerBlock().id());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, what.cells.pieces().id());
     if (what.order) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, what.order->id());
-    glBindTextureUnit(0, what.cells.ends().id());
+    glBindTextureUnit(0, what.cells.sides().id());
     glBindTextureUnit(1, layers_.colorMaps().id());
-    // Read where it is also attached, which is defined as long as nothing writes it.
+    // Read where it is also attached, which is defined after a barrier as long as nothing writes
+    // it.
     glBindTextureUnit(2, targets.depth().id());
     glProgramUniform1ui(with.id(), 0, what.first);
     glBindVertexArray(nothing_.id());

@@ -17,9 +17,11 @@ class GlCellSplatter final : public Splatter {
     explicit GlCellSplatter(const GlSplatter& layers);
 
     // The most that a scene's cells may take there: what the driver binds, and no card is filled.
+    // 0 where it cannot draw them.
     static std::uint64_t mostBytes();
 
-    // Asks nothing of the step on the GPU. REQUIRES: GlCells::fit(scene, mostBytes()).
+    // Asks nothing of the step on the GPU. REQUIRES: GlCells::fit(scene, mostBytes()). Throws
+    // std::runtime_error where there is no room.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GpuStep& step) override;
 

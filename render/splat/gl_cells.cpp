@@ -13,15 +13,16 @@ namespace {
 constexpr std::size_t kEyes = 2;
 constexpr std::size_t kWorthAThread = 1 << 10;
 
-std::vector<glm::vec2> endsOf(const Scene& scene) {
-    std::vector<glm::vec2> ends;
+// In double: floats have no difference of places that are near.
+std::vector<glm::vec2> sidesOf(const Scene& scene) {
+    std::vector<glm::vec2> sides;
     const glm::uvec3 size = scene.cells->size();
     for (int a = 0; a < 3; ++a)
         for (std::uint32_t i = 0; i < size[a]; ++i) {
             const auto [from, to] = endsAlong(scene.placed, static_cast<std::size_t>(a), i);
-            ends.emplace_back(from, to);
+            sides.emplace_back(0.5 * from + 0.5 * to, to - from);
         }
-    return ends;
+    return sides;
 }
 
 // What cells depend on beside the field. Ends along axes say how the grid is placed.
@@ -101,13 +102,13 @@ bool GlCells::fit(const Scene& scene, std::uint64_t bytes) {
 GlCells::GlCells(const Scene& scene)
     : index_(scene.cells),
       choices_(choicesOf(scene)),
-      ends_(std::span<const glm::vec2>(endsOf(scene))),
-      endsTexture_(GL_RG32F, ends_) {
+      sides_(std::span<const glm::vec2>(sidesOf(scene))),
+      sidesTexture_(GL_RG32F, sides_) {
     const std::vector<CellOfLayer> all = cellsOf(scene, Channels::Over, 0);
     const double steep = steepnessOf(scene);
     const unsigned shared = threadsFor(all.size(), kWorthAThread, sharingThreads());
     std::vector<std::vector<GlCell>> parts(shared);
-    together(shared, [&](unsigned k) {
+    sharing(shared, [&](unsigned k) {
         const std::size_t first = all.size() * k / shared, last = all.size() * (k + 1) / shared;
         look(scene, std::span(all).subspan(first, last - first), steep, parts[k]);
     });
@@ -127,7 +128,7 @@ GlCells::GlCells(const Scene& scene)
 }
 
 bool GlCells::areOf(const Scene& scene) const {
-    return index_ == scene.cells && choices_ == choicesOf(scene);
+    return index_.lock() == scene.cells && choices_ == choicesOf(scene);
 }
 
 std::pair<std::uint32_t, std::uint32_t> GlCells::placesOf(Channels channels,

@@ -40,17 +40,17 @@ class GlCells {
     std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
     // Places of all pieces as uints, the farthest first.
     std::shared_ptr<const gl::Buffer> farthestFirst(const CellDistance& distance);
-    // The two ends of cells, axis after axis, in axis coordinates.
-    const gl::BufferTexture& ends() const { return endsTexture_; }
+    // Middles and sizes of cells, axis after axis, in axis coordinates.
+    const gl::BufferTexture& sides() const { return sidesTexture_; }
 
  private:
-    std::shared_ptr<const timeseries::CellIndex> index_;
+    std::weak_ptr<const timeseries::CellIndex> index_;
     std::vector<double> choices_;  // all else that they depend on
     std::unique_ptr<gl::Buffer> pieces_;
     std::vector<std::uint32_t> cells_;   // of each piece
     std::vector<std::uint32_t> firsts_;  // of each layer, and the end
-    gl::Buffer ends_;
-    gl::BufferTexture endsTexture_;
+    gl::Buffer sides_;
+    gl::BufferTexture sidesTexture_;
     struct Ordered {
         glm::ivec3 eye;
         std::shared_ptr<const gl::Buffer> places;

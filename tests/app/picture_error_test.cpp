@@ -25,7 +25,9 @@ PictureError::Picture waves(Model model, const char* range) {
     Explorer e;
     e.model = model;
     e.size = {160, 120};
-    e.layers = {{.ranges = timeseries::RangeSet::parse(range), .color = {}, .opacity = 0.4}};
+    e.layers = {{.ranges = timeseries::RangeSet::parse(range),
+                 .color = glm::dvec3(1, 0.5, 0),
+                 .opacity = 0.4}};
     const render::PlacedPoints placed(*grid);
     return {step, e, eyes(e.view, {}, placed.boxHalfEdges(), e.size).front()};
 }

@@ -210,6 +210,27 @@ TEST_F(GlCellsOf, EachOfSeveralScenesIsItsOwn) {
     expectTheProcessors(world.scene, kOutside, 2e-4);
 }
 
+// Where there is not enough room for their 64 bytes each, octants eight times as many.
+TEST_F(GlCellsOf, FitWhatTheyTake) {
+    CellWorld world(waves(), {"-0.5:0.5"});
+    const std::uint64_t bytes = 64 * cellCount(world.scene.layers[0]);
+    EXPECT_TRUE(GlCells::fit(world.scene, bytes));
+    EXPECT_FALSE(GlCells::fit(world.scene, bytes - 1));
+    world.scene.clip = {{0, 0, 0}, {5, 9, 9}};
+    EXPECT_FALSE(GlCells::fit(world.scene, 8 * bytes - 1));
+    EXPECT_LE(GlCells(world.scene).pieces().bytes(), 8 * bytes);
+}
+
+// Of axes whose coordinates are the same as floats.
+TEST_F(GlCellsOf, SlicesThinnerThanFloatsTellAreTheProcessors) {
+    timeseries::Axis uneven = tests::axis(5);
+    uneven.coordinates = {0, 1, 1 + 1e-9, 3, 6};
+    const CellWorld world(
+        sampled(std::make_shared<Grid>(std::array{uneven, tests::axis(5), tests::axis(6)}), wave),
+        {"-0.5:0.5"});
+    expectTheProcessors(world.scene, kOutside, 1.5e-4);
+}
+
 TEST_F(GlCellsOf, ValuesFarBeyondFloatsAreTheProcessors) {
     const auto grid = tests::cube(8);
     std::vector<double> huge(grid->count());

@@ -30,7 +30,7 @@ struct StepSummary {
     std::uint64_t bytes = 0;    // that the step takes when loaded, or took last
 };
 
-// Invariant: what is loaded takes at most the budget, or is one step alone.
+// Invariant: what is loaded took at most the budget when it was counted last, or is one step alone.
 class Series {
  public:
     static constexpr std::size_t kQuantiles = 1024 + 1;
