@@ -6,38 +6,13 @@
 #include <thread>
 
 #include "app/picture/picture.h"
+#include "render/frame/plain_frame.h"
 #include "render/reference/sampled_error.h"
-#include "render/splat/memory_targets.h"
-#include "render/splat/processor_splatter.h"
 
 namespace app {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-// Of all layers together, [y][x], row 0 at the bottom; none once nobody wants it.
-std::vector<float> opticalDepth(const render::Scene& scene, const render::View& view,
-                                const std::atomic<bool>& wanted) {
-    constexpr std::uint64_t kAtOnce = 1 << 15;  // a few milliseconds
-    render::MemoryTargets targets(view.size);
-    render::ProcessorSplatter splatter;
-    const auto splats =
-        splatter.prepare(scene, render::Runs{}, render::GpuStep(scene.step, scene.placed));
-    std::vector<float> depth(static_cast<std::size_t>(view.size.x) *
-                             static_cast<std::size_t>(view.size.y));
-    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
-        const auto sum = splats->begin(view, render::Channels::Weight, k, targets);
-        while (!sum->done()) {
-            if (!wanted) return {};
-            sum->add(kAtOnce);
-        }
-        const auto perWeight =
-            static_cast<float>(render::opticalDepthPerWeight(scene.layers[k].style.opacity));
-        const std::vector<float> weight = render::turnedOver(targets.readScalarPlane(k), view.size);
-        for (std::size_t i = 0; i < depth.size(); ++i) depth[i] += perWeight * weight[i];
-    }
-    return depth;
-}
 
 double errorOf(const PictureError::Picture& picture, const std::atomic<bool>& wanted) {
     const timeseries::SortedStep& step = *picture.sorted;
@@ -47,7 +22,7 @@ double errorOf(const PictureError::Picture& picture, const std::atomic<bool>& wa
     e.order = render::Order::None;  // depth alone
     const render::Scene scene = makeScene(e, step, placed, e.play.tick);
     if (scene.layers.empty()) return kUnknown;
-    const std::vector<float> depth = opticalDepth(scene, picture.view, wanted);
+    const std::vector<float> depth = opticalDepthOf(scene, picture.view, wanted);
     if (!wanted) return kUnknown;
     const auto cells = step.cellsIfMade();
     const timeseries::Field field = cells ? timeseries::Field{} : fieldOf(step);

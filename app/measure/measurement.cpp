@@ -110,7 +110,7 @@ class Bench {
         for (std::size_t v = 0; v < views_.size(); ++v) {
             frame_.draw(scene, views_[v]);
             const render::Image light = frame_.light();
-            shown.add(v, frame_.opticalDepth(scene, views_[v]), light);
+            shown.add(v, opticalDepthOf(scene, views_[v]), light);
         }
         return shown;
     }

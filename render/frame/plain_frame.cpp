@@ -37,18 +37,25 @@ void PlainFrame::draw(const Scene& scene, const View& view) {
     light_.drawLight({scene, view, background_, noAxes, noLegend, {}}, LightAs::Linear, targets_);
 }
 
-std::vector<float> PlainFrame::opticalDepth(const Scene& scene, const View& view) {
+std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
+                                  const std::atomic<bool>& wanted) {
+    constexpr std::uint64_t kAtOnce = 1 << 15;  // a few milliseconds
     Scene plain = scene;
     plain.order = Order::None;
-    const auto splats = splatter_.prepare(plain, Runs{}, GpuStep(scene.step, scene.placed));
-    light_.drawDepth({}, {}, view, targets_);
+    MemoryTargets targets(view.size);
+    ProcessorSplatter splatter;
+    const auto splats = splatter.prepare(plain, Runs{}, GpuStep(scene.step, scene.placed));
     std::vector<float> depth(static_cast<std::size_t>(view.size.x) *
                              static_cast<std::size_t>(view.size.y));
     for (std::size_t k = 0; k < plain.layers.size(); ++k) {
-        sum(*splats, view, Channels::Weight, k, targets_);
+        const auto sum = splats->begin(view, Channels::Weight, k, targets);
+        while (!sum->done()) {
+            if (!wanted) return {};
+            sum->add(kAtOnce);
+        }
         const auto perWeight =
             static_cast<float>(opticalDepthPerWeight(plain.layers[k].style.opacity));
-        const std::vector<float> weight = turnedOver(targets_.readScalarPlane(k), view.size);
+        const std::vector<float> weight = turnedOver(targets.readScalarPlane(k), view.size);
         for (std::size_t i = 0; i < depth.size(); ++i) depth[i] += perWeight * weight[i];
     }
     return depth;

@@ -2,6 +2,7 @@
 // legend and what else stands in a picture: for those who measure it.
 #pragma once
 
+#include <atomic>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -21,8 +22,6 @@ class PlainFrame {
     void draw(const Scene& scene, const View& view);
     // What was drawn last. Linear, premultiplied.
     Image light() const { return targets_.readLight(); }
-    // Of all layers together, whatever the scene's order. [y][x], row 0 at the bottom.
-    std::vector<float> opticalDepth(const Scene& scene, const View& view);
 
  private:
     Font font_;
@@ -32,5 +31,10 @@ class PlainFrame {
     ProcessorSplatter splatter_;
     DepthOrder order_;
 };
+
+// Of all layers together, whatever the scene's order. [y][x], row 0 at the bottom. On any thread;
+// empty once it is not wanted any more.
+std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
+                                  const std::atomic<bool>& wanted = true);
 
 }  // namespace render

@@ -15,14 +15,14 @@ int cellAlong(const std::vector<double>& positions, double place) {
 
 }  // namespace
 
-std::pair<std::size_t, std::size_t> layersOf(const Scene& scene, Channels channels,
+std::pair<std::size_t, std::size_t> layersOf(std::size_t count, Channels channels,
                                              std::size_t layer) {
-    if (channels == Channels::Over || channels == Channels::Count) return {0, scene.layers.size()};
+    if (channels == Channels::Over || channels == Channels::Count) return {0, count};
     return {layer, layer + 1};
 }
 
 std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer) {
-    const auto [first, last] = layersOf(scene, channels, layer);
+    const auto [first, last] = layersOf(scene.layers.size(), channels, layer);
     std::uint64_t count = 0;
     for (std::size_t k = first; k < last; ++k) count += cellCount(scene.layers[k]);
     return count;
@@ -31,7 +31,7 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer) {
     std::vector<CellOfLayer> cells;
     cells.reserve(cellCount(scene, channels, layer));
-    const auto [first, last] = layersOf(scene, channels, layer);
+    const auto [first, last] = layersOf(scene.layers.size(), channels, layer);
     for (std::size_t k = first; k < last; ++k)
         for (const timeseries::Run& run : scene.layers[k].cells.candidates)
             for (std::uint64_t i = 0; i < run.count; ++i)

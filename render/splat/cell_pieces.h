@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,9 +21,9 @@ struct CellOfLayer {
     std::uint8_t layer;
 };
 
-// The layers that a plane of these channels takes: from the first to before the second. All of them
-// for Over and Count, else `layer`.
-std::pair<std::size_t, std::size_t> layersOf(const Scene& scene, Channels channels,
+// The layers, of so many, that a plane of these channels takes: from the first to before the
+// second. All of them for Over and Count, else `layer`.
+std::pair<std::size_t, std::size_t> layersOf(std::size_t count, Channels channels,
                                              std::size_t layer);
 // Their cells that are looked at, layer by layer, as their candidates lie.
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);
@@ -84,6 +85,23 @@ void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
         if ((seen.octants >> o & 1) == 0) continue;
         ValuedCell piece = octantOf(seen.cell, o);
         use(piece, o);
+    }
+}
+
+// The same of several cells, with each range of their layers: use(piece, of, octant).
+template <typename Use>
+void forEachPiece(const Scene& scene, std::span<const CellOfLayer> cells, const Use& use) {
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i + kAhead < cells.size()) scene.cells->prefetch(cells[i + kAhead].cell);
+        const CellOfLayer& of = cells[i];
+        forEachPiece(scene, of.cell, [&](ValuedCell& piece, unsigned octant) {
+            for (const auto& range : scene.layers[of.layer].cells.ranges) {
+                piece.lo = range.lo;
+                piece.hi = range.hi;
+                use(piece, of, octant);
+            }
+        });
     }
 }
 

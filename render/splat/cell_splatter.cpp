@@ -11,8 +11,6 @@
 namespace render {
 namespace {
 
-using timeseries::Interval;
-
 // Looked at before they are summed: 22 MB of them.
 constexpr std::uint64_t kAtOnce = 1 << 17;
 // Less is done before another thread has begun.
@@ -46,22 +44,12 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view,
                             std::span<const CellOfLayer> part) {
     cells.clear();
     spans.clear();
-    constexpr std::size_t kAhead = 16;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-        const CellOfLayer& of = part[i];
-        if (i + kAhead < part.size()) scene.cells->prefetch(part[i + kAhead].cell);
-        const Layer& layer = scene.layers[of.layer];
-        forEachPiece(scene, of.cell, [&](ValuedCell& piece, unsigned) {
-            for (const Interval<double>& range : layer.cells.ranges) {
-                piece.lo = range.lo;
-                piece.hi = range.hi;
-                const SeenCell seen = seenCell(view, piece, of.layer, layer.style);
-                if (seen.columns == 0) continue;
-                cells.push_back(seen);
-                spans.push_back(spanOf(view, seen));
-            }
-        });
-    }
+    forEachPiece(scene, part, [&](const ValuedCell& piece, const CellOfLayer& of, unsigned) {
+        const SeenCell seen = seenCell(view, piece, of.layer, scene.layers[of.layer].style);
+        if (seen.columns == 0) return;
+        cells.push_back(seen);
+        spans.push_back(spanOf(view, seen));
+    });
     bins.fill(
         view.count(), view.tiles.x, spans, 0, spans.size(),
         [&](std::size_t places) { binned.resize(places); },

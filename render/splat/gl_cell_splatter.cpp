@@ -38,20 +38,6 @@ CellViewBlock blockOf(const Scene& scene, const View& view, Channels channels) {
     return b;
 }
 
-const char* define(Channels channels) {
-    switch (channels) {
-        case Channels::Weight:
-            return "#define WEIGHT\n";
-        case Channels::WeightedColor:
-            return "#define WEIGHTED_COLOR\n";
-        case Channels::Over:
-            return "#define OVER\n";
-        case Channels::Count:
-            return "#define COUNT\n";
-    }
-    return "";
-}
-
 class GlCellPlane final : public PlaneSum {
  public:
     GlCellPlane(GlCellSplatter& splatter, const Scene& scene, std::shared_ptr<GlCells> cells,
@@ -130,7 +116,7 @@ std::uint64_t GlCellSplatter::mostBytes() {
 
 const gl::Program& GlCellSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
-    std::string defines = define(variant.channels);
+    std::string defines = defineOf(variant.channels);
     if (variant.ordered) defines += "#define ORDERED\n";
     return programs_
         .emplace(variant,

@@ -1,7 +1,6 @@
 #include "render/splat/gl_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/vec2.hpp>
 
 #include "render/splat/cell_view.h"
@@ -25,7 +24,7 @@ std::vector<glm::vec2> sidesOf(const Scene& scene) {
     return sides;
 }
 
-// What cells depend on beside the field. Ends along axes say how the grid is placed.
+// What cells depend on beside the field. Places along axes say how the grid is placed.
 std::vector<double> choicesOf(const Scene& scene) {
     std::vector<double> choices{static_cast<double>(scene.opacityPer),
                                 scene.light == Light::Off ? 0.0 : 1.0, scene.placed.unitLength()};
@@ -71,25 +70,6 @@ GlCell glCell(const CellSplat<float>& s, const CellOfLayer& of, unsigned octant,
     return c;
 }
 
-void look(const Scene& scene, std::span<const CellOfLayer> part, double steep,
-          std::vector<GlCell>& into) {
-    constexpr std::size_t kAhead = 16;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-        const CellOfLayer& of = part[i];
-        if (i + kAhead < part.size()) scene.cells->prefetch(part[i + kAhead].cell);
-        const Layer& layer = scene.layers[of.layer];
-        forEachPiece(scene, of.cell, [&](ValuedCell& piece, unsigned octant) {
-            for (const timeseries::Interval<double>& range : layer.cells.ranges) {
-                piece.lo = range.lo;
-                piece.hi = range.hi;
-                CellSplat<float> s;
-                if (cell::seeField(s, piece, scene.placed.unitLength()))
-                    into.push_back(glCell(s, of, octant, layer.style, steep));
-            }
-        });
-    }
-}
-
 }  // namespace
 
 bool GlCells::fit(const Scene& scene, std::uint64_t bytes) {
@@ -110,7 +90,13 @@ GlCells::GlCells(const Scene& scene)
     std::vector<std::vector<GlCell>> parts(shared);
     sharing(shared, [&](unsigned k) {
         const std::size_t first = all.size() * k / shared, last = all.size() * (k + 1) / shared;
-        look(scene, std::span(all).subspan(first, last - first), steep, parts[k]);
+        forEachPiece(
+            scene, std::span(all).subspan(first, last - first),
+            [&](const ValuedCell& piece, const CellOfLayer& of, unsigned octant) {
+                CellSplat<float> s;
+                if (cell::seeField(s, piece, scene.placed.unitLength()))
+                    parts[k].push_back(glCell(s, of, octant, scene.layers[of.layer].style, steep));
+            });
     });
     std::size_t count = 0;
     for (const auto& part : parts) count += part.size();
@@ -133,9 +119,8 @@ bool GlCells::areOf(const Scene& scene) const {
 
 std::pair<std::uint32_t, std::uint32_t> GlCells::placesOf(Channels channels,
                                                           std::size_t layer) const {
-    if (channels == Channels::Over || channels == Channels::Count)
-        return {firsts_.front(), firsts_.back()};
-    return {firsts_[layer], firsts_[layer + 1]};
+    const auto [first, last] = layersOf(firsts_.size() - 1, channels, layer);
+    return {firsts_[first], firsts_[last]};
 }
 
 std::shared_ptr<const gl::Buffer> GlCells::farthestFirst(const CellDistance& distance) {

@@ -58,20 +58,6 @@ SplatViewBlock viewBlock(const Scene& scene, const View& view, const PointsView&
     return b;
 }
 
-const char* define(Channels channels) {
-    switch (channels) {
-        case Channels::Weight:
-            return "#define WEIGHT\n";
-        case Channels::WeightedColor:
-            return "#define WEIGHTED_COLOR\n";
-        case Channels::Over:
-            return "#define OVER\n";
-        case Channels::Count:
-            return "#define COUNT\n";
-    }
-    return "";
-}
-
 // Position in the map = x s + y of a value s on the scale: affine, in double.
 glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
     const double halfWidth = map.halfWidth();
@@ -137,6 +123,20 @@ class GlFrame final : public SplatFrame {
 
 }  // namespace
 
+const char* defineOf(Channels channels) {
+    switch (channels) {
+        case Channels::Weight:
+            return "#define WEIGHT\n";
+        case Channels::WeightedColor:
+            return "#define WEIGHTED_COLOR\n";
+        case Channels::Over:
+            return "#define OVER\n";
+        case Channels::Count:
+            return "#define COUNT\n";
+    }
+    return "";
+}
+
 GlSplatter::GlSplatter()
     : view_(sizeof(SplatViewBlock)),
       layers_(sizeof(LayerBlock)),
@@ -151,7 +151,7 @@ GlSplatter::~GlSplatter() = default;
 
 const gl::Program& GlSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
-    std::string defines = define(variant.channels);
+    std::string defines = defineOf(variant.channels);
     if (variant.quads) defines += "#define QUADS\n";
     if (variant.cut) defines += "#define CUT\n";
     if (variant.cubes) defines += "#define CUBES\n";

@@ -15,6 +15,9 @@ namespace render {
 // One frame's list, ready to draw for any number of eyes.
 class GpuList;
 
+// What tells a fragment shader which channels it accumulates.
+const char* defineOf(Channels channels);
+
 class GlSplatter final : public Splatter {
  public:
     GlSplatter();

@@ -40,7 +40,7 @@ void expectTheTruth(const Scene& scene, const DrawList& list) {
     PlainFrame frame(kSize, kGround);
     frame.draw(scene, view);
     const Image light = frame.light();
-    const std::vector<float> depth = frame.opticalDepth(scene, view);
+    const std::vector<float> depth = opticalDepthOf(scene, view);
     double most = 0;
     for (int y = 0; y < kSize.y; ++y)
         for (int x = 0; x < kSize.x; ++x) {
