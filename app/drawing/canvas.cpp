@@ -22,6 +22,12 @@ std::uint64_t drawnSplats(const std::vector<render::Layer>& layers, std::uint32_
     return sum;
 }
 
+std::uint64_t drawnCells(const std::vector<render::Layer>& layers) {
+    std::uint64_t sum = 0;
+    for (const render::Layer& layer : layers) sum += render::cellCount(layer);
+    return sum;
+}
+
 double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
     double sum = 0;
     for (const render::View& eye : eyes) sum += render::sceneCost(scene, eye);
@@ -175,8 +181,8 @@ struct Canvas::State {
     bool isThere(const GpuSteps::Held& held, const render::Scene& scene) const {
         return !renderer.takesPointsFromGpu(scene) || held.onGpu.ready(scene);
     }
-    // What of the layers is on the screen.
-    void tell(CanvasReport& report, const std::vector<render::Layer>& layers) const;
+    // What of the scene is on the screen.
+    void tell(CanvasReport& report, const render::Scene& scene) const;
     // Whether what is to be drawn by cells is drawn by points.
     bool lacksCells(const render::Scene& drawn) const {
         return screen->explorer.model == Model::Cells && !drawn.cells &&
@@ -252,12 +258,14 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
     return report;
 }
 
-void Canvas::State::tell(CanvasReport& report, const std::vector<render::Layer>& layers) const {
-    report.selected = drawnSplats(layers, 1);
+void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const {
+    report.selected = drawnSplats(scene.layers, 1);
     report.counts = pointCounts(screen->explorer, *screen->sorted);
     report.stride = stride;
-    report.drawn = drawnSplats(layers, stride);
-    report.whole = stride == 1 && report.uploaded == 1;
+    report.drawn = drawnSplats(scene.layers, stride);
+    if (scene.cells) report.cells = drawnCells(scene.layers);
+    report.lacksCells = lacksCells(scene);
+    report.whole = stride == 1 && report.uploaded == 1 && !report.lacksCells;
 }
 
 CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
@@ -277,9 +285,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     const render::Scene drawn = moving ? state_->thinned(whole, eyes, limits.splats) : whole;
     if (!drawn.cells) std::erase(legend.notes, kInterpolated);
     state_->stride = drawn.stride;
-    state_->tell(report, drawn.layers);
-    report.lacksCells = state_->lacksCells(drawn);
-    report.whole = report.whole && !report.lacksCells;
+    state_->tell(report, drawn);
 
     state_->timer.begin();
     const render::FrameContent content{drawn, screen->sorted->grid(), std::move(legend),
@@ -313,11 +319,10 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     }
     const bool done = refinement.done();
     if (done) state_->stride = 1;
-    state_->tell(report, refinement.scene().layers);
-    report.lacksCells = state_->lacksCells(refinement.scene());
+    state_->tell(report, refinement.scene());
     // Until they are there nothing is left to refine.
     report.refined = done && report.lacksCells ? 0 : refinement.share();
-    report.whole = report.whole && done && !report.lacksCells;
+    report.whole = report.whole && done;
     if (done) resting.reset();
     return report;
 }

@@ -12,8 +12,9 @@ namespace app {
 
 // What the picture on the screen is after one draw() or refine(), as the overlay tells it.
 struct CanvasReport {
-    std::size_t step = 0;                   // the step on the screen
-    std::uint64_t drawn = 0, selected = 0;  // splats an eye, of all layers; points they stand for
+    std::size_t step = 0;                     // the step on the screen
+    std::uint64_t drawn = 0, selected = 0;    // splats an eye, of all layers; points they stand for
+    std::optional<std::uint64_t> cells = {};  // likewise, where they are drawn instead
     // Of that step, under the choices on the screen; none before the first picture.
     std::optional<PointCounts> counts = {};
     std::uint32_t stride = 1;  // one of so many points stands for its neighbours

@@ -16,4 +16,8 @@ std::string drawnText(const DrawnCounts& drawn) {
                        withCommas(drawn.splats));
 }
 
+std::string cellsText(std::uint64_t cells) {
+    return fmt::format("{} cell{} drawn", withCommas(cells), cells == 1 ? "" : "s");
+}
+
 }  // namespace app::panels

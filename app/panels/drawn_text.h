@@ -1,4 +1,4 @@
-// How many points a picture has, in words.
+// How many points or cells a picture has, in words.
 #pragma once
 
 #include <cstdint>
@@ -13,5 +13,7 @@ struct DrawnCounts {
 };
 // "100 points drawn", "100 points drawn, as 120 splats", "30 of 120 splats drawn".
 std::string drawnText(const DrawnCounts& drawn);
+// "1 cell drawn", "3,321 cells drawn".
+std::string cellsText(std::uint64_t cells);
 
 }  // namespace app::panels

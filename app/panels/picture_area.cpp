@@ -28,7 +28,7 @@ std::string limitText(const Performance& p) {
     if (!r.whole && r.stride > 1) return "a subset while it moves";
     if (r.lacksCells) return "points stand for cells";
     if (!r.whole) return "a subset while it moves";
-    if (p.frame > p.budget) return "all points drawn";
+    if (p.frame > p.budget) return "all of it drawn";
     return "";
 }
 
@@ -139,14 +139,17 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
     const CanvasReport& r = p.report;
     const PointCounts& counts = *r.counts;
     std::vector<std::string> lines;
-    // Of the splats nobody knows which are in the box; where all are drawn, its points are.
-    if (counts.inClipBox && r.whole)
+    const char* clipping = counts.inClipBox ? ", before clipping" : "";
+    // Of splats and cells nobody knows which are in the box; where all are drawn, its points are.
+    if (r.cells)
+        lines.push_back(cellsText(*r.cells) + clipping);
+    else if (counts.inClipBox && r.whole)
         lines.push_back(withCommas(counts.selected) + " points drawn");
     else
         lines.push_back(drawnText({.splats = r.drawn,
                                    .allSplats = r.selected,
                                    .points = counts.inClipBox ? r.selected : counts.selected}) +
-                        (counts.inClipBox ? ", before clipping" : ""));
+                        clipping);
     if (const std::string error = errorText(p.error); !error.empty())
         lines.back() += "  ·  " + error;
     lines.push_back(fmt::format(

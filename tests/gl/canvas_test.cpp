@@ -129,8 +129,10 @@ TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLo
         EXPECT_NE(cells, points);
         EXPECT_EQ(draw(world_.shown(), {.splats = 100'000'000}, true)[0], cells);
         EXPECT_TRUE(report_.whole);
+        EXPECT_GT(report_.cells, 0u);
         EXPECT_NE(draw(world_.shown(), {.splats = 2'000}, true)[0], cells);
         EXPECT_FALSE(report_.whole);
+        EXPECT_FALSE(report_.cells) << "but points";
         EXPECT_GT(report_.stride, 1u) << "of points";
         // In slices.
         Image refined;

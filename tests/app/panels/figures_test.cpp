@@ -34,10 +34,25 @@ TEST(Figures, AreOfThePictureAlone) {
     r.drawn = 4000;
     EXPECT_THAT(figuresOf(p, desk.exploration.series()),
                 ElementsAre("4,000 points drawn", HasSubstr("4,000 selected"),
-                            EndsWith("all points drawn")));
+                            EndsWith("all of it drawn")));
     r.whole = false;
     r.lacksCells = true;
     EXPECT_THAT(figuresOf(p, desk.exploration.series()).back(), EndsWith("points stand for cells"));
+}
+
+TEST(Figures, CountCellsWhereTheyAreDrawn) {
+    tests::ScriptedExploration desk;
+    Performance p{.frame = 5ms, .budget = 33ms};
+    CanvasReport& r = p.report;
+    r.whole = true;
+    r.drawn = r.selected = 71;
+    r.cells = 3321;
+    r.counts = PointCounts{.layers = {71}, .swept = 0, .selected = 71, .kept = 100, .total = 100};
+    EXPECT_THAT(figuresOf(p, desk.exploration.series()),
+                ElementsAre("3,321 cells drawn", HasSubstr("71 selected"), testing::_));
+    r.counts->inClipBox = true;
+    EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(),
+              "3,321 cells drawn, before clipping");
 }
 
 TEST(Figures, StateTheErrorOnceItIsKnown) {
