@@ -1,12 +1,14 @@
 // `isochron render`: steps in, picture files out; no window.
 #include <fmt/format.h>
 
+#include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
 #include "app/command/commands.h"
 #include "app/exploration/chosen_data.h"
 #include "app/files/dataset.h"
 #include "app/files/frames.h"
 #include "app/files/progress.h"
+#include "app/picture/depth_error.h"
 #include "app/picture/picture.h"
 #include "app/picture/still.h"
 #include "app/say.h"
@@ -40,16 +42,28 @@ void tellFiles(const Frames& frames, const timeseries::Variable& about) {
     say("{}: {}, {}\n", frames.names(), about.name, times);
 }
 
+// What is said of the pictures once they are made.
+struct Told {
+    std::size_t mixed = 0;          // how many say that their colours are mixed
+    std::optional<double> error{};  // of the one in the middle (depth_error.h)
+    std::filesystem::path of{};     // that one
+};
+
+double errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
+               const render::PlacedPoints& placed) {
+    return depthErrorOf(onlyThis(e, frame.step, frame.tick), step,
+                        eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front());
+}
+
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
-// the GPU. Returns how many say that their colours are mixed.
-std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
-                       const timeseries::Variable& about, const Frames& frames, StepSource& source,
-                       render::FrameRenderer& renderer) {
+// the GPU.
+Told drawFrames(const RenderOptions& options, const Explorer& e, const timeseries::Variable& about,
+                const Frames& frames, StepSource& source, render::FrameRenderer& renderer) {
     std::shared_ptr<const SortedStep> shown;
     std::optional<render::PlacedPoints> placed;
     std::optional<render::GpuStep> onGpu;
     Progress progress("picture", frames.size());
-    std::size_t mixed = 0;
+    Told told;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         progress.at(i);
         const FrameAt frame = frames[i];
@@ -59,19 +73,31 @@ std::size_t drawFrames(const RenderOptions& options, const Explorer& e,
             placed.emplace(step->grid(), e.scale);
             onGpu.emplace(*step, *placed);
         }
-        const bool isMixed = writeStill({e, about, frame.step, *step, *placed, frame.tick,
-                                         options.portable ? Paths::Relative : Paths::Both},
+        std::optional<double> error;
+        if (i == frames.size() / 2 && hasDepthError(*step)) {
+            error = told.error = errorOf(e, frame, *step, *placed);
+            told.of = frame.file;
+        }
+        const bool isMixed = writeStill({.explorer = e,
+                                         .about = about,
+                                         .stepIndex = frame.step,
+                                         .step = *step,
+                                         .placed = *placed,
+                                         .tick = frame.tick,
+                                         .paths = options.portable ? Paths::Relative : Paths::Both,
+                                         .error = error,
+                                         .ofSeveral = frames.size() > 1},
                                         renderer, *onGpu,
                                         {.opticalDepth = options.opticalDepth,
                                          .splatCount = options.splatCount,
                                          .progress = [&](double share) { progress.drawn(share); }},
                                         frame.file);
-        if (isMixed) ++mixed;
+        if (isMixed) ++told.mixed;
         if (!options.progress) continue;
         say("picture {} of {}\n", i + 1, frames.size());
         std::fflush(stdout);  // a pipe is not flushed by itself
     }
-    return mixed;
+    return told;
 }
 
 // What draws a picture: GL on a device, or the program itself, which needs no context.
@@ -106,7 +132,7 @@ int renderHeadless(const RenderOptions& options) {
     const Dataset& dataset = chosen.dataset;
     Drawing drawing(options);
     const Frames frames(options.output, e, chosen.steps);
-    const std::size_t mixed =
+    const auto [mixed, error, middle] =
         drawFrames(options, e, dataset.about, frames, *chosen.source, drawing.renderer());
     tellFiles(frames, dataset.about);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
@@ -118,6 +144,9 @@ int renderHeadless(const RenderOptions& options) {
                                    : fmt::format(" in {} of {} pictures", mixed, frames.size()),
             render::kMixedDepth);
     tellStyle(e, dataset.about);
+    if (const std::string text = depthErrorText(error); !text.empty())
+        say("  {} of optical depth{}\n", text,
+            frames.size() == 1 ? "" : fmt::format(" in {}", middle.string()));
     if (e.sweep && !e.oneTick && e.sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * e.sweep->frequency, e.sweep->frequency);

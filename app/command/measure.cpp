@@ -78,6 +78,7 @@ ordered_json json(const Subject& subject, const std::vector<Measured>& modes) {
         out["views"].push_back(
             {{"azimuth", view.azimuthDegrees}, {"elevation", view.elevationDegrees}});
     for (const Measured& m : modes) out["modes"].push_back(json(m));
+    out["best"] = bestJson(modes);
     return out;
 }
 
@@ -85,9 +86,10 @@ void print(const Subject& subject, const std::vector<Measured>& modes) {
     const MeasureOptions& options = subject.options;
     const Explorer& e = subject.data.explorer;
     const unsigned threads = render::sharingThreads();
-    say("{}\n{} x {} pixels, {} view{}, {} frames of each, {} thread{}\ntruth: {}\n\n{}",
+    say("{}\n{} x {} pixels, {} view{}, {} frames of each, {} thread{}\ntruth: {}\n\n{}{}",
         subject.title(), e.size.x, e.size.y, options.views, options.views == 1 ? "" : "s",
-        options.frames, threads, threads == 1 ? "" : "s", truthText(options), table(modes));
+        options.frames, threads, threads == 1 ? "" : "s", truthText(options), table(modes),
+        bestTable(modes));
 }
 
 }  // namespace

@@ -111,7 +111,8 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
 }
 
 void Desktop::serve(const panels::Requests& requests) {
-    errands_.serve(requests, interface_);
+    const auto picture = exploration_.shown();
+    errands_.serve(requests, interface_, picture ? picture_.errorOf(*picture) : std::nullopt);
     if (std::ranges::count(requests.commands, panels::Command::Headset) > 0) askForHeadset();
     const Explorer& shown = exploration_.explorer();
     if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover, shown));

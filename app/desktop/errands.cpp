@@ -60,7 +60,8 @@ Errands::Errands(Exploration& exploration, Canvas& canvas, std::optional<ExportJ
     preferences_ = kept_ = std::move(read.preferences);
 }
 
-void Errands::serve(const panels::Requests& requests, panels::Interface& interface) {
+void Errands::serve(const panels::Requests& requests, panels::Interface& interface,
+                    const std::optional<double>& error) {
     if (!requests.open.empty()) open(requests.open);
     if (requests.save) save(*requests.save);
     if (requests.exportTo) exportTo(*requests.exportTo);
@@ -68,7 +69,7 @@ void Errands::serve(const panels::Requests& requests, panels::Interface& interfa
     if (requests.discardLeft) discardLeft();
     for (const panels::Command command : requests.commands) {
         if (interface.obey(exploration_, command)) continue;
-        if (command == panels::Command::Screenshot) screenshot();
+        if (command == panels::Command::Screenshot) screenshot(error);
         if (command == panels::Command::CopyCommandLine) copyCommandLine();
     }
 }
@@ -130,12 +131,12 @@ void Errands::save(const fs::path& file) {
     });
 }
 
-void Errands::screenshot() {
+void Errands::screenshot(const std::optional<double>& error) {
     const auto shown = exploration_.shown();
     if (!shown) return;
     telling(exploration_, [&] {
         const fs::path file = numbered(fs::path(shown->dataset.name).stem().string());
-        canvas_.save(*shown, file);
+        canvas_.save(*shown, file, error);
         exploration_.tell("Screenshot: " + fs::absolute(file).string());
     });
 }

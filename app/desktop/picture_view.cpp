@@ -3,6 +3,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "app/picture/depth_error.h"
+
 namespace app::desktop {
 namespace {
 
@@ -86,7 +88,7 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
 
 bool PictureView::waitsForError() const {
     return drawn_ && isDone() && !performance_.error && eyes_.size() == 1 &&
-           PictureError::canBeTold(*drawn_->sorted);
+           hasDepthError(*drawn_->sorted);
 }
 
 void PictureView::tellError() {

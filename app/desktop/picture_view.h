@@ -41,6 +41,10 @@ class PictureView {
 
     Canvas& canvas() { return canvas_; }
     const panels::Performance& performance() const { return performance_; }
+    // Of the picture of what is shown, where it is drawn whole and its error is known.
+    std::optional<double> errorOf(const Shown& shown) const {
+        return isCurrent(shown) ? performance_.error : std::nullopt;
+    }
     const glm::dmat3& boxHalfEdges() const { return boxHalfEdges_; }
     std::optional<render::View> eye() const {  // where there is one
         return eyes_.size() == 1 ? std::optional(eyes_.front()) : std::nullopt;

@@ -365,11 +365,17 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
                  {at.x, at.y, at.z}};
 }
 
-void Canvas::save(const Shown& shown, const std::filesystem::path& file) {
+void Canvas::save(const Shown& shown, const std::filesystem::path& file,
+                  const std::optional<double>& error) {
     state_->resting.reset();
     GpuSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
-    writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, held.placed,
-                shown.explorer.play.tick},
+    writeStill({.explorer = shown.explorer,
+                .about = shown.dataset.about,
+                .stepIndex = shown.step,
+                .step = *shown.sorted,
+                .placed = held.placed,
+                .tick = shown.explorer.play.tick,
+                .error = error},
                state_->renderer, held.onGpu, {}, file);
 }
 

@@ -85,8 +85,10 @@ class Canvas {
     // What an eye sees at a window position (pixels, y up), of what was drawn last; see pick.h.
     std::optional<Probe> probe(const render::View& eye, const glm::dvec2& window) const;
     // The picture as files have it: drawn whole and read back, with the session embedded. The step
-    // shown, also when it is not on the screen yet. Throws ImageError.
-    void save(const Shown& shown, const std::filesystem::path& file);
+    // shown, also when it is not on the screen yet. `error`: of this picture, where it is known.
+    // Throws ImageError.
+    void save(const Shown& shown, const std::filesystem::path& file,
+              const std::optional<double>& error = {});
 
  private:
     struct State;

@@ -5,31 +5,12 @@
 #include <system_error>
 #include <thread>
 
-#include "app/picture/picture.h"
-#include "render/frame/plain_frame.h"
-#include "render/reference/sampled_error.h"
+#include "app/picture/depth_error.h"
 
 namespace app {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-double errorOf(const PictureError::Picture& picture, const std::atomic<bool>& wanted) {
-    const timeseries::SortedStep& step = *picture.sorted;
-    const render::PlacedPoints placed(step.grid(), picture.explorer.scale);
-    Explorer e = picture.explorer;
-    e.opacityPer = render::OpacityPer::Length;
-    e.order = render::Order::None;  // depth alone
-    const render::Scene scene = makeScene(e, step, placed, e.play.tick);
-    if (scene.layers.empty()) return kUnknown;
-    const std::vector<float> depth = opticalDepthOf(scene, picture.view, wanted);
-    if (!wanted) return kUnknown;
-    const auto cells = step.cellsIfMade();
-    const timeseries::Field field = cells ? timeseries::Field{} : fieldOf(step);
-    // One thread: the interface has the others.
-    return sampledError(scene, cells ? cells->field() : field, picture.view, depth, {.threads = 1})
-        .relativeL2;
-}
 
 }  // namespace
 
@@ -46,18 +27,14 @@ struct PictureError::Work {
     }
     void run() {
         try {
-            error = errorOf(picture, wanted);
+            // One thread: the interface has the others.
+            error = depthErrorOf(picture.explorer, *picture.sorted, picture.view, 1, wanted);
         } catch (...) {  // then it is not told: a picture is as good without
         }
         picture.sorted.reset();
         done = true;
     }
 };
-
-double PictureError::worked(const Picture& picture) {
-    const std::atomic<bool> wanted = true;
-    return errorOf(picture, wanted);
-}
 
 void PictureError::forget() {
     if (work_) work_->wanted = false;

@@ -11,8 +11,7 @@
 
 namespace app {
 
-// Of lengths in the ranges, whatever opacity is of: relative L2 of optical depth, from a sample of
-// the pixels (render/reference/sampled_error.h).
+// See app/picture/depth_error.h.
 class PictureError {
  public:
     PictureError() = default;
@@ -25,14 +24,10 @@ class PictureError {
         render::View view;
         friend bool operator==(const Picture&, const Picture&) = default;
     };
-    // Of kept values and of categories nobody knows what lies between.
-    static bool canBeTold(const timeseries::SortedStep& step) { return step.canHaveCells(); }
     // Of a picture that is drawn whole, once it is known: begins to work it out, one at a time.
-    // NaN where it could not be. REQUIRES: canBeTold(*picture.sorted).
+    // NaN where it could not be. REQUIRES: hasDepthError(*picture.sorted).
     std::optional<double> of(const Picture& picture);
     void forget();  // the picture changes: nobody wants it any more
-
-    static double worked(const Picture& picture);  // out, on this thread
 
  private:
     struct Work;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -80,7 +81,10 @@ class Bench {
           how_(how),
           frame_(explorer.size, kBackground) {
         for (const ViewChoice& view : viewsAbout(explorer.view, how.views))
-            views_.push_back(eyes(view, {}, placed.boxHalfEdges(), explorer.size).front());
+            views_.push_back(viewOf(view));
+        ViewChoice turned = explorer.view;
+        turned.azimuthDegrees = std::remainder(turned.azimuthDegrees + kTurnDegrees, 360.0);
+        turned_ = viewOf(turned);
     }
 
     render::Scene sceneOf(const Mode& mode) const {
@@ -114,6 +118,9 @@ class Bench {
         }
         return shown;
     }
+    std::vector<float> drawTurned(const render::Scene& scene) const {
+        return opticalDepthOf(scene, turned_);
+    }
 
     // Adds the time of a frame of each view, after one that makes room for them.
     void time(const render::Scene& scene, std::vector<double>& into) {
@@ -125,7 +132,11 @@ class Bench {
         }
     }
 
-    Views truth() const {
+    struct Truth {
+        Views shown;
+        std::vector<double> turned;  // optical depth
+    };
+    Truth truth() const {
         const render::Scene scene = sceneOf({Model::Cells, 1, render::Order::BackToFront});
         const render::IntervalTruth truth(scene, scene.cells->field(),
                                           static_cast<int>(how_.raysAcross));
@@ -133,16 +144,21 @@ class Bench {
         for (std::size_t v = 0; v < views_.size(); ++v)
             shown.add(v, opticalDepth(truth, scene, views_[v]),
                       onBackground(truth.light(views_[v]), explorer_.size));
-        return shown;
+        return {std::move(shown), opticalDepth(truth, scene, turned_)};
     }
 
  private:
+    render::View viewOf(const ViewChoice& view) const {
+        return eyes(view, {}, placed_.boxHalfEdges(), explorer_.size).front();
+    }
+
     const Explorer& explorer_;
     const timeseries::SortedStep& step_;
     const render::PlacedPoints& placed_;
     const Measuring how_;
     render::PlainFrame frame_;
     std::vector<render::View> views_;
+    render::View turned_;  // the first
 };
 
 void compare(const Views& shown, const Views& truth, Measured& into) {
@@ -157,6 +173,18 @@ void compare(const Views& shown, const Views& truth, Measured& into) {
     constexpr double kShare = 0.95;
     into.colorDifference =
         colorDifferenceQuantile(shown.light, truth.light, glm::vec3(kBackground), kShare);
+}
+
+// Of optical depth, pixel by pixel; a view and the same turned, of a picture and of the truth.
+double poppingOf(std::span<const double> shown, std::span<const float> shownTurned,
+                 std::span<const double> truth, std::span<const double> truthTurned) {
+    double squares = 0, changes = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const double change = double{shownTurned[i]} - shown[i] - (truthTurned[i] - truth[i]);
+        changes += change * change;
+        squares += truth[i] * truth[i];
+    }
+    return changes == 0 ? 0 : std::sqrt(changes / squares);
 }
 
 }  // namespace
@@ -195,6 +223,7 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     struct Drawn {
         render::Scene scene;
         Views shown;
+        std::vector<float> turned;  // optical depth
         std::vector<double> times;
     };
     std::vector<Drawn> drawn;
@@ -206,7 +235,8 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     for (const Mode& mode : modes) {
         render::Scene scene = bench.sceneOf(mode);
         Views shown = bench.draw(scene);
-        drawn.push_back({std::move(scene), std::move(shown), {}});
+        std::vector<float> turned = bench.drawTurned(scene);
+        drawn.push_back({std::move(scene), std::move(shown), std::move(turned), {}});
     }
     // By turns, so that what else the machine does is in the times of all.
     for (unsigned i = 0; i < how.frames; ++i) {
@@ -214,7 +244,8 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
         for (Drawn& each : drawn) bench.time(each.scene, each.times);
     }
     tell(rounds - 1);
-    const Views truth = bench.truth();
+    const Bench::Truth truth = bench.truth();
+    const std::span first(truth.shown.opticalDepth.data(), truth.turned.size());
     std::vector<Measured> all;
     for (std::size_t i = 0; i < modes.size(); ++i) {
         Measured& m = all.emplace_back();
@@ -223,7 +254,8 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
         m.before = m.mode.model == Model::Points ? beforePoints : beforeCells;
         for (const render::Layer& layer : drawn[i].scene.layers)
             m.drawn += static_cast<double>(drawnCount(drawn[i].scene, layer));
-        compare(drawn[i].shown, truth, m);
+        compare(drawn[i].shown, truth.shown, m);
+        m.popping = poppingOf(drawn[i].shown.opticalDepth, drawn[i].turned, first, truth.turned);
     }
     return all;
 }

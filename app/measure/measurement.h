@@ -30,6 +30,8 @@ std::vector<Mode> modesFor(bool severalColors);
 // A mass that is more than 5 % off is not to be overlooked beside a short time.
 inline constexpr double kMassTolerance = 0.05;
 
+inline constexpr double kTurnDegrees = 0.1;
+
 struct Measured {
     Mode mode;
     double frame = 0;   // seconds, the median of all views' frames
@@ -38,6 +40,9 @@ struct Measured {
     // Of optical depth, all layers together, over all views, against the truth's.
     double depthError = 0;  // relative L2
     double mass = 1;        // its sum over the truth's
+    // What the picture changes by and the truth does not when the first view turns by kTurnDegrees:
+    // relative to the truth's depth, as depthError is.
+    double popping = 0;
     // Of the light, over all views, against the truth's; of the whole picture.
     double rmse = 0, psnr = 0;   // linear; dB, infinite for the same picture
     double largest = 0;          // linear, of one channel

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/files/dataset.h"
+#include "app/measure/best_modes.h"
 
 namespace app {
 namespace {
@@ -30,17 +31,18 @@ std::string orderText(render::Order order) {
 }
 
 std::string table(std::span<const Measured> modes) {
-    std::string text = fmt::format(
-        "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8} {:>9}  {:>8} {:>6} {:>8} {:>7}\n", "mode", "order",
-        "frame", "before", "drawn", "depth L2", "mass  ", "RMSE", "PSNR", "largest", "dE 95 %");
+    std::string text =
+        fmt::format("{:<12} {:<9} {:>9} {:>9} {:>12} {:>8} {:>9}  {:>8} {:>8} {:>6} {:>8} {:>7}\n",
+                    "mode", "order", "frame", "before", "drawn", "depth L2", "mass  ", "popping",
+                    "RMSE", "PSNR", "largest", "dE 95 %");
     bool isOff = false;
     for (const Measured& m : modes) {
         text += fmt::format(
-            "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8.4f} {:>9}{} {:>8.2e} {:>6.1f} {:>8.2e} "
-            "{:>7.2f}\n",
+            "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8.4f} {:>9}{} {:>8.4f} {:>8.2e} {:>6.1f} "
+            "{:>8.2e} {:>7.2f}\n",
             m.mode.name(), orderText(m.mode.order), timeText(m.frame), timeText(m.before),
             withCommas(static_cast<std::uint64_t>(m.drawn)), m.depthError, massText(m),
-            m.massIsOff() ? "" : "  ", m.rmse, m.psnr, m.largest, m.colorDifference);
+            m.massIsOff() ? "" : "  ", m.popping, m.rmse, m.psnr, m.largest, m.colorDifference);
         isOff = isOff || m.massIsOff();
     }
     if (isOff)
@@ -48,6 +50,36 @@ std::string table(std::span<const Measured> modes) {
             fmt::format("! its mass is more than {:.0f} % off: a fast picture, but not of this\n",
                         100 * kMassTolerance);
     return text;
+}
+
+std::string bestTable(std::span<const Measured> modes) {
+    std::string text;
+    const auto add = [&](const std::vector<BestMode>& best, std::string_view head,
+                         const auto& limitText) {
+        if (best.empty()) return;
+        text += fmt::format("\n{}\n", head);
+        for (const auto& [limit, mode] : best)
+            text += mode ? fmt::format("  {:<8} {:<12} {:>9}  error {:.4f}\n", limitText(limit),
+                                       modes[*mode].mode.name(), timeText(modes[*mode].frame),
+                                       modes[*mode].depthError)
+                         : fmt::format("  {:<8} none\n", limitText(limit));
+    };
+    add(mostAccurateWithin(modes), "the most accurate within a time a frame:", timeText);
+    add(soonestWithin(modes),
+        "the soonest within an error:", [](double error) { return fmt::format("{:g}", error); });
+    return text;
+}
+
+ordered_json bestJson(std::span<const Measured> modes) {
+    const auto listed = [&](const std::vector<BestMode>& best, const char* limitName) {
+        ordered_json list = ordered_json::array();
+        for (const auto& [limit, mode] : best)
+            list.push_back({{limitName, limit},
+                            {"mode", mode ? ordered_json(modes[*mode].mode.name()) : nullptr}});
+        return list;
+    };
+    return {{"mostAccurate", listed(mostAccurateWithin(modes), "frame")},
+            {"soonest", listed(soonestWithin(modes), "depthError")}};
 }
 
 ordered_json json(const Measured& m) {
@@ -59,6 +91,7 @@ ordered_json json(const Measured& m) {
             {"depthError", finite(m.depthError)},
             {"mass", finite(m.mass)},
             {"massIsOff", m.massIsOff()},
+            {"popping", finite(m.popping)},
             {"rmse", finite(m.rmse)},
             {"psnr", finite(m.psnr)},
             {"largest", finite(m.largest)},

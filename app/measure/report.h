@@ -14,6 +14,9 @@ std::string orderText(render::Order order);
 
 // Columns with their heads; a mode whose mass is off is marked, and the mark explained.
 std::string table(std::span<const Measured> modes);
+// Which to choose (best_modes.h), for people and for programs.
+std::string bestTable(std::span<const Measured> modes);
+nlohmann::ordered_json bestJson(std::span<const Measured> modes);
 // A row a mode, its head before; figures as JSON has them, empty where it has null.
 std::string csv(std::span<const Measured> modes);
 // Times in seconds. Null for what is infinite, as the PSNR of the same picture is.

@@ -7,6 +7,7 @@
 #include "app/choices/view_edits.h"
 #include "app/panels/drawn_text.h"
 #include "app/panels/widgets.h"
+#include "app/picture/depth_error.h"
 
 namespace app::panels {
 namespace {
@@ -126,14 +127,6 @@ void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>&
     }
 }
 
-// "error about 0.4 %"; "" where it is not known.
-std::string errorText(const std::optional<double>& error) {
-    if (!error || !std::isfinite(*error)) return "";
-    const double percent = 100 * *error;
-    if (percent < 0.1) return "error below 0.1 %";
-    return fmt::format("error about {:.{}f} %", percent, percent < 1 ? 1 : 0);
-}
-
 std::vector<std::string> figuresOf(const Performance& p, const timeseries::Series* series) {
     if (series == nullptr || !p.report.counts) return {};
     const CanvasReport& r = p.report;
@@ -150,7 +143,7 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
                                    .allSplats = r.selected,
                                    .points = counts.inClipBox ? r.selected : counts.selected}) +
                         clipping);
-    if (const std::string error = errorText(p.error); !error.empty())
+    if (const std::string error = depthErrorText(p.error); !error.empty())
         lines.back() += "  ·  " + error;
     lines.push_back(fmt::format(
         "{} selected{}  ·  {}{}", withCommas(counts.selected),

@@ -1,10 +1,13 @@
 #include "app/picture/still.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "app/choices/camera.h"
 #include "app/files/picture_files.h"
 #include "app/json_text.h"
+#include "app/picture/depth_error.h"
 #include "app/picture/picture.h"
 #include "render/image/color.h"
 
@@ -20,11 +23,16 @@ bool writeStill(const Still& still, render::FrameRenderer& renderer, render::Gpu
         makePicture(e, still.about, still.stepIndex, still.step, still.placed, still.tick);
     const bool mixed = isMixed(e, picture.scene);
     if (mixed) picture.legend.notes.emplace_back(kMixedColors);
+    render::Metadata metadata;
+    if (const std::string error = depthErrorText(still.error); !error.empty()) {
+        if (!still.ofSeveral) picture.legend.notes.push_back(error);
+        metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
+    }
     const Explorer alone = onlyThis(e, still.stepIndex, still.tick);
     auto eyePictures = renderer.render(
         {picture.scene, still.step.grid(), picture.legend, kBackground}, onGpu, views, extras);
-    write(file, e.stereo.mode, std::move(eyePictures),
-          {{kSessionKey, jsonText(toJson(alone, file.parent_path(), still.paths), -1)}});
+    metadata[kSessionKey] = jsonText(toJson(alone, file.parent_path(), still.paths), -1);
+    write(file, e.stereo.mode, std::move(eyePictures), metadata);
     return mixed;
 }
 

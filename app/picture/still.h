@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "app/choices/explorer.h"
 #include "app/choices/session.h"
@@ -23,6 +24,10 @@ struct Still {
     const render::PlacedPoints& placed;  // of the explorer's scale
     std::int64_t tick;                   // of the explorer's sweep, if it has one
     Paths paths = Paths::Both;           // that its session keeps
+    // Of its first eye (depth_error.h), where it is known; else nothing is said of it.
+    std::optional<double> error = {};
+    // One of several that are to be alike: what is known of it alone is in its file, not in sight.
+    bool ofSeveral = false;
 };
 
 // Whether the picture says that its colours are mixed. By the file's ending; two files where the

@@ -77,6 +77,15 @@ TEST_F(MeasuredRamp, ARangeBetweenPointsIsLostByPointsAndKeptByCells) {
     EXPECT_FALSE(modes[4].massIsOff());
 }
 
+// Dots jump from pixel to pixel where the field glides.
+TEST_F(MeasuredRamp, PointsPopMoreThanCells) {
+    const auto modes = measured({"4:4.4"});
+    EXPECT_GT(modes[0].popping, modes[4].popping);
+    EXPECT_GT(modes[3].popping, modes[4].popping);
+    EXPECT_GT(modes[4].popping, 0);
+    EXPECT_LT(modes[4].popping, 0.03);
+}
+
 // Mixed or in order, the optical depth is the same; the light is not.
 TEST_F(MeasuredRamp, SeveralColoursAreDrawnInBothOrders) {
     const auto modes = measured({"0:3", "5:8"});
@@ -170,10 +179,10 @@ TEST(MeasuredReport, IsOffFromMoreThanFivePercentOnAndWhereItIsNoNumber) {
 
 TEST(MeasuredReport, CsvHasARowAMode) {
     EXPECT_EQ(csv(someModes()),
-              "mode,order,frame,before,drawn,depthError,mass,massIsOff,rmse,psnr,largest,"
+              "mode,order,frame,before,drawn,depthError,mass,massIsOff,popping,rmse,psnr,largest,"
               "colorDifference\n"
-              "points 1/4,mixed,0.002,1e-05,12345,0.25,1.0625,true,0.0,20.0,0.0,0.0\n"
-              "cells,by depth,1.5,0.0,0,0.0,1.0,false,0.0,,0.0,0.0\n");
+              "points 1/4,mixed,0.002,1e-05,12345,0.25,1.0625,true,0.0,0.0,20.0,0.0,0.0\n"
+              "cells,by depth,1.5,0.0,0,0.0,1.0,false,0.0,0.0,,0.0,0.0\n");
 }
 
 TEST(MeasuredReport, JsonHasNullForTheInfinite) {

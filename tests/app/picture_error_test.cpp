@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/choices/camera.h"
+#include "app/picture/depth_error.h"
 #include "tests/support/scenes.h"
 
 namespace app {
@@ -32,24 +33,28 @@ PictureError::Picture waves(Model model, const char* range) {
     return {step, e, eyes(e.view, {}, placed.boxHalfEdges(), e.size).front()};
 }
 
+double worked(const PictureError::Picture& p) {
+    return depthErrorOf(p.explorer, *p.sorted, p.view);
+}
+
 // Figures of the design's table: rho here is 3 and .1.
 TEST(PictureError, OfCellsIsSmallAndOfAThinRangesPointsLarge) {
-    EXPECT_LT(PictureError::worked(waves(Model::Cells, "0.2:0.9")), 0.01);
-    EXPECT_LT(PictureError::worked(waves(Model::Cells, "0.2:0.23")), 0.1);
-    const double wide = PictureError::worked(waves(Model::Points, "0.2:0.9"));
+    EXPECT_LT(worked(waves(Model::Cells, "0.2:0.9")), 0.01);
+    EXPECT_LT(worked(waves(Model::Cells, "0.2:0.23")), 0.1);
+    const double wide = worked(waves(Model::Points, "0.2:0.9"));
     EXPECT_GT(wide, 0.02);
     EXPECT_LT(wide, 0.3);
-    EXPECT_GT(PictureError::worked(waves(Model::Points, "0.2:0.23")), 0.4);
+    EXPECT_GT(worked(waves(Model::Points, "0.2:0.23")), 0.4);
 }
 
 // Neither order, light nor what opacity is of changes lengths.
 TEST(PictureError, IsOfLengths) {
     PictureError::Picture picture = waves(Model::Cells, "0.2:0.23");
-    const double error = PictureError::worked(picture);
+    const double error = worked(picture);
     picture.explorer.opacityPer = render::OpacityPer::Length;
     picture.explorer.light = render::Light::Full;
     picture.explorer.order = render::Order::None;
-    EXPECT_EQ(PictureError::worked(picture), error);
+    EXPECT_EQ(worked(picture), error);
 }
 
 TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
@@ -61,16 +66,16 @@ TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
         while (!(told = error.of(picture)) && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(1ms);
         ASSERT_TRUE(told);
-        EXPECT_EQ(*told, PictureError::worked(picture));
+        EXPECT_EQ(*told, worked(picture));
     }
 }
 
 TEST(PictureError, OfCategoriesIsNotTold) {
     const auto grid = tests::cube(3);
     timeseries::Field field{grid, std::vector<float>(27, 1.0f), {}};
-    EXPECT_TRUE(PictureError::canBeTold(timeseries::SortedStep::build(field)));
+    EXPECT_TRUE(hasDepthError(timeseries::SortedStep::build(field)));
     field.categories = true;
-    EXPECT_FALSE(PictureError::canBeTold(timeseries::SortedStep::build(field)));
+    EXPECT_FALSE(hasDepthError(timeseries::SortedStep::build(field)));
 }
 
 }  // namespace
