@@ -167,15 +167,18 @@ struct Canvas::State {
     std::optional<Resting> resting;  // uses the renderer alone
     Telling telling;
 
-    // What every frame begins with: brings what is shown and tells of it.
-    CanvasReport begin(const Shown& shown, const CanvasLimits& limits, render::gl::GpuTimer& of);
+    // What every frame begins with: brings what is shown and tells of it. `moving`: the eyes for
+    // which the limits hold.
+    CanvasReport begin(const Shown& shown, const CanvasLimits& limits,
+                       std::span<const render::View> moving, render::gl::GpuTimer& of);
     // For a picture that moves: as much as keeps to the limit. Cells have no subsets: where they
     // are too many, points stand for them, if they are there.
     render::Scene thinned(render::Scene scene, std::span<const render::View> eyes,
                           std::uint64_t limit) const;
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
-    GpuSteps::Held& bring(const Shown& shown, std::uint64_t uploadBytes, CanvasReport& report);
+    GpuSteps::Held& bring(const Shown& shown, const CanvasLimits& limits,
+                          std::span<const render::View> moving, CanvasReport& report);
     // The step on the screen takes other choices, if all that they select is there to be drawn.
     void choose(const Explorer& choices);
     bool isThere(const GpuSteps::Held& held, const render::Scene& scene) const {
@@ -211,24 +214,26 @@ void Canvas::State::choose(const Explorer& choices) {
     screen = std::move(changed);
 }
 
-GpuSteps::Held& Canvas::State::bring(const Shown& shown, std::uint64_t uploadBytes,
-                                     CanvasReport& report) {
+GpuSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limits,
+                                     std::span<const render::View> moving, CanvasReport& report) {
     GpuSteps::Held& held = steps.use(shown.sorted, shown.explorer.scale);
     Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
     const render::Scene scene = sceneOf(next);
     const bool onScreen = screen && screen->held == &held;
     // While the picture moves, points may stand for cells.
-    if (const render::Scene points = byPoints(scene); renderer.takesPointsFromGpu(points)) {
+    const render::Scene points = byPoints(scene);
+    if (renderer.takesPointsFromGpu(points)) {
         std::optional<render::ValueScale> scale = render::neededScale(points);
         if (scale) scale = held.onGpu.serving(*scale);
         constexpr std::uint64_t kOnScreen = 8;
-        held.onGpu.upload(points, scale, onScreen ? kOnScreen * uploadBytes : uploadBytes);
+        held.onGpu.upload(points, scale, (onScreen ? kOnScreen : 1) * limits.uploadBytes);
         if (const std::uint64_t missing = held.onGpu.missingBytes(points, scale); missing > 0)
             report.uploaded =
                 1 - static_cast<double>(missing) /
                         static_cast<double>(render::GpuStep::neededBytes(points, scale));
     }
-    if (isThere(held, scene)) {
+    const bool keeps = costOf(scene, moving) <= static_cast<double>(limits.splats);
+    if (isThere(held, scene) && (keeps || isThere(held, points))) {
         screen.emplace(std::move(next));
     } else if (onScreen) {
         screen->explorer.scale = shown.explorer.scale;  // which use() has taken over
@@ -243,9 +248,9 @@ Canvas::Canvas(render::SplatterChoice splatter, render::LightAs as)
 Canvas::~Canvas() = default;
 
 CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits,
-                                  render::gl::GpuTimer& of) {
+                                  std::span<const render::View> moving, render::gl::GpuTimer& of) {
     CanvasReport report;
-    const GpuSteps::Held& coming = bring(shown, limits.uploadBytes, report);
+    const GpuSteps::Held& coming = bring(shown, limits, moving, report);
     steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
     report.gpuBytes = steps.bytes();
     if (const auto timed = of.poll()) {
@@ -272,7 +277,8 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
                           const CanvasLimits& limits, bool moving, const Show& show,
                           const CanvasScene& scene) {
     state_->resting.reset();
-    CanvasReport report = state_->begin(shown, limits, state_->timer);
+    CanvasReport report = state_->begin(
+        shown, limits, moving ? eyes : std::span<const render::View>(), state_->timer);
     auto& screen = state_->screen;
     if (!screen) return report;
 
@@ -301,7 +307,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
 
 CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> eyes,
                             const CanvasLimits& limits, const Show& show) {
-    CanvasReport report = state_->begin(shown, limits, state_->refineTimer);
+    CanvasReport report = state_->begin(shown, limits, {}, state_->refineTimer);
     auto& screen = state_->screen;
     if (!screen) return report;
     auto& resting = state_->resting;

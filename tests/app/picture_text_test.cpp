@@ -15,6 +15,7 @@
 #include "render/annotate/ticks.h"
 #include "tests/support/flat_text.h"
 #include "tests/support/measured_axis.h"
+#include "tests/support/rounds.h"
 
 namespace app {
 namespace {
@@ -194,7 +195,7 @@ TEST(PictureText, IsApartFromOtherTextAndFromLinesInEveryWindowFromAllAround) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> azimuth(-180, 180), elevation(-90, 90);
     const auto worlds = grids();
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < tests::rounds(1500); ++i) {
         const auto& [window, scale] = kWindows[random() % kWindows.size()];
         const glm::ivec2 size(panels::layoutOf(window, scale).picture.size());
         const Grid& grid = worlds[random() % worlds.size()];
@@ -216,8 +217,8 @@ TEST(PictureText, IsApartFromOtherTextAndFromLinesInEveryWindowFromAllAround) {
         expectApart(page, which);
         expectNamedAndNumbered(page, grid, placed, eye, which);
     }
-    EXPECT_GT(counted.first, 3000u);
-    EXPECT_GT(counted.second, 1500u);
+    EXPECT_GT(counted.first, std::size_t{tests::rounds(3000)});
+    EXPECT_GT(counted.second, std::size_t{tests::rounds(1500)});
 }
 
 TEST(PictureText, IsTheSameForBothEyes) {

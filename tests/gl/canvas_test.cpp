@@ -162,6 +162,27 @@ TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
         << "but for what the legend says";
 }
 
+// The step before stays until then, or its cells would be drawn over the limit.
+TEST_F(CanvasOfNoise, AMovingStepWhoseCellsAreTooManyWaitsForItsPoints) {
+    world_ = tests::ShownSteps(20, 3);
+    world_.explorer.model = Model::Cells;
+    for (const auto& step : world_.steps) step->cells();
+    draw(world_.shown(0));
+    const CanvasLimits limits{.splats = 2'000, .uploadBytes = 64};
+    draw(world_.shown(1), limits, true);
+    EXPECT_EQ(report_.step, 0u);
+    EXPECT_LT(report_.uploaded, 1);
+    for (int calls = 0; report_.step == 0 && calls < 10'000; ++calls)
+        draw(world_.shown(1), limits, true);
+    EXPECT_EQ(report_.step, 1u);
+    EXPECT_FALSE(report_.cells);
+    EXPECT_GT(report_.stride, 1u);
+    // With room for them nothing waits.
+    draw(world_.shown(2), {.splats = 100'000'000, .uploadBytes = 64}, true);
+    EXPECT_EQ(report_.step, 2u);
+    EXPECT_TRUE(report_.cells);
+}
+
 // Points stand for them until then; afterwards the picture is the one that files have.
 TEST_F(CanvasOfNoise, CellsOfALargeStepComeLater) {
     world_ = tests::ShownSteps(102, 1);

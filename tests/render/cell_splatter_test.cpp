@@ -15,6 +15,7 @@
 #include "render/model/cell_splat.h"
 #include "render/reference/interval_truth.h"
 #include "tests/support/cell_worlds.h"
+#include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -258,7 +259,7 @@ TEST(CellSplatter, PerCrossingEachPieceOfTheWayCountsForItsLengthOrItsChange) {
         values[i] = static_cast<float>(std::sin(0.9 * p.x + 0.3) * std::cos(0.8 * p.y) +
                                        0.3 * p.z * std::sin(0.6 * p.y));
     }
-    constexpr int kSamples = 4000;
+    constexpr int kSamples = tests::rounds(4000);
     for (const double half : {0.25, 0.05}) {
         World world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
                     {"0.3~" + std::to_string(half)});

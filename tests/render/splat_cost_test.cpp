@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/reference/cpu_splatter.h"
+#include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -40,11 +41,12 @@ TEST(SplatCost, SmallSplatsCostOneEach) {
 }
 
 TEST(SplatCost, LargeOnesCostTheirPixels) {
+    constexpr glm::ivec2 kSize = tests::kSanitized ? glm::ivec2(500, 375) : glm::ivec2(1000, 750);
     for (const double length : {1.0, 20.0})
         for (const glm::dvec3 eye :
              {glm::dvec3(0, -3, 0), glm::dvec3(0.2, -1.5, 2), glm::dvec3(0, -1.3, 0.2)}) {
             const World world(length);
-            const View view = tests::lookFrom(eye, {1000, 750});
+            const View view = tests::lookFrom(eye, kSize);
             // A square holds 4 / pi times the pixels of its circle; some reach out of the picture.
             const double pixels = touched(world.scene, view) / kOrdinaryPixels;
             EXPECT_GE(sceneCost(world.scene, view), 0.7 * pixels) << length;

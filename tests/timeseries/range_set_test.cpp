@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tests/support/ranges.h"
+#include "tests/support/rounds.h"
 #include "tests/support/selection_oracle.h"
 
 namespace timeseries {
@@ -211,8 +212,9 @@ TYPED_TEST(RangeSetIn, EveryRangeOfAwkwardBoundsConvertsExactly) {
     std::vector<Number> numbers = oracle::awkwardNumbers();
     numbers.push_back(kNan);
     const std::vector<T> all = values<T>();
-    for (const Number& lo : numbers)
-        for (const Number& hi : numbers)
+    constexpr std::size_t kEach = tests::kSanitized ? 5 : 1;
+    for (std::size_t i = 0; i < numbers.size(); i += kEach)
+        for (const Number &lo = numbers[i]; const Number& hi : numbers)
             for (int ends = 0; ends < 4; ++ends) {
                 const Range range{{lo, (ends & 1) != 0}, {hi, (ends & 2) != 0}};
                 Interval<T> interval{};
