@@ -1,5 +1,6 @@
 #include "app/desktop/picture_view.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -63,10 +64,10 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     if (!resting)
         slices_.reset();
     else if (!slices_)
-        slices_.emplace(frameBudget, pace_.budget());
-    render::FramePace& pace = slices_ ? *slices_ : pace_;
-    pace.setTarget(frameBudget);
-    const CanvasLimits limits{.splats = pace.budget()};
+        slices_.emplace(frameBudget, std::min(pace_.budget(), render::FramePace::kFirst));
+    render::FramePace& points = slices_ ? *slices_ : pace_;
+    for (render::FramePace* pace : {&points, &cellPace_}) pace->setTarget(frameBudget);
+    const CanvasLimits limits{.splats = points.budget(), .cells = cellPace_.budget()};
     eyes_ = canvas_.eyesOf(shown);
     grid_ = grid;
     const auto show = [&](std::size_t eye, render::Targets& light) {
@@ -79,7 +80,8 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
                       : canvas_.draw(shown, eyes_, limits, true, show);
     // What is told is of an earlier frame: one that drew nothing says nothing of this one.
     timed_ = report_.gpuTime && report_.gpuSplats > 0;
-    if (report_.gpuTime) pace.took(report_.gpuSplats, *report_.gpuTime);
+    if (report_.gpuTime)
+        (report_.gpuCells ? cellPace_ : points).took(report_.gpuSplats, *report_.gpuTime);
     if (timed_) performance_.frame = *report_.gpuTime;
     performance_ = {performance_.frame, frameBudget, report_, performance_.picture + 1};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
@@ -129,7 +131,8 @@ std::optional<Reading> PictureView::read(glm::vec2 at, const Explorer& shown) co
     const auto found = canvas_.probe(eye, window);
     if (!found) return std::nullopt;
     return Reading{.index = found->index,
-                   .value = found->value,
+                   .value = found->picked.value,
+                   .between = found->picked.between,
                    .position = found->coordinates,
                    .world = found->picked.world,
                    .step = report_.step};

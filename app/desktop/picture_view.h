@@ -67,7 +67,8 @@ class PictureView {
     Canvas canvas_{render::SplatterChoice::ByDevice, render::LightAs::Srgb8};
     render::Present present_;
     render::FramePace pace_{std::chrono::milliseconds(16)};
-    // While the picture is refined: a slice of it has no axes to draw, and its splats are others.
+    render::FramePace cellPace_{std::chrono::milliseconds(16)};  // also of slices
+    // While points are refined: a slice of them has no axes to draw, and its splats are others.
     std::optional<render::FramePace> slices_;
     std::optional<render::KeptPicture> kept_;
     std::optional<Drawn> drawn_;

@@ -12,6 +12,7 @@
 #include "render/frame/mean_depth.h"
 #include "render/gl/gpu_timer.h"
 #include "render/model/splat_cost.h"
+#include "render/reference/cell_pick.h"
 
 namespace app {
 namespace {
@@ -43,10 +44,20 @@ render::Scene byPoints(render::Scene scene) {
     return scene;
 }
 
-// The least stride whose frame keeps to the limit.
-void thinOut(render::Scene& scene, std::span<const render::View> eyes, std::uint64_t limit) {
+// What a timer keeps of what it times.
+std::uint64_t labelOf(std::uint64_t cost, const render::Scene& drawn) {
+    return cost << 1 | (drawn.cells ? 1 : 0);
+}
+
+bool keepsTo(const CanvasLimits& limits, const render::Scene& scene,
+             std::span<const render::View> eyes) {
+    return costOf(scene, eyes) <= static_cast<double>(limits.of(scene));
+}
+
+// The least stride whose frame keeps to the limits.
+void thinOut(render::Scene& scene, std::span<const render::View> eyes, const CanvasLimits& limits) {
     const render::Footprint whole = scene.footprint;
-    while (scene.stride < render::kMaxStride && costOf(scene, eyes) > static_cast<double>(limit)) {
+    while (scene.stride < render::kMaxStride && !keepsTo(limits, scene, eyes)) {
         scene.stride *= 2;
         scene.footprint = standingFor(whole, scene.stride);
     }
@@ -164,6 +175,7 @@ struct Canvas::State {
     CellMaker cells;
     std::optional<Screen> screen;
     std::uint32_t stride = 1;        // of what was shown last
+    bool byCells = false;            // it was, not by points
     std::optional<Resting> resting;  // uses the renderer alone
     Telling telling;
 
@@ -174,7 +186,7 @@ struct Canvas::State {
     // For a picture that moves: as much as keeps to the limit. Cells have no subsets: where they
     // are too many, points stand for them, if they are there.
     render::Scene thinned(render::Scene scene, std::span<const render::View> eyes,
-                          std::uint64_t limit) const;
+                          const CanvasLimits& limits) const;
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
     GpuSteps::Held& bring(const Shown& shown, const CanvasLimits& limits,
@@ -184,6 +196,8 @@ struct Canvas::State {
     bool isThere(const GpuSteps::Held& held, const render::Scene& scene) const {
         return !renderer.takesPointsFromGpu(scene) || held.onGpu.ready(scene);
     }
+    // What stands there in what was shown last.
+    std::optional<render::Picked> pick(const render::View& eye, const glm::dvec2& window) const;
     // What of the scene is on the screen.
     void tell(CanvasReport& report, const render::Scene& scene) const;
     // Whether what is to be drawn by cells is drawn by points.
@@ -194,16 +208,12 @@ struct Canvas::State {
 };
 
 render::Scene Canvas::State::thinned(render::Scene scene, std::span<const render::View> eyes,
-                                     std::uint64_t limit) const {
-    if (scene.cells) {
-        if (costOf(scene, eyes) <= static_cast<double>(limit)) return scene;
-        render::Scene points = byPoints(scene);
-        if (!isThere(*screen->held, points)) return scene;
-        thinOut(points, eyes, limit);
-        return points;
-    }
-    thinOut(scene, eyes, limit);
-    return scene;
+                                     const CanvasLimits& limits) const {
+    if (keepsTo(limits, scene, eyes)) return scene;
+    render::Scene points = byPoints(scene);
+    if (scene.cells && !isThere(*screen->held, points)) return scene;
+    thinOut(points, eyes, limits);
+    return points;
 }
 
 void Canvas::State::choose(const Explorer& choices) {
@@ -232,8 +242,8 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& lim
                 1 - static_cast<double>(missing) /
                         static_cast<double>(render::GpuStep::neededBytes(points, scale));
     }
-    const bool keeps = costOf(scene, moving) <= static_cast<double>(limits.splats);
-    if (isThere(held, scene) && (keeps || isThere(held, points))) {
+    const bool mayMove = keepsTo(limits, scene, moving) || isThere(held, points);
+    if (isThere(held, scene) && mayMove) {
         screen.emplace(std::move(next));
     } else if (onScreen) {
         screen->explorer.scale = shown.explorer.scale;  // which use() has taken over
@@ -255,7 +265,8 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
     report.gpuBytes = steps.bytes();
     if (const auto timed = of.poll()) {
         report.gpuTime = timed->took;
-        report.gpuSplats = timed->label;
+        report.gpuSplats = timed->label >> 1;
+        report.gpuCells = timed->label & 1;
     }
     if (!screen) return report;
     report.step = screen->step;
@@ -288,9 +299,10 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         legend = state_->telling.legend(*screen, whole, !moving);
         report.told = state_->telling.isOf(*screen, whole);
     }
-    const render::Scene drawn = moving ? state_->thinned(whole, eyes, limits.splats) : whole;
+    const render::Scene drawn = moving ? state_->thinned(whole, eyes, limits) : whole;
     if (!drawn.cells) std::erase(legend.notes, kInterpolated);
     state_->stride = drawn.stride;
+    state_->byCells = drawn.cells != nullptr;
     state_->tell(report, drawn);
 
     state_->timer.begin();
@@ -301,7 +313,8 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         state_->renderer.drawEye(frame, eyes[i]);
         show(i, state_->renderer.targets());
     }
-    state_->timer.end(static_cast<std::uint64_t>(costOf(drawn, eyes)));
+    report.cost = static_cast<std::uint64_t>(costOf(drawn, eyes));
+    state_->timer.end(labelOf(report.cost, drawn));
     return report;
 }
 
@@ -320,11 +333,15 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     Refinement& refinement = resting->refinement;
     if (refinement.order()) {
         state_->refineTimer.begin();
-        const double cost = refinement.goOn(static_cast<double>(limits.splats), show);
-        state_->refineTimer.end(static_cast<std::uint64_t>(cost));
+        const auto limit = static_cast<double>(limits.of(refinement.scene()));
+        report.cost = static_cast<std::uint64_t>(refinement.goOn(limit, show));
+        state_->refineTimer.end(labelOf(report.cost, refinement.scene()));
     }
     const bool done = refinement.done();
-    if (done) state_->stride = 1;
+    if (done) {
+        state_->stride = 1;
+        state_->byCells = refinement.scene().cells != nullptr;
+    }
     state_->tell(report, refinement.scene());
     // Until they are there nothing is left to refine.
     report.refined = done && report.lacksCells ? 0 : refinement.share();
@@ -354,19 +371,25 @@ std::optional<Drawn> Canvas::drawn() const {
     return Drawn{&state_->screen->held->placed, state_->screen->sorted, state_->screen->step};
 }
 
+std::optional<render::Picked> Canvas::State::pick(const render::View& eye,
+                                                  const glm::dvec2& window) const {
+    const render::Scene scene = sceneOf(*screen);
+    if (scene.cells && byCells) return render::pickCell(scene, eye, window);
+    render::Scene points = byPoints(scene);
+    points.stride = stride;
+    points.footprint = standingFor(screen->explorer.footprint, stride);
+    return render::pick(points, eye, window);
+}
+
 std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& window) const {
     if (!state_->screen) return std::nullopt;
-    render::Scene scene = sceneOf(*state_->screen);
-    scene.stride = state_->stride;
-    scene.footprint = standingFor(state_->screen->explorer.footprint, scene.stride);
-    const auto picked = render::pick(scene, eye, window);
+    const std::optional<render::Picked> picked = state_->pick(eye, window);
     if (!picked) return std::nullopt;
     const timeseries::SortedStep& step = *state_->screen->sorted;
     const std::uint64_t i = picked->gridIndex;
     const auto at = step.grid().indices(i);
     return Probe{*picked,
                  layerOf(state_->screen->explorer, picked->layer),
-                 step.value(picked->point),
                  step.grid().position(i),
                  {at.x, at.y, at.z}};
 }

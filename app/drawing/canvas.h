@@ -26,6 +26,12 @@ struct CanvasLimits {
     // In one frame, all layers and eyes, in ordinary splats (render/model/splat_cost.h); see
     // FramePace.
     std::uint64_t splats = 1'000'000;
+    // Likewise, where cells are drawn, whose cost is told less well and learnt apart; absent: as
+    // many.
+    std::optional<std::uint64_t> cells = {};
+    std::uint64_t of(const render::Scene& scene) const {
+        return scene.cells ? cells.value_or(splats) : splats;
+    }
     // In one frame, of a step that comes; eight times as many of the step on the screen, so that
     // another selection of it is seen at once.
     std::uint64_t uploadBytes = std::uint64_t{16} << 20;
@@ -39,11 +45,11 @@ struct CanvasScene {
     std::span<const render::Placard> placards = {};
 };
 
-// A point of the step on the screen, in the file's own terms.
+// A point of the step on the screen, in the file's own terms; where cells are drawn the one nearest
+// to what is seen.
 struct Probe {
     render::Picked picked;
     std::optional<std::size_t> layer;  // of Explorer::layers; none: of the swept window
-    timeseries::Number value;
     glm::dvec3 coordinates;            // the grid's, in its units
     std::array<std::size_t, 3> index;  // along x, y, z
 };

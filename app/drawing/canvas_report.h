@@ -24,10 +24,12 @@ struct CanvasReport {
     double uploaded = 1;  // share of what the picture asked for needs
     double refined = 0;   // share that refine() has drawn; it shows all at once
     std::uint64_t gpuBytes = 0;  // of steps held there
-    // Of an earlier call of the same function (gl::GpuTimer), and what its splats cost: what
+    std::uint64_t cost = 0;      // of what this call drew, in ordinary splats, of all eyes
+    // Of an earlier call of the same function (gl::GpuTimer), what it drew and what that cost: what
     // FramePace learns from. None in most frames of a GPU that is behind.
     std::optional<std::chrono::nanoseconds> gpuTime = {};
     std::uint64_t gpuSplats = 0;
+    bool gpuCells = false;
 };
 
 }  // namespace app

@@ -19,6 +19,12 @@ std::string valueText(const Reading& reading, const Shown& shown) {
     return withUnit(number, shown.dataset.about.units);
 }
 
+std::string betweenText(const Reading& reading, const Shown& shown) {
+    if (!reading.between) return "";
+    return withUnit(fmt::format("{:.5g}", *reading.between), shown.dataset.about.units) +
+           " between points";
+}
+
 std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis) {
     const std::string& unit = shown.sorted->grid().axes()[axis].units;
     const double place = reading.position[static_cast<int>(axis)];

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 #include "app/exploration/exploration.h"
@@ -14,8 +15,9 @@ namespace app {
 struct Reading {
     std::array<std::size_t, 3> index{};  // along x, y, z
     timeseries::Number value;
-    glm::dvec3 position{0};  // the grid's
-    glm::dvec3 world{0};     // render::PlacedPoints's
+    std::optional<double> between{};  // seen there, interpolated; the point is the nearest
+    glm::dvec3 position{0};           // the grid's
+    glm::dvec3 world{0};              // render::PlacedPoints's
     std::size_t step = 0;
 };
 
@@ -23,6 +25,8 @@ struct Reading {
 std::string withUnit(const std::string& number, const std::string& unit);
 // "612.34 K": as few digits as tell the value among those of its own type.
 std::string valueText(const Reading& reading, const Shown& shown);
+// "850.3 K between points"; "" where a point itself is seen.
+std::string betweenText(const Reading& reading, const Shown& shown);
 // "0.125 m   [37]": along an axis (0 x, 1 y, 2 z), with the index.
 std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis);
 

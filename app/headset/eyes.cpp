@@ -32,8 +32,8 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
     report_ = {};
     if (shown != nullptr)
         report_ =
-            canvas_.draw(*shown, views, {.splats = governor_.splats()}, splats == Splats::Governed,
-                         show, {.legend = false, .placards = placards});
+            canvas_.draw(*shown, views, {.splats = governor_.splats(), .cells = governor_.cells()},
+                         splats == Splats::Governed, show, {.legend = false, .placards = placards});
     if (!drawn) canvas_.drawPlacards(placards, views, show);
 }
 
@@ -41,11 +41,11 @@ void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanose
     // A GPU goes on after the calls; what it took is told some frames later.
     if (onProcessor_) render::gl::finishDrawing();
     Governor::Frame frame{period, std::chrono::steady_clock::now() - began, {}};
-    const std::uint64_t fewest = report_.drawn * report_.stride / render::kMaxStride * eyes_;
-    if (onProcessor_ && report_.drawn > 0) {
-        frame.splats = {report_.drawn * eyes_, fewest, frame.work};
+    const std::uint64_t fewest = report_.cost * report_.stride / render::kMaxStride;
+    if (onProcessor_ && report_.cost > 0) {
+        frame.splats = {report_.cost, fewest, frame.work, report_.cells.has_value()};
     } else if (report_.gpuTime) {
-        frame.splats = {report_.gpuSplats, fewest, *report_.gpuTime};
+        frame.splats = {report_.gpuSplats, fewest, *report_.gpuTime, report_.gpuCells};
         frame.work = std::max(frame.work, *report_.gpuTime);
     }
     work_ = frame.work;

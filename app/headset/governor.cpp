@@ -7,16 +7,19 @@ namespace app::headset {
 
 void Governor::took(const Frame& frame) {
     if (frame.period.count() <= 0) return;
-    pace_.setTarget(
-        std::chrono::nanoseconds(std::llround(kShare * static_cast<double>(frame.period.count()))));
+    const auto target =
+        std::chrono::nanoseconds(std::llround(kShare * static_cast<double>(frame.period.count())));
+    pace_.setTarget(target);
+    cells_.setTarget(target);
     // The pixels answer for what is left with the fewest splats alone.
     std::chrono::nanoseconds least = frame.work;
     if (frame.splats) {
-        const auto& [count, fewest, took] = *frame.splats;
-        pace_.took(count, took);
-        follow(count, frame.period);
+        const auto& [count, fewest, took, areCells] = *frame.splats;
+        render::FramePace& pace = areCells ? cells_ : pace_;
+        pace.took(count, took);
+        if (!areCells) follow(count, frame.period);
         const std::uint64_t left = std::max(render::FramePace::kFewest, fewest);
-        if (count > left) least -= std::min(least, pace_.costOf(count - left));
+        if (count > left) least -= std::min(least, pace.costOf(count - left));
     }
     scale_.took(least, frame.period);
     rate_.took(least, scale_);

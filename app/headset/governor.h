@@ -31,6 +31,7 @@ class Governor {
         struct Splats {
             std::uint64_t count, fewest;  // drawn; with the coarsest subset
             std::chrono::nanoseconds took;
+            bool areCells = false;  // for which points may stand
         };
         std::optional<Splats> splats;
     };
@@ -39,6 +40,8 @@ class Governor {
     // The most for the next frame, all eyes together. Fewer at once; more where a while has shown
     // that they fit, and a longer one where that was wrong before.
     std::uint64_t splats() const { return splats_; }
+    // Likewise of cells, whose cost is learnt apart.
+    std::uint64_t cells() const { return cells_.budget(); }
     // Of the recommended resolution. Lowered where not even the fewest splats fit, and climbs back
     // where they would.
     double scale() const { return scale_.scale(); }
@@ -47,7 +50,7 @@ class Governor {
  private:
     void follow(std::uint64_t drawn, std::chrono::nanoseconds period);
 
-    render::FramePace pace_{std::chrono::milliseconds(8)};
+    render::FramePace pace_{std::chrono::milliseconds(8)}, cells_{std::chrono::milliseconds(8)};
     xr::RenderScale scale_;
     xr::RefreshRate rate_;
     std::uint64_t splats_ = render::FramePace::kFirst;

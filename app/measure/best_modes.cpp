@@ -9,7 +9,7 @@ namespace {
 // The round numbers from the first that is not below `least` to the first not below `most`.
 std::vector<double> roundLimits(double least, double most) {
     std::vector<double> limits;
-    if (!(least > 0) || !std::isfinite(most)) return limits;
+    if (!std::isfinite(least) || !std::isfinite(most)) return limits;
     for (double decade = std::pow(10, std::floor(std::log10(least)));; decade *= 10)
         for (const double digit : {1, 2, 5}) {
             if (digit * decade < least) continue;

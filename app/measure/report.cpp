@@ -64,7 +64,9 @@ std::string bestTable(std::span<const Measured> modes) {
                                        modes[*mode].depthError)
                          : fmt::format("  {:<8} none\n", limitText(limit));
     };
-    add(mostAccurateWithin(modes), "the most accurate within a time a frame:", timeText);
+    add(mostAccurateWithin(modes), "the most accurate within a time a frame:", [](double seconds) {
+        return timeText(seconds);
+    });
     add(soonestWithin(modes),
         "the soonest within an error:", [](double error) { return fmt::format("{:g}", error); });
     return text;

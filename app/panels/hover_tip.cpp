@@ -59,15 +59,17 @@ void HoverTip::draw(const Desk& desk) const {
         fmt::format("{}  {}", shown->dataset.about.name, valueText(*reading_, *shown));
     std::array<std::string, 3> places, names;
     for (std::size_t i = 0; i < 3; ++i) names[i] = shown->sorted->grid().axes()[i].name;
+    const std::string between = betweenText(*reading_, *shown);
     const float column = nameColumn(*theme.small, names, s);
-    float width = widthOf(*theme.strong, value);
+    float width = std::max(widthOf(*theme.strong, value), widthOf(*theme.small, between));
     for (std::size_t i = 0; i < 3; ++i) {
         places[i] = positionText(*reading_, *shown, i);
         width = std::max(width, column + 14 * s + widthOf(*theme.small, places[i]));
     }
+    const float lines = between.empty() ? 4 : 5;
     // Below and right of the pointer; on its other side where the picture ends.
     const Rect& picture = desk.layout.picture;
-    const glm::vec2 size(width + 22 * s, 4 * line + 14 * s), pointer = picture.min + *at_;
+    const glm::vec2 size(width + 22 * s, lines * line + 14 * s), pointer = picture.min + *at_;
     glm::vec2 corner = pointer + glm::vec2(16 * s);
     if (corner.x + size.x > picture.max.x) corner.x = pointer.x - 12 * s - size.x;
     if (corner.y + size.y > picture.max.y) corner.y = pointer.y - 12 * s - size.y;
@@ -77,6 +79,7 @@ void HoverTip::draw(const Desk& desk) const {
     list.AddRect(im(corner), im(corner + size), kLine, 5 * s);
     glm::vec2 at = corner + glm::vec2(11 * s, 7 * s + 0.5f * line);
     text(theme, at, value, kText, 0, theme.strong);
+    if (!between.empty()) text(theme, at += glm::vec2(0, line), between, kDim, 0, theme.small);
     for (std::size_t i = 0; i < 3; ++i) {
         at.y += line;
         text(theme, at, fitting(*theme.small, names[i], column), kFaint, 0, theme.small);

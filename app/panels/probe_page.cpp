@@ -44,12 +44,13 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     Form form(desk.theme, "##probe", at);
     if (!first_) {
         form.note(
-            "Double click on the picture keeps the point that is seen there, at half of the light. "
-            "Shift and double click then measures to another point.");
+            "Double click on the picture keeps the point that is seen there, at half of the light, "
+            "or is nearest to that. Shift and double click then measures to another point.");
         return;
     }
     const timeseries::Grid& grid = shown->sorted->grid();
     const Reading& r = second_ ? *second_ : *first_;
+    if (r.between) line(desk.theme, form, "Seen", betweenText(r, *shown));
     line(desk.theme, form, shown->dataset.about.name, valueText(r, *shown));
     for (std::size_t i = 0; i < 3; ++i)
         line(desk.theme, form, grid.axes()[i].name, positionText(r, *shown, i));

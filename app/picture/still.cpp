@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "app/choices/camera.h"
@@ -24,10 +26,8 @@ bool writeStill(const Still& still, render::FrameRenderer& renderer, render::Gpu
     const bool mixed = isMixed(e, picture.scene);
     if (mixed) picture.legend.notes.emplace_back(kMixedColors);
     render::Metadata metadata;
-    if (const std::string error = depthErrorText(still.error); !error.empty()) {
-        if (!still.ofSeveral) picture.legend.notes.push_back(error);
+    if (still.error && std::isfinite(*still.error))
         metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
-    }
     const Explorer alone = onlyThis(e, still.stepIndex, still.tick);
     auto eyePictures = renderer.render(
         {picture.scene, still.step.grid(), picture.legend, kBackground}, onGpu, views, extras);

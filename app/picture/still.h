@@ -24,10 +24,9 @@ struct Still {
     const render::PlacedPoints& placed;  // of the explorer's scale
     std::int64_t tick;                   // of the explorer's sweep, if it has one
     Paths paths = Paths::Both;           // that its session keeps
-    // Of its first eye (depth_error.h), where it is known; else nothing is said of it.
+    // Of its first eye (depth_error.h), where it is known: for its file. Not in sight, or it would
+    // not be the picture that its session makes once more, among others.
     std::optional<double> error = {};
-    // One of several that are to be alike: what is known of it alone is in its file, not in sight.
-    bool ofSeveral = false;
 };
 
 // Whether the picture says that its colours are mixed. By the file's ending; two files where the

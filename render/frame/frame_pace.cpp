@@ -26,7 +26,7 @@ double median(std::vector<double> values) {
 }  // namespace
 
 FramePace::FramePace(std::chrono::nanoseconds target, std::uint64_t first)
-    : targetNs_(ns(target)), budget_(first) {}
+    : targetNs_(ns(target)), first_(first), budget_(first) {}
 
 void FramePace::setTarget(std::chrono::nanoseconds target) {
     targetNs_ = ns(target);
@@ -67,7 +67,9 @@ void FramePace::fit() {
 
 void FramePace::follow() {
     const auto now = static_cast<double>(budget_);
-    const double most = std::min(kMostGrowth * now, static_cast<double>(kMost));
+    double known = static_cast<double>(first_);
+    for (const Frame& frame : recent_) known = std::max(known, kMostGrowth * frame.splats);
+    const double most = std::min(known, static_cast<double>(kMost));
     const double wanted =
         std::clamp((targetNs_ - fixedNs_) / perSplatNs_, static_cast<double>(kFewest), most);
     if (std::abs(wanted - now) >= 0.1 * now) budget_ = static_cast<std::uint64_t>(wanted);

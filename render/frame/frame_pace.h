@@ -19,8 +19,8 @@ class FramePace {
     void setTarget(std::chrono::nanoseconds target);
     // A frame of `splats` splats (all eyes together) took so long.
     void took(std::uint64_t splats, std::chrono::nanoseconds time);
-    // The most for the target, from kFewest to kMost; with hysteresis: it changes only by 10 % or
-    // more.
+    // The most for the target, from kFewest to kMost, but no more than a few times what was drawn
+    // lately: of more nothing is known. With hysteresis: it changes only by 10 % or more.
     std::uint64_t budget() const { return budget_; }
 
     // What so many splats take, as is known so far.
@@ -37,7 +37,7 @@ class FramePace {
     void follow();
 
     double targetNs_, fixedNs_ = 0, perSplatNs_ = 0;
-    std::uint64_t budget_;
+    std::uint64_t first_, budget_;
     std::deque<Frame> recent_;
 };
 

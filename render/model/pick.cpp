@@ -33,11 +33,11 @@ class Ray {
         if (!points) reach_ = scene.footprint.size * kQuarticRadius * widest * most;
     }
 
-    struct Met {
+    struct Splatted {
         double weight, depth;  // W, and the splat's view depth
     };
     // None where the splat is not drawn.
-    std::optional<Met> meet(std::uint32_t gridIndex) const {
+    std::optional<Splatted> meet(std::uint32_t gridIndex) const {
         const glm::dvec3 world = scene_.placed.position(gridIndex);
         if (!near(world) || !inClip(gridIndex)) return std::nullopt;
         const auto s = splatAt<double>(pointsView_, gridIndex, scene_.footprint);
@@ -48,7 +48,7 @@ class Ray {
             weightOn<double>(s, scene_.footprint.kernel, window_ - rays_.centre - s.centre, slope_,
                              pointsView_.rayLength);
         if (!weight) return std::nullopt;
-        return Met{*weight, s.depth};
+        return Splatted{*weight, s.depth};
     }
 
  private:
@@ -80,11 +80,8 @@ class Ray {
     double reach_ = 0, reachPerDepth_;  // world lengths: the larger one counts
 };
 
-struct Hit {
+struct Hit : Met {
     std::uint64_t point;
-    std::size_t layer;
-    double depth, opticalDepth;
-    double light = 0;  // what it adds to the pixel, as bright as it is
 };
 
 // As bright as a linear colour looks; a little, so that black in front of a ground counts, too.
@@ -104,7 +101,9 @@ std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& wi
         for (const timeseries::Run& run : layer.runs)
             forEachInSubset(run, strideOf(layer, scene.stride), [&](std::uint64_t p) {
                 if (const auto met = ray.meet(gridIndex[p]))
-                    hits.push_back({p, k, met->depth, perWeight * met->weight});
+                    hits.push_back({{k, met->depth, perWeight * met->weight,
+                                     timeseries::toDouble(scene.step.value(p))},
+                                    p});
             });
     }
     return hits;
@@ -112,28 +111,31 @@ std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& wi
 
 }  // namespace
 
-std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window) {
-    std::vector<Hit> met = hits(scene, view, window);
-    std::ranges::stable_sort(met, {}, &Hit::depth);
+std::optional<std::size_t> atHalfOfLight(const Scene& scene, std::span<const Met> met) {
     // What is in front hides what is behind, and so it looks in a picture of one colour in any
     // order; an unordered picture of several shows all that a ray passes alike.
     const bool hiding = scene.order == Order::BackToFront || areOneColor(scene.layers);
-    double whole = 0, passed = 0, before = 0;  // light, and the optical depth in front
-    for (Hit& hit : met) {
-        const double value = timeseries::toDouble(scene.step.value(hit.point));
+    double whole = 0, before = 0;  // light, and the optical depth in front
+    std::vector<double> upTo;
+    for (const Met& m : met) {
         const double seen =
-            hiding ? std::exp(-before) * -std::expm1(-hit.opticalDepth) : hit.opticalDepth;
-        hit.light = seen * brightness(colorOf(scene.layers[hit.layer].style, value));
-        before += hit.opticalDepth;
-        whole += hit.light;
+            hiding ? std::exp(-before) * -std::expm1(-m.opticalDepth) : m.opticalDepth;
+        whole += seen * brightness(colorOf(scene.layers[m.layer].style, m.value));
+        before += m.opticalDepth;
+        upTo.push_back(whole);
     }
     if (!(whole > 0)) return std::nullopt;
-    const auto half = std::ranges::find_if(met, [&](const Hit& hit) {
-        passed += hit.light;
-        return passed >= whole / 2;
-    });
-    const std::uint32_t at = scene.step.gridIndex(half->point);
-    return Picked{half->point, half->layer, at, scene.placed.position(at), half->depth};
+    return static_cast<std::size_t>(std::ranges::lower_bound(upTo, whole / 2) - upTo.begin());
+}
+
+std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window) {
+    std::vector<Hit> met = hits(scene, view, window);
+    std::ranges::stable_sort(met, {}, &Hit::depth);
+    const auto half = atHalfOfLight(scene, std::vector<Met>(met.begin(), met.end()));
+    if (!half) return std::nullopt;
+    const Hit& hit = met[*half];
+    const std::uint32_t at = scene.step.gridIndex(hit.point);
+    return Picked{hit.layer, at, scene.step.value(hit.point), scene.placed.position(at), hit.depth};
 }
 
 }  // namespace render

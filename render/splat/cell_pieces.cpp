@@ -1,6 +1,7 @@
 #include "render/splat/cell_pieces.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace render {
@@ -28,15 +29,61 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
     return count;
 }
 
+CellList::CellList(const Scene& scene, Channels channels, std::size_t layer,
+                   const CellDistance* nearestFirst)
+    : scene_(scene),
+      layer_(layersOf(scene.layers.size(), channels, layer).first),
+      count_(cellCount(scene, channels, layer)) {
+    cells_.reserve(count_);
+    if (nearestFirst == nullptr) return;
+    distance_ = *nearestFirst;
+    order_.emplace(*nearestFirst);
+    ordered_.resize(count_);
+}
+
+void CellList::goOn(std::uint64_t cells) {
+    cells -= list(cells);
+    if (order_ && listed_ == count_) place(cells);
+}
+
+std::uint64_t CellList::list(std::uint64_t cells) {
+    const std::uint64_t before = listed_;
+    while (listed_ < count_ && listed_ - before < cells) {
+        const std::vector<timeseries::Run>& runs = scene_.layers[layer_].cells.candidates;
+        if (run_ == runs.size()) {
+            ++layer_;
+            run_ = 0;
+            continue;
+        }
+        const timeseries::Run& run = runs[run_];
+        const std::uint64_t some = std::min(run.count - inRun_, cells - (listed_ - before));
+        for (std::uint64_t i = inRun_; i < inRun_ + some; ++i) {
+            cells_.push_back(
+                {scene_.cells->cell(run.first + i), static_cast<std::uint8_t>(layer_)});
+            if (order_) order_->count((*distance_)(cells_.back().cell));
+        }
+        listed_ += some;
+        inRun_ += some;
+        if (inRun_ < run.count) continue;
+        ++run_;
+        inRun_ = 0;
+    }
+    if (order_ && before < count_ && listed_ == count_) order_->allCounted();
+    return listed_ - before;
+}
+
+std::uint64_t CellList::place(std::uint64_t cells) {
+    const std::uint64_t some = std::min(cells, count_ - placed_);
+    for (std::uint64_t i = placed_; i < placed_ + some; ++i)
+        ordered_[order_->place((*distance_)(cells_[i].cell))] = cells_[i];
+    placed_ += some;
+    return some;
+}
+
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer) {
-    std::vector<CellOfLayer> cells;
-    cells.reserve(cellCount(scene, channels, layer));
-    const auto [first, last] = layersOf(scene.layers.size(), channels, layer);
-    for (std::size_t k = first; k < last; ++k)
-        for (const timeseries::Run& run : scene.layers[k].cells.candidates)
-            for (std::uint64_t i = 0; i < run.count; ++i)
-                cells.push_back({scene.cells->cell(run.first + i), static_cast<std::uint8_t>(k)});
-    return cells;
+    CellList list(scene, channels, layer);
+    while (!list.done()) list.goOn(std::numeric_limits<std::uint64_t>::max());
+    return list.cells();
 }
 
 CellDistance::CellDistance(const Scene& scene, const View& view) : size_(scene.cells->size()) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,8 +26,6 @@ struct CellOfLayer {
 // second. All of them for Over and Count, else `layer`.
 std::pair<std::size_t, std::size_t> layersOf(std::size_t count, Channels channels,
                                              std::size_t layer);
-// Their cells that are looked at, layer by layer, as their candidates lie.
-std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);
 std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer);
 
 // An order by depth. What hides a part of a cell lies, along each axis, no farther from the eye's
@@ -46,19 +45,47 @@ class CellDistance {
     glm::ivec3 eye_{0};
 };
 
-// Their places, the nearest first; those at one distance as they come. cellAt(i) is the cell of i.
-template <typename CellAt>
-std::vector<std::uint32_t> nearestFirst(const CellDistance& distance, std::size_t count,
-                                        const CellAt& cellAt) {
-    std::vector<std::size_t> next(distance.count());
-    for (std::size_t i = 0; i < count; ++i) ++next[distance(cellAt(i))];
-    std::size_t first = 0;
-    for (std::size_t& n : next) first += std::exchange(n, first);
-    std::vector<std::uint32_t> places(count);
-    for (std::size_t i = 0; i < count; ++i)
-        places[next[distance(cellAt(i))]++] = static_cast<std::uint32_t>(i);
-    return places;
-}
+// A counting sort by distance, whose two passes may be made a little at a time: every distance is
+// counted, then placed; those at one distance stay as they come.
+class NearestFirst {
+ public:
+    explicit NearestFirst(const CellDistance& distance) : next_(distance.count()) {}
+    void count(std::size_t distance) { ++next_[distance]; }
+    void allCounted() {
+        std::size_t first = 0;
+        for (std::size_t& n : next_) first += std::exchange(n, first);
+    }
+    std::size_t place(std::size_t distance) { return next_[distance]++; }
+
+ private:
+    std::vector<std::size_t> next_;
+};
+
+// The cells of a plane, each that is looked at, listed a slice at a time: layer by layer as their
+// candidates lie, or the nearest first. The scene must outlive it.
+class CellList {
+ public:
+    CellList(const Scene& scene, Channels channels, std::size_t layer,
+             const CellDistance* nearestFirst = nullptr);
+    // Goes through so many; all are gone through once, or twice to be put in order.
+    void goOn(std::uint64_t cells);
+    bool done() const { return listed_ == count_ && (!order_ || placed_ == count_); }
+    // REQUIRES: done().
+    const std::vector<CellOfLayer>& cells() const { return order_ ? ordered_ : cells_; }
+
+ private:
+    std::uint64_t list(std::uint64_t cells);
+    std::uint64_t place(std::uint64_t cells);
+
+    const Scene& scene_;
+    std::size_t layer_, run_ = 0;  // where listing goes on
+    std::uint64_t inRun_ = 0, count_, listed_ = 0, placed_ = 0;
+    std::vector<CellOfLayer> cells_, ordered_;
+    std::optional<CellDistance> distance_;
+    std::optional<NearestFirst> order_;
+};
+// All of them at once.
+std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);
 
 // The two ends of a cell along an axis, in axis coordinates: points, or half a cell beyond them.
 std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,

@@ -13,6 +13,8 @@ namespace {
 
 // Looked at before they are summed: 22 MB of them.
 constexpr std::uint64_t kAtOnce = 1 << 17;
+// Listed and put in order in the time that one takes to be summed.
+constexpr std::uint64_t kListedForOne = 64;
 // Less is done before another thread has begun.
 constexpr std::size_t kWorthAThread = 1 << 9;
 
@@ -72,8 +74,8 @@ struct CellSum::Work {
     unsigned threads;
     CellMemory memory;
     TilePlane plane;
-    std::vector<CellOfLayer> cells;
-    std::size_t passed = 0;
+    CellList list;
+    std::size_t passed = 0;  // of its cells
 
     Work(const Scene& drawn, const View& of, Channels channels, std::size_t layer,
          std::span<const float> opaqueDepth, unsigned shared, CellMemory kept)
@@ -81,24 +83,19 @@ struct CellSum::Work {
           view(drawn, of, channels),
           threads(std::max(shared, 1u)),
           memory(kept.kept ? std::move(kept) : CellMemory()),
-          plane(view, opaqueDepth, of.size.x, threads, memory.kept->plane) {
-        cells = cellsOf(scene, channels, layer);
-        if (channels == Channels::Over) orderByDepth(of);
+          plane(view, opaqueDepth, of.size.x, threads, memory.kept->plane),
+          list(listOf(drawn, of, channels, layer)) {
         memory.kept->seen.resize(threads);
     }
-    void orderByDepth(const View& of);
+    static CellList listOf(const Scene& scene, const View& of, Channels channels,
+                           std::size_t layer) {
+        if (channels != Channels::Over) return {scene, channels, layer};
+        const CellDistance distance(scene, of);
+        return {scene, channels, layer, &distance};
+    }
+    bool done() const { return list.done() && passed == list.cells().size(); }
     void sum(std::span<const CellOfLayer> part, bool lastOfAll);
 };
-
-void CellSum::Work::orderByDepth(const View& of) {
-    const CellDistance distance(scene, of);
-    std::vector<CellOfLayer> ordered;
-    ordered.reserve(cells.size());
-    for (const std::uint32_t i :
-         nearestFirst(distance, cells.size(), [&](std::size_t k) { return cells[k].cell; }))
-        ordered.push_back(cells[i]);
-    cells = std::move(ordered);
-}
 
 void CellSum::Work::sum(std::span<const CellOfLayer> part, bool lastOfAll) {
     const unsigned shared = threadsFor(part.size(), kWorthAThread, threads);
@@ -128,20 +125,27 @@ CellSum::CellSum(CellSum&&) noexcept = default;
 CellSum::~CellSum() = default;
 
 std::uint64_t CellSum::add(std::uint64_t cells) {
+    Work& work = *work_;
     std::uint64_t added = 0;
     while (!done() && added < cells) {
-        const std::span<const CellOfLayer> all(work_->cells);
+        if (!work.list.done()) {
+            const std::uint64_t count = std::min(kAtOnce, cells - added);
+            work.list.goOn(kListedForOne * count);
+            added += count;
+            continue;
+        }
+        const std::span<const CellOfLayer> all(work.list.cells());
         const std::uint64_t count =
-            std::min({kAtOnce, cells - added, std::uint64_t{all.size() - work_->passed}});
-        const std::span<const CellOfLayer> part = all.subspan(work_->passed, count);
-        work_->passed += count;
-        work_->sum(part, done());
+            std::min({kAtOnce, cells - added, std::uint64_t{all.size() - work.passed}});
+        const std::span<const CellOfLayer> part = all.subspan(work.passed, count);
+        work.passed += count;
+        work.sum(part, done());
         added += count;
     }
     return added;
 }
 
-bool CellSum::done() const { return work_->passed == work_->cells.size(); }
+bool CellSum::done() const { return work_->done(); }
 const PixelBox& CellSum::box() const { return work_->view.box; }
 std::vector<float>& CellSum::plane() { return work_->memory.kept->plane; }
 CellMemory CellSum::takeMemory() { return std::move(work_->memory); }

@@ -40,7 +40,9 @@ class CellSum {
     CellSum(CellSum&&) noexcept;
     ~CellSum();
 
-    std::uint64_t add(std::uint64_t cells);  // so many, or what is left; returns how many
+    // So many, or what is left; returns how many. First they are listed and put in order, of which
+    // some count as one, so that this, too, may be done in slices.
+    std::uint64_t add(std::uint64_t cells);
     bool done() const;
     const PixelBox& box() const;
     std::vector<float>& plane();

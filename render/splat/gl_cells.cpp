@@ -126,9 +126,13 @@ std::pair<std::uint32_t, std::uint32_t> GlCells::placesOf(Channels channels,
 std::shared_ptr<const gl::Buffer> GlCells::farthestFirst(const CellDistance& distance) {
     const auto found = std::ranges::find(ordered_, distance.eye(), &Ordered::eye);
     if (found != ordered_.end()) return found->places;
-    std::vector<std::uint32_t> places =
-        nearestFirst(distance, cells_.size(), [&](std::size_t i) { return cells_[i]; });
-    std::ranges::reverse(places);
+    NearestFirst order(distance);
+    for (const std::uint32_t cell : cells_) order.count(distance(cell));
+    order.allCounted();
+    std::vector<std::uint32_t> places(cells_.size());
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+        places[cells_.size() - 1 - order.place(distance(cells_[i]))] =
+            static_cast<std::uint32_t>(i);
     if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
     ordered_.push_back({distance.eye(), std::make_shared<const gl::Buffer>(
                                             std::span<const std::uint32_t>(places))});

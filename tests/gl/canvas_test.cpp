@@ -162,27 +162,6 @@ TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
         << "but for what the legend says";
 }
 
-// The step before stays until then, or its cells would be drawn over the limit.
-TEST_F(CanvasOfNoise, AMovingStepWhoseCellsAreTooManyWaitsForItsPoints) {
-    world_ = tests::ShownSteps(20, 3);
-    world_.explorer.model = Model::Cells;
-    for (const auto& step : world_.steps) step->cells();
-    draw(world_.shown(0));
-    const CanvasLimits limits{.splats = 2'000, .uploadBytes = 64};
-    draw(world_.shown(1), limits, true);
-    EXPECT_EQ(report_.step, 0u);
-    EXPECT_LT(report_.uploaded, 1);
-    for (int calls = 0; report_.step == 0 && calls < 10'000; ++calls)
-        draw(world_.shown(1), limits, true);
-    EXPECT_EQ(report_.step, 1u);
-    EXPECT_FALSE(report_.cells);
-    EXPECT_GT(report_.stride, 1u);
-    // With room for them nothing waits.
-    draw(world_.shown(2), {.splats = 100'000'000, .uploadBytes = 64}, true);
-    EXPECT_EQ(report_.step, 2u);
-    EXPECT_TRUE(report_.cells);
-}
-
 // Points stand for them until then; afterwards the picture is the one that files have.
 TEST_F(CanvasOfNoise, CellsOfALargeStepComeLater) {
     world_ = tests::ShownSteps(102, 1);
@@ -259,6 +238,28 @@ TEST_F(CanvasOfBlocks, AStepComesInSlicesAndTheOneBeforeStays) {
     EXPECT_EQ(draw(world_.shown(0), limits), first[2]);
     EXPECT_TRUE(report_.whole);
     EXPECT_EQ(report_.gpuBytes / (8 * kBlockBytes), 2u);
+}
+
+// The step before stays until then, or its cells would be drawn over the limit.
+TEST_F(CanvasOfBlocks, AMovingStepWhoseCellsAreTooManyWaitsForItsPoints) {
+    world_ = tests::ShownSteps(64, 3);
+    world_.explorer.order = render::Order::None;
+    world_.explorer.model = Model::Cells;
+    for (const auto& step : world_.steps) step->cells();
+    draw(world_.shown(0));
+    const CanvasLimits limits{.splats = 2'000, .uploadBytes = 64};
+    draw(world_.shown(1), limits, true);
+    EXPECT_EQ(report_.step, 0u);
+    EXPECT_LT(report_.uploaded, 1);
+    for (int calls = 0; report_.step == 0 && calls < 10'000; ++calls)
+        draw(world_.shown(1), limits, true);
+    EXPECT_EQ(report_.step, 1u);
+    EXPECT_FALSE(report_.cells);
+    EXPECT_GT(report_.stride, 1u);
+    // With room for them nothing waits.
+    draw(world_.shown(2), {.splats = 100'000'000, .uploadBytes = 64}, true);
+    EXPECT_EQ(report_.step, 2u);
+    EXPECT_TRUE(report_.cells);
 }
 
 TEST_F(CanvasOfBlocks, AnotherSelectionOfTheStepOnTheScreenComesInSlicesOfEightfoldSize) {
@@ -372,11 +373,12 @@ TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
     ASSERT_TRUE(probe);
     const auto& step = *world_.steps[0];
     const std::uint64_t i = probe->index[0] + 20 * (probe->index[1] + 20 * probe->index[2]);
-    EXPECT_EQ(step.gridIndex()[probe->picked.point], i);
-    EXPECT_EQ(probe->value, step.value(probe->picked.point));
+    EXPECT_EQ(probe->picked.gridIndex, i);
+    const auto point = std::ranges::find(step.gridIndex(), i) - step.gridIndex().begin();
+    EXPECT_EQ(probe->picked.value, step.value(static_cast<std::uint64_t>(point)));
     EXPECT_EQ(probe->coordinates, step.grid().position(i));
     EXPECT_EQ(probe->picked.world, canvas_.drawn()->placed->position(i));
-    const double value = timeseries::toDouble(probe->value);
+    const double value = timeseries::toDouble(probe->picked.value);
     ASSERT_TRUE(probe->layer);
     EXPECT_TRUE(*probe->layer == 0 ? 0.1 <= value && value <= 0.4 : 0.8 <= value && value <= 0.9)
         << *probe->layer << ' ' << value;
@@ -398,6 +400,22 @@ TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
     EXPECT_FALSE(swept->layer);
 }
 
+// What was shown last is asked: cells, or the points that stood for them.
+TEST_F(CanvasOfNoise, ProbesTellWhatIsSeenBetweenPointsWhereCellsAre) {
+    world_.explorer.model = Model::Cells;
+    draw(world_.shown());
+    const auto view = canvas_.eyesOf(world_.shown())[0];
+    const auto cell = canvas_.probe(view, {100, 75});
+    ASSERT_TRUE(cell);
+    ASSERT_TRUE(cell->layer && cell->picked.between);
+    const double seen = *cell->picked.between;
+    EXPECT_TRUE(*cell->layer == 0 ? 0.1 <= seen && seen <= 0.4 : 0.8 <= seen && seen <= 0.9);
+    draw(world_.shown(), {.cells = 1}, true);
+    const auto point = canvas_.probe(view, {100, 75});
+    ASSERT_TRUE(point);
+    EXPECT_FALSE(point->picked.between);
+}
+
 TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
     world_.explorer.footprint.size = 0.1;  // so that each counts as one
     bool timed = false;
@@ -408,6 +426,27 @@ TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
     ASSERT_TRUE(timed);
     EXPECT_GT(report_.gpuTime->count(), 0);
     EXPECT_EQ(report_.gpuSplats, report_.drawn);
+    EXPECT_EQ(report_.cost, report_.drawn);
+    EXPECT_FALSE(report_.gpuCells);
+    world_.explorer.model = Model::Cells;
+    timed = false;
+    for (int i = 0; i < 50 && !timed; ++i) {
+        draw(world_.shown());
+        timed = report_.gpuTime && report_.gpuCells;
+    }
+    EXPECT_TRUE(timed);
+    EXPECT_EQ(report_.gpuSplats, report_.cost);
+    EXPECT_NE(report_.cost, report_.drawn);
+}
+
+TEST_F(CanvasOfNoise, CellsHaveALimitOfTheirOwn) {
+    world_.explorer.model = Model::Cells;
+    draw(world_.shown());
+    draw(world_.shown(), {.splats = 100'000'000, .cells = 2'000}, true);
+    EXPECT_TRUE(report_.lacksCells);
+    EXPECT_EQ(report_.stride, 1u);
+    draw(world_.shown(), {.splats = 2'000, .cells = 100'000'000}, true);
+    EXPECT_FALSE(report_.lacksCells);
 }
 
 // Saving from a window that has drawn other things before, against a render that has not.

@@ -8,7 +8,7 @@ endif()
 
 expectMembers("${out}" file STRING variable STRING units STRING step NUMBER ranges STRING
               points NUMBER size ARRAY frames NUMBER rays NUMBER threads NUMBER truth STRING
-              views ARRAY modes ARRAY)
+              views ARRAY modes ARRAY best OBJECT)
 string(JSON views LENGTH "${out}" views)
 string(JSON modes LENGTH "${out}" modes)
 if(NOT views EQUAL 2 OR NOT modes EQUAL 5)
@@ -19,9 +19,11 @@ expectMembers("${view}" azimuth NUMBER elevation NUMBER)
 foreach(i RANGE 4)
   string(JSON mode GET "${out}" modes ${i})
   expectMembers("${mode}" mode STRING order STRING frame NUMBER before NUMBER drawn NUMBER
-                depthError NUMBER mass NUMBER massIsOff BOOLEAN rmse NUMBER psnr NUMBER
+                depthError NUMBER mass NUMBER massIsOff BOOLEAN popping NUMBER rmse NUMBER psnr NUMBER
                 largest NUMBER colorDifference NUMBER)
 endforeach()
+string(JSON best GET "${out}" best)
+expectMembers("${best}" mostAccurate ARRAY soonest ARRAY)
 # Cells are the closest.
 string(JSON points GET "${out}" modes 3 depthError)
 string(JSON cells GET "${out}" modes 4 depthError)

@@ -117,6 +117,16 @@ TEST(FramePace, FramesWithoutSplatsOrWithoutTimeLeaveABudget) {
     EXPECT_EQ(none.budget(), FramePace::kFewest);
 }
 
+// Whose splats cost nothing that can be told from what every frame takes.
+TEST(FramePace, FramesOfFewSplatsPromiseNothingOfMany) {
+    Machine machine{3e6, 500};
+    FramePace pace(kTarget);
+    for (int i = 0; i < 100; ++i) pace.took(10, machine.frame(0));
+    EXPECT_LE(pace.budget(), FramePace::kFirst);
+    for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+    EXPECT_NEAR(machine.exactly(pace.budget()), 16e6, 0.2 * 16e6);
+}
+
 TEST(FramePace, BeforeTheFirstFrameThereIsABudget) {
     EXPECT_EQ(FramePace(kTarget).budget(), FramePace::kFirst);
 }

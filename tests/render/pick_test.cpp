@@ -87,8 +87,11 @@ void expectBruteForce(const Scene& scene, const View& view, unsigned seed) {
         ASSERT_EQ(picked.has_value(), truth.has_value()) << pixel.x << ' ' << pixel.y;
         if (!picked) continue;
         ++found;
-        EXPECT_EQ(std::pair(picked->point, picked->layer), *truth) << pixel.x << ' ' << pixel.y;
-        EXPECT_EQ(picked->gridIndex, scene.step.gridIndex()[picked->point]);
+        const auto& [point, layer] = *truth;
+        EXPECT_EQ(picked->layer, layer) << pixel.x << ' ' << pixel.y;
+        EXPECT_EQ(picked->gridIndex, scene.step.gridIndex()[point]) << pixel.x << ' ' << pixel.y;
+        EXPECT_EQ(picked->value, scene.step.value(point));
+        EXPECT_FALSE(picked->between);
         EXPECT_EQ(picked->world, scene.placed.position(picked->gridIndex));
         EXPECT_NEAR(picked->depth, project(view, picked->world).depth, 1e-12);
     }

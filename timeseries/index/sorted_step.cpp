@@ -16,17 +16,6 @@
 namespace timeseries {
 namespace {
 
-template <typename T>
-Number numberOf(T value) {
-    if constexpr (std::is_floating_point_v<T>) {
-        return static_cast<double>(value);
-    } else if constexpr (std::is_same_v<T, std::uint64_t>) {
-        return value;
-    } else {
-        return static_cast<std::int64_t>(value);
-    }
-}
-
 // The least and the greatest of those that count.
 template <typename T, typename Counts>
 std::pair<Number, Number> extentOf(std::span<const T> values, const Counts& counts) {

@@ -161,6 +161,16 @@ TEST(Governor, ASlowerDisplayIsTheLastResortAndNoneForLong) {
     EXPECT_EQ(loop.governor.refreshRate().wanted(), 90);
 }
 
+// What cells take says nothing of splats.
+TEST(Governor, CellsAreLearntApart) {
+    Governor governor;
+    const std::uint64_t splats = governor.splats(), cells = governor.cells();
+    for (int i = 0; i < 20; ++i)
+        governor.took({20ms, 30ms, Governor::Frame::Splats{governor.cells(), 100, 30ms, true}});
+    EXPECT_EQ(governor.splats(), splats);
+    EXPECT_LT(governor.cells(), cells / 2);
+}
+
 TEST(Governor, WithoutAPeriodNothingIsLearnt) {
     Governor governor;
     const std::uint64_t first = governor.splats();

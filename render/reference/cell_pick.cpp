@@ -1,0 +1,133 @@
+#include "render/reference/cell_pick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "render/reference/cell_walk.h"
+#include "render/reference/interval_cells.h"
+
+namespace render {
+namespace {
+
+// A part of the ray's way in a layer.
+struct Passed {
+    Met met;
+    glm::uvec3 cell;
+};
+
+// W of a piece of the way that is so long, in units of l, and along which the field goes from one
+// value to another (OpacityPer).
+double weightOf(const Scene& scene, const Layer& layer, double length, double from, double to) {
+    if (scene.opacityPer == OpacityPer::Length) return length;
+    const double middle = std::midpoint(from, to);
+    for (const auto& range : layer.cells.ranges) {
+        const double width = range.hi - range.lo;
+        if (range.lo <= middle && middle <= range.hi && width > 0 && std::isfinite(width))
+            length = std::max(length, std::abs(to - from) / width);
+    }
+    return length;
+}
+
+class Ray {
+ public:
+    Ray(const Scene& scene, const View& view, const glm::dvec2& window)
+        : scene_(scene), walk_(scene.placed), rays_(pixelRays(scene.placed.inAxes(view))) {
+        const glm::dvec2 o = window - rays_.centre;
+        along_ = rays_.axis + o.x * rays_.perPixelX + o.y * rays_.perPixelY;
+        perDepth_ = glm::length(scene.placed.worldFromAxes() * along_) / scene.placed.unitLength();
+        for (const Layer& layer : scene.layers)
+            layers_.emplace_back(scene.cells->field(), scene.clip, layer.cells.ranges, 1,
+                                 IntervalCells::Look::WhenAsked);
+    }
+
+    glm::dvec3 at(double depth) const { return rays_.eye + depth * along_; }
+    std::vector<Passed> passed() const {
+        std::vector<Passed> all;
+        walk_(rays_.eye, along_, rays_.near, [&](const glm::uvec3& cell, double from, double to) {
+            for (std::size_t k = 0; k < layers_.size(); ++k) pass(cell, from, to, k, all);
+        });
+        return all;
+    }
+
+ private:
+    void pass(const glm::uvec3& cell, double from, double to, std::size_t layer,
+              std::vector<Passed>& into) const {
+        const IntervalCells& cells = layers_[layer];
+        const IntervalCells::Kind kind = cells.kind(cell);
+        if (kind == IntervalCells::Kind::Nothing) return;
+        const glm::dvec3 a = walk_.inCell(cell, at(from)), b = walk_.inCell(cell, at(to));
+        std::vector<LinePart> parts;
+        if (kind == IntervalCells::Kind::Whole) parts.push_back({0, 1});
+        if (kind == IntervalCells::Kind::Part) cells.addParts(cell, a, b, parts);
+        const auto value = [&](double t) { return cells.valueAt(cell, glm::mix(a, b, t)); };
+        const Layer& of = scene_.layers[layer];
+        for (const LinePart& part : parts) {
+            const double middle = std::midpoint(part.from, part.to);
+            const double weight =
+                weightOf(scene_, of, (to - from) * (part.to - part.from) * perDepth_,
+                         value(part.from), value(part.to));
+            into.push_back({{layer, from + middle * (to - from),
+                             opticalDepthPerWeight(of.style.opacity) * weight, value(middle)},
+                            cell});
+        }
+    }
+
+    const Scene& scene_;
+    CellWalk walk_;
+    PixelRays rays_;  // in axis coordinates
+    glm::dvec3 along_{0};
+    double perDepth_;  // of a unit of depth, in units of l
+    std::vector<IntervalCells> layers_;
+};
+
+// The corner of the cell that is nearest to the place, of those that are there.
+std::uint32_t nearestCorner(const Scene& scene, const glm::uvec3& cell, const glm::dvec3& place) {
+    const auto values = scene.cells->corners(cell);
+    const glm::uvec3 size = scene.placed.size();
+    std::uint32_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (unsigned c = 0; c < 8; ++c) {
+        const glm::uvec3 at = scene.cells->pointAt(cell, c);
+        if (std::isnan(values[c]) || !scene.clip.holds(at)) continue;
+        const std::uint32_t index = at.x + size.x * (at.y + size.y * at.z);
+        const glm::dvec3 apart =
+            scene.placed.worldFromAxes() * (scene.placed.alongAxes(index) - place);
+        if (const double d = glm::dot(apart, apart); d < least) {
+            least = d;
+            nearest = index;
+        }
+    }
+    return nearest;
+}
+
+timeseries::Number valueAt(const timeseries::Field& field, std::uint32_t index) {
+    return std::visit([&](const auto& values) { return timeseries::numberOf(values[index]); },
+                      field.values);
+}
+
+}  // namespace
+
+std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::dvec2& window) {
+    const Ray ray(scene, view, window);
+    std::vector<Passed> passed = ray.passed();
+    std::ranges::stable_sort(passed, {}, [](const Passed& p) { return p.met.depth; });
+    std::vector<Met> met;
+    for (const Passed& p : passed) met.push_back(p.met);
+    const auto half = atHalfOfLight(scene, met);
+    if (!half) return std::nullopt;
+    const auto& [seen, cell] = passed[*half];
+    const std::uint32_t at = nearestCorner(scene, cell, ray.at(seen.depth));
+    return Picked{.layer = seen.layer,
+                  .gridIndex = at,
+                  .value = valueAt(scene.cells->field(), at),
+                  .world = scene.placed.position(at),
+                  .depth = seen.depth,
+                  .between = seen.value};
+}
+
+}  // namespace render

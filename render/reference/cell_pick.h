@@ -1,0 +1,14 @@
+// What the eye sees under the cursor where cells are drawn: a place between points.
+#pragma once
+
+#include "render/model/pick.h"
+
+namespace render {
+
+// Of what the ray of the window position (pixel coordinates, y up) passes in the scene's ranges, in
+// exact parts of cells, the part at half of the light; and of the corners of that cell that are
+// there the nearest. None where nothing is seen. Costs a look at each cell on the ray. REQUIRES:
+// scene.cells.
+std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::dvec2& window);
+
+}  // namespace render

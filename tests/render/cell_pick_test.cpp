@@ -1,0 +1,92 @@
+// What is seen under the cursor between points, of a field whose every place is known.
+#include "render/reference/cell_pick.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/cell_worlds.h"
+
+namespace render {
+namespace {
+
+// The field is x, 0 to 8, on 9^3 points; the eye looks back along it, and the middle of the picture
+// at the line through the points y = z = 4.
+struct Ramp : tests::CellWorld {
+    explicit Ramp(
+        const std::vector<std::string>& layers, double opacity,
+        double (*field)(const glm::uvec3&) = [](const glm::uvec3& at) { return double(at.x); })
+        : CellWorld(
+              tests::stepOf(tests::cube(9),
+                            [&](std::size_t i) {
+                                return field(timeseries::indicesOf(unsigned(i), glm::uvec3(9)));
+                            }),
+              layers, opacity) {
+        scene.order = Order::BackToFront;
+    }
+    std::optional<Picked> seen(const glm::dvec2& window = {10.5, 10.5}) const {
+        return pickCell(scene, view, window);
+    }
+    std::uint64_t indexOf(unsigned x, unsigned y, unsigned z) const { return x + 9 * (y + 9 * z); }
+    // Where the field has this value on the line.
+    double depthOf(double value) const {
+        return 3 -
+               (placed.position(indexOf(0, 4, 4)).x +
+                value / 8 *
+                    (placed.position(indexOf(8, 4, 4)).x - placed.position(indexOf(0, 4, 4)).x));
+    }
+    View view = tests::lookFrom({3, 0, 0}, {21, 21});
+};
+
+TEST(PickCell, AThinLayersMiddleIsSeenAndItsNearestPointTold) {
+    const Ramp ramp({"4.2:4.6"}, 0.01);
+    const auto seen = ramp.seen();
+    ASSERT_TRUE(seen);
+    ASSERT_TRUE(seen->between);
+    EXPECT_NEAR(*seen->between, 4.4, 1e-6);
+    EXPECT_NEAR(seen->depth, ramp.depthOf(4.4), 1e-6);
+    EXPECT_EQ(seen->gridIndex, ramp.indexOf(4, 4, 4));
+    EXPECT_EQ(seen->value, timeseries::Number(4.0));
+    EXPECT_EQ(seen->world, ramp.placed.position(seen->gridIndex));
+    EXPECT_EQ(*Ramp({"4.6:4.9"}, 0.01).seen()->between > 4.7, true);
+    EXPECT_EQ(Ramp({"4.6:4.9"}, 0.01).seen()->gridIndex, ramp.indexOf(5, 4, 4));
+}
+
+// In the first cell of those that the ray passes, which for an opaque range is all that is seen.
+TEST(PickCell, OfAnOpaqueRangeTheFrontIsSeen) {
+    const Ramp ramp({"1.2:6.8"}, 1);
+    EXPECT_NEAR(*ramp.seen()->between, (6 + 6.8) / 2, 1e-6);
+    const Ramp thin({"1:7"}, 0.001);
+    EXPECT_NEAR(*thin.seen()->between, 4, 0.51) << "to a cell";
+}
+
+TEST(PickCell, WhatACrossingIsWorthCountsAsInThePicture) {
+    Ramp ramp({"2:3", "6.5~0.001"}, 0.5);
+    EXPECT_EQ(ramp.seen()->layer, 0u);
+    ramp.scene.opacityPer = OpacityPer::Crossing;
+    EXPECT_EQ(ramp.seen()->layer, 1u);
+    EXPECT_NEAR(*ramp.seen()->between, 6.5, 0.001);
+}
+
+TEST(PickCell, APointThatIsMissingIsNotTold) {
+    const Ramp ramp({"3.55:3.95"}, 0.01, [](const glm::uvec3& at) {
+        return at == glm::uvec3(4, 4, 4) ? std::numeric_limits<double>::quiet_NaN() : double(at.x);
+    });
+    // Half a cell beside the missing point, where the field goes on.
+    const auto seen = ramp.seen({10.5 + 1.5, 10.5});
+    EXPECT_TRUE(!seen || seen->gridIndex != ramp.indexOf(4, 4, 4));
+    EXPECT_FALSE(ramp.seen()) << "what is nearest to it is nowhere";
+}
+
+TEST(PickCell, NothingIsSeenWhereNothingIs) {
+    EXPECT_FALSE(Ramp({"20:30"}, 0.5).seen());
+    EXPECT_FALSE(Ramp({"4:5"}, 0).seen());
+    EXPECT_FALSE(Ramp({"4:5"}, 0.5).seen({0.5, 0.5})) << "beside the grid";
+    Ramp clipped({"4:5"}, 0.5);
+    clipped.scene.clip.hi.x = 2;
+    EXPECT_FALSE(clipped.seen());
+}
+
+}  // namespace
+}  // namespace render
