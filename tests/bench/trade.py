@@ -98,7 +98,7 @@ def choices(scenes):
        [[title(n), *(best(d["figures"], "frame", t, "depthError") for t in times)] for n, d in scenes])}
 The soonest picture that an error allows, and its time:
 
-{table(["scene", *errors],
+{table(["scene", *(f"{e:g}" for e in errors)],
        [[title(n), *(best(d["figures"], "depthError", e, "frame") for e in errors)] for n, d in scenes])}"""
 
 
