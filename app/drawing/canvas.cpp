@@ -1,15 +1,14 @@
 #include "app/drawing/canvas.h"
 
 #include <algorithm>
-#include <atomic>
-#include <new>
-#include <thread>
 
 #include "app/choices/camera.h"
+#include "app/drawing/cell_maker.h"
 #include "app/drawing/gpu_steps.h"
 #include "app/drawing/refinement.h"
+#include "app/drawing/screen.h"
+#include "app/drawing/telling.h"
 #include "app/picture/still.h"
-#include "render/frame/mean_depth.h"
 #include "render/gl/gpu_timer.h"
 #include "render/model/splat_cost.h"
 #include "render/reference/cell_pick.h"
@@ -62,84 +61,6 @@ void thinOut(render::Scene& scene, std::span<const render::View> eyes, const Can
         scene.footprint = standingFor(whole, scene.stride);
     }
 }
-
-// What is drawn: a step, and choices of which all that they select is on the GPU.
-struct Screen {
-    std::shared_ptr<const timeseries::SortedStep> sorted;
-    GpuSteps::Held* held;
-    Explorer explorer;
-    timeseries::Variable about;
-    std::size_t step;
-};
-
-render::Scene sceneOf(const Screen& screen) {
-    return makeScene(screen.explorer, *screen.sorted, screen.held->placed,
-                     screen.explorer.play.tick, Await::Nothing);
-}
-
-// Makes steps' cells where they are wanted: few at once, many on a thread of its own, a step after
-// another, which nobody waits for.
-class CellMaker {
- public:
-    void want(const Screen& screen) {
-        constexpr std::uint64_t kAtOnce = 1 << 18;  // 8 ms
-        const auto& step = screen.sorted;
-        if (screen.explorer.model != Model::Cells || !step->canHaveCells() || step->cellsIfMade())
-            return;
-        if (step->grid().count() <= kAtOnce) {
-            step->cells();
-        } else if (!busy_->exchange(true)) {
-            std::thread([step, busy = busy_] {
-                try {
-                    step->cells();
-                } catch (...) {  // for want of memory or threads: points are drawn, as before
-                }
-                *busy = false;
-            }).detach();
-        }
-    }
-
- private:
-    std::shared_ptr<std::atomic<bool>> busy_ = std::make_shared<std::atomic<bool>>(false);
-};
-
-// The legend of what is on the screen. Whether colours are mixed is worked out for a picture at
-// rest alone; a moving one says what the one before it said of the same data.
-class Telling {
- public:
-    render::Legend legend(const Screen& screen, const render::Scene& scene, bool atRest) {
-        Explorer e = screen.explorer;
-        e.view = {};                                  // nothing is said of it
-        const bool byCells = scene.cells != nullptr;  // they may come later
-        if (!legend_ || of_ != e || step_.lock() != screen.sorted || byCells_ != byCells) {
-            if (!sameData(of_, e)) mixed_ = false;
-            legend_ = makeLegend(screen.explorer, screen.about, screen.step, scene,
-                                 screen.explorer.play.tick);
-            of_ = std::move(e);
-            step_ = screen.sorted;
-            byCells_ = byCells;
-            view_.reset();
-        }
-        if (atRest && view_ != screen.explorer.view) {
-            mixed_ = isMixed(screen.explorer, scene);
-            view_ = screen.explorer.view;
-        }
-        render::Legend legend = *legend_;
-        if (mixed_ && render::mixesColors(scene)) legend.notes.emplace_back(kMixedColors);
-        return legend;
-    }
-    // Whether that was worked out for this picture. REQUIRES: its legend was asked for last.
-    bool isOf(const Screen& screen, const render::Scene& scene) const {
-        return view_ == screen.explorer.view || !render::mixesColors(scene);
-    }
-
- private:
-    std::optional<render::Legend> legend_;
-    Explorer of_;
-    std::weak_ptr<const timeseries::SortedStep> step_;
-    std::optional<ViewChoice> view_;  // for which `mixed_` is known
-    bool mixed_ = false, byCells_ = false;
-};
 
 // Which layer of the explorer is the scene's k-th: hidden ones are not in the scene, and the swept
 // window comes first.
@@ -262,7 +183,7 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
     CanvasReport report;
     const GpuSteps::Held& coming = bring(shown, limits, moving, report);
     steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
-    report.gpuBytes = steps.bytes();
+    report.gpuBytes = steps.bytes() + renderer.cellBytes();
     if (const auto timed = of.poll()) {
         report.gpuTime = timed->took;
         report.gpuSplats = timed->label >> 1;

@@ -23,7 +23,7 @@ struct CanvasReport {
     bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
     double uploaded = 1;  // share of what the picture asked for needs
     double refined = 0;   // share that refine() has drawn; it shows all at once
-    std::uint64_t gpuBytes = 0;  // of steps held there
+    std::uint64_t gpuBytes = 0;  // of steps and cells held there
     std::uint64_t cost = 0;      // of what this call drew, in ordinary splats, of all eyes
     // Of an earlier call of the same function (gl::GpuTimer), what it drew and what that cost: what
     // FramePace learns from. None in most frames of a GPU that is behind.

@@ -101,6 +101,9 @@ class FrameRenderer {
                       const std::function<void(std::size_t eye, Targets&)>& show);
     Targets& targets() { return *targets_[current_].targets; }  // of the eye drawn last
 
+    // That cells take on the GPU; points: GpuStep::bytes.
+    std::uint64_t cellBytes() const { return gl_ ? gl_->cells.bytes() : 0; }
+
     struct Counts {
         std::uint64_t orders = 0, eyes = 0;
     };

@@ -39,6 +39,7 @@ CellList::CellList(const Scene& scene, Channels channels, std::size_t layer,
     distance_ = *nearestFirst;
     order_.emplace(*nearestFirst);
     ordered_.resize(count_);
+    distances_.reserve(count_);
 }
 
 void CellList::goOn(std::uint64_t cells) {
@@ -60,7 +61,9 @@ std::uint64_t CellList::list(std::uint64_t cells) {
         for (std::uint64_t i = inRun_; i < inRun_ + some; ++i) {
             cells_.push_back(
                 {scene_.cells->cell(run.first + i), static_cast<std::uint8_t>(layer_)});
-            if (order_) order_->count((*distance_)(cells_.back().cell));
+            if (!order_) continue;
+            distances_.push_back((*distance_)(cells_.back().cell));
+            order_->count(distances_.back());
         }
         listed_ += some;
         inRun_ += some;
@@ -75,7 +78,7 @@ std::uint64_t CellList::list(std::uint64_t cells) {
 std::uint64_t CellList::place(std::uint64_t cells) {
     const std::uint64_t some = std::min(cells, count_ - placed_);
     for (std::uint64_t i = placed_; i < placed_ + some; ++i)
-        ordered_[order_->place((*distance_)(cells_[i].cell))] = cells_[i];
+        ordered_[order_->place(distances_[i])] = cells_[i];
     placed_ += some;
     return some;
 }

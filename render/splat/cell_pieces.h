@@ -33,9 +33,12 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
 class CellDistance {
  public:
     CellDistance(const Scene& scene, const View& view);
-    std::size_t operator()(std::uint32_t cell) const {
-        const glm::ivec3 from = glm::ivec3(timeseries::indicesOf(cell, size_)) - eye_;
-        return static_cast<std::size_t>(std::abs(from.x) + std::abs(from.y) + std::abs(from.z));
+    std::uint32_t operator()(const glm::uvec3& cell) const {
+        const glm::ivec3 from = glm::ivec3(cell) - eye_;
+        return static_cast<std::uint32_t>(std::abs(from.x) + std::abs(from.y) + std::abs(from.z));
+    }
+    std::uint32_t operator()(std::uint32_t cell) const {
+        return (*this)(timeseries::indicesOf(cell, size_));
     }
     std::size_t count() const { return std::size_t{size_.x} + size_.y + size_.z + 1; }  // all less
     const glm::ivec3& eye() const { return eye_; }  // the cell that it is in, or beside
@@ -83,6 +86,7 @@ class CellList {
     std::vector<CellOfLayer> cells_, ordered_;
     std::optional<CellDistance> distance_;
     std::optional<NearestFirst> order_;
+    std::vector<std::uint32_t> distances_;  // of cells_, where they are to be put in order
 };
 // All of them at once.
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);

@@ -19,6 +19,7 @@ class GlCellSplatter final : public Splatter {
     // The most that a scene's cells may take there: what the driver binds, and no card is filled.
     // 0 where it cannot draw them.
     static std::uint64_t mostBytes();
+    std::uint64_t bytes() const { return cells_ ? cells_->bytes() : 0; }  // that they take now
 
     // Asks nothing of the step on the GPU. REQUIRES: GlCells::fit(scene, mostBytes()). Throws
     // std::runtime_error where there is no room.

@@ -106,7 +106,7 @@ GlCells::GlCells(const Scene& scene)
     for (const auto& part : parts) {
         pieces_->write(cells_.size() * sizeof(GlCell), part.size() * sizeof(GlCell), part.data());
         for (const GlCell& piece : part) {
-            cells_.push_back(piece.cell);
+            cells_.push_back(timeseries::indicesOf(piece.cell, scene.cells->size()));
             ++firsts_[(piece.kind >> 8) + 1];
         }
     }
@@ -115,6 +115,12 @@ GlCells::GlCells(const Scene& scene)
 
 bool GlCells::areOf(const Scene& scene) const {
     return index_.lock() == scene.cells && choices_ == choicesOf(scene);
+}
+
+std::uint64_t GlCells::bytes() const {
+    std::uint64_t sum = pieces_->bytes() + sides_.bytes();
+    for (const Ordered& ordered : ordered_) sum += ordered.places->bytes();
+    return sum;
 }
 
 std::pair<std::uint32_t, std::uint32_t> GlCells::placesOf(Channels channels,
@@ -127,7 +133,7 @@ std::shared_ptr<const gl::Buffer> GlCells::farthestFirst(const CellDistance& dis
     const auto found = std::ranges::find(ordered_, distance.eye(), &Ordered::eye);
     if (found != ordered_.end()) return found->places;
     NearestFirst order(distance);
-    for (const std::uint32_t cell : cells_) order.count(distance(cell));
+    for (const glm::uvec3& cell : cells_) order.count(distance(cell));
     order.allCounted();
     std::vector<std::uint32_t> places(cells_.size());
     for (std::size_t i = 0; i < cells_.size(); ++i)

@@ -40,6 +40,7 @@ class GlCells {
     std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
     // Places of all pieces as uints, the farthest first.
     std::shared_ptr<const gl::Buffer> farthestFirst(const CellDistance& distance);
+    std::uint64_t bytes() const;  // on the GPU
     // Middles and sizes of cells, axis after axis, in axis coordinates.
     const gl::BufferTexture& sides() const { return sidesTexture_; }
 
@@ -47,7 +48,7 @@ class GlCells {
     std::weak_ptr<const timeseries::CellIndex> index_;
     std::vector<double> choices_;  // all else that they depend on
     std::unique_ptr<gl::Buffer> pieces_;
-    std::vector<std::uint32_t> cells_;   // of each piece
+    std::vector<glm::uvec3> cells_;      // of each piece, along the axes
     std::vector<std::uint32_t> firsts_;  // of each layer, and the end
     gl::Buffer sides_;
     gl::BufferTexture sidesTexture_;

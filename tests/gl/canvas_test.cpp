@@ -15,6 +15,7 @@
 #include "render/image/png.h"
 #include "render/model/splat_cost.h"
 #include "render/reference/image_compare.h"
+#include "render/splat/gl_cells.h"
 #include "tests/support/files.h"
 #include "tests/support/shown_steps.h"
 
@@ -437,6 +438,18 @@ TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
     EXPECT_TRUE(timed);
     EXPECT_EQ(report_.gpuSplats, report_.cost);
     EXPECT_NE(report_.cost, report_.drawn);
+}
+
+TEST_F(CanvasOfNoise, CellsOnTheGpuCount) {
+    world_.explorer.order = render::Order::None;
+    for (int i = 0; i < 2; ++i) draw(world_.shown());
+    const std::uint64_t points = report_.gpuBytes;
+    world_.explorer.model = Model::Cells;
+    for (int i = 0; i < 2; ++i) draw(world_.shown());
+    ASSERT_TRUE(report_.cells);
+    // Not every cell that is looked at reaches into its range.
+    EXPECT_GT(report_.gpuBytes, points + *report_.cells * sizeof(render::GlCell) / 2);
+    EXPECT_LT(report_.gpuBytes, points + *report_.cells * sizeof(render::GlCell) * 2);
 }
 
 TEST_F(CanvasOfNoise, CellsHaveALimitOfTheirOwn) {

@@ -1,0 +1,26 @@
+#include "app/drawing/cell_maker.h"
+
+#include <cstdint>
+#include <thread>
+
+namespace app {
+
+void CellMaker::want(const Screen& screen) {
+    constexpr std::uint64_t kAtOnce = 1 << 18;  // 8 ms
+    const auto& step = screen.sorted;
+    if (screen.explorer.model != Model::Cells || !step->canHaveCells() || step->cellsIfMade())
+        return;
+    if (step->grid().count() <= kAtOnce) {
+        step->cells();
+    } else if (!busy_->exchange(true)) {
+        std::thread([step, busy = busy_] {
+            try {
+                step->cells();
+            } catch (...) {  // for want of memory or threads: points are drawn, as before
+            }
+            *busy = false;
+        }).detach();
+    }
+}
+
+}  // namespace app
