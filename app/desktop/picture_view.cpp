@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 // A subset is refined when the picture has been at rest for so long: a hand that hesitates is not
 // made to wait.
 constexpr auto kRest = 150ms;
+// A slice of a picture at rest, of frames: the window around it is drawn once for twice as much.
+constexpr int kSlice = 2;
 const glm::vec3 kGroundColor = glm::vec3(13, 17, 23) / 255.0f;
 
 // What a picture depends on.
@@ -64,9 +66,10 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     if (!resting)
         slices_.reset();
     else if (!slices_)
-        slices_.emplace(frameBudget, std::min(pace_.budget(), render::FramePace::kFirst));
+        slices_.emplace(kSlice * frameBudget, std::min(pace_.budget(), render::FramePace::kFirst));
     render::FramePace& points = slices_ ? *slices_ : pace_;
-    for (render::FramePace* pace : {&points, &cellPace_}) pace->setTarget(frameBudget);
+    for (render::FramePace* pace : {&points, &cellPace_})
+        pace->setTarget(slices_ ? kSlice * frameBudget : frameBudget);
     const CanvasLimits limits{.splats = points.budget(), .cells = cellPace_.budget()};
     eyes_ = canvas_.eyesOf(shown);
     grid_ = grid;
