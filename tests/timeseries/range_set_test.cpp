@@ -214,9 +214,9 @@ TYPED_TEST(RangeSetIn, EveryRangeOfAwkwardBoundsConvertsExactly) {
     const std::vector<T> all = values<T>();
     constexpr std::size_t kEach = tests::kSanitized ? 5 : 1;
     for (std::size_t i = 0; i < numbers.size(); i += kEach)
-        for (const Number &lo = numbers[i]; const Number& hi : numbers)
+        for (const Number& hi : numbers)
             for (int ends = 0; ends < 4; ++ends) {
-                const Range range{{lo, (ends & 1) != 0}, {hi, (ends & 2) != 0}};
+                const Range range{{numbers[i], (ends & 1) != 0}, {hi, (ends & 2) != 0}};
                 Interval<T> interval{};
                 const bool found = toInterval(range, interval);
                 ASSERT_TRUE(!found || interval.lo <= interval.hi) << describe(range);
