@@ -49,10 +49,13 @@ struct Told {
     std::filesystem::path of{};     // that one
 };
 
-double errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-               const render::PlacedPoints& placed) {
-    return depthErrorOf(onlyThis(e, frame.step, frame.tick), step,
-                        eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front());
+std::optional<double> errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
+                              const render::PlacedPoints& placed) {
+    const Rung drawn{e.model};
+    return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
+                         eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front(),
+                         std::span(&drawn, 1))
+        .of(drawn);
 }
 
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on

@@ -4,8 +4,6 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "app/picture/depth_error.h"
-
 namespace app::desktop {
 namespace {
 
@@ -25,6 +23,13 @@ Explorer drawnOf(Explorer e) {
     e.play = {};
     e.play.tick = tick;
     return e;
+}
+
+// What an error is of, from wherever it is seen.
+Explorer selectionOf(Explorer drawn) {
+    drawn.view = {};
+    drawn.play = {};
+    return drawn;
 }
 
 // How many eyes' pictures stand beside and above each other.
@@ -88,16 +93,32 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     if (timed_) performance_.frame = *report_.gpuTime;
     performance_ = {performance_.frame, frameBudget, report_, performance_.picture + 1};
     drawn_ = Drawn{drawnOf(e), shown.sorted};
+    predictError();
     if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->placed->boxHalfEdges();
 }
 
 bool PictureView::waitsForError() const {
-    return drawn_ && isDone() && !performance_.error && eyes_.size() == 1 &&
-           hasDepthError(*drawn_->sorted);
+    return drawn_ && isDone() && !measured_ && eyes_.size() == 1 && hasDepthError(*drawn_->sorted);
 }
 
 void PictureView::tellError() {
-    performance_.error = error_.of({drawn_->sorted, drawn_->explorer, eyes_.front()});
+    auto errors = error_.of({drawn_->sorted, drawn_->explorer, eyes_.front()});
+    if (!errors) return;
+    errors_ = std::move(errors);
+    errorsOf_ = selectionOf(drawn_->explorer);
+    predictError();
+    measured_ = true;
+}
+
+// Steps of a series and views of a step are alike enough for the figure that is told.
+void PictureView::predictError() {
+    measured_ = false;
+    performance_.error = {};
+    performance_.errors = {};
+    if (!errors_ || errorsOf_ != selectionOf(drawn_->explorer)) return;
+    const Rung drawn{report_.cells ? Model::Cells : Model::Points, report_.stride};
+    performance_.error = errors_->of(drawn);
+    performance_.errors = errors_;
 }
 
 void PictureView::took(std::chrono::nanoseconds frame) {

@@ -43,7 +43,7 @@ class PictureView {
     const panels::Performance& performance() const { return performance_; }
     // Of the picture of what is shown, where it is drawn whole and its error is known.
     std::optional<double> errorOf(const Shown& shown) const {
-        return isCurrent(shown) ? performance_.error : std::nullopt;
+        return isCurrent(shown) && measured_ ? performance_.error : std::nullopt;
     }
     const glm::dmat3& boxHalfEdges() const { return boxHalfEdges_; }
     std::optional<render::View> eye() const {  // where there is one
@@ -61,7 +61,8 @@ class PictureView {
     bool isCurrent(const Shown& shown) const;
     bool isDone() const { return report_.whole && report_.told; }  // nothing more comes at rest
     bool waitsForError() const;
-    void tellError();  // of a picture that is whole and rests
+    void tellError();     // of a picture that is whole and rests
+    void predictError();  // of one that was just drawn, from what was told of its selection
     void redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget);
 
     Canvas canvas_{render::SplatterChoice::ByDevice, render::LightAs::Srgb8};
@@ -75,6 +76,9 @@ class PictureView {
     CanvasReport report_;
     panels::Performance performance_;
     PictureError error_;
+    std::optional<DepthErrors> errors_;  // told last, and of which selection:
+    Explorer errorsOf_;
+    bool measured_ = false;  // of the picture that is kept
     glm::dmat3 boxHalfEdges_{0.5};
     std::vector<render::View> eyes_;
     glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other

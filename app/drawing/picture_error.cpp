@@ -1,24 +1,16 @@
 #include "app/drawing/picture_error.h"
 
 #include <atomic>
-#include <limits>
 #include <system_error>
 #include <thread>
 
-#include "app/picture/depth_error.h"
-
 namespace app {
-namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
-// Its thread writes `error` and lets go of the step before it is done.
+// Its thread writes `errors` and lets go of the step before it is done.
 struct PictureError::Work {
     Picture picture;
     std::weak_ptr<const timeseries::SortedStep> sorted;
-    double error = kUnknown;
+    DepthErrors errors;
     std::atomic<bool> wanted = true, done = false;
 
     bool isOf(const Picture& other) const {
@@ -28,7 +20,8 @@ struct PictureError::Work {
     void run() {
         try {
             // One thread: the interface has the others.
-            error = depthErrorOf(picture.explorer, *picture.sorted, picture.view, 1, wanted);
+            errors = depthErrorsOf(picture.explorer, *picture.sorted, picture.view,
+                                   rungsOf(*picture.sorted), 1, wanted);
         } catch (...) {  // then it is not told: a picture is as good without
         }
         picture.sorted.reset();
@@ -40,16 +33,16 @@ void PictureError::forget() {
     if (work_) work_->wanted = false;
 }
 
-std::optional<double> PictureError::of(const Picture& picture) {
+std::optional<DepthErrors> PictureError::of(const Picture& picture) {
     if (work_ && !work_->done) return std::nullopt;
-    if (work_ && work_->wanted && work_->isOf(picture)) return work_->error;
+    if (work_ && work_->wanted && work_->isOf(picture)) return work_->errors;
     auto work = std::make_shared<Work>();
     work->picture = picture;
     work->sorted = picture.sorted;
     try {
         std::thread([work] { work->run(); }).detach();
     } catch (const std::system_error&) {  // no thread to be had
-        return kUnknown;
+        return DepthErrors();
     }
     work_ = std::move(work);
     return std::nullopt;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/choices/explorer.h"
+#include "app/picture/depth_error.h"
 #include "render/points/view.h"
 #include "timeseries/index/sorted_step.h"
 
@@ -24,9 +24,9 @@ class PictureError {
         render::View view;
         friend bool operator==(const Picture&, const Picture&) = default;
     };
-    // Of a picture that is drawn whole, once it is known: begins to work it out, one at a time.
-    // NaN where it could not be. REQUIRES: hasDepthError(*picture.sorted).
-    std::optional<double> of(const Picture& picture);
+    // Of the ways to draw it, once they are known: begins to work them out, one picture at a time.
+    // None where they could not be. REQUIRES: hasDepthError(*picture.sorted).
+    std::optional<DepthErrors> of(const Picture& picture);
     void forget();  // the picture changes: nobody wants it any more
 
  private:

@@ -15,6 +15,7 @@
 #include "app/panels/keys.h"
 #include "app/panels/layout.h"
 #include "app/panels/theme.h"
+#include "app/picture/depth_error.h"
 
 namespace app::panels {
 
@@ -24,8 +25,10 @@ enum class Page { Animation, View, Quality, Probe };
 struct Performance {
     std::chrono::nanoseconds frame{0}, budget{0};
     CanvasReport report = {};
-    std::uint64_t picture = 0;         // another number, another picture
-    std::optional<double> error = {};  // of it (PictureError), once that is known
+    std::uint64_t picture = 0;  // another number, another picture
+    // Of it, once that is known, or about as much, and of other ways to draw its selection.
+    std::optional<double> error = {};
+    std::optional<DepthErrors> errors = {};
 };
 
 // What the user chose of the interface itself: no part of a picture, not undone.

@@ -7,7 +7,6 @@
 #include "app/choices/view_edits.h"
 #include "app/panels/drawn_text.h"
 #include "app/panels/widgets.h"
-#include "app/picture/depth_error.h"
 
 namespace app::panels {
 namespace {
@@ -158,6 +157,36 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
     return lines;
 }
 
+std::vector<std::string> errorLines(const Performance& p) {
+    std::vector<std::string> lines;
+    if (!p.errors || p.errors->rungs.empty()) return lines;
+    lines.emplace_back("Error of optical depth, against the field between its points:");
+    const CanvasReport& r = p.report;
+    const Rung drawn{r.cells ? Model::Cells : Model::Points, r.stride};
+    for (const auto& [rung, error] : p.errors->rungs)
+        lines.push_back(fmt::format("{}  {}{}", shareText(error), rungText(rung),
+                                    rung == drawn ? ", as drawn" : ""));
+    return lines;
+}
+
+// Above the figures.
+void drawErrorTip(const Theme& theme, const Rect& figures, const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    const float s = theme.scale, line = 19 * s;
+    float width = 0;
+    for (const std::string& each : lines) width = std::max(width, widthOf(*theme.small, each));
+    const glm::vec2 size(width + 22 * s, static_cast<float>(lines.size()) * line + 12 * s);
+    const glm::vec2 corner(figures.min.x + kMargin * s, figures.min.y - size.y - 4 * s);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled(im(corner), im(corner + size), faded(kPanel, 0.92f), 5 * s);
+    list.AddRect(im(corner), im(corner + size), kLine, 5 * s);
+    glm::vec2 place = corner + glm::vec2(11 * s, 6 * s + 0.5f * line);
+    for (const std::string& each : lines) {
+        text(list, place, each, kDim, 0, *theme.small);
+        place.y += line;
+    }
+}
+
 // One below the other, or joined where there is room for fewer lines.
 void drawFigures(const Theme& theme, const Layout& layout, const Performance& performance,
                  const timeseries::Series* series) {
@@ -177,6 +206,7 @@ void drawFigures(const Theme& theme, const Layout& layout, const Performance& pe
         text(list, place, shown, kDim, 0, *theme.small);
         place.y += 18 * s;
     }
+    if (at.holds(vec(ImGui::GetIO().MousePos))) drawErrorTip(theme, at, errorLines(performance));
 }
 
 }  // namespace app::panels

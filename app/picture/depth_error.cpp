@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "app/picture/picture.h"
 #include "render/frame/plain_frame.h"
@@ -11,28 +10,71 @@
 
 namespace app {
 
-double depthErrorOf(const Explorer& explorer, const timeseries::SortedStep& step,
-                    const render::View& view, unsigned threads, const std::atomic<bool>& wanted) {
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+std::string rungText(const Rung& rung) {
+    if (rung.model == Model::Cells) return "cells";
+    return rung.stride == 1 ? "points" : fmt::format("1 of {} points", rung.stride);
+}
+
+std::optional<double> DepthErrors::of(const Rung& rung) const {
+    std::optional<double> error;
+    std::uint32_t coarsest = 0;
+    for (const auto& [known, of] : rungs) {
+        if (known.model != rung.model || known.stride > rung.stride || known.stride <= coarsest)
+            continue;
+        coarsest = known.stride;
+        error = of;
+    }
+    return error;
+}
+
+DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
+                          const render::View& view, std::span<const Rung> rungs, unsigned threads,
+                          const std::atomic<bool>& wanted) {
     const render::PlacedPoints placed(step.grid(), explorer.scale);
     Explorer e = explorer;
     e.opacityPer = render::OpacityPer::Length;
     e.order = render::Order::None;  // depth alone
-    const render::Scene scene = makeScene(e, step, placed, e.play.tick);
-    if (scene.layers.empty()) return kUnknown;
-    const std::vector<float> depth = opticalDepthOf(scene, view, wanted);
-    if (!wanted) return kUnknown;
+    const auto sceneOf = [&](const Rung& rung) {
+        e.model = rung.model;
+        render::Scene scene = makeScene(e, step, placed, e.play.tick);
+        scene.stride = rung.stride;
+        scene.footprint = standingFor(scene.footprint, rung.stride);
+        return scene;
+    };
+    const render::Scene first = sceneOf(rungs.front());
+    if (first.layers.empty()) return {};
+    std::vector<std::vector<float>> depths;
+    for (const Rung& rung : rungs) {
+        depths.push_back(opticalDepthOf(sceneOf(rung), view, wanted));
+        if (!wanted) return {};
+    }
     const auto cells = step.cellsIfMade();
     const timeseries::Field field = cells ? timeseries::Field{} : fieldOf(step);
-    return sampledError(scene, cells ? cells->field() : field, view, depth, {.threads = threads})
-        .relativeL2;
+    const auto errors =
+        sampledErrors(first, cells ? cells->field() : field, view, depths, {.threads = threads});
+    DepthErrors told;
+    for (std::size_t i = 0; i < rungs.size(); ++i)
+        told.rungs.emplace_back(rungs[i], errors[i].relativeL2);
+    return told;
+}
+
+std::vector<Rung> rungsOf(const timeseries::SortedStep& step) {
+    std::vector<Rung> rungs;
+    if (step.cellsIfMade()) rungs.push_back({Model::Cells});
+    for (const std::uint32_t stride : {1u, 2u, 4u, 8u, 16u})
+        rungs.push_back({Model::Points, stride});
+    return rungs;
+}
+
+std::string shareText(double error) {
+    const double percent = 100 * error;
+    if (percent < 0.1) return "below 0.1 %";
+    return fmt::format("{:.{}f} %", percent, percent < 1 ? 1 : 0);
 }
 
 std::string depthErrorText(const std::optional<double>& error) {
     if (!error || !std::isfinite(*error)) return "";
-    const double percent = 100 * *error;
-    if (percent < 0.1) return "error below 0.1 %";
-    return fmt::format("error about {:.{}f} %", percent, percent < 1 ? 1 : 0);
+    return *error < 0.001 ? "error " + shareText(*error) : "error about " + shareText(*error);
 }
 
 }  // namespace app

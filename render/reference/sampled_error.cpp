@@ -24,29 +24,27 @@ std::vector<glm::ivec2> sampleOf(const std::vector<glm::ivec2>& all, std::size_t
     return some;
 }
 
-// Sums of squares over all pixels that these stand for.
-struct Squares {
-    double error = 0, truth = 0;
-};
-
 }  // namespace
 
-SampledError sampledError(const Scene& scene, const timeseries::Field& field, const View& view,
-                          std::span<const float> opticalDepth, const Sampling& sampling) {
+std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
+                                        const View& view,
+                                        std::span<const std::vector<float>> opticalDepths,
+                                        const Sampling& sampling) {
     const PixelBox box = coveredPixels(scene, view);
-    const auto depthAt = [&](const glm::ivec2& p) {
+    const auto depthAt = [&](const std::vector<float>& depth, const glm::ivec2& p) {
         return static_cast<double>(
-            opticalDepth[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(view.size.x) +
-                         static_cast<std::size_t>(p.x)]);
+            depth[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(view.size.x) +
+                  static_cast<std::size_t>(p.x)]);
     };
     std::vector<glm::ivec2> shown, rest;
     for (int y = box.at.y; y < box.at.y + box.size.y; ++y)
         for (int x = box.at.x; x < box.at.x + box.size.x; ++x)
-            (depthAt({x, y}) > 0 ? shown : rest).emplace_back(x, y);
+            (depthAt(opticalDepths[0], {x, y}) > 0 ? shown : rest).emplace_back(x, y);
 
     const IntervalTruth truth(scene, field, sampling.raysAcross, sampling.threads,
                               IntervalCells::Look::WhenAsked);
-    Squares sum;
+    std::vector<double> errors(opticalDepths.size());  // sums of squares, and the truth's
+    double truths = 0;
     std::size_t looked = 0;
     std::mt19937 random(1);  // one picture, one figure
     const auto add = [&](const std::vector<glm::ivec2>& all, std::size_t count) {
@@ -58,21 +56,21 @@ SampledError sampledError(const Scene& scene, const timeseries::Field& field, co
             const std::vector<double> weight = truth.weight(view, k, some);
             for (std::size_t i = 0; i < some.size(); ++i) depth[i] += perWeight * weight[i];
         }
-        Squares part;
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            part.error += std::pow(depthAt(some[i]) - depth[i], 2);
-            part.truth += depth[i] * depth[i];
-        }
         const double each = static_cast<double>(all.size()) / static_cast<double>(some.size());
-        sum.error += each * part.error;
-        sum.truth += each * part.truth;
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            truths += each * depth[i] * depth[i];
+            for (std::size_t k = 0; k < errors.size(); ++k)
+                errors[k] += each * std::pow(depthAt(opticalDepths[k], some[i]) - depth[i], 2);
+        }
         looked += some.size();
     };
     const std::size_t half = sampling.pixels / 2, beside = std::min(rest.size(), half);
     add(shown, sampling.pixels - beside);
     add(rest, std::max(beside, sampling.pixels - std::min(sampling.pixels, shown.size())));
-    if (sum.error == 0) return {0, looked};
-    return {std::sqrt(sum.error / sum.truth), looked};
+    std::vector<SampledError> told;
+    for (const double error : errors)
+        told.push_back({error == 0 ? 0 : std::sqrt(error / truths), looked});
+    return told;
 }
 
 }  // namespace render

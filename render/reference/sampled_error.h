@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
@@ -29,10 +30,13 @@ struct Sampling {
     unsigned threads = sharingThreads();
 };
 
-// `opticalDepth`: of all layers, of W as path length, [y][x], row 0 at the bottom, no lines.
-// `field`: the scene's, in the grid's order. The same for any number of threads. REQUIRES: layers
-// whose `cells.ranges` are there.
-SampledError sampledError(const Scene& scene, const timeseries::Field& field, const View& view,
-                          std::span<const float> opticalDepth, const Sampling& sampling = {});
+// Of pictures of the scene, however they were drawn; the first chooses the pixels. Each is the
+// optical depth of all layers, of W as path length, [y][x], row 0 at the bottom, no lines. `field`:
+// the scene's, in the grid's order. The same for any number of threads. REQUIRES: layers whose
+// `cells.ranges` are there; a picture.
+std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
+                                        const View& view,
+                                        std::span<const std::vector<float>> opticalDepths,
+                                        const Sampling& sampling = {});
 
 }  // namespace render

@@ -34,7 +34,8 @@ PictureError::Picture waves(Model model, const char* range) {
 }
 
 double worked(const PictureError::Picture& p) {
-    return depthErrorOf(p.explorer, *p.sorted, p.view);
+    const Rung drawn{p.explorer.model};
+    return *depthErrorsOf(p.explorer, *p.sorted, p.view, std::span(&drawn, 1)).of(drawn);
 }
 
 // Figures of the design's table: rho here is 3 and .1.
@@ -61,13 +62,29 @@ TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
     PictureError error;
     for (const char* range : {"0.2:0.9", "0.2:0.5"}) {
         const PictureError::Picture picture = waves(Model::Points, range);
-        std::optional<double> told;
+        std::optional<DepthErrors> told;
         const auto end = std::chrono::steady_clock::now() + 60s;
         while (!(told = error.of(picture)) && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(1ms);
         ASSERT_TRUE(told);
-        EXPECT_EQ(*told, worked(picture));
+        // Those of cells are not made for it.
+        EXPECT_EQ(told->of({Model::Cells}), std::nullopt);
+        EXPECT_EQ(told->of({Model::Points}), worked(picture));
+        EXPECT_GT(told->of({Model::Points, 8}), told->of({Model::Points, 1}));
+        EXPECT_EQ(told->of({Model::Points, 64}), told->of({Model::Points, 16}));
     }
+}
+
+TEST(PictureError, OfEveryWayToDrawIsWhatEachWouldHave) {
+    PictureError::Picture cells = waves(Model::Cells, "0.2:0.5");
+    cells.sorted->cells();
+    const DepthErrors all =
+        depthErrorsOf(cells.explorer, *cells.sorted, cells.view, rungsOf(*cells.sorted));
+    ASSERT_EQ(all.rungs.size(), 6u);
+    EXPECT_NEAR(*all.of({Model::Cells}), worked(cells), 1e-12);
+    cells.explorer.model = Model::Points;
+    // Another picture, another sample of its pixels.
+    EXPECT_NEAR(*all.of({Model::Points}) / worked(cells), 1, 0.3);
 }
 
 TEST(PictureError, OfCategoriesIsNotTold) {

@@ -46,8 +46,8 @@ double errorOfAll(const CellWorld& world, const std::vector<float>& depth) {
 }
 SampledError sampled(const CellWorld& world, const std::vector<float>& depth, std::size_t pixels,
                      unsigned threads = 2) {
-    return sampledError(world.scene, world.scene.cells->field(), kView, depth,
-                        {.pixels = pixels, .raysAcross = 3, .threads = threads});
+    return sampledErrors(world.scene, world.scene.cells->field(), kView, std::span(&depth, 1),
+                         {.pixels = pixels, .raysAcross = 3, .threads = threads})[0];
 }
 
 // What cells leave out, and pictures that are worse: a tenth too bright, and another range's.

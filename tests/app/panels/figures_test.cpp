@@ -72,6 +72,19 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
     }
 }
 
+TEST(Figures, TellWhatOtherWaysToDrawWouldHave) {
+    Performance p{.frame = 5ms, .budget = 33ms};
+    EXPECT_TRUE(errorLines(p).empty());
+    p.report.stride = 8;
+    p.errors = DepthErrors{{{{Model::Cells}, 0.004}, {{Model::Points, 8}, 0.31}}};
+    EXPECT_THAT(errorLines(p), ElementsAre(HasSubstr("against the field between its points"),
+                                           "0.4 %  cells", "31 %  1 of 8 points, as drawn"));
+    p.report.cells = 10;
+    p.report.stride = 1;
+    EXPECT_THAT(errorLines(p),
+                ElementsAre(testing::_, "0.4 %  cells, as drawn", "31 %  1 of 8 points"));
+}
+
 TEST(Figures, AreNoneBeforeThereIsAPicture) {
     tests::ScriptedExploration desk;
     EXPECT_TRUE(figuresOf({}, desk.exploration.series()).empty());

@@ -1,0 +1,74 @@
+// Ranges in words.
+#include "app/picture/picture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "app/choices/choice_text.h"
+#include "tests/support/picture_of_a_ramp.h"
+#include "tests/support/scenes.h"
+
+namespace app {
+namespace {
+
+using timeseries::RangeSet;
+using namespace app::ramp;
+
+TEST(RangeLabel, SaysARangeAsPeopleDo) {
+    const auto label = [](const char* text, const char* units = "K") {
+        return rangeLabel(RangeSet::parse(text), units);
+    };
+    EXPECT_EQ(label("600:1600"), "600 to 1600 K");
+    EXPECT_EQ(label("600:max"), "≥ 600 K");
+    EXPECT_EQ(label("min:600"), "≤ 600 K");
+    EXPECT_EQ(label("(600,max]"), "> 600 K");
+    EXPECT_EQ(label("[min,600)"), "< 600 K");
+    EXPECT_EQ(label("[600,1600)"), "[600, 1600) K");
+    EXPECT_EQ(label("(600,1600]"), "(600, 1600] K");
+    EXPECT_EQ(label("5"), "5 K");
+    EXPECT_EQ(label("-3:-1"), "−3 to −1 K") << "the minus sign of the colour bar";
+    EXPECT_EQ(label("min:max"), "all values");
+    EXPECT_EQ(label("0:1,5:6,9:max"), "0 to 1, 5 to 6, ≥ 9 K");
+    EXPECT_EQ(label("0:1", ""), "0 to 1");
+    EXPECT_EQ(label("0:1", "1"), "0 to 1");
+    EXPECT_EQ(rangeLabel(RangeSet(), "K"), "no values");
+}
+
+TEST(RangeLabel, LongDoublesAreRoundedAndSaidToBe) {
+    const auto label = [](const char* text) { return rangeLabel(RangeSet::parse(text), "K"); };
+    EXPECT_EQ(label("0.1:0.30000000000000004"), "≈ 0.1 to 0.3 K");
+    EXPECT_EQ(label("1426.5184782812678:max"), "≈ ≥ 1426.518 K");
+    // As many digits as tell the ends apart; integers are never rounded.
+    EXPECT_EQ(label("1.00000000123:1.00000000456"), "≈ 1.000000001 to 1.000000005 K");
+    EXPECT_EQ(label("0.3:0.30000000000000004"), "0.3 to 0.30000000000000004 K");
+    EXPECT_EQ(label("9007199254740993:9007199254740995"), "9007199254740993 to 9007199254740995 K");
+    EXPECT_EQ(label("123456.7:123456789.5"), "123456.7 to 123456789.5 K") << "no shorter so";
+}
+
+// Doubles that seven digits do not tell apart, as bounds of different ranges.
+TEST(RangeLabel, BoundsThatDifferAreWrittenDifferently) {
+    const double lo = 0x1p60 + 256, hi = 0x1p60 + 1024;
+    const std::string label =
+        rangeLabel(RangeSet({timeseries::Range{{-std::numeric_limits<double>::infinity()}, {lo}},
+                             timeseries::Range{{hi}, {std::numeric_limits<double>::infinity()}}}),
+                   "");
+    const std::size_t comma = label.find(", ≥ ");
+    ASSERT_NE(comma, label.npos) << label;
+    const std::string first = label.substr(0, comma), second = label.substr(comma);
+    const double shownLo = std::stod(first.substr(first.find("1."))),
+                 shownHi = std::stod(second.substr(second.find("1.")));
+    EXPECT_LT(shownLo, shownHi) << label;
+    EXPECT_NEAR(shownLo, lo, 1e3);
+    EXPECT_NEAR(shownHi, hi, 1e3);
+}
+
+TEST(RangeLabel, AnInfiniteValueAloneIsNotAllValues) {
+    EXPECT_EQ(rangeLabel(RangeSet::parse("max:max"), "K"), "inf K");
+    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min"), "K"), "−inf K");
+    EXPECT_EQ(rangeLabel(RangeSet::parse("min:min,max:max"), ""), "−inf, inf");
+}
+
+}  // namespace
+}  // namespace app
