@@ -1,10 +1,10 @@
 // The swept window as a layer of a picture.
 #include "app/picture/picture.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
 
 #include "app/choices/choice_text.h"
 #include "tests/support/picture_of_a_ramp.h"
