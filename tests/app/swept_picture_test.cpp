@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "app/choices/choice_text.h"
 #include "tests/support/picture_of_a_ramp.h"
 #include "tests/support/scenes.h"
