@@ -178,7 +178,7 @@ void drawErrorTip(const Theme& theme, const Rect& figures, const std::vector<std
     const glm::vec2 size(width + 22 * s, static_cast<float>(lines.size()) * line + 12 * s);
     const glm::vec2 corner(figures.min.x + kMargin * s, figures.min.y - size.y - 4 * s);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled(im(corner), im(corner + size), faded(kPanel, 0.92f), 5 * s);
+    list.AddRectFilled(im(corner), im(corner + size), faded(kPanel, 0.97f), 5 * s);
     list.AddRect(im(corner), im(corner + size), kLine, 5 * s);
     glm::vec2 place = corner + glm::vec2(11 * s, 6 * s + 0.5f * line);
     for (const std::string& each : lines) {
