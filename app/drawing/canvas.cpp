@@ -200,7 +200,7 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
     report.counts = pointCounts(screen->explorer, *screen->sorted);
     report.stride = stride;
     report.drawn = drawnSplats(scene.layers, stride);
-    if (scene.cells) report.cells = drawnCells(scene.layers);
+    if (scene.cells && byCells) report.cells = drawnCells(scene.layers);
     report.lacksCells = lacksCells(scene);
     report.whole = stride == 1 && report.uploaded == 1 && !report.lacksCells;
 }

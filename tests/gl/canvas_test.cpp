@@ -143,6 +143,7 @@ TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLo
             report_ = canvas_.refine(
                 world_.shown(), views, {.splats = 2'000},
                 [&](std::size_t, const render::Targets& light) { refined = light.readLight(); });
+            EXPECT_EQ(report_.cells.has_value(), report_.whole) << "until then points are shown";
         } while (!report_.whole && ++calls < 1000);
         EXPECT_GT(calls, 1);
         EXPECT_EQ(refined, cells);
