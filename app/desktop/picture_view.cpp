@@ -113,12 +113,8 @@ void PictureView::tellError() {
 // Steps of a series and views of a step are alike enough for the figure that is told.
 void PictureView::predictError() {
     measured_ = false;
-    performance_.error = {};
-    performance_.errors = {};
-    if (!errors_ || errorsOf_ != selectionOf(drawn_->explorer)) return;
-    const Rung drawn{report_.cells ? Model::Cells : Model::Points, report_.stride};
-    performance_.error = errors_->of(drawn);
-    performance_.errors = errors_;
+    performance_.errors =
+        errorsOf_ == selectionOf(drawn_->explorer) ? errors_ : std::optional<DepthErrors>();
 }
 
 void PictureView::took(std::chrono::nanoseconds frame) {

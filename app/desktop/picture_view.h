@@ -43,7 +43,7 @@ class PictureView {
     const panels::Performance& performance() const { return performance_; }
     // Of the picture of what is shown, where it is drawn whole and its error is known.
     std::optional<double> errorOf(const Shown& shown) const {
-        return isCurrent(shown) && measured_ ? performance_.error : std::nullopt;
+        return isCurrent(shown) && measured_ ? performance_.error() : std::nullopt;
     }
     const glm::dmat3& boxHalfEdges() const { return boxHalfEdges_; }
     std::optional<render::View> eye() const {  // where there is one

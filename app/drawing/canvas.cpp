@@ -12,6 +12,7 @@
 #include "render/gl/gpu_timer.h"
 #include "render/model/splat_cost.h"
 #include "render/reference/cell_pick.h"
+#include "render/splat/cell_pieces.h"
 
 namespace app {
 namespace {
@@ -19,12 +20,6 @@ namespace {
 std::uint64_t drawnSplats(const std::vector<render::Layer>& layers, std::uint32_t stride) {
     std::uint64_t sum = 0;
     for (const render::Layer& layer : layers) sum += render::splatCount(layer, stride);
-    return sum;
-}
-
-std::uint64_t drawnCells(const std::vector<render::Layer>& layers) {
-    std::uint64_t sum = 0;
-    for (const render::Layer& layer : layers) sum += render::cellCount(layer);
     return sum;
 }
 
@@ -200,7 +195,7 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
     report.counts = pointCounts(screen->explorer, *screen->sorted);
     report.stride = stride;
     report.drawn = drawnSplats(scene.layers, stride);
-    if (scene.cells && byCells) report.cells = drawnCells(scene.layers);
+    if (scene.cells && byCells) report.cells = cellCount(scene, render::Channels::Over, 0);
     report.lacksCells = lacksCells(scene);
     report.whole = stride == 1 && report.uploaded == 1 && !report.lacksCells;
 }

@@ -26,9 +26,11 @@ struct Performance {
     std::chrono::nanoseconds frame{0}, budget{0};
     CanvasReport report = {};
     std::uint64_t picture = 0;  // another number, another picture
-    // Of it, once that is known, or about as much, and of other ways to draw its selection.
-    std::optional<double> error = {};
+    // Of ways to draw its selection, once they are known, also of another view or step.
     std::optional<DepthErrors> errors = {};
+
+    Rung drawn() const { return {report.cells ? Model::Cells : Model::Points, report.stride}; }
+    std::optional<double> error() const { return errors ? errors->of(drawn()) : std::nullopt; }
 };
 
 // What the user chose of the interface itself: no part of a picture, not undone.

@@ -142,7 +142,7 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
                                    .allSplats = r.selected,
                                    .points = counts.inClipBox ? r.selected : counts.selected}) +
                         clipping);
-    if (const std::string error = depthErrorText(p.error); !error.empty())
+    if (const std::string error = depthErrorText(p.error()); !error.empty())
         lines.back() += "  ·  " + error;
     lines.push_back(fmt::format(
         "{} selected{}  ·  {}{}", withCommas(counts.selected),
@@ -161,11 +161,9 @@ std::vector<std::string> errorLines(const Performance& p) {
     std::vector<std::string> lines;
     if (!p.errors || p.errors->rungs.empty()) return lines;
     lines.emplace_back("Error of optical depth, against the field between its points:");
-    const CanvasReport& r = p.report;
-    const Rung drawn{r.cells ? Model::Cells : Model::Points, r.stride};
     for (const auto& [rung, error] : p.errors->rungs)
         lines.push_back(fmt::format("{}  {}{}", shareText(error), rungText(rung),
-                                    rung == drawn ? ", as drawn" : ""));
+                                    rung == p.drawn() ? ", as drawn" : ""));
     return lines;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -18,6 +17,7 @@ namespace {
 struct Passed {
     Met met;
     glm::uvec3 cell;
+    glm::dvec3 place;  // of its middle, in the cell
 };
 
 // W of a piece of the way that is so long, in units of l, and along which the field goes from one
@@ -45,7 +45,6 @@ class Ray {
                                  IntervalCells::Look::WhenAsked);
     }
 
-    glm::dvec3 at(double depth) const { return rays_.eye + depth * along_; }
     std::vector<Passed> passed() const {
         std::vector<Passed> all;
         walk_(rays_.eye, along_, rays_.near, [&](const glm::uvec3& cell, double from, double to) {
@@ -55,6 +54,7 @@ class Ray {
     }
 
  private:
+    glm::dvec3 at(double depth) const { return rays_.eye + depth * along_; }
     void pass(const glm::uvec3& cell, double from, double to, std::size_t layer,
               std::vector<Passed>& into) const {
         const IntervalCells& cells = layers_[layer];
@@ -73,7 +73,8 @@ class Ray {
                          value(part.from), value(part.to));
             into.push_back({{layer, from + middle * (to - from),
                              opticalDepthPerWeight(of.style.opacity) * weight, value(middle)},
-                            cell});
+                            cell,
+                            glm::mix(a, b, middle)});
         }
     }
 
@@ -85,24 +86,14 @@ class Ray {
     std::vector<IntervalCells> layers_;
 };
 
-// The corner of the cell that is nearest to the place, of those that are there.
-std::uint32_t nearestCorner(const Scene& scene, const glm::uvec3& cell, const glm::dvec3& place) {
-    const auto values = scene.cells->corners(cell);
-    const glm::uvec3 size = scene.placed.size();
-    std::uint32_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (unsigned c = 0; c < 8; ++c) {
-        const glm::uvec3 at = scene.cells->pointAt(cell, c);
-        if (std::isnan(values[c]) || !scene.clip.holds(at)) continue;
-        const std::uint32_t index = at.x + size.x * (at.y + size.y * at.z);
-        const glm::dvec3 apart =
-            scene.placed.worldFromAxes() * (scene.placed.alongAxes(index) - place);
-        if (const double d = glm::dot(apart, apart); d < least) {
-            least = d;
-            nearest = index;
-        }
-    }
-    return nearest;
+// The corner whose octant of the cell holds a place in it, [0, 1]: it is there, for what is nearest
+// to a point that is not is seen by nobody.
+std::uint32_t cornerAt(const Scene& scene, const glm::uvec3& cell, const glm::dvec3& place) {
+    unsigned corner = 0;
+    for (int a = 0; a < 3; ++a)
+        if (place[a] > 0.5) corner |= 1u << a;
+    const glm::uvec3 at = scene.cells->pointAt(cell, corner), size = scene.placed.size();
+    return at.x + size.x * (at.y + size.y * at.z);
 }
 
 timeseries::Number valueAt(const timeseries::Field& field, std::uint32_t index) {
@@ -120,8 +111,8 @@ std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::
     for (const Passed& p : passed) met.push_back(p.met);
     const auto half = atHalfOfLight(scene, met);
     if (!half) return std::nullopt;
-    const auto& [seen, cell] = passed[*half];
-    const std::uint32_t at = nearestCorner(scene, cell, ray.at(seen.depth));
+    const auto& [seen, cell, place] = passed[*half];
+    const std::uint32_t at = cornerAt(scene, cell, place);
     return Picked{.layer = seen.layer,
                   .gridIndex = at,
                   .value = valueAt(scene.cells->field(), at),

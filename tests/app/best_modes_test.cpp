@@ -57,7 +57,6 @@ TEST(BestModes, AreToldOfWhereErrorsAreNothing) {
     EXPECT_TRUE(mostAccurateWithin({}).empty());
 }
 
-// The soonest is too slow for the least limits only where it has no error below them.
 TEST(BestModes, AreToldToPeopleAndPrograms) {
     const std::vector modes = {mode(0.003, 0.3), mode(0.015, 0.03)};
     EXPECT_THAT(bestTable(modes), HasSubstr("within a time a frame:\n  5 ms     points"));

@@ -11,12 +11,12 @@ what else runs is in the figures. The parts: index stages draw cells vtk window 
 import datetime
 import json
 import os
-import pathlib
 import re
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from pages import ROOT, commit, processor, table
+
 KEPT = ROOT / "build/results"
 BENCH = ROOT / "build/release/tests/bench/isochron_bench"
 # What each part runs; all but window and headset are filters of isochron_bench.
@@ -45,13 +45,8 @@ def build():
           "build release isochron_bench ui_bench")
 
 
-def commit():
-    changed = said("git status --porcelain -- . ':!tests/bench/RESULTS.md' ':!tests/bench/NOTES.md'").strip()
-    return said("git rev-parse --short HEAD").strip() + (" and changes" if changed else "")
-
-
 def measure(part):
-    about = {"commit": commit(), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
+    about = {"commit": commit("tests/bench/RESULTS.md", "tests/bench/NOTES.md"), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
     print(f"{part} ...", file=sys.stderr)
     if part == "window":
         figures = said("build/release/tests/ui/ui_bench")
@@ -117,12 +112,6 @@ def ms(figure, counter):
 
 def points(n):
     return f"{n}³"
-
-
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
-    return "\n".join(lines) + "\n"
 
 
 TARGETS = []
@@ -329,7 +318,7 @@ def page():
         if part.there:
             body += f"\n# {title}\n\n{part.line()}\n{write(part)}"
             driver = driver or part.label
-    cpu = said("sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1").strip()
+    cpu = processor()
     memory = int(said("sed -n 's/^MemTotal: *\\([0-9]*\\).*/\\1/p' /proc/meminfo")) // 2**20
     system = said("sed -n 's/^PRETTY_NAME=\"\\(.*\\)\"/\\1/p' /etc/os-release").strip()
     compiler = said("g++ --version | head -n 1").strip()

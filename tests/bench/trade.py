@@ -12,10 +12,10 @@ import datetime
 import json
 import os
 import pathlib
-import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from pages import ROOT, commit, processor, said, table
+
 KEPT = ROOT / "build/trade"
 PROGRAM = ROOT / "build/release/app/isochron"
 DATA = pathlib.Path(os.environ.get("ISOCHRON_SHARED", ROOT.parent / "shared")) / "datasets"
@@ -32,23 +32,15 @@ SCENES = {
 }
 
 
-def said(command):
-    return subprocess.run(command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
-
-
-def commit():
-    changed = said(["git", "status", "--porcelain", "--", ".", ":!tests/bench/TRADE.md"]).strip()
-    return said(["git", "rev-parse", "--short", "HEAD"]).strip() + (" and changes" if changed else "")
-
-
 def measure(name):
     file, _, options = SCENES[name]
     if not (DATA / file).exists():
         print(f"{name}: {file} is not there", file=sys.stderr)
         return
     print(f"{name} ...", file=sys.stderr)
-    about = {"commit": commit(), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
-    figures = json.loads(said([PROGRAM, "measure", DATA / file, *options, "--size", "600x600", "--json"]))
+    about = {"commit": commit("tests/bench/TRADE.md"), "date": datetime.date.today().isoformat(),
+             "load": os.getloadavg()[0]}
+    figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--size", "600x600", "--json"))
     KEPT.mkdir(parents=True, exist_ok=True)
     (KEPT / f"{name}.json").write_text(json.dumps({"about": about, "figures": figures}, indent=1))
 
@@ -62,12 +54,6 @@ def time(seconds):
     if seconds >= 1:
         return f"{seconds:.3g} s"
     return f"{1e3 * seconds:.3g} ms" if seconds >= 1e-3 else f"{1e6 * seconds:.3g} µs"
-
-
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
-    return "\n".join(lines) + "\n"
 
 
 def mass(mode):
@@ -150,7 +136,7 @@ def page():
     if not scenes:
         sys.exit("nothing was measured yet")
     first = scenes[0][1]["figures"]
-    cpu = said(["sed", "-n", "0,/^model name/s/^model name[^:]*: *//p", "/proc/cpuinfo"]).strip()
+    cpu = processor()
     text = f"""# Speed against accuracy
 
 `tests/bench/trade.py` makes this page by `isochron measure`. {cpu}, {first['threads']} threads; no GPU has been measured.

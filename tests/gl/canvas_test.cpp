@@ -1,21 +1,19 @@
 // What a window draws: the same pictures as files, in time.
-#include "app/drawing/canvas.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "app/choices/camera.h"
 #include "app/choices/session.h"
+#include "app/drawing/canvas.h"
 #include "app/files/picture_files.h"
 #include "app/picture/still.h"
-#include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
 #include "render/model/splat_cost.h"
 #include "render/reference/image_compare.h"
-#include "render/splat/gl_cells.h"
+#include "tests/support/canvas_of_noise.h"
 #include "tests/support/files.h"
 #include "tests/support/shown_steps.h"
 
@@ -24,36 +22,7 @@ namespace {
 
 using render::Image;
 using timeseries::RangeSet;
-
-class CanvasOfNoise : public testing::Test {
- protected:
-    std::vector<Image> draw(const Shown& shown, const CanvasLimits& limits = {},
-                            bool moving = false) {
-        std::vector<Image> eyes;
-        const auto views = canvas_.eyesOf(shown);
-        report_ = canvas_.draw(shown, views, limits, moving,
-                               [&](std::size_t eye, const render::Targets& light) {
-                                   EXPECT_EQ(eye, eyes.size());
-                                   eyes.push_back(light.readLight());
-                               });
-        render::gl::throwOnError();
-        return eyes;
-    }
-    // As `isochron render` makes it: a renderer and a step on the GPU that have seen nothing else.
-    void drawApart(const Shown& shown, const std::filesystem::path& file) {
-        render::FrameRenderer renderer(render::SplatterChoice::Gl);
-        const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
-        render::GpuStep onGpu(*shown.sorted, placed);
-        writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed, 0},
-                   renderer, onGpu, {}, file);
-    }
-
-    render::gl::HeadlessContext context_;
-    tests::ShownSteps world_{20};
-    Canvas canvas_{render::SplatterChoice::Gl};
-    CanvasReport report_;
-    const std::uint64_t stepBytes_ = world_.steps[0]->size() * 10;  // points and values
-};
+using namespace app::canvas_of_noise;
 
 TEST_F(CanvasOfNoise, AtRestAllPointsAreDrawnForEveryEye) {
     for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
@@ -120,95 +89,12 @@ TEST_F(CanvasOfNoise, MovingKeepsToTheLimitOfAllEyesAndRestsWhole) {
     }
 }
 
-TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLong) {
-    const Image points = draw(world_.shown())[0];
-    world_.explorer.model = Model::Cells;
-    for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
-        world_.explorer.order = order;
-        const Image cells = draw(world_.shown())[0];
-        EXPECT_TRUE(report_.whole);
-        EXPECT_NE(cells, points);
-        EXPECT_EQ(draw(world_.shown(), {.splats = 100'000'000}, true)[0], cells);
-        EXPECT_TRUE(report_.whole);
-        EXPECT_GT(report_.cells, 0u);
-        EXPECT_NE(draw(world_.shown(), {.splats = 2'000}, true)[0], cells);
-        EXPECT_FALSE(report_.whole);
-        EXPECT_FALSE(report_.cells) << "but points";
-        EXPECT_GT(report_.stride, 1u) << "of points";
-        // In slices.
-        Image refined;
-        int calls = 0;
-        do {
-            const auto views = canvas_.eyesOf(world_.shown());
-            report_ = canvas_.refine(
-                world_.shown(), views, {.splats = 2'000},
-                [&](std::size_t, const render::Targets& light) { refined = light.readLight(); });
-            EXPECT_EQ(report_.cells.has_value(), report_.whole) << "until then points are shown";
-        } while (!report_.whole && ++calls < 1000);
-        EXPECT_GT(calls, 1);
-        EXPECT_EQ(refined, cells);
-    }
-}
-
-// Of a step of which no points were drawn before.
-TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
-    world_.explorer.model = Model::Cells;
-    world_.explorer.order = render::Order::None;
-    const Image image = draw(world_.shown(), {.splats = 2'000}, true)[0];
-    EXPECT_TRUE(report_.lacksCells);
-    EXPECT_GT(report_.stride, 1u);
-    world_.explorer.model = Model::Points;
-    EXPECT_EQ(render::comparePictures(draw(world_.shown(), {.splats = 2'000}, true)[0], image)
-                  .maxAbsolute,
-              0)
-        << "but for what the legend says";
-}
-
-// Points stand for them until then; afterwards the picture is the one that files have.
-TEST_F(CanvasOfNoise, CellsOfALargeStepComeLater) {
-    world_ = tests::ShownSteps(102, 1);
-    world_.explorer.model = Model::Cells;
-    world_.explorer.layers = {
-        tests::ShownSteps::layer("0.5:0.501", app::MapChoice{{}, 0.5, 0.501})};
-    Canvas canvas(render::SplatterChoice::Cpu);
-    const auto views = canvas.eyesOf(world_.shown());
-    Image image;
-    CanvasReport report;
-    const auto draw = [&] {
-        report = canvas.draw(
-            world_.shown(), views, {}, false,
-            [&](std::size_t, const render::Targets& light) { image = light.readLight(); });
-    };
-    draw();
-    EXPECT_TRUE(report.lacksCells);
-    EXPECT_FALSE(report.whole);
-    const Image points = image;
-    world_.steps[0]->cells();  // waits for whoever makes them
-    draw();
-    EXPECT_TRUE(report.whole);
-    EXPECT_NE(image, points);
-    const auto file = tests::freshFolder() / "saved.exr";
-    canvas.save(world_.shown(), file);
-    EXPECT_EQ(render::readExr(file).views[0].image, image) << "the legend's words, too";
-}
-
 TEST_F(CanvasOfNoise, MovingBelowTheLimitDrawsAll) {
     const Image resting = draw(world_.shown())[0];
     EXPECT_EQ(draw(world_.shown(), {.splats = 100 * report_.selected}, true)[0], resting);
     EXPECT_EQ(report_.stride, 1u);
     EXPECT_TRUE(report_.whole);
 }
-
-// Noise on 64^3 points: eight blocks on the GPU, block b of the values [b / 8, (b + 1) / 8), near
-// enough.
-class CanvasOfBlocks : public CanvasOfNoise {
- protected:
-    CanvasOfBlocks() {
-        world_ = tests::ShownSteps(64);
-        world_.explorer.order = render::Order::None;  // in order lists bring their own points
-    }
-    static constexpr std::uint64_t kBlockBytes = render::GpuStep::kBlock * 10;
-};
 
 TEST_F(CanvasOfBlocks, AStepComesInSlicesAndTheOneBeforeStays) {
     // 0.1 to 0.4 and 0.8 to 0.9 touch blocks 0 to 3, 6 and 7.
@@ -240,28 +126,6 @@ TEST_F(CanvasOfBlocks, AStepComesInSlicesAndTheOneBeforeStays) {
     EXPECT_EQ(draw(world_.shown(0), limits), first[2]);
     EXPECT_TRUE(report_.whole);
     EXPECT_EQ(report_.gpuBytes / (8 * kBlockBytes), 2u);
-}
-
-// The step before stays until then, or its cells would be drawn over the limit.
-TEST_F(CanvasOfBlocks, AMovingStepWhoseCellsAreTooManyWaitsForItsPoints) {
-    world_ = tests::ShownSteps(64, 3);
-    world_.explorer.order = render::Order::None;
-    world_.explorer.model = Model::Cells;
-    for (const auto& step : world_.steps) step->cells();
-    draw(world_.shown(0));
-    const CanvasLimits limits{.splats = 2'000, .uploadBytes = 64};
-    draw(world_.shown(1), limits, true);
-    EXPECT_EQ(report_.step, 0u);
-    EXPECT_LT(report_.uploaded, 1);
-    for (int calls = 0; report_.step == 0 && calls < 10'000; ++calls)
-        draw(world_.shown(1), limits, true);
-    EXPECT_EQ(report_.step, 1u);
-    EXPECT_FALSE(report_.cells);
-    EXPECT_GT(report_.stride, 1u);
-    // With room for them nothing waits.
-    draw(world_.shown(2), {.splats = 100'000'000, .uploadBytes = 64}, true);
-    EXPECT_EQ(report_.step, 2u);
-    EXPECT_TRUE(report_.cells);
 }
 
 TEST_F(CanvasOfBlocks, AnotherSelectionOfTheStepOnTheScreenComesInSlicesOfEightfoldSize) {
@@ -402,22 +266,6 @@ TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {
     EXPECT_FALSE(swept->layer);
 }
 
-// What was shown last is asked: cells, or the points that stood for them.
-TEST_F(CanvasOfNoise, ProbesTellWhatIsSeenBetweenPointsWhereCellsAre) {
-    world_.explorer.model = Model::Cells;
-    draw(world_.shown());
-    const auto view = canvas_.eyesOf(world_.shown())[0];
-    const auto cell = canvas_.probe(view, {100, 75});
-    ASSERT_TRUE(cell);
-    ASSERT_TRUE(cell->layer && cell->picked.between);
-    const double seen = *cell->picked.between;
-    EXPECT_TRUE(*cell->layer == 0 ? 0.1 <= seen && seen <= 0.4 : 0.8 <= seen && seen <= 0.9);
-    draw(world_.shown(), {.cells = 1}, true);
-    const auto point = canvas_.probe(view, {100, 75});
-    ASSERT_TRUE(point);
-    EXPECT_FALSE(point->picked.between);
-}
-
 TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
     world_.explorer.footprint.size = 0.1;  // so that each counts as one
     bool timed = false;
@@ -439,28 +287,6 @@ TEST_F(CanvasOfNoise, TimesComeSomeFramesLaterForTheSplatsTheyAreOf) {
     EXPECT_TRUE(timed);
     EXPECT_EQ(report_.gpuSplats, report_.cost);
     EXPECT_NE(report_.cost, report_.drawn);
-}
-
-TEST_F(CanvasOfNoise, CellsOnTheGpuCount) {
-    world_.explorer.order = render::Order::None;
-    for (int i = 0; i < 2; ++i) draw(world_.shown());
-    const std::uint64_t points = report_.gpuBytes;
-    world_.explorer.model = Model::Cells;
-    for (int i = 0; i < 2; ++i) draw(world_.shown());
-    ASSERT_TRUE(report_.cells);
-    // Not every cell that is looked at reaches into its range.
-    EXPECT_GT(report_.gpuBytes, points + *report_.cells * sizeof(render::GlCell) / 2);
-    EXPECT_LT(report_.gpuBytes, points + *report_.cells * sizeof(render::GlCell) * 2);
-}
-
-TEST_F(CanvasOfNoise, CellsHaveALimitOfTheirOwn) {
-    world_.explorer.model = Model::Cells;
-    draw(world_.shown());
-    draw(world_.shown(), {.splats = 100'000'000, .cells = 2'000}, true);
-    EXPECT_TRUE(report_.lacksCells);
-    EXPECT_EQ(report_.stride, 1u);
-    draw(world_.shown(), {.splats = 2'000, .cells = 100'000'000}, true);
-    EXPECT_FALSE(report_.lacksCells);
 }
 
 // Saving from a window that has drawn other things before, against a render that has not.

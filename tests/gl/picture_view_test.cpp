@@ -35,24 +35,25 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
     draw(true);
     EXPECT_FALSE(view.untilNextDraw());
     const auto end = std::chrono::steady_clock::now() + 60s;
-    while (!view.performance().error && std::chrono::steady_clock::now() < end) draw(false);
-    ASSERT_TRUE(view.performance().error);
-    EXPECT_GT(*view.performance().error, 0);
+    while (!view.performance().error() && std::chrono::steady_clock::now() < end) draw(false);
+    ASSERT_TRUE(view.performance().error());
+    EXPECT_GT(*view.performance().error(), 0);
     EXPECT_FALSE(view.untilNextDraw());
-    const double measured = *view.performance().error;
+    const double measured = *view.performance().error();
     EXPECT_EQ(view.errorOf(world.shown()), measured);
     // While it moves: what was told of such a subset.
     const DepthErrors told = *view.performance().errors;
     world.explorer.view.azimuthDegrees += 5;
     draw(true);
     ASSERT_GT(view.performance().report.stride, 1u);
-    EXPECT_EQ(view.performance().error, told.of({Model::Points, view.performance().report.stride}));
-    EXPECT_GT(view.performance().error, measured);
+    EXPECT_EQ(view.performance().error(),
+              told.of({Model::Points, view.performance().report.stride}));
+    EXPECT_GT(view.performance().error(), measured);
     EXPECT_FALSE(view.errorOf(world.shown())) << "it was not measured";
     // Of another selection nothing is known.
     world.explorer.layers[0].ranges = timeseries::RangeSet::parse("0.2:0.3");
     draw(true);
-    EXPECT_FALSE(view.performance().error);
+    EXPECT_FALSE(view.performance().error());
 }
 
 }  // namespace

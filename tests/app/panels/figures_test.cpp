@@ -67,7 +67,7 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
                                       {0.0041, "7 points drawn  ·  error about 0.4 %"},
                                       {0.123, "7 points drawn  ·  error about 12 %"},
                                       {kNan, "7 points drawn"}}) {
-        p.error = error;
+        p.errors = DepthErrors{{{{Model::Points}, error}}};
         EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(), text);
     }
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Draws value ranges with isochron and with VTK's ray caster on the processor: beside_vtk_*.png and their README section.
 
-    xvfb-run -a app/gallery/beside_vtk.py FOLDER          draws and measures (two minutes), writes the section
-    xvfb-run -a app/gallery/beside_vtk.py FOLDER tooth    these scenes again; the others stay as last measured
-    app/gallery/beside_vtk.py --page                      writes the section from what was last measured
+    xvfb-run -a tests/bench/beside_vtk.py FOLDER          draws and measures (two minutes), writes the section
+    xvfb-run -a tests/bench/beside_vtk.py FOLDER tooth    these scenes again; the others stay as last measured
+    tests/bench/beside_vtk.py --page                      writes the section from what was last measured
 
 FOLDER has the data that the project does not ship; what is not there is left out. What was measured stays in
 build/beside_vtk, and pictures with both on top of each other and VTK's outline of the box, to see that their
@@ -15,7 +15,6 @@ import json
 import os
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
@@ -37,7 +36,8 @@ from vtkmodules.vtkRenderingVolume import vtkFixedPointVolumeRayCastMapper
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws for vtkRenderWindow
 import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401, shows what was cast
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from pages import ROOT, commit, processor, said, table
+
 GALLERY = ROOT / "app/gallery"
 README = GALLERY / "README.md"
 KEPT = ROOT / "build/beside_vtk"
@@ -62,15 +62,6 @@ SCENES = {
 }
 
 
-def said(command):
-    return subprocess.run(command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
-
-
-def commit():
-    changed = said(["git", "status", "--porcelain", "--", ".", ":!app/gallery"]).strip()
-    return said(["git", "rev-parse", "--short", "HEAD"]).strip() + (" and changes" if changed else "")
-
-
 class Scene:
     def __init__(self, name, folder):
         file, self.step, self.title, self.range, self.distance, self.color, self.opacity, self.seen = SCENES[name]
@@ -86,7 +77,7 @@ class Scene:
 
 def isochron_picture(scene, folder):
     out = pathlib.Path(folder) / f"{scene.name}.png"
-    said([PROGRAM, "render", *scene.options(), "--model", "cells", "--device", "cpu", "-o", out])
+    said(PROGRAM, "render", *scene.options(), "--model", "cells", "--device", "cpu", "-o", out)
     reader = vtkPNGReader()
     reader.SetFileName(str(out))
     reader.Update()
@@ -95,8 +86,8 @@ def isochron_picture(scene, folder):
 
 def isochron_times(scene):
     """Seconds of a frame, and before the first; by depth where it was drawn so, which a single colour needs not."""
-    figures = json.loads(said([PROGRAM, "measure", *scene.options(), "--frames", str(FRAMES), "--views", "1",
-                               "--rays", "1", "--json"]))
+    figures = json.loads(said(PROGRAM, "measure", *scene.options(), "--frames", str(FRAMES), "--views", "1",
+                               "--rays", "1", "--json"))
     cells = sorted((m for m in figures["modes"] if m["mode"] == "cells"), key=lambda m: m["order"])[0]
     return cells["frame"], cells["before"]
 
@@ -302,7 +293,7 @@ def overlay(one, other, path):
 
 def measure(scene):
     print(f"{scene.name} ...", file=sys.stderr)
-    about = {"commit": commit(), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
+    about = {"commit": commit("app/gallery"), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
     image = in_world(read(scene))
     with tempfile.TemporaryDirectory() as folder:
         ours = isochron_picture(scene, folder)
@@ -329,14 +320,8 @@ def span(values):
     return f"{ms(min(values))} to {ms(max(values))} ms"
 
 
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
-    return "\n".join(lines) + "\n"
-
-
 def section(measured):
-    cpu = said(["sed", "-n", "0,/^model name/s/^model name[^:]*: *//p", "/proc/cpuinfo"]).strip()
+    cpu = processor()
     abouts = [data["about"] for _, data in measured]
     dates = ", ".join(sorted({f"commit {a['commit']}, {a['date']}" for a in abouts}))
     loads = " ".join(f"{a['load']:.1f}" for a in abouts)
@@ -352,7 +337,7 @@ def section(measured):
     head = ["scene", "isochron, ms", "VTK default, ms", "VTK fine, ms", "what is seen"]
     return f"""## Beside VTK's ray caster
 
-`xvfb-run -a app/gallery/beside_vtk.py FOLDER` makes this section: left isochron, right VTK {vtkVersion.GetVTKVersion()} by
+`xvfb-run -a tests/bench/beside_vtk.py FOLDER` makes this section: left isochron, right VTK {vtkVersion.GetVTKVersion()} by
 `vtkFixedPointVolumeRayCastMapper`, both on the processor by {THREADS} threads, {PIXELS} x {PIXELS} pixels, from the same camera.
 *{cpu}, {dates}, load {loads} at the start of each.*
 

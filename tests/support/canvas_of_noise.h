@@ -1,0 +1,57 @@
+// A canvas that draws noise by GL, for tests of what a window shows.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "app/drawing/canvas.h"
+#include "app/picture/still.h"
+#include "render/gl/debug_output.h"
+#include "render/gl/headless_context.h"
+#include "tests/support/shown_steps.h"
+
+namespace app::canvas_of_noise {
+
+using render::Image;
+
+class CanvasOfNoise : public testing::Test {
+ protected:
+    std::vector<Image> draw(const Shown& shown, const CanvasLimits& limits = {},
+                            bool moving = false) {
+        std::vector<Image> eyes;
+        const auto views = canvas_.eyesOf(shown);
+        report_ = canvas_.draw(shown, views, limits, moving,
+                               [&](std::size_t eye, const render::Targets& light) {
+                                   EXPECT_EQ(eye, eyes.size());
+                                   eyes.push_back(light.readLight());
+                               });
+        render::gl::throwOnError();
+        return eyes;
+    }
+    // As `isochron render` makes it: a renderer and a step on the GPU that have seen nothing else.
+    void drawApart(const Shown& shown, const std::filesystem::path& file) {
+        render::FrameRenderer renderer(render::SplatterChoice::Gl);
+        const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
+        render::GpuStep onGpu(*shown.sorted, placed);
+        writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed, 0},
+                   renderer, onGpu, {}, file);
+    }
+
+    render::gl::HeadlessContext context_;
+    tests::ShownSteps world_{20};
+    Canvas canvas_{render::SplatterChoice::Gl};
+    CanvasReport report_;
+    const std::uint64_t stepBytes_ = world_.steps[0]->size() * 10;  // points and values
+};
+
+// Noise on 64^3 points: eight blocks on the GPU, block b of the values [b / 8, (b + 1) / 8), near
+// enough.
+class CanvasOfBlocks : public CanvasOfNoise {
+ protected:
+    CanvasOfBlocks() {
+        world_ = tests::ShownSteps(64);
+        world_.explorer.order = render::Order::None;  // in order lists bring their own points
+    }
+    static constexpr std::uint64_t kBlockBytes = render::GpuStep::kBlock * 10;
+};
+
+}  // namespace app::canvas_of_noise
