@@ -19,6 +19,7 @@ using timeseries::Axis;
 using timeseries::Variable;
 
 std::string kindOf(const timeseries::Grid& grid) {
+    if (grid.mesh()) return "curvilinear";
     for (const Axis& axis : grid.axes())
         if (axis.units == "index") return "index space";
     const std::string spacing = grid.uniform() ? "uniform" : "rectilinear";
@@ -39,6 +40,15 @@ ordered_json frameJson(const timeseries::Frame& frame) {
         out["directions"].push_back({d.x, d.y, d.z});
     }
     return out;
+}
+
+// Of a mesh: a coordinate of space, along which its points lie one by one.
+ordered_json coordinateJson(const Axis& axis) {
+    return {{"name", axis.name},
+            {"units", axis.units},
+            {"least", axis.coordinates.front()},
+            {"most", axis.coordinates.back()},
+            {"down", axis.down}};
 }
 
 ordered_json axisJson(const Axis& axis) {
@@ -65,7 +75,12 @@ ordered_json variableJson(const Variable& v) {
                      {"categories", v.categories},
                      {"notes", v.notes}};
     out["grid"] = {{"kind", kindOf(*v.grid)}, {"points", v.grid->count()}};
-    for (const Axis& axis : v.grid->axes()) out["grid"]["axes"].push_back(axisJson(axis));
+    for (const Axis& axis : v.grid->axes())
+        if (v.grid->mesh())
+            out["grid"]["coordinates"].push_back(coordinateJson(axis));
+        else
+            out["grid"]["axes"].push_back(axisJson(axis));
+    if (v.grid->mesh()) out["grid"]["size"] = v.grid->size();
     if (!v.grid->frame().aligned()) out["grid"]["space"] = frameJson(v.grid->frame());
     out["time"] = {
         {"name", v.time->name}, {"units", v.time->units}, {"calendar", v.time->calendar}};
@@ -74,9 +89,12 @@ ordered_json variableJson(const Variable& v) {
     return out;
 }
 
-std::string axisText(const Axis& axis) {
+std::string axisText(const Axis& axis, bool ofMesh) {
     const auto& c = axis.coordinates;
     const std::string unit = axis.units.empty() ? "" : " " + axis.units;
+    if (ofMesh)
+        return fmt::format("{}: {:g} to {:g}{}{}", axis.name, c.front(), c.back(), unit,
+                           axis.down ? ", downward" : "");
     if (c.size() == 1) return fmt::format("{}: 1 point at {:g}{}", axis.name, c[0], unit);
     const double spacing = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
     return fmt::format("{}: {} points, {:g} to {:g}{}, {}{}", axis.name, c.size(), c.front(),
@@ -122,7 +140,8 @@ void print(const Variable& v, bool shownFirst) {
     const auto n = v.grid->size();
     say("  grid     {}, {} x {} x {} = {} points\n", kindOf(*v.grid), n[0], n[1], n[2],
         withCommas(v.grid->count()));
-    for (const Axis& axis : v.grid->axes()) say("           {}\n", axisText(axis));
+    for (const Axis& axis : v.grid->axes())
+        say("           {}\n", axisText(axis, v.grid->mesh() != nullptr));
     if (!v.grid->frame().aligned()) say("           {}\n", frameText(v.grid->frame()));
     const std::size_t steps = v.time->points.size();
     if (steps == 1) {

@@ -103,9 +103,7 @@ int measureModes(const MeasureOptions& options) {
     const auto step = data.source->get(index, index);
     if (!step->canHaveCells())
         throw ChoiceError(
-            step->ofCategories()
-                ? "measure needs values between the points: these are categories"
-                : "measure needs the cells between the points: this grid has too many");
+            fmt::format("measure needs the cells between the points: {}", step->whyNoCells()));
     const Subject subject{options, data, *step, index};
     const render::PlacedPoints placed(step->grid(), data.explorer.scale);
     std::vector<Measured> modes;

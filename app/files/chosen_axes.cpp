@@ -15,20 +15,26 @@ using timeseries::Variable;
 
 using Axes = std::array<AxisChoice, 3>;
 
-// Grids by those that they stand for: who shares one before shares one after.
+// Grids by those that they stand for: who shares one before shares one after. But for those of
+// single steps, which are not kept.
 class Grids {
  public:
     explicit Grids(const Axes& chosen) : chosen_(chosen) {}
 
-    std::shared_ptr<const Grid> of(const std::shared_ptr<const Grid>& file) {
-        auto& grid = made_[file];
+    std::shared_ptr<const Grid> kept(const std::shared_ptr<const Grid>& file) {
+        return made_[file] = of(file);
+    }
+    std::shared_ptr<const Grid> of(const std::shared_ptr<const Grid>& file) const {
+        const auto known = made_.find(file);
+        std::shared_ptr<const Grid> grid = known == made_.end() ? nullptr : known->second;
         if (!grid) {
             std::array<timeseries::Axis, 3> axes = file->axes();
             for (std::size_t a = 0; a < 3; ++a) {
                 axes[a].down = axes[a].down != chosen_[a].flip;
                 if (!chosen_[a].name.empty()) axes[a].name = chosen_[a].name;
             }
-            grid = std::make_shared<const Grid>(std::move(axes), file->frame());
+            grid = file->mesh() ? std::make_shared<const Grid>(std::move(axes), file->mesh())
+                                : std::make_shared<const Grid>(std::move(axes), file->frame());
         }
         return grid;
     }
@@ -44,7 +50,7 @@ class AxesReader : public Reader {
         : file_(std::move(file)), grids_(chosen) {
         const auto all = file_->variables();
         variables_.assign(all.begin(), all.end());
-        for (Variable& each : variables_) each.grid = grids_.of(each.grid);
+        for (Variable& each : variables_) each.grid = grids_.kept(each.grid);
     }
     std::string format() const override { return file_->format(); }
     std::span<const std::filesystem::path> files() const override { return file_->files(); }

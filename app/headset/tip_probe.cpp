@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 
@@ -21,6 +22,45 @@ std::size_t nearest(const std::vector<double>& positions, double place) {
     if (at == positions.end() || std::abs(place - at[-1]) <= std::abs(*at - place))
         return static_cast<std::size_t>(at - positions.begin()) - 1;
     return static_cast<std::size_t>(at - positions.begin());
+}
+
+// By steps from neighbour to neighbour, each nearer, from the nearest of a few that are spread over
+// the mesh. None where what is found is farther off than any cell reaches.
+std::optional<std::array<std::size_t, 3>> nearestOfMesh(const render::PlacedPoints& placed,
+                                                        const glm::dvec3& place) {
+    constexpr std::uint64_t kSpread = 8;  // indices between those that are looked at first
+    using Index = glm::vec<3, std::uint64_t>;
+    const Index size(placed.size());
+    const auto away = [&](const Index& at) {
+        const double far =
+            glm::distance(placed.alongAxes(at.x + size.x * (at.y + size.y * at.z)), place);
+        return std::isnan(far) ? std::numeric_limits<double>::infinity() : far;
+    };
+    Index best(0);
+    double least = std::numeric_limits<double>::infinity();
+    const auto look = [&](const Index& at) {
+        const double far = away(at);
+        if (!(far < least)) return false;
+        least = far;
+        best = at;
+        return true;
+    };
+    for (std::uint64_t k = 0; k < size.z; k += kSpread)
+        for (std::uint64_t j = 0; j < size.y; j += kSpread)
+            for (std::uint64_t i = 0; i < size.x; i += kSpread) look({i, j, k});
+    for (bool isNearer = true; isNearer;) {
+        isNearer = false;
+        const Index from = best;
+        for (int a = 0; a < 3; ++a)
+            for (const bool up : {false, true}) {
+                Index next = from;
+                if (up ? next[a] + 1 == size[a] : next[a] == 0) continue;
+                next[a] += up ? 1 : -1;
+                isNearer = look(next) || isNearer;
+            }
+    }
+    if (!(least <= placed.widest())) return std::nullopt;
+    return std::array<std::size_t, 3>{best.x, best.y, best.z};
 }
 
 std::optional<std::array<std::size_t, 3>> pointAtTip(const Drawn& drawn,
@@ -53,11 +93,12 @@ std::optional<std::array<std::size_t, 3>> pointAt(const render::PlacedPoints& pl
     for (int a = 0; a < 3; ++a) {
         const auto axis = static_cast<std::size_t>(a);
         const double half = placed.boxHalf()[a];
-        const double reach = half > 0 ? half : 0.5 * placed.widths()[axis][0];
+        const double thin = placed.isMesh() ? placed.widest() : placed.widths()[axis][0];
+        const double reach = half > 0 ? half : 0.5 * thin;
         if (!(std::abs(place[a]) <= reach)) return std::nullopt;
-        index[axis] = nearest(placed.positions()[axis], place[a]);
+        if (!placed.isMesh()) index[axis] = nearest(placed.positions()[axis], place[a]);
     }
-    return index;
+    return placed.isMesh() ? nearestOfMesh(placed, place) : index;
 }
 
 void TipProbe::update(const std::optional<Drawn>& drawn, const xr::Placement& placement,

@@ -77,10 +77,10 @@ void drawQualityPage(Desk& desk, const Rect& at) {
         edit(desk, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
     constexpr std::array kLights = {"Off", "Soft", "Full"};
     constexpr std::array kPers = {"Length", "Crossing"};
-    const bool canHaveCells = desk.exploration.shown()->sorted->canHaveCells();
-    if (e.model == Model::Cells && !canHaveCells)
-        form.note("Of categories and of kept values, points are drawn.");
-    if (e.model == Model::Cells && canHaveCells) {
+    const std::string_view whyNot = desk.exploration.shown()->sorted->whyNoCells();
+    if (e.model == Model::Cells && !whyNot.empty())
+        form.note(fmt::format("Points are drawn: {}.", whyNot));
+    if (e.model == Model::Cells && whyNot.empty()) {
         form.note("Between points, too: a thin range is a closed shell.");
         if (const auto light = segmented(desk.theme, "light", form.row("Light"), kLights,
                                          static_cast<std::size_t>(e.light)))

@@ -10,18 +10,24 @@ namespace {
 
 using timeseries::Run;
 
-// Which points of a grid are inside, without a division by the grid's sizes for each: one product
-// finds the row (along x) that a point is in, and a table says whether that row is in the box.
+// Which points of a grid are inside. Without a mesh, and without a division by the grid's sizes for
+// each: one product finds the row (along x) that a point is in, and a table says whether that row
+// is in the box.
 class Inside {
  public:
     Inside(const timeseries::Grid& grid, const render::IndexBox& box)
-        : width_(grid.size()[0]), perWidth_(1.0 / static_cast<double>(width_)), box_(box) {
+        : mesh_(grid.mesh().get()),
+          width_(grid.size()[0]),
+          perWidth_(1.0 / static_cast<double>(width_)),
+          box_(box) {
+        if (mesh_) return;
         const std::uint64_t ny = grid.size()[1], nz = grid.size()[2];
         rows_.resize(ny * nz);
         for (std::uint64_t z = box.lo.z; z < nz && z <= box.hi.z; ++z)
             for (std::uint64_t y = box.lo.y; y < ny && y <= box.hi.y; ++y) rows_[z * ny + y] = 1;
     }
     bool holds(std::uint32_t index) const {
+        if (mesh_) return box_.holdsPlace(mesh_->position(index));
         // The middle of a point's place: far from where rounding would choose another row.
         const auto row = static_cast<std::uint64_t>((index + 0.5) * perWidth_);
         const std::uint64_t x = index - row * width_;
@@ -29,6 +35,7 @@ class Inside {
     }
 
  private:
+    const timeseries::Mesh* mesh_;
     std::uint64_t width_;
     double perWidth_;
     render::IndexBox box_;

@@ -336,9 +336,7 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
     if (scene.cells && !scene.layers.empty())
         legend.notes.emplace_back(kInterpolated);
     else if (e.model == Model::Cells && !scene.step.canHaveCells())
-        legend.notes.push_back(scene.step.ofCategories()
-                                   ? "drawn by points: nothing lies between categories"
-                                   : "drawn by points: cells need every value kept");
+        legend.notes.push_back(fmt::format("drawn by points: {}", scene.step.whyNoCells()));
     if (e.clip) legend.notes.push_back("drawn inside " + clipText(*e.clip) + " only");
     return legend;
 }

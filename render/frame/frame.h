@@ -60,9 +60,7 @@ class FrameRenderer {
                                    std::span<const View> eyes, const Extras& extras = {});
 
     // Whether drawing takes the scene's points from the GPU: GL sums them, and no cells.
-    bool takesPointsFromGpu(const Scene& scene) const {
-        return by_ == SplatterChoice::Gl && !scene.cells;
-    }
+    bool takesPointsFromGpu(const Scene& scene) const { return byGl(scene) && !scene.cells; }
     // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
     // step that is ready for the scene, if its points are taken from it.
     struct Prepared {
@@ -124,7 +122,8 @@ class FrameRenderer {
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
     // Whether GL sums the scene; else the program does it itself.
     bool byGl(const Scene& scene) const {
-        return by_ == SplatterChoice::Gl && (!scene.cells || GlCells::fit(scene, mostCellBytes_));
+        return by_ == SplatterChoice::Gl && !scene.placed.isMesh() &&
+               (!scene.cells || GlCells::fit(scene, mostCellBytes_));
     }
     Splatter& splatter(const Scene& scene);
     std::unique_ptr<SplatFrame> splatsOf(const Scene& scene, DrawList list, const GpuStep& step);

@@ -21,10 +21,6 @@ Corners corners(const PlacedPoints& placed, const PlacedPoints::Box& box) {
     return at;
 }
 
-PlacedPoints::Box pointsBox(const PlacedPoints& placed) {
-    return {-placed.boxHalf(), placed.boxHalf()};
-}
-
 // How far splats of this radius along the axes, or the least one, reach in pixels, their centres
 // being between the corners.
 double reachOf(double widest, const Corners& centres, const PointsView& view) {
@@ -35,8 +31,8 @@ double reachOf(double widest, const Corners& centres, const PointsView& view) {
         if (-p.z > 0) steepest = std::max(steepest, glm::length(glm::dvec2(p)) / -p.z);
     }
     if (!(nearest > view.rays.near)) return std::numeric_limits<double>::infinity();
-    const double radius =
-        std::max(widest, nearest * view.smallestRadius) * view.lengthening.most / view.rayLength;
+    const double radius = longestSemiAxis(view.placed, widest, nearest * view.smallestRadius) *
+                          view.lengthening.most / view.rayLength;
     const double reach = sphereExtent(nearest, radius, steepest);
     const double focal = std::max(view.rays.focal.x, view.rays.focal.y);
     return reach < 0 ? std::numeric_limits<double>::infinity() : reach * focal;
@@ -46,11 +42,8 @@ double reachOf(double widest, const Corners& centres, const PointsView& view) {
 
 double farthestReach(const Scene& scene, const PointsView& view) {
     if (scene.footprint.kernel == Kernel::Point) return pointSide(scene.footprint) / 2.0;
-    double widest = 0;
-    for (const auto& widths : scene.placed.widths())
-        widest = std::max(widest, *std::ranges::max_element(widths));
-    return reachOf(scene.footprint.size * kQuarticRadius * widest,
-                   corners(scene.placed, pointsBox(scene.placed)), view);
+    return reachOf(scene.footprint.size * kQuarticRadius * scene.placed.widest(),
+                   corners(scene.placed, scene.placed.pointsBox()), view);
 }
 
 PixelBox coveredPixels(const Scene& scene, const View& view) {
@@ -60,7 +53,7 @@ PixelBox coveredPixels(const Scene& scene, const View& view) {
     // beyond the points.
     const bool cut =
         scene.cells || (scene.placed.longCells() && scene.footprint.kernel != Kernel::Point);
-    const Corners at = corners(scene.placed, cut ? seen.domain : pointsBox(scene.placed));
+    const Corners at = corners(scene.placed, cut ? seen.domain : scene.placed.pointsBox());
     // What the rasteriser's rounding may add; a point splat is moved to whole pixels, too.
     const double reach = (cut ? reachOf(0, at, seen) : farthestReach(scene, seen)) + 2;
     if (!std::isfinite(reach)) return whole;

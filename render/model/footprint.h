@@ -14,6 +14,12 @@
 // V, l and the |d| above the line are lengths in the world. V and a1 a2 a3 shrink alike when the
 // axes lean over, so that V / a1 a2 a3 needs the sides of the cell only.
 //
+// A point of a mesh stands for the cell whose sides are the columns of any matrix J. Its ellipsoid
+// is where |L^-1 v| <= 1, L L^T = (s R)^2 J J^T, with the triangular L that has the diagonal a:
+// division by a becomes forward substitution, and a1 a2 a3 is det L. Where such an ellipsoid is
+// thinner than the least radius r, L L^T + g I stands in its place (Zwicker et al., "EWA
+// splatting", 2002), g being what keeps all of its semi-axes at r, or little more.
+//
 // Where cells are much longer than wide (PlacedPoints::longCells) such a splat would reach far out
 // of the domain: there it ends at the faces of the box that the cells fill, which stand half a cell
 // before the outermost points, or the least radius of a splat where that is more. A ray takes what
@@ -237,6 +243,76 @@ glm::vec<3, Real> radii(const PointsView& view, const glm::dvec3& cell,
     return glm::vec<3, Real>(kQuarticRadius * widths);
 }
 
+// A lower triangular matrix of positive diagonal: what the unit sphere is mapped to by it is the
+// ellipsoid of a splat.
+template <typename Real>
+struct LowerTriangle {
+    using Vec3 = glm::vec<3, Real>;
+    Vec3 diagonal{1};
+    Vec3 below{0};  // of the first column in the second row; of both in the third
+    // Solves L x = v.
+    Vec3 solve(const Vec3& v) const {
+        Vec3 x;
+        x.x = v.x / diagonal.x;
+        x.y = (v.y - below.x * x.x) / diagonal.y;
+        x.z = (v.z - below.y * x.x - below.z * x.y) / diagonal.z;
+        return x;
+    }
+};
+
+// What is to be added to all squares of three singular values, so that none is below that of
+// `least`: of which their product and the sum of their squares are known. The smallest square t,
+// as a share of the sum, is a fixed point of t = k / (1 - t)^2 or more, k = 4 product^2 / sum^3,
+// since two numbers' product is at most that of their mean with itself; it is met from below.
+template <typename Real>
+Real growthTo(Real least, Real product, Real sumOfSquares) {
+    const Real perRoot = 1 / std::sqrt(sumOfSquares);
+    const Real scaled = product * perRoot * perRoot * perRoot, k = 4 * scaled * scaled;
+    Real t = k;
+    for (int i = 0; i < 3; ++i) t = k / ((1 - t) * (1 - t));
+    return std::max(least * least - t * sumOfSquares, Real(0));
+}
+
+// L with L L^T = M M^T + g I, by orthogonal rows instead of squares: those of M and of sqrt(g) I
+// beside it. `product` is |det M|.
+template <typename Real>
+LowerTriangle<Real> factorOf(const glm::dmat3& m, double product, double least) {
+    double squares = 0;
+    for (int column = 0; column < 3; ++column) squares += glm::dot(m[column], m[column]);
+    const double g = growthTo(least, product, squares), root = std::sqrt(g);
+    struct Row {
+        glm::dvec3 of{0}, beside{0};
+    };
+    const auto dot = [](const Row& a, const Row& b) {
+        return glm::dot(a.of, b.of) + glm::dot(a.beside, b.beside);
+    };
+    std::array<Row, 3> rows;
+    for (int r = 0; r < 3; ++r) {
+        rows[r].of = {m[0][r], m[1][r], m[2][r]};
+        rows[r].beside[r] = root;
+    }
+    glm::dvec3 diagonal, below;
+    for (int r = 0; r < 3; ++r) {
+        for (int before = 0; before < r; ++before) {
+            const double along = dot(rows[r], rows[before]);
+            rows[r].of -= along * rows[before].of;
+            rows[r].beside -= along * rows[before].beside;
+            below[before + r - 1] = along;
+        }
+        // What a matrix of any volume leaves is more than rounding.
+        diagonal[r] = std::max(std::sqrt(dot(rows[r], rows[r])), 1e-9 * least);
+        rows[r].of /= diagonal[r];
+        rows[r].beside /= diagonal[r];
+    }
+    return {glm::vec<3, Real>(diagonal), glm::vec<3, Real>(below)};
+}
+
+// What no semi-axis of a splat exceeds, `widest` being that of the cells, `least` the least radius.
+inline double longestSemiAxis(const PlacedPoints& placed, double widest, double least) {
+    constexpr double kThreeGrown = std::numbers::sqrt3;
+    return placed.isMesh() ? std::hypot(widest, kThreeGrown * least) : std::max(widest, least);
+}
+
 // Ends the splat at the domain's faces, if it reaches them.
 template <typename Real>
 void cutAtFaces(Splat<Real>& s, const PointsView& view, const glm::dvec3& along,
@@ -251,6 +327,36 @@ void cutAtFaces(Splat<Real>& s, const PointsView& view, const glm::dvec3& along,
     }
 }
 
+// What a splat is made of: its mass, and the ellipsoid that it fills.
+template <typename Real>
+struct Ellipsoid {
+    double sides = 0;  // volume of the cell in axis coordinates
+    LowerTriangle<Real> factor;
+    Real widest{};  // semi-axis, at most
+};
+template <typename Real>
+Ellipsoid<Real> ellipsoidOf(const PointsView& view, std::uint64_t index, const Footprint& footprint,
+                            double least) {
+    Ellipsoid<Real> e;
+    if (!view.placed.isMesh()) {
+        const glm::dvec3 cell = view.placed.cell(index);
+        e.sides = cell.x * cell.y * cell.z;
+        const glm::vec<3, Real> a = glm::max(radii<Real>(view, cell, footprint),
+                                             glm::vec<3, Real>(static_cast<Real>(least)));
+        e.factor.diagonal = a;
+        e.widest = std::max({a.x, a.y, a.z});
+        return e;
+    }
+    const auto [steps, volume] = view.placed.meshCell(index);
+    if (!(volume > 0)) return e;
+    e.sides = volume;
+    const double radius = kQuarticRadius * footprint.size;
+    e.factor = factorOf<Real>(radius * steps, radius * radius * radius * volume, least);
+    const auto &a = e.factor.diagonal, &b = e.factor.below;
+    e.widest = std::sqrt(glm::dot(a, a) + glm::dot(b, b));
+    return e;
+}
+
 // Of the point of that grid index.
 template <typename Real>
 Splat<Real> splatAt(const PointsView& view, std::uint64_t index, const Footprint& footprint) {
@@ -258,17 +364,19 @@ Splat<Real> splatAt(const PointsView& view, std::uint64_t index, const Footprint
     using Vec3 = glm::vec<3, Real>;
     Splat<Real> s;
     const PixelRays& rays = view.rays;
-    const glm::dvec3 cell = view.placed.cell(index);
     const Vec3 inView = Vec3(view.viewFromWorld * glm::dvec4(view.placed.position(index), 1.0));
     s.depth = -inView.z;
     const Real near = static_cast<Real>(rays.near);
     if (!(s.depth > near)) return s;
-    s.visible = true;
     const Vec2 focal(rays.focal);
     s.centre = focal * Vec2(inView) / s.depth;
     const Vec3 X(rays.perPixelX), Y(rays.perPixelY);
     const Vec3 C = Vec3(rays.axis) + s.centre.x * X + s.centre.y * Y;
-    const Real sides = static_cast<Real>(cell.x * cell.y * cell.z / view.unitLength);
+    const Real least = s.depth * static_cast<Real>(view.smallestRadius);
+    const auto e = ellipsoidOf<Real>(view, index, footprint, static_cast<double>(least));
+    s.visible = e.sides > 0;
+    if (!s.visible) return s;
+    const Real sides = static_cast<Real>(e.sides / view.unitLength);
     if (footprint.kernel == Kernel::Point) {
         // The whole mass on `side`^2 pixels, seen at the ray's slant.
         const Real side = static_cast<Real>(pointSide(footprint));
@@ -279,22 +387,25 @@ Splat<Real> splatAt(const PointsView& view, std::uint64_t index, const Footprint
             (s.depth * s.depth * static_cast<Real>(view.pixelArea * view.rayLength) * side * side);
         return s;
     }
-    const Real least = s.depth * static_cast<Real>(view.smallestRadius);
-    const Vec3 a = glm::max(radii<Real>(view, cell, footprint), Vec3(least));
-    s.c = C / a, s.x = X / a, s.y = Y / a;
-    const Vec3 e = glm::cross(s.c, s.x), f = glm::cross(s.c, s.y);
+    const Vec3& a = e.factor.diagonal;
+    const auto inKernel = [&](const Vec3& v) {
+        return view.placed.isMesh() ? e.factor.solve(v) : v / a;
+    };
+    s.c = inKernel(C), s.x = inKernel(X), s.y = inKernel(Y);
+    const Vec3 across = glm::cross(s.c, s.x), other = glm::cross(s.c, s.y);
     const Real perC2 = 1 / glm::dot(s.c, s.c);
-    s.n = s.depth * s.depth * perC2 * Vec3(glm::dot(e, e), 2 * glm::dot(e, f), glm::dot(f, f));
+    s.n = s.depth * s.depth * perC2 *
+          Vec3(glm::dot(across, across), 2 * glm::dot(across, other), glm::dot(other, other));
     s.d = perC2 * Vec3(glm::dot(s.x, s.x), 2 * glm::dot(s.x, s.y), glm::dot(s.y, s.y));
     s.l = 2 * perC2 * Vec2(glm::dot(s.c, s.x), glm::dot(s.c, s.y));
     s.weight = static_cast<Real>(5 / std::numbers::pi) * sides / (a.x * a.y * a.z) *
                std::sqrt(perC2) * nearFade(s.depth, near);
-    const Real largest =
-        std::max({a.x, a.y, a.z}) * static_cast<Real>(view.lengthening.most / view.rayLength);
+    const Real largest = e.widest * static_cast<Real>(view.lengthening.most / view.rayLength);
     const Real extent = sphereExtent(s.depth, largest, glm::length(s.centre / focal));
     s.hi = Vec2(extent < 0 ? std::numeric_limits<Real>::infinity()
                            : extent * std::max(focal.x, focal.y));
     s.lo = -s.hi;
+    if (view.placed.isMesh()) narrow(s);
     if (view.placed.longCells()) {
         narrow(s);
         cutAtFaces(s, view, view.placed.alongAxes(index), a, least);

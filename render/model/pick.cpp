@@ -19,9 +19,6 @@ class Ray {
           rays_(pixelRays(view)),
           window_(window) {
         slope_ = (window - rays_.centre) / rays_.focal;
-        double widest = 0;
-        for (const auto& widths : scene.placed.widths())
-            widest = std::max(widest, *std::ranges::max_element(widths));
         // A point splat reaches half its diagonal and half a pixel of rounding.
         const bool points = scene.footprint.kernel == Kernel::Point;
         const double most = pointsView_.lengthening.most;
@@ -30,7 +27,7 @@ class Ray {
                                           std::min(rays_.focal.x, rays_.focal.y)
                                     : pointsView_.smallestRadius * most;
         reachPerDepth_ = perDepth * std::sqrt(1 + glm::dot(slope_, slope_));
-        if (!points) reach_ = scene.footprint.size * kQuarticRadius * widest * most;
+        if (!points) reach_ = scene.footprint.size * kQuarticRadius * scene.placed.widest() * most;
     }
 
     struct Splatted {
@@ -58,12 +55,10 @@ class Ray {
                                  (window_.y - rays_.centre.y) * rays_.perPixelY;
         const double depth = glm::dot(away, rays_.axis) / glm::dot(rays_.axis, rays_.axis);
         const glm::dvec3 across = glm::cross(away, along);
-        const double reach = std::max(reach_, depth * reachPerDepth_);
+        const double reach = longestSemiAxis(scene_.placed, reach_, depth * reachPerDepth_);
         return depth > 0 && glm::dot(across, across) <= reach * reach * glm::dot(along, along);
     }
-    bool inClip(std::uint32_t i) const {
-        return scene_.clip.holds(timeseries::indicesOf(i, scene_.placed.size()));
-    }
+    bool inClip(std::uint32_t i) const { return scene_.placed.inside(i, scene_.clip); }
     // As the splatters place a point's square on whole pixels.
     bool inSquare(const Splat<double>& s) const {
         if (scene_.footprint.kernel != Kernel::Point) return true;

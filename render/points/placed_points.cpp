@@ -68,16 +68,17 @@ std::string comparableUnit(const Axis& axis) {
 }
 
 PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch)
-    : worldFromAxes_(grid.frame().directions) {
+    : mesh_(grid.mesh()),
+      size_(grid.size()[0], grid.size()[1], grid.size()[2]),
+      worldFromAxes_(grid.frame().directions) {
     // Thinner boxes and cells could not be seen; their volumes would leave the GPU's floats.
-    constexpr Wide kThinnestBox = 1e-9L, kThinnestCell = 1e-15L;
+    constexpr Wide kThinnestBox = 1e-9L;
     const auto stretched =
         stretch ? std::array<Wide, 3>{stretch->x, stretch->y, stretch->z} : fittedStretch(grid);
     std::array<Wide, 3> half{};
     for (std::size_t a = 0; a < 3; ++a) half[a] = extent(grid.axes()[a]) / 2 * stretched[a];
     Wide radius = farthestCorner(worldFromAxes_, half);
     if (!(radius > 0)) radius = 1;
-    double thinnest = 0;  // an axis of one point takes the smallest mean width of the others
     for (int a = 0; a < 3; ++a) {
         const Axis& axis = grid.axes()[a];
         const Wide length = extent(axis);
@@ -86,6 +87,27 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch)
         boxHalf_[a] = static_cast<double>(size);
         centre_[a] = (Wide{axis.coordinates.front()} + Wide{axis.coordinates.back()}) / 2;
         scale_[a] = axis.down ? -perUnit : perUnit;
+    }
+    mesh_ ? measureMesh() : measureAxes(grid);
+}
+
+void PlacedPoints::measureMesh() {
+    Wide volume = mesh_->meanVolume(), widest2 = 0;
+    for (int a = 0; a < 3; ++a) {
+        volume *= std::abs(scale_[a]);
+        const Wide widest = scale_[a] * Wide{mesh_->widest()[a]};
+        widest2 += widest * widest;
+    }
+    unitLength_ = static_cast<double>(std::cbrt(volume));
+    widest_ = static_cast<double>(std::sqrt(widest2));
+}
+
+void PlacedPoints::measureAxes(const Grid& grid) {
+    constexpr Wide kThinnestCell = 1e-15L;
+    double thinnest = 0;  // an axis of one point takes the smallest mean width of the others
+    for (int a = 0; a < 3; ++a) {
+        const Axis& axis = grid.axes()[a];
+        const Wide length = extent(axis), perUnit = std::abs(scale_[a]);
         for (std::size_t i = 0; i < axis.coordinates.size(); ++i) {
             positions_[a].push_back(
                 static_cast<double>((Wide{axis.coordinates[i]} - centre_[a]) * scale_[a]));
@@ -102,14 +124,9 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch)
     unitLength_ = std::cbrt(mean(widths_[0]) * mean(widths_[1]) * mean(widths_[2]) *
                             std::abs(glm::determinant(worldFromAxes_)));
     constexpr double kLong = 3;
-    double longest = 0;
     for (const auto& widths : widths_)
-        longest = std::max(longest, *std::ranges::max_element(widths));
-    longCells_ = longest > kLong * thinnest;
-}
-
-glm::uvec3 PlacedPoints::size() const {
-    return {positions_[0].size(), positions_[1].size(), positions_[2].size()};
+        widest_ = std::max(widest_, *std::ranges::max_element(widths));
+    longCells_ = widest_ > kLong * thinnest;
 }
 
 glm::dvec3 PlacedPoints::scale() const {
@@ -158,6 +175,7 @@ glm::dmat3 PlacedPoints::boxHalfEdges() const {
 }
 
 bool PlacedPoints::cubes() const {
+    if (mesh_) return false;
     const glm::dmat3 products = glm::transpose(worldFromAxes_) * worldFromAxes_;
     for (int a = 0; a < 3; ++a)
         if (std::abs(products[a][(a + 1) % 3]) > 1e-12) return false;
@@ -168,6 +186,7 @@ bool PlacedPoints::cubes() const {
 }
 
 PlacedPoints::Box PlacedPoints::domain() const {
+    if (mesh_) return pointsBox();
     Box box{};
     for (int a = 0; a < 3; ++a) {
         const auto &at = positions_[a], &width = widths_[a];
@@ -179,8 +198,29 @@ PlacedPoints::Box PlacedPoints::domain() const {
     return box;
 }
 
+PlacedPoints::Box PlacedPoints::pointsBox() const {
+    if (!mesh_) return {-boxHalf_, boxHalf_};
+    const glm::dvec3 a = axesFromGrid(mesh_->lo()), b = axesFromGrid(mesh_->hi());
+    return {glm::min(a, b), glm::max(a, b)};
+}
+
 glm::uvec3 PlacedPoints::indices(std::uint64_t index) const {
     return timeseries::indicesOf(index, glm::vec<3, std::uint64_t>(size()));
+}
+
+bool PlacedPoints::inside(std::uint64_t index, const IndexBox& box) const {
+    return mesh_ ? box.holdsPlace(mesh_->position(index)) : box.holds(indices(index));
+}
+
+PlacedPoints::MeshCell PlacedPoints::meshCell(std::uint64_t index) const {
+    MeshCell cell{mesh_->cell(index), 0};
+    cell.volume = mesh_->volume(cell.steps);
+    for (int a = 0; a < 3; ++a) {
+        const auto scale = static_cast<double>(scale_[a]);
+        for (int column = 0; column < 3; ++column) cell.steps[column][a] *= scale;
+        cell.volume *= std::abs(scale);
+    }
+    return cell;
 }
 
 glm::dvec3 PlacedPoints::position(std::uint64_t index) const {
@@ -188,6 +228,7 @@ glm::dvec3 PlacedPoints::position(std::uint64_t index) const {
 }
 
 glm::dvec3 PlacedPoints::alongAxes(std::uint64_t index) const {
+    if (mesh_) return axesFromGrid(mesh_->position(index));
     const glm::uvec3 at = indices(index);
     return {positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]};
 }
@@ -198,6 +239,7 @@ glm::dvec3 PlacedPoints::cell(std::uint64_t index) const {
 }
 
 IndexBox indexBox(const Grid& grid, const glm::dvec3& lo, const glm::dvec3& hi) {
+    if (grid.mesh()) return {.from = lo, .to = hi};
     IndexBox box{glm::uvec3(1), glm::uvec3(0)};
     for (int a = 0; a < 3; ++a) {
         const auto& c = grid.axes()[a].coordinates;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +16,29 @@
 
 namespace render {
 
+// Points between planes: of a grid without a mesh inclusive ranges of indices, lo > hi holding
+// nothing; of a mesh also closed ranges of the file's coordinates.
+struct IndexBox {
+    glm::uvec3 lo{0}, hi{0xffffffffu};
+    glm::dvec3 from{-std::numeric_limits<double>::infinity()},
+        to{std::numeric_limits<double>::infinity()};
+    bool holds(const glm::uvec3& at) const {
+        return at.x >= lo.x && at.y >= lo.y && at.z >= lo.z && at.x <= hi.x && at.y <= hi.y &&
+               at.z <= hi.z;
+    }
+    bool holdsPlace(const glm::dvec3& place) const {
+        return place.x >= from.x && place.y >= from.y && place.z >= from.z && place.x <= to.x &&
+               place.y <= to.y && place.z <= to.z;
+    }
+};
+
 // World coordinates: z up, the centre of the grid's box at 0, and the box scaled so that its
 // farthest corners are 1 away. That keeps every coordinate near 1 whatever the grid's units and
 // offsets are.
 //
 // Axis coordinates: world lengths along the grid's axes from the same centre. There every box and
-// cell is upright; worldFromAxes() turns and shears them to where they stand, and is the identity
-// for a grid whose axes are those of its space.
+// cell is upright, but for the cells of a mesh; worldFromAxes() turns and shears them to where they
+// stand, and is the identity for a grid whose axes are those of its space, as a mesh's are.
 class PlacedPoints {
  public:
     // `stretch` multiplies the grid's units, each along its axis, before the uniform scaling.
@@ -28,16 +46,34 @@ class PlacedPoints {
     // fitted to half the length of the longest. Axes that count downwards are drawn downwards.
     explicit PlacedPoints(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch = {});
 
-    glm::uvec3 size() const;
+    glm::uvec3 size() const { return size_; }  // points along the indices
     // In the world.
     glm::dvec3 position(std::uint64_t index) const;
     glm::dvec3 alongAxes(std::uint64_t index) const;  // in axis coordinates
-    // Lengths of the cell's sides, all > 0.
+    glm::uvec3 indices(std::uint64_t index) const;
+    // Whether that point is within the box.
+    bool inside(std::uint64_t index, const IndexBox& box) const;
+
+    // Points that lie one by one, and cells of any shape. A point without a place is nowhere: its
+    // coordinates are no numbers.
+    bool isMesh() const { return mesh_ != nullptr; }
+    // REQUIRES: isMesh(). Columns: the steps that the point stands for, in the world; of no volume
+    // where it stands for none.
+    struct MeshCell {
+        glm::dmat3 steps;
+        double volume;
+    };
+    MeshCell meshCell(std::uint64_t index) const;
+
+    // REQUIRES of these: not isMesh(). Lengths of the cell's sides, all > 0.
     glm::dvec3 cell(std::uint64_t index) const;
-    glm::uvec3 indices(std::uint64_t index) const;  // along the axes
     // Per axis, by index along it, in axis coordinates.
     const std::array<std::vector<double>, 3>& positions() const { return positions_; }
     const std::array<std::vector<double>, 3>& widths() const { return widths_; }
+
+    // No cell's side is longer, and no cell of a mesh has steps whose squares add up to more than
+    // that of this; in axis coordinates.
+    double widest() const { return widest_; }
 
     // Columns: the directions of the axes in the world, of length 1.
     const glm::dmat3& worldFromAxes() const { return worldFromAxes_; }
@@ -52,16 +88,20 @@ class PlacedPoints {
 
     // The length l in which optical depth is counted: the cube root of the mean cell volume.
     double unitLength() const { return unitLength_; }
-    // All cells are cubes of one size, to 1e-12.
+    // All cells are cubes of one size, to 1e-12. Not told of a mesh's.
     bool cubes() const;
     // Cells along some axis are more than 3 times as long as those of another are in the mean:
-    // their splats end where the cells do (render/model/footprint.h).
+    // their splats end where the cells do (render/model/footprint.h). Not of a mesh.
     bool longCells() const { return longCells_; }
     // What the cells fill, the half ones around the outermost points included; in axis coordinates.
+    // Of a mesh pointsBox().
     struct Box {
         glm::dvec3 lo, hi;
     };
     Box domain() const;
+    // Between the outermost points: boxHalf() about the centre, but for a mesh that moves, whose
+    // steps are in one box as far as they go.
+    Box pointsBox() const;
     // Half sides of the points' box, in axis coordinates; all zero for a single point.
     glm::dvec3 boxHalf() const { return boxHalf_; }
     // The same in the world: columns from the centre of the box to the middles of its faces.
@@ -73,12 +113,17 @@ class PlacedPoints {
     glm::dvec3 gridFromAxes(const glm::dvec3& axes) const;  // and back
 
  private:
+    void measureMesh();
+    void measureAxes(const timeseries::Grid& grid);
+
     std::array<std::vector<double>, 3> positions_, widths_;
+    std::shared_ptr<const timeseries::Mesh> mesh_;
+    glm::uvec3 size_{1};
     // Long doubles: products and squares of very large or small extents leave the doubles.
     std::array<long double, 3> scale_{}, centre_{};
     glm::dmat3 worldFromAxes_{1.0};
     glm::dvec3 boxHalf_{0};
-    double unitLength_ = 1;
+    double unitLength_ = 1, widest_ = 0;
     bool longCells_ = false;
 };
 
@@ -86,14 +131,6 @@ class PlacedPoints {
 // drawn alike.
 std::string comparableUnit(const timeseries::Axis& axis);
 
-// Inclusive index ranges per axis; lo > hi along an axis holds nothing.
-struct IndexBox {
-    glm::uvec3 lo{0}, hi{0xffffffffu};
-    bool holds(const glm::uvec3& at) const {
-        return at.x >= lo.x && at.y >= lo.y && at.z >= lo.z && at.x <= hi.x && at.y <= hi.y &&
-               at.z <= hi.z;
-    }
-};
 // The points inside closed ranges of the grid's coordinates along its axes: what `info` and the
 // labels of a picture tell, also of a rotated or sheared grid.
 IndexBox indexBox(const timeseries::Grid& grid, const glm::dvec3& lo, const glm::dvec3& hi);

@@ -73,7 +73,7 @@ void splat(const Scene& scene, const DrawList& list, const View& view,
     for (const Layer& layer : scene.layers) perSplat.push_back(pointsPerSplat(layer, scene.stride));
     const auto draw = [&](std::size_t layer, std::uint64_t point) {
         const std::uint32_t i = gridIndex[point];
-        if (!scene.clip.holds(scene.placed.indices(i))) return;
+        if (!scene.placed.inside(i, scene.clip)) return;
         auto s = splatAt<Real>(pointsView, i, scene.footprint);
         if (!s.visible) return;
         s.weight *= static_cast<Real>(perSplat[layer]);

@@ -1,6 +1,7 @@
 #include "render/splat/depth_order.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -49,11 +50,13 @@ void DepthOrder::begin(const Scene& scene, const glm::dvec3& midEye) {
     scene_ = &scene;
     source_.emplace(scene);
     distances_.emplace(scene, midEye);
-    double radius = 0;  // of the box about the origin
-    const glm::dmat3 half = scene.placed.boxHalfEdges();
-    for (const double y : {-1.0, 1.0})
-        for (const double z : {-1.0, 1.0})
-            radius = std::max(radius, glm::length(half * glm::dvec3(1, y, z)));
+    double radius = 0;  // of the points about the origin
+    const auto [lo, hi] = scene.placed.pointsBox();
+    for (const double x : {lo.x, hi.x})
+        for (const double y : {lo.y, hi.y})
+            for (const double z : {lo.z, hi.z})
+                radius = std::max(radius,
+                                  glm::length(scene.placed.worldFromAxes() * glm::dvec3(x, y, z)));
     farthest_ = glm::length(midEye) + radius;
     const double span = farthest_ - std::max(glm::length(midEye) - radius, 0.0);
     perUnit_ = span > 0 ? kLastKey / span : 0;
@@ -198,9 +201,9 @@ DrawList orderExactly(const Scene& scene, const glm::dvec3& midEye) {
         source.next(1 << 16, some);
         for (std::size_t i = 0; i < some.point.size(); ++i) {
             const std::uint32_t at = gridIndex[some.point[i]];
-            if (scene.clip.holds(scene.placed.indices(at)))
-                splats.push_back({glm::distance(scene.placed.position(at), midEye), some.point[i],
-                                  some.layer[i]});
+            const double away = glm::distance(scene.placed.position(at), midEye);
+            if (scene.placed.inside(at, scene.clip) && std::isfinite(away))
+                splats.push_back({away, some.point[i], some.layer[i]});
         }
     }
     std::ranges::stable_sort(splats, std::greater(), &Splat::away);

@@ -1,6 +1,8 @@
 #include "render/splat/distances.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/splat/distances.cpp"
@@ -57,8 +59,11 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 HWY_EXPORT(FindDistances);
 
-Distances::Distances(const Scene& scene, const glm::dvec3& from) {
+Distances::Distances(const Scene& scene, const glm::dvec3& from)
+    : placed_(scene.placed), clip_(scene.clip), from_(from) {
     const PlacedPoints& placed = scene.placed;
+    clips = placed.isMesh();
+    if (clips) return;
     for (int a = 0; a < 3; ++a) {
         const auto k = static_cast<std::size_t>(a);
         size[k] = placed.size()[a];
@@ -72,7 +77,17 @@ Distances::Distances(const Scene& scene, const glm::dvec3& from) {
     }
 }
 
+void Distances::findInMesh(std::span<const std::uint32_t> index, std::span<double> away) const {
+    for (std::size_t i = 0; i < index.size(); ++i) {
+        away[i] = -1;
+        if (!placed_.inside(index[i], clip_)) continue;
+        const double distance = glm::distance(placed_.position(index[i]), from_);
+        if (std::isfinite(distance)) away[i] = distance;
+    }
+}
+
 void Distances::find(std::span<const std::uint32_t> index, std::span<double> away) const {
+    if (placed_.isMesh()) return findInMesh(index, away);
     HWY_DYNAMIC_DISPATCH(FindDistances)(*this, index, away);
 }
 }  // namespace render

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "render/model/scene.h"
+#include "render/points/placed_points.h"
 
 namespace render {
 
@@ -16,7 +17,8 @@ class Distances {
     // In the world. the scene's points must outlive this.
     Distances(const Scene& scene, const glm::dvec3& from);
 
-    // Of the points of these grid indices, each into its place; negative outside of the clip box.
+    // Of the points of these grid indices, each into its place; negative outside of the clip box
+    // and where a point has no place.
     void find(std::span<const std::uint32_t> index, std::span<double> away) const;
 
     // What the kernels take: the grid's size, its positions along each axis, what takes them to
@@ -25,7 +27,14 @@ class Distances {
     std::array<const double*, 3> position;
     std::array<std::array<double, 3>, 4> fromAxes;
     std::array<double, 3> clipLo, clipHi;
-    bool clips = false;
+    bool clips = false;  // some may be negative
+
+ private:
+    void findInMesh(std::span<const std::uint32_t> index, std::span<double> away) const;
+
+    const PlacedPoints& placed_;
+    IndexBox clip_;
+    glm::dvec3 from_;
 };
 
 }  // namespace render

@@ -66,7 +66,7 @@ PixelSpan within(PixelSpan span, int first, int size) {
 Placed SeenPoints::place(std::uint32_t point, std::size_t layer, const PixelBox& box) const {
     Placed placed;
     const std::uint32_t i = columns_.gridIndex[point];
-    if (!scene_.clip.holds(scene_.placed.indices(i))) return placed;
+    if (!scene_.placed.inside(i, scene_.clip)) return placed;
     Splat<float>& s = placed.splat;
     s = splatAt<float>(seen_, i, scene_.footprint);
     if (!s.visible) return placed;
@@ -86,7 +86,8 @@ Placed SeenPoints::place(std::uint32_t point, std::size_t layer, const PixelBox&
 }
 
 PixelSpan SeenPoints::spanIn(const Placed& placed, int y) const {
-    if (!scene_.placed.longCells() || scene_.footprint.kernel == Kernel::Point) return placed.x;
+    const bool isSlim = scene_.placed.longCells() || scene_.placed.isMesh();
+    if (!isSlim || scene_.footprint.kernel == Kernel::Point) return placed.x;
     // n - d <= 0, a quadratic in the offset along the row; a pixel more on both sides for rounding.
     const Splat<float>& s = placed.splat;
     const float oy = static_cast<float>(y) + 0.5f - axis_.y - s.centre.y;

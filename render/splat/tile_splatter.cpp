@@ -167,7 +167,7 @@ TileSum::TileSum(TileSum&&) noexcept = default;
 TileSum::~TileSum() = default;
 
 bool TileSum::canSum(const Scene& scene, Channels channels) {
-    return channels != Channels::Count && !scene.placed.longCells();
+    return channels != Channels::Count && !scene.placed.longCells() && !scene.placed.isMesh();
 }
 
 std::uint64_t TileSum::add(std::uint64_t splats) {

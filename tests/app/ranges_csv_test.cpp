@@ -54,15 +54,12 @@ constexpr std::array kNotRead{
     NotRead{"dambreak_amr/dambreak.pvd", "is a VTK file of type UnstructuredGrid;"},
     NotRead{"disk_out_ref.ex2", "is an Exodus II file"},
     NotRead{"mug_transient.e", "is an Exodus II file"},
-    NotRead{"bluntfin/bluntfin.vts", "is a VTK file of type StructuredGrid;"},
     NotRead{"grids/icon_ocean_triangles.nc",
             "on an unstructured mesh (20480 places listed along ncells), which is not read yet"},
     NotRead{"grids/can_0.vtkhdf", "is a VTKHDF file;"},
     NotRead{"grids/warping_spheres.vtkhdf", "is a VTKHDF file;"},
     NotRead{"grids/no_checkpoint.xdmf", "is an XDMF file;"},
-    NotRead{"grids/wavy/wavy.pvd", "is a VTK file of type StructuredGrid;"},
     NotRead{"grids/mesh_series/mesh.vtu.series", "is a ParaView list of files (.series);"},
-    NotRead{"grids/sample_structured.vtk", "is a VTK file of type structured_grid;"},
     NotRead{"grids/plot3d/combq.bin", "is a PLOT3D file;"},
     // Uniform grids in formats without a reader.
     NotRead{"fmri_filtered_func_64t.nii.gz", "is a NIfTI file;"},
@@ -78,13 +75,14 @@ std::string refusalOf(const std::filesystem::path& file) {
     return "";
 }
 
-// By the name that is selected by, the end of its path in HDF5, or in full; the file's default one
-// where the list has no name.
+// By the name that is selected by, without what tells points' from cells', the end of its path in
+// HDF5, or in full; the file's default one where the list has no name.
 std::size_t indexOf(const Dataset& dataset, const std::string& name) {
     if (name.empty()) return dataset.variable;
     const auto variables = dataset.reader->variables();
     const auto found = std::ranges::find_if(variables, [&](const auto& v) {
-        return v.name == name || v.name.ends_with('/' + name) || v.longName == name;
+        return v.name == name || v.name == name + " (points)" || v.name.ends_with('/' + name) ||
+               v.longName == name;
     });
     if (found == variables.end()) throw std::runtime_error(dataset.name + ": no variable " + name);
     return static_cast<std::size_t>(found - variables.begin());

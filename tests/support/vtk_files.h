@@ -77,6 +77,29 @@ inline std::string imageText(const Image& image) {
             : "<AppendedData encoding=\"raw\">\n_" + image.appended + "\n</AppendedData>\n");
 }
 
+// Of 3 x 2 x 2 points, each a little beside its index.
+inline std::vector<double> placesOfTwelve() {
+    std::vector<double> places;
+    for (int n = 0; n < 12; ++n)
+        for (const double c : {n % 3 + 0.25 * (n / 3 % 2), n / 3 % 2 + 0.5, 1.5 * (n / 6)})
+            places.push_back(c);
+    return places;
+}
+
+// Of an image only its arrays and its extent.
+inline std::string structuredText(const Image& image,
+                                  const std::string& places = "<Points>\n" +
+                                                              dataArray("Float64", "p",
+                                                                        placesOfTwelve(), 3) +
+                                                              "</Points>\n") {
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"StructuredGrid\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n<StructuredGrid WholeExtent=\"{0}\">\n"
+        "<Piece Extent=\"{0}\">\n<PointData>\n{1}</PointData>\n<CellData>\n{2}</CellData>\n{3}"
+        "</Piece>\n</StructuredGrid>\n</VTKFile>\n",
+        image.extent, image.points, image.cells, places);
+}
+
 inline std::filesystem::path write(const std::string& name, const std::string& bytes) {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     std::string flatName = std::string(test->test_suite_name()) + "_" + test->name() + "_" + name;

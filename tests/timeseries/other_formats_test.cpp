@@ -16,8 +16,8 @@ using namespace std::string_literals;
 using Path = std::filesystem::path;
 
 const std::string kTail =
-    "; isochron reads NetCDF, NRRD and, of VTK, image data and rectilinear grids (.vti, .vtr, "
-    ".vtk, .pvd)";
+    "; isochron reads NetCDF, NRRD and, of VTK, image data, rectilinear and structured grids "
+    "(.vti, .vtr, .vts, .vtk, .pvd)";
 
 // What opening a file or folder says it is.
 std::string told(const Path& path) {
@@ -143,9 +143,7 @@ TEST(OtherFormats, RealFilesAreNamed) {
              {"bluntfin/bluntfinq.bin", "a PLOT3D file"},
              {"grids/plot3d/combxyz.bin", "a PLOT3D file"},
              {"grids/plot3d/combq.bin", "a PLOT3D file"},
-             {"bluntfin/bluntfin.vts", "a VTK file of type StructuredGrid"},
              {"can.vtu", "a VTK file of type UnstructuredGrid"},
-             {"grids/sample_structured.vtk", "a VTK file of type structured_grid"},
              {"grids/chombo3d/chombo3d.vtm", "a VTK file of type vtkHierarchicalBoxDataSet"},
              {"grids/emd_3001.map", "an MRC map"},
              {"grids/example_cube.fits", "a FITS file"},

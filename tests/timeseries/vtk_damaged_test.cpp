@@ -62,7 +62,13 @@ std::map<std::string, std::string> samples() {
         "POINT_DATA 12\nSCALARS v double 1\nLOOKUP_TABLE default\n";
     std::string numbers;
     for (const double v : twelve()) numbers += fmt::format("{}\n", v);
+    const std::string places = "DATASET STRUCTURED_GRID\nDIMENSIONS 3 2 2\nPOINTS 12 double\n";
+    const std::string values = "POINT_DATA 12\nSCALARS v double 1\nLOOKUP_TABLE default\n";
     return {
+        {"text.vts", tests::structuredText({.points = dataArray("Float64", "v", twelve())})},
+        {"places.vtk", "# vtk DataFile Version 4.2\ntitle\nBINARY\n" + places +
+                           tests::bigEndianBytes(tests::placesOfTwelve()) + "\n" + values +
+                           tests::bigEndianBytes(twelve()) + "\n"},
         {"text.vti", imageText({.points = dataArray("Float64", "v", twelve())})},
         {"raw.vti", imageText({.points = appended, .appended = tests::appendedBlock(twelve())})},
         {"ascii.vtk", "# vtk DataFile Version 4.2\ntitle\nASCII\n" + start + numbers},
@@ -136,6 +142,37 @@ TEST(DamagedVtk, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
                 HasSubstr("a whole number, found \"-1\""));
     EXPECT_THAT(refusal(start + "DIMENSIONS 2 2 2\nPOINT_DATA 9\n" + rest),
                 HasSubstr("expected 8 points, found 9"));
+}
+
+TEST(DamagedVtk, PlacesThatAreNotThereAreRefused) {
+    using tests::structuredText;
+    const std::string array = dataArray("Float64", "v", twelve());
+    const auto with = [&](const std::string& places) {
+        return refusal(structuredText({.points = array}, places));
+    };
+    EXPECT_THAT(with(""), HasSubstr("expected Points of one array"));
+    EXPECT_THAT(with("<Points></Points>"), HasSubstr("expected Points of one array"));
+    EXPECT_THAT(with("<Points>" + dataArray("Float64", "p", twelve(), 3) + "</Points>"),
+                HasSubstr("expected 36 values, found 12"));
+    EXPECT_THAT(
+        with("<Points>" + dataArray("Float64", "p", tests::placesOfTwelve(), 2) + "</Points>"),
+        HasSubstr("expected a DataArray of 3 components, x, y and z"));
+    std::vector<std::string> words(36, "1");
+    words[7] = "nan";
+    EXPECT_THAT(with("<Points>" + dataArray("Float64", "p", words, 3) + "</Points>"),
+                HasSubstr("expected finite numbers of its type, found \"nan\""));
+    const std::string start = "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_GRID\n";
+    const std::string rest = "\nPOINT_DATA 1\nSCALARS v double 1\nLOOKUP_TABLE default\n5\n";
+    EXPECT_THAT(refusal(start + "DIMENSIONS 1 1 1" + rest), HasSubstr("expected POINTS"));
+    EXPECT_THAT(refusal(start + "DIMENSIONS 1 1 1\nPOINTS 2 float\n1 2 3 4 5 6" + rest),
+                HasSubstr("expected 1 points once, found 2"));
+    EXPECT_THAT(
+        refusal(start + "DIMENSIONS 1 1 1\nPOINTS 1 float\n1 2 3\nPOINTS 1 float\n1 2 3" + rest),
+        HasSubstr("expected 1 points once"));
+    EXPECT_THAT(refusal(start + "DIMENSIONS 1 1 1\nPOINTS 1 strange\n1 2 3" + rest),
+                HasSubstr("expected a type of number, found \"strange\""));
+    EXPECT_THAT(refusal(start + "DIMENSIONS 500 500 500\nPOINTS 125000000 double\n1 2 3" + rest),
+                HasSubstr("expected 375000000 values"));
 }
 
 // Of one row along x, each [first, last], with an array at points or at cells.

@@ -8,13 +8,17 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkRectilinearGridWriter.h>
 #include <vtkShortArray.h>
+#include <vtkStructuredGrid.h>
+#include <vtkStructuredGridWriter.h>
 #include <vtkStructuredPointsWriter.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLRectilinearGridWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
 
 #include <algorithm>
 #include <array>
@@ -86,6 +90,52 @@ vtkNew<vtkRectilinearGrid> rectilinear() {
     return data;
 }
 
+// In halves and quarters, which text and floats hold exactly.
+glm::dvec3 placeOf(std::size_t i, std::size_t j, std::size_t k) {
+    const auto at = glm::dvec3(i, j, k);
+    return {at.x + 0.5 * at.y, 2 * at.y - 0.25 * at.z * at.x, 3 * at.z + 0.25 * at.y * at.y};
+}
+
+vtkNew<vtkStructuredGrid> structured() {
+    const vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (std::size_t k = 0; k < 5; ++k)
+        for (std::size_t j = 0; j < 7; ++j)
+            for (std::size_t i = 0; i < 11; ++i) {
+                const glm::dvec3 at = placeOf(i, j, k);
+                points->InsertNextPoint(at.x, at.y, at.z);
+            }
+    vtkNew<vtkStructuredGrid> data;
+    data->SetDimensions(kPoints.data());
+    data->SetPoints(points);
+    addArrays(*data);
+    return data;
+}
+
+enum class Kind { Image, Rectilinear, Structured };
+
+// Floats hold a place to a 2^24th of the mesh's extent.
+void expectNear(const glm::dvec3& found, const glm::dvec3& expected) {
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], expected[c], 2e-6);
+}
+
+void expectPlaces(const Grid& points, const Grid& cells) {
+    ASSERT_TRUE(points.mesh() && cells.mesh());
+    EXPECT_EQ(points.size(), (std::array<std::size_t, 3>{11, 7, 5}));
+    EXPECT_EQ(cells.size(), (std::array<std::size_t, 3>{10, 6, 4}));
+    for (std::uint64_t n = 0; n < points.count(); ++n) {
+        const auto at = points.indices(n);
+        expectNear(points.position(n), placeOf(at.x, at.y, at.z));
+    }
+    for (std::uint64_t n = 0; n < cells.count(); ++n) {
+        const auto at = cells.indices(n);
+        glm::dvec3 middle(0);
+        for (unsigned c = 0; c < 8; ++c)
+            middle += placeOf(at.x + (c & 1), at.y + (c >> 1 & 1), at.z + (c >> 2)) / 8.0;
+        expectNear(cells.position(n), middle);
+    }
+}
+
 template <typename T, typename Value>
 void expectValues(Reader& reader, const std::string& name, Value value) {
     const auto variables = reader.variables();
@@ -98,7 +148,7 @@ void expectValues(Reader& reader, const std::string& name, Value value) {
     EXPECT_EQ(values.size(), field.grid->count());
 }
 
-void expectWhole(const std::filesystem::path& path, bool uniform) {
+void expectWhole(const std::filesystem::path& path, Kind kind) {
     const auto reader = openReader(std::span(&path, 1));
     expectValues<float>(*reader, "f", f);
     for (std::size_t k = 0; k < 3; ++k)
@@ -108,9 +158,11 @@ void expectWhole(const std::filesystem::path& path, bool uniform) {
     expectValues<std::int64_t>(*reader, "c", c);
     const auto variables = reader->variables();
     const Grid& grid = *std::ranges::find(variables, "f", &Variable::name)->grid;
+    if (kind == Kind::Structured)
+        return expectPlaces(grid, *std::ranges::find(variables, "c", &Variable::name)->grid);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& found = grid.axes()[axis].coordinates;
-        if (!uniform) {
+        if (kind == Kind::Rectilinear) {
             EXPECT_EQ(found, coordinatesOf(axis));
             continue;
         }
@@ -173,7 +225,7 @@ void expectForm(const Form& form, const std::string& bytes) {
 }
 
 template <typename Writer, typename Data>
-void expectWhatVtkWrites(Data& data, const std::string& ending) {
+void expectWhatVtkWrites(Data& data, const std::string& ending, Kind kind) {
     const auto path = tests::freshFolder() / ("file" + ending);
     for (const Form& form : allForms()) {
         SCOPED_TRACE(fmt::format("{} {} {} {} {} {}", form.mode, form.encoding, form.compressor,
@@ -184,12 +236,12 @@ void expectWhatVtkWrites(Data& data, const std::string& ending) {
         apply(form, *writer);
         ASSERT_EQ(writer->Write(), 1);
         expectForm(form, tests::readBytes(path));
-        expectWhole(path, ending == ".vti");
+        expectWhole(path, kind);
     }
 }
 
 TEST(VtkWritten, ImagesInEveryFormOfXmlAreRead) {
-    expectWhatVtkWrites<vtkXMLImageDataWriter>(*image(), ".vti");
+    expectWhatVtkWrites<vtkXMLImageDataWriter>(*image(), ".vti", Kind::Image);
 }
 
 // The length stands before the values; the first digit is a quarter of it.
@@ -212,11 +264,15 @@ TEST(VtkWritten, LengthsOfEveryDigitOfBase64AreRead) {
 }
 
 TEST(VtkWritten, RectilinearGridsInEveryFormOfXmlAreRead) {
-    expectWhatVtkWrites<vtkXMLRectilinearGridWriter>(*rectilinear(), ".vtr");
+    expectWhatVtkWrites<vtkXMLRectilinearGridWriter>(*rectilinear(), ".vtr", Kind::Rectilinear);
+}
+
+TEST(VtkWritten, StructuredGridsInEveryFormOfXmlAreRead) {
+    expectWhatVtkWrites<vtkXMLStructuredGridWriter>(*structured(), ".vts", Kind::Structured);
 }
 
 template <typename Writer, typename Data>
-void expectWhatVtkWritesAsLegacy(Data& data, bool uniform) {
+void expectWhatVtkWritesAsLegacy(Data& data, Kind kind) {
     const auto path = tests::freshFolder() / "file.vtk";
     for (const int type : {VTK_ASCII, VTK_BINARY})
         for (const int version : {vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2,
@@ -228,13 +284,14 @@ void expectWhatVtkWritesAsLegacy(Data& data, bool uniform) {
             writer->SetFileType(type);
             writer->SetFileVersion(version);
             ASSERT_EQ(writer->Write(), 1);
-            expectWhole(path, uniform);
+            expectWhole(path, kind);
         }
 }
 
 TEST(VtkWritten, LegacyFilesAreRead) {
-    expectWhatVtkWritesAsLegacy<vtkStructuredPointsWriter>(*image(), true);
-    expectWhatVtkWritesAsLegacy<vtkRectilinearGridWriter>(*rectilinear(), false);
+    expectWhatVtkWritesAsLegacy<vtkStructuredPointsWriter>(*image(), Kind::Image);
+    expectWhatVtkWritesAsLegacy<vtkRectilinearGridWriter>(*rectilinear(), Kind::Rectilinear);
+    expectWhatVtkWritesAsLegacy<vtkStructuredGridWriter>(*structured(), Kind::Structured);
 }
 
 }  // namespace

@@ -42,13 +42,13 @@ TEST(WithoutVtk, TypesThatAreNotReadAreToldBeforeTheWay) {
     tests::writeBytes(list,
                       "<VTKFile type=\"Collection\"><Collection>"
                       "<DataSet timestep=\"0\" file=\"mesh.vtu\"/></Collection></VTKFile>");
-    tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET STRUCTURED_GRID\n");
+    tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n");
     EXPECT_THAT(refusal(mesh),
                 testing::StartsWith(mesh.string() + " is a VTK file of type UnstructuredGrid; "));
     EXPECT_THAT(refusal(list),
                 testing::StartsWith(mesh.string() + " is a VTK file of type UnstructuredGrid; "));
     EXPECT_THAT(refusal(old),
-                testing::StartsWith(old.string() + " is a VTK file of type structured_grid; "));
+                testing::StartsWith(old.string() + " is a VTK file of type unstructured_grid; "));
     for (const auto& path : {mesh, list, old})
         EXPECT_THAT(refusal(path), testing::Not(testing::HasSubstr("--with-vtk")));
 }

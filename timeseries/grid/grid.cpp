@@ -96,7 +96,28 @@ Grid::Grid(std::array<Axis, 3> axes, Frame frame)
     }
 }
 
+Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh)
+    : axes_(std::move(space)), mesh_(std::move(mesh)) {
+    for (int a = 0; a < 3; ++a) {
+        if (!axes_[a].coordinates.empty()) continue;
+        axes_[a].coordinates = {mesh_->lo()[a]};
+        if (mesh_->hi()[a] > mesh_->lo()[a]) axes_[a].coordinates.push_back(mesh_->hi()[a]);
+    }
+}
+
+std::shared_ptr<const Grid> gridOfStep(const std::shared_ptr<const Grid>& series,
+                                       const std::shared_ptr<const Grid>& step) {
+    if (series == step || *series == *step) return series;
+    if (!series->mesh() || !step->mesh() || series->size() != step->size()) return nullptr;
+    const auto sameSpace = [](const Axis& a, const Axis& b) {
+        return a.name == b.name && a.units == b.units && a.down == b.down;
+    };
+    if (!std::ranges::equal(series->axes(), step->axes(), sameSpace)) return nullptr;
+    return std::make_shared<const Grid>(series->axes(), step->mesh());
+}
+
 std::array<std::size_t, 3> Grid::size() const {
+    if (mesh_) return mesh_->size();
     return {axes_[0].coordinates.size(), axes_[1].coordinates.size(), axes_[2].coordinates.size()};
 }
 
@@ -106,7 +127,7 @@ std::uint64_t Grid::count() const {
 }
 
 bool Grid::uniform() const {
-    return axes_[0].uniform() && axes_[1].uniform() && axes_[2].uniform();
+    return !mesh_ && axes_[0].uniform() && axes_[1].uniform() && axes_[2].uniform();
 }
 
 glm::vec<3, std::uint64_t> Grid::indices(std::uint64_t index) const {
@@ -115,6 +136,7 @@ glm::vec<3, std::uint64_t> Grid::indices(std::uint64_t index) const {
 }
 
 glm::dvec3 Grid::position(std::uint64_t index) const {
+    if (mesh_) return mesh_->position(index);
     const auto at = indices(index);
     const glm::dvec3 along(axes_[0].coordinates[at[0]], axes_[1].coordinates[at[1]],
                            axes_[2].coordinates[at[2]]);
@@ -122,6 +144,7 @@ glm::dvec3 Grid::position(std::uint64_t index) const {
 }
 
 glm::dmat3 Grid::cell(std::uint64_t index) const {
+    if (mesh_) return mesh_->cell(index);
     const auto at = indices(index);
     double smallest = std::numeric_limits<double>::infinity();
     for (const Axis& axis : axes_)

@@ -6,18 +6,22 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "timeseries/grid/mesh.h"
+
 namespace timeseries {
 
-// One axis of a rectilinear grid.
+// One axis of a rectilinear grid, or of the space that a mesh lies in.
 struct Axis {
     std::string name;   // as in the file: "lon", "depth"
     std::string units;  // as in the file; "" for none, "index" when counted, not measured
-    std::vector<double> coordinates;  // [n], strictly ascending or strictly descending, n >= 1
-    bool down = false;                // greater coordinates lie lower (depth, pressure)
+    // [n], strictly ascending or strictly descending, n >= 1; of a mesh the least and the greatest.
+    std::vector<double> coordinates;
+    bool down = false;  // greater coordinates lie lower (depth, pressure)
 
     // Spaced evenly to within 1e-4 of the mean step, the rounding of coordinates stored as floats.
     bool uniform() const;
@@ -59,33 +63,48 @@ constexpr glm::vec<3, I> indicesOf(I index, const glm::vec<3, I>& size) {
     return {index - row * size.x, row - slice * size.y, slice};
 }
 
-// Uniform and rectilinear grids, also rotated and sheared ones. Points are numbered x fastest:
-// index = x + nx (y + ny z). Curvilinear and scattered grids come behind the same position() and
-// cell().
+// Uniform and rectilinear grids, also rotated and sheared ones, and curvilinear ones, whose points
+// lie where a mesh says. Points are numbered by their places along three indices, the first
+// fastest: index = i + ni (j + nj k). Of a grid without a mesh these run along its axes.
 class Grid {
  public:
     // Throws std::invalid_argument when an axis is empty, not finite or not strictly monotonic, the
     // directions are flawed, or the point count passes 2^63.
     explicit Grid(std::array<Axis, 3> axes, Frame frame = {});
+    // Axes without coordinates get the mesh's bounds. Of a mesh that moves, they are the series'.
+    Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh);
 
     const std::array<Axis, 3>& axes() const { return axes_; }
     const Frame& frame() const { return frame_; }
+    // None: the axes tell where each point lies.
+    const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
     std::array<std::size_t, 3> size() const;
     std::uint64_t count() const;
     bool uniform() const;
 
-    glm::vec<3, std::uint64_t> indices(std::uint64_t index) const;  // along the axes
+    glm::vec<3, std::uint64_t> indices(std::uint64_t index) const;
     // In the file's space, in the units of the axes.
     glm::dvec3 position(std::uint64_t index) const;
-    // Columns: the steps along the axes that the point stands for (index step -> the file's space).
-    // Never singular: an axis of one point takes the smallest mean step of the others, else 1.
+    // Columns: the steps along the indices that the point stands for (index step -> the file's
+    // space). Of a grid without a mesh never singular: an axis of one point takes the smallest mean
+    // step of the others, else 1.
     glm::dmat3 cell(std::uint64_t index) const;
 
-    friend bool operator==(const Grid&, const Grid&) = default;
+    friend bool operator==(const Grid& a, const Grid& b) {
+        const bool sameMesh = a.mesh_ == b.mesh_ || (a.mesh_ && b.mesh_ && *a.mesh_ == *b.mesh_);
+        return sameMesh && a.axes_ == b.axes_ && a.frame_ == b.frame_;
+    }
 
  private:
     std::array<Axis, 3> axes_;
     Frame frame_;
+    std::shared_ptr<const Mesh> mesh_;
 };
+
+// The grid of a step of a series whose grid is `series`: that one, if the step's is the same; of a
+// mesh that moves the step's places, within the series' bounds, so that all are drawn in one box.
+// Null where they are no steps of one series.
+std::shared_ptr<const Grid> gridOfStep(const std::shared_ptr<const Grid>& series,
+                                       const std::shared_ptr<const Grid>& step);
 
 }  // namespace timeseries

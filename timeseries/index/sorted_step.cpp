@@ -197,8 +197,11 @@ std::shared_ptr<const CellIndex> SortedStep::cellsIfMade() const {
     return cells_->made ? cells_->index : nullptr;
 }
 
-bool SortedStep::canHaveCells() const {
-    return !ofCategories_ && size_ == statistics_.points && CellIndex::canIndex(*grid_);
+std::string_view SortedStep::whyNoCells() const {
+    if (ofCategories_) return "nothing lies between categories";
+    if (size_ != statistics_.points) return "cells need every value kept";
+    if (grid_->mesh()) return "cells of curvilinear grids are not drawn yet";
+    return CellIndex::canIndex(*grid_) ? "" : "this grid has too many cells";
 }
 
 Run SortedStep::finite() const {

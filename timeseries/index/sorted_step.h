@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -96,10 +97,9 @@ class SortedStep {
     std::shared_ptr<const CellIndex> cells() const;
     // Null as long as nobody has made them.
     std::shared_ptr<const CellIndex> cellsIfMade() const;
-    // No points were dropped, something lies between the values, and there are no more cells than
-    // can be numbered.
-    bool canHaveCells() const;
-    bool ofCategories() const { return ofCategories_; }  // Field::categories
+    // Why there are none, in a few words; "" where there can be.
+    std::string_view whyNoCells() const;
+    bool canHaveCells() const { return whyNoCells().empty(); }
 
     // The points between the infinities: all but the first and the last ones that are infinite.
     Run finite() const;

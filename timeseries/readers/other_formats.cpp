@@ -152,7 +152,6 @@ std::string otherVtkType(std::string_view type) {
     if (first == type.npos) return "";
     type = type.substr(first, type.find_last_not_of(kBlank) + 1 - first);
     for (const auto other : {"UnstructuredGrid"sv,
-                             "StructuredGrid"sv,
                              "PolyData"sv,
                              "PImageData"sv,
                              "PRectilinearGrid"sv,
@@ -170,7 +169,6 @@ std::string otherVtkType(std::string_view type) {
                              "vtkHierarchicalBoxDataSet"sv,
                              "vtkOverlappingAMR"sv,
                              "vtkNonOverlappingAMR"sv,
-                             "structured_grid"sv,
                              "unstructured_grid"sv,
                              "polydata"sv,
                              "field"sv})
@@ -208,7 +206,9 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, NRRD and, of VTK, image data and rectilinear grids (.vti, .vtr, .vtk, .pvd)";
+        "NetCDF, NRRD and, of VTK, image data, rectilinear and structured grids (.vti, .vtr, .vts, "
+        ".vtk, "
+        ".pvd)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
 

@@ -109,7 +109,7 @@ const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t
         differ(
             0, file,
             fmt::format("{}units, found \"{}\" and \"{}\"", place, expected.units, found->units));
-    if (*found->grid != *expected.grid) {
+    if (!gridOfStep(expected.grid, found->grid)) {
         const auto a = expected.grid->size(), b = found->grid->size();
         differ(0, file,
                a == b ? fmt::format("{}grid, but their {} x {} x {} points lie elsewhere", place,
@@ -230,7 +230,7 @@ Field SequenceReader::read(std::size_t variable, std::size_t step) {
     Reader& reader = open(file);
     const auto at = placeOf(variables_[variable], reader.variables());
     Field field = reader.read(at.value(), step - begins[file]);
-    field.grid = variables_[variable].grid;
+    field.grid = gridOfStep(variables_[variable].grid, field.grid);
     return field;
 }
 

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <stdexcept>
 
 namespace timeseries {
 namespace {
 
-constexpr std::array kNames{"x", "y", "z"};
+constexpr std::array kNames{"x", "y", "z"}, kIndices{"i", "j", "k"};
 
 // How an image's axes lie in space; `length` is of each as the file has it.
 struct Directions {
@@ -46,10 +47,53 @@ std::vector<double> imageCoordinates(const VtkHeader& header, std::size_t axis, 
     return coordinates;
 }
 
+// The middles of cells, of which an axis of one point has one layer.
+std::vector<glm::dvec3> middles(const VtkHeader& header) {
+    const auto points = header.size(VtkPlace::Points), cells = header.size(VtkPlace::Cells);
+    std::vector<glm::dvec3> at;
+    at.reserve(header.count(VtkPlace::Cells));
+    for (std::uint64_t k = 0; k < cells[2]; ++k)
+        for (std::uint64_t j = 0; j < cells[1]; ++j)
+            for (std::uint64_t i = 0; i < cells[0]; ++i) {
+                glm::dvec3 sum(0);
+                for (unsigned corner = 0; corner < 8; ++corner) {
+                    const auto of = [&](std::uint64_t cell, std::size_t axis) {
+                        const bool isFar = points[axis] > 1 && (corner >> axis & 1) != 0;
+                        return cell + (isFar ? 1 : 0);
+                    };
+                    sum += header.places[of(i, 0) + points[0] * (of(j, 1) + points[1] * of(k, 2))] /
+                           8.0;
+                }
+                at.push_back(sum);
+            }
+    return at;
+}
+
+VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
+    VtkGrid result;
+    const auto size = header.size(place);
+    result.layout = {{size[0], size[1], size[2]}, {1, size[0], size[0] * size[1]}};
+    try {
+        const auto mesh = std::make_shared<const Mesh>(
+            MeshPlaces{.size = result.layout.size,
+                       .at = place == VtkPlace::Points ? header.places : middles(header)});
+        result.notes = notesOf(*mesh);
+        result.grid = std::make_shared<Grid>(
+            std::array<Axis, 3>{Axis{"x", "", {}}, Axis{"y", "", {}}, Axis{"z", "", {}}}, mesh);
+    } catch (const std::invalid_argument& flaw) {
+        result.notes.push_back(fmt::format("drawn in index space: {}", flaw.what()));
+        std::array<Axis, 3> axes;
+        for (std::size_t a = 0; a < 3; ++a)
+            axes[a] = {kIndices[a], "index", indexCoordinates(size[a]), false};
+        result.grid = std::make_shared<Grid>(std::move(axes));
+    }
+    return result;
+}
+
 }  // namespace
 
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
-    static constexpr std::array kIndices{"i", "j", "k"};
+    if (isStructured(header.kind)) return structuredGridOf(header, place);
     const bool image = header.kind == VtkKind::XmlImage || header.kind == VtkKind::LegacyPoints;
     const Directions directions = directionsOf(header);
     const auto along = alignedWith(directions.unit);

@@ -18,7 +18,7 @@ struct VtkGrid {
 
 // Of cell data, the grid of the cells' centres. A rotated or sheared image keeps the order of its
 // axes; their coordinates are the file's before it is turned. REQUIRES: coordinates as many as
-// points when the header is that of a rectilinear grid.
+// points when the header is that of a rectilinear grid, places when of a structured one.
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place);
 
 }  // namespace timeseries

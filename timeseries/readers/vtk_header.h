@@ -17,7 +17,17 @@
 
 namespace timeseries {
 
-enum class VtkKind { XmlImage, XmlRectilinear, LegacyPoints, LegacyRectilinear };
+enum class VtkKind {
+    XmlImage,
+    XmlRectilinear,
+    XmlStructured,
+    LegacyPoints,
+    LegacyRectilinear,
+    LegacyStructured
+};
+inline bool isStructured(VtkKind kind) {
+    return kind == VtkKind::XmlStructured || kind == VtkKind::LegacyStructured;
+}
 
 enum class VtkPlace { Points, Cells };
 
@@ -51,9 +61,12 @@ struct VtkHeader {
     std::vector<VtkArray> arrays;                                // those that can be drawn
     std::vector<std::string> passedOver;                         // the others, each with the reason
     std::array<bool, 2> ghosts{};                                // by VtkPlace: has vtkGhostType
-    bool fieldOutside = false;  // a legacy file's FIELD that is neither of points nor of cells
+    bool hasField = false;                                       // a legacy file's FIELD
+    bool fieldOutside = false;  // one that is neither of points nor of cells
     // Of rectilinear grids; of an XML file VTK reads them later.
     std::array<std::vector<double>, 3> coordinates;
+    // Of structured grids, x fastest; VTK reads them later.
+    std::vector<glm::dvec3> places;
     std::optional<VtkTime> time;
 
     std::array<std::uint64_t, 3> size(VtkPlace place) const;

@@ -39,6 +39,8 @@ class LegacyHeader {
         for (std::string word = text_.lowerWord(); !word.empty(); word = text_.lowerWord())
             readSection(word);
         if (!sized_) text_.fail("expected DIMENSIONS, but the file ends");
+        if (header_.kind == VtkKind::LegacyStructured && !placed_)
+            text_.fail("expected POINTS, but the file ends");
         if (header_.kind == VtkKind::LegacyRectilinear)
             for (std::size_t i = 0; i < 3; ++i)
                 if (header_.coordinates[i].size() != header_.size(VtkPlace::Points)[i])
@@ -52,6 +54,7 @@ class LegacyHeader {
     void readDataset();
     void readDimensions();
     void readCoordinates(std::size_t axis);
+    void skipPoints();
     void readAttribute(const std::string& word);
     void readField();
     void readFieldArray();
@@ -67,7 +70,7 @@ class LegacyHeader {
 
     VtkText text_;
     VtkHeader header_;
-    bool sized_ = false;
+    bool sized_ = false, placed_ = false;
     std::optional<VtkPlace> place_;  // once POINT_DATA or CELL_DATA has come
     std::set<std::pair<VtkPlace, std::string>> names_;
     std::string typeName_;
@@ -103,6 +106,8 @@ void LegacyHeader::readSection(const std::string& word) {
     if (!place_ && header_.kind == VtkKind::LegacyRectilinear && word.ends_with("_coordinates") &&
         word.size() == 13 && word[0] >= 'x' && word[0] <= 'z')
         return readCoordinates(static_cast<std::size_t>(word[0] - 'x'));
+    if (!place_ && header_.kind == VtkKind::LegacyStructured && word == "points")
+        return skipPoints();
     if (word == "point_data") return beginAttributes(VtkPlace::Points);
     if (word == "cell_data") return beginAttributes(VtkPlace::Cells);
     if (!place_) text_.fail(fmt::format("expected POINT_DATA or CELL_DATA, found \"{}\"", word));
@@ -118,10 +123,13 @@ void LegacyHeader::readDataset() {
     } else if (kind == "rectilinear_grid") {
         header_.kind = VtkKind::LegacyRectilinear;
         header_.format = "VTK rectilinear grid (legacy)";
+    } else if (kind == "structured_grid") {
+        header_.kind = VtkKind::LegacyStructured;
+        header_.format = "VTK structured grid (legacy)";
     } else {
         text_.fail(
-            fmt::format("expected DATASET STRUCTURED_POINTS or RECTILINEAR_GRID, found "
-                        "\"{}\"",
+            fmt::format("expected DATASET STRUCTURED_POINTS, RECTILINEAR_GRID or STRUCTURED_GRID, "
+                        "found \"{}\"",
                         kind));
     }
 }
@@ -155,6 +163,18 @@ void LegacyHeader::readCoordinates(std::size_t axis) {
     const VtkType* type = readType();
     if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
     header_.coordinates[axis] = text_.numbers(*type, count);
+}
+
+// VTK reads them.
+void LegacyHeader::skipPoints() {
+    const std::uint64_t count = text_.count("a number of points"),
+                        all = header_.count(VtkPlace::Points);
+    if (placed_ || count != all)
+        text_.fail(fmt::format("expected {} points once, found {}", all, count));
+    const VtkType* type = readType();
+    if (!type) text_.fail(fmt::format("expected a type of number, found \"{}\"", typeName_));
+    text_.skipNumbers(*type, 3 * count);
+    placed_ = true;
 }
 
 void LegacyHeader::beginAttributes(VtkPlace place) {
@@ -235,6 +255,7 @@ void LegacyHeader::readAttribute(const std::string& word) {
 
 void LegacyHeader::readField() {
     text_.name();
+    header_.hasField = true;
     header_.fieldOutside |= !place_;
     const std::uint64_t arrays = text_.count("a number of arrays");
     for (std::uint64_t i = 0; i < arrays; ++i) readFieldArray();

@@ -14,11 +14,14 @@
 #include <vtkRectilinearGrid.h>
 #include <vtkRectilinearGridReader.h>
 #include <vtkSmartPointer.h>
+#include <vtkStructuredGrid.h>
+#include <vtkStructuredGridReader.h>
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
+#include <vtkXMLStructuredGridReader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,8 +117,10 @@ vtkSmartPointer<vtkDataSet> readXml(const VtkHeader& header, const VtkArray* wan
     vtkSmartPointer<vtkXMLReader> reader;
     if (header.kind == VtkKind::XmlImage)
         reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLImageDataReader>>::New();
-    else
+    else if (header.kind == VtkKind::XmlRectilinear)
         reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLRectilinearGridReader>>::New();
+    else
+        reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLStructuredGridReader>>::New();
     reader->SetFileName(header.path.c_str());
     reader->UpdateInformation();
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
@@ -134,9 +139,10 @@ vtkSmartPointer<vtkDataSet> readXml(const VtkHeader& header, const VtkArray* wan
 }
 
 // Of each keyword only the array of the name set is kept; the first when none is set.
-void select(vtkDataReader& reader, const VtkArray& wanted) {
+void select(vtkDataReader& reader, const VtkArray* wanted) {
     const auto name = [&](VtkKeyword keyword) {
-        return keyword == wanted.keyword ? wanted.name.c_str() : "\x1f";  // no array is called so
+        const bool isIt = wanted && keyword == wanted->keyword;
+        return isIt ? wanted->name.c_str() : "\x1f";  // no array is called so
     };
     reader.SetScalarsName(name(VtkKeyword::Scalars));
     reader.SetVectorsName(name(VtkKeyword::Vectors));
@@ -146,12 +152,15 @@ void select(vtkDataReader& reader, const VtkArray& wanted) {
 }
 
 template <typename Reader>
-vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray& wanted) {
+vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray* wanted) {
     const vtkNew<Reader> reader;
     reader->SetFileName(header.path.c_str());
-    const bool ghosts = header.ghosts[static_cast<std::size_t>(wanted.place)];
-    // VTK 9.1 crashes on a field outside the attributes that it is not to keep.
-    if (ghosts || header.fieldOutside || wanted.keyword == VtkKeyword::Field)
+    const bool ghosts = wanted && header.ghosts[static_cast<std::size_t>(wanted->place)];
+    // VTK 9.1 crashes on a field outside the attributes that it is not to keep, and, in looking for
+    // the sizes of a structured grid, on any field.
+    const bool looksAtFields = header.kind == VtkKind::LegacyStructured && header.hasField;
+    if (ghosts || header.fieldOutside || looksAtFields ||
+        (wanted && wanted->keyword == VtkKeyword::Field))
         reader->ReadAllFieldsOn();
     else
         reader->SetFieldDataName("\x1f");
@@ -181,13 +190,17 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
     switch (header.kind) {
         case VtkKind::XmlImage:
         case VtkKind::XmlRectilinear:
+        case VtkKind::XmlStructured:
             output = readXml(header, &wanted);
             break;
         case VtkKind::LegacyPoints:
-            output = readLegacy<vtkStructuredPointsReader>(header, wanted);
+            output = readLegacy<vtkStructuredPointsReader>(header, &wanted);
             break;
         case VtkKind::LegacyRectilinear:
-            output = readLegacy<vtkRectilinearGridReader>(header, wanted);
+            output = readLegacy<vtkRectilinearGridReader>(header, &wanted);
+            break;
+        case VtkKind::LegacyStructured:
+            output = readLegacy<vtkStructuredGridReader>(header, &wanted);
             break;
     }
     if (!output) return {};
@@ -297,15 +310,31 @@ std::vector<double> numbersOf(vtkDataArray* array) {
     return numbers;
 }
 
+std::vector<glm::dvec3> placesOf(const VtkHeader& header, vtkStructuredGrid& grid) {
+    const auto count = static_cast<vtkIdType>(header.count(VtkPlace::Points));
+    if (!grid.GetPoints() || grid.GetNumberOfPoints() != count)
+        failVtk(header.path, "Points",
+                fmt::format("expected {} of them, but VTK reads something else", count));
+    std::vector<glm::dvec3> places(static_cast<std::size_t>(count));
+    for (vtkIdType i = 0; i < count; ++i) grid.GetPoint(i, &places[static_cast<std::size_t>(i)].x);
+    return places;
+}
+
 }  // namespace
 
 VtkFrame readVtkFrame(const VtkHeader& header) {
-    const auto output = withVtk(header, "", [&] { return readXml(header, nullptr); });
+    const auto output = withVtk(header, "", [&] {
+        return header.kind == VtkKind::LegacyStructured
+                   ? readLegacy<vtkStructuredGridReader>(header, nullptr)
+                   : readXml(header, nullptr);
+    });
     VtkFrame frame;
     if (!output) failVtk(header.path, "", "expected a grid, but VTK reads none");
     if (auto* grid = vtkRectilinearGrid::SafeDownCast(output))
         frame.coordinates = {numbersOf(grid->GetXCoordinates()), numbersOf(grid->GetYCoordinates()),
                              numbersOf(grid->GetZCoordinates())};
+    if (auto* grid = vtkStructuredGrid::SafeDownCast(output))
+        frame.places = placesOf(header, *grid);
     vtkFieldData* data = output->GetFieldData();
     for (int i = 0; data && i < data->GetNumberOfArrays(); ++i) {
         vtkDataArray* array = data->GetArray(i);

@@ -9,12 +9,13 @@
 
 namespace timeseries {
 
-// What is in the XML file beside the arrays: VTK decodes it.
+// What is in the file beside the arrays: VTK decodes it.
 struct VtkFrame {
     std::array<std::vector<double>, 3> coordinates;  // of rectilinear grids
+    std::vector<glm::dvec3> places;                  // of structured grids
     std::optional<VtkTime> time;
 };
-// REQUIRES: an XML header. Throws FileError.
+// REQUIRES: an XML header, or one of a structured grid. Throws FileError.
 VtkFrame readVtkFrame(const VtkHeader& header);
 
 // What a variable takes of an array's components.

@@ -22,11 +22,12 @@ bool legacy(const Path& path) {
     return start == "# vtk";
 }
 
-// With the coordinates of a rectilinear grid.
+// With the coordinates of a rectilinear grid, and the places of a structured one.
 VtkHeader headerOf(const XmlFile& file) {
     VtkHeader header = readVtkXmlHeader(file);
     VtkFrame frame = readVtkFrame(header);
     header.coordinates = std::move(frame.coordinates);
+    header.places = std::move(frame.places);
     header.time = frame.time;
     if (header.kind == VtkKind::XmlRectilinear)
         for (std::size_t i = 0; i < 3; ++i)
@@ -35,6 +36,12 @@ VtkHeader headerOf(const XmlFile& file) {
                     file.path, "Coordinates",
                     fmt::format("expected {} along {}, found {}", header.size(VtkPlace::Points)[i],
                                 "xyz"[i], header.coordinates[i].size()));
+    return header;
+}
+
+VtkHeader legacyHeaderOf(const Path& path) {
+    VtkHeader header = readVtkLegacyHeader(path);
+    if (isStructured(header.kind)) header.places = readVtkFrame(header).places;
     return header;
 }
 
@@ -50,12 +57,13 @@ Frame frameOf(VtkHeader header) {
         auto& grid = frame.grids[static_cast<std::size_t>(array.place)];
         if (!grid) grid = vtkGridOf(frame.header, array.place);
     }
+    frame.header.places = {};
     return frame;
 }
 
 Frame frameOf(const Path& path) {
     if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
-    return frameOf(legacy(path) ? readVtkLegacyHeader(path) : headerOf(readXml(path)));
+    return frameOf(legacy(path) ? legacyHeaderOf(path) : headerOf(readXml(path)));
 }
 
 class VtkReader final : public Reader {
@@ -190,10 +198,10 @@ Field VtkReader::read(std::size_t variable, std::size_t step) {
                 fmt::format("expected finite numbers of type {}, found \"{}\"",
                             typeName(array.type), found->notNumber));
     const VtkGrid& grid = *frame_.grids[static_cast<std::size_t>(array.place)];
-    if (*grid.grid != *variables_[variable].grid)
-        failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());
     Field field;
-    field.grid = variables_[variable].grid;
+    field.grid = gridOfStep(variables_[variable].grid, grid.grid);
+    if (!field.grid)
+        failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());
     readVtkArray(header, *found, sources_[variable].part, grid.layout, field);
     return field;
 }

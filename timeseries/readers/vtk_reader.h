@@ -1,5 +1,5 @@
-// VTK files of points on a grid, by VTK's own readers: XML image data (.vti) and rectilinear grids
-// (.vtr), legacy structured points and rectilinear grids (.vtk), and collections of them (.pvd).
+// VTK files of points on a grid, by VTK's own readers: XML image data (.vti), rectilinear (.vtr)
+// and structured grids (.vts), the same in legacy files (.vtk), and collections of them (.pvd).
 #pragma once
 
 #include <filesystem>

@@ -132,24 +132,36 @@ std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, 
     return arrays;
 }
 
+// Of the coordinates of a grid.
+void checkNumbers(const Context& context, const XmlElement& array, std::uint64_t components,
+                  std::uint64_t tuples) {
+    const VtkType* type = vtkXmlType(array.attribute("type"));
+    if (array.name != "DataArray" || !type ||
+        countOf(context.file, array, "NumberOfComponents", 1) != components)
+        failVtk(context.file.path, placeOf(array),
+                components == 1 ? "expected a DataArray of numbers"
+                                : "expected a DataArray of 3 components, x, y and z");
+    checkVtkValues(context.file, context.encoding, array, placeOf(array), components * tuples,
+                   type->bytes);
+    if (!array.notNumber.empty())
+        failVtk(context.file.path, placeOf(array),
+                fmt::format("expected finite numbers of its type, found \"{}\"", array.notNumber));
+}
+
+void checkPoints(const Context& context, const XmlElement& piece, const VtkHeader& shape) {
+    const auto groups = named(piece, "Points");
+    if (groups.size() != 1 || groups[0]->children.size() != 1)
+        failVtk(context.file.path, placeOf(piece), "expected Points of one array");
+    checkNumbers(context, groups[0]->children[0], 3, shape.count(VtkPlace::Points));
+}
+
 void checkCoordinates(const Context& context, const XmlElement& piece, const VtkHeader& shape) {
     const auto groups = named(piece, "Coordinates");
     if (groups.size() != 1 || groups[0]->children.size() != 3)
         failVtk(context.file.path, placeOf(piece),
                 "expected Coordinates of three arrays, x, y and z");
     const auto size = shape.size(VtkPlace::Points);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const XmlElement& array = groups[0]->children[i];
-        const VtkType* type = vtkXmlType(array.attribute("type"));
-        if (array.name != "DataArray" || !type ||
-            countOf(context.file, array, "NumberOfComponents", 1) != 1)
-            failVtk(context.file.path, placeOf(array), "expected a DataArray of numbers");
-        checkVtkValues(context.file, context.encoding, array, placeOf(array), size[i], type->bytes);
-        if (!array.notNumber.empty())
-            failVtk(
-                context.file.path, placeOf(array),
-                fmt::format("expected finite numbers of its type, found \"{}\"", array.notNumber));
-    }
+    for (std::size_t i = 0; i < 3; ++i) checkNumbers(context, groups[0]->children[i], 1, size[i]);
 }
 
 // VTK 9.1 makes every array of the field data, and crashes when it knows its type not.
@@ -232,6 +244,7 @@ void addPieces(const Context& context, const XmlElement& grid) {
                 shape.extent[i][1] > header.extent[i][1])
                 failVtk(header.path, placeOf(*piece), "expected an Extent inside WholeExtent");
         if (header.kind == VtkKind::XmlRectilinear) checkCoordinates(context, *piece, shape);
+        if (header.kind == VtkKind::XmlStructured) checkPoints(context, *piece, shape);
         std::vector<VtkArray> arrays;
         for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
             for (VtkArray& array : arraysOf(context, *piece, place, shape.count(place)))
@@ -254,9 +267,12 @@ void addPieces(const Context& context, const XmlElement& grid) {
     }
     if (shapes.empty())
         failVtk(header.path, placeOf(grid), "expected a Piece that holds points, found none");
-    for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
-        if (std::ranges::any_of(header.arrays, [&](const auto& a) { return a.place == place; }))
+    for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
+        const bool hasPlaces = isStructured(header.kind) && place == VtkPlace::Points;
+        const auto isThere = [&](const VtkArray& array) { return array.place == place; };
+        if (hasPlaces || std::ranges::any_of(header.arrays, isThere))
             checkCover(header, shapes, place);
+    }
     std::ranges::sort(header.passedOver);
     header.passedOver.erase(std::unique(header.passedOver.begin(), header.passedOver.end()),
                             header.passedOver.end());
@@ -307,13 +323,23 @@ VtkHeader readVtkXmlHeader(const XmlFile& file) {
     header.path = file.path;
     if (const std::string other = otherVtkType(type); !other.empty())
         throw FileError(notReadSentence(file.path, other));
-    if (type != "ImageData" && type != "RectilinearGrid")
+    struct Known {
+        std::string_view type;
+        VtkKind kind;
+        const char* format;
+    };
+    constexpr std::array kKnown{
+        Known{"ImageData", VtkKind::XmlImage, "VTK image data (XML)"},
+        Known{"RectilinearGrid", VtkKind::XmlRectilinear, "VTK rectilinear grid (XML)"},
+        Known{"StructuredGrid", VtkKind::XmlStructured, "VTK structured grid (XML)"}};
+    const auto known = std::ranges::find(kKnown, type, &Known::type);
+    if (known == kKnown.end())
         failVtk(file.path, "VTKFile",
-                fmt::format("expected the type ImageData, RectilinearGrid or Collection, found "
-                            "\"{}\"",
+                fmt::format("expected the type ImageData, RectilinearGrid, StructuredGrid or "
+                            "Collection, found \"{}\"",
                             type));
-    header.kind = type == "ImageData" ? VtkKind::XmlImage : VtkKind::XmlRectilinear;
-    header.format = type == "ImageData" ? "VTK image data (XML)" : "VTK rectilinear grid (XML)";
+    header.kind = known->kind;
+    header.format = known->format;
     const auto grids = named(root, type);
     if (grids.size() != 1)
         failVtk(file.path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));

@@ -1,0 +1,239 @@
+// Splats of points that lie one by one: against upright grids, closed forms, and each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "render/model/pick.h"
+#include "render/splat/row_splatter.h"
+#include "tests/support/meshes.h"
+#include "tests/support/splat_world.h"
+
+namespace render {
+namespace {
+
+using tests::curvilinear;
+using namespace render::splat_world;
+
+double valueOf(std::size_t i) { return double((i * 7919) % 1000); }
+
+World worldOf(std::shared_ptr<const Grid> grid, Footprint footprint = {},
+              const RangeSet& range = RangeSet::everything()) {
+    return World(tests::stepOf(std::move(grid), valueOf), range, footprint);
+}
+
+// The places of an upright grid, one by one.
+std::shared_ptr<const Grid> straight(const Grid& upright) {
+    const auto [ni, nj, nk] = upright.size();
+    return curvilinear({ni, nj, nk}, [&](double i, double j, double k) {
+        return upright.position(static_cast<std::uint64_t>(i + double(ni) * (j + double(nj) * k)));
+    });
+}
+
+double greatest(const std::vector<double>& w) { return *std::ranges::max_element(w); }
+
+void expectAlike(const std::vector<double>& a, const std::vector<double>& b, double error) {
+    ASSERT_EQ(a.size(), b.size());
+    const double most = greatest(a);
+    ASSERT_GT(most, 0);
+    for (std::size_t i = 0; i < a.size(); ++i)
+        ASSERT_NEAR(a[i], b[i], error * most) << "pixel " << i;
+}
+
+// Uneven, and larger than pixels: upright splats then grow nowhere.
+Grid uneven() {
+    timeseries::Axis x = axis(7), y = axis(6, 0, 1.5), z = axis(5, 0, 0.8);
+    for (double& c : x.coordinates) c += 0.03 * c * c;
+    return Grid({x, y, z});
+}
+
+TEST(MeshSplats, OfAStraightMeshAreThoseOfTheUprightGrid) {
+    const Grid upright = uneven();
+    for (const Footprint footprint :
+         {Footprint{}, Footprint{Kernel::Quartic, 1.5}, Footprint{Kernel::Point, 5}})
+        for (const glm::dvec3 from : {glm::dvec3(1.2, -2.5, 0.9), glm::dvec3(0.1, -0.2, 0.05)}) {
+            const View view = tests::lookFrom(from, {90, 80}, 0.5);
+            const auto as = [&](std::shared_ptr<const Grid> grid) {
+                return weights(worldOf(std::move(grid), footprint), view);
+            };
+            // Places in floats err by 6e-8 of the box, of which a cell is a sixth: not 1e-6 of it.
+            expectAlike(as(std::make_shared<Grid>(upright)), as(straight(upright)), 3e-6);
+        }
+}
+
+TEST(MeshSplats, SmallerThanAPixelAreBlurredALittleMoreAndKeepTheirMass) {
+    const View view = tests::lookFrom({20, -60, 20}, {120, 100}, 0.05);  // 0.3 pixels a cell
+    const auto upright = std::make_shared<Grid>(std::array{axis(12), axis(12), axis(12)});
+    const auto a = weights(worldOf(upright), view), b = weights(worldOf(straight(*upright)), view);
+    double massA = 0, massB = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) massA += a[i], massB += b[i];
+    EXPECT_NEAR(massB, massA, 2e-4 * massA);
+    EXPECT_NEAR(greatest(b), greatest(a), 0.05 * greatest(a));
+}
+
+// A lattice that leans: what is drawn in all is its volume.
+TEST(MeshSplats, DrawTheVolumeOfWhatTheyStandFor) {
+    const glm::dmat3 steps({1, 0.2, 0}, {-0.3, 0.9, 0.25}, {0.1, 0.4, 1.2});
+    const World world = worldOf(curvilinear(
+        {6, 5, 7}, [&](double i, double j, double k) { return steps * glm::dvec3(i, j, k); }));
+    const View view = tests::lookFrom({0, -200, 0}, {400, 400}, 0.01);
+    const double scale = world.placed.scale().x;
+    const double volume = 6 * 5 * 7 * glm::determinant(steps) * scale * scale * scale;
+    EXPECT_NEAR(massDrawn(weights(world, view), view, 200) * world.placed.unitLength(), volume,
+                0.002 * volume);  // of the depth of the box at this distance
+}
+
+TEST(MeshSplats, OrderAndSenseOfTheIndicesChangeNothing) {
+    const auto place = [](double i, double j, double k) {
+        return glm::dvec3(i + 0.2 * std::sin(j), j + 0.1 * i * k / 5, k - 0.15 * std::cos(i));
+    };
+    const View view = tests::lookFrom({1.4, -2.3, 1.1}, {90, 80}, 0.5);
+    const auto drawn = [&](std::shared_ptr<const Grid> grid) {
+        return weights(World(tests::stepOf(std::move(grid), [](std::size_t) { return 1; })), view);
+    };
+    const auto plain = drawn(curvilinear({6, 5, 4}, place));
+    expectAlike(plain,
+                drawn(curvilinear({6, 5, 4}, [&](double i, double j,
+                                                 double k) { return place(5 - i, j, 3 - k); })),
+                1e-6);
+    expectAlike(
+        plain,
+        drawn(curvilinear({4, 6, 5}, [&](double k, double i, double j) { return place(i, j, k); })),
+        1e-6);
+    expectAlike(
+        plain,
+        drawn(curvilinear({5, 6, 4}, [&](double j, double i, double k) { return place(i, j, k); })),
+        1e-6);
+}
+
+// A ring of two radii and a height, in sectors: along its axis the mean optical depth is the
+// height, less what splats lose by the curvature that they do not follow, R^2 dtheta^2 / 12, and by
+// the chord that stands for an arc.
+TEST(MeshSplats, ARingLosesWhatTheFormulaSays) {
+    constexpr int kRadii = 24, kLevels = 9;
+    for (const auto& [sectors, tolerance] : {std::pair(64, 0.001), {32, 0.002}, {16, 0.01}}) {
+        const double turn = 2 * std::numbers::pi / sectors;
+        // Closed: the last sector's neighbours are the first's, one round farther.
+        const auto grid = curvilinear({kRadii, static_cast<std::size_t>(sectors) + 1, kLevels},
+                                      [&](double i, double j, double k) {
+                                          const double r = 1 + i / (kRadii - 1);
+                                          return glm::dvec3(r * std::cos(turn * j),
+                                                            r * std::sin(turn * j), 0.1 * k);
+                                      });
+        const World world(tests::stepOf(grid, [](std::size_t) { return 1; }));
+        const double scale = world.placed.scale().x;
+        View view = tests::lookFrom({0, 0, 0}, {600, 600}, 0.001);
+        view.viewFromWorld =
+            glm::lookAt(glm::dvec3(0, 0, 1000), glm::dvec3(0), glm::dvec3(0, 1, 0));
+        const auto w = weights(world, view);
+        const PixelRays rays = pixelRays(view);
+        double sum = 0;
+        int pixels = 0;
+        for (int y = 0; y < 600; ++y)
+            for (int x = 0; x < 600; ++x) {
+                const glm::dvec2 at =
+                    (glm::dvec2(x + 0.5, y + 0.5) - rays.centre) / rays.focal * 1000.0 / scale;
+                // Away from the rims, and from the seam, where the ends are.
+                const double r = glm::length(at), angle = std::atan2(at.y, at.x);
+                if (r < 1.25 || r > 1.75 || std::abs(angle) < 3 * turn) continue;
+                sum += w[std::size_t(y) * 600 + x] * world.placed.unitLength() / scale;
+                ++pixels;
+            }
+        const double height = 0.1 * kLevels;
+        const double expected =
+            std::sin(turn) / turn - 1 - kQuarticRadius * kQuarticRadius / 12 * turn * turn;
+        EXPECT_NEAR(sum / pixels / height - 1, expected, tolerance) << sectors << " sectors";
+    }
+}
+
+// Twisted, stretched, with a hole, and seen from near by.
+std::shared_ptr<const Grid> twisted() {
+    return curvilinear({9, 8, 7}, [](double i, double j, double k) {
+        if (i == 4 && j == 4 && k == 3) return glm::dvec3(std::nan(""));
+        const double a = 0.15 * k, x = i - 4, y = 1.2 * j - 4;
+        return glm::dvec3(x * std::cos(a) - y * std::sin(a), x * std::sin(a) + y * std::cos(a),
+                          0.05 * k * (k + 8));
+    });
+}
+
+TEST(MeshSplats, RowsSumWhatTheTruthDoes) {
+    for (const auto& [from, size] : {std::pair(glm::dvec3(1.5, -2, 1), 1.0),
+                                     {glm::dvec3(0.2, -0.3, 0.1), 1.0},
+                                     {glm::dvec3(30, -40, 10), 1.0},
+                                     {glm::dvec3(1.5, -2, 1), 2.0}}) {
+        const World world = worldOf(twisted(), {Kernel::Quartic, size});
+        const View view = tests::lookFrom(from, {120, 90}, 0.5);
+        const auto truth = weights(world, view);
+        for (const unsigned threads : {1u, 3u}) {
+            const auto rows = sumRows(world.scene, Runs{}, view, Channels::Weight, 0, {}, threads);
+            expectAlike(truth, {rows.begin(), rows.end()}, 2e-5);
+        }
+    }
+}
+
+TEST(MeshSplats, APointWithoutAPlaceIsNotDrawn) {
+    const auto grid = twisted();
+    const std::size_t hole = 4 + 9 * (4 + 8 * 3);
+    const World world(tests::stepOf(grid, [&](std::size_t i) { return i == hole ? 1.0 : 0.0; }),
+                      RangeSet::parse("1"));
+    ASSERT_EQ(pointCount(world.scene.layers[0]), 1u);
+    const View view = tests::lookFrom({1.5, -2, 1}, {60, 50}, 0.5);
+    EXPECT_EQ(greatest(weights(world, view)), 0);
+}
+
+TEST(MeshSplats, AreOrderedByDistance) {
+    World world = worldOf(twisted());
+    world.scene.order = Order::BackToFront;
+    const glm::dvec3 eye(1.5, -2, 1);
+    const auto sorted = std::get<Sorted>(order(world.scene, eye));
+    EXPECT_EQ(sorted.point.size(), world.step.size() - 1) << "but the one without a place";
+    const auto gridIndex = world.step.gridIndex();
+    double before = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t point : sorted.point) {
+        const double away = glm::distance(world.placed.position(gridIndex[point]), eye);
+        EXPECT_LE(away, before + 1e-6);  // keys tell distances to 2^-22 of the box
+        before = away;
+    }
+    EXPECT_EQ(std::get<Sorted>(orderExactly(world.scene, eye)).point.size(), sorted.point.size());
+}
+
+// The box is one of the file's coordinates.
+TEST(MeshSplats, AreClippedWhereTheyLie) {
+    const auto grid = twisted();
+    World world = worldOf(grid);
+    const glm::dvec3 lo(-2, -1.5, 0.3), hi(3, 2, 2.5);
+    world.scene.clip = indexBox(*grid, lo, hi);
+    world.scene.order = Order::BackToFront;
+    const auto sorted = std::get<Sorted>(order(world.scene, {1.5, -2, 1}));
+    std::size_t inside = 0;
+    for (std::uint64_t i = 0; i < grid->count(); ++i) {
+        const glm::dvec3 at = grid->position(i);
+        inside += at.x >= lo.x && at.y >= lo.y && at.z >= lo.z && at.x <= hi.x && at.y <= hi.y &&
+                  at.z <= hi.z;
+    }
+    EXPECT_GT(inside, 10u);
+    EXPECT_EQ(sorted.point.size(), inside);
+    for (const std::uint32_t point : sorted.point)
+        EXPECT_TRUE(world.scene.clip.holdsPlace(grid->position(world.step.gridIndex()[point])));
+}
+
+TEST(MeshSplats, ArePickedAsThoseOfTheUprightGrid) {
+    const Grid upright = uneven();
+    const World a = worldOf(std::make_shared<Grid>(upright)), b = worldOf(straight(upright));
+    const View view = tests::lookFrom({1.2, -2.5, 0.9}, {90, 80}, 0.5);
+    int found = 0;
+    for (double y = 5; y < 80; y += 7.3)
+        for (double x = 5; x < 90; x += 7.9) {
+            const auto one = pick(a.scene, view, {x, y}), other = pick(b.scene, view, {x, y});
+            ASSERT_EQ(one.has_value(), other.has_value());
+            if (!one) continue;
+            EXPECT_EQ(one->gridIndex, other->gridIndex);
+            ++found;
+        }
+    EXPECT_GT(found, 20);
+}
+
+}  // namespace
+}  // namespace render

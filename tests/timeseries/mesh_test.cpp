@@ -1,0 +1,212 @@
+#include "timeseries/grid/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "tests/support/meshes.h"
+#include "timeseries/together.h"
+
+namespace timeseries {
+namespace {
+
+using tests::placesOf;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Floats hold a place to a 2^24th of the mesh's extent.
+void expectNear(const glm::dvec3& found, const glm::dvec3& expected, double rounding) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], rounding);
+}
+void expectNear(const glm::dmat3& found, const glm::dmat3& expected, double rounding) {
+    for (int column = 0; column < 3; ++column)
+        expectNear(found[column], expected[column], rounding);
+}
+
+TEST(Mesh, AStraightOneHasThePlacesAndCellsOfTheUprightGrid) {
+    const Grid upright({Axis{"x", "", {10, 11, 13, 17}}, Axis{"y", "", {5, 4, 2}},
+                        Axis{"z", "", {-1, 0, 3, 4, 9}}});
+    const auto at = [&](std::size_t axis, double i) {
+        return upright.axes()[axis].coordinates[static_cast<std::size_t>(i)];
+    };
+    const Mesh mesh(placesOf({4, 3, 5}, [&](double i, double j, double k) {
+        return glm::dvec3(at(0, i), at(1, j), at(2, k));
+    }));
+    MeshPlaces byLevels = placesOf(
+        {4, 3, 1}, [&](double i, double j, double) { return glm::dvec3(at(0, i), at(1, j), 0); });
+    byLevels.size[2] = 5;
+    byLevels.levels = upright.axes()[2].coordinates;
+    const Mesh ofLevels(byLevels);
+    ASSERT_EQ(mesh.count(), upright.count());
+    double volumes = 0;
+    for (std::uint64_t i = 0; i < upright.count(); ++i) {
+        for (const Mesh* each : {&mesh, &ofLevels}) {
+            expectNear(each->position(i), upright.position(i), 1e-6);
+            expectNear(each->cell(i), upright.cell(i), 2e-6);
+        }
+        const double volume = mesh.volume(mesh.cell(i));
+        EXPECT_NEAR(volume, std::abs(glm::determinant(upright.cell(i))), 1e-4);
+        volumes += volume;
+    }
+    EXPECT_NEAR(mesh.meanVolume(), volumes / 60, 1e-12 * volumes);
+    expectNear(mesh.lo(), {10, 2, -1}, 1e-6);
+    expectNear(mesh.hi(), {17, 5, 9}, 1e-6);
+    expectNear(mesh.widest(), {4, 2, 5}, 1e-6);  // the longest steps, at ends or between
+    EXPECT_TRUE(notesOf(mesh).empty());
+    EXPECT_LT(ofLevels.bytes(), mesh.bytes() / 2);
+}
+
+TEST(Mesh, CellsAreTheStepsBetweenNeighbours) {
+    const glm::dmat3 steps({3, 0.5, 0}, {-1, 2, 0.25}, {0, 0.75, 1.5});  // columns
+    const Mesh mesh(placesOf({5, 4, 3}, [&](double i, double j, double k) {
+        return steps * glm::dvec3(i, j, k) + glm::dvec3(100, -50, 7);
+    }));
+    for (std::uint64_t i = 0; i < mesh.count(); ++i) {
+        expectNear(mesh.cell(i), steps, 1e-5);
+        EXPECT_NEAR(mesh.volume(mesh.cell(i)), glm::determinant(steps), 1e-4);
+    }
+}
+
+TEST(Mesh, TurnedOverItStandsForAsMuch) {
+    const auto place = [](double i, double j, double k) {
+        return glm::dvec3(i + 0.1 * j * k, j * (1 + 0.05 * i), 2 * k);
+    };
+    const Mesh mesh(placesOf({4, 5, 6}, place));
+    const Mesh mirrored(placesOf({4, 5, 6}, [&](double i, double j, double k) {
+        return place(i, j, k) * glm::dvec3(-1, 1, 1);
+    }));
+    const Mesh reversed(
+        placesOf({4, 5, 6}, [&](double i, double j, double k) { return place(3 - i, j, k); }));
+    EXPECT_NEAR(mirrored.meanVolume(), mesh.meanVolume(), 1e-12);
+    EXPECT_NEAR(reversed.meanVolume(), mesh.meanVolume(), 1e-6);
+    EXPECT_EQ(mirrored.folded(), 0u);
+    for (std::uint64_t i = 0; i < mesh.count(); ++i)
+        EXPECT_NEAR(mirrored.volume(mirrored.cell(i)), mesh.volume(mesh.cell(i)), 1e-12);
+}
+
+TEST(Mesh, WhereANeighbourHasNoPlaceTheOtherSideIsTaken) {
+    const Mesh mesh(placesOf({4, 4, 4}, [](double i, double j, double k) {
+        if (i == 2 && j == 1 && k == 1) return glm::dvec3(kNan);
+        return glm::dvec3(i * i, j, k);
+    }));
+    EXPECT_EQ(mesh.absent(), 1u);
+    EXPECT_NEAR(mesh.cell(1 + 4 * (2 + 4))[0].x, 2, 1e-6);  // (4 - 0) / 2, beside another row
+    EXPECT_NEAR(mesh.cell(1 + 4 * (1 + 4))[0].x, 1, 1e-6);  // 1 - 0 alone
+    EXPECT_NEAR(mesh.cell(3 + 4 * (1 + 4))[0].x, 0, 0) << "none on either side";
+    EXPECT_EQ(mesh.flat(), 3u) << "those at i = 3, j = 0 and k = 0, whose only one it is";
+    EXPECT_FALSE(std::isfinite(mesh.position(2 + 4 * (1 + 4)).x));
+    const auto notes = notesOf(mesh);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0], "1 of 64 points are not drawn: the file gives them no place");
+    EXPECT_EQ(notes[1], "3 of 64 points are not drawn: their cells have no volume");
+}
+
+TEST(Mesh, LongitudesAreAsFarApartAsTheShorterWay) {
+    // Steps of 30 degrees, as files write them: from 180 on as negative ones.
+    MeshPlaces places = placesOf({12, 3, 2}, [](double i, double j, double k) {
+        const double lon = 90 + 30 * i;
+        return glm::dvec3(lon < 180 ? lon : lon - 360, 10 * j, k);
+    });
+    places.period = {360, 0, 0};
+    const Mesh mesh(places);
+    for (std::uint64_t i = 0; i < mesh.count(); ++i)
+        expectNear(mesh.cell(i), glm::dmat3({30, 0, 0}, {0, 10, 0}, {0, 0, 1}), 1e-4);
+    places.period = {};
+    EXPECT_LT(Mesh(places).cell(3)[0].x, -100) << "without a period";
+}
+
+TEST(Mesh, AFoldedCellStandsForNothing) {
+    const Mesh mesh(placesOf({6, 3, 3}, [](double i, double j, double k) {
+        return glm::dvec3(i == 3 ? 0.5 : i, j, k);  // beside the first, behind the second
+    }));
+    // At i = 2 the way from 1 to 0.5 leads back.
+    EXPECT_EQ(mesh.folded(), 9u);
+    EXPECT_LT(glm::determinant(mesh.cell(2)), 0);
+    EXPECT_EQ(mesh.volume(mesh.cell(2)), 0);
+    EXPECT_GT(mesh.volume(mesh.cell(1)), 0);
+    EXPECT_EQ(notesOf(mesh).size(), 1u);
+}
+
+// Of an index of one point: a sheet, a thread, a point.
+TEST(Mesh, ThinOnesAreAsThickAsTheyAreWide) {
+    for (int thin = 0; thin < 3; ++thin) {
+        std::array<std::size_t, 3> size{5, 5, 5};
+        size[static_cast<std::size_t>(thin)] = 1;
+        const Mesh sheet(placesOf(size, [&](double i, double j, double k) {
+            return glm::dvec3(2 * i + 0.5 * j, 3 * j, 6 * k + j);
+        }));
+        for (std::uint64_t i = 0; i < sheet.count(); ++i) {
+            const glm::dmat3 cell = sheet.cell(i);
+            const glm::dvec3 &b = cell[(thin + 1) % 3], &c = cell[(thin + 2) % 3];
+            const double area = glm::length(glm::cross(b, c));
+            EXPECT_NEAR(glm::length(cell[thin]), std::sqrt(area), 1e-5);  // all of one area
+            EXPECT_NEAR(glm::dot(cell[thin], b), 0, 1e-5);
+            EXPECT_NEAR(glm::dot(cell[thin], c), 0, 1e-5);
+            EXPECT_NEAR(sheet.volume(cell), area * std::sqrt(area), 1e-3);
+        }
+    }
+    for (int along = 0; along < 3; ++along) {
+        std::array<std::size_t, 3> size{1, 1, 1};
+        size[static_cast<std::size_t>(along)] = 4;
+        const Mesh thread(placesOf(
+            size, [](double i, double j, double k) { return (i + j + k) * glm::dvec3(2, 1, -2); }));
+        for (std::uint64_t i = 0; i < 4; ++i)
+            EXPECT_NEAR(thread.volume(thread.cell(i)), 27, 1e-4) << along;  // steps of length 3
+    }
+    const Mesh point(placesOf({1, 1, 1}, [](double, double, double) { return glm::dvec3(7); }));
+    EXPECT_EQ(point.volume(point.cell(0)), 1);
+}
+
+TEST(Mesh, AddsUpTheSameOnAnyNumberOfThreads) {
+    const auto made = [](unsigned threads) {
+        threadLimit = threads;
+        Mesh mesh(placesOf({60, 70, 40}, [](double i, double j, double k) {
+            return glm::dvec3(i + std::sin(j), j * 1.1 + std::cos(k), k * (1 + 0.01 * i));
+        }));
+        threadLimit = 0;
+        return mesh;
+    };
+    EXPECT_EQ(made(1).meanVolume(), made(5).meanVolume());
+}
+
+TEST(Mesh, RefusesWhatPlacesNothing) {
+    const auto refuses = [](const MeshPlaces& places) {
+        EXPECT_THROW(Mesh{places}, std::invalid_argument);
+    };
+    refuses(placesOf({3, 3, 3}, [](double, double, double) { return glm::dvec3(kNan); }));
+    refuses(placesOf({3, 3, 3}, [](double, double, double) { return glm::dvec3(1); }));
+    refuses(placesOf({3, 3, 3}, [](double i, double j, double) { return glm::dvec3(i, j, 0); }));
+    MeshPlaces few =
+        placesOf({3, 3, 3}, [](double i, double j, double k) { return glm::dvec3(i, j, k); });
+    few.at.pop_back();
+    refuses(few);
+    few.size = {0, 3, 3};
+    few.at = {};
+    refuses(few);
+}
+
+TEST(Grid, OfAMeshHasItsPlacesAndBounds) {
+    const auto grid = tests::curvilinear(
+        {3, 4, 5}, [](double i, double j, double k) { return glm::dvec3(i + j, 2 * j, -k); });
+    EXPECT_EQ(grid->size(), (std::array<std::size_t, 3>{3, 4, 5}));
+    EXPECT_EQ(grid->count(), 60u);
+    EXPECT_EQ(grid->position(1 + 3 * (2 + 4 * 3)), glm::dvec3(3, 4, -3));
+    EXPECT_EQ(grid->axes()[0].coordinates, (std::vector<double>{0, 5}));
+    EXPECT_EQ(grid->axes()[2].coordinates, (std::vector<double>{-4, 0}));
+    EXPECT_FALSE(grid->uniform());
+    EXPECT_EQ(*grid, *tests::curvilinear({3, 4, 5}, [](double i, double j, double k) {
+        return glm::dvec3(i + j, 2 * j, -k);
+    }));
+    EXPECT_NE(*grid, *tests::curvilinear({3, 4, 5}, [](double i, double j, double k) {
+        return glm::dvec3(i + j, 2 * j + (i == 1 && j == 1 ? 0.25 : 0), -k);
+    }));
+}
+
+}  // namespace
+}  // namespace timeseries

@@ -1,0 +1,82 @@
+// Where the points of a curvilinear grid lie, one by one, and the cells that they stand for. Pure
+// geometry: no values.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace timeseries {
+
+// What is known of each point; a coordinate that is not finite says that it has no place.
+struct MeshPlaces {
+    std::array<std::size_t, 3> size{1, 1, 1};  // points along the indices i, j, k
+    // [k][j][i], i fastest, in the file's space, of all points; or [j][i] when there are `levels`.
+    std::vector<glm::dvec3> at;
+    // [k]: what each level adds to the third coordinate of the places below. None: all are in `at`.
+    std::vector<double> levels = {};
+    // After how much each coordinate comes round to itself, as longitude does; 0: never.
+    glm::dvec3 period{0};
+};
+
+class Mesh {
+ public:
+    // Throws std::invalid_argument when the places are not as many as `size` says, none is finite,
+    // or no cell of them has a volume.
+    explicit Mesh(MeshPlaces places);
+
+    const std::array<std::size_t, 3>& size() const { return size_; }
+    std::uint64_t count() const;
+    // In the file's space: to a 2^24th of the mesh's extent. Not finite where the point has none.
+    glm::dvec3 position(std::uint64_t index) const;
+    // Columns: the steps along i, j and k that the point stands for, half the way between its
+    // neighbours, or the whole way to the only one that has a place. An index of one point is as
+    // thick as the mean of the cells is wide.
+    glm::dmat3 cell(std::uint64_t index) const;
+    // Of that cell; 0 when it is folded: turned inside out beside most of the others.
+    double volume(const glm::dmat3& cell) const;
+
+    // The least and greatest of each coordinate.
+    const glm::dvec3& lo() const { return lo_; }
+    const glm::dvec3& hi() const { return hi_; }
+    double meanVolume() const { return meanVolume_; }  // of the cells that have one
+    // Lengths of the rows of cell(), at most: a cell's splat reaches no farther along a coordinate
+    // than this, times its radius.
+    const glm::dvec3& widest() const { return widest_; }
+    std::uint64_t folded() const { return folded_; }  // points whose cells are
+    std::uint64_t flat() const { return flat_; }      // whose cells have no volume
+    std::uint64_t absent() const { return absent_; }  // that have no place
+    std::uint64_t bytes() const;
+
+    friend bool operator==(const Mesh& a, const Mesh& b) {
+        return a.size_ == b.size_ && a.origin_ == b.origin_ && a.at_ == b.at_ &&
+               a.levels_ == b.levels_ && a.period_ == b.period_;
+    }
+
+ private:
+    void takePlaces(const MeshPlaces& places);
+    void measure();
+    glm::dmat3 stepsAt(const std::array<std::size_t, 3>& ijk) const;
+    std::uint64_t indexOf(const std::array<std::size_t, 3>& ijk) const {
+        return ijk[0] + size_[0] * (ijk[1] + size_[1] * std::uint64_t{ijk[2]});
+    }
+
+    std::array<std::size_t, 3> size_;
+    glm::dvec3 origin_{0};  // `at_` and `levels_` are relative to it: floats keep what they can
+    std::vector<glm::vec3> at_;
+    std::vector<double> levels_;
+    glm::dvec3 period_{0};
+    glm::dvec3 lo_{0}, hi_{0}, widest_{0};
+    double meanVolume_ = 0, thickness_ = 0;
+    double sign_ = 1;  // of the determinants of most cells
+    std::uint64_t folded_ = 0, flat_ = 0, absent_ = 0;
+};
+
+// What of a mesh is not drawn as it is, a sentence each.
+std::vector<std::string> notesOf(const Mesh& mesh);
+
+}  // namespace timeseries
