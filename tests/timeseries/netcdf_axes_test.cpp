@@ -208,7 +208,9 @@ TEST(NetcdfAxes, CoordinatesThatCannotPlacePointsAreCountedAndTold) {
 }
 
 TEST(NetcdfAxes, TwoDimensionalLongitudesAreToldUnlessMeasuredAxesExist) {
-    const std::string note = "drawn in index space: 2-D coordinates lon(j, i) and lat(j, i)";
+    const std::string note =
+        "drawn in index space: of its 2-D coordinates lon and lat, no point has a place that is "
+        "finite";  // nobody has written them
     EXPECT_THAT(notesOfCurvilinear(""), ElementsAre(note));
     EXPECT_THAT(notesOfCurvilinear("1"), ElementsAre(note)) << "cell numbers place nothing";
     EXPECT_THAT(notesOfCurvilinear("degrees"), IsEmpty()) << "a rotated pole";

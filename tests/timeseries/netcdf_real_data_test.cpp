@@ -138,13 +138,17 @@ TEST_F(RealNetcdf, AxesPointTheWayTheFilesSay) {
     EXPECT_EQ(ccm->variables()[0].notes.size(), 1u) << "hybrid levels";
 }
 
-TEST_F(RealNetcdf, CurvilinearNemoIsPlacedByIndexAndSaysSo) {
+TEST_F(RealNetcdf, CurvilinearNemoLiesWhereItsColumnsSay) {
     const auto nemo = openShared("nemo_northsea_u.nc");
     const Variable& uo = nemo->variables()[0];
-    EXPECT_EQ(uo.notes, std::vector<std::string>{"drawn in index space: 2-D coordinates nav_lon(y, "
-                                                 "x) and nav_lat(y, x)"});
-    EXPECT_EQ(uo.grid->axes()[0].units, "index");
-    EXPECT_EQ(uo.grid->axes()[1].coordinates[200], 200.0);
+    EXPECT_EQ(uo.notes, std::vector<std::string>{});
+    ASSERT_TRUE(uo.grid->mesh());
+    EXPECT_EQ(uo.grid->size(), (std::array<std::size_t, 3>{151, 201, 75}));
+    // As ncdump prints nav_lon(100, 70), nav_lat(100, 70) and depthu(3).
+    const glm::dvec3 place = uo.grid->position(70 + 151 * (100 + 201 * 3));
+    EXPECT_NEAR(place.x, -3.684161, 1e-5);
+    EXPECT_NEAR(place.y, 60.81367, 1e-5);
+    EXPECT_NEAR(place.z, 3.85628, 1e-5);
     EXPECT_EQ(uo.grid->axes()[2].units, "m");
     EXPECT_TRUE(uo.grid->axes()[2].down);
     // 3155803200 s are 36525.5 days, and 36524 days lie between 1900-01-01 and 2000-01-01. (The

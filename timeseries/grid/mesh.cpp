@@ -53,16 +53,16 @@ void thicken(glm::dmat3& cell, const std::array<std::size_t, 3>& size, double th
     }
 }
 
+}  // namespace
+
 // What a part of the mesh adds up to: of the cells turned each way.
-struct Sums {
+struct Mesh::Sums {
     std::array<double, 2> volume{};
     std::array<std::uint64_t, 2> cells{};
     std::uint64_t flat = 0, absent = 0;
     double width = 0;  // of a surface's cells their area, of a line's their length
     glm::dvec3 widest{0};
 };
-
-}  // namespace
 
 Mesh::Mesh(MeshPlaces places)
     : size_(places.size), levels_(std::move(places.levels)), period_(places.period) {
@@ -140,15 +140,31 @@ double Mesh::volume(const glm::dmat3& cell) const {
     return turned > 0 ? turned : 0;
 }
 
-// In pieces of one size, added up in their order: the same for any number of threads.
+// From the sums over the first level to those over all.
+void Mesh::addLevels(Sums& sums) const {
+    const Axis levels{"", "", levels_};
+    double thick = 0, thickest = 0;
+    for (std::size_t k = 0; k < levels_.size(); ++k) {
+        thick += std::abs(levels.width(k));
+        thickest = std::max(thickest, std::abs(levels.width(k)));
+    }
+    for (double& volume : sums.volume) volume *= thick / std::abs(levels.width(0));
+    for (std::uint64_t* count : {&sums.cells[0], &sums.cells[1], &sums.flat, &sums.absent})
+        *count *= levels_.size();
+    sums.widest.z = thickest;
+}
+
+// In pieces of one size, added up in their order: the same for any number of threads. Of columns
+// with levels one level is added up, for all cells above each other are as wide.
 void Mesh::measure() {
-    const auto added = [this](const auto& addOne) {
+    const std::uint64_t measured = at_.size();
+    const auto added = [this, measured](const auto& addOne) {
         constexpr std::uint64_t kPiece = 1 << 14;
-        std::vector<Sums> sums((count() + kPiece - 1) / kPiece);
+        std::vector<Sums> sums((measured + kPiece - 1) / kPiece);
         std::atomic<std::size_t> next = 0;
         together(threadsFor(sums.size(), 4), [&](unsigned) {
             for (std::size_t piece = next++; piece < sums.size(); piece = next++)
-                for (std::uint64_t i = piece * kPiece; i < std::min(count(), (piece + 1) * kPiece);
+                for (std::uint64_t i = piece * kPiece; i < std::min(measured, (piece + 1) * kPiece);
                      ++i)
                     if (isPlace(position(i)))
                         addOne(cell(i), sums[piece]);
@@ -177,10 +193,10 @@ void Mesh::measure() {
                     (one == glm::dvec3(0) ? one : other) = steps[a];
             to.width += thin == 1 ? glm::length(glm::cross(one, other)) : glm::length(one);
         });
-        const double mean = flat.width / static_cast<double>(count() - flat.absent);
+        const double mean = flat.width / static_cast<double>(measured - flat.absent);
         thickness_ = thin == 3 ? 1 : thin == 2 ? mean : std::sqrt(mean);
     }
-    const Sums all = added([&](const glm::dmat3& steps, Sums& to) {
+    Sums all = added([&](const glm::dmat3& steps, Sums& to) {
         const double turned = glm::determinant(steps);
         if (!(std::abs(turned) > 0)) {
             ++to.flat;
@@ -191,6 +207,7 @@ void Mesh::measure() {
         const glm::dmat3 rows = glm::transpose(steps);
         for (int c = 0; c < 3; ++c) to.widest[c] = std::max(to.widest[c], glm::length(rows[c]));
     });
+    if (levels_.size() > 1) addLevels(all);
     const std::size_t most = all.cells[1] > all.cells[0] ? 1 : 0;
     sign_ = most == 1 ? -1 : 1;
     if (all.cells[most] == 0) throw std::invalid_argument("no cell of the points has a volume");

@@ -17,7 +17,8 @@ struct MeshPlaces {
     std::array<std::size_t, 3> size{1, 1, 1};  // points along the indices i, j, k
     // [k][j][i], i fastest, in the file's space, of all points; or [j][i] when there are `levels`.
     std::vector<glm::dvec3> at;
-    // [k]: what each level adds to the third coordinate of the places below. None: all are in `at`.
+    // [k]: what each level adds to the third coordinate of the places below, strictly ascending or
+    // descending. None: all are in `at`.
     std::vector<double> levels = {};
     // After how much each coordinate comes round to itself, as longitude does; 0: never.
     glm::dvec3 period{0};
@@ -59,7 +60,9 @@ class Mesh {
 
  private:
     void takePlaces(const MeshPlaces& places);
+    struct Sums;
     void measure();
+    void addLevels(Sums& sums) const;
     glm::dmat3 stepsAt(const std::array<std::size_t, 3>& ijk) const;
     std::uint64_t indexOf(const std::array<std::size_t, 3>& ijk) const {
         return ijk[0] + size_[0] * (ijk[1] + size_[1] * std::uint64_t{ijk[2]});

@@ -14,8 +14,6 @@ namespace {
 // A step of 2^32 points needs no longer axis, and an axis costs 8 bytes a point.
 constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
 
-constexpr std::size_t kShownCoordinates = 8;
-
 std::vector<double> coordinatesOf(const NetcdfFile& file, const NcVariable& coordinate) {
     const Packing packing = packingOf(
         coordinate, [&](const std::string& what) { file.failAttribute(coordinate, what); });
@@ -35,24 +33,6 @@ bool pointsDown(const NcVariable& coordinate) {
     if (!positive.empty()) return positive == "down";
     return sameDimension(coordinate.text("units"), "Pa") ||
            coordinate.text("standard_name") == "depth";
-}
-
-// Longitude and latitude that depend on both horizontal dimensions (CF 1.10, section 5.2):
-// "nav_lon(y, x) and nav_lat(y, x)"; "" when there are none. REQUIRES: roles.x and roles.y.
-std::string twoDimensionalCoordinates(const NcHeader& header, const NcVariable& variable,
-                                      const Roles& roles,
-                                      std::span<const NcVariable* const> geographic) {
-    const std::size_t x = variable.dimensions[*roles.x], y = variable.dimensions[*roles.y];
-    std::string found;
-    std::size_t count = 0;
-    for (const NcVariable* other : geographic) {
-        const auto& d = other->dimensions;
-        const bool spans = std::ranges::find(d, x) != d.end() && std::ranges::find(d, y) != d.end();
-        if (!spans || d.size() > 3) continue;
-        if (++count > kShownCoordinates) return found + " and others";
-        found += (found.empty() ? "" : " and ") + header.declaration(*other);
-    }
-    return found;
 }
 
 // Measured in degrees or metres, not counted: it places points though 2-D coordinates exist too
@@ -108,21 +88,22 @@ void noteLevels(const NcHeader& header, const FileAxes& fileAxes, const NcVariab
 
 }  // namespace
 
-std::array<Axis, 3> axesOf(const NetcdfFile& file, const FileAxes& fileAxes,
-                           const NcVariable& variable, const Roles& roles,
-                           std::span<const NcVariable* const> geographic,
-                           std::vector<std::string>& notes) {
+VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+                    const Roles& roles, std::span<const NcVariable* const> geographic,
+                    std::vector<std::string>& notes) {
     const NcHeader& header = file.header();
     const std::array positions{roles.x, roles.y, roles.z};
     const std::array<const char*, 3> names{"x", "y", "z"};
-    std::string twoD;
+    FoundColumns found;
     if (roles.x && roles.y &&
         !(measured(fileAxes.coordinateOf(variable, *roles.x)) &&
           measured(fileAxes.coordinateOf(variable, *roles.y))))
-        twoD = twoDimensionalCoordinates(header, variable, roles, geographic);
-    if (!twoD.empty()) notes.push_back("drawn in index space: 2-D coordinates " + twoD);
+        found = columnsOf(header, variable, roles, geographic);
+    if (!found.told.empty() && !found.places)
+        notes.push_back("drawn in index space: 2-D coordinates " + found.told);
 
-    std::array<Axis, 3> axes;
+    VariableAxes result{{}, found.places};
+    std::array<Axis, 3>& axes = result.axes;
     for (std::size_t i = 0; i < 3; ++i) {
         if (!positions[i]) {
             axes[i] = {names[i], "index", {0.0}, false};
@@ -133,13 +114,17 @@ std::array<Axis, 3> axesOf(const NetcdfFile& file, const FileAxes& fileAxes,
             file.fail("dimension '" + dimension.name + "'",
                       fmt::format("expected at most 2^24 points along an axis, found {}",
                                   dimension.length));
-        if (i < 2 && !twoD.empty())
+        if (i < 2 && found.places) {
+            const NcVariable& place = *header.find(i == 0 ? found.places->x : found.places->y, "");
+            axes[i] = {std::string(place.baseName()), place.text("units"),
+                       indexCoordinates(dimension.length), false};
+        } else if (i < 2 && !found.told.empty())
             axes[i] = {dimension.name, "index", indexCoordinates(dimension.length), false};
         else
             axes[i] = axisOf(file, fileAxes, variable, *positions[i], notes);
     }
     if (roles.z) noteLevels(header, fileAxes, variable, *roles.z, notes);
-    return axes;
+    return result;
 }
 
 }  // namespace timeseries

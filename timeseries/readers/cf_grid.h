@@ -3,21 +3,29 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "timeseries/grid/grid.h"
 #include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/cf_columns.h"
 #include "timeseries/readers/netcdf_file.h"
 
 namespace timeseries {
 
-// x, y, z; an axis the variable does not have is one point at index 0. `geographic`: the file's
-// longitudes and latitudes of any rank. Throws FileError when coordinates cannot be read.
-std::array<Axis, 3> axesOf(const NetcdfFile& file, const FileAxes& fileAxes,
-                           const NcVariable& variable, const Roles& roles,
-                           std::span<const NcVariable* const> geographic,
-                           std::vector<std::string>& notes);
+// x, y, z; an axis the variable does not have is one point at index 0. Where columns tell where
+// points lie, x and y are only counted, and called as their coordinates are.
+struct VariableAxes {
+    std::array<Axis, 3> axes;
+    std::optional<ColumnPlaces> columns = {};
+};
+
+// `geographic`: the file's longitudes and latitudes of any rank. Throws FileError when coordinates
+// cannot be read.
+VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+                    const Roles& roles, std::span<const NcVariable* const> geographic,
+                    std::vector<std::string>& notes);
 
 }  // namespace timeseries

@@ -20,7 +20,7 @@ struct FileVariable {
     bool categories = false;             // as Field::categories
     Roles roles;
     Packing packing;
-    std::array<Axis, 3> axes;
+    VariableAxes axes;
     StoredTimes times;
     std::vector<std::string> notes;
 };

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
+#include <stdexcept>
 
 #include "timeseries/readers/netcdf_contents.h"
 
@@ -28,7 +30,10 @@ class NetcdfReader final : public Reader {
         expectSameVariables();
         for (std::size_t v = 0; v < contents_[0].size(); ++v) addVariable(v);
         for (auto& contents : contents_)  // told by variables_ now
-            for (FileVariable& variable : contents) variable.axes = {}, variable.times = {};
+            for (FileVariable& variable : contents) {
+                if (!variable.axes.columns) variable.axes = {};
+                variable.times = {};
+            }
     }
 
     std::string format() const override { return format_; }
@@ -44,6 +49,10 @@ class NetcdfReader final : public Reader {
     void leaveOutDamaged();
     void expectSameVariables() const;
     void addVariable(std::size_t v);
+    std::shared_ptr<const Grid> gridOf(std::size_t v, std::vector<std::string>& notes);
+    // Of one step of a file, of a variable whose columns tell where its points lie.
+    static constexpr std::size_t kLastStep = std::numeric_limits<std::size_t>::max();
+    std::shared_ptr<const Mesh> meshAt(std::size_t f, std::size_t v, std::size_t step);
     [[noreturn]] void differ(std::size_t file, const std::string& what) const;
 
     Paths paths_;
@@ -106,14 +115,59 @@ void NetcdfReader::expectSameVariables() const {
                                       typeName(a.packing.unpacked), typeName(b.packing.unpacked)));
             if (a.units != b.units)
                 differ(f, fmt::format("{}units, found \"{}\" and \"{}\"", place, a.units, b.units));
-            for (std::size_t i = 0; i < 3; ++i)
-                if (a.axes[i] != b.axes[i])
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Axis &one = a.axes.axes[i], &second = b.axes.axes[i];
+                if (one != second)
                     differ(f, fmt::format("{}grid, but their axes {} ({} points) and {} ({} "
                                           "points) differ",
-                                          place, a.axes[i].name, a.axes[i].coordinates.size(),
-                                          b.axes[i].name, b.axes[i].coordinates.size()));
+                                          place, one.name, one.coordinates.size(), second.name,
+                                          second.coordinates.size()));
+            }
+            if (a.axes.columns != b.axes.columns)
+                differ(f, place + "grid, but other coordinates tell where their points lie");
         }
     }
+}
+
+// Of the first step. Its bounds are those of the last one, too: of a nest that moves, the way.
+std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std::string>& notes) {
+    FileVariable& first = contents_[0][v];
+    std::array<Axis, 3> axes = first.axes.axes;
+    if (!first.axes.columns) return std::make_shared<const Grid>(std::move(axes));
+    // Most variables of a file share their columns, which take a while to measure.
+    for (std::size_t before = 0; before < v; ++before)
+        if (contents_[0][before].axes.columns == first.axes.columns &&
+            contents_[0][before].axes.axes == axes && variables_[before].grid->mesh())
+            return variables_[before].grid;
+    try {
+        const auto mesh = meshAt(0, v, 0);
+        const bool isLong = first.axes.columns->inTime;
+        const std::size_t file = contents_.size() - 1;
+        const auto last = isLong || file > 0 ? meshAt(file, v, kLastStep) : mesh;
+        for (int a = 0; a < 3; ++a) {
+            const double lo = std::min(mesh->lo()[a], last->lo()[a]),
+                         hi = std::max(mesh->hi()[a], last->hi()[a]);
+            axes[static_cast<std::size_t>(a)].coordinates =
+                lo < hi ? std::vector{lo, hi} : std::vector{lo};
+        }
+        open(0);
+        return std::make_shared<const Grid>(std::move(axes), mesh);
+    } catch (const std::invalid_argument& flaw) {
+        notes.push_back(fmt::format("drawn in index space: of its 2-D coordinates {} and {}, {}",
+                                    first.axes.columns->x, first.axes.columns->y, flaw.what()));
+        first.axes.columns.reset();
+        for (std::size_t a = 0; a < 2; ++a) axes[a].units = "index";
+        return std::make_shared<const Grid>(std::move(axes));
+    }
+}
+
+std::shared_ptr<const Mesh> NetcdfReader::meshAt(std::size_t f, std::size_t v, std::size_t step) {
+    const FileVariable& source = contents_[f][v];
+    NetcdfFile& file = open(f);
+    const NcVariable* const found = file.header().find(source.name, "");
+    if (!found)
+        file.fail("variable '" + source.name + "'", "expected it, but the file has changed");
+    return meshOf(file, *found, source.roles, *source.axes.columns, source.axes.axes[2], step);
 }
 
 void NetcdfReader::addVariable(std::size_t v) {
@@ -140,10 +194,12 @@ void NetcdfReader::addVariable(std::size_t v) {
     segments_.push_back(std::move(joined.segments));
 
     auto time = std::make_shared<TimeAxis>(timeAxisOf(joined.times, variable.notes));
-    auto grid = std::make_shared<Grid>(first.axes);
     variable.time = time;
-    variable.grid = grid;
-    const auto sameGrid = [&](const Variable& other) { return *other.grid == *grid; };
+    variable.grid = gridOf(v, variable.notes);
+    if (variable.grid->mesh())
+        for (std::string& note : notesOf(*variable.grid->mesh()))
+            variable.notes.push_back(std::move(note));
+    const auto sameGrid = [&](const Variable& other) { return *other.grid == *variable.grid; };
     if (const auto other = std::ranges::find_if(variables_, sameGrid); other != variables_.end())
         variable.grid = other->grid;
     const auto samePoint = [](const TimePoint& a, const TimePoint& b) {
@@ -213,6 +269,12 @@ Field NetcdfReader::read(std::size_t variable, std::size_t step) {
 
     Field field;
     field.grid = variables_[variable].grid;
+    const auto& columns = contents_[0][variable].axes.columns;
+    if (columns && (columns->inTime || segment->file > 0)) {
+        const auto mesh = meshAt(segment->file, variable, step);
+        if (*mesh != *field.grid->mesh())
+            field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh);
+    }
     field.categories = source.categories;
     const Block block = blockOf(source, step);
     unpack(

@@ -1,0 +1,40 @@
+// Longitudes and latitudes of two dimensions (CF 1.10, section 5.2): where each column of points
+// stands. They may change in time, as those of a nest that moves.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "timeseries/grid/grid.h"
+#include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/netcdf_file.h"
+
+namespace timeseries {
+
+// The variables that tell, by their names.
+struct ColumnPlaces {
+    std::string x, y;
+    bool inTime = false;
+    friend bool operator==(const ColumnPlaces&, const ColumnPlaces&) = default;
+};
+
+// Those of `geographic` that span both horizontal dimensions of the variable: a longitude and a
+// latitude that its attribute `coordinates` names, or the only ones. `told` are the declarations
+// of all that span them, "nav_lon(y, x) and nav_lat(y, x)"; "" when there are none. REQUIRES:
+// roles.x and roles.y.
+struct FoundColumns {
+    std::optional<ColumnPlaces> places;
+    std::string told;
+};
+FoundColumns columnsOf(const NcHeader& header, const NcVariable& variable, const Roles& roles,
+                       std::span<const NcVariable* const> geographic);
+
+// Of that step of the file, with the levels of `z` above each column. Throws FileError, and
+// std::invalid_argument when the places make no mesh.
+std::shared_ptr<const Mesh> meshOf(const NetcdfFile& file, const NcVariable& variable,
+                                   const Roles& roles, const ColumnPlaces& columns, const Axis& z,
+                                   std::size_t step);
+
+}  // namespace timeseries
