@@ -94,6 +94,8 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch)
 void PlacedPoints::measureMesh() {
     Wide volume = mesh_->meanVolume(), widest2 = 0;
     for (int a = 0; a < 3; ++a) {
+        meshScale_[a] = static_cast<double>(scale_[a]);
+        meshCentre_[a] = static_cast<double>(centre_[a]);
         volume *= std::abs(scale_[a]);
         const Wide widest = scale_[a] * Wide{mesh_->widest()[a]};
         widest2 += widest * widest;
@@ -215,11 +217,8 @@ bool PlacedPoints::inside(std::uint64_t index, const IndexBox& box) const {
 PlacedPoints::MeshCell PlacedPoints::meshCell(std::uint64_t index) const {
     MeshCell cell{mesh_->cell(index), 0};
     cell.volume = mesh_->volume(cell.steps);
-    for (int a = 0; a < 3; ++a) {
-        const auto scale = static_cast<double>(scale_[a]);
-        for (int column = 0; column < 3; ++column) cell.steps[column][a] *= scale;
-        cell.volume *= std::abs(scale);
-    }
+    for (int column = 0; column < 3; ++column) cell.steps[column] *= meshScale_;
+    cell.volume *= std::abs(meshScale_.x * meshScale_.y * meshScale_.z);
     return cell;
 }
 
@@ -228,7 +227,7 @@ glm::dvec3 PlacedPoints::position(std::uint64_t index) const {
 }
 
 glm::dvec3 PlacedPoints::alongAxes(std::uint64_t index) const {
-    if (mesh_) return axesFromGrid(mesh_->position(index));
+    if (mesh_) return meshScale_ * (mesh_->position(index) - meshCentre_);
     const glm::uvec3 at = indices(index);
     return {positions_[0][at.x], positions_[1][at.y], positions_[2][at.z]};
 }

@@ -118,6 +118,7 @@ class PlacedPoints {
 
     std::array<std::vector<double>, 3> positions_, widths_;
     std::shared_ptr<const timeseries::Mesh> mesh_;
+    glm::dvec3 meshScale_{1}, meshCentre_{0};  // scale_ and centre_, for many points
     glm::uvec3 size_{1};
     // Long doubles: products and squares of very large or small extents leave the doubles.
     std::array<long double, 3> scale_{}, centre_{};

@@ -7,6 +7,9 @@
 #define RENDER_TILE_BATCH_INL_H_
 #endif
 
+#include <algorithm>
+#include <cmath>
+
 #include "render/splat/tile_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -128,8 +131,42 @@ HWY_INLINE F setUpTints(const TileView& view, const float* places, Batch& out) {
     return hn::GatherIndex(floats, table + 3, first);
 }
 
+// Of splats that were worked out before; lanes that hold none are left as they are.
+HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::ivec2 at,
+                         glm::ivec2 size, Batch& out) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        const SeenSplat& s = view.meshSplats[index[k]];
+        float* const offset[2] = {out.ox + k, out.oy + k};
+        std::int32_t* const first[2] = {out.x + k, out.y + k};
+        std::int32_t* const count[2] = {out.columns + k, out.rows + k};
+        for (int c = 0; c < 2; ++c) {
+            const double window = s.window[c] - at[c];
+            const auto reached = [&](float way) {
+                return static_cast<std::int32_t>(
+                    std::clamp(std::ceil(window + static_cast<double>(way) - 0.5), 0.0,
+                               static_cast<double>(size[c])));
+            };
+            *first[c] = reached(s.lo[c]);
+            *count[c] = s.isDrawn() ? reached(s.hi[c]) - *first[c] : 0;
+            *offset[c] = static_cast<float>(*first[c] + 0.5 - window);
+        }
+        out.nxx[k] = s.n[0], out.nxy[k] = s.n[1], out.nyy[k] = s.n[2];
+        out.dxx[k] = s.d[0], out.dxy[k] = s.d[1], out.dyy[k] = s.d[2];
+        out.lx[k] = s.l[0], out.ly[k] = s.l[1];
+        out.weight[k] = s.weight;
+        out.depth[k] = s.depth;
+    }
+}
+
 HWY_INLINE void setUp(const TileView& view, const std::uint32_t* index, const float* tints,
                       glm::ivec2 at, glm::ivec2 size, Batch& out) {
+    if (!view.meshSplats.empty()) {
+        takeSeen(view, index, at, size, out);
+        const F weight = hn::Load(Floats(), out.weight);
+        if (tints != nullptr)
+            hn::Store(hn::Mul(weight, setUpTints(view, tints, out)), Floats(), out.weight);
+        return;
+    }
     const Points p = see(view, index, view.pointSide > 0 ? glm::ivec2(0) : at);
     setUpBox(view, p, at, size, out);
     F weight;

@@ -1,6 +1,7 @@
 #include "render/splat/tile_kernels.h"
 
 #include <algorithm>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/splat/tile_kernels.cpp"
@@ -99,6 +100,24 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 HWY_EXPORT(FindTiles);
 HWY_EXPORT(SumTile);
+
+TileSpan tilesOf(const TileLayout& layout, const SeenSplat& splat) {
+    if (!splat.isDrawn()) return {};
+    glm::ivec2 first, last;
+    for (int k = 0; k < 2; ++k) {
+        const double perTile = 1.0 / layout.tile[k], most = layout.tiles[k];
+        const auto tile = [&](double at) {
+            return static_cast<int>(std::clamp(std::floor(at * perTile), 0.0, most));
+        };
+        first[k] = tile(splat.window[k] + static_cast<double>(splat.lo[k]) - 1);
+        last[k] = std::min(tile(splat.window[k] + static_cast<double>(splat.hi[k]) + 1) + 1,
+                           layout.tiles[k]);
+    }
+    if (first.x >= last.x || first.y >= last.y) return {};
+    return {static_cast<std::uint32_t>(first.y * layout.tiles.x + first.x),
+            static_cast<std::uint16_t>(last.x - first.x),
+            static_cast<std::uint16_t>(last.y - first.y)};
+}
 
 void findTiles(const TileView& view, const SplatList& list, std::size_t first, std::size_t last,
                std::span<TileSpan> spans) {

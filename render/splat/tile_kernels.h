@@ -13,14 +13,17 @@
 
 namespace render {
 
-// Splats in the order in which they are summed: grid indices, and places among the tints, none for
-// Weight.
+// Splats in the order in which they are summed: grid indices, or their places among a mesh's, and
+// places among the tints, none for Weight.
 struct SplatList {
     std::vector<std::uint32_t> index;
     std::vector<float> tint;
+    std::vector<SeenSplat> seen = {};
 };
 
-// Of the splats [first, last) of the list, into the same places.
+// The tiles that a splat of a mesh touches.
+TileSpan tilesOf(const TileLayout& layout, const SeenSplat& splat);
+// Not of a mesh. Of the splats [first, last) of the list, into the same places.
 void findTiles(const TileView& view, const SplatList& list, std::size_t first, std::size_t last,
                std::span<TileSpan> spans);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 
 #include "render/splat/splat_source.h"
@@ -67,6 +68,8 @@ struct TileSum::Work {
     const Scene& scene;
     timeseries::Columns columns;
     TileView view;
+    std::optional<PointsView> ofMesh;  // of a mesh: as the view sees its points
+    double perSplat = 1;               // what its splats stand for, where the tints do not tell
     SplatSource source;
     unsigned threads;
     std::uint64_t pairsAtOnce;
@@ -88,6 +91,12 @@ struct TileSum::Work {
           pairsAtOnce(most),
           memory(kept.kept ? std::move(kept) : TileMemory()),
           plane(view, depth, of.size.x, threads, memory.kept->plane) {
+        if (scene.placed.isMesh()) {
+            ofMesh.emplace(scene.placed, of);
+            perSplat = ofMesh->rayLength;
+            if (channels == Channels::Weight)
+                perSplat *= pointsPerSplat(scene.layers[layer], scene.stride);
+        }
         bins.resize(threads);
         points.point.clear();
         points.layer.clear();
@@ -110,7 +119,12 @@ void TileSum::Work::look(std::size_t first, std::size_t last) {
                                   static_cast<double>(values[points.point[i]]));
             },
             columns.values);
-    findTiles(view, list, first, last, spans);
+    if (!ofMesh) return findTiles(view, list, first, last, spans);
+    for (std::size_t i = first; i < last; ++i) {
+        list.seen[i] = seenSplat(scene, view, *ofMesh, list.index[i], perSplat);
+        list.index[i] = static_cast<std::uint32_t>(i);
+        spans[i] = tilesOf(view, list.seen[i]);
+    }
 }
 
 void TileSum::Work::sumPart(std::size_t first, std::size_t last, bool lastOfAll) {
@@ -138,6 +152,8 @@ void TileSum::Work::sum() {
     list.index.resize(count);
     list.tint.resize(view.channels == Channels::Weight ? 0 : count);
     spans.resize(count);
+    list.seen.resize(ofMesh ? count : 0);
+    view.meshSplats = list.seen;
     inParts(count, threadsFor(count, kWorthAThread, threads),
             [&](std::size_t first, std::size_t last) { look(first, last); });
     std::size_t first = 0;
@@ -167,7 +183,9 @@ TileSum::TileSum(TileSum&&) noexcept = default;
 TileSum::~TileSum() = default;
 
 bool TileSum::canSum(const Scene& scene, Channels channels) {
-    return channels != Channels::Count && !scene.placed.longCells() && !scene.placed.isMesh();
+    const bool squares = scene.footprint.kernel == Kernel::Point;
+    return channels != Channels::Count && !scene.placed.longCells() &&
+           !(scene.placed.isMesh() && squares);
 }
 
 std::uint64_t TileSum::add(std::uint64_t splats) {

@@ -42,6 +42,10 @@ TileView::TileView(const Scene& scene, const View& view, const PointsView& seen,
     : TileLayout(scene, view, seen, of) {
     assert(!scene.placed.longCells());
     assert(channels != Channels::Count);
+    if (scene.placed.isMesh()) {
+        pointSide = 0;
+        return;
+    }
     takeGrid(scene, seen);
     takeFootprint(scene, seen, view);
     if (channels == Channels::Weight)

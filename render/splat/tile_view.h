@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/model/scene.h"
+#include "render/splat/seen_splat.h"
 #include "render/splat/tile_layout.h"
 
 namespace render {
@@ -30,6 +32,8 @@ struct TileView : TileLayout {
     // stands for.
     float weight;
     int pointSide;  // 0: no point splats
+    // Of a mesh: the splats among which indices are places, instead of all that the grid tells.
+    std::span<const SeenSplat> meshSplats = {};
 
  private:
     TileView(const Scene& scene, const View& view, const PointsView& seen, Channels channels,

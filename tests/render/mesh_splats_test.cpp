@@ -8,6 +8,7 @@
 
 #include "render/model/pick.h"
 #include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/meshes.h"
 #include "tests/support/splat_world.h"
 
@@ -158,7 +159,7 @@ std::shared_ptr<const Grid> twisted() {
     });
 }
 
-TEST(MeshSplats, RowsSumWhatTheTruthDoes) {
+TEST(MeshSplats, RowsAndTilesSumWhatTheTruthDoes) {
     for (const auto& [from, size] : {std::pair(glm::dvec3(1.5, -2, 1), 1.0),
                                      {glm::dvec3(0.2, -0.3, 0.1), 1.0},
                                      {glm::dvec3(30, -40, 10), 1.0},
@@ -169,6 +170,39 @@ TEST(MeshSplats, RowsSumWhatTheTruthDoes) {
         for (const unsigned threads : {1u, 3u}) {
             const auto rows = sumRows(world.scene, Runs{}, view, Channels::Weight, 0, {}, threads);
             expectAlike(truth, {rows.begin(), rows.end()}, 2e-5);
+            ASSERT_TRUE(TileSum::canSum(world.scene, Channels::Weight));
+            const auto tiles =
+                sumTiles(world.scene, Runs{}, view, Channels::Weight, 0, {}, threads);
+            expectAlike(truth, {tiles.begin(), tiles.end()}, 1e-5);
+        }
+    }
+}
+
+// By value and in order, some of them hidden, and half of the points standing for all.
+TEST(MeshSplats, TilesSumEveryChannelAsTheTruthDoes) {
+    World world = worldOf(twisted());
+    world.scene.layers[0].style = {ByValue{ColorMap(), 0, 1000}, 0.7};
+    world.scene.stride = 2;
+    const View view = tests::lookFrom({1.5, -2, 1}, {150, 130}, 0.5);
+    std::vector<float> opaque(150 * 130, 1.0f);
+    for (std::size_t i = 0; i < opaque.size(); i += 3)
+        opaque[i] = static_cast<float>(windowDepth(view, 2.6));
+    for (const Order by : {Order::None, Order::BackToFront}) {
+        world.scene.order = by;
+        const Channels channels = by == Order::None ? Channels::WeightedColor : Channels::Over;
+        const DrawList list = orderExactly(world.scene, {1.5, -2, 1});
+        Accumulator<double> truth(view.size, {channels});
+        splat(world.scene, list, view, opaque, truth);
+        const auto tiles = sumTiles(world.scene, list, view, channels, 0, opaque);
+        expectAlike(truth.planes[0], {tiles.begin(), tiles.end()}, 2e-5);
+        // In slices, on any number of threads, a pair of splat and tile at a time.
+        for (const unsigned threads : {1u, 3u}) {
+            TileSum sum(world.scene, list, view, channels, 0, opaque, threads, {}, threads);
+            while (!sum.done()) sum.add(threads);
+            const std::vector<float> sliced = sum.plane();
+            TileSum whole(world.scene, list, view, channels, 0, opaque, 2);
+            whole.add(1 << 20);
+            EXPECT_EQ(sliced, whole.plane());
         }
     }
 }

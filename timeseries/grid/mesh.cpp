@@ -107,8 +107,15 @@ glm::dvec3 Mesh::position(std::uint64_t index) const {
     return origin_ + glm::dvec3(at_[column]) + glm::dvec3(0, 0, levels_[index / at_.size()]);
 }
 
+glm::dvec3 Mesh::placeAt(const std::array<std::size_t, 3>& ijk) const {
+    const std::uint64_t row = ijk[0] + size_[0] * std::uint64_t{ijk[1]};
+    if (levels_.empty())
+        return origin_ + glm::dvec3(at_[row + size_[0] * size_[1] * std::uint64_t{ijk[2]}]);
+    return origin_ + glm::dvec3(at_[row]) + glm::dvec3(0, 0, levels_[ijk[2]]);
+}
+
 glm::dmat3 Mesh::stepsAt(const std::array<std::size_t, 3>& ijk) const {
-    const glm::dvec3 here = position(indexOf(ijk));
+    const glm::dvec3 here = placeAt(ijk);
     glm::dmat3 steps(0.0);
     for (std::size_t a = 0; a < 3; ++a) {
         if (size_[a] == 1) continue;
@@ -118,7 +125,7 @@ glm::dmat3 Mesh::stepsAt(const std::array<std::size_t, 3>& ijk) const {
             if (way < 0 ? ijk[a] == 0 : ijk[a] + 1 == size_[a]) continue;
             auto neighbour = ijk;
             neighbour[a] += static_cast<std::size_t>(way);
-            const glm::dvec3 there = position(indexOf(neighbour));
+            const glm::dvec3 there = placeAt(neighbour);
             if (!isPlace(there)) continue;
             sum += static_cast<double>(way) * wayBetween(here, there, period_);
             ++ways;

@@ -63,10 +63,8 @@ class Mesh {
     struct Sums;
     void measure();
     void addLevels(Sums& sums) const;
+    glm::dvec3 placeAt(const std::array<std::size_t, 3>& ijk) const;
     glm::dmat3 stepsAt(const std::array<std::size_t, 3>& ijk) const;
-    std::uint64_t indexOf(const std::array<std::size_t, 3>& ijk) const {
-        return ijk[0] + size_[0] * (ijk[1] + size_[1] * std::uint64_t{ijk[2]});
-    }
 
     std::array<std::size_t, 3> size_;
     glm::dvec3 origin_{0};  // `at_` and `levels_` are relative to it: floats keep what they can

@@ -1,0 +1,29 @@
+// Splats of a mesh as a view sees them, each worked out once for all tiles that it touches: their
+// cells come from neighbours' places, of which no vectors of points can be made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "render/model/footprint.h"
+#include "render/model/scene.h"
+#include "render/splat/tile_layout.h"
+
+namespace render {
+
+// The forms are those of Splat in render/model/footprint.h.
+struct SeenSplat {
+    glm::dvec2 window;  // of the centre, from the corner of the layout's box
+    glm::vec2 lo, hi;   // offsets from it between which the footprint lies; none: not drawn
+    std::array<float, 3> n, d;
+    std::array<float, 2> l;
+    float weight, depth;  // depth in the depth buffer
+    bool isDrawn() const { return lo.x < hi.x; }
+};
+
+// The point of that grid index, whose W is multiplied by `factor`. REQUIRES: a scene of a mesh.
+SeenSplat seenSplat(const Scene& scene, const TileLayout& layout, const PointsView& seen,
+                    std::uint32_t gridIndex, double factor);
+
+}  // namespace render
