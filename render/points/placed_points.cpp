@@ -211,7 +211,8 @@ glm::uvec3 PlacedPoints::indices(std::uint64_t index) const {
 }
 
 bool PlacedPoints::inside(std::uint64_t index, const IndexBox& box) const {
-    return mesh_ ? box.holdsPlace(mesh_->position(index)) : box.holds(indices(index));
+    if (mesh_) return box.holdsAll() || box.holdsPlace(mesh_->position(index));
+    return box.holds(indices(index));
 }
 
 PlacedPoints::MeshCell PlacedPoints::meshCell(std::uint64_t index) const {

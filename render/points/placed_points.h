@@ -26,6 +26,11 @@ struct IndexBox {
         return at.x >= lo.x && at.y >= lo.y && at.z >= lo.z && at.x <= hi.x && at.y <= hi.y &&
                at.z <= hi.z;
     }
+    bool holdsAll() const {
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        return lo == glm::uvec3(0) && hi == glm::uvec3(0xffffffffu) &&
+               from == glm::dvec3(-kInfinity) && to == glm::dvec3(kInfinity);
+    }
     bool holdsPlace(const glm::dvec3& place) const {
         return place.x >= from.x && place.y >= from.y && place.z >= from.z && place.x <= to.x &&
                place.y <= to.y && place.z <= to.z;
@@ -64,6 +69,7 @@ class PlacedPoints {
         double volume;
     };
     MeshCell meshCell(std::uint64_t index) const;
+    void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
 
     // REQUIRES of these: not isMesh(). Lengths of the cell's sides, all > 0.
     glm::dvec3 cell(std::uint64_t index) const;

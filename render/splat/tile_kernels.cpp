@@ -70,6 +70,12 @@ HWY_ATTR void SumTile(const TileView& view, std::span<const std::uint32_t> index
     alignas(64) float lastTints[kLanes];
     for (std::size_t i = 0; i < index.size(); i += kLanes) {
         const std::size_t count = std::min(kLanes, index.size() - i);
+        if (!view.meshSplats.empty())  // the next ones, which lie anywhere
+            for (std::size_t k = i + kLanes; k < std::min(i + 2 * kLanes, index.size()); ++k) {
+                const char* const at = reinterpret_cast<const char*>(&view.meshSplats[index[k]]);
+                __builtin_prefetch(at);
+                __builtin_prefetch(at + sizeof(SeenSplat) - 1);
+            }
         const std::uint32_t* someIndex = index.data() + i;
         const float* someTints = tints.empty() ? nullptr : tints.data() + i;
         if (count < kLanes) {

@@ -9,8 +9,9 @@ namespace bench {
 // 256^3 points of noise, of which a thin slice of values holds `count`: splats scattered over the
 // volume, each of the wanted diameter in the middle of the picture.
 struct ScatteredSplats {
-    ScatteredSplats(std::uint64_t count, double diameterPixels)
-        : step(tests::noise(tests::cube(256))), placed(step.grid()) {
+    ScatteredSplats(std::uint64_t count, double diameterPixels,
+                    std::shared_ptr<const timeseries::Grid> grid = tests::cube(256))
+        : step(tests::noise(std::move(grid))), placed(step.grid()) {
         const double share = static_cast<double>(count) / static_cast<double>(step.size());
         const timeseries::RangeSet range(std::vector{timeseries::Range{{0.4}, {0.4 + share}}});
         scene.layers.push_back({step.select(range), {render::Constant{{1, 0.5, 0.1}}, 0.3}});

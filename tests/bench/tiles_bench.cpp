@@ -11,6 +11,7 @@
 #include "render/splat/tile_splatter.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/scattered_splats.h"
+#include "tests/support/meshes.h"
 
 namespace {
 
@@ -65,6 +66,39 @@ BENCHMARK(tiles)
     ->Args({100'000, 8, OneColor})
     ->Args({100'000, 8, Ordered})
     ->Args({1'000'000, 1, OneColor})
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+// The same points placed one by one, beside those of the upright grid.
+void meshBesideUpright(benchmark::State& state) {
+    const auto splats = static_cast<std::uint64_t>(state.range(0));
+    const auto diameter = static_cast<double>(state.range(1));
+    const auto what = static_cast<What>(state.range(2));
+    bench::ScatteredSplats upright(splats, diameter);
+    bench::ScatteredSplats mesh(
+        splats, diameter, tests::curvilinear({256, 256, 256}, [](double i, double j, double k) {
+            return glm::dvec3(i, j, k);
+        }));
+    DepthOrder inDepth;
+    TileMemory memory;
+    const auto draw = [&](bench::ScatteredSplats& world) {
+        if (what != OneColor) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
+        if (what == Ordered) world.scene.order = Order::BackToFront;
+        const DrawList list = inDepth(world.scene, pixelRays(world.view).eye);
+        TileSum sum(world.scene, list, world.view, channelsFor(world.scene)[0], 0, {},
+                    sharingThreads(), std::move(memory));
+        sum.add(splats * 2);
+        memory = sum.takeMemory();
+    };
+    bench::alternate(
+        state, [&] { draw(upright); }, [&] { draw(mesh); });
+}
+BENCHMARK(meshBesideUpright)
+    ->ArgNames({"splats", "pixels", "what"})
+    ->Args({1'000'000, 8, OneColor})
+    ->Args({1'000'000, 8, Ordered})
+    ->Args({100'000, 8, OneColor})
+    ->Args({100'000, 8, Ordered})
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 

@@ -94,24 +94,26 @@ void Mesh::takePlaces(const MeshPlaces& places) {
         throw std::invalid_argument("no point has a place that is finite");
     origin_ = 0.5 * lo_ + 0.5 * hi_;
     const glm::dvec3 below(origin_.x, origin_.y, levels_.empty() ? origin_.z : 0.0);
-    at_.reserve(places.at.size());
-    for (const glm::dvec3& at : places.at)
-        at_.emplace_back(isPlace(at) ? glm::vec3(at - below)
-                                     : glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    stored_ = places.at.size();
+    at_ = Pages<glm::vec3>(stored_);
+    std::ranges::transform(places.at, at_.data(), [&](const glm::dvec3& at) {
+        return isPlace(at) ? glm::vec3(at - below)
+                           : glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    });
     for (double& level : levels_) level -= origin_.z;
 }
 
 glm::dvec3 Mesh::position(std::uint64_t index) const {
-    if (levels_.empty()) return origin_ + glm::dvec3(at_[index]);
-    const std::uint64_t column = index % at_.size();
-    return origin_ + glm::dvec3(at_[column]) + glm::dvec3(0, 0, levels_[index / at_.size()]);
+    if (levels_.empty()) return origin_ + glm::dvec3(stored()[index]);
+    const std::uint64_t column = index % stored_;
+    return origin_ + glm::dvec3(stored()[column]) + glm::dvec3(0, 0, levels_[index / stored_]);
 }
 
 glm::dvec3 Mesh::placeAt(const std::array<std::size_t, 3>& ijk) const {
     const std::uint64_t row = ijk[0] + size_[0] * std::uint64_t{ijk[1]};
     if (levels_.empty())
-        return origin_ + glm::dvec3(at_[row + size_[0] * size_[1] * std::uint64_t{ijk[2]}]);
-    return origin_ + glm::dvec3(at_[row]) + glm::dvec3(0, 0, levels_[ijk[2]]);
+        return origin_ + glm::dvec3(stored()[row + size_[0] * size_[1] * std::uint64_t{ijk[2]}]);
+    return origin_ + glm::dvec3(stored()[row]) + glm::dvec3(0, 0, levels_[ijk[2]]);
 }
 
 glm::dmat3 Mesh::stepsAt(const std::array<std::size_t, 3>& ijk) const {
@@ -164,7 +166,7 @@ void Mesh::addLevels(Sums& sums) const {
 // In pieces of one size, added up in their order: the same for any number of threads. Of columns
 // with levels one level is added up, for all cells above each other are as wide.
 void Mesh::measure() {
-    const std::uint64_t measured = at_.size();
+    const std::uint64_t measured = stored_;
     const auto added = [this, measured](const auto& addOne) {
         constexpr std::uint64_t kPiece = 1 << 14;
         std::vector<Sums> sums((measured + kPiece - 1) / kPiece);
@@ -239,7 +241,7 @@ std::vector<std::string> notesOf(const Mesh& mesh) {
 }
 
 std::uint64_t Mesh::bytes() const {
-    return at_.size() * sizeof(glm::vec3) + levels_.size() * sizeof(double);
+    return stored_ * sizeof(glm::vec3) + levels_.size() * sizeof(double);
 }
 
 }  // namespace timeseries

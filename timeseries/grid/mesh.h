@@ -2,13 +2,17 @@
 // geometry: no values.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "timeseries/grid/pages.h"
 
 namespace timeseries {
 
@@ -38,6 +42,15 @@ class Mesh {
     // neighbours, or the whole way to the only one that has a place. An index of one point is as
     // thick as the mean of the cells is wide.
     glm::dmat3 cell(std::uint64_t index) const;
+    // Begins to load what both are made of: points that are asked for by value lie anywhere.
+    void prefetch(std::uint64_t index) const {
+        const std::uint64_t row = size_[0], slice = row * size_[1], stored = stored_;
+        const std::uint64_t at = levels_.empty() ? index : index % stored;
+        for (const std::uint64_t way : {std::uint64_t{0}, row, slice}) {
+            __builtin_prefetch(at_.data() + (at >= way ? at - way : 0));
+            __builtin_prefetch(at_.data() + (at + way < stored ? at + way : at));
+        }
+    }
     // Of that cell; 0 when it is folded: turned inside out beside most of the others.
     double volume(const glm::dmat3& cell) const;
 
@@ -54,8 +67,8 @@ class Mesh {
     std::uint64_t bytes() const;
 
     friend bool operator==(const Mesh& a, const Mesh& b) {
-        return a.size_ == b.size_ && a.origin_ == b.origin_ && a.at_ == b.at_ &&
-               a.levels_ == b.levels_ && a.period_ == b.period_;
+        return a.size_ == b.size_ && a.origin_ == b.origin_ && a.levels_ == b.levels_ &&
+               a.period_ == b.period_ && std::ranges::equal(a.stored(), b.stored());
     }
 
  private:
@@ -63,12 +76,14 @@ class Mesh {
     struct Sums;
     void measure();
     void addLevels(Sums& sums) const;
+    std::span<const glm::vec3> stored() const { return {at_.data(), stored_}; }
     glm::dvec3 placeAt(const std::array<std::size_t, 3>& ijk) const;
     glm::dmat3 stepsAt(const std::array<std::size_t, 3>& ijk) const;
 
     std::array<std::size_t, 3> size_;
     glm::dvec3 origin_{0};  // `at_` and `levels_` are relative to it: floats keep what they can
-    std::vector<glm::vec3> at_;
+    std::uint64_t stored_ = 0;
+    Pages<glm::vec3> at_;  // [stored_]
     std::vector<double> levels_;
     glm::dvec3 period_{0};
     glm::dvec3 lo_{0}, hi_{0}, widest_{0};

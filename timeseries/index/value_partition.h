@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "timeseries/grid/pages.h"
 #include "timeseries/index/ordered_key.h"
-#include "timeseries/index/pages.h"
 #include "timeseries/index/range_set.h"
 #include "timeseries/together.h"
 

@@ -1,5 +1,5 @@
-// Memory for a step's columns: not written when it is made, so that a page that nobody asks for
-// takes no room, and in large pages where that costs nobody else's.
+// Memory for a step's columns and a mesh's places: not written when it is made, so that a page that
+// nobody asks for takes no room, and in large pages where that costs nobody else's.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "timeseries/index/pages.h"
+#include "timeseries/grid/pages.h"
 
 #include <sys/mman.h>
 #include <sys/sysinfo.h>
