@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/points/placed_points.h"
+#include "tests/support/netcdf_builder.h"
 #include "tests/support/scripted_reader.h"
 
 namespace app {
@@ -53,6 +54,30 @@ TEST(ChosenAxes, AreThoseOfEveryVariableAndStepWithTheFilesCoordinates) {
         EXPECT_EQ(q, glm::dvec3(p.x, p.y, -p.z));
         EXPECT_EQ(dataset.about.grid->position(i), file.about.grid->position(i));
     }
+}
+
+// The names and ways are those of space; where each point lies is the file's.
+TEST(ChosenAxes, LeaveAMeshWhereItIs) {
+    tests::NetcdfBuilder file("a.nc");
+    const int j = file.dimension("j", 2), i = file.dimension("i", 3);
+    const int lon = file.variable("lon", NC_DOUBLE, {j, i}),
+              lat = file.variable("lat", NC_DOUBLE, {j, i});
+    file.text(lon, "units", "degrees_east");
+    file.text(lat, "units", "degrees_north");
+    file.variable("v", NC_FLOAT, {j, i});
+    file.write(lon, std::vector<double>{0, 1, 2, 0.5, 1.5, 2.5});
+    file.write(lat, std::vector<double>{5, 5, 5.25, 6, 6, 6});
+    const std::filesystem::path path = file.close();
+    const Dataset before = openDataset(std::span(&path, 1), "");
+    Dataset dataset = openDataset(std::span(&path, 1), "");
+    ASSERT_TRUE(before.about.grid->mesh());
+    std::array<AxisChoice, 3> axes;
+    axes[0] = {true, "Longitude"};
+    chooseAxes(dataset, axes);
+    EXPECT_EQ(dataset.about.grid->axes()[0].name, "Longitude");
+    EXPECT_TRUE(dataset.about.grid->axes()[0].down);
+    EXPECT_EQ(*dataset.about.grid->mesh(), *before.about.grid->mesh());
+    EXPECT_EQ(dataset.reader->read(0, 0).grid, dataset.about.grid);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/exploration/point_counts.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
 
@@ -76,6 +77,28 @@ TEST(ClipCounts, AreExactInALargeGrid) {
     EXPECT_EQ(countsInside(step, lastColumn, sets), std::vector<std::uint64_t>{67 * 101});
     const render::IndexBox nothing{{5, 5, 5}, {4, 9, 9}};
     EXPECT_EQ(countsInside(step, nothing, sets), std::vector<std::uint64_t>{0});
+}
+
+// Where points lie one by one, the box is one of the file's coordinates.
+TEST(ClipCounts, AreExactInAMesh) {
+    const auto grid = tests::curvilinear({31, 23, 17}, [](double i, double j, double k) {
+        return glm::dvec3(i + 0.4 * std::sin(j), 1.5 * j - 0.2 * k, k + 0.1 * i);
+    });
+    const auto step = tests::stepOf(grid, [](std::size_t i) { return static_cast<double>(i % 7); });
+    const glm::dvec3 lo(3.25, -1, 2.5), hi(20, 17.75, 9);
+    std::uint64_t all = 0, threes = 0;
+    for (std::uint64_t i = 0; i < grid->count(); ++i) {
+        const glm::dvec3 at = grid->position(i);
+        bool inside = true;
+        for (int c = 0; c < 3; ++c) inside = inside && lo[c] <= at[c] && at[c] <= hi[c];
+        all += inside ? 1 : 0;
+        threes += inside && i % 7 == 3 ? 1 : 0;
+    }
+    ASSERT_GT(threes, 100u);
+    const std::vector<std::vector<timeseries::Run>> sets{
+        {{0, step.size()}}, step.select(timeseries::RangeSet::parse("3"))};
+    EXPECT_EQ(countsInside(step, render::indexBox(*grid, lo, hi), sets),
+              (std::vector<std::uint64_t>{all, threes}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/choices/choice_text.h"
+#include "tests/support/meshes.h"
 
 namespace app {
 namespace {
@@ -36,6 +37,15 @@ TEST(ClipFlaw, NamesTheAxisThatHasNoneAndWhereItRuns) {
     EXPECT_THAT(flaw("min:max,min:max,6:7"), HasSubstr("level, from 5 to 5 Pa"));
     // Inside the box, but between two points.
     EXPECT_THAT(flaw("0.2:0.8,min:max,min:max"), HasSubstr("lon"));
+}
+
+TEST(ClipFlaw, OfAMeshIsOnlyBesideIt) {
+    const auto mesh = tests::curvilinear(
+        {4, 3, 3}, [](double i, double j, double k) { return glm::dvec3(i + j, 2 * j, k); });
+    const auto flawOf = [&](const char* clip) { return clipFlaw(parseClip(clip), *mesh); };
+    EXPECT_EQ(flawOf("2.1:2.2,min:max,0.5:9"), "") << "points may lie anywhere between the ends";
+    EXPECT_THAT(flawOf("5.5:9,min:max,min:max"), HasSubstr("x, from 0 to 5 m, has none"));
+    EXPECT_THAT(flawOf("min:max,min:max,-2:-1"), HasSubstr("z, from 0 to 2"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "app/choices/choice_text.h"
 #include "app/choices/first_choice.h"
 #include "app/choices/layer_colors.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
 
@@ -306,6 +307,21 @@ TEST(ClipSide, WhatCannotBeIsRefusedInASentence) {
         } catch (const ChoiceError& error) {
             EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
         }
+    }
+}
+
+TEST(ClipSide, OfAMeshIsARangeOfCoordinates) {
+    const auto mesh = tests::curvilinear(
+        {5, 5, 5}, [](double i, double j, double k) { return glm::dvec3(i + 0.1 * j, j, k); });
+    const auto box = withClipSide({}, *mesh, 0, "1.03:2.04");
+    ASSERT_TRUE(box);
+    EXPECT_EQ(box->lo.x, 1.03);
+    EXPECT_EQ(box->hi.x, 2.04);
+    try {
+        withClipSide({}, *mesh, 0, "2");
+        ADD_FAILURE() << "a plane";
+    } catch (const ChoiceError& error) {
+        EXPECT_NE(std::string(error.what()).find("lie in no plane"), std::string::npos);
     }
 }
 

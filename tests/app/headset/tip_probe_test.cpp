@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/headset/standing.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace app::headset {
@@ -43,6 +44,35 @@ TEST(PointAt, IsTheNearestOfAllPoints) {
         ASSERT_TRUE(at);
         EXPECT_EQ((*at)[0] + 5 * ((*at)[1] + 4 * (*at)[2]), nearest) << i;
     }
+}
+
+// Bent, with a hole: the steps from point to point find the way.
+TEST(PointAt, IsTheNearestOfAMesh) {
+    const auto grid = tests::curvilinear({30, 20, 12}, [](double i, double j, double k) {
+        if (i == 12 && j == 9 && k == 5) return glm::dvec3(std::nan(""));
+        const double r = 10 + 0.5 * j, angle = 0.1 * i;
+        return glm::dvec3(r * std::cos(angle), r * std::sin(angle), k * (1 + 0.03 * k));
+    });
+    const render::PlacedPoints placed(*grid);
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> side(-1, 1);
+    int found = 0;
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 place =
+            placed.boxHalf() * glm::dvec3(side(random), side(random), side(random));
+        double nearest = 1e9;
+        for (std::uint64_t p = 0; p < grid->count(); ++p)
+            nearest = std::fmin(nearest, glm::distance(placed.position(p), place));
+        const auto at = pointAt(placed, place);
+        EXPECT_EQ(at.has_value(), nearest <= placed.widest()) << i;
+        if (!at) continue;
+        ++found;
+        EXPECT_EQ(glm::distance(placed.position((*at)[0] + 30 * ((*at)[1] + 20 * (*at)[2])), place),
+                  nearest)
+            << i;
+    }
+    EXPECT_GT(found, 50);
+    EXPECT_LT(found, 300) << "in the ring's middle there is none";
 }
 
 TEST(PointAt, IsInTheBoxOnly) {
