@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "timeseries/readers/cf_packing.h"
 #include "timeseries/readers/units.h"
@@ -61,6 +62,8 @@ std::vector<double> planeOf(const NetcdfFile& file, const NcVariable& coordinate
             start[i] = std::min(step, length - 1);
         }
     }
+    if (const std::string why = file.tooLarge(coordinate, stride); !why.empty())
+        throw std::invalid_argument(why);
     Field plane;
     unpack(
         packing, layout, [&](void* values) { file.read(coordinate, start, count, values); }, plane);
