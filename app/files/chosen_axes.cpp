@@ -33,7 +33,8 @@ class Grids {
                 axes[a].down = axes[a].down != chosen_[a].flip;
                 if (!chosen_[a].name.empty()) axes[a].name = chosen_[a].name;
             }
-            grid = file->mesh() ? std::make_shared<const Grid>(std::move(axes), file->mesh())
+            grid = file->mesh() ? std::make_shared<const Grid>(std::move(axes), file->mesh(),
+                                                               file->ofOneStep())
                                 : std::make_shared<const Grid>(std::move(axes), file->frame());
         }
         return grid;

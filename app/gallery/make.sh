@@ -35,6 +35,8 @@ picture "$data/viscous_fingers_demo.nc" viscous_fingers_stereo.png --step 12 \
     --view 25,12 --size 700x700 --range 25~5 --colormap cividis --opacity 0.1 --stereo side-by-side
 picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --view 0,50 \
     --range 0.95:max --colormap viridis --opacity 0.35 --scale 1,1,0.0004
+picture "$data/bluntfin/bluntfin.vts" bluntfin.png --size 1000x750 --view 25,22 --range 1.6:max --colormap viridis --opacity 0.35
+picture "$data/grids/wrf_mercator_moving_nest.nc" moving_nest.png --variable QRAIN --size 1000x750 --view 20,25 --step 2
 
 # First looks: nothing is asked for, the program chooses.
 for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr \

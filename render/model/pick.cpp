@@ -106,7 +106,7 @@ std::vector<Hit> hits(const Scene& scene, const View& view, const glm::dvec2& wi
 
 }  // namespace
 
-std::optional<std::size_t> atHalfOfLight(const Scene& scene, std::span<const Met> met) {
+std::optional<HalfOfLight> atHalfOfLight(const Scene& scene, std::span<const Met> met) {
     // What is in front hides what is behind, and so it looks in a picture of one colour in any
     // order; an unordered picture of several shows all that a ray passes alike.
     const bool hiding = scene.order == Order::BackToFront || areOneColor(scene.layers);
@@ -120,7 +120,14 @@ std::optional<std::size_t> atHalfOfLight(const Scene& scene, std::span<const Met
         upTo.push_back(whole);
     }
     if (!(whole > 0)) return std::nullopt;
-    return static_cast<std::size_t>(std::ranges::lower_bound(upTo, whole / 2) - upTo.begin());
+    const auto at =
+        static_cast<std::size_t>(std::ranges::lower_bound(upTo, whole / 2) - upTo.begin());
+    const double first = at == 0 ? 0 : upTo[at - 1];
+    const double share = std::min((whole / 2 - first) / (upTo[at] - first), 1.0);  // of its light
+    const double depth = met[at].opticalDepth;
+    // The limit of log(1 - share (1 - e^-t)) / -t at 0 is share.
+    if (!hiding || depth < 1e-8) return HalfOfLight{at, share};
+    return HalfOfLight{at, std::min(-std::log1p(share * std::expm1(-depth)) / depth, 1.0)};
 }
 
 std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window) {
@@ -128,7 +135,7 @@ std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec
     std::ranges::stable_sort(met, {}, &Hit::depth);
     const auto half = atHalfOfLight(scene, std::vector<Met>(met.begin(), met.end()));
     if (!half) return std::nullopt;
-    const Hit& hit = met[*half];
+    const Hit& hit = met[half->at];
     const std::uint32_t at = scene.step.gridIndex(hit.point);
     return Picked{hit.layer, at, scene.step.value(hit.point), scene.placed.position(at), hit.depth};
 }

@@ -30,7 +30,11 @@ struct Met {
 // bright it is: the front of what is opaque, the middle of what is thin, and a bright column rather
 // than the faint haze before it. Where an unordered picture mixes several colours nothing hides
 // anything, and optical depth counts instead of opacity. None where nothing is seen.
-std::optional<std::size_t> atHalfOfLight(const Scene& scene, std::span<const Met> met);
+struct HalfOfLight {
+    std::size_t at;  // among what is met
+    double share;    // of its optical depth, [0, 1]: where in it, if it is the same all through
+};
+std::optional<HalfOfLight> atHalfOfLight(const Scene& scene, std::span<const Met> met);
 
 // Of the splats whose footprint covers the window position (pixel coordinates, y up), the one at
 // half of the light. None where the ray meets nothing that is seen. Costs a pass over the points

@@ -15,9 +15,10 @@ namespace {
 
 // A part of the ray's way in a layer.
 struct Passed {
-    Met met;
+    Met met;  // its depth and value are those of its middle
     glm::uvec3 cell;
-    glm::dvec3 place;  // of its middle, in the cell
+    glm::dvec3 from, to;  // its ends, in the cell
+    double fromDepth, toDepth;
 };
 
 // W of a piece of the way that is so long, in units of l, and along which the field goes from one
@@ -45,6 +46,9 @@ class Ray {
                                  IntervalCells::Look::WhenAsked);
     }
 
+    double valueAt(const Passed& passed, const glm::dvec3& place) const {
+        return layers_[passed.met.layer].valueAt(passed.cell, place);
+    }
     std::vector<Passed> passed() const {
         std::vector<Passed> all;
         walk_(rays_.eye, along_, rays_.near, [&](const glm::uvec3& cell, double from, double to) {
@@ -74,7 +78,10 @@ class Ray {
             into.push_back({{layer, from + middle * (to - from),
                              opticalDepthPerWeight(of.style.opacity) * weight, value(middle)},
                             cell,
-                            glm::mix(a, b, middle)});
+                            glm::mix(a, b, part.from),
+                            glm::mix(a, b, part.to),
+                            from + part.from * (to - from),
+                            from + part.to * (to - from)});
         }
     }
 
@@ -111,14 +118,15 @@ std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::
     for (const Passed& p : passed) met.push_back(p.met);
     const auto half = atHalfOfLight(scene, met);
     if (!half) return std::nullopt;
-    const auto& [seen, cell, place] = passed[*half];
-    const std::uint32_t at = cornerAt(scene, cell, place);
-    return Picked{.layer = seen.layer,
+    const Passed& seen = passed[half->at];
+    const glm::dvec3 place = glm::mix(seen.from, seen.to, half->share);
+    const std::uint32_t at = cornerAt(scene, seen.cell, place);
+    return Picked{.layer = seen.met.layer,
                   .gridIndex = at,
                   .value = valueAt(scene.cells->field(), at),
                   .world = scene.placed.position(at),
-                  .depth = seen.depth,
-                  .between = seen.value};
+                  .depth = std::lerp(seen.fromDepth, seen.toDepth, half->share),
+                  .between = ray.valueAt(seen, place)};
 }
 
 }  // namespace render

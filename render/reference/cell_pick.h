@@ -6,7 +6,7 @@
 namespace render {
 
 // Of what the ray of the window position (pixel coordinates, y up) passes in the scene's ranges, in
-// exact parts of cells, the part at half of the light; and the point whose cell holds its middle.
+// exact parts of cells, the place at half of the light; and the point whose cell holds it.
 // None where nothing is seen. Costs a look at each cell on the ray. REQUIRES: scene.cells.
 std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::dvec2& window);
 

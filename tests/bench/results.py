@@ -26,6 +26,7 @@ FILTERS = {
     "stages": ["--benchmark_filter=^stage"],
     "draw": ["--benchmark_filter=^(BM_|costFollows|tiles)"],
     "cells": ["--benchmark_filter=^cell"],
+    "meshes": ["--benchmark_filter=^mesh"],
     "vtk": ["--benchmark_filter=^vtk"],
 }
 PARTS = [*FILTERS, "window", "headset"]
@@ -273,6 +274,19 @@ def cells_page(part):
             + table(["points", "range", "order", "cells", "cells drawn", "points drawn", "ratio"], rows))
 
 
+def meshes_page(part):
+    rows = []
+    kinds = {0: "one colour", 2: "by value, back to front"}
+    for splats, what in [(1000000, 0), (1000000, 2), (100000, 0), (100000, 2)]:
+        f = part(f"meshBesideUpright/splats:{splats}/pixels:8/what:{what}")
+        kind = "one colour" if what == 0 else "by value"
+        rows.append([f"{splats:,}", "8 px", kinds[what], ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+        target(f"{splats:,} splats of a mesh / of cubes, {kind}", f["second/first"], 1.6)
+    return ("The points of 256³ placed one by one, beside the same ones of the upright grid, whose cells are cubes: one plane of 1024 x 1024\n"
+            "by tiles, order included, by turns.\n\n"
+            + table(["splats", "diameter", "", "upright", "mesh", "ratio", "of processor time"], rows))
+
+
 def vtk_page(part):
     rows = []
     for count, diameter in [(100000, 8), (1000000, 8), (100000, 0), (1000000, 0)]:
@@ -310,7 +324,7 @@ def headset_page(part):
 
 def page():
     sections = [("index", "The index", index_page), ("stages", "From a file to a picture", stages_page),
-                ("draw", "Drawing", draw_page), ("cells", "Cells", cells_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
+                ("draw", "Drawing", draw_page), ("cells", "Cells", cells_page), ("meshes", "Curvilinear grids", meshes_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
                 ("headset", "In a headset", headset_page)]
     body, driver = "", ""
     for name, title, write in sections:

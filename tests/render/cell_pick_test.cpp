@@ -39,26 +39,34 @@ struct Ramp : tests::CellWorld {
     View view = tests::lookFrom({3, 0, 0}, {21, 21});
 };
 
+// Of a range seen from its upper end: one unit of the field is one of length.
+double halfWayIn(double lo, double hi, double opacity) {
+    const double perUnit = opticalDepthPerWeight(opacity);
+    return hi + std::log((1 + std::exp(-perUnit * (hi - lo))) / 2) / perUnit;
+}
+
 TEST(PickCell, AThinLayersMiddleIsSeenAndItsNearestPointTold) {
     const Ramp ramp({"4.2:4.6"}, 0.01);
     const auto seen = ramp.seen();
     ASSERT_TRUE(seen);
     ASSERT_TRUE(seen->between);
-    EXPECT_NEAR(*seen->between, 4.4, 1e-6);
-    EXPECT_NEAR(seen->depth, ramp.depthOf(4.4), 1e-6);
+    EXPECT_NEAR(*seen->between, 4.4, 1e-3) << "the middle, as nothing hides anything";
+    EXPECT_NEAR(*seen->between, halfWayIn(4.2, 4.6, 0.01), 1e-9);
+    EXPECT_NEAR(seen->depth, ramp.depthOf(*seen->between), 1e-9);
     EXPECT_EQ(seen->gridIndex, ramp.indexOf(4, 4, 4));
     EXPECT_EQ(seen->value, timeseries::Number(4.0));
     EXPECT_EQ(seen->world, ramp.placed.position(seen->gridIndex));
-    EXPECT_NEAR(*Ramp({"4.6:4.9"}, 0.01).seen()->between, 4.75, 1e-6);
+    EXPECT_NEAR(*Ramp({"4.6:4.9"}, 0.01).seen()->between, 4.75, 1e-3);
     EXPECT_EQ(Ramp({"4.6:4.9"}, 0.01).seen()->gridIndex, ramp.indexOf(5, 4, 4));
 }
 
-// In the first cell of those that the ray passes, which for an opaque range is all that is seen.
+// Of several cells, too.
 TEST(PickCell, OfAnOpaqueRangeTheFrontIsSeen) {
     const Ramp ramp({"1.2:6.8"}, 1);
-    EXPECT_NEAR(*ramp.seen()->between, (6 + 6.8) / 2, 1e-6);
-    const Ramp thin({"1:7"}, 0.001);
-    EXPECT_NEAR(*thin.seen()->between, 4, 0.51) << "to a cell";
+    EXPECT_NEAR(*ramp.seen()->between, halfWayIn(1.2, 6.8, 1), 1e-9);
+    EXPECT_EQ(ramp.seen()->gridIndex, ramp.indexOf(7, 4, 4)) << "not the middle of a cell";
+    for (const double opacity : {0.001, 0.1, 0.5, 0.9})
+        EXPECT_NEAR(*Ramp({"1:7"}, opacity).seen()->between, halfWayIn(1, 7, opacity), 1e-9);
 }
 
 TEST(PickCell, WhatACrossingIsWorthCountsAsInThePicture) {

@@ -96,8 +96,8 @@ Grid::Grid(std::array<Axis, 3> axes, Frame frame)
     }
 }
 
-Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh)
-    : axes_(std::move(space)), mesh_(std::move(mesh)) {
+Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofOneStep)
+    : axes_(std::move(space)), mesh_(std::move(mesh)), ofOneStep_(ofOneStep) {
     for (int a = 0; a < 3; ++a) {
         if (!axes_[a].coordinates.empty()) continue;
         axes_[a].coordinates = {mesh_->lo()[a]};
@@ -113,7 +113,7 @@ std::shared_ptr<const Grid> gridOfStep(const std::shared_ptr<const Grid>& series
         return a.name == b.name && a.units == b.units && a.down == b.down;
     };
     if (!std::ranges::equal(series->axes(), step->axes(), sameSpace)) return nullptr;
-    return std::make_shared<const Grid>(series->axes(), step->mesh());
+    return std::make_shared<const Grid>(series->axes(), step->mesh(), true);
 }
 
 std::array<std::size_t, 3> Grid::size() const {

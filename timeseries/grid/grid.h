@@ -71,13 +71,15 @@ class Grid {
     // Throws std::invalid_argument when an axis is empty, not finite or not strictly monotonic, the
     // directions are flawed, or the point count passes 2^63.
     explicit Grid(std::array<Axis, 3> axes, Frame frame = {});
-    // Axes without coordinates get the mesh's bounds. Of a mesh that moves, they are the series'.
-    Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh);
+    // Axes without coordinates get the mesh's bounds. Of a mesh that moves, they are the series',
+    // and each step has a grid, whose memory is its own.
+    Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofOneStep = false);
 
     const std::array<Axis, 3>& axes() const { return axes_; }
     const Frame& frame() const { return frame_; }
     // None: the axes tell where each point lies.
     const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
+    bool ofOneStep() const { return ofOneStep_; }
     std::array<std::size_t, 3> size() const;
     std::uint64_t count() const;
     bool uniform() const;
@@ -99,6 +101,7 @@ class Grid {
     std::array<Axis, 3> axes_;
     Frame frame_;
     std::shared_ptr<const Mesh> mesh_;
+    bool ofOneStep_ = false;
 };
 
 // The grid of a step of a series whose grid is `series`: that one, if the step's is the same; of a

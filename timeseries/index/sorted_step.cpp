@@ -181,7 +181,7 @@ Number SortedStep::value(std::uint64_t point) const {
 std::uint64_t SortedStep::bytes() const {
     const auto cells = cellsIfMade();
     return std::visit([](const auto& points) { return points->bytes(); }, columns_) +
-           (cells ? cells->bytes() : 0);
+           (cells ? cells->bytes() : 0) + (grid_->ofOneStep() ? grid_->mesh()->bytes() : 0);
 }
 
 std::shared_ptr<const CellIndex> SortedStep::cells() const {

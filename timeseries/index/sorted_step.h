@@ -89,7 +89,8 @@ class SortedStep {
     const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
     const RangeSet& kept() const { return kept_; }
     const StepStatistics& statistics() const { return statistics_; }
-    std::uint64_t bytes() const;  // of memory held, that of cells too, the grid aside
+    // Of memory held, that of cells too, and of a mesh if it is this step's alone.
+    std::uint64_t bytes() const;
 
     // The cells between the points, made when they are first asked for; that takes as long as
     // looking at every value twice, and 8 bytes a cell beside the values. Null unless

@@ -273,7 +273,7 @@ Field NetcdfReader::read(std::size_t variable, std::size_t step) {
     if (columns && (columns->inTime || segment->file > 0)) {
         const auto mesh = meshAt(segment->file, variable, step);
         if (*mesh != *field.grid->mesh())
-            field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh);
+            field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh, true);
     }
     field.categories = source.categories;
     const Block block = blockOf(source, step);
