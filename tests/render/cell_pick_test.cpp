@@ -51,8 +51,8 @@ TEST(PickCell, AThinLayersMiddleIsSeenAndItsNearestPointTold) {
     ASSERT_TRUE(seen);
     ASSERT_TRUE(seen->between);
     EXPECT_NEAR(*seen->between, 4.4, 1e-3) << "the middle, as nothing hides anything";
-    EXPECT_NEAR(*seen->between, halfWayIn(4.2, 4.6, 0.01), 1e-9);
-    EXPECT_NEAR(seen->depth, ramp.depthOf(*seen->between), 1e-9);
+    EXPECT_NEAR(*seen->between, halfWayIn(4.2, 4.6, 0.01), 1e-6);
+    EXPECT_NEAR(seen->depth, ramp.depthOf(*seen->between), 1e-6);
     EXPECT_EQ(seen->gridIndex, ramp.indexOf(4, 4, 4));
     EXPECT_EQ(seen->value, timeseries::Number(4.0));
     EXPECT_EQ(seen->world, ramp.placed.position(seen->gridIndex));
@@ -63,10 +63,10 @@ TEST(PickCell, AThinLayersMiddleIsSeenAndItsNearestPointTold) {
 // Of several cells, too.
 TEST(PickCell, OfAnOpaqueRangeTheFrontIsSeen) {
     const Ramp ramp({"1.2:6.8"}, 1);
-    EXPECT_NEAR(*ramp.seen()->between, halfWayIn(1.2, 6.8, 1), 1e-9);
+    EXPECT_NEAR(*ramp.seen()->between, halfWayIn(1.2, 6.8, 1), 1e-6);
     EXPECT_EQ(ramp.seen()->gridIndex, ramp.indexOf(7, 4, 4)) << "not the middle of a cell";
     for (const double opacity : {0.001, 0.1, 0.5, 0.9})
-        EXPECT_NEAR(*Ramp({"1:7"}, opacity).seen()->between, halfWayIn(1, 7, opacity), 1e-9);
+        EXPECT_NEAR(*Ramp({"1:7"}, opacity).seen()->between, halfWayIn(1, 7, opacity), 1e-6);
 }
 
 TEST(PickCell, WhatACrossingIsWorthCountsAsInThePicture) {

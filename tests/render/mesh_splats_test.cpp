@@ -27,9 +27,10 @@ World worldOf(std::shared_ptr<const Grid> grid, Footprint footprint = {},
 
 // The places of an upright grid, one by one.
 std::shared_ptr<const Grid> straight(const Grid& upright) {
-    const auto [ni, nj, nk] = upright.size();
-    return curvilinear({ni, nj, nk}, [&](double i, double j, double k) {
-        return upright.position(static_cast<std::uint64_t>(i + double(ni) * (j + double(nj) * k)));
+    const auto n = upright.size();
+    return curvilinear(n, [&](double i, double j, double k) {
+        return upright.position(
+            static_cast<std::uint64_t>(i + double(n[0]) * (j + double(n[1]) * k)));
     });
 }
 

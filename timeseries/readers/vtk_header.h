@@ -61,8 +61,7 @@ struct VtkHeader {
     std::vector<VtkArray> arrays;                                // those that can be drawn
     std::vector<std::string> passedOver;                         // the others, each with the reason
     std::array<bool, 2> ghosts{};                                // by VtkPlace: has vtkGhostType
-    bool hasField = false;                                       // a legacy file's FIELD
-    bool fieldOutside = false;  // one that is neither of points nor of cells
+    bool fieldOutside = false;  // a legacy file's FIELD that is neither of points nor of cells
     // Of rectilinear grids; of an XML file VTK reads them later.
     std::array<std::vector<double>, 3> coordinates;
     // Of structured grids, x fastest; VTK reads them later.

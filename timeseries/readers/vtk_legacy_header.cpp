@@ -255,7 +255,6 @@ void LegacyHeader::readAttribute(const std::string& word) {
 
 void LegacyHeader::readField() {
     text_.name();
-    header_.hasField = true;
     header_.fieldOutside |= !place_;
     const std::uint64_t arrays = text_.count("a number of arrays");
     for (std::uint64_t i = 0; i < arrays; ++i) readFieldArray();

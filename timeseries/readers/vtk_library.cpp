@@ -151,16 +151,21 @@ void select(vtkDataReader& reader, const VtkArray* wanted) {
     reader.SetTensorsName(name(VtkKeyword::Tensors));
 }
 
+// VTK 9.1 looks for a structured grid's size in all words of the file, values too, and crashes on
+// fields there. Its size is known.
+class StructuredReader final : public vtkStructuredGridReader {
+ public:
+    static StructuredReader* New() { VTK_STANDARD_NEW_BODY(StructuredReader); }
+    int ReadMetaDataSimple(const std::string&, vtkInformation*) override { return 1; }
+};
+
 template <typename Reader>
 vtkSmartPointer<vtkDataSet> readLegacy(const VtkHeader& header, const VtkArray* wanted) {
     const vtkNew<Reader> reader;
     reader->SetFileName(header.path.c_str());
     const bool ghosts = wanted && header.ghosts[static_cast<std::size_t>(wanted->place)];
-    // VTK 9.1 crashes on a field outside the attributes that it is not to keep, and, in looking for
-    // the sizes of a structured grid, on any field.
-    const bool looksAtFields = header.kind == VtkKind::LegacyStructured && header.hasField;
-    if (ghosts || header.fieldOutside || looksAtFields ||
-        (wanted && wanted->keyword == VtkKeyword::Field))
+    // VTK 9.1 crashes on a field outside the attributes that it is not to keep.
+    if (ghosts || header.fieldOutside || (wanted && wanted->keyword == VtkKeyword::Field))
         reader->ReadAllFieldsOn();
     else
         reader->SetFieldDataName("\x1f");
@@ -200,7 +205,7 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
             output = readLegacy<vtkRectilinearGridReader>(header, &wanted);
             break;
         case VtkKind::LegacyStructured:
-            output = readLegacy<vtkStructuredGridReader>(header, &wanted);
+            output = readLegacy<StructuredReader>(header, &wanted);
             break;
     }
     if (!output) return {};
@@ -325,7 +330,7 @@ std::vector<glm::dvec3> placesOf(const VtkHeader& header, vtkStructuredGrid& gri
 VtkFrame readVtkFrame(const VtkHeader& header) {
     const auto output = withVtk(header, "", [&] {
         return header.kind == VtkKind::LegacyStructured
-                   ? readLegacy<vtkStructuredGridReader>(header, nullptr)
+                   ? readLegacy<StructuredReader>(header, nullptr)
                    : readXml(header, nullptr);
     });
     VtkFrame frame;
