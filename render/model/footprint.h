@@ -40,6 +40,7 @@
 #include <numbers>
 #include <optional>
 
+#include "render/model/ellipsoid.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
 
@@ -243,76 +244,6 @@ glm::vec<3, Real> radii(const PointsView& view, const glm::dvec3& cell,
     return glm::vec<3, Real>(kQuarticRadius * widths);
 }
 
-// A lower triangular matrix of positive diagonal: what the unit sphere is mapped to by it is the
-// ellipsoid of a splat.
-template <typename Real>
-struct LowerTriangle {
-    using Vec3 = glm::vec<3, Real>;
-    Vec3 diagonal{1};
-    Vec3 below{0};  // of the first column in the second row; of both in the third
-    // Solves L x = v.
-    Vec3 solve(const Vec3& v) const {
-        Vec3 x;
-        x.x = v.x / diagonal.x;
-        x.y = (v.y - below.x * x.x) / diagonal.y;
-        x.z = (v.z - below.y * x.x - below.z * x.y) / diagonal.z;
-        return x;
-    }
-};
-
-// What is to be added to all squares of three singular values, so that none is below that of
-// `least`: of which their product and the sum of their squares are known. The smallest square t,
-// as a share of the sum, is a fixed point of t = k / (1 - t)^2 or more, k = 4 product^2 / sum^3,
-// since two numbers' product is at most that of their mean with itself; it is met from below.
-template <typename Real>
-Real growthTo(Real least, Real product, Real sumOfSquares) {
-    const Real perRoot = 1 / std::sqrt(sumOfSquares);
-    const Real scaled = product * perRoot * perRoot * perRoot, k = 4 * scaled * scaled;
-    Real t = k;
-    for (int i = 0; i < 3; ++i) t = k / ((1 - t) * (1 - t));
-    return std::max(least * least - t * sumOfSquares, Real(0));
-}
-
-// L with L L^T = M M^T + g I, by orthogonal rows instead of squares: those of M and of sqrt(g) I
-// beside it. `product` is |det M|.
-template <typename Real>
-LowerTriangle<Real> factorOf(const glm::dmat3& m, double product, double least) {
-    double squares = 0;
-    for (int column = 0; column < 3; ++column) squares += glm::dot(m[column], m[column]);
-    const double g = growthTo(least, product, squares), root = std::sqrt(g);
-    struct Row {
-        glm::dvec3 of{0}, beside{0};
-    };
-    const auto dot = [](const Row& a, const Row& b) {
-        return glm::dot(a.of, b.of) + glm::dot(a.beside, b.beside);
-    };
-    std::array<Row, 3> rows;
-    for (int r = 0; r < 3; ++r) {
-        rows[r].of = {m[0][r], m[1][r], m[2][r]};
-        rows[r].beside[r] = root;
-    }
-    glm::dvec3 diagonal, below;
-    for (int r = 0; r < 3; ++r) {
-        for (int before = 0; before < r; ++before) {
-            const double along = dot(rows[r], rows[before]);
-            rows[r].of -= along * rows[before].of;
-            rows[r].beside -= along * rows[before].beside;
-            below[before + r - 1] = along;
-        }
-        // What a matrix of any volume leaves is more than rounding.
-        diagonal[r] = std::max(std::sqrt(dot(rows[r], rows[r])), 1e-9 * least);
-        rows[r].of /= diagonal[r];
-        rows[r].beside /= diagonal[r];
-    }
-    return {glm::vec<3, Real>(diagonal), glm::vec<3, Real>(below)};
-}
-
-// What no semi-axis of a splat exceeds, `widest` being that of the cells, `least` the least radius.
-inline double longestSemiAxis(const PlacedPoints& placed, double widest, double least) {
-    constexpr double kThreeGrown = std::numbers::sqrt3;
-    return placed.isMesh() ? std::hypot(widest, kThreeGrown * least) : std::max(widest, least);
-}
-
 // Ends the splat at the domain's faces, if it reaches them.
 template <typename Real>
 void cutAtFaces(Splat<Real>& s, const PointsView& view, const glm::dvec3& along,
@@ -331,7 +262,7 @@ void cutAtFaces(Splat<Real>& s, const PointsView& view, const glm::dvec3& along,
 template <typename Real>
 struct Ellipsoid {
     double sides = 0;  // volume of the cell in axis coordinates
-    LowerTriangle<Real> factor;
+    timeseries::LowerTriangle<Real> factor;
     Real widest{};  // semi-axis, at most
 };
 template <typename Real>
@@ -347,11 +278,11 @@ Ellipsoid<Real> ellipsoidOf(const PointsView& view, std::uint64_t index, const F
         e.widest = std::max({a.x, a.y, a.z});
         return e;
     }
-    const auto [steps, volume] = view.placed.meshCell(index);
-    if (!(volume > 0)) return e;
-    e.sides = volume;
     const double radius = kQuarticRadius * footprint.size;
-    e.factor = factorOf<Real>(radius * steps, radius * radius * radius * volume, least);
+    const auto cell = view.placed.meshCell(index);
+    e.sides = std::abs(cell.determinant());
+    if (!(e.sides > 0)) return e;
+    e.factor = grownTo(least, cell.scaled(glm::dvec3(radius))).template as<Real>();
     const auto &a = e.factor.diagonal, &b = e.factor.below;
     e.widest = std::sqrt(glm::dot(a, a) + glm::dot(b, b));
     return e;
@@ -405,11 +336,8 @@ Splat<Real> splatAt(const PointsView& view, std::uint64_t index, const Footprint
     s.hi = Vec2(extent < 0 ? std::numeric_limits<Real>::infinity()
                            : extent * std::max(focal.x, focal.y));
     s.lo = -s.hi;
-    if (view.placed.isMesh()) narrow(s);
-    if (view.placed.longCells()) {
-        narrow(s);
-        cutAtFaces(s, view, view.placed.alongAxes(index), a, least);
-    }
+    if (view.placed.isMesh() || view.placed.longCells()) narrow(s);
+    if (view.placed.longCells()) cutAtFaces(s, view, view.placed.alongAxes(index), a, least);
     return s;
 }
 

@@ -215,12 +215,8 @@ bool PlacedPoints::inside(std::uint64_t index, const IndexBox& box) const {
     return box.holds(indices(index));
 }
 
-PlacedPoints::MeshCell PlacedPoints::meshCell(std::uint64_t index) const {
-    MeshCell cell{mesh_->cell(index), 0};
-    cell.volume = mesh_->volume(cell.steps);
-    for (int column = 0; column < 3; ++column) cell.steps[column] *= meshScale_;
-    cell.volume *= std::abs(meshScale_.x * meshScale_.y * meshScale_.z);
-    return cell;
+timeseries::LowerTriangle<double> PlacedPoints::meshCell(std::uint64_t index) const {
+    return mesh_->cell(index).scaled(meshScale_);
 }
 
 glm::dvec3 PlacedPoints::position(std::uint64_t index) const {

@@ -62,13 +62,9 @@ class PlacedPoints {
     // Points that lie one by one, and cells of any shape. A point without a place is nowhere: its
     // coordinates are no numbers.
     bool isMesh() const { return mesh_ != nullptr; }
-    // REQUIRES: isMesh(). Columns: the steps that the point stands for, in the world; of no volume
-    // where it stands for none.
-    struct MeshCell {
-        glm::dmat3 steps;
-        double volume;
-    };
-    MeshCell meshCell(std::uint64_t index) const;
+    // REQUIRES: isMesh(). The shape in the world of the cell that the point stands for, its
+    // determinant +-volume; zero where nothing is drawn.
+    timeseries::LowerTriangle<double> meshCell(std::uint64_t index) const;
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
 
     // REQUIRES of these: not isMesh(). Lengths of the cell's sides, all > 0.

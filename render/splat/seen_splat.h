@@ -1,10 +1,11 @@
 // Splats of a mesh as a view sees them, each worked out once for all tiles that it touches: their
-// cells come from neighbours' places, of which no vectors of points can be made.
+// cells come from neighbours' places, anywhere in memory.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <span>
 
 #include "render/model/footprint.h"
 #include "render/model/scene.h"
@@ -22,8 +23,10 @@ struct SeenSplat {
     bool isDrawn() const { return lo.x < hi.x; }
 };
 
-// The point of that grid index, whose W is multiplied by `factor`. REQUIRES: a scene of a mesh.
-SeenSplat seenSplat(const Scene& scene, const TileLayout& layout, const PointsView& seen,
-                    std::uint32_t gridIndex, double factor);
+// Those of the points of these grid indices, whose W is multiplied by `factor`, as splatAt() has
+// them, in double, several at once. REQUIRES: a scene of a mesh, whose splats are no points; as
+// many `splats` as indices.
+void seeSplats(const Scene& scene, const TileLayout& layout, const PointsView& view, double factor,
+               std::span<const std::uint32_t> gridIndex, std::span<SeenSplat> splats);
 
 }  // namespace render

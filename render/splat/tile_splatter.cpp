@@ -120,10 +120,10 @@ void TileSum::Work::look(std::size_t first, std::size_t last) {
             },
             columns.values);
     if (!ofMesh) return findTiles(view, list, first, last, spans);
-    constexpr std::size_t kAhead = 12;
+    const std::size_t count = last - first;
+    seeSplats(scene, view, *ofMesh, perSplat, std::span(list.index).subspan(first, count),
+              std::span(list.seen).subspan(first, count));
     for (std::size_t i = first; i < last; ++i) {
-        if (i + kAhead < last) scene.placed.prefetch(list.index[i + kAhead]);
-        list.seen[i] = seenSplat(scene, view, *ofMesh, list.index[i], perSplat);
         list.index[i] = static_cast<std::uint32_t>(i);
         spans[i] = tilesOf(view, list.seen[i]);
     }

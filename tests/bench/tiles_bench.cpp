@@ -66,7 +66,7 @@ BENCHMARK(tiles)
     ->Args({100'000, 8, OneColor})
     ->Args({100'000, 8, Ordered})
     ->Args({1'000'000, 1, OneColor})
-    ->Iterations(5)
+    ->Iterations(25)
     ->Unit(benchmark::kMillisecond);
 
 // The same points placed one by one, beside those of the upright grid.
@@ -99,7 +99,7 @@ BENCHMARK(meshBesideUpright)
     ->Args({1'000'000, 8, Ordered})
     ->Args({100'000, 8, OneColor})
     ->Args({100'000, 8, Ordered})
-    ->Iterations(5)
+    ->Iterations(25)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -25,9 +25,16 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 void expectNear(const glm::dvec3& found, const glm::dvec3& expected, double rounding) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], rounding);
 }
-void expectNear(const glm::dmat3& found, const glm::dmat3& expected, double rounding) {
-    for (int column = 0; column < 3; ++column)
-        expectNear(found[column], expected[column], rounding);
+// The shape of a cell of these steps: L L^T = J J^T.
+void expectShape(const LowerTriangle<double>& found, const glm::dmat3& steps, double rounding) {
+    const auto rows = found.rows();
+    const glm::dmat3 expected = steps * glm::transpose(steps);
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            EXPECT_NEAR(glm::dot(rows[a], rows[b]), expected[a][b], rounding);
+}
+double volume(const Mesh& mesh, std::uint64_t index) {
+    return std::abs(mesh.cell(index).determinant());
 }
 
 TEST(Mesh, AStraightOneHasThePlacesAndCellsOfTheUprightGrid) {
@@ -49,16 +56,17 @@ TEST(Mesh, AStraightOneHasThePlacesAndCellsOfTheUprightGrid) {
     for (std::uint64_t i = 0; i < upright.count(); ++i) {
         for (const Mesh* each : {&mesh, &ofLevels}) {
             expectNear(each->position(i), upright.position(i), 1e-6);
-            expectNear(each->cell(i), upright.cell(i), 2e-6);
+            expectShape(each->cell(i), upright.cell(i), 1e-5);
+            EXPECT_NEAR(volume(*each, i), std::abs(glm::determinant(upright.cell(i))), 1e-5);
         }
-        const double volume = mesh.volume(mesh.cell(i));
-        EXPECT_NEAR(volume, std::abs(glm::determinant(upright.cell(i))), 1e-4);
-        volumes += volume;
+        volumes += std::abs(glm::determinant(upright.cell(i)));
     }
-    EXPECT_NEAR(mesh.meanVolume(), volumes / 60, 1e-12 * volumes);
+    for (const Mesh* each : {&mesh, &ofLevels}) {
+        EXPECT_NEAR(double(each->meanVolume()), volumes / 60, 1e-14 * volumes);
+        expectNear(each->widest(), {4, 2, 5}, 1e-12);  // the longest steps, at ends or between
+    }
     expectNear(mesh.lo(), {10, 2, -1}, 1e-6);
     expectNear(mesh.hi(), {17, 5, 9}, 1e-6);
-    expectNear(mesh.widest(), {4, 2, 5}, 1e-6);  // the longest steps, at ends or between
     EXPECT_TRUE(notesOf(mesh).empty());
     EXPECT_LT(ofLevels.bytes(), mesh.bytes() / 2);
 }
@@ -69,8 +77,8 @@ TEST(Mesh, CellsAreTheStepsBetweenNeighbours) {
         return steps * glm::dvec3(i, j, k) + glm::dvec3(100, -50, 7);
     }));
     for (std::uint64_t i = 0; i < mesh.count(); ++i) {
-        expectNear(mesh.cell(i), steps, 1e-5);
-        EXPECT_NEAR(mesh.volume(mesh.cell(i)), glm::determinant(steps), 1e-4);
+        expectShape(mesh.cell(i), steps, 1e-5);
+        EXPECT_NEAR(volume(mesh, i), glm::determinant(steps), 1e-5);
     }
 }
 
@@ -84,11 +92,11 @@ TEST(Mesh, TurnedOverItStandsForAsMuch) {
     }));
     const Mesh reversed(
         placesOf({4, 5, 6}, [&](double i, double j, double k) { return place(3 - i, j, k); }));
-    EXPECT_NEAR(mirrored.meanVolume(), mesh.meanVolume(), 1e-12);
-    EXPECT_NEAR(reversed.meanVolume(), mesh.meanVolume(), 1e-6);
+    EXPECT_NEAR(double(mirrored.meanVolume()), double(mesh.meanVolume()), 1e-12);
+    EXPECT_NEAR(double(reversed.meanVolume()), double(mesh.meanVolume()), 1e-12);
     EXPECT_EQ(mirrored.folded(), 0u);
     for (std::uint64_t i = 0; i < mesh.count(); ++i)
-        EXPECT_NEAR(mirrored.volume(mirrored.cell(i)), mesh.volume(mesh.cell(i)), 1e-12);
+        EXPECT_NEAR(volume(mirrored, i), volume(mesh, i), 1e-12);
 }
 
 TEST(Mesh, WhereANeighbourHasNoPlaceTheOtherSideIsTaken) {
@@ -97,9 +105,9 @@ TEST(Mesh, WhereANeighbourHasNoPlaceTheOtherSideIsTaken) {
         return glm::dvec3(i * i, j, k);
     }));
     EXPECT_EQ(mesh.absent(), 1u);
-    EXPECT_NEAR(mesh.cell(1 + 4 * (2 + 4))[0].x, 2, 1e-6);  // (4 - 0) / 2, beside another row
-    EXPECT_NEAR(mesh.cell(1 + 4 * (1 + 4))[0].x, 1, 1e-6);  // 1 - 0 alone
-    EXPECT_NEAR(mesh.cell(3 + 4 * (1 + 4))[0].x, 0, 0) << "none on either side";
+    EXPECT_NEAR(mesh.cell(1 + 4 * (2 + 4)).diagonal.x, 2, 1e-6);  // (4 - 0) / 2, beside another row
+    EXPECT_NEAR(mesh.cell(1 + 4 * (1 + 4)).diagonal.x, 1, 1e-6);  // 1 - 0 alone
+    EXPECT_EQ(volume(mesh, 3 + 4 * (1 + 4)), 0) << "none on either side";
     EXPECT_EQ(mesh.flat(), 3u) << "those at i = 3, j = 0 and k = 0, whose only one it is";
     EXPECT_FALSE(std::isfinite(mesh.position(2 + 4 * (1 + 4)).x));
     const auto notes = notesOf(mesh);
@@ -117,9 +125,9 @@ TEST(Mesh, LongitudesAreAsFarApartAsTheShorterWay) {
     places.period = {360, 0, 0};
     const Mesh mesh(places);
     for (std::uint64_t i = 0; i < mesh.count(); ++i)
-        expectNear(mesh.cell(i), glm::dmat3({30, 0, 0}, {0, 10, 0}, {0, 0, 1}), 1e-4);
+        expectShape(mesh.cell(i), glm::dmat3({30, 0, 0}, {0, 10, 0}, {0, 0, 1}), 1e-3);
     places.period = {};
-    EXPECT_LT(Mesh(places).cell(3)[0].x, -100) << "without a period";
+    EXPECT_GT(Mesh(places).widest().x, 100) << "without a period";
 }
 
 TEST(Mesh, AFoldedCellStandsForNothing) {
@@ -128,9 +136,8 @@ TEST(Mesh, AFoldedCellStandsForNothing) {
     }));
     // At i = 2 the way from 1 to 0.5 leads back.
     EXPECT_EQ(mesh.folded(), 9u);
-    EXPECT_LT(glm::determinant(mesh.cell(2)), 0);
-    EXPECT_EQ(mesh.volume(mesh.cell(2)), 0);
-    EXPECT_GT(mesh.volume(mesh.cell(1)), 0);
+    EXPECT_EQ(volume(mesh, 2), 0);
+    EXPECT_GT(volume(mesh, 1), 0);
     EXPECT_EQ(notesOf(mesh).size(), 1u);
 }
 
@@ -142,14 +149,13 @@ TEST(Mesh, ThinOnesAreAsThickAsTheyAreWide) {
         const Mesh sheet(placesOf(size, [&](double i, double j, double k) {
             return glm::dvec3(2 * i + 0.5 * j, 3 * j, 6 * k + j);
         }));
+        // Steps that are all alike, and one of the length of their area's root across them.
+        glm::dmat3 steps({2, 0, 0}, {0.5, 3, 1}, {0, 0, 6});
+        const glm::dvec3 across = glm::cross(steps[(thin + 1) % 3], steps[(thin + 2) % 3]);
+        steps[thin] = across / std::sqrt(glm::length(across));
         for (std::uint64_t i = 0; i < sheet.count(); ++i) {
-            const glm::dmat3 cell = sheet.cell(i);
-            const glm::dvec3 &b = cell[(thin + 1) % 3], &c = cell[(thin + 2) % 3];
-            const double area = glm::length(glm::cross(b, c));
-            EXPECT_NEAR(glm::length(cell[thin]), std::sqrt(area), 1e-5);  // all of one area
-            EXPECT_NEAR(glm::dot(cell[thin], b), 0, 1e-5);
-            EXPECT_NEAR(glm::dot(cell[thin], c), 0, 1e-5);
-            EXPECT_NEAR(sheet.volume(cell), area * std::sqrt(area), 1e-3);
+            expectShape(sheet.cell(i), steps, 1e-5);
+            EXPECT_NEAR(volume(sheet, i), std::pow(glm::length(across), 1.5), 1e-4);
         }
     }
     for (int along = 0; along < 3; ++along) {
@@ -158,10 +164,10 @@ TEST(Mesh, ThinOnesAreAsThickAsTheyAreWide) {
         const Mesh thread(placesOf(
             size, [](double i, double j, double k) { return (i + j + k) * glm::dvec3(2, 1, -2); }));
         for (std::uint64_t i = 0; i < 4; ++i)
-            EXPECT_NEAR(thread.volume(thread.cell(i)), 27, 1e-4) << along;  // steps of length 3
+            EXPECT_NEAR(volume(thread, i), 27, 1e-5) << along;  // steps of length 3
     }
     const Mesh point(placesOf({1, 1, 1}, [](double, double, double) { return glm::dvec3(7); }));
-    EXPECT_EQ(point.volume(point.cell(0)), 1);
+    EXPECT_EQ(volume(point, 0), 1);
 }
 
 TEST(Mesh, AddsUpTheSameOnAnyNumberOfThreads) {
@@ -174,6 +180,27 @@ TEST(Mesh, AddsUpTheSameOnAnyNumberOfThreads) {
         return mesh;
     };
     EXPECT_EQ(made(1).meanVolume(), made(5).meanVolume());
+    EXPECT_EQ(made(1), made(3));
+}
+
+// Coordinates that leave the floats, and volumes that leave the doubles.
+TEST(Mesh, IsTheSameInAnyUnit) {
+    const auto in = [](double unit) {
+        return Mesh(placesOf({4, 3, 5}, [&](double i, double j, double k) {
+            return unit * glm::dvec3(i + 0.25 * j, j, 2 * k + 0.5 * i);
+        }));
+    };
+    const Mesh one = in(1);
+    for (const int power : {-1000, -140, 140, 1000}) {
+        const double unit = std::ldexp(1.0, power);
+        const Mesh mesh = in(unit);
+        EXPECT_EQ(mesh.meanVolume(), std::ldexp(one.meanVolume(), 3 * power));
+        for (std::uint64_t i = 0; i < one.count(); ++i) {
+            EXPECT_EQ(mesh.position(i), unit * one.position(i));
+            EXPECT_EQ(mesh.cell(i).diagonal, unit * one.cell(i).diagonal);
+            EXPECT_EQ(mesh.cell(i).below, unit * one.cell(i).below);
+        }
+    }
 }
 
 TEST(Mesh, RefusesWhatPlacesNothing) {

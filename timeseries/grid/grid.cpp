@@ -144,7 +144,6 @@ glm::dvec3 Grid::position(std::uint64_t index) const {
 }
 
 glm::dmat3 Grid::cell(std::uint64_t index) const {
-    if (mesh_) return mesh_->cell(index);
     const auto at = indices(index);
     double smallest = std::numeric_limits<double>::infinity();
     for (const Axis& axis : axes_)

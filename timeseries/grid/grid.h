@@ -87,9 +87,9 @@ class Grid {
     glm::vec<3, std::uint64_t> indices(std::uint64_t index) const;
     // In the file's space, in the units of the axes.
     glm::dvec3 position(std::uint64_t index) const;
-    // Columns: the steps along the indices that the point stands for (index step -> the file's
-    // space). Of a grid without a mesh never singular: an axis of one point takes the smallest mean
-    // step of the others, else 1.
+    // REQUIRES: no mesh. Columns: the steps along the indices that the point stands for (index step
+    // -> the file's space). Never singular: an axis of one point takes the smallest mean step of
+    // the others, else 1.
     glm::dmat3 cell(std::uint64_t index) const;
 
     friend bool operator==(const Grid& a, const Grid& b) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
 #include <stdexcept>
 
@@ -17,66 +17,62 @@
 namespace timeseries {
 namespace {
 
-bool isPlace(const glm::dvec3& at) {
-    return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
-}
+using Rows = std::array<glm::dvec3, 3>;  // of the steps that a point stands for
 
-// The shortest way round.
-glm::dvec3 wayBetween(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& period) {
-    glm::dvec3 way = to - from;
-    for (int c = 0; c < 3; ++c)
-        if (period[c] > 0) way[c] -= period[c] * std::round(way[c] / period[c]);
-    return way;
-}
-
-glm::dvec3 perpendicularTo(const glm::dvec3& v) {
-    const glm::dvec3 a = glm::abs(v);
-    if (a.x <= a.y && a.x <= a.z) return glm::cross(v, glm::dvec3(1, 0, 0));
-    return glm::cross(v, a.y <= a.z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
-}
-
-// Gives the columns along indices of one point this length, across the others, right-handed.
-void thicken(glm::dmat3& cell, const std::array<std::size_t, 3>& size, double thickness) {
-    const auto isThin = [&](int a) { return size[static_cast<std::size_t>(a % 3)] == 1; };
-    const auto along = [&](const glm::dvec3& v) {
-        const double length = glm::length(v);
-        return length > 0 ? v / length * thickness : glm::dvec3(0);
-    };
-    if (isThin(0) && isThin(1) && isThin(2)) cell = glm::dmat3(thickness);
-    for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        if (isThin(a) && !isThin(b) && !isThin(c)) cell[a] = along(glm::cross(cell[b], cell[c]));
-        if (!isThin(a) && isThin(b) && isThin(c)) {
-            cell[b] = along(perpendicularTo(cell[a]));
-            cell[c] = along(glm::cross(cell[a], cell[b]));
-        }
-    }
+// Dividing by it changes no digit.
+double powerOfTwoBeside(double length) {
+    return length > 0 ? std::ldexp(1.0, std::ilogb(length)) : 1;
 }
 
 }  // namespace
 
-// What a part of the mesh adds up to: of the cells turned each way.
+// What a part of the mesh adds up to, in its units: of the cells turned each way.
 struct Mesh::Sums {
     std::array<double, 2> volume{};
     std::array<std::uint64_t, 2> cells{};
     std::uint64_t flat = 0, absent = 0;
-    double width = 0;  // of a surface's cells their area, of a line's their length
     glm::dvec3 widest{0};
+
+    void add(const Rows& rows, double turned) {
+        if (turned == 0) {
+            ++flat;
+            return;
+        }
+        volume[turned < 0] += std::abs(turned);
+        ++cells[turned < 0];
+        for (int c = 0; c < 3; ++c) widest[c] = std::max(widest[c], glm::length(rows[c]));
+    }
+    void add(const Sums& other) {
+        for (const std::size_t way : {0u, 1u}) {
+            volume[way] += other.volume[way];
+            cells[way] += other.cells[way];
+        }
+        flat += other.flat;
+        absent += other.absent;
+        widest = glm::max(widest, other.widest);
+    }
 };
 
-Mesh::Mesh(MeshPlaces places)
-    : size_(places.size), levels_(std::move(places.levels)), period_(places.period) {
+Mesh::Mesh(MeshPlaces places) : size_(places.size) {
     const auto [ni, nj, nk] = size_;
-    const std::uint64_t stored = levels_.empty() ? count() : std::uint64_t{ni} * nj;
-    if (count() == 0 || places.at.size() != stored || (!levels_.empty() && levels_.size() != nk))
+    const bool columns = !places.levels.empty();
+    const std::uint64_t stored = columns ? std::uint64_t{ni} * nj : count();
+    if (count() == 0 || places.at.size() != stored || (columns && places.levels.size() != nk))
         throw std::invalid_argument("a mesh with places of another number of points");
-    takePlaces(places);
-    measure();
+    takeBounds(places);
+    const Axis levels{"", "", places.levels};
+    for (std::size_t k = 0; k < places.levels.size(); ++k)
+        levels_.push_back({places.levels[k] - origin_.z, 0});
+    if (nk > 1)
+        for (std::size_t k = 0; k < levels_.size(); ++k)
+            levels_[k].height = std::abs(levels.width(k));
+    const CurvilinearCells cells(places);
+    takePoints(places.at, cells);
 }
 
 std::uint64_t Mesh::count() const { return std::uint64_t{size_[0]} * size_[1] * size_[2]; }
 
-void Mesh::takePlaces(const MeshPlaces& places) {
+void Mesh::takeBounds(const MeshPlaces& places) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     lo_ = glm::dvec3(kInfinity);
     hi_ = -lo_;
@@ -85,146 +81,97 @@ void Mesh::takePlaces(const MeshPlaces& places) {
             lo_ = glm::min(lo_, at);
             hi_ = glm::max(hi_, at);
         }
-    if (!levels_.empty()) {
-        const auto [least, most] = std::ranges::minmax(levels_);
+    if (!places.levels.empty()) {
+        const auto [least, most] = std::ranges::minmax(places.levels);
         lo_.z += least;
         hi_.z += most;
     }
     if (!isPlace(lo_) || !isPlace(hi_) || !isPlace(hi_ - lo_))
         throw std::invalid_argument("no point has a place that is finite");
     origin_ = 0.5 * lo_ + 0.5 * hi_;
+    for (int c = 0; c < 3; ++c) unit_[c] = powerOfTwoBeside(0.5 * (hi_[c] - lo_[c]));
+}
+
+// In pieces of one size, added up in their order: the same for any number of threads.
+template <typename CellOf>
+void Mesh::takePoints(const std::vector<glm::dvec3>& at, const CellOf& cellOf) {
+    constexpr std::uint64_t kPiece = 1 << 14;
+    stored_ = at.size();
+    points_ = Pages<Point>(stored_);
     const glm::dvec3 below(origin_.x, origin_.y, levels_.empty() ? origin_.z : 0.0);
-    stored_ = places.at.size();
-    at_ = Pages<glm::vec3>(stored_);
-    std::ranges::transform(places.at, at_.data(), [&](const glm::dvec3& at) {
-        return isPlace(at) ? glm::vec3(at - below)
-                           : glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    const auto take = [&](std::uint64_t i, Sums& sums) -> Point {
+        if (!isPlace(at[i])) {
+            ++sums.absent;
+            return {glm::vec3(std::numeric_limits<float>::quiet_NaN()), {}};
+        }
+        const glm::vec3 place((at[i] - below) / unit_);
+        const glm::dmat3 steps = cellOf(i);
+        Rows rows;
+        for (int c = 0; c < 3; ++c)
+            rows[c] = glm::dvec3(steps[0][c], steps[1][c], steps[2][c]) / unit_[c];
+        const double turned = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
+        sums.add(rows, turned);
+        if (turned == 0) return {place, {}};
+        auto cell = factorOf(rows, 0, 0);
+        if (turned < 0) {
+            cell.diagonal.x = -cell.diagonal.x;
+            cell.below.x = -cell.below.x;
+            cell.below.y = -cell.below.y;
+        }
+        return {place, cell.as<float>()};
+    };
+    std::vector<Sums> sums((stored_ + kPiece - 1) / kPiece);
+    std::atomic<std::size_t> next = 0;
+    together(threadsFor(sums.size(), 4), [&](unsigned) {
+        for (std::size_t piece = next++; piece < sums.size(); piece = next++)
+            for (std::uint64_t i = piece * kPiece; i < std::min(stored_, (piece + 1) * kPiece); ++i)
+                points_.data()[i] = take(i, sums[piece]);
     });
-    for (double& level : levels_) level -= origin_.z;
+    Sums all;
+    for (const Sums& some : sums) all.add(some);
+    takeSums(all);
+}
+
+void Mesh::takeSums(const Sums& sums) {
+    const std::size_t most = sums.cells[1] > sums.cells[0] ? 1 : 0;
+    sign_ = most == 1 ? -1 : 1;
+    if (sums.cells[most] == 0) throw std::invalid_argument("no cell of the points has a volume");
+    meanVolume_ = sums.volume[most] / static_cast<double>(sums.cells[most]);
+    for (int c = 0; c < 3; ++c) meanVolume_ *= static_cast<long double>(unit_[c]);
+    widest_ = unit_ * sums.widest;
+    // Cells above each other are as wide, and were looked at on the first level.
+    std::uint64_t levels = 1;
+    if (levels_.size() > 1) {
+        double sum = 0, highest = 0;
+        for (const Level& level : levels_) {
+            sum += level.height;
+            highest = std::max(highest, level.height);
+        }
+        levels = levels_.size();
+        const double first = levels_[0].height;
+        meanVolume_ *= static_cast<long double>(sum / static_cast<double>(levels) / first);
+        const double aside = std::max(widest_.z * widest_.z - first * first, 0.0);
+        widest_.z = std::sqrt(aside + highest * highest);
+    }
+    folded_ = sums.cells[1 - most] * levels;
+    flat_ = sums.flat * levels;
+    absent_ = sums.absent * levels;
 }
 
 glm::dvec3 Mesh::position(std::uint64_t index) const {
-    if (levels_.empty()) return origin_ + glm::dvec3(stored()[index]);
-    const std::uint64_t column = index % stored_;
-    return origin_ + glm::dvec3(stored()[column]) + glm::dvec3(0, 0, levels_[index / stored_]);
+    if (levels_.empty()) return origin_ + unit_ * glm::dvec3(points_.data()[index].at);
+    const glm::vec3& column = points_.data()[index % stored_].at;
+    return origin_ + unit_ * glm::dvec3(column) + glm::dvec3(0, 0, levels_[index / stored_].at);
 }
 
-glm::dvec3 Mesh::placeAt(const std::array<std::size_t, 3>& ijk) const {
-    const std::uint64_t row = ijk[0] + size_[0] * std::uint64_t{ijk[1]};
-    if (levels_.empty())
-        return origin_ + glm::dvec3(stored()[row + size_[0] * size_[1] * std::uint64_t{ijk[2]}]);
-    return origin_ + glm::dvec3(stored()[row]) + glm::dvec3(0, 0, levels_[ijk[2]]);
-}
-
-glm::dmat3 Mesh::stepsAt(const std::array<std::size_t, 3>& ijk) const {
-    const glm::dvec3 here = placeAt(ijk);
-    glm::dmat3 steps(0.0);
-    for (std::size_t a = 0; a < 3; ++a) {
-        if (size_[a] == 1) continue;
-        glm::dvec3 sum(0);
-        int ways = 0;
-        for (const int way : {-1, 1}) {
-            if (way < 0 ? ijk[a] == 0 : ijk[a] + 1 == size_[a]) continue;
-            auto neighbour = ijk;
-            neighbour[a] += static_cast<std::size_t>(way);
-            const glm::dvec3 there = placeAt(neighbour);
-            if (!isPlace(there)) continue;
-            sum += static_cast<double>(way) * wayBetween(here, there, period_);
-            ++ways;
-        }
-        if (ways > 0) steps[static_cast<int>(a)] = sum / static_cast<double>(ways);
-    }
-    return steps;
-}
-
-glm::dmat3 Mesh::cell(std::uint64_t index) const {
-    const auto at = indicesOf(index, glm::vec<3, std::uint64_t>(size_[0], size_[1], size_[2]));
-    glm::dmat3 steps = stepsAt({at.x, at.y, at.z});
-    if (thickness_ > 0) thicken(steps, size_, thickness_);
-    return steps;
-}
-
-double Mesh::volume(const glm::dmat3& cell) const {
-    const double turned = sign_ * glm::determinant(cell);
-    return turned > 0 ? turned : 0;
-}
-
-// From the sums over the first level to those over all.
-void Mesh::addLevels(Sums& sums) const {
-    const Axis levels{"", "", levels_};
-    double thick = 0, thickest = 0;
-    for (std::size_t k = 0; k < levels_.size(); ++k) {
-        thick += std::abs(levels.width(k));
-        thickest = std::max(thickest, std::abs(levels.width(k)));
-    }
-    for (double& volume : sums.volume) volume *= thick / std::abs(levels.width(0));
-    for (std::uint64_t* count : {&sums.cells[0], &sums.cells[1], &sums.flat, &sums.absent})
-        *count *= levels_.size();
-    sums.widest.z = thickest;
-}
-
-// In pieces of one size, added up in their order: the same for any number of threads. Of columns
-// with levels one level is added up, for all cells above each other are as wide.
-void Mesh::measure() {
-    const std::uint64_t measured = stored_;
-    const auto added = [this, measured](const auto& addOne) {
-        constexpr std::uint64_t kPiece = 1 << 14;
-        std::vector<Sums> sums((measured + kPiece - 1) / kPiece);
-        std::atomic<std::size_t> next = 0;
-        together(threadsFor(sums.size(), 4), [&](unsigned) {
-            for (std::size_t piece = next++; piece < sums.size(); piece = next++)
-                for (std::uint64_t i = piece * kPiece; i < std::min(measured, (piece + 1) * kPiece);
-                     ++i)
-                    if (isPlace(position(i)))
-                        addOne(cell(i), sums[piece]);
-                    else
-                        ++sums[piece].absent;
-        });
-        Sums all;
-        for (const Sums& some : sums) {
-            for (const std::size_t way : {0u, 1u}) {
-                all.volume[way] += some.volume[way];
-                all.cells[way] += some.cells[way];
-            }
-            all.flat += some.flat;
-            all.absent += some.absent;
-            all.width += some.width;
-            all.widest = glm::max(all.widest, some.widest);
-        }
-        return all;
-    };
-    const auto thin = std::ranges::count(size_, 1u);
-    if (thin > 0) {
-        const Sums flat = added([&](const glm::dmat3& steps, Sums& to) {
-            glm::dvec3 one(0), other(0);  // the columns that are not 0
-            for (int a = 0; a < 3; ++a)
-                if (size_[static_cast<std::size_t>(a)] > 1)
-                    (one == glm::dvec3(0) ? one : other) = steps[a];
-            to.width += thin == 1 ? glm::length(glm::cross(one, other)) : glm::length(one);
-        });
-        const double mean = flat.width / static_cast<double>(measured - flat.absent);
-        thickness_ = thin == 3 ? 1 : thin == 2 ? mean : std::sqrt(mean);
-    }
-    Sums all = added([&](const glm::dmat3& steps, Sums& to) {
-        const double turned = glm::determinant(steps);
-        if (!(std::abs(turned) > 0)) {
-            ++to.flat;
-            return;
-        }
-        to.volume[turned < 0] += std::abs(turned);
-        ++to.cells[turned < 0];
-        const glm::dmat3 rows = glm::transpose(steps);
-        for (int c = 0; c < 3; ++c) to.widest[c] = std::max(to.widest[c], glm::length(rows[c]));
-    });
-    if (levels_.size() > 1) addLevels(all);
-    const std::size_t most = all.cells[1] > all.cells[0] ? 1 : 0;
-    sign_ = most == 1 ? -1 : 1;
-    if (all.cells[most] == 0) throw std::invalid_argument("no cell of the points has a volume");
-    meanVolume_ = all.volume[most] / static_cast<double>(all.cells[most]);
-    widest_ = all.widest;
-    folded_ = all.cells[1 - most];
-    flat_ = all.flat;
-    absent_ = all.absent;
+LowerTriangle<double> Mesh::cell(std::uint64_t index) const {
+    const bool columns = levels_.size() > 1;
+    const Point& point = points_.data()[columns ? index % stored_ : index];
+    if (!(sign_ * static_cast<double>(point.cell.diagonal.x) > 0)) return {};
+    auto cell = point.cell.as<double>().scaled(unit_);
+    // The steps to the sides lead along all coordinates, those to the levels along the third.
+    if (columns) cell.diagonal.z = levels_[index / stored_].height;
+    return cell;
 }
 
 std::vector<std::string> notesOf(const Mesh& mesh) {
@@ -241,7 +188,16 @@ std::vector<std::string> notesOf(const Mesh& mesh) {
 }
 
 std::uint64_t Mesh::bytes() const {
-    return stored_ * sizeof(glm::vec3) + levels_.size() * sizeof(double);
+    return stored_ * sizeof(Point) + levels_.size() * sizeof(Level);
+}
+
+bool operator==(const Mesh& a, const Mesh& b) {
+    const auto sameLevel = [](const Mesh::Level& one, const Mesh::Level& other) {
+        return one.at == other.at && one.height == other.height;
+    };
+    return a.size_ == b.size_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
+           std::ranges::equal(a.levels_, b.levels_, sameLevel) && a.stored_ == b.stored_ &&
+           std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }
 
 }  // namespace timeseries

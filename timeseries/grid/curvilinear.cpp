@@ -1,0 +1,106 @@
+#include "timeseries/grid/curvilinear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "timeseries/grid/grid.h"
+
+namespace timeseries {
+namespace {
+
+glm::dvec3 perpendicularTo(const glm::dvec3& v) {
+    const glm::dvec3 a = glm::abs(v);
+    if (a.x <= a.y && a.x <= a.z) return glm::cross(v, glm::dvec3(1, 0, 0));
+    return glm::cross(v, a.y <= a.z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
+}
+
+// Gives the columns along indices of one point this length, across the others, right-handed.
+void thicken(glm::dmat3& cell, const std::array<std::size_t, 3>& size, double thickness) {
+    const auto isThin = [&](int a) { return size[static_cast<std::size_t>(a % 3)] == 1; };
+    const auto along = [&](const glm::dvec3& v) {
+        const double length = glm::length(v);
+        return length > 0 ? v / length * thickness : glm::dvec3(0);
+    };
+    if (isThin(0) && isThin(1) && isThin(2)) cell = glm::dmat3(thickness);
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        if (isThin(a) && !isThin(b) && !isThin(c)) cell[a] = along(glm::cross(cell[b], cell[c]));
+        if (!isThin(a) && isThin(b) && isThin(c)) {
+            cell[b] = along(perpendicularTo(cell[a]));
+            cell[c] = along(glm::cross(cell[a], cell[b]));
+        }
+    }
+}
+
+}  // namespace
+
+bool isPlace(const glm::dvec3& at) {
+    return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
+}
+
+CurvilinearCells::CurvilinearCells(const MeshPlaces& places)
+    : places_(places), stride_{1, places.size[0], std::uint64_t{places.size[0]} * places.size[1]} {
+    const auto thin = std::ranges::count(places.size, 1u);
+    if (thin > 0) thickness_ = thin == 3 ? 1 : thin == 2 ? meanWidth() : std::sqrt(meanWidth());
+}
+
+// Of a surface's cells the area, of a thread's the length.
+double CurvilinearCells::meanWidth() const {
+    double sum = 0;
+    std::uint64_t placed = 0;
+    for (std::uint64_t row = 0; row < places_.at.size(); ++row) {
+        if (!isPlace(places_.at[row])) continue;
+        const glm::dmat3 steps = stepsAt(row);
+        glm::dvec3 one(0), other(0);  // the columns that are not 0
+        for (int a = 0; a < 3; ++a)
+            if (places_.size[static_cast<std::size_t>(a)] > 1)
+                (one == glm::dvec3(0) ? one : other) = steps[a];
+        sum +=
+            glm::length(std::ranges::count(places_.size, 1u) == 1 ? glm::cross(one, other) : one);
+        ++placed;
+    }
+    return sum / static_cast<double>(placed);
+}
+
+// The mean of the ways from the point before and to the one after, or the only one of these that
+// leads anywhere.
+glm::dvec3 CurvilinearCells::stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore,
+                                       bool hasAfter) const {
+    const auto way = [&](std::uint64_t from, std::uint64_t to) {
+        glm::dvec3 along = places_.at[to] - places_.at[from];
+        for (int c = 0; c < 3; ++c)  // the shorter way round
+            if (const double period = places_.period[c]; period > 0)
+                along[c] -= period * std::round(along[c] / period);
+        return along;
+    };
+    glm::dvec3 before(0), after(0);
+    if (hasBefore) hasBefore = isPlace(before = way(row - stride_[axis], row));
+    if (hasAfter) hasAfter = isPlace(after = way(row, row + stride_[axis]));
+    if (hasBefore && hasAfter) return 0.5 * (before + after);
+    return hasBefore ? before : hasAfter ? after : glm::dvec3(0);
+}
+
+glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {
+    const auto& size = places_.size;
+    const auto at = indicesOf(row, glm::vec<3, std::uint64_t>(size[0], size[1], size[2]));
+    glm::dmat3 steps(0.0);
+    for (int a = 0; a < 3; ++a) {
+        const auto axis = static_cast<std::size_t>(a);
+        if (size[axis] == 1) continue;
+        if (a == 2 && !places_.levels.empty())
+            steps[2].z = Axis{"", "", places_.levels}.width(0);
+        else
+            steps[a] = stepAlong(row, axis, at[a] > 0, at[a] + 1 < size[axis]);
+    }
+    return steps;
+}
+
+glm::dmat3 CurvilinearCells::operator()(std::uint64_t row) const {
+    glm::dmat3 steps = stepsAt(row);
+    if (thickness_ > 0) thicken(steps, places_.size, thickness_);
+    return steps;
+}
+
+}  // namespace timeseries

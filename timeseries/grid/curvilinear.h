@@ -1,0 +1,45 @@
+// The cells of a curvilinear grid, from where its points lie.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace timeseries {
+
+// What is known of each point; a coordinate that is not finite says that it has no place.
+struct MeshPlaces {
+    std::array<std::size_t, 3> size{1, 1, 1};  // points along the indices i, j, k
+    // [k][j][i], i fastest, in the file's space, of all points; or [j][i] when there are `levels`.
+    std::vector<glm::dvec3> at;
+    // [k]: what each level adds to the third coordinate of the places below, strictly ascending or
+    // descending. None: all are in `at`.
+    std::vector<double> levels = {};
+    // After how much each coordinate comes round to itself, as longitude does; 0: never.
+    glm::dvec3 period{0};
+};
+
+bool isPlace(const glm::dvec3& at);
+
+// Looks at `places`, which must outlive it, and be as many as their size says.
+class CurvilinearCells {
+ public:
+    explicit CurvilinearCells(const MeshPlaces& places);
+    // Columns: the steps along i, j and k that this point of `at` stands for, half the way between
+    // its neighbours, or the whole way to the only one that has a place; of columns, on the first
+    // level. An index of one point is as thick as the mean of the cells is wide.
+    glm::dmat3 operator()(std::uint64_t row) const;
+
+ private:
+    glm::dmat3 stepsAt(std::uint64_t row) const;
+    glm::dvec3 stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore, bool hasAfter) const;
+    double meanWidth() const;
+
+    const MeshPlaces& places_;
+    std::array<std::uint64_t, 3> stride_;
+    double thickness_ = 0;
+};
+
+}  // namespace timeseries
