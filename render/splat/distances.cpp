@@ -78,7 +78,9 @@ Distances::Distances(const Scene& scene, const glm::dvec3& from)
 }
 
 void Distances::findInMesh(std::span<const std::uint32_t> index, std::span<double> away) const {
+    constexpr std::size_t kAhead = 16;
     for (std::size_t i = 0; i < index.size(); ++i) {
+        if (i + kAhead < index.size()) placed_.prefetch(index[i + kAhead]);
         away[i] = -1;
         if (!placed_.inside(index[i], clip_)) continue;
         const double distance = glm::distance(placed_.position(index[i]), from_);

@@ -212,34 +212,43 @@ HWY_INLINE Seen see(const PointsView& view, double radius, const MeshPoints& of,
 // As they are kept.
 HWY_INLINE void write(const TileLayout& layout, const Seen& s, D weight, D depth, DMask drawn,
                       std::span<SeenSplat> to) {
-    const Doubles doubles;
-    // An outline that reaches behind the eye has no bounds.
+    const HalfInts ints;
+    const hn::Rebind<float, Doubles> floats;
+    // An outline that reaches behind the eye has no bounds; what is as far aside takes nothing.
     const D far = d(1e9);
-    enum { X, Y, LoX, LoY, HiX, HiY, N, D3 = N + 3, L = D3 + 3, Weight = L + 2, Depth, kFields };
-    alignas(64) double field[kFields][kAtOnce];
+    constexpr std::size_t kFields = sizeof(SeenSplat) / sizeof(float);
+    alignas(64) float field[kFields][kAtOnce];
+    alignas(64) std::int32_t pixel[2][kAtOnce];
+    std::size_t next = 0;
+    const auto keep = [&](D x)
+                          HWY_ATTR { hn::Store(hn::DemoteTo(floats, x), floats, field[next++]); };
+    D within[2];
     for (std::size_t k = 0; k < 2; ++k) {
-        hn::Store(hn::Add(s.centre[k], d(layout.centre[k])), doubles, field[X + k]);
-        const D lo = hn::Max(s.lo[k], hn::Neg(far)), hi = hn::Min(s.hi[k], far);
-        hn::Store(hn::IfThenElseZero(drawn, lo), doubles, field[LoX + k]);
-        hn::Store(hn::IfThenElseZero(drawn, hi), doubles, field[HiX + k]);
-        hn::Store(s.l[k], doubles, field[L + k]);
+        const D window = hn::Add(s.centre[k], d(layout.centre[k]));
+        drawn = hn::And(drawn, hn::Lt(hn::Abs(window), far));
+        const D whole = hn::Floor(hn::IfThenElseZero(drawn, window));
+        within[k] = hn::Sub(window, whole);
+        hn::Store(hn::DemoteTo(ints, whole), ints, pixel[k]);
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-        hn::Store(s.n[k], doubles, field[N + k]);
-        hn::Store(s.d[k], doubles, field[D3 + k]);
-    }
-    hn::Store(weight, doubles, field[Weight]);
-    hn::Store(depth, doubles, field[Depth]);
+    for (const D& x : within) keep(x);
+    for (const D& x : s.lo) keep(hn::IfThenElseZero(drawn, hn::Max(x, hn::Neg(far))));
+    for (const D& x : s.hi) keep(hn::IfThenElseZero(drawn, hn::Min(x, far)));
+    for (const D& x : s.n) keep(x);
+    for (const D& x : s.d) keep(x);
+    for (const D& x : s.l) keep(x);
+    keep(weight);
+    keep(depth);
     for (std::size_t k = 0; k < to.size(); ++k) {
-        const auto of = [&](int i) { return static_cast<float>(field[i][k]); };
-        to[k] = {{field[X][k], field[Y][k]},
-                 {of(LoX), of(LoY)},
-                 {of(HiX), of(HiY)},
-                 {of(N), of(N + 1), of(N + 2)},
-                 {of(D3), of(D3 + 1), of(D3 + 2)},
-                 {of(L), of(L + 1)},
-                 of(Weight),
-                 of(Depth)};
+        const auto of = [&](std::size_t i) { return field[i][k]; };
+        to[k] = {{pixel[0][k], pixel[1][k]},
+                 {of(0), of(1)},
+                 {of(2), of(3)},
+                 {of(4), of(5)},
+                 {of(6), of(7), of(8)},
+                 {of(9), of(10), of(11)},
+                 {of(12), of(13)},
+                 of(14),
+                 of(15)};
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <span>
 
 #include "render/model/footprint.h"
@@ -13,14 +12,17 @@
 
 namespace render {
 
-// The forms are those of Splat in render/model/footprint.h.
+// The forms are those of Splat in render/model/footprint.h. Floats and ints alone, which kernels
+// take one field of many at once.
 struct SeenSplat {
-    glm::dvec2 window;  // of the centre, from the corner of the layout's box
-    glm::vec2 lo, hi;   // offsets from it between which the footprint lies; none: not drawn
+    // The pixel that the centre lies in, from the corner of the layout's box, and where in it.
+    std::array<std::int32_t, 2> pixel;
+    std::array<float, 2> within;
+    std::array<float, 2> lo, hi;  // offsets between which the footprint lies; none: not drawn
     std::array<float, 3> n, d;
     std::array<float, 2> l;
     float weight, depth;  // depth in the depth buffer
-    bool isDrawn() const { return lo.x < hi.x; }
+    bool isDrawn() const { return lo[0] < hi[0]; }
 };
 
 // Those of the points of these grid indices, whose W is multiplied by `factor`, as splatAt() has

@@ -131,31 +131,40 @@ HWY_INLINE F setUpTints(const TileView& view, const float* places, Batch& out) {
     return hn::GatherIndex(floats, table + 3, first);
 }
 
-// Of splats that were worked out before; lanes that hold none are left as they are.
+// Of splats that were worked out before.
 HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::ivec2 at,
                          glm::ivec2 size, Batch& out) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-        const SeenSplat& s = view.meshSplats[index[k]];
-        float* const offset[2] = {out.ox + k, out.oy + k};
-        std::int32_t* const first[2] = {out.x + k, out.y + k};
-        std::int32_t* const count[2] = {out.columns + k, out.rows + k};
-        for (int c = 0; c < 2; ++c) {
-            const double window = s.window[c] - at[c];
-            const auto reached = [&](float way) {
-                return static_cast<std::int32_t>(
-                    std::clamp(std::ceil(window + static_cast<double>(way) - 0.5), 0.0,
-                               static_cast<double>(size[c])));
-            };
-            *first[c] = reached(s.lo[c]);
-            *count[c] = s.isDrawn() ? reached(s.hi[c]) - *first[c] : 0;
-            *offset[c] = static_cast<float>(*first[c] + 0.5 - window);
-        }
-        out.nxx[k] = s.n[0], out.nxy[k] = s.n[1], out.nyy[k] = s.n[2];
-        out.dxx[k] = s.d[0], out.dxy[k] = s.d[1], out.dyy[k] = s.d[2];
-        out.lx[k] = s.l[0], out.ly[k] = s.l[1];
-        out.weight[k] = s.weight;
-        out.depth[k] = s.depth;
+    const Floats floats;
+    const Ints ints;
+    constexpr std::size_t kStride = sizeof(SeenSplat) / sizeof(float);
+    const I first = hn::Mul(hn::LoadU(ints, reinterpret_cast<const std::int32_t*>(index)),
+                            hn::Set(ints, static_cast<std::int32_t>(kStride)));
+    const SeenSplat& base = view.meshSplats.front();
+    const auto of = [&](const float& field)
+                        HWY_ATTR { return hn::GatherIndex(floats, &field, first); };
+    float* const offset[2] = {out.ox, out.oy};
+    std::int32_t* const begin[2] = {out.x, out.y};
+    std::int32_t* const count[2] = {out.columns, out.rows};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const int c = static_cast<int>(k);
+        const F zero = hn::Zero(floats), most = f(static_cast<float>(size[c]));
+        const F whole = hn::ConvertTo(
+            floats, hn::Sub(hn::GatherIndex(ints, &base.pixel[k], first), hn::Set(ints, at[c])));
+        const F within = hn::Sub(of(base.within[k]), f(0.5f));
+        const auto reached = [&](F way) HWY_ATTR {
+            return hn::Min(hn::Max(hn::Add(hn::Ceil(hn::Add(within, way)), whole), zero), most);
+        };
+        const F from = reached(of(base.lo[k])), to = reached(of(base.hi[k]));
+        hn::Store(hn::ConvertTo(ints, from), ints, begin[k]);
+        hn::Store(hn::ConvertTo(ints, hn::Sub(to, from)), ints, count[k]);
+        hn::Store(hn::Sub(hn::Sub(from, whole), within), floats, offset[k]);
     }
+    float* const form[] = {out.nxx, out.nxy, out.nyy, out.dxx, out.dxy, out.dyy, out.lx, out.ly};
+    const float* const field[] = {&base.n[0], &base.n[1], &base.n[2], &base.d[0],
+                                  &base.d[1], &base.d[2], &base.l[0], &base.l[1]};
+    for (std::size_t i = 0; i < std::size(form); ++i) hn::Store(of(*field[i]), floats, form[i]);
+    hn::Store(of(base.weight), floats, out.weight);
+    hn::Store(of(base.depth), floats, out.depth);
 }
 
 HWY_INLINE void setUp(const TileView& view, const std::uint32_t* index, const float* tints,

@@ -110,14 +110,15 @@ HWY_EXPORT(SumTile);
 TileSpan tilesOf(const TileLayout& layout, const SeenSplat& splat) {
     if (!splat.isDrawn()) return {};
     glm::ivec2 first, last;
-    for (int k = 0; k < 2; ++k) {
-        const double perTile = 1.0 / layout.tile[k], most = layout.tiles[k];
-        const auto tile = [&](double at) {
-            return static_cast<int>(std::clamp(std::floor(at * perTile), 0.0, most));
+    for (std::size_t k = 0; k < 2; ++k) {
+        const int c = static_cast<int>(k), tiles = layout.tiles[c];
+        const float perTile = 1 / static_cast<float>(layout.tile[c]);
+        const float window = static_cast<float>(splat.pixel[k]) + splat.within[k];
+        const auto tile = [&](float at) {
+            return static_cast<int>(std::clamp(at * perTile, 0.0f, static_cast<float>(tiles)));
         };
-        first[k] = tile(splat.window[k] + static_cast<double>(splat.lo[k]) - 1);
-        last[k] = std::min(tile(splat.window[k] + static_cast<double>(splat.hi[k]) + 1) + 1,
-                           layout.tiles[k]);
+        first[c] = tile(window + splat.lo[k] - 1);
+        last[c] = std::min(tile(window + splat.hi[k] + 1) + 1, tiles);
     }
     if (first.x >= last.x || first.y >= last.y) return {};
     return {static_cast<std::uint32_t>(first.y * layout.tiles.x + first.x),

@@ -276,15 +276,15 @@ def cells_page(part):
 
 def meshes_page(part):
     rows = []
-    kinds = {0: "one colour", 2: "by value, back to front"}
     for splats, what in [(1000000, 0), (1000000, 2), (100000, 0), (100000, 2)]:
-        f = part(f"meshBesideUpright/splats:{splats}/pixels:8/what:{what}")
-        kind = "one colour" if what == 0 else "by value"
-        rows.append([f"{splats:,}", "8 px", kinds[what], ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
-        target(f"{splats:,} splats of a mesh / of cubes, {kind}", f["second/first"], 1.6)
-    return ("The points of 256³ placed one by one, beside the same ones of the upright grid, whose cells are cubes: one plane of 1024 x 1024\n"
-            "by tiles, order included, by turns.\n\n"
-            + table(["splats", "diameter", "", "upright", "mesh", "ratio", "of processor time"], rows))
+        kind = {0: "one colour", 2: "by value, back to front"}[what]
+        for cubes, cells in [(1, "cubes"), (0, "stretched")]:
+            f = part(f"meshBesideUpright/splats:{splats}/pixels:8/what:{what}/cubes:{cubes}")
+            rows.append([f"{splats:,}", "8 px", kind, cells, ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+            target(f"{splats:,} splats of a mesh / of {cells if cubes else 'an upright grid'}, {kind}", f["second/first"], 1.6)
+    return ("The points of 256³ placed one by one, beside the same ones of the upright grid, whose cells are cubes, of which all splats are alike,\n"
+            "or stretched along one axis: one plane of 1024 x 1024 by tiles, order included, by turns.\n\n"
+            + table(["splats", "diameter", "", "cells", "upright", "mesh", "ratio", "of processor time"], rows))
 
 
 def vtk_page(part):

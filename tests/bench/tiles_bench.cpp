@@ -19,12 +19,29 @@ using namespace render;
 
 enum What { OneColor, ByTheirValues, Ordered };
 
+void colorAndOrder(Scene& scene, What what) {
+    if (what != OneColor) scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
+    if (what == Ordered) scene.order = Order::BackToFront;
+}
+
+// A frame by tiles, whose order is made anew for the eye.
+struct ByTiles {
+    DepthOrder inDepth;
+    TileMemory memory;
+    void operator()(const bench::ScatteredSplats& world, std::span<const float> opaqueDepth) {
+        const DrawList list = inDepth(world.scene, pixelRays(world.view).eye);
+        TileSum sum(world.scene, list, world.view, channelsFor(world.scene)[0], 0, opaqueDepth,
+                    sharingThreads(), std::move(memory));
+        sum.add(std::numeric_limits<std::uint64_t>::max());
+        memory = sum.takeMemory();
+    }
+};
+
 void tiles(benchmark::State& state) {
     bench::ScatteredSplats world(static_cast<std::uint64_t>(state.range(0)),
                                  static_cast<double>(state.range(1)));
     const auto what = static_cast<What>(state.range(2));
-    if (what != OneColor) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
-    if (what == Ordered) world.scene.order = Order::BackToFront;
+    colorAndOrder(world.scene, what);
     const Channels channels = channelsFor(world.scene)[0];
     const std::vector<float> far(std::size_t(world.view.size.x) * world.view.size.y, 1);
     const glm::dvec3 eye = pixelRays(world.view).eye;
@@ -38,15 +55,7 @@ void tiles(benchmark::State& state) {
                .clearColor = glm::vec4(0),
                .clearDepth = 1.0f});
     DepthOrder inDepth;
-    TileMemory memory;
-    // A frame's order is made anew for the eye.
-    const auto byTiles = [&] {
-        const DrawList list = inDepth(world.scene, eye);
-        TileSum sum(world.scene, list, world.view, channels, 0, far, sharingThreads(),
-                    std::move(memory));
-        sum.add(static_cast<std::uint64_t>(state.range(0)) * 2);
-        memory = sum.takeMemory();
-    };
+    ByTiles byTiles;
     const auto before = [&] {
         if (what != Ordered) {
             benchmark::DoNotOptimize(sumRows(world.scene, Runs{}, world.view, channels, 0, far));
@@ -56,7 +65,8 @@ void tiles(benchmark::State& state) {
         splatter.draw(*uploaded, world.view, channels, 0, targets.clearedPlane(0, channels));
         glFinish();
     };
-    bench::alternate(state, byTiles, before, 3);
+    bench::alternate(
+        state, [&] { byTiles(world, far); }, before, 3);
 }
 BENCHMARK(tiles)
     ->ArgNames({"splats", "pixels", "what"})
@@ -66,40 +76,36 @@ BENCHMARK(tiles)
     ->Args({100'000, 8, OneColor})
     ->Args({100'000, 8, Ordered})
     ->Args({1'000'000, 1, OneColor})
-    ->Iterations(25)
+    ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
-// The same points placed one by one, beside those of the upright grid.
+// The same points placed one by one, beside those of the upright grid, whose cells are cubes or, in
+// the middle of one axis, a little larger than at its ends.
 void meshBesideUpright(benchmark::State& state) {
     const auto splats = static_cast<std::uint64_t>(state.range(0));
     const auto diameter = static_cast<double>(state.range(1));
     const auto what = static_cast<What>(state.range(2));
-    bench::ScatteredSplats upright(splats, diameter);
+    std::array<timeseries::Axis, 3> axes = tests::cube(256)->axes();
+    if (state.range(3) == 0)
+        for (double& x : axes[0].coordinates) x += 1e-4 * x * x;
+    const auto grid = std::make_shared<const timeseries::Grid>(axes);
+    bench::ScatteredSplats upright(splats, diameter, grid);
     bench::ScatteredSplats mesh(
-        splats, diameter, tests::curvilinear({256, 256, 256}, [](double i, double j, double k) {
-            return glm::dvec3(i, j, k);
+        splats, diameter, tests::curvilinear({256, 256, 256}, [&](double i, double j, double k) {
+            return glm::dvec3(axes[0].coordinates[static_cast<std::size_t>(i)], j, k);
         }));
-    DepthOrder inDepth;
-    TileMemory memory;
+    ByTiles byTiles;
     const auto draw = [&](bench::ScatteredSplats& world) {
-        if (what != OneColor) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
-        if (what == Ordered) world.scene.order = Order::BackToFront;
-        const DrawList list = inDepth(world.scene, pixelRays(world.view).eye);
-        TileSum sum(world.scene, list, world.view, channelsFor(world.scene)[0], 0, {},
-                    sharingThreads(), std::move(memory));
-        sum.add(splats * 2);
-        memory = sum.takeMemory();
+        colorAndOrder(world.scene, what);
+        byTiles(world, {});
     };
     bench::alternate(
         state, [&] { draw(upright); }, [&] { draw(mesh); });
 }
 BENCHMARK(meshBesideUpright)
-    ->ArgNames({"splats", "pixels", "what"})
-    ->Args({1'000'000, 8, OneColor})
-    ->Args({1'000'000, 8, Ordered})
-    ->Args({100'000, 8, OneColor})
-    ->Args({100'000, 8, Ordered})
-    ->Iterations(25)
+    ->ArgNames({"splats", "pixels", "what", "cubes"})
+    ->ArgsProduct({{1'000'000, 100'000}, {8}, {OneColor, Ordered}, {1, 0}})
+    ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
