@@ -197,8 +197,7 @@ std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
     double lo = timeseries::toDouble(range.lo.value), hi = timeseries::toDouble(range.hi.value);
     if (lo == hi && std::isfinite(lo) && grid.mesh()) {
         throw ChoiceError(fmt::format(
-            "clip '{}': points of a curvilinear grid lie in no plane: give a range, from:to",
-            text));
+            "clip '{}': the points of this grid lie in no plane: give a range, from:to", text));
     } else if (lo == hi && std::isfinite(lo)) {
         lo = hi = *std::ranges::min_element(along.coordinates, {},
                                             [&](double plane) { return std::abs(plane - lo); });

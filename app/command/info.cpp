@@ -19,7 +19,7 @@ using timeseries::Axis;
 using timeseries::Variable;
 
 std::string kindOf(const timeseries::Grid& grid) {
-    if (grid.mesh()) return "curvilinear";
+    if (grid.mesh()) return grid.mesh()->hasNeighbours() ? "curvilinear" : "unstructured";
     for (const Axis& axis : grid.axes())
         if (axis.units == "index") return "index space";
     const std::string spacing = grid.uniform() ? "uniform" : "rectilinear";
@@ -138,7 +138,9 @@ void print(const Variable& v, bool shownFirst) {
         v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
     if (!v.missing.empty()) say("  missing  {}\n", v.missing);
     const auto n = v.grid->size();
-    say("  grid     {}, {} x {} x {} = {} points\n", kindOf(*v.grid), n[0], n[1], n[2],
+    const bool counted = v.grid->mesh() && !v.grid->mesh()->hasNeighbours();
+    say("  grid     {}, {}{} points\n", kindOf(*v.grid),
+        counted ? "" : fmt::format("{} x {} x {} = ", n[0], n[1], n[2]),
         withCommas(v.grid->count()));
     for (const Axis& axis : v.grid->axes())
         say("           {}\n", axisText(axis, v.grid->mesh() != nullptr));

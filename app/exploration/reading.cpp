@@ -28,8 +28,11 @@ std::string betweenText(const Reading& reading, const Shown& shown) {
 std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis) {
     const std::string& unit = shown.sorted->grid().axes()[axis].units;
     const double place = reading.position[static_cast<int>(axis)];
-    return fmt::format("{}   [{}]", withUnit(fmt::format("{:.6g}", place), unit),
-                       reading.index[axis]);
+    const std::string at = withUnit(fmt::format("{:.6g}", place), unit);
+    // Points that have no neighbours are numbered by one index.
+    const auto& mesh = shown.sorted->grid().mesh();
+    if (axis > 0 && mesh && !mesh->hasNeighbours()) return at;
+    return fmt::format("{}   [{}]", at, reading.index[axis]);
 }
 
 }  // namespace app

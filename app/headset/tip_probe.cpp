@@ -25,10 +25,12 @@ std::size_t nearest(const std::vector<double>& positions, double place) {
 }
 
 // By steps from neighbour to neighbour, each nearer, from the nearest of a few that are spread over
-// the mesh. None where what is found is farther off than any cell reaches.
+// the mesh; where there are no neighbours, of all. None where what is found is farther off than any
+// cell reaches.
 std::optional<std::array<std::size_t, 3>> nearestOfMesh(const render::PlacedPoints& placed,
                                                         const glm::dvec3& place) {
-    constexpr std::uint64_t kSpread = 8;  // indices between those that are looked at first
+    // Indices between those that are looked at first.
+    const std::uint64_t spread = placed.hasNeighbours() ? 8 : 1;
     using Index = glm::vec<3, std::uint64_t>;
     const Index size(placed.size());
     const auto away = [&](const Index& at) {
@@ -45,10 +47,10 @@ std::optional<std::array<std::size_t, 3>> nearestOfMesh(const render::PlacedPoin
         best = at;
         return true;
     };
-    for (std::uint64_t k = 0; k < size.z; k += kSpread)
-        for (std::uint64_t j = 0; j < size.y; j += kSpread)
-            for (std::uint64_t i = 0; i < size.x; i += kSpread) look({i, j, k});
-    for (bool isNearer = true; isNearer;) {
+    for (std::uint64_t k = 0; k < size.z; k += spread)
+        for (std::uint64_t j = 0; j < size.y; j += spread)
+            for (std::uint64_t i = 0; i < size.x; i += spread) look({i, j, k});
+    for (bool isNearer = placed.hasNeighbours(); isNearer;) {
         isNearer = false;
         const Index from = best;
         for (int a = 0; a < 3; ++a)

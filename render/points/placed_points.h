@@ -62,9 +62,15 @@ class PlacedPoints {
     // Points that lie one by one, and cells of any shape. A point without a place is nowhere: its
     // coordinates are no numbers.
     bool isMesh() const { return mesh_ != nullptr; }
+    bool hasNeighbours() const { return !mesh_ || mesh_->hasNeighbours(); }
     // REQUIRES: isMesh(). The shape in the world of the cell that the point stands for, its
-    // determinant +-volume; zero where nothing is drawn.
+    // determinant zero where nothing is drawn.
     timeseries::LowerTriangle<double> meshCell(std::uint64_t index) const;
+    // What that determinant is to be multiplied by, for splats may be wider than their cells.
+    double volumePerDeterminant() const {
+        const double spread = mesh_->spread();
+        return 1 / (spread * spread * spread);
+    }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
 
     // REQUIRES of these: not isMesh(). Lengths of the cell's sides, all > 0.

@@ -36,10 +36,10 @@ struct MeshPoints {
     }
 };
 
-HWY_INLINE D volumeOf(const MeshPoints& of) {
-    D volume = d(1);
-    for (const auto& a : of.diagonal) volume = hn::Mul(volume, hn::Load(Doubles(), a));
-    return hn::Abs(volume);
+HWY_INLINE D determinantOf(const MeshPoints& of) {
+    D product = d(1);
+    for (const auto& a : of.diagonal) product = hn::Mul(product, hn::Load(Doubles(), a));
+    return hn::Abs(product);
 }
 HWY_INLINE D dot(const D* a, const D* b) {
     return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
@@ -197,7 +197,7 @@ HWY_INLINE Seen see(const PointsView& view, double radius, const MeshPoints& of,
         hn::Min(hn::Max(hn::Sub(hn::Mul(depth, d(1 / view.rays.near)), d(1)), d(0)), d(1));
     const D perSides =
         hn::Mul(hn::Mul(factor.perDiagonal[0], factor.perDiagonal[1]), factor.perDiagonal[2]);
-    s.weight = hn::Mul(hn::Mul(hn::Mul(volumeOf(of), perSides), hn::Sqrt(perC2)),
+    s.weight = hn::Mul(hn::Mul(hn::Mul(determinantOf(of), perSides), hn::Sqrt(perC2)),
                        hn::Mul(hn::Mul(fade, fade), hn::NegMulAdd(two, fade, d(3))));
     const D widest =
         hn::Sqrt(hn::Add(dot(factor.diagonal, factor.diagonal), dot(factor.below, factor.below)));
@@ -258,7 +258,8 @@ HWY_ATTR void SeeSplats(const Scene& scene, const TileLayout& layout, const Poin
     constexpr std::size_t kAhead = 12;
     const Doubles doubles;
     const double radius = kQuarticRadius * scene.footprint.size;
-    const D mass = d(5 / std::numbers::pi / view.unitLength * factor);
+    const D mass =
+        d(5 / std::numbers::pi / view.unitLength * factor * scene.placed.volumePerDeterminant());
     MeshPoints some;
     for (std::size_t i = 0; i < gridIndex.size(); i += kAtOnce) {
         const std::size_t count = std::min(kAtOnce, gridIndex.size() - i);
@@ -278,7 +279,7 @@ HWY_ATTR void SeeSplats(const Scene& scene, const TileLayout& layout, const Poin
         const D windowDepth = hn::Add(hn::Div(d(layout.depthA), depth), d(layout.depthB));
         const Seen s = see(view, radius, some, inView, depth);
         const DMask drawn =
-            hn::And(hn::Gt(volumeOf(some), d(0)),
+            hn::And(hn::Gt(determinantOf(some), d(0)),
                     hn::And(hn::Gt(depth, d(view.rays.near)), hn::Le(windowDepth, d(1))));
         write(layout, s, hn::Mul(s.weight, mass), windowDepth, drawn, splats.subspan(i, count));
     }

@@ -50,8 +50,6 @@ struct NotRead {
 };
 constexpr std::array kNotRead{
     // Meshes, and grids that are curvilinear.
-    NotRead{"can.vtu", "is a VTK file of type UnstructuredGrid;"},
-    NotRead{"dambreak_amr/dambreak.pvd", "is a VTK file of type UnstructuredGrid;"},
     NotRead{"disk_out_ref.ex2", "is an Exodus II file"},
     NotRead{"mug_transient.e", "is an Exodus II file"},
     NotRead{"grids/icon_ocean_triangles.nc",

@@ -100,6 +100,29 @@ inline std::string structuredText(const Image& image,
         image.extent, image.points, image.cells, places);
 }
 
+// Two unit cubes beside each other, one a hexahedron, one a polyhedron, of 12 points.
+inline std::string unstructuredText(const std::string& points, const std::string& cells,
+                                    const std::string& lists = "") {
+    const auto list = [](const char* name, const std::string& numbers) {
+        return fmt::format(
+            "<DataArray type=\"Int64\" Name=\"{}\" format=\"ascii\">{}</DataArray>\n", name,
+            numbers);
+    };
+    std::string usual =
+        list("connectivity", "0 1 4 3 6 7 10 9 1 2 4 5 7 8 10 11") + list("offsets", "8 16") +
+        list("types", "12 42") +
+        list("faces", "6 4 1 2 5 4 4 7 8 11 10 4 1 2 8 7 4 4 5 11 10 4 1 4 10 7 4 2 5 11 8") +
+        list("faceoffsets", "-1 31");
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+        "<Piece NumberOfPoints=\"12\" NumberOfCells=\"2\">\n<PointData>\n{}</PointData>\n"
+        "<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n"
+        "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+        points, cells, dataArray("Float64", "p", placesOfTwelve(), 3),
+        lists.empty() ? usual : lists);
+}
+
 inline std::filesystem::path write(const std::string& name, const std::string& bytes) {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     std::string flatName = std::string(test->test_suite_name()) + "_" + test->name() + "_" + name;

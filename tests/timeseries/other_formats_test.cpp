@@ -16,8 +16,9 @@ using namespace std::string_literals;
 using Path = std::filesystem::path;
 
 const std::string kTail =
-    "; isochron reads NetCDF, NRRD and, of VTK, image data, rectilinear and structured grids "
-    "(.vti, .vtr, .vts, .vtk, .pvd)";
+    "; isochron reads NetCDF, NRRD and, of VTK, image data, rectilinear, structured and "
+    "unstructured grids "
+    "(.vti, .vtr, .vts, .vtu, .vtk, .pvd)";
 
 // What opening a file or folder says it is.
 std::string told(const Path& path) {
@@ -81,8 +82,8 @@ TEST(OtherFormats, AreNamed) {
              {at(0, "PK\3\4"), "a zip archive"},
              {"<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf/>",
               "an XDMF file"},
-             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\"/>",
-              "a VTK file of type UnstructuredGrid"},
+             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\"/>",
+              "a VTK file of type PUnstructuredGrid"},
              {"# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\n",
               "a VTK file of type polydata"},
              {"{\n  \"file-series-version\" : \"1.0\" }", "a ParaView list of files (.series)"},
@@ -143,7 +144,6 @@ TEST(OtherFormats, RealFilesAreNamed) {
              {"bluntfin/bluntfinq.bin", "a PLOT3D file"},
              {"grids/plot3d/combxyz.bin", "a PLOT3D file"},
              {"grids/plot3d/combq.bin", "a PLOT3D file"},
-             {"can.vtu", "a VTK file of type UnstructuredGrid"},
              {"grids/chombo3d/chombo3d.vtm", "a VTK file of type vtkHierarchicalBoxDataSet"},
              {"grids/emd_3001.map", "an MRC map"},
              {"grids/example_cube.fits", "a FITS file"},

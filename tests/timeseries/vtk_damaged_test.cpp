@@ -65,6 +65,7 @@ std::map<std::string, std::string> samples() {
     const std::string places = "DATASET STRUCTURED_GRID\nDIMENSIONS 3 2 2\nPOINTS 12 double\n";
     const std::string values = "POINT_DATA 12\nSCALARS v double 1\nLOOKUP_TABLE default\n";
     return {
+        {"cells.vtu", tests::unstructuredText(dataArray("Float64", "v", twelve()), "")},
         {"text.vts", tests::structuredText({.points = dataArray("Float64", "v", twelve())})},
         {"places.vtk", "# vtk DataFile Version 4.2\ntitle\nBINARY\n" + places +
                            tests::bigEndianBytes(tests::placesOfTwelve()) + "\n" + values +
@@ -466,7 +467,7 @@ TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {
     EXPECT_THAT(refusal(imageText({.points = v + v})), HasSubstr("found 'v' again"));
     EXPECT_THAT(refusal(imageText({.points = dataArray("Float64", "v", twelve(), 0)})),
                 HasSubstr("expected 1 to 1024 components, found 0"));
-    for (const std::string kind : {"UnstructuredGrid", "PolyData", "PImageData"})
+    for (const std::string kind : {"PUnstructuredGrid", "PolyData", "PImageData"})
         EXPECT_THAT(refusal("<VTKFile type=\"" + kind + "\"><" + kind + "/></VTKFile>"),
                     HasSubstr(" is a VTK file of type " + kind + "; isochron reads "));
     EXPECT_THAT(refusal("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),

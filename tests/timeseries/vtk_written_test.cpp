@@ -16,9 +16,11 @@
 #include <vtkStructuredGridWriter.h>
 #include <vtkStructuredPointsWriter.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLRectilinearGridWriter.h>
 #include <vtkXMLStructuredGridWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
 #include <array>
@@ -112,7 +114,49 @@ vtkNew<vtkStructuredGrid> structured() {
     return data;
 }
 
-enum class Kind { Image, Rectilinear, Structured };
+// The same points along straight lines, and bricks of them: hexahedra, voxels and polyhedra.
+glm::dvec3 straightPlace(std::size_t i, std::size_t j, std::size_t k) {
+    const auto at = glm::dvec3(i, j, k);
+    return {at.x + 0.5 * at.y, 2 * at.y - 0.25 * at.z, 3 * at.z};
+}
+
+vtkNew<vtkUnstructuredGrid> unstructured() {
+    const vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    const auto index = [](std::size_t i, std::size_t j, std::size_t k) {
+        return static_cast<vtkIdType>(i + 11 * (j + 7 * k));
+    };
+    for (std::size_t k = 0; k < 5; ++k)
+        for (std::size_t j = 0; j < 7; ++j)
+            for (std::size_t i = 0; i < 11; ++i) {
+                const glm::dvec3 at = straightPlace(i, j, k);
+                points->InsertPoint(index(i, j, k), at.x, at.y, at.z);
+            }
+    vtkNew<vtkUnstructuredGrid> data;
+    data->SetPoints(points);
+    for (std::size_t n = 0; n < kCellCount; ++n) {
+        const std::size_t i = n % 10, j = n / 10 % 6, k = n / 60;
+        std::array<vtkIdType, 8> c;
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            c[corner] = index(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
+        if (n % 3 == 1) {
+            data->InsertNextCell(VTK_VOXEL, 8, c.data());
+        } else if (n % 3 == 0) {
+            std::swap(c[2], c[3]);
+            std::swap(c[6], c[7]);
+            data->InsertNextCell(VTK_HEXAHEDRON, 8, c.data());
+        } else {
+            const std::array<vtkIdType, 30> faces{
+                4, c[0], c[2], c[3], c[1], 4, c[4], c[5], c[7], c[6], 4, c[0], c[1], c[5], c[4],
+                4, c[2], c[6], c[7], c[3], 4, c[0], c[4], c[6], c[2], 4, c[1], c[3], c[7], c[5]};
+            data->InsertNextCell(VTK_POLYHEDRON, 8, c.data(), 6, faces.data());
+        }
+    }
+    addArrays(*data);
+    return data;
+}
+
+enum class Kind { Image, Rectilinear, Structured, Unstructured };
 
 // Floats hold a place to a 2^24th of the mesh's extent.
 void expectNear(const glm::dvec3& found, const glm::dvec3& expected) {
@@ -133,6 +177,20 @@ void expectPlaces(const Grid& points, const Grid& cells) {
         for (unsigned c = 0; c < 8; ++c)
             middle += placeOf(at.x + (c & 1), at.y + (c >> 1 & 1), at.z + (c >> 2)) / 8.0;
         expectNear(cells.position(n), middle);
+    }
+}
+
+void expectCells(const Grid& points, const Grid& cells) {
+    ASSERT_TRUE(points.mesh() && cells.mesh());
+    EXPECT_EQ(points.size(), (std::array<std::size_t, 3>{kPointCount, 1, 1}));
+    EXPECT_EQ(cells.size(), (std::array<std::size_t, 3>{kCellCount, 1, 1}));
+    for (std::size_t n = 0; n < kPointCount; ++n)
+        expectNear(points.position(n), straightPlace(n % 11, n / 11 % 7, n / 77));
+    for (std::size_t n = 0; n < kCellCount; ++n) {
+        const glm::dvec3 lo = straightPlace(n % 10, n / 10 % 6, n / 60),
+                         hi = straightPlace(n % 10 + 1, n / 10 % 6 + 1, n / 60 + 1);
+        expectNear(cells.position(n), 0.5 * (lo + hi));
+        EXPECT_NEAR(std::abs(cells.mesh()->cell(n).determinant()), 6, 1e-5);
     }
 }
 
@@ -160,6 +218,8 @@ void expectWhole(const std::filesystem::path& path, Kind kind) {
     const Grid& grid = *std::ranges::find(variables, "f", &Variable::name)->grid;
     if (kind == Kind::Structured)
         return expectPlaces(grid, *std::ranges::find(variables, "c", &Variable::name)->grid);
+    if (kind == Kind::Unstructured)
+        return expectCells(grid, *std::ranges::find(variables, "c", &Variable::name)->grid);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& found = grid.axes()[axis].coordinates;
         if (kind == Kind::Rectilinear) {
@@ -269,6 +329,10 @@ TEST(VtkWritten, RectilinearGridsInEveryFormOfXmlAreRead) {
 
 TEST(VtkWritten, StructuredGridsInEveryFormOfXmlAreRead) {
     expectWhatVtkWrites<vtkXMLStructuredGridWriter>(*structured(), ".vts", Kind::Structured);
+}
+
+TEST(VtkWritten, UnstructuredGridsInEveryFormOfXmlAreRead) {
+    expectWhatVtkWrites<vtkXMLUnstructuredGridWriter>(*unstructured(), ".vtu", Kind::Unstructured);
 }
 
 template <typename Writer, typename Data>

@@ -36,19 +36,19 @@ TEST(WithoutVtk, TypesThatAreNotReadAreToldBeforeTheWay) {
         }
         return "";
     };
-    const auto mesh = tests::testFolder() / "mesh.vtu", list = tests::testFolder() / "list.pvd",
+    const auto mesh = tests::testFolder() / "mesh.vtp", list = tests::testFolder() / "list.pvd",
                old = tests::testFolder() / "old.vtk";
-    tests::writeBytes(mesh, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"></VTKFile>");
+    tests::writeBytes(mesh, "<VTKFile type=\"PolyData\" version=\"1.0\"></VTKFile>");
     tests::writeBytes(list,
                       "<VTKFile type=\"Collection\"><Collection>"
-                      "<DataSet timestep=\"0\" file=\"mesh.vtu\"/></Collection></VTKFile>");
-    tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n");
+                      "<DataSet timestep=\"0\" file=\"mesh.vtp\"/></Collection></VTKFile>");
+    tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\n");
     EXPECT_THAT(refusal(mesh),
-                testing::StartsWith(mesh.string() + " is a VTK file of type UnstructuredGrid; "));
+                testing::StartsWith(mesh.string() + " is a VTK file of type PolyData; "));
     EXPECT_THAT(refusal(list),
-                testing::StartsWith(mesh.string() + " is a VTK file of type UnstructuredGrid; "));
+                testing::StartsWith(mesh.string() + " is a VTK file of type PolyData; "));
     EXPECT_THAT(refusal(old),
-                testing::StartsWith(old.string() + " is a VTK file of type unstructured_grid; "));
+                testing::StartsWith(old.string() + " is a VTK file of type polydata; "));
     for (const auto& path : {mesh, list, old})
         EXPECT_THAT(refusal(path), testing::Not(testing::HasSubstr("--with-vtk")));
 }

@@ -108,7 +108,10 @@ Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofO
 std::shared_ptr<const Grid> gridOfStep(const std::shared_ptr<const Grid>& series,
                                        const std::shared_ptr<const Grid>& step) {
     if (series == step || *series == *step) return series;
-    if (!series->mesh() || !step->mesh() || series->size() != step->size()) return nullptr;
+    if (!series->mesh() || !step->mesh()) return nullptr;
+    // Cells that name their corners may come and go.
+    const bool named = !series->mesh()->hasNeighbours() && !step->mesh()->hasNeighbours();
+    if (!named && series->size() != step->size()) return nullptr;
     const auto sameSpace = [](const Axis& a, const Axis& b) {
         return a.name == b.name && a.units == b.units && a.down == b.down;
     };

@@ -17,8 +17,6 @@
 namespace timeseries {
 namespace {
 
-using Rows = std::array<glm::dvec3, 3>;  // of the steps that a point stands for
-
 // Dividing by it changes no digit.
 double powerOfTwoBeside(double length) {
     return length > 0 ? std::ldexp(1.0, std::ilogb(length)) : 1;
@@ -32,9 +30,14 @@ struct Mesh::Sums {
     std::array<std::uint64_t, 2> cells{};
     std::uint64_t flat = 0, absent = 0;
     glm::dvec3 widest{0};
+    glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi = -lo;
 
-    void add(const Rows& rows, double turned) {
-        if (turned == 0) {
+    void addPlace(const glm::dvec3& at) {
+        lo = glm::min(lo, at);
+        hi = glm::max(hi, at);
+    }
+    void addCell(const std::array<glm::dvec3, 3>& rows, double turned) {
+        if (!(std::abs(turned) > 0)) {
             ++flat;
             return;
         }
@@ -50,68 +53,83 @@ struct Mesh::Sums {
         flat += other.flat;
         absent += other.absent;
         widest = glm::max(widest, other.widest);
+        lo = glm::min(lo, other.lo);
+        hi = glm::max(hi, other.hi);
     }
 };
 
-Mesh::Mesh(MeshPlaces places) : size_(places.size) {
+Mesh::Mesh(const MeshPlaces& places) : size_(places.size) {
     const auto [ni, nj, nk] = size_;
     const bool columns = !places.levels.empty();
     const std::uint64_t stored = columns ? std::uint64_t{ni} * nj : count();
     if (count() == 0 || places.at.size() != stored || (columns && places.levels.size() != nk))
         throw std::invalid_argument("a mesh with places of another number of points");
-    takeBounds(places);
-    const Axis levels{"", "", places.levels};
-    for (std::size_t k = 0; k < places.levels.size(); ++k)
-        levels_.push_back({places.levels[k] - origin_.z, 0});
-    if (nk > 1)
-        for (std::size_t k = 0; k < levels_.size(); ++k)
-            levels_[k].height = std::abs(levels.width(k));
+    const auto [lowest, highest] =
+        columns ? std::ranges::minmax(places.levels) : std::ranges::minmax({0.0});
+    takeUnits(places.at, lowest, highest);
+    takeLevels(places.levels);
     const CurvilinearCells cells(places);
-    takePoints(places.at, cells);
+    takePoints(stored, [&](std::uint64_t i) {
+        if (!isPlace(places.at[i])) return MeshPoint{places.at[i], {}};
+        const glm::dmat3 rows = glm::transpose(cells(i));
+        return MeshPoint{places.at[i], {rows[0], rows[1], rows[2]}};
+    });
+    lo_.z += lowest;
+    hi_.z += highest;
+}
+
+Mesh::Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
+           const std::function<MeshPoint(std::uint64_t)>& point)
+    : size_{count, 1, 1}, hasNeighbours_(false), spread_(spread) {
+    takeUnits(between, 0, 0);
+    takePoints(count, point);
 }
 
 std::uint64_t Mesh::count() const { return std::uint64_t{size_[0]} * size_[1] * size_[2]; }
 
-void Mesh::takeBounds(const MeshPlaces& places) {
+// From the bounds of these, whose third coordinates have so much added to them.
+void Mesh::takeUnits(const std::vector<glm::dvec3>& at, double lowest, double highest) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    lo_ = glm::dvec3(kInfinity);
-    hi_ = -lo_;
-    for (const glm::dvec3& at : places.at)
-        if (isPlace(at)) {
-            lo_ = glm::min(lo_, at);
-            hi_ = glm::max(hi_, at);
+    glm::dvec3 lo(kInfinity), hi(-kInfinity);
+    for (const glm::dvec3& each : at)
+        if (isPlace(each)) {
+            lo = glm::min(lo, each);
+            hi = glm::max(hi, each);
         }
-    if (!places.levels.empty()) {
-        const auto [least, most] = std::ranges::minmax(places.levels);
-        lo_.z += least;
-        hi_.z += most;
-    }
-    if (!isPlace(lo_) || !isPlace(hi_) || !isPlace(hi_ - lo_))
+    lo.z += lowest;
+    hi.z += highest;
+    if (!isPlace(lo) || !isPlace(hi) || !isPlace(hi - lo))
         throw std::invalid_argument("no point has a place that is finite");
-    origin_ = 0.5 * lo_ + 0.5 * hi_;
-    for (int c = 0; c < 3; ++c) unit_[c] = powerOfTwoBeside(0.5 * (hi_[c] - lo_[c]));
+    origin_ = 0.5 * lo + 0.5 * hi;
+    for (int c = 0; c < 3; ++c) unit_[c] = powerOfTwoBeside(0.5 * (hi[c] - lo[c]));
+}
+
+void Mesh::takeLevels(const std::vector<double>& levels) {
+    const Axis axis{"", "", levels};
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        levels_.push_back({levels[k] - origin_.z, levels.size() > 1 ? std::abs(axis.width(k)) : 0});
 }
 
 // In pieces of one size, added up in their order: the same for any number of threads.
-template <typename CellOf>
-void Mesh::takePoints(const std::vector<glm::dvec3>& at, const CellOf& cellOf) {
+void Mesh::takePoints(std::uint64_t count,
+                      const std::function<MeshPoint(std::uint64_t index)>& pointOf) {
     constexpr std::uint64_t kPiece = 1 << 14;
-    stored_ = at.size();
+    stored_ = count;
     points_ = Pages<Point>(stored_);
     const glm::dvec3 below(origin_.x, origin_.y, levels_.empty() ? origin_.z : 0.0);
     const auto take = [&](std::uint64_t i, Sums& sums) -> Point {
-        if (!isPlace(at[i])) {
+        MeshPoint point = pointOf(i);
+        if (!isPlace(point.at)) {
             ++sums.absent;
             return {glm::vec3(std::numeric_limits<float>::quiet_NaN()), {}};
         }
-        const glm::vec3 place((at[i] - below) / unit_);
-        const glm::dmat3 steps = cellOf(i);
-        Rows rows;
-        for (int c = 0; c < 3; ++c)
-            rows[c] = glm::dvec3(steps[0][c], steps[1][c], steps[2][c]) / unit_[c];
+        sums.addPlace(point.at);
+        const glm::vec3 place((point.at - below) / unit_);
+        for (int c = 0; c < 3; ++c) point.rows[c] *= spread_ / unit_[c];
+        const auto& rows = point.rows;
         const double turned = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
-        sums.add(rows, turned);
-        if (turned == 0) return {place, {}};
+        sums.addCell(rows, turned);
+        if (!(std::abs(turned) > 0)) return {place, {}};
         auto cell = factorOf(rows, 0, 0);
         if (turned < 0) {
             cell.diagonal.x = -cell.diagonal.x;
@@ -122,7 +140,7 @@ void Mesh::takePoints(const std::vector<glm::dvec3>& at, const CellOf& cellOf) {
     };
     std::vector<Sums> sums((stored_ + kPiece - 1) / kPiece);
     std::atomic<std::size_t> next = 0;
-    together(threadsFor(sums.size(), 4), [&](unsigned) {
+    together(threadsFor(sums.size(), 1), [&](unsigned) {
         for (std::size_t piece = next++; piece < sums.size(); piece = next++)
             for (std::uint64_t i = piece * kPiece; i < std::min(stored_, (piece + 1) * kPiece); ++i)
                 points_.data()[i] = take(i, sums[piece]);
@@ -135,9 +153,11 @@ void Mesh::takePoints(const std::vector<glm::dvec3>& at, const CellOf& cellOf) {
 void Mesh::takeSums(const Sums& sums) {
     const std::size_t most = sums.cells[1] > sums.cells[0] ? 1 : 0;
     sign_ = most == 1 ? -1 : 1;
+    lo_ = sums.lo;
+    hi_ = sums.hi;
     if (sums.cells[most] == 0) throw std::invalid_argument("no cell of the points has a volume");
     meanVolume_ = sums.volume[most] / static_cast<double>(sums.cells[most]);
-    for (int c = 0; c < 3; ++c) meanVolume_ *= static_cast<long double>(unit_[c]);
+    for (int c = 0; c < 3; ++c) meanVolume_ *= static_cast<long double>(unit_[c] / spread_);
     widest_ = unit_ * sums.widest;
     // Cells above each other are as wide, and were looked at on the first level.
     std::uint64_t levels = 1;
@@ -195,7 +215,8 @@ bool operator==(const Mesh& a, const Mesh& b) {
     const auto sameLevel = [](const Mesh::Level& one, const Mesh::Level& other) {
         return one.at == other.at && one.height == other.height;
     };
-    return a.size_ == b.size_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
+    return a.size_ == b.size_ && a.hasNeighbours_ == b.hasNeighbours_ && a.spread_ == b.spread_ &&
+           a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
            std::ranges::equal(a.levels_, b.levels_, sameLevel) && a.stored_ == b.stored_ &&
            std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }

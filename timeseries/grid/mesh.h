@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -14,20 +15,35 @@
 
 namespace timeseries {
 
+// Where a point lies, and the rows of any J whose columns are the sides of its cell: one along each
+// coordinate of the file's space.
+struct MeshPoint {
+    glm::dvec3 at;
+    std::array<glm::dvec3, 3> rows;
+};
+
 class Mesh {
  public:
     // A curvilinear grid. Throws std::invalid_argument when the places are not as many as `size`
     // says, none is finite, or no cell of them has a volume.
-    explicit Mesh(MeshPlaces places);
+    explicit Mesh(const MeshPlaces& places);
+    // Points without neighbours, as many as `count`, which lie between these, with splats that are
+    // `spread` times as wide as the cells. `point` is called by several threads at once.
+    Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
+         const std::function<MeshPoint(std::uint64_t index)>& point);
 
-    // Points along the indices i, j and k.
+    // Points along the indices i, j and k: those before and after a point are its neighbours, if
+    // there are neighbours.
     const std::array<std::size_t, 3>& size() const { return size_; }
+    bool hasNeighbours() const { return hasNeighbours_; }
     std::uint64_t count() const;
     // In the file's space: to a 2^24th of the mesh's extent. Not finite where the point has none.
     glm::dvec3 position(std::uint64_t index) const;
-    // The shape of the cell that the point stands for, its determinant +-volume. Zero where nothing
-    // is drawn: no place, no volume, or folded, turned inside out beside most of the others.
+    // The shape of the cell that the point stands for, `spread` times as wide: its determinant is
+    // +- spread^3 times the volume. Zero where nothing is drawn: no place, no volume, or folded,
+    // turned inside out beside most of the others.
     LowerTriangle<double> cell(std::uint64_t index) const;
+    double spread() const { return spread_; }
     // Begins to load what these are made of: points that are asked for by value lie anywhere.
     void prefetch(std::uint64_t index) const {
         const Point* const at = points_.data() + (levels_.empty() ? index : index % stored_);
@@ -61,12 +77,15 @@ class Mesh {
         double at, height;
     };
     struct Sums;
-    void takeBounds(const MeshPlaces& places);
-    template <typename CellOf>
-    void takePoints(const std::vector<glm::dvec3>& at, const CellOf& cellOf);
+    void takeUnits(const std::vector<glm::dvec3>& at, double lowest, double highest);
+    void takeLevels(const std::vector<double>& levels);
+    void takePoints(std::uint64_t count,
+                    const std::function<MeshPoint(std::uint64_t index)>& point);
     void takeSums(const Sums& sums);
 
     std::array<std::size_t, 3> size_;
+    bool hasNeighbours_ = true;
+    double spread_ = 1;
     // Points are relative to the origin, in these units, powers of two near the extent: floats keep
     // what they can.
     glm::dvec3 origin_{0}, unit_{1};

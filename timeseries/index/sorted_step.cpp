@@ -200,7 +200,9 @@ std::shared_ptr<const CellIndex> SortedStep::cellsIfMade() const {
 std::string_view SortedStep::whyNoCells() const {
     if (ofCategories_) return "nothing lies between categories";
     if (size_ != statistics_.points) return "cells need every value kept";
-    if (grid_->mesh()) return "cells of curvilinear grids are not drawn yet";
+    if (grid_->mesh())
+        return grid_->mesh()->hasNeighbours() ? "cells of curvilinear grids are not drawn yet"
+                                              : "cells of unstructured grids are not drawn yet";
     return CellIndex::canIndex(*grid_) ? "" : "this grid has too many cells";
 }
 

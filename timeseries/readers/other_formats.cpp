@@ -151,8 +151,7 @@ std::string otherVtkType(std::string_view type) {
     const auto first = type.find_first_not_of(kBlank);
     if (first == type.npos) return "";
     type = type.substr(first, type.find_last_not_of(kBlank) + 1 - first);
-    for (const auto other : {"UnstructuredGrid"sv,
-                             "PolyData"sv,
+    for (const auto other : {"PolyData"sv,
                              "PImageData"sv,
                              "PRectilinearGrid"sv,
                              "PStructuredGrid"sv,
@@ -206,9 +205,8 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, NRRD and, of VTK, image data, rectilinear and structured grids (.vti, .vtr, .vts, "
-        ".vtk, "
-        ".pvd)";
+        "NetCDF, NRRD and, of VTK, image data, rectilinear, structured and unstructured grids "
+        "(.vti, .vtr, .vts, .vtu, .vtk, .pvd)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
 

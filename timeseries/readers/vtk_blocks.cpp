@@ -64,6 +64,8 @@ class Source {
     int bits_ = 0;
 };
 
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 50;
+
 // How many characters stand for so many bytes.
 std::uint64_t characters(bool base64, std::uint64_t bytes) {
     return base64 ? (bytes + 2) / 3 * 4 : bytes;
@@ -79,10 +81,27 @@ struct Check {
 
     [[noreturn]] void fail(const std::string& what) const { failVtk(path, place, what); }
 
-    // The characters that the values take.
-    std::uint64_t plain(Source& source) const {
+    std::uint64_t plainBytes(Source& source) const {
         std::uint64_t declared = 0;
         if (!source.number(encoding, declared)) fail("expected values, but the file ends");
+        return declared;
+    }
+    // As the blocks say: not more than the file can unpack to.
+    std::uint64_t unpackedBytes(Source& source) const {
+        std::uint64_t blocks = 0, blockBytes = 0, lastBytes = 0;
+        if (!source.number(encoding, blocks) || !source.number(encoding, blockBytes) ||
+            !source.number(encoding, lastBytes))
+            fail("expected values, but the file ends");
+        const std::uint64_t full = blocks - (blocks > 0 && lastBytes != 0 ? 1 : 0);
+        if (blocks > available || (full > 0 && blockBytes > kMostBytes / full))
+            fail(fmt::format("expected blocks within the file, found {} of {} bytes", blocks,
+                             blockBytes));
+        return full * blockBytes + lastBytes;
+    }
+
+    // The characters that the values take.
+    std::uint64_t plain(Source& source) const {
+        const std::uint64_t declared = plainBytes(source);
         if (declared != bytes)
             fail(fmt::format("expected {} bytes of values, found {}", bytes, declared));
         if (bytes > available || characters(base64, encoding.headerBytes + bytes) > available)
@@ -147,33 +166,70 @@ VtkEncoding vtkEncodingOf(const XmlFile& file) {
     return encoding;
 }
 
-std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
-                             const XmlElement& array, std::string_view place, std::uint64_t values,
-                             std::size_t valueBytes) {
+namespace {
+
+// Where an array's bytes lie; of text none.
+struct Stored {
+    Check check;
+    std::uint64_t at = 0;
+    bool isText = false;
+};
+
+Stored storedAt(const XmlFile& file, const VtkEncoding& encoding, const XmlElement& array,
+                std::string_view place, std::uint64_t bytes) {
     const std::string_view format = array.has("format") ? array.attribute("format") : "ascii";
-    Check check{file.path, encoding, place, true, array.characters, values * valueBytes};
+    Stored stored{{file.path, encoding, place, true, array.characters, bytes}};
     if (format == "ascii") {
-        if (array.words != values)
-            check.fail(fmt::format("expected {} values, found {}", values, array.words));
-        return array.characters;
+        stored.isText = true;
+        return stored;
     }
-    std::uint64_t at = array.textAt;
+    Check& check = stored.check;
+    stored.at = array.textAt;
     if (format == "appended") {
         const std::string_view text = array.attribute("offset");
         const auto offset = vtkNumber<std::uint64_t>(text);
         if (!offset) check.fail(fmt::format("expected an offset, found \"{}\"", text));
         if (file.appendedAt == 0 || *offset >= file.bytes - file.appendedAt)
             check.fail("expected appended values, but the file ends before");
-        at = file.appendedAt + *offset;
-        check.available = file.bytes - at;
+        stored.at = file.appendedAt + *offset;
+        check.available = file.bytes - stored.at;
         check.base64 = file.appendedEncoding == "base64";
     } else if (format != "binary") {
         check.fail(
             fmt::format("expected the format ascii, binary or appended, found \"{}\"", format));
     }
-    if (check.bytes == 0) return 0;
-    Source source(file.path, at, check.base64);
-    return encoding.compressor.empty() ? check.plain(source) : check.compressed(source);
+    return stored;
+}
+
+}  // namespace
+
+std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
+                             const XmlElement& array, std::string_view place, std::uint64_t values,
+                             std::size_t valueBytes) {
+    const Stored stored = storedAt(file, encoding, array, place, values * valueBytes);
+    if (stored.isText) {
+        if (array.words != values)
+            stored.check.fail(fmt::format("expected {} values, found {}", values, array.words));
+        return array.characters;
+    }
+    if (stored.check.bytes == 0) return 0;
+    Source source(file.path, stored.at, stored.check.base64);
+    return encoding.compressor.empty() ? stored.check.plain(source)
+                                       : stored.check.compressed(source);
+}
+
+std::uint64_t countVtkValues(const XmlFile& file, const VtkEncoding& encoding,
+                             const XmlElement& array, std::string_view place,
+                             std::size_t valueBytes) {
+    const Stored stored = storedAt(file, encoding, array, place, 0);
+    if (stored.isText) return array.words;
+    Source source(file.path, stored.at, stored.check.base64);
+    const std::uint64_t bytes = encoding.compressor.empty() ? stored.check.plainBytes(source)
+                                                            : stored.check.unpackedBytes(source);
+    if (bytes % valueBytes != 0)
+        stored.check.fail(
+            fmt::format("expected values of {} bytes, found {} bytes", valueBytes, bytes));
+    return bytes / valueBytes;
 }
 
 }  // namespace timeseries

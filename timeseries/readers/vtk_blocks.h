@@ -26,4 +26,10 @@ std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
                              const XmlElement& array, std::string_view place, std::uint64_t values,
                              std::size_t valueBytes);
 
+// How many values of `valueBytes` bytes the DataArray says that it has. Throws FileError when it
+// does not say.
+std::uint64_t countVtkValues(const XmlFile& file, const VtkEncoding& encoding,
+                             const XmlElement& array, std::string_view place,
+                             std::size_t valueBytes);
+
 }  // namespace timeseries

@@ -69,6 +69,31 @@ std::vector<glm::dvec3> middles(const VtkHeader& header) {
     return at;
 }
 
+std::array<Axis, 3> spaceAxes() {
+    return {Axis{"x", "", {}}, Axis{"y", "", {}}, Axis{"z", "", {}}};
+}
+
+VtkGrid unstructuredGridOf(const VtkHeader& header, VtkPlace place) {
+    const UnstructuredGrid& cells = header.unstructured;
+    VtkGrid result;
+    const std::uint64_t count = header.count(place);
+    result.layout = {{count, 1, 1}, {1, count, count}};
+    if (const std::string flaw = flawOf(cells); !flaw.empty())
+        failVtk(header.path, "Cells",
+                "expected cells of points that there are, found that " + flaw);
+    try {
+        const auto mesh = std::make_shared<const Mesh>(
+            place == VtkPlace::Points ? meshOfPoints(cells) : meshOfCells(cells));
+        result.notes = notesOf(cells);
+        std::ranges::copy(notesOf(*mesh), std::back_inserter(result.notes));
+        result.grid = std::make_shared<Grid>(spaceAxes(), mesh);
+    } catch (const std::invalid_argument& flaw) {
+        failVtk(header.path, "Cells",
+                fmt::format("expected cells that take space, found that {}", flaw.what()));
+    }
+    return result;
+}
+
 VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     VtkGrid result;
     const auto size = header.size(place);
@@ -78,8 +103,7 @@ VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
             MeshPlaces{.size = result.layout.size,
                        .at = place == VtkPlace::Points ? header.places : middles(header)});
         result.notes = notesOf(*mesh);
-        result.grid = std::make_shared<Grid>(
-            std::array<Axis, 3>{Axis{"x", "", {}}, Axis{"y", "", {}}, Axis{"z", "", {}}}, mesh);
+        result.grid = std::make_shared<Grid>(spaceAxes(), mesh);
     } catch (const std::invalid_argument& flaw) {
         result.notes.push_back(fmt::format("drawn in index space: {}", flaw.what()));
         std::array<Axis, 3> axes;
@@ -93,6 +117,7 @@ VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
 }  // namespace
 
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
+    if (header.kind == VtkKind::XmlUnstructured) return unstructuredGridOf(header, place);
     if (isStructured(header.kind)) return structuredGridOf(header, place);
     const bool image = header.kind == VtkKind::XmlImage || header.kind == VtkKind::LegacyPoints;
     const Directions directions = directionsOf(header);

@@ -71,6 +71,12 @@ std::optional<std::string> vtkTimeName(std::string_view arrayName) {
 
 std::array<std::uint64_t, 3> VtkHeader::size(VtkPlace place) const {
     std::array<std::uint64_t, 3> size{};
+    if (kind == VtkKind::XmlUnstructured) {
+        size[1] = size[2] = 1;
+        for (const VtkPiece& piece : pieces)
+            size[0] += place == VtkPlace::Points ? piece.points : piece.cells;
+        return size;
+    }
     for (std::size_t i = 0; i < 3; ++i) {
         size[i] = static_cast<std::uint64_t>(extent[i][1] - extent[i][0] + 1);
         // An axis of one point is one cell thick.
@@ -100,6 +106,12 @@ void checkVtkExtent(const VtkHeader& header, std::string_view place) {
         if (points > kMaxPoints)
             failVtk(header.path, place, "expected at most 2^32 points, found more");
     }
+}
+
+void checkVtkCount(const VtkHeader& header, std::string_view place) {
+    for (const VtkPlace of : {VtkPlace::Points, VtkPlace::Cells})
+        if (header.count(of) >= kMaxPoints)
+            failVtk(header.path, place, "expected fewer than 2^32 points and cells, found more");
 }
 
 }  // namespace timeseries

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "timeseries/grid/field.h"
+#include "timeseries/grid/unstructured.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/vtk_xml.h"
 
@@ -21,6 +22,7 @@ enum class VtkKind {
     XmlImage,
     XmlRectilinear,
     XmlStructured,
+    XmlUnstructured,
     LegacyPoints,
     LegacyRectilinear,
     LegacyStructured
@@ -45,6 +47,19 @@ struct VtkArray {
     std::uint64_t fileBytes = 0;  // of an XML file: what all its pieces take of the file
 };
 
+// An array of whole numbers that tells of cells: of this type, so many.
+struct VtkIndices {
+    ValueType type{};
+    std::uint64_t count = 0;
+};
+
+// A piece of an unstructured grid: "VTK File Formats", Kitware, "UnstructuredGrid".
+struct VtkPiece {
+    std::uint64_t points = 0, cells = 0;
+    VtkIndices connectivity, offsets, types;
+    std::optional<VtkIndices> faces, faceOffsets;  // of polyhedra
+};
+
 struct VtkTime {
     std::string name;  // "time", or "TimeStep" when steps are numbered
     double value = 0;
@@ -54,7 +69,7 @@ struct VtkHeader {
     std::filesystem::path path;
     VtkKind kind{};
     std::string format;  // "VTK image data (XML)"
-    // The first and last index of the points along x, y and z.
+    // The first and last index of the points along x, y and z; not of unstructured grids.
     std::array<std::array<std::int64_t, 2>, 3> extent{};
     std::array<double, 3> origin{0, 0, 0}, spacing{1, 1, 1};
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
@@ -64,8 +79,10 @@ struct VtkHeader {
     bool fieldOutside = false;  // a legacy file's FIELD that is neither of points nor of cells
     // Of rectilinear grids; of an XML file VTK reads them later.
     std::array<std::vector<double>, 3> coordinates;
+    std::vector<VtkPiece> pieces;  // of unstructured grids: those that hold points
     // Of structured grids, x fastest; VTK reads them later.
     std::vector<glm::dvec3> places;
+    UnstructuredGrid unstructured;
     std::optional<VtkTime> time;
 
     std::array<std::uint64_t, 3> size(VtkPlace place) const;
@@ -107,6 +124,8 @@ bool isVtkNumber(ValueType type, std::string_view text);
 bool isVtkGhostName(std::string_view name);
 // Throws FileError when there are too many points, none, or too many along an axis.
 void checkVtkExtent(const VtkHeader& header, std::string_view place);
+// The same of an unstructured grid's points and cells.
+void checkVtkCount(const VtkHeader& header, std::string_view place);
 // The name under which a field data array of one number tells the time; nothing when it does not.
 std::optional<std::string> vtkTimeName(std::string_view arrayName);
 

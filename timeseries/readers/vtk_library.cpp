@@ -18,6 +18,7 @@
 #include <vtkStructuredGridReader.h>
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
@@ -29,6 +30,7 @@
 #include <type_traits>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/vtk_cells.h"
 
 namespace timeseries {
 namespace {
@@ -106,22 +108,32 @@ class WithoutEmptyPieces final : public Base {
 
  private:
     static bool isEmpty(vtkXMLDataElement& element) {
+        if (std::string_view(element.GetName()) != "Piece") return false;
         int extent[6];
-        return std::string_view(element.GetName()) == "Piece" &&
-               element.GetVectorAttribute("Extent", 6, extent) == 6 &&
-               (extent[1] < extent[0] || extent[3] < extent[2] || extent[5] < extent[4]);
+        vtkIdType points = 0, cells = 0;
+        if (element.GetVectorAttribute("Extent", 6, extent) == 6)
+            return extent[1] < extent[0] || extent[3] < extent[2] || extent[5] < extent[4];
+        element.GetScalarAttribute("NumberOfPoints", points);
+        element.GetScalarAttribute("NumberOfCells", cells);
+        return points == 0 && cells == 0;
     }
 };
 
-vtkSmartPointer<vtkDataSet> readXml(const VtkHeader& header, const VtkArray* wanted) {
+vtkSmartPointer<vtkXMLReader> readerOf(const VtkHeader& header) {
     vtkSmartPointer<vtkXMLReader> reader;
     if (header.kind == VtkKind::XmlImage)
         reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLImageDataReader>>::New();
     else if (header.kind == VtkKind::XmlRectilinear)
         reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLRectilinearGridReader>>::New();
-    else
+    else if (header.kind == VtkKind::XmlStructured)
         reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLStructuredGridReader>>::New();
+    else
+        reader = vtkSmartPointer<WithoutEmptyPieces<VtkCellReader>>::New();
     reader->SetFileName(header.path.c_str());
+    return reader;
+}
+
+vtkSmartPointer<vtkDataSet> readXml(vtkXMLReader* reader, const VtkArray* wanted) {
     reader->UpdateInformation();
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
         vtkDataArraySelection* selection = place == VtkPlace::Points
@@ -196,7 +208,8 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
         case VtkKind::XmlImage:
         case VtkKind::XmlRectilinear:
         case VtkKind::XmlStructured:
-            output = readXml(header, &wanted);
+        case VtkKind::XmlUnstructured:
+            output = readXml(readerOf(header), &wanted);
             break;
         case VtkKind::LegacyPoints:
             output = readLegacy<vtkStructuredPointsReader>(header, &wanted);
@@ -315,9 +328,11 @@ std::vector<double> numbersOf(vtkDataArray* array) {
     return numbers;
 }
 
-std::vector<glm::dvec3> placesOf(const VtkHeader& header, vtkStructuredGrid& grid) {
+std::vector<glm::dvec3> placesOf(const VtkHeader& header, vtkPointSet& grid) {
     const auto count = static_cast<vtkIdType>(header.count(VtkPlace::Points));
-    if (!grid.GetPoints() || grid.GetNumberOfPoints() != count)
+    if (count > 0 && !grid.GetPoints())
+        failVtk(header.path, "Points", "expected places, but VTK reads none");
+    if (grid.GetNumberOfPoints() != count)
         failVtk(header.path, "Points",
                 fmt::format("expected {} of them, but VTK reads something else", count));
     std::vector<glm::dvec3> places(static_cast<std::size_t>(count));
@@ -328,18 +343,25 @@ std::vector<glm::dvec3> placesOf(const VtkHeader& header, vtkStructuredGrid& gri
 }  // namespace
 
 VtkFrame readVtkFrame(const VtkHeader& header) {
-    const auto output = withVtk(header, "", [&] {
-        return header.kind == VtkKind::LegacyStructured
-                   ? readLegacy<StructuredReader>(header, nullptr)
-                   : readXml(header, nullptr);
-    });
     VtkFrame frame;
+    const auto output = withVtk(header, "", [&] {
+        if (header.kind == VtkKind::LegacyStructured)
+            return readLegacy<StructuredReader>(header, nullptr);
+        const auto reader = readerOf(header);
+        auto* const cells = dynamic_cast<VtkCellReader*>(reader.Get());
+        if (cells) cells->expect(&header.pieces);
+        const auto found = readXml(reader, nullptr);
+        if (cells) frame.unstructured = cells->takeCells();
+        return found;
+    });
     if (!output) failVtk(header.path, "", "expected a grid, but VTK reads none");
     if (auto* grid = vtkRectilinearGrid::SafeDownCast(output))
         frame.coordinates = {numbersOf(grid->GetXCoordinates()), numbersOf(grid->GetYCoordinates()),
                              numbersOf(grid->GetZCoordinates())};
     if (auto* grid = vtkStructuredGrid::SafeDownCast(output))
         frame.places = placesOf(header, *grid);
+    if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
+        frame.unstructured.points = placesOf(header, *grid);
     vtkFieldData* data = output->GetFieldData();
     for (int i = 0; data && i < data->GetNumberOfArrays(); ++i) {
         vtkDataArray* array = data->GetArray(i);

@@ -13,6 +13,7 @@ namespace timeseries {
 struct VtkFrame {
     std::array<std::vector<double>, 3> coordinates;  // of rectilinear grids
     std::vector<glm::dvec3> places;                  // of structured grids
+    UnstructuredGrid unstructured;
     std::optional<VtkTime> time;
 };
 // REQUIRES: an XML header, or one of a structured grid. Throws FileError.

@@ -28,6 +28,7 @@ VtkHeader headerOf(const XmlFile& file) {
     VtkFrame frame = readVtkFrame(header);
     header.coordinates = std::move(frame.coordinates);
     header.places = std::move(frame.places);
+    header.unstructured = std::move(frame.unstructured);
     header.time = frame.time;
     if (header.kind == VtkKind::XmlRectilinear)
         for (std::size_t i = 0; i < 3; ++i)
@@ -58,6 +59,7 @@ Frame frameOf(VtkHeader header) {
         if (!grid) grid = vtkGridOf(frame.header, array.place);
     }
     frame.header.places = {};
+    frame.header.unstructured = {};
     return frame;
 }
 

@@ -1,15 +1,14 @@
-// The headers of VTK XML files, and collections (.pvd).
+// The headers of VTK XML files.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <concepts>
 #include <set>
 
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/vtk_blocks.h"
 #include "timeseries/readers/vtk_header.h"
-#include "timeseries/readers/vtk_number.h"
-#include "timeseries/readers/words.h"
+#include "timeseries/readers/vtk_xml_cells.h"
+#include "timeseries/readers/vtk_xml_numbers.h"
 
 namespace timeseries {
 namespace {
@@ -32,45 +31,10 @@ void claim(const Context& context, std::uint64_t& claimed, std::string_view plac
                             claimed, context.file.bytes));
 }
 
-std::vector<const XmlElement*> named(const XmlElement& parent, std::string_view name) {
-    std::vector<const XmlElement*> found;
-    for (const XmlElement& child : parent.children)
-        if (child.name == name) found.push_back(&child);
-    return found;
-}
-
-std::string placeOf(const XmlElement& element) {
-    return fmt::format("line {}, {}", element.line, element.name);
-}
-
-// So many numbers, separated by blanks; a count where it is one of an integer type.
-template <typename T>
-std::vector<T> numbersOf(const XmlFile& file, const XmlElement& element, std::string_view attribute,
-                         std::size_t count) {
-    const std::string_view text = element.attribute(attribute);
-    const std::vector<std::string> all = words(text);
-    std::vector<T> numbers;
-    for (const std::string& word : all)
-        if (const auto number = vtkNumber<T>(word)) numbers.push_back(*number);
-    if (all.size() == count && numbers.size() == count) return numbers;
-    const bool one = count == 1;
-    std::string what = one ? "a count" : fmt::format("{} integers of 32 bits", count);
-    if (std::floating_point<T>)
-        what = one ? "a finite number" : fmt::format("{} finite numbers", count);
-    failVtk(file.path, fmt::format("{} {}", placeOf(element), attribute),
-            fmt::format("expected {}, found \"{}\"", what, text.substr(0, 100)));
-}
-
 std::array<std::array<std::int64_t, 2>, 3> extentOf(const XmlFile& file, const XmlElement& element,
                                                     std::string_view attribute) {
     const auto n = numbersOf<std::int32_t>(file, element, attribute, 6);
     return {{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}}};
-}
-
-std::uint64_t countOf(const XmlFile& file, const XmlElement& element, std::string_view attribute,
-                      std::uint64_t absent) {
-    return element.has(attribute) ? numbersOf<std::uint32_t>(file, element, attribute, 1)[0]
-                                  : absent;
 }
 
 // The name that VTK gives an array without one.
@@ -231,18 +195,28 @@ bool isEmpty(const std::array<std::array<std::int64_t, 2>, 3>& extent) {
     return std::ranges::any_of(extent, [](const auto& axis) { return axis[1] < axis[0]; });
 }
 
+void checkInside(const VtkHeader& header, const XmlElement& piece, const VtkHeader& shape) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (shape.extent[i][0] < header.extent[i][0] || shape.extent[i][1] > header.extent[i][1])
+            failVtk(header.path, placeOf(piece), "expected an Extent inside WholeExtent");
+}
+
 void addPieces(const Context& context, const XmlElement& grid) {
     VtkHeader& header = context.header;
     std::vector<VtkHeader> shapes;
     for (const XmlElement* piece : named(grid, "Piece")) {
         VtkHeader shape;
         shape.path = header.path;
-        shape.extent = extentOf(context.file, *piece, "Extent");
-        if (isEmpty(shape.extent)) continue;
-        for (std::size_t i = 0; i < 3; ++i)
-            if (shape.extent[i][0] < header.extent[i][0] ||
-                shape.extent[i][1] > header.extent[i][1])
-                failVtk(header.path, placeOf(*piece), "expected an Extent inside WholeExtent");
+        shape.kind = header.kind;
+        if (header.kind == VtkKind::XmlUnstructured) {
+            if (isEmptyVtkPiece(context.file, *piece)) continue;
+            shape.pieces = {readVtkPiece(context.file, context.encoding, *piece)};
+            checkPoints(context, *piece, shape);
+        } else {
+            shape.extent = extentOf(context.file, *piece, "Extent");
+            if (isEmpty(shape.extent)) continue;
+            checkInside(header, *piece, shape);
+        }
         if (header.kind == VtkKind::XmlRectilinear) checkCoordinates(context, *piece, shape);
         if (header.kind == VtkKind::XmlStructured) checkPoints(context, *piece, shape);
         std::vector<VtkArray> arrays;
@@ -263,11 +237,14 @@ void addPieces(const Context& context, const XmlElement& grid) {
                   arrays[i].fileBytes);
             if (array.notNumber.empty()) array.notNumber = arrays[i].notNumber;
         }
+        header.pieces.insert(header.pieces.end(), shape.pieces.begin(), shape.pieces.end());
         shapes.push_back(std::move(shape));
     }
+    checkVtkCount(header, placeOf(grid));
     if (shapes.empty())
         failVtk(header.path, placeOf(grid), "expected a Piece that holds points, found none");
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
+        if (header.kind == VtkKind::XmlUnstructured) break;  // its pieces are all that there is
         const bool hasPlaces = isStructured(header.kind) && place == VtkPlace::Points;
         const auto isThere = [&](const VtkArray& array) { return array.place == place; };
         if (hasPlaces || std::ranges::any_of(header.arrays, isThere))
@@ -281,37 +258,6 @@ void addPieces(const Context& context, const XmlElement& grid) {
         header.ghosts[static_cast<std::size_t>(array.place)] = true;
         return true;
     });
-}
-
-const XmlElement& rootOf(const XmlFile& file) {
-    if (file.root.name != "VTKFile")
-        failVtk(
-            file.path, "",
-            fmt::format("expected a VTK file, whose root is VTKFile, found {}", file.root.name));
-    return file.root;
-}
-
-// A DataSet of a collection.
-struct Listed {
-    VtkMember member;
-    std::pair<std::string, std::string> part;  // its group, and its part of that
-};
-
-bool before(const Listed& a, const Listed& b) {
-    return a.member.time.value_or(0) < b.member.time.value_or(0);
-}
-
-// Several parts of one time are one step together, and several without a time may be.
-// REQUIRES: ascending.
-void checkParts(const XmlFile& file, std::span<const Listed> all) {
-    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
-        std::set<std::pair<std::string, std::string>> parts;
-        for (end = first; end < all.size() && !before(all[first], all[end]); ++end)
-            parts.insert(all[end].part);
-        if (parts.size() > 1)
-            failVtk(file.path, "Collection",
-                    fmt::format("expected one part a time step, found {} parts", parts.size()));
-    }
 }
 
 }  // namespace
@@ -331,12 +277,13 @@ VtkHeader readVtkXmlHeader(const XmlFile& file) {
     constexpr std::array kKnown{
         Known{"ImageData", VtkKind::XmlImage, "VTK image data (XML)"},
         Known{"RectilinearGrid", VtkKind::XmlRectilinear, "VTK rectilinear grid (XML)"},
-        Known{"StructuredGrid", VtkKind::XmlStructured, "VTK structured grid (XML)"}};
+        Known{"StructuredGrid", VtkKind::XmlStructured, "VTK structured grid (XML)"},
+        Known{"UnstructuredGrid", VtkKind::XmlUnstructured, "VTK unstructured grid (XML)"}};
     const auto known = std::ranges::find(kKnown, type, &Known::type);
     if (known == kKnown.end())
         failVtk(file.path, "VTKFile",
-                fmt::format("expected the type ImageData, RectilinearGrid, StructuredGrid or "
-                            "Collection, found \"{}\"",
+                fmt::format("expected the type ImageData, RectilinearGrid, StructuredGrid, "
+                            "UnstructuredGrid or Collection, found \"{}\"",
                             type));
     header.kind = known->kind;
     header.format = known->format;
@@ -344,8 +291,10 @@ VtkHeader readVtkXmlHeader(const XmlFile& file) {
     if (grids.size() != 1)
         failVtk(file.path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));
     const XmlElement& grid = *grids[0];
-    header.extent = extentOf(file, grid, "WholeExtent");
-    checkVtkExtent(header, placeOf(grid) + " WholeExtent");
+    if (header.kind != VtkKind::XmlUnstructured) {
+        header.extent = extentOf(file, grid, "WholeExtent");
+        checkVtkExtent(header, placeOf(grid) + " WholeExtent");
+    }
     if (grid.has("TimeValues"))
         failVtk(file.path, placeOf(grid), "expected one time step in a file, found TimeValues");
 
@@ -362,39 +311,6 @@ VtkHeader readVtkXmlHeader(const XmlFile& file) {
     checkFieldData(context, grid);
     addPieces(context, grid);
     return header;
-}
-
-bool isVtkCollection(const XmlFile& file) { return rootOf(file).attribute("type") == "Collection"; }
-
-std::vector<VtkMember> readVtkCollection(const XmlFile& file) {
-    const auto collections = named(rootOf(file), "Collection");
-    if (collections.size() != 1) failVtk(file.path, "VTKFile", "expected one Collection");
-    std::vector<Listed> listed;
-    for (const XmlElement* set : named(*collections[0], "DataSet")) {
-        const std::string_view name = set->attribute("file");
-        if (name.empty()) failVtk(file.path, placeOf(*set), "expected the name of a file");
-        VtkMember member{file.path.parent_path() / name, std::nullopt};
-        if (set->has("timestep")) member.time = numbersOf<double>(file, *set, "timestep", 1)[0];
-        listed.push_back(
-            {std::move(member),
-             {std::string(set->attribute("group")), std::string(set->attribute("part"))}});
-    }
-    if (listed.empty()) failVtk(file.path, "Collection", "expected a DataSet, found none");
-    const auto timed =
-        std::ranges::count_if(listed, [](const Listed& each) { return !!each.member.time; });
-    if (timed != 0 && static_cast<std::size_t>(timed) != listed.size())
-        failVtk(file.path, "Collection", "expected a timestep of each DataSet or of none");
-    std::ranges::stable_sort(listed, before);
-    checkParts(file, listed);
-    std::vector<VtkMember> members;
-    for (Listed& each : listed) members.push_back(std::move(each.member));
-    for (std::size_t i = 1; timed && i < members.size(); ++i)
-        if (*members[i - 1].time == *members[i].time)
-            failVtk(file.path, "Collection",
-                    fmt::format("expected times that differ, found {} twice ({} and {})",
-                                *members[i].time, members[i - 1].path.string(),
-                                members[i].path.string()));
-    return members;
 }
 
 }  // namespace timeseries

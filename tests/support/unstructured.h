@@ -1,0 +1,85 @@
+// Unstructured grids of a lattice of bricks, cut into other cells.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "timeseries/grid/cell_types.h"
+#include "timeseries/grid/grid.h"
+#include "timeseries/grid/unstructured.h"
+
+namespace tests {
+
+inline void addCell(timeseries::UnstructuredGrid& grid, std::uint8_t type,
+                    std::initializer_list<std::uint32_t> corners) {
+    grid.types.push_back(type);
+    grid.corners.insert(grid.corners.end(), corners);
+    grid.ends.push_back(grid.corners.size());
+}
+
+enum class Cut { Hexahedra, Voxels, Tetrahedra, Wedges, Polyhedra };
+
+// size[a] points along each index, at place(i, j, k) of doubles. A brick is five tetrahedra, turned
+// from one to the next, or two wedges.
+template <typename Place>
+timeseries::UnstructuredGrid bricks(std::array<std::uint32_t, 3> size, Cut cut,
+                                    const Place& place) {
+    timeseries::UnstructuredGrid grid;
+    const auto [ni, nj, nk] = size;
+    for (std::uint32_t k = 0; k < nk; ++k)
+        for (std::uint32_t j = 0; j < nj; ++j)
+            for (std::uint32_t i = 0; i < ni; ++i)
+                grid.points.push_back(place(double(i), double(j), double(k)));
+    for (std::uint32_t k = 0; k + 1 < nk; ++k)
+        for (std::uint32_t j = 0; j + 1 < nj; ++j)
+            for (std::uint32_t i = 0; i + 1 < ni; ++i) {
+                std::array<std::uint32_t, 8> c;  // as of a voxel
+                for (std::uint32_t n = 0; n < 8; ++n)
+                    c[n] = i + (n & 1) + ni * (j + (n >> 1 & 1) + nj * (k + (n >> 2)));
+                switch (cut) {
+                    case Cut::Voxels:
+                        addCell(grid, 11, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+                        break;
+                    case Cut::Hexahedra:
+                        addCell(grid, 12, {c[0], c[1], c[3], c[2], c[4], c[5], c[7], c[6]});
+                        break;
+                    case Cut::Wedges:
+                        addCell(grid, 13, {c[0], c[2], c[1], c[4], c[6], c[5]});
+                        addCell(grid, 13, {c[1], c[2], c[3], c[5], c[6], c[7]});
+                        break;
+                    case Cut::Tetrahedra: {
+                        const std::uint32_t flip = (i + j + k) % 2;
+                        const auto at = [&](std::uint32_t n) { return c[n ^ flip]; };
+                        addCell(grid, 10, {at(0), at(1), at(2), at(4)});
+                        addCell(grid, 10, {at(3), at(1), at(2), at(7)});
+                        addCell(grid, 10, {at(5), at(1), at(4), at(7)});
+                        addCell(grid, 10, {at(6), at(2), at(4), at(7)});
+                        addCell(grid, 10, {at(1), at(2), at(4), at(7)});
+                        break;
+                    }
+                    case Cut::Polyhedra: {
+                        addCell(grid, timeseries::kPolyhedron,
+                                {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+                        const auto& voxel = *timeseries::cellTypeOf(11);
+                        grid.faces.push_back(6);
+                        for (std::size_t n = 0; n < voxel.faces.size(); ++n) {
+                            if (n % 4 == 0) grid.faces.push_back(4);
+                            grid.faces.push_back(c[voxel.faces[n]]);
+                        }
+                        grid.faceEnds.push_back(grid.faces.size());
+                        break;
+                    }
+                }
+            }
+    return grid;
+}
+
+inline std::shared_ptr<const timeseries::Grid> gridOf(timeseries::Mesh mesh) {
+    return std::make_shared<timeseries::Grid>(
+        std::array{timeseries::Axis{"x", "m", {}}, timeseries::Axis{"y", "m", {}},
+                   timeseries::Axis{"z", "m", {}}},
+        std::make_shared<const timeseries::Mesh>(std::move(mesh)));
+}
+
+}  // namespace tests

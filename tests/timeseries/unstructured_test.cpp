@@ -1,0 +1,205 @@
+// Cells that name their corners: where they lie and what they stand for.
+#include "timeseries/grid/unstructured.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <random>
+
+#include "tests/support/unstructured.h"
+
+namespace timeseries {
+namespace {
+
+using tests::addCell;
+using tests::bricks;
+using tests::Cut;
+
+constexpr std::array kCuts{Cut::Hexahedra, Cut::Voxels, Cut::Tetrahedra, Cut::Wedges,
+                           Cut::Polyhedra};
+
+// Bent inside a box of 4 x 3 x 5, whose sides stay flat.
+glm::dvec3 bent(double i, double j, double k) {
+    const double inside = i * (4 - i) * j * (3 - j) * k * (5 - k) / 100;
+    return {i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside};
+}
+UnstructuredGrid bentBricks(Cut cut) { return bricks({5, 4, 6}, cut, bent); }
+
+double volume(const Mesh& mesh, std::uint64_t index) {
+    return std::abs(mesh.cell(index).determinant()) / std::pow(mesh.spread(), 3);
+}
+double volume(const Mesh& mesh) {
+    double sum = 0;
+    for (std::uint64_t i = 0; i < mesh.count(); ++i) sum += volume(mesh, i);
+    return sum;
+}
+
+TEST(Unstructured, CellsAndPointsTakeTheSpaceThatThereIs) {
+    for (const Cut cut : kCuts) {
+        const UnstructuredGrid grid = bentBricks(cut);
+        ASSERT_EQ(flawOf(grid), "");
+        for (const Mesh& mesh : {meshOfCells(grid), meshOfPoints(grid)}) {
+            EXPECT_NEAR(volume(mesh), 60, 1e-5);
+            EXPECT_NEAR(double(mesh.meanVolume()) * double(mesh.count()), 60, 1e-9);
+            EXPECT_EQ(mesh.flat() + mesh.folded() + mesh.absent(), 0u);
+            EXPECT_FALSE(mesh.hasNeighbours());
+        }
+        // Where the mass lies, moments tell exactly, too: of cells at their centroids.
+        const Mesh cells = meshOfCells(grid);
+        glm::dvec3 middle(0);
+        for (std::uint64_t i = 0; i < cells.count(); ++i)
+            middle += volume(cells, i) / 60 * cells.position(i);
+        EXPECT_NEAR(glm::distance(middle, glm::dvec3(2, 1.5, 2.5)), 0, 1e-5);
+    }
+}
+
+// J J^T = L L^T, of bricks that lean.
+TEST(Unstructured, ABrickReachesAsFarAsItsSides) {
+    const glm::dmat3 steps({2, 0.5, 0}, {-0.4, 1, 0.3}, {0.1, 0.2, 3});
+    const glm::dmat3 expected = steps * glm::transpose(steps);
+    for (const Cut cut : {Cut::Hexahedra, Cut::Voxels}) {
+        const UnstructuredGrid grid = bricks({4, 4, 4}, cut, [&](double i, double j, double k) {
+            return steps * glm::dvec3(i, j, k);
+        });
+        const Mesh cells = meshOfCells(grid), points = meshOfPoints(grid);
+        EXPECT_EQ(cells.spread(), 1);
+        const auto expectSteps = [&](const Mesh& mesh, std::uint64_t index) {
+            const auto rows = mesh.cell(index).rows();
+            for (int a = 0; a < 3; ++a)
+                for (int b = 0; b < 3; ++b)
+                    EXPECT_NEAR(glm::dot(rows[a], rows[b]), expected[a][b], 1e-5);
+        };
+        for (std::uint64_t i = 0; i < cells.count(); ++i) expectSteps(cells, i);
+        expectSteps(points, 1 + 4 * (2 + 4 * 1));  // inside: its star is twice a brick
+    }
+}
+
+TEST(Unstructured, TheOrderOfCellsAndOfTheirCornersChangesNothing) {
+    const UnstructuredGrid grid = bentBricks(Cut::Tetrahedra);
+    std::vector<std::size_t> order(grid.types.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::shuffle(order, std::mt19937(7));
+    UnstructuredGrid other;
+    other.points = grid.points;
+    for (const std::size_t cell : order)
+        addCell(other, 10,
+                {grid.corners[4 * cell + 1], grid.corners[4 * cell],  // turned inside out
+                 grid.corners[4 * cell + 2], grid.corners[4 * cell + 3]});
+    const Mesh a = meshOfCells(grid), b = meshOfCells(other);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        EXPECT_NEAR(glm::distance(b.position(i), a.position(order[i])), 0, 1e-6);
+        EXPECT_NEAR(volume(b, i), volume(a, order[i]), 1e-6);
+    }
+    const Mesh p = meshOfPoints(grid), q = meshOfPoints(other);
+    for (std::uint64_t i = 0; i < p.count(); ++i) EXPECT_NEAR(volume(q, i), volume(p, i), 1e-6);
+}
+
+TEST(Unstructured, CellsOfFewerDimensionsThanOthersTakeNoSpace) {
+    UnstructuredGrid grid = bricks({2, 2, 2}, Cut::Hexahedra, [](double i, double j, double k) {
+        return glm::dvec3(i, j, k);
+    });
+    addCell(grid, 5, {0, 1, 2});
+    addCell(grid, 3, {0, 7});
+    addCell(grid, 1, {4});
+    addCell(grid, 0, {});     // VTK's empty cell
+    addCell(grid, 200, {1});  // no cell that is known
+    ASSERT_EQ(flawOf(grid), "");
+    const Mesh cells = meshOfCells(grid);
+    EXPECT_EQ(cells.count(), 6u);
+    EXPECT_EQ(cells.flat(), 4u);
+    EXPECT_EQ(cells.absent(), 1u) << "the empty one lies nowhere";
+    EXPECT_NEAR(volume(cells), 1, 1e-6);
+    EXPECT_NEAR(volume(meshOfPoints(grid)), 1, 1e-6);
+}
+
+// Two rectangles of 3 x 2 each: as thick as the root of 6.
+TEST(Unstructured, SurfacesLinesAndPointsAreAsThickAsTheyAreWide) {
+    UnstructuredGrid surface;
+    surface.points = {{0, 0, 0}, {3, 0, 0}, {0, 0, 2}, {3, 0, 2}, {0, 0, 4}, {3, 0, 4}};
+    addCell(surface, 9, {0, 1, 3, 2});
+    addCell(surface, 8, {2, 3, 4, 5});  // a pixel, whose corners stand in rows
+    const double thick = std::sqrt(6.0);
+    for (const Mesh& mesh : {meshOfCells(surface), meshOfPoints(surface)})
+        EXPECT_NEAR(volume(mesh), 12 * thick, 1e-5);
+    const auto cell = meshOfCells(surface).cell(0);
+    EXPECT_NEAR(cell.diagonal.x, 3, 1e-6);
+    EXPECT_NEAR(cell.diagonal.y, thick, 1e-6);
+    EXPECT_NEAR(cell.diagonal.z, 2, 1e-6);
+    UnstructuredGrid lines;
+    lines.points = {{0, 0, 0}, {2, 0, 0}, {2, 4, 0}};
+    addCell(lines, 3, {0, 1});
+    addCell(lines, 4, {1, 2});
+    for (const Mesh& mesh : {meshOfCells(lines), meshOfPoints(lines)})
+        EXPECT_NEAR(volume(mesh), 6 * 3 * 3, 1e-5);
+    UnstructuredGrid points;
+    points.points = {{0, 0, 0}, {2, 0, 0}, {2, 4, 0}, {0, 4, 1}};
+    for (std::uint32_t i = 0; i < 4; ++i) addCell(points, 1, {i});
+    for (const Mesh& mesh : {meshOfCells(points), meshOfPoints(points)})
+        EXPECT_NEAR(volume(mesh), 2 * 4 * 1, 1e-6) << "the box, shared";
+}
+
+TEST(Unstructured, CurvedCellsAreTold) {
+    UnstructuredGrid grid;
+    grid.points = {{0, 0, 0},   {1, 0, 0},  {0, 1, 0},  {0, 0, 1},   {.5, 0, 0},
+                   {.5, .5, 0}, {0, .5, 0}, {0, 0, .5}, {.5, 0, .5}, {0, .5, .5}};
+    addCell(grid, 24, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+    EXPECT_NEAR(volume(meshOfCells(grid)), 1.0 / 6, 1e-7);
+    EXPECT_NEAR(volume(meshOfPoints(grid)), 1.0 / 6, 1e-7);
+    ASSERT_EQ(notesOf(grid).size(), 1u);
+    EXPECT_TRUE(notesOf(bentBricks(Cut::Wedges)).empty());
+}
+
+TEST(Unstructured, WhatNamesNothingIsTold) {
+    const UnstructuredGrid good = bentBricks(Cut::Polyhedra);
+    const auto flawWith = [&](const auto& change) {
+        UnstructuredGrid grid = good;
+        change(grid);
+        return flawOf(grid);
+    };
+    EXPECT_EQ(flawWith([](auto& g) { g.corners[9] = 120; }), "cell 1 has point 120 of 120");
+    EXPECT_EQ(flawWith([](auto& g) { g.ends[3] = 7; }), "cell 3 ends at 7 of 480 entries");
+    EXPECT_EQ(flawWith([](auto& g) { g.ends.back() = 481; }), "cell 59 ends at 481 of 480 entries");
+    EXPECT_NE(flawWith([](auto& g) { g.ends.pop_back(); }), "");
+    EXPECT_EQ(flawWith([](auto& g) { g.types[0] = 16; }),
+              "cell 0 of type 16 has 8 points, fewer than 12");
+    EXPECT_EQ(flawWith([](auto& g) { g.faceEnds.clear(); }),
+              "cell 0 is a polyhedron without faces");
+    EXPECT_EQ(flawWith([](auto& g) { g.faceEnds[2] = 9999; }),
+              "faces: cell 2 ends at 9999 of 1860 entries");
+    EXPECT_EQ(flawWith([](auto& g) { g.faces[0] = 7; }), "the faces of cell 0 end early");
+    EXPECT_EQ(flawWith([](auto& g) { g.faces[1] = 4000000000u; }), "the faces of cell 0 end early");
+    EXPECT_EQ(flawWith([](auto& g) { g.faces[2] = 500; }), "a face of cell 0 has point 500 of 120");
+}
+
+// Any number anywhere: what has no flaw is measured, and nothing is read that is not there.
+TEST(Unstructured, WhateverHasNoFlawIsMeasured) {
+    std::mt19937 random(11);
+    int measured = 0;
+    for (int round = 0; round < 3000; ++round) {
+        UnstructuredGrid grid = bricks({2, 2, 3}, kCuts[random() % kCuts.size()], bent);
+        const auto change = [&](auto& list) {
+            if (list.empty()) return;
+            using Number = std::remove_reference_t<decltype(list[0])>;
+            list[random() % list.size()] = static_cast<Number>(random() % 14);
+        };
+        for (auto n = random() % 3; n > 0; --n) {
+            change(grid.types), change(grid.corners);
+            if (random() % 2) change(grid.ends), change(grid.faces), change(grid.faceEnds);
+        }
+        if (!flawOf(grid).empty()) continue;
+        for (const auto& meshOf : {meshOfCells, meshOfPoints}) {
+            try {
+                EXPECT_TRUE(std::isfinite(volume(meshOf(grid))));
+                ++measured;
+            } catch (const std::invalid_argument&) {
+            }
+        }
+    }
+    EXPECT_GT(measured, 1000);
+}
+
+}  // namespace
+}  // namespace timeseries

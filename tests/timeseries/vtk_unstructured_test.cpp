@@ -1,0 +1,184 @@
+// Unstructured grids of VTK files: their pieces, their lists of cells, steps whose cells change,
+// and the volumes that VTK itself finds.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vtkCell.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkTetra.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tests/support/shared_data.h"
+#include "tests/support/vtk_files.h"
+#include "timeseries/readers/reader.h"
+
+namespace timeseries {
+namespace {
+
+using testing::HasSubstr;
+using tests::dataArray;
+using tests::unstructuredText;
+using Path = std::filesystem::path;
+
+const std::string kTwelve =
+    dataArray("Float64", "v", std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+const std::string kTwo = dataArray("Float32", "w", std::vector<double>{5, 6});
+
+std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
+
+std::string refusal(const std::string& text) {
+    try {
+        const auto reader = open(tests::write("refused.vtu", text));
+        reader->read(0, 0);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+double volume(const Grid& grid) {
+    double sum = 0;
+    const Mesh& mesh = *grid.mesh();
+    for (std::uint64_t i = 0; i < mesh.count(); ++i)
+        sum += std::abs(mesh.cell(i).determinant()) / std::pow(mesh.spread(), 3);
+    return sum;
+}
+
+TEST(VtkUnstructured, PointsAndCellsHaveGridsOfTheirOwn) {
+    const auto reader = open(tests::write("two.vtu", unstructuredText(kTwelve, kTwo)));
+    EXPECT_EQ(reader->format(), "VTK unstructured grid (XML)");
+    const auto variables = reader->variables();
+    ASSERT_EQ(variables.size(), 2u);
+    EXPECT_EQ(variables[0].grid->count(), 12u);
+    EXPECT_EQ(variables[1].grid->count(), 2u);
+    EXPECT_NEAR(volume(*variables[0].grid), 3, 1e-6);
+    EXPECT_NEAR(volume(*variables[1].grid), 3, 1e-6);
+    EXPECT_EQ(std::get<std::vector<float>>(reader->read(1, 0).values), (std::vector<float>{5, 6}));
+}
+
+// One behind the other; a piece without anything is passed over.
+TEST(VtkUnstructured, PiecesAreOneGrid) {
+    std::string text = unstructuredText(kTwelve, kTwo);
+    const std::size_t first = text.find("<Piece"), end = text.find("</Piece>") + 9;
+    const std::string piece = text.substr(first, end - first);
+    const std::string nothing =
+        "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><PointData/><CellData/></Piece>\n";
+    text.insert(end, piece);
+    text.insert(first, nothing);
+    const auto reader = open(tests::write("pieces.vtu", text));
+    EXPECT_EQ(reader->variables()[0].grid->count(), 24u);
+    ASSERT_EQ(reader->variables()[1].grid->count(), 4u);
+    EXPECT_NEAR(volume(*reader->variables()[1].grid), 6, 1e-6);
+    EXPECT_EQ(reader->variables()[1].grid->position(3), reader->variables()[1].grid->position(1));
+    EXPECT_EQ(std::get<std::vector<float>>(reader->read(1, 0).values),
+              (std::vector<float>{5, 6, 5, 6}));
+}
+
+TEST(VtkUnstructured, ListsThatNameWhatIsNotThereAreRefused) {
+    const auto list = [](const char* name, const std::string& numbers, const char* type = "Int64") {
+        return fmt::format("<DataArray type=\"{}\" Name=\"{}\" format=\"ascii\">{}</DataArray>\n",
+                           type, name, numbers);
+    };
+    const auto lists = [&](const std::string& corners, const std::string& ends,
+                           const std::string& types, const std::string& more = "") {
+        return refusal(unstructuredText(
+            kTwelve, "",
+            list("connectivity", corners) + list("offsets", ends) + list("types", types) + more));
+    };
+    EXPECT_EQ(lists("0 1 3 6 1 2 4 7", "4 8", "10 10"), "");
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 12", "4 8", "10 10"), HasSubstr("cell 1 has point"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 -1", "4 8", "10 10"), HasSubstr("cell 1 has point"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 9", "10 10"), HasSubstr("cell 1 ends at 9 of 8"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 -8", "10 10"), HasSubstr("cell 1 ends at"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "8 4", "10 10"), HasSubstr("cell 1 ends at 4 of 8"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "3 8", "10 10"),
+                HasSubstr("cell 0 of type 10 has 3 points, fewer than 4"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "10 42"),
+                HasSubstr("cell 1 is a polyhedron without faces"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4", "10 10"), HasSubstr("expected 2 values, found 1"));
+    EXPECT_THAT(
+        lists("0 1 3 6 1 2 4 7", "4 8", "10 42",
+              list("faces", "4 3 1 2 4 3 1 2 7 3 1 4 7 3 2 4 77") + list("faceoffsets", "-1 17")),
+        HasSubstr("a face of cell 1 has point"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "10 42",
+                      list("faces", "4 3 1 2 4") + list("faceoffsets", "-1 17")),
+                HasSubstr("faces: cell 1 ends at 17 of 5"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "10 42", list("faces", "1 3 1 2 4")),
+                HasSubstr("expected faceoffsets beside faces"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "200 201"),
+                HasSubstr("expected cells that take space"))
+        << "of kinds that nobody knows";
+    EXPECT_THAT(refusal(unstructuredText(kTwelve, "", list("connectivity", "0 1 3 6"))),
+                HasSubstr("expected connectivity, offsets and types"));
+    EXPECT_THAT(
+        refusal(unstructuredText(kTwelve, "", list("connectivity", "0 1 3 6 1 2 4 7", "Float64"))),
+        HasSubstr("expected a DataArray of whole numbers"));
+}
+
+TEST(VtkUnstructured, CellsMayComeAndGoFromStepToStep) {
+    const Path folder = tests::freshFolder();
+    tests::writeBytes(folder / "a.vtu", unstructuredText(kTwelve, kTwo));
+    std::string second = unstructuredText("", dataArray("Float32", "w", std::vector<double>{7}),
+                                          "<DataArray type=\"Int32\" Name=\"connectivity\" "
+                                          "format=\"ascii\">0 1 3 6</DataArray>\n"
+                                          "<DataArray type=\"Int32\" Name=\"offsets\" "
+                                          "format=\"ascii\">4</DataArray>\n"
+                                          "<DataArray type=\"UInt8\" Name=\"types\" "
+                                          "format=\"ascii\">10</DataArray>\n");
+    second.replace(second.find("NumberOfCells=\"2\""), 17, "NumberOfCells=\"1\"");
+    tests::writeBytes(folder / "b.vtu", second);
+    tests::writeBytes(folder / "both.pvd",
+                      "<VTKFile type=\"Collection\"><Collection>"
+                      "<DataSet timestep=\"0.5\" file=\"a.vtu\"/>"
+                      "<DataSet timestep=\"2\" file=\"b.vtu\"/></Collection></VTKFile>");
+    const auto reader = open(folder / "both.pvd");
+    const auto variables = reader->variables();
+    const std::size_t w = variables[0].name == "w" ? 0 : 1;
+    ASSERT_EQ(variables[w].time->points.size(), 2u);
+    const Field one = reader->read(w, 0), two = reader->read(w, 1), again = reader->read(w, 0);
+    EXPECT_EQ(one.grid->count(), 2u);
+    EXPECT_EQ(two.grid->count(), 1u);
+    EXPECT_TRUE(two.grid->ofOneStep());
+    EXPECT_EQ(two.grid->axes()[0].coordinates, one.grid->axes()[0].coordinates) << "all in one box";
+    EXPECT_EQ(*again.grid, *one.grid);
+}
+
+// Each cell's, from the tetrahedra that VTK cuts it into. The crushed hexahedra of can.vtu have
+// bent faces: VTK's two cuttings of these differ by 6 %, and the trilinear volume lies between.
+TEST(VtkUnstructured, VolumesAreThoseThatVtkFinds) {
+    const Path path = tests::sharedData("dambreak_amr/dambreak_010.vtu");
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
+    const vtkNew<vtkXMLUnstructuredGridReader> vtk;
+    vtk->SetFileName(path.c_str());
+    vtk->Update();
+    const auto reader = open(path);
+    const Grid& grid = *reader->variables()[0].grid;
+    const Mesh& mesh = *grid.mesh();
+    ASSERT_EQ(mesh.count(), static_cast<std::uint64_t>(vtk->GetOutput()->GetNumberOfCells()));
+    const vtkNew<vtkIdList> ids;
+    const vtkNew<vtkPoints> points;
+    double most = 0;
+    for (vtkIdType cell = 0; cell < vtk->GetOutput()->GetNumberOfCells(); ++cell) {
+        vtk->GetOutput()->GetCell(cell)->Triangulate(0, ids, points);
+        double theirs = 0;
+        for (vtkIdType t = 0; t + 3 < points->GetNumberOfPoints(); t += 4) {
+            std::array<glm::dvec3, 4> p;
+            for (vtkIdType c = 0; c < 4; ++c) points->GetPoint(t + c, &p[std::size_t(c)].x);
+            theirs += std::abs(vtkTetra::ComputeVolume(&p[0].x, &p[1].x, &p[2].x, &p[3].x));
+        }
+        const double ours = std::abs(mesh.cell(static_cast<std::uint64_t>(cell)).determinant()) /
+                            std::pow(mesh.spread(), 3);
+        ASSERT_NEAR(ours, theirs, 1e-5 * theirs) << cell;
+        most = std::max(most, theirs);
+    }
+    EXPECT_NEAR(volume(grid), 1, 1e-6) << "the whole box";
+}
+
+}  // namespace
+}  // namespace timeseries

@@ -1,0 +1,117 @@
+#include "timeseries/grid/cell_types.h"
+
+#include <array>
+
+namespace timeseries {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::array<std::uint8_t, 1> kPixelSizes{4};
+constexpr std::array<std::uint8_t, 4> kPixel{0, 1, 3, 2};
+constexpr std::array<std::uint8_t, 4> kTetraSizes{3, 3, 3, 3};
+constexpr std::array<std::uint8_t, 12> kTetra{0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 2, 1};
+constexpr std::array<std::uint8_t, 6> kBoxSizes{4, 4, 4, 4, 4, 4};
+constexpr std::array<std::uint8_t, 24> kHexahedron{0, 4, 7, 3, 1, 2, 6, 5, 0, 1, 5, 4,
+                                                   3, 7, 6, 2, 0, 3, 2, 1, 4, 5, 6, 7};
+constexpr std::array<std::uint8_t, 24> kVoxel{0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4,
+                                              2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
+constexpr std::array<std::uint8_t, 5> kWedgeSizes{3, 3, 4, 4, 4};
+constexpr std::array<std::uint8_t, 18> kWedge{0, 1, 2, 3, 5, 4, 0, 3, 4, 1, 1, 4, 5, 2, 2, 5, 3, 0};
+constexpr std::array<std::uint8_t, 5> kPyramidSizes{4, 3, 3, 3, 3};
+constexpr std::array<std::uint8_t, 16> kPyramid{0, 3, 2, 1, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+constexpr std::array<std::uint8_t, 7> kPentaPrismSizes{5, 5, 4, 4, 4, 4, 4};
+constexpr std::array<std::uint8_t, 30> kPentaPrism{0, 4, 3, 2, 1, 5, 6, 7, 8, 9, 0, 1, 6, 5, 1,
+                                                   2, 7, 6, 2, 3, 8, 7, 3, 4, 9, 8, 4, 0, 5, 9};
+constexpr std::array<std::uint8_t, 8> kHexaPrismSizes{6, 6, 4, 4, 4, 4, 4, 4};
+constexpr std::array<std::uint8_t, 36> kHexaPrism{0, 5, 4,  3, 2, 1, 6,  7,  8, 9, 10, 11,
+                                                  0, 1, 7,  6, 1, 2, 8,  7,  2, 3, 9,  8,
+                                                  3, 4, 10, 9, 4, 5, 11, 10, 5, 0, 6,  11};
+
+constexpr CellType flat(int dimension, std::uint8_t corners, bool brick = false) {
+    return {dimension, corners, false, brick, {}, {}};
+}
+constexpr CellType solid(std::uint8_t corners, bool brick, Bytes sizes, Bytes faces) {
+    return {3, corners, false, brick, sizes, faces};
+}
+constexpr CellType curved(CellType of) {
+    of.isCurved = true;
+    return of;
+}
+
+constexpr CellType kVertex = flat(0, 0), kLine = flat(1, 2), kPolyLine = flat(1, 0),
+                   kTriangle = flat(2, 3), kQuad = flat(2, 4, true), kPolygon = flat(2, 0),
+                   kTet = solid(4, false, kTetraSizes, kTetra),
+                   kHex = solid(8, true, kBoxSizes, kHexahedron),
+                   kPrism = solid(6, false, kWedgeSizes, kWedge),
+                   kPyr = solid(5, false, kPyramidSizes, kPyramid);
+
+struct Numbered {
+    std::uint8_t number;
+    CellType type;
+};
+constexpr std::array kTypes{
+    Numbered{1, kVertex},
+    Numbered{2, kVertex},
+    Numbered{3, kLine},
+    Numbered{4, kPolyLine},
+    Numbered{5, kTriangle},
+    Numbered{7, kPolygon},
+    Numbered{8, CellType{2, 4, false, true, kPixelSizes, kPixel}},
+    Numbered{9, kQuad},
+    Numbered{10, kTet},
+    Numbered{11, solid(8, true, kBoxSizes, kVoxel)},
+    Numbered{12, kHex},
+    Numbered{13, kPrism},
+    Numbered{14, kPyr},
+    Numbered{15, solid(10, false, kPentaPrismSizes, kPentaPrism)},
+    Numbered{16, solid(12, true, kHexaPrismSizes, kHexaPrism)},
+    Numbered{21, curved(kLine)},
+    Numbered{22, curved(kTriangle)},
+    Numbered{23, curved(kQuad)},
+    Numbered{24, curved(kTet)},
+    Numbered{25, curved(kHex)},
+    Numbered{26, curved(kPrism)},
+    Numbered{27, curved(kPyr)},
+    Numbered{28, curved(kQuad)},
+    Numbered{29, curved(kHex)},
+    Numbered{30, curved(kQuad)},
+    Numbered{31, curved(kPrism)},
+    Numbered{32, curved(kPrism)},
+    Numbered{33, curved(kHex)},
+    Numbered{34, curved(kTriangle)},
+    Numbered{35, curved(kLine)},
+    Numbered{37, curved(kPyr)},
+    Numbered{kPolyhedron, solid(0, false, {}, {})},
+    // Lagrange's and Bezier's.
+    Numbered{68, curved(kLine)},
+    Numbered{69, curved(kTriangle)},
+    Numbered{70, curved(kQuad)},
+    Numbered{71, curved(kTet)},
+    Numbered{72, curved(kHex)},
+    Numbered{73, curved(kPrism)},
+    Numbered{74, curved(kPyr)},
+    Numbered{75, curved(kLine)},
+    Numbered{76, curved(kTriangle)},
+    Numbered{77, curved(kQuad)},
+    Numbered{78, curved(kTet)},
+    Numbered{79, curved(kHex)},
+    Numbered{80, curved(kPrism)},
+    Numbered{81, curved(kPyr)},
+};
+
+constexpr auto kByNumber = [] {
+    std::array<std::uint8_t, 256> at{};
+    for (std::size_t i = 0; i < kTypes.size(); ++i)
+        at[kTypes[i].number] = static_cast<std::uint8_t>(i + 1);
+    return at;
+}();
+
+}  // namespace
+
+const CellType* cellTypeOf(std::uint8_t number) {
+    const std::uint8_t at = kByNumber[number];
+    return at == 0 ? nullptr : &kTypes[at - 1].type;
+}
+
+}  // namespace timeseries

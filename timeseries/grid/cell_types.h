@@ -1,0 +1,25 @@
+// The shapes of an unstructured grid's cells, numbered as VTK's files number them ("VTK File
+// Formats", Kitware, "Cell types").
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace timeseries {
+
+// What a cell is between its corners, which come first among its points.
+struct CellType {
+    int dimension;         // 0 to 3
+    std::uint8_t corners;  // 0: as many as points
+    bool isCurved;         // it has points between its corners
+    bool isBrick;          // cells of this kind tile space as a lattice does
+    // How many corners each face has, and which these are, round it; a surface is one face, and
+    // none stands for its corners in their order.
+    std::span<const std::uint8_t> faceSizes, faces;
+};
+
+constexpr std::uint8_t kPolyhedron = 42;
+// Null for a number that stands for no shape; of a polyhedron faces stand in the file.
+const CellType* cellTypeOf(std::uint8_t number);
+
+}  // namespace timeseries

@@ -1,0 +1,45 @@
+// Grids of cells of any shape, each of which names its corners: where their cells, or their points,
+// lie, and what space each stands for.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "timeseries/grid/mesh.h"
+
+namespace timeseries {
+
+// Lists of one cell stand behind that of the cell before, and end where `...Ends` says.
+struct UnstructuredGrid {
+    std::vector<glm::dvec3> points;   // in the file's space
+    std::vector<std::uint8_t> types;  // [cell], as in cell_types.h
+    std::vector<std::uint64_t> ends;
+    std::vector<std::uint32_t> corners;  // of each cell: points
+    // Of polyhedra: how many faces, then of each how many corners, and which points. Empty: no
+    // cell is one.
+    std::vector<std::uint64_t> faceEnds;
+    std::vector<std::uint32_t> faces;
+};
+
+// The first thing that is wrong, in a few words; "" when all cells name points that there are.
+std::string flawOf(const UnstructuredGrid& grid);
+
+// REQUIRES of these: no flaw. Throw std::invalid_argument when nothing has a volume.
+//
+// One point a cell: at its centroid, as large as the cell, as far each way as its second moments.
+Mesh meshOfCells(const UnstructuredGrid& grid);
+// One point a point: of each cell that it is of it has the share that all of its points have, and
+// reaches as far as these cells do about it.
+//
+// Cells of fewer dimensions than others have no volume. Where all are surfaces, they are as thick
+// as their mean is wide; lines, as the mean is long; and where there are but points, each stands
+// for the same share of their box.
+Mesh meshOfPoints(const UnstructuredGrid& grid);
+
+// What is drawn otherwise than the file says, a sentence each.
+std::vector<std::string> notesOf(const UnstructuredGrid& grid);
+
+}  // namespace timeseries
