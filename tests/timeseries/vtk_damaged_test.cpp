@@ -70,6 +70,17 @@ std::map<std::string, std::string> samples() {
         {"places.vtk", "# vtk DataFile Version 4.2\ntitle\nBINARY\n" + places +
                            tests::bigEndianBytes(tests::placesOfTwelve()) + "\n" + values +
                            tests::bigEndianBytes(twelve()) + "\n"},
+        {"cells.vtk",
+         "# vtk DataFile Version 4.2\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+         "POINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 2 23\n4 0 1 2 3\n"
+         "17 4 3 0 1 2 3 0 1 3 3 1 2 3 3 0 2 3\nCELL_TYPES 2\n10\n42\n"
+         "CELL_DATA 2\nSCALARS v double 1\nLOOKUP_TABLE default\n0.25\n1.25\n"},
+        {"ends.vtk",
+         "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+         "POINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 2 4\n"
+         "OFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\n"
+         "CELL_TYPES 1\n10\nCELL_DATA 1\nSCALARS v double 1\n"
+         "LOOKUP_TABLE default\n0.25\n"},
         {"text.vti", imageText({.points = dataArray("Float64", "v", twelve())})},
         {"raw.vti", imageText({.points = appended, .appended = tests::appendedBlock(twelve())})},
         {"ascii.vtk", "# vtk DataFile Version 4.2\ntitle\nASCII\n" + start + numbers},
@@ -89,7 +100,7 @@ TEST(DamagedVtk, FilesCutAnywhereAreRefusedOrWhole) {
             const auto found = contents(path);
             if (!found) continue;
             // The last digits of text may be lost unseen.
-            if (name != "ascii.vtk") {
+            if (name != "ascii.vtk" && name != "cells.vtk" && name != "ends.vtk") {
                 EXPECT_EQ(*found, *expected) << name << " cut at " << length;
             }
             ++read;

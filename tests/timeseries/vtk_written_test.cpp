@@ -17,6 +17,7 @@
 #include <vtkStructuredPointsWriter.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLRectilinearGridWriter.h>
 #include <vtkXMLStructuredGridWriter.h>
@@ -356,6 +357,7 @@ TEST(VtkWritten, LegacyFilesAreRead) {
     expectWhatVtkWritesAsLegacy<vtkStructuredPointsWriter>(*image(), Kind::Image);
     expectWhatVtkWritesAsLegacy<vtkRectilinearGridWriter>(*rectilinear(), Kind::Rectilinear);
     expectWhatVtkWritesAsLegacy<vtkStructuredGridWriter>(*structured(), Kind::Structured);
+    expectWhatVtkWritesAsLegacy<vtkUnstructuredGridWriter>(*unstructured(), Kind::Unstructured);
 }
 
 }  // namespace

@@ -168,7 +168,6 @@ std::string otherVtkType(std::string_view type) {
                              "vtkHierarchicalBoxDataSet"sv,
                              "vtkOverlappingAMR"sv,
                              "vtkNonOverlappingAMR"sv,
-                             "unstructured_grid"sv,
                              "polydata"sv,
                              "field"sv})
         if (type == other) return fmt::format("a VTK file of type {}", type);

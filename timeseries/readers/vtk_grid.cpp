@@ -117,7 +117,7 @@ VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
 }  // namespace
 
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
-    if (header.kind == VtkKind::XmlUnstructured) return unstructuredGridOf(header, place);
+    if (isUnstructured(header.kind)) return unstructuredGridOf(header, place);
     if (isStructured(header.kind)) return structuredGridOf(header, place);
     const bool image = header.kind == VtkKind::XmlImage || header.kind == VtkKind::LegacyPoints;
     const Directions directions = directionsOf(header);

@@ -71,7 +71,7 @@ std::optional<std::string> vtkTimeName(std::string_view arrayName) {
 
 std::array<std::uint64_t, 3> VtkHeader::size(VtkPlace place) const {
     std::array<std::uint64_t, 3> size{};
-    if (kind == VtkKind::XmlUnstructured) {
+    if (isUnstructured(kind)) {
         size[1] = size[2] = 1;
         for (const VtkPiece& piece : pieces)
             size[0] += place == VtkPlace::Points ? piece.points : piece.cells;

@@ -25,10 +25,15 @@ enum class VtkKind {
     XmlUnstructured,
     LegacyPoints,
     LegacyRectilinear,
-    LegacyStructured
+    LegacyStructured,
+    LegacyUnstructured
 };
 inline bool isStructured(VtkKind kind) {
     return kind == VtkKind::XmlStructured || kind == VtkKind::LegacyStructured;
+}
+
+inline bool isUnstructured(VtkKind kind) {
+    return kind == VtkKind::XmlUnstructured || kind == VtkKind::LegacyUnstructured;
 }
 
 enum class VtkPlace { Points, Cells };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "timeseries/readers/vtk_legacy_cells.h"
 #include "timeseries/readers/vtk_number.h"
 #include "timeseries/readers/vtk_text.h"
 
@@ -38,7 +39,7 @@ class LegacyHeader {
         readStart();
         for (std::string word = text_.lowerWord(); !word.empty(); word = text_.lowerWord())
             readSection(word);
-        if (!sized_) text_.fail("expected DIMENSIONS, but the file ends");
+        if (!sized_) text_.fail(fmt::format("expected {}, but the file ends", wanted()));
         if (header_.kind == VtkKind::LegacyStructured && !placed_)
             text_.fail("expected POINTS, but the file ends");
         if (header_.kind == VtkKind::LegacyRectilinear)
@@ -52,6 +53,8 @@ class LegacyHeader {
     void readStart();
     void readSection(const std::string& word);
     void readDataset();
+    void readCells(const std::string& word);
+    std::string wanted() const { return cells_ ? cells_->missing() : "DIMENSIONS"; }
     void readDimensions();
     void readCoordinates(std::size_t axis);
     void skipPoints();
@@ -71,6 +74,8 @@ class LegacyHeader {
     VtkText text_;
     VtkHeader header_;
     bool sized_ = false, placed_ = false;
+    bool endsApart_ = false;  // of cells' lists: from version 5 on
+    std::optional<VtkLegacyCells> cells_;
     std::optional<VtkPlace> place_;  // once POINT_DATA or CELL_DATA has come
     std::set<std::pair<VtkPlace, std::string>> names_;
     std::string typeName_;
@@ -84,6 +89,7 @@ void LegacyHeader::readStart() {
     const std::string_view version = std::string_view(magic).substr(23);
     if (version.empty() || version[0] < '1' || version[0] > '5')
         text_.fail(fmt::format("expected a version from 1.0 to 5.1, found \"{}\"", version));
+    endsApart_ = version[0] == '5';
     text_.line();  // the title
     const std::string coding = text_.lowerWord();
     if (coding != "ascii" && coding != "binary")
@@ -96,7 +102,8 @@ void LegacyHeader::readSection(const std::string& word) {
     if (word == "field") return readField();
     if (word == "metadata") return text_.skipParagraph();
     if (header_.format.empty()) text_.fail(fmt::format("expected DATASET, found \"{}\"", word));
-    if (word == "dimensions") return readDimensions();
+    if (cells_ && !place_ && !sized_) return readCells(word);
+    if (word == "dimensions" && !cells_) return readDimensions();
     if (!place_ && header_.kind == VtkKind::LegacyPoints) {
         if (word == "origin") return void(header_.origin = three("an origin"));
         if (word == "spacing" || word == "aspect_ratio")
@@ -126,12 +133,30 @@ void LegacyHeader::readDataset() {
     } else if (kind == "structured_grid") {
         header_.kind = VtkKind::LegacyStructured;
         header_.format = "VTK structured grid (legacy)";
+    } else if (kind == "unstructured_grid") {
+        header_.kind = VtkKind::LegacyUnstructured;
+        header_.format = "VTK unstructured grid (legacy)";
+        cells_.emplace(endsApart_);
     } else {
         text_.fail(
-            fmt::format("expected DATASET STRUCTURED_POINTS, RECTILINEAR_GRID or STRUCTURED_GRID, "
+            fmt::format("expected DATASET STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID or "
+                        "UNSTRUCTURED_GRID, "
                         "found \"{}\"",
                         kind));
     }
+}
+
+void LegacyHeader::readCells(const std::string& word) {
+    if (!cells_->read(text_, word))
+        text_.fail(fmt::format("expected {}, found \"{}\"", wanted(), word));
+    if (!cells_->missing().empty()) return;
+    header_.unstructured = cells_->take(text_);
+    VtkPiece whole;
+    whole.points = header_.unstructured.points.size();
+    whole.cells = header_.unstructured.types.size();
+    header_.pieces = {whole};
+    checkVtkCount(header_, text_.place());
+    sized_ = true;
 }
 
 void LegacyHeader::readDimensions() {

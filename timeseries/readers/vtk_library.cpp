@@ -19,6 +19,7 @@
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
@@ -219,6 +220,9 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
             break;
         case VtkKind::LegacyStructured:
             output = readLegacy<StructuredReader>(header, &wanted);
+            break;
+        case VtkKind::LegacyUnstructured:
+            output = readLegacy<vtkUnstructuredGridReader>(header, &wanted);
             break;
     }
     if (!output) return {};
