@@ -57,7 +57,6 @@ constexpr std::array kNotRead{
     NotRead{"grids/can_0.vtkhdf", "is a VTKHDF file;"},
     NotRead{"grids/warping_spheres.vtkhdf", "is a VTKHDF file;"},
     NotRead{"grids/no_checkpoint.xdmf", "is an XDMF file;"},
-    NotRead{"grids/mesh_series/mesh.vtu.series", "is a ParaView list of files (.series);"},
     NotRead{"grids/plot3d/combq.bin", "is a PLOT3D file;"},
     // Uniform grids in formats without a reader.
     NotRead{"fmri_filtered_func_64t.nii.gz", "is a NIfTI file;"},

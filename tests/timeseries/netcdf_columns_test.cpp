@@ -212,7 +212,8 @@ TEST(NetcdfColumns, GoRoundTheEarth) {
     file.write(lon, across);
     file.write(lat, latitudes());
     const auto grid = open(file.closed())->variables()[0].grid;
-    for (std::uint64_t n = 0; n < grid->count(); ++n) EXPECT_NEAR(grid->mesh()->cell(n).diagonal.x, 2, 1e-4);
+    for (std::uint64_t n = 0; n < grid->count(); ++n)
+        EXPECT_NEAR(grid->mesh()->cell(n).diagonal.x, 2, 1e-4);
 }
 
 }  // namespace

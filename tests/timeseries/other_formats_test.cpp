@@ -18,7 +18,7 @@ using Path = std::filesystem::path;
 const std::string kTail =
     "; isochron reads NetCDF, NRRD and, of VTK, image data, rectilinear, structured and "
     "unstructured grids "
-    "(.vti, .vtr, .vts, .vtu, .vtk, .pvd)";
+    "(.vti, .vtr, .vts, .vtu, .vtk, .pvd, .series)";
 
 // What opening a file or folder says it is.
 std::string told(const Path& path) {
@@ -86,7 +86,6 @@ TEST(OtherFormats, AreNamed) {
               "a VTK file of type PUnstructuredGrid"},
              {"# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\n",
               "a VTK file of type polydata"},
-             {"{\n  \"file-series-version\" : \"1.0\" }", "a ParaView list of files (.series)"},
              {gzipped("CDF\1"s), "compressed by gzip, and must be unpacked first"},
              {"BZh91AY&SY", "compressed by bzip2, and must be unpacked first"},
              {"just words", "unknown"},
@@ -152,7 +151,6 @@ TEST(OtherFormats, RealFilesAreNamed) {
              {"grids/warping_spheres.vtkhdf", "a VTKHDF file"},
              {"grids/no_checkpoint.h5",
               "an HDF5 file that no NetCDF wrote, without an array of three dimensions"},
-             {"grids/mesh_series/mesh.vtu.series", "a ParaView list of files (.series)"},
              {"mug_transient.e", "an Exodus II file (a finite-element mesh)"},
              {"dx_mri/mri.general", "an OpenDX header"},
              {"dx_mri/MRI.data", "unknown"},

@@ -116,6 +116,38 @@ TEST(VtkCollection, OnePartAtEachTimeIsAStepWhicheverItIs) {
     }
 }
 
+// ParaView's JSON says the same.
+TEST(VtkCollection, AListOfFilesIsASeriesToo) {
+    std::string files;
+    for (const double time : {2.5, 0.0, 1.0}) {
+        const Path file = tests::write(
+            fmt::format("{}.vti", time),
+            imageText({.points = dataArray("Float32", "p", std::vector<double>(12, time))}));
+        files += fmt::format("{}{{\"name\": \"{}\", \"time\": {}}}", files.empty() ? "" : ", ",
+                             file.filename().string(), time);
+    }
+    const auto listed = [](const std::string& what) {
+        return tests::write("all.vti.series",
+                            "{ \"file-series-version\": \"1.0\", \"files\": " + what + "}");
+    };
+    const auto reader = open(listed("[" + files + "]"));
+    ASSERT_EQ(reader->variables()[0].time->points.size(), 3u);
+    for (const auto& [step, time] : {std::pair{0u, 0.0f}, std::pair{1u, 1.0f}, {2u, 2.5f}}) {
+        EXPECT_EQ(reader->variables()[0].time->points[step].value, time);
+        EXPECT_EQ(std::get<std::vector<float>>(reader->read(0, step).values)[7], time);
+    }
+    EXPECT_THAT(refusal(listed("[]")), HasSubstr("files: expected a file, found none"));
+    EXPECT_THAT(refusal(listed("7")), HasSubstr("expected JSON with a list of \"files\""));
+    EXPECT_THAT(refusal(listed("[")), HasSubstr("expected JSON with a list of \"files\""));
+    EXPECT_THAT(refusal(listed("[7]")), HasSubstr("files[0]: expected the \"name\" of a file"));
+    EXPECT_THAT(refusal(listed("[{\"name\": \"a\", \"time\": \"b\"}]")),
+                HasSubstr("files[0]: expected a finite number"));
+    EXPECT_THAT(refusal(listed("[" + files + ", {\"name\": \"a\"}]")),
+                HasSubstr("expected a time of each file or of none"));
+    EXPECT_THAT(refusal(listed("[" + files + "," + files + "]")),
+                HasSubstr("expected times that differ, found 0 twice"));
+}
+
 TEST(VtkCollection, WhatDiffersIsTold) {
     const Path good = tests::write(
         "a.vti", imageText({.points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
@@ -140,7 +172,7 @@ TEST(VtkCollection, WhatDiffersIsTold) {
                                    "<DataSet part=\"1\" file=\"b.vti\"/>")),
                 HasSubstr("expected one part a time step, found 2 parts"));
     EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected a finite number"));
-    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
+    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a file, found none"));
     const Path gap = collection(member("0", good) + member("1", "none.vti"));
     EXPECT_THAT(open(gap)->variables()[0].notes,
                 ElementsAre("1 of 2 files are missing, the first none.vti"));

@@ -379,7 +379,7 @@ TEST(DamagedVtk, CollectionsThatLieAreRefused) {
     const auto collection = [](const std::string& sets) {
         return "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>";
     };
-    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a DataSet, found none"));
+    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a file, found none"));
     EXPECT_THAT(refusal(collection("<DataSet/>")), HasSubstr("expected the name of a file"));
     EXPECT_THAT(refusal(collection("<DataSet timestep=\"nan\" file=\"a.vti\"/>")),
                 HasSubstr("timestep: expected a finite number"));

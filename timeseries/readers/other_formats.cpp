@@ -74,7 +74,6 @@ std::string_view attributeOf(std::string_view text, std::string_view name, std::
 
 std::string otherText(std::string_view start) {
     if (beginsWithMarkup(start) && has(start, "<Xdmf")) return "an XDMF file";
-    if (has(start, "\"file-series-version\"")) return "a ParaView list of files (.series)";
     if (start.starts_with("file") && has(start, "grid =")) return "an OpenDX header";
     if (start.starts_with("FORMAT") && has(start, "ensight")) return "an EnSight file";
     return "";
@@ -151,25 +150,12 @@ std::string otherVtkType(std::string_view type) {
     const auto first = type.find_first_not_of(kBlank);
     if (first == type.npos) return "";
     type = type.substr(first, type.find_last_not_of(kBlank) + 1 - first);
-    for (const auto other : {"PolyData"sv,
-                             "PImageData"sv,
-                             "PRectilinearGrid"sv,
-                             "PStructuredGrid"sv,
-                             "PUnstructuredGrid"sv,
-                             "PPolyData"sv,
-                             "HyperTreeGrid"sv,
-                             "PHyperTreeGrid"sv,
-                             "Table"sv,
-                             "PTable"sv,
-                             "vtkMultiBlockDataSet"sv,
-                             "vtkMultiPieceDataSet"sv,
-                             "vtkPartitionedDataSet"sv,
-                             "vtkPartitionedDataSetCollection"sv,
-                             "vtkHierarchicalBoxDataSet"sv,
-                             "vtkOverlappingAMR"sv,
-                             "vtkNonOverlappingAMR"sv,
-                             "polydata"sv,
-                             "field"sv})
+    for (const auto other :
+         {"PolyData"sv, "PImageData"sv, "PRectilinearGrid"sv, "PStructuredGrid"sv,
+          "PUnstructuredGrid"sv, "PPolyData"sv, "HyperTreeGrid"sv, "PHyperTreeGrid"sv, "Table"sv,
+          "PTable"sv, "vtkMultiBlockDataSet"sv, "vtkMultiPieceDataSet"sv, "vtkPartitionedDataSet"sv,
+          "vtkPartitionedDataSetCollection"sv, "vtkHierarchicalBoxDataSet"sv, "vtkOverlappingAMR"sv,
+          "vtkNonOverlappingAMR"sv, "polydata"sv, "field"sv})
         if (type == other) return fmt::format("a VTK file of type {}", type);
     return "";
 }
@@ -205,7 +191,7 @@ std::string otherFolder(const std::filesystem::path& folder) {
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
         "NetCDF, NRRD and, of VTK, image data, rectilinear, structured and unstructured grids "
-        "(.vti, .vtr, .vts, .vtu, .vtk, .pvd)";
+        "(.vti, .vtr, .vts, .vtu, .vtk, .pvd, .series)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
 

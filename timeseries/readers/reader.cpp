@@ -62,8 +62,11 @@ const std::array kFormats = {
            openNetcdf, true},
     Format{[](std::string_view start) { return start.starts_with("NRRD0"sv); }, openNrrd},
     Format{[](std::string_view start) {
+               const auto first = start.find_first_not_of(" \t\r\n"sv);
                const bool vtk =
                    start.starts_with("# vtk DataFile"sv) ||
+                   (first != start.npos && start[first] == '{' &&
+                    start.find("\"file-series-version\""sv) != start.npos) ||
                    (start.find("<VTKFile"sv) != start.npos &&
                     start.find_first_not_of("\xEF\xBB\xBF \t\r\n"sv) == start.find('<'));
                return vtk && otherVtk(start).empty();

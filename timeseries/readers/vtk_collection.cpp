@@ -36,6 +36,24 @@ void checkParts(const XmlFile& file, std::span<const Listed> all) {
 
 }  // namespace
 
+std::vector<VtkMember> vtkMembersInOrder(const std::filesystem::path& path, std::string_view list,
+                                         std::vector<VtkMember> members) {
+    if (members.empty()) failVtk(path, list, "expected a file, found none");
+    const auto timed =
+        std::ranges::count_if(members, [](const VtkMember& each) { return !!each.time; });
+    if (timed != 0 && static_cast<std::size_t>(timed) != members.size())
+        failVtk(path, list, "expected a time of each file or of none");
+    std::ranges::stable_sort(members, {},
+                             [](const VtkMember& each) { return each.time.value_or(0); });
+    for (std::size_t i = 1; timed && i < members.size(); ++i)
+        if (*members[i - 1].time == *members[i].time)
+            failVtk(path, list,
+                    fmt::format("expected times that differ, found {} twice ({} and {})",
+                                *members[i].time, members[i - 1].path.string(),
+                                members[i].path.string()));
+    return members;
+}
+
 bool isVtkCollection(const XmlFile& file) { return rootOf(file).attribute("type") == "Collection"; }
 
 std::vector<VtkMember> readVtkCollection(const XmlFile& file) {
@@ -51,22 +69,11 @@ std::vector<VtkMember> readVtkCollection(const XmlFile& file) {
             {std::move(member),
              {std::string(set->attribute("group")), std::string(set->attribute("part"))}});
     }
-    if (listed.empty()) failVtk(file.path, "Collection", "expected a DataSet, found none");
-    const auto timed =
-        std::ranges::count_if(listed, [](const Listed& each) { return !!each.member.time; });
-    if (timed != 0 && static_cast<std::size_t>(timed) != listed.size())
-        failVtk(file.path, "Collection", "expected a timestep of each DataSet or of none");
     std::ranges::stable_sort(listed, before);
     checkParts(file, listed);
     std::vector<VtkMember> members;
     for (Listed& each : listed) members.push_back(std::move(each.member));
-    for (std::size_t i = 1; timed && i < members.size(); ++i)
-        if (*members[i - 1].time == *members[i].time)
-            failVtk(file.path, "Collection",
-                    fmt::format("expected times that differ, found {} twice ({} and {})",
-                                *members[i].time, members[i - 1].path.string(),
-                                members[i].path.string()));
-    return members;
+    return vtkMembersInOrder(file.path, "Collection", std::move(members));
 }
 
 }  // namespace timeseries

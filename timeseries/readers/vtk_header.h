@@ -114,6 +114,12 @@ VtkHeader readVtkXmlHeader(const XmlFile& file);
 bool isVtkCollection(const XmlFile& file);
 // In the order of their times. Throws FileError.
 std::vector<VtkMember> readVtkCollection(const XmlFile& file);
+// The same of ParaView's JSON.
+std::vector<VtkMember> readVtkSeries(const std::filesystem::path& path);
+// The members of a list, which has this name in the file. Throws FileError when there are none,
+// some have no time, or two have the same.
+std::vector<VtkMember> vtkMembersInOrder(const std::filesystem::path& path, std::string_view list,
+                                         std::vector<VtkMember> members);
 
 // Shared by the two kinds of header.
 struct VtkType {

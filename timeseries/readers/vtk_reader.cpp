@@ -22,6 +22,13 @@ bool legacy(const Path& path) {
     return start == "# vtk";
 }
 
+// JSON, not XML.
+bool isVtkSeries(const Path& path) {
+    std::ifstream file(path, std::ios::binary);
+    char first = 0;
+    return file >> first && first == '{';
+}
+
 // With the coordinates of a rectilinear grid, and the places of a structured one.
 VtkHeader headerOf(const XmlFile& file) {
     VtkHeader header = readVtkXmlHeader(file);
@@ -218,6 +225,11 @@ std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
     std::vector<VtkMember> members{{path, std::nullopt}};
     if (legacy(path))
         return std::make_unique<VtkReader>(path, std::move(members), frameOf(path), false);
+    if (isVtkSeries(path)) {
+        members = readVtkSeries(path);
+        auto first = frameOf(members[0].path);
+        return std::make_unique<VtkReader>(path, std::move(members), std::move(first), true);
+    }
     const XmlFile file = readXml(path);
     const bool collection = isVtkCollection(file);
     if (collection) members = readVtkCollection(file);
