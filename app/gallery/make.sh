@@ -37,6 +37,8 @@ picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --vi
     --range 0.95:max --colormap viridis --opacity 0.35 --scale 1,1,0.0004
 picture "$data/bluntfin/bluntfin.vts" bluntfin.png --size 1000x750 --view 25,22 --range 1.6:max --colormap viridis --opacity 0.35
 picture "$data/grids/wrf_mercator_moving_nest.nc" moving_nest.png --variable QRAIN --size 1000x750 --view 20,25 --step 2
+picture "$data/dambreak_amr/dambreak.pvd" dam_break.png --size 1000x750 --step 4 --view 25,22 --range 0.5:1 --color '#3aa0ff' --opacity 0.22
+picture "$data/can.vtu" crushed_can.png --variable EQPS --size 1000x750 --view 15,28 --range 0.1:max --colormap inferno --opacity 0.5
 
 # First looks: nothing is asked for, the program chooses.
 for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr \

@@ -64,8 +64,12 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size) {
     const std::uint64_t stored = columns ? std::uint64_t{ni} * nj : count();
     if (count() == 0 || places.at.size() != stored || (columns && places.levels.size() != nk))
         throw std::invalid_argument("a mesh with places of another number of points");
-    const auto [lowest, highest] =
-        columns ? std::ranges::minmax(places.levels) : std::ranges::minmax({0.0});
+    double lowest = 0, highest = 0;
+    if (columns) {
+        const auto [first, last] = std::minmax(places.levels.front(), places.levels.back());
+        lowest = first;
+        highest = last;
+    }
     takeUnits(places.at, lowest, highest);
     takeLevels(places.levels);
     const CurvilinearCells cells(places);
