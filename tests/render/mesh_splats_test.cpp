@@ -97,7 +97,7 @@ TEST(MeshSplats, ASlabOfOtherCellsIsEvenAndKeepsItsMass) {
     };
     for (const auto cut : {tests::Cut::Hexahedra, tests::Cut::Tetrahedra, tests::Cut::Wedges}) {
         const auto grid = tests::bricks({17, 17, 9}, cut, place);
-        for (const auto& meshOf : {timeseries::meshOfCells, timeseries::meshOfPoints}) {
+        for (const auto& meshOf : {tests::atCells, tests::atPoints}) {
             const World world(
                 tests::stepOf(tests::gridOf(meshOf(grid)), [](std::size_t) { return 1; }));
             const double scale = world.placed.scale().x;

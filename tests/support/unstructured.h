@@ -75,6 +75,13 @@ timeseries::UnstructuredGrid bricks(std::array<std::uint32_t, 3> size, Cut cut,
     return grid;
 }
 
+inline timeseries::Mesh atCells(const timeseries::UnstructuredGrid& grid) {
+    return meshOfCells(grid, timeseries::UnstructuredShapes(grid));
+}
+inline timeseries::Mesh atPoints(const timeseries::UnstructuredGrid& grid) {
+    return meshOfPoints(grid, timeseries::UnstructuredShapes(grid));
+}
+
 inline std::shared_ptr<const timeseries::Grid> gridOf(timeseries::Mesh mesh) {
     return std::make_shared<timeseries::Grid>(
         std::array{timeseries::Axis{"x", "m", {}}, timeseries::Axis{"y", "m", {}},

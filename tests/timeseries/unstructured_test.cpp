@@ -41,14 +41,14 @@ TEST(Unstructured, CellsAndPointsTakeTheSpaceThatThereIs) {
     for (const Cut cut : kCuts) {
         const UnstructuredGrid grid = bentBricks(cut);
         ASSERT_EQ(flawOf(grid), "");
-        for (const Mesh& mesh : {meshOfCells(grid), meshOfPoints(grid)}) {
+        for (const Mesh& mesh : {tests::atCells(grid), tests::atPoints(grid)}) {
             EXPECT_NEAR(volume(mesh), 60, 1e-5);
             EXPECT_NEAR(double(mesh.meanVolume()) * double(mesh.count()), 60, 1e-9);
             EXPECT_EQ(mesh.flat() + mesh.folded() + mesh.absent(), 0u);
             EXPECT_FALSE(mesh.hasNeighbours());
         }
         // Where the mass lies, moments tell exactly, too: of cells at their centroids.
-        const Mesh cells = meshOfCells(grid);
+        const Mesh cells = tests::atCells(grid);
         glm::dvec3 middle(0);
         for (std::uint64_t i = 0; i < cells.count(); ++i)
             middle += volume(cells, i) / 60 * cells.position(i);
@@ -64,7 +64,7 @@ TEST(Unstructured, ABrickReachesAsFarAsItsSides) {
         const UnstructuredGrid grid = bricks({4, 4, 4}, cut, [&](double i, double j, double k) {
             return steps * glm::dvec3(i, j, k);
         });
-        const Mesh cells = meshOfCells(grid), points = meshOfPoints(grid);
+        const Mesh cells = tests::atCells(grid), points = tests::atPoints(grid);
         EXPECT_EQ(cells.spread(), 1);
         const auto expectSteps = [&](const Mesh& mesh, std::uint64_t index) {
             const auto rows = mesh.cell(index).rows();
@@ -88,12 +88,12 @@ TEST(Unstructured, TheOrderOfCellsAndOfTheirCornersChangesNothing) {
         addCell(other, 10,
                 {grid.corners[4 * cell + 1], grid.corners[4 * cell],  // turned inside out
                  grid.corners[4 * cell + 2], grid.corners[4 * cell + 3]});
-    const Mesh a = meshOfCells(grid), b = meshOfCells(other);
+    const Mesh a = tests::atCells(grid), b = tests::atCells(other);
     for (std::size_t i = 0; i < order.size(); ++i) {
         EXPECT_NEAR(glm::distance(b.position(i), a.position(order[i])), 0, 1e-6);
         EXPECT_NEAR(volume(b, i), volume(a, order[i]), 1e-6);
     }
-    const Mesh p = meshOfPoints(grid), q = meshOfPoints(other);
+    const Mesh p = tests::atPoints(grid), q = tests::atPoints(other);
     for (std::uint64_t i = 0; i < p.count(); ++i) EXPECT_NEAR(volume(q, i), volume(p, i), 1e-6);
 }
 
@@ -107,12 +107,12 @@ TEST(Unstructured, CellsOfFewerDimensionsThanOthersTakeNoSpace) {
     addCell(grid, 0, {});     // VTK's empty cell
     addCell(grid, 200, {1});  // no cell that is known
     ASSERT_EQ(flawOf(grid), "");
-    const Mesh cells = meshOfCells(grid);
+    const Mesh cells = tests::atCells(grid);
     EXPECT_EQ(cells.count(), 6u);
     EXPECT_EQ(cells.flat(), 4u);
     EXPECT_EQ(cells.absent(), 1u) << "the empty one lies nowhere";
     EXPECT_NEAR(volume(cells), 1, 1e-6);
-    EXPECT_NEAR(volume(meshOfPoints(grid)), 1, 1e-6);
+    EXPECT_NEAR(volume(tests::atPoints(grid)), 1, 1e-6);
 }
 
 // Two rectangles of 3 x 2 each: as thick as the root of 6.
@@ -122,9 +122,9 @@ TEST(Unstructured, SurfacesLinesAndPointsAreAsThickAsTheyAreWide) {
     addCell(surface, 9, {0, 1, 3, 2});
     addCell(surface, 8, {2, 3, 4, 5});  // a pixel, whose corners stand in rows
     const double thick = std::sqrt(6.0);
-    for (const Mesh& mesh : {meshOfCells(surface), meshOfPoints(surface)})
+    for (const Mesh& mesh : {tests::atCells(surface), tests::atPoints(surface)})
         EXPECT_NEAR(volume(mesh), 12 * thick, 1e-5);
-    const auto cell = meshOfCells(surface).cell(0);
+    const auto cell = tests::atCells(surface).cell(0);
     EXPECT_NEAR(cell.diagonal.x, 3, 1e-6);
     EXPECT_NEAR(cell.diagonal.y, thick, 1e-6);
     EXPECT_NEAR(cell.diagonal.z, 2, 1e-6);
@@ -132,12 +132,12 @@ TEST(Unstructured, SurfacesLinesAndPointsAreAsThickAsTheyAreWide) {
     lines.points = {{0, 0, 0}, {2, 0, 0}, {2, 4, 0}};
     addCell(lines, 3, {0, 1});
     addCell(lines, 4, {1, 2});
-    for (const Mesh& mesh : {meshOfCells(lines), meshOfPoints(lines)})
+    for (const Mesh& mesh : {tests::atCells(lines), tests::atPoints(lines)})
         EXPECT_NEAR(volume(mesh), 6 * 3 * 3, 1e-5);
     UnstructuredGrid points;
     points.points = {{0, 0, 0}, {2, 0, 0}, {2, 4, 0}, {0, 4, 1}};
     for (std::uint32_t i = 0; i < 4; ++i) addCell(points, 1, {i});
-    for (const Mesh& mesh : {meshOfCells(points), meshOfPoints(points)})
+    for (const Mesh& mesh : {tests::atCells(points), tests::atPoints(points)})
         EXPECT_NEAR(volume(mesh), 2 * 4 * 1, 1e-6) << "the box, shared";
 }
 
@@ -146,8 +146,8 @@ TEST(Unstructured, CurvedCellsAreTold) {
     grid.points = {{0, 0, 0},   {1, 0, 0},  {0, 1, 0},  {0, 0, 1},   {.5, 0, 0},
                    {.5, .5, 0}, {0, .5, 0}, {0, 0, .5}, {.5, 0, .5}, {0, .5, .5}};
     addCell(grid, 24, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
-    EXPECT_NEAR(volume(meshOfCells(grid)), 1.0 / 6, 1e-7);
-    EXPECT_NEAR(volume(meshOfPoints(grid)), 1.0 / 6, 1e-7);
+    EXPECT_NEAR(volume(tests::atCells(grid)), 1.0 / 6, 1e-7);
+    EXPECT_NEAR(volume(tests::atPoints(grid)), 1.0 / 6, 1e-7);
     ASSERT_EQ(notesOf(grid).size(), 1u);
     EXPECT_TRUE(notesOf(bentBricks(Cut::Wedges)).empty());
 }
@@ -190,7 +190,7 @@ TEST(Unstructured, WhateverHasNoFlawIsMeasured) {
             if (random() % 2) change(grid.ends), change(grid.faces), change(grid.faceEnds);
         }
         if (!flawOf(grid).empty()) continue;
-        for (const auto& meshOf : {meshOfCells, meshOfPoints}) {
+        for (const auto& meshOf : {tests::atCells, tests::atPoints}) {
             try {
                 EXPECT_TRUE(std::isfinite(volume(meshOf(grid))));
                 ++measured;

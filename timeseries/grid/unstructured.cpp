@@ -9,7 +9,6 @@
 #include <limits>
 #include <span>
 
-#include "timeseries/grid/cell_moments.h"
 #include "timeseries/grid/cell_types.h"
 #include "timeseries/together.h"
 
@@ -36,9 +35,6 @@ class Measure {
     }
     int dimension() const { return dimension_; }
     CellMoments operator()(std::size_t cell) const;
-    // Irregular cells leave gaps unless their splats are wider than a lattice's (1.5: see
-    // tests/render/mesh_splats_test.cpp).
-    double spread() const;
 
  private:
     CellMoments plain(std::size_t cell) const;
@@ -148,12 +144,12 @@ CellMoments Measure::operator()(std::size_t cell) const {
     return moments;
 }
 
-double Measure::spread() const {
-    const auto bricks = std::ranges::count_if(grid_.types, [](std::uint8_t number) {
+double spreadOf(const UnstructuredGrid& grid) {
+    const auto bricks = std::ranges::count_if(grid.types, [](std::uint8_t number) {
         const CellType* type = cellTypeOf(number);
         return type && type->isBrick;
     });
-    return 2 * static_cast<std::size_t>(bricks) > grid_.types.size() ? 1 : 1.5;
+    return 2 * static_cast<std::size_t>(bricks) > grid.types.size() ? 1 : 1.5;
 }
 
 // The steps whose cell reaches as far as these second moments, and has the volume.
@@ -241,28 +237,30 @@ std::string flawOf(const UnstructuredGrid& grid) {
     return "";
 }
 
-Mesh meshOfCells(const UnstructuredGrid& grid) {
+UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid)
+    : cells(grid.types.size()), spread(spreadOf(grid)) {
     const Measure measure(grid);
-    return Mesh(grid.types.size(), grid.points, measure.spread(), [&](std::uint64_t cell) {
-        const CellMoments moments = measure(cell);
+    inParts(cells.size(), threadsFor(cells.size(), kCellsAThread),
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t cell = first; cell < last; ++cell) cells[cell] = measure(cell);
+            });
+}
+
+Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
+    return Mesh(grid.types.size(), grid.points, shapes.spread, [&](std::uint64_t cell) {
+        const CellMoments& moments = shapes.cells[cell];
         return MeshPoint{moments.centroid, rowsOf(moments.second, moments.volume)};
     });
 }
 
-Mesh meshOfPoints(const UnstructuredGrid& grid) {
-    const Measure measure(grid);
+Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
     const Stars stars(grid);
-    std::vector<CellMoments> moments(grid.types.size());
-    inParts(moments.size(), threadsFor(moments.size(), kCellsAThread),
-            [&](std::size_t first, std::size_t last) {
-                for (std::size_t cell = first; cell < last; ++cell) moments[cell] = measure(cell);
-            });
-    return Mesh(grid.points.size(), grid.points, measure.spread(), [&](std::uint64_t point) {
+    return Mesh(grid.points.size(), grid.points, shapes.spread, [&](std::uint64_t point) {
         const glm::dvec3& at = grid.points[point];
         double volume = 0, whole = 0;
         glm::dmat3 second(0.0);
         for (const std::uint32_t cell : stars.of(point)) {
-            const CellMoments& of = moments[cell];
+            const CellMoments& of = shapes.cells[cell];
             if (!(of.volume > 0)) continue;
             const std::uint64_t first = cell == 0 ? 0 : grid.ends[cell - 1];
             volume += of.volume / static_cast<double>(grid.ends[cell] - first);

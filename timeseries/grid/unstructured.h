@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "timeseries/grid/cell_moments.h"
 #include "timeseries/grid/mesh.h"
 
 namespace timeseries {
@@ -27,17 +28,25 @@ struct UnstructuredGrid {
 // The first thing that is wrong, in a few words; "" when all cells name points that there are.
 std::string flawOf(const UnstructuredGrid& grid);
 
-// REQUIRES of these: no flaw. Throw std::invalid_argument when nothing has a volume.
+// How the cells measure: those of fewer dimensions than others have no volume. Where all are
+// surfaces, they are as thick as their mean is wide; lines, as the mean is long; and where there
+// are but points, each stands for the same share of their box.
+struct UnstructuredShapes {
+    // REQUIRES: no flaw.
+    explicit UnstructuredShapes(const UnstructuredGrid& grid);
+    std::vector<CellMoments> cells;
+    // Irregular cells leave gaps unless their splats are wider than a lattice's (1.5: see
+    // tests/render/mesh_splats_test.cpp).
+    double spread = 1;
+};
+
+// Throw std::invalid_argument when nothing has a volume.
 //
 // One point a cell: at its centroid, as large as the cell, as far each way as its second moments.
-Mesh meshOfCells(const UnstructuredGrid& grid);
+Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes);
 // One point a point: of each cell that it is of it has the share that all of its points have, and
 // reaches as far as these cells do about it.
-//
-// Cells of fewer dimensions than others have no volume. Where all are surfaces, they are as thick
-// as their mean is wide; lines, as the mean is long; and where there are but points, each stands
-// for the same share of their box.
-Mesh meshOfPoints(const UnstructuredGrid& grid);
+Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes);
 
 // What is drawn otherwise than the file says, a sentence each.
 std::vector<std::string> notesOf(const UnstructuredGrid& grid);

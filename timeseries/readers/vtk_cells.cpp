@@ -21,76 +21,81 @@ std::uint64_t endOf(std::int64_t end, std::uint64_t begin) {
 
 }  // namespace
 
-std::vector<std::int64_t> VtkCellReader::numbers(const char* name, const VtkIndices& expected) {
+template <typename Use>
+void VtkCellReader::forEach(const char* name, const VtkIndices& expected, const Use& use) {
     vtkXMLDataElement* element = FindDataArrayWithName(CellElements[Piece], name);
     const auto array =
         vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
     auto* data = vtkDataArray::SafeDownCast(array);
     const auto count = static_cast<vtkIdType>(expected.count);
-    if (!data || data->GetNumberOfComponents() != 1) return {};
+    if (!data || data->GetNumberOfComponents() != 1) return;
     data->SetNumberOfTuples(count);
-    if (count > 0 && !ReadArrayValues(element, 0, data, 0, count)) return {};
-    std::vector<std::int64_t> numbers(expected.count);
+    if (count > 0 && !ReadArrayValues(element, 0, data, 0, count)) return;
     const auto take = [&](auto* values) {
-        for (std::size_t i = 0; i < numbers.size(); ++i)
-            numbers[i] = static_cast<std::int64_t>(values[i]);
+        for (std::uint64_t i = 0; i < expected.count; ++i)
+            use(i, static_cast<std::int64_t>(values[i]));
     };
     switch (data->GetDataType()) {
         vtkTemplateMacro(take(static_cast<VTK_TT*>(data->GetVoidPointer(0))));
         default:
-            return {};
+            break;
     }
-    return numbers;
 }
 
 void VtkCellReader::addCells(const VtkPiece& piece) {
-    const std::uint64_t before = grid_.corners.size();
-    for (const std::int64_t end : numbers("offsets", piece.offsets))
-        grid_.ends.push_back(endOf(end, before));
-    for (const std::int64_t type : numbers("types", piece.types))
-        grid_.types.push_back(static_cast<std::uint8_t>(type));
-    for (const std::int64_t point : numbers("connectivity", piece.connectivity))
-        grid_.corners.push_back(point < 0 || static_cast<std::uint64_t>(point) >= piece.points
-                                    ? kNoPoint
-                                    : static_cast<std::uint32_t>(firstPoint_ + point));
+    const std::uint64_t cells = grid_.types.size(), corners = grid_.corners.size();
+    grid_.ends.resize(cells + piece.cells);
+    grid_.types.resize(cells + piece.cells);
+    grid_.corners.resize(corners + piece.connectivity.count, kNoPoint);
+    forEach("offsets", piece.offsets, [&](std::uint64_t i, std::int64_t end) {
+        grid_.ends[cells + i] = endOf(end, corners);
+    });
+    forEach("types", piece.types, [&](std::uint64_t i, std::int64_t type) {
+        grid_.types[cells + i] = static_cast<std::uint8_t>(type);
+    });
+    forEach("connectivity", piece.connectivity, [&](std::uint64_t i, std::int64_t point) {
+        if (point >= 0 && static_cast<std::uint64_t>(point) < piece.points)
+            grid_.corners[corners + i] = static_cast<std::uint32_t>(firstPoint_ + point);
+    });
 }
 
 // The lists of a cell are a number of faces, and of each how many points it has, and which.
 void VtkCellReader::addFaces(const VtkPiece& piece) {
-    const std::uint64_t cells = grid_.types.size();
-    const auto fill = [&](std::uint64_t until) {
-        grid_.faceEnds.resize(until, grid_.faces.size());
-    };
+    const std::uint64_t cells = grid_.types.size(), before = grid_.faces.size();
     if (!piece.faces || !piece.faceOffsets) {
-        if (!grid_.faceEnds.empty()) fill(cells);
+        if (!grid_.faceEnds.empty()) grid_.faceEnds.resize(cells, before);
         return;
     }
-    fill(cells - piece.cells);
-    const std::uint64_t before = grid_.faces.size();
-    std::uint64_t end = before;  // that of a cell without faces is -1
-    const auto ends = numbers("faceoffsets", *piece.faceOffsets);
-    const auto faces = numbers("faces", *piece.faces);
-    std::uint64_t next = 0;
-    for (const std::int64_t each : ends) {
-        if (each >= 0) end = endOf(each, before);
-        grid_.faceEnds.push_back(end);
-        // Counts stay, and points are those of all pieces.
-        const auto last = std::min<std::uint64_t>(
-            each < 0 ? next : static_cast<std::uint64_t>(each), faces.size());
-        std::int64_t points = 0;
-        for (const std::uint64_t first = next; next < last; ++next) {
-            std::int64_t number = faces[next];
-            const bool isPoint = points > 0;
-            if (isPoint)
-                --points, number += static_cast<std::int64_t>(firstPoint_);
-            else if (next > first)
-                points = number;
-            const bool fits = number >= 0 && number < kNoPoint &&
-                              (!isPoint || faces[next] < static_cast<std::int64_t>(piece.points));
-            grid_.faces.push_back(fits ? static_cast<std::uint32_t>(number) : kNoPoint);
+    grid_.faceEnds.resize(cells - piece.cells, before);
+    std::vector<std::uint64_t> ends(piece.cells);
+    std::uint64_t end = 0;  // that of a cell without faces is -1
+    forEach("faceoffsets", *piece.faceOffsets, [&](std::uint64_t i, std::int64_t each) {
+        if (each >= 0) end = static_cast<std::uint64_t>(each);
+        ends[i] = end;
+        grid_.faceEnds.push_back(before + end);
+    });
+    grid_.faceEnds.resize(cells, before + end);
+    grid_.faces.resize(before + piece.faces->count, kNoPoint);
+    // Counts stay, and points are those of all pieces. A list begins with how many faces it has.
+    std::size_t cell = 0;
+    std::int64_t points = 0;
+    std::uint64_t begin = 0;
+    forEach("faces", *piece.faces, [&](std::uint64_t i, std::int64_t number) {
+        while (cell < ends.size() && ends[cell] <= i) {
+            begin = i;
+            points = 0;
+            ++cell;
         }
-    }
-    grid_.faces.resize(before + faces.size(), kNoPoint);
+        const bool isPoint = points > 0;
+        if (isPoint)
+            --points;
+        else if (i > begin)
+            points = number;
+        const std::int64_t most = isPoint ? static_cast<std::int64_t>(piece.points) : kNoPoint;
+        if (number >= 0 && number < most)
+            grid_.faces[before + i] =
+                static_cast<std::uint32_t>(number + (isPoint ? firstPoint_ : 0));
+    });
 }
 
 int VtkCellReader::ReadPieceData() {

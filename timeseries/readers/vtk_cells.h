@@ -4,6 +4,7 @@
 
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "timeseries/readers/vtk_header.h"
@@ -21,7 +22,9 @@ class VtkCellReader : public vtkXMLUnstructuredGridReader {
     int ReadPieceData() override;
 
  private:
-    std::vector<std::int64_t> numbers(const char* name, const VtkIndices& expected);
+    // use(i, number) for each of so many; for none where VTK reads something else.
+    template <typename Use>
+    void forEach(const char* name, const VtkIndices& expected, const Use& use);
     void addCells(const VtkPiece& piece);
     void addFaces(const VtkPiece& piece);
 

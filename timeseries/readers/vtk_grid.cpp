@@ -73,27 +73,6 @@ std::array<Axis, 3> spaceAxes() {
     return {Axis{"x", "", {}}, Axis{"y", "", {}}, Axis{"z", "", {}}};
 }
 
-VtkGrid unstructuredGridOf(const VtkHeader& header, VtkPlace place) {
-    const UnstructuredGrid& cells = header.unstructured;
-    VtkGrid result;
-    const std::uint64_t count = header.count(place);
-    result.layout = {{count, 1, 1}, {1, count, count}};
-    if (const std::string flaw = flawOf(cells); !flaw.empty())
-        failVtk(header.path, "Cells",
-                "expected cells of points that there are, found that " + flaw);
-    try {
-        const auto mesh = std::make_shared<const Mesh>(
-            place == VtkPlace::Points ? meshOfPoints(cells) : meshOfCells(cells));
-        result.notes = notesOf(cells);
-        std::ranges::copy(notesOf(*mesh), std::back_inserter(result.notes));
-        result.grid = std::make_shared<Grid>(spaceAxes(), mesh);
-    } catch (const std::invalid_argument& flaw) {
-        failVtk(header.path, "Cells",
-                fmt::format("expected cells that take space, found that {}", flaw.what()));
-    }
-    return result;
-}
-
 VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     VtkGrid result;
     const auto size = header.size(place);
@@ -116,8 +95,32 @@ VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
 
 }  // namespace
 
+UnstructuredShapes vtkShapesOf(const VtkHeader& header) {
+    if (const std::string flaw = flawOf(header.unstructured); !flaw.empty())
+        failVtk(header.path, "Cells",
+                "expected cells of points that there are, found that " + flaw);
+    return UnstructuredShapes(header.unstructured);
+}
+
+VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place, const UnstructuredShapes& shapes) {
+    const UnstructuredGrid& cells = header.unstructured;
+    VtkGrid result;
+    const std::uint64_t count = header.count(place);
+    result.layout = {{count, 1, 1}, {1, count, count}};
+    try {
+        const auto mesh = std::make_shared<const Mesh>(
+            place == VtkPlace::Points ? meshOfPoints(cells, shapes) : meshOfCells(cells, shapes));
+        result.notes = notesOf(cells);
+        std::ranges::copy(notesOf(*mesh), std::back_inserter(result.notes));
+        result.grid = std::make_shared<Grid>(spaceAxes(), mesh);
+    } catch (const std::invalid_argument& flaw) {
+        failVtk(header.path, "Cells",
+                fmt::format("expected cells that take space, found that {}", flaw.what()));
+    }
+    return result;
+}
+
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
-    if (isUnstructured(header.kind)) return unstructuredGridOf(header, place);
     if (isStructured(header.kind)) return structuredGridOf(header, place);
     const bool image = header.kind == VtkKind::XmlImage || header.kind == VtkKind::LegacyPoints;
     const Directions directions = directionsOf(header);

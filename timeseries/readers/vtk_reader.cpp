@@ -61,9 +61,13 @@ struct Frame {
 
 Frame frameOf(VtkHeader header) {
     Frame frame{std::move(header), {}};
+    std::optional<UnstructuredShapes> shapes;
+    if (isUnstructured(frame.header.kind)) shapes = vtkShapesOf(frame.header);
     for (const VtkArray& array : frame.header.arrays) {
         auto& grid = frame.grids[static_cast<std::size_t>(array.place)];
-        if (!grid) grid = vtkGridOf(frame.header, array.place);
+        if (!grid)
+            grid = shapes ? vtkGridOf(frame.header, array.place, *shapes)
+                          : vtkGridOf(frame.header, array.place);
     }
     frame.header.places = {};
     frame.header.unstructured = {};
