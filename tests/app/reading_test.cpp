@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/support/shown_steps.h"
+#include "tests/support/unstructured.h"
 
 namespace app {
 namespace {
@@ -38,6 +39,22 @@ TEST(ReadingText, APlaceHasItsIndexAndItsUnitWhereThatIsOne) {
     EXPECT_EQ(positionText(reading, world.shown(), 2), "0.125 m   [1]");
     EXPECT_EQ(withUnit("7", "index"), "7");
     EXPECT_EQ(withUnit("7", ""), "7");
+}
+
+// Of cells that name their corners there is but a number.
+TEST(ReadingText, APlaceWithoutNeighboursHasOneIndex) {
+    tests::ShownSteps world(3);
+    const auto grid = tests::gridOf(tests::atCells(
+        tests::bricks({3, 2, 2}, tests::Cut::Hexahedra,
+                      [](double i, double j, double k) { return glm::dvec3(i, j, k); })));
+    world.steps[0] = std::make_shared<const timeseries::SortedStep>(
+        timeseries::SortedStep::build({grid, std::vector<float>{5, 6}, {}}));
+    Reading reading;
+    reading.index = {1, 0, 0};
+    reading.position = {1.5, 0.5, 0.25};
+    EXPECT_EQ(positionText(reading, world.shown(), 0), "1.5 m   [1]");
+    EXPECT_EQ(positionText(reading, world.shown(), 1), "0.5 m");
+    EXPECT_EQ(positionText(reading, world.shown(), 2), "0.25 m");
 }
 
 }  // namespace

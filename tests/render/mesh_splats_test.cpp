@@ -220,6 +220,19 @@ TEST(MeshSplats, RowsAndTilesSumWhatTheTruthDoes) {
     }
 }
 
+// A boundary layer that leans, ten thousand times as wide as high, near by and far below a pixel.
+TEST(MeshSplats, FlatCellsThatLeanAreTheTruths) {
+    const World world = worldOf(curvilinear({7, 6, 8}, [](double i, double j, double k) {
+        return glm::dvec3(i + 0.3 * j, j - 0.2 * i, 0.4 * i + 0.25 * j + 1e-4 * k * (1 + 0.1 * k));
+    }));
+    for (const auto& from : {glm::dvec3(1.2, -1.6, 0.8), {0.3, -0.2, 0.05}, {40, -60, 30}}) {
+        const View view = tests::lookFrom(from, {110, 90}, 0.5);
+        const auto truth = weights(world, view);
+        const auto tiles = sumTiles(world.scene, Runs{}, view, Channels::Weight, 0, {});
+        expectAlike(truth, {tiles.begin(), tiles.end()}, 1e-4);
+    }
+}
+
 // By value and in order, some of them hidden, and half of the points standing for all.
 TEST(MeshSplats, TilesSumEveryChannelAsTheTruthDoes) {
     World world = worldOf(twisted());

@@ -8,6 +8,7 @@
 #include "app/headset/standing.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/unstructured.h"
 
 namespace app::headset {
 namespace {
@@ -43,6 +44,29 @@ TEST(PointAt, IsTheNearestOfAllPoints) {
         const auto at = pointAt(placed, place);
         ASSERT_TRUE(at);
         EXPECT_EQ((*at)[0] + 5 * ((*at)[1] + 4 * (*at)[2]), nearest) << i;
+    }
+}
+
+// Cells that have no neighbours: looked for among all.
+TEST(PointAt, IsTheNearestOfCellsThatNameTheirCorners) {
+    const auto grid = tests::gridOf(tests::atCells(
+        tests::bricks({9, 7, 5}, tests::Cut::Tetrahedra,
+                      [](double i, double j, double k) { return glm::dvec3(i, j + 0.1 * i, k); })));
+    const render::PlacedPoints placed(*grid);
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> side(-0.9, 0.9);
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 place =
+            placed.boxHalf() * glm::dvec3(side(random), side(random), side(random));
+        std::uint64_t nearest = 0;
+        for (std::uint64_t p = 1; p < grid->count(); ++p)
+            if (glm::distance(placed.position(p), place) <
+                glm::distance(placed.position(nearest), place))
+                nearest = p;
+        const auto at = pointAt(placed, place);
+        if (glm::distance(placed.position(nearest), place) > placed.widest()) continue;
+        ASSERT_TRUE(at);
+        EXPECT_EQ(*at, (std::array<std::size_t, 3>{nearest, 0, 0})) << i;
     }
 }
 
