@@ -284,7 +284,20 @@ def meshes_page(part):
             target(f"{splats:,} splats of a mesh / of {cells if cubes else 'an upright grid'}, {kind}", f["second/first"], 1.6)
     return ("The points of 256³ placed one by one, beside the same ones of the upright grid, whose cells are cubes, of which all splats are alike,\n"
             "or stretched along one axis: one plane of 1024 x 1024 by tiles, order included, by turns.\n\n"
-            + table(["splats", "diameter", "", "cells", "upright", "mesh", "ratio", "of processor time"], rows))
+            + table(["splats", "diameter", "", "cells", "upright", "mesh", "ratio", "of processor time"], rows) + opening_page(part))
+
+
+def opening_page(part):
+    rows = []
+    for side, bent in [(100, 0), (100, 1), (170, 0), (170, 1)]:
+        f = part(f"meshOpen/side:{side}/bent:{bent}")
+        if not f:
+            return ""
+        rows.append([points(side), "bent" if bent else "parallelepipeds", ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+        if side == 170:
+            target(f"5 million hexahedra opened / by VTK's reader, {'bent' if bent else 'straight'}", f["second/first"], 2)
+    return ("\nHexahedra of a .vtu file, appended raw, opened and read, their cells measured, beside VTK's reader, which measures none.\n\n"
+            + table(["hexahedra", "", "VTK", "ours", "ratio", "of processor time"], rows))
 
 
 def vtk_page(part):
