@@ -75,6 +75,10 @@ class NetcdfBuilder {
         end();
         check(nc_put_vara(id_, variable, start.data(), count.data(), values.data()));
     }
+    void writeText(int variable, const std::string& characters) {
+        end();
+        check(nc_put_var_text(id_, variable, characters.data()));
+    }
     // A dimension with its coordinate variable; write the coordinates with write().
     struct Coordinate {
         int dimension, variable;

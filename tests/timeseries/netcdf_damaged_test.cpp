@@ -239,15 +239,6 @@ TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {
     }
 }
 
-TEST(DamagedNetcdf, FiniteElementMeshesAreNotTakenForGrids) {
-    NetcdfBuilder file("a.e", 0);
-    const int dims = file.dimension("num_dim", 3), nodes = file.dimension("num_nodes", 8);
-    file.dimension("num_el_blk", 1);
-    file.variable("coord", NC_DOUBLE, {dims, nodes});
-    EXPECT_THAT(refusal({file.close()}),
-                HasSubstr("is an Exodus II file (a finite-element mesh); isochron reads "));
-}
-
 TEST(DamagedNetcdf, AnEmptySeriesIsTold) {
     NetcdfBuilder file("a.nc");
     const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 2),

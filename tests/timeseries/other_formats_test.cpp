@@ -16,7 +16,7 @@ using namespace std::string_literals;
 using Path = std::filesystem::path;
 
 const std::string kTail =
-    "; isochron reads NetCDF, NRRD and, of VTK, image data, rectilinear, structured and "
+    "; isochron reads NetCDF, Exodus II, NRRD and, of VTK, image data, rectilinear, structured and "
     "unstructured grids "
     "(.vti, .vtr, .vts, .vtu, .vtk, .pvd, .series)";
 
@@ -151,7 +151,6 @@ TEST(OtherFormats, RealFilesAreNamed) {
              {"grids/warping_spheres.vtkhdf", "a VTKHDF file"},
              {"grids/no_checkpoint.h5",
               "an HDF5 file that no NetCDF wrote, without an array of three dimensions"},
-             {"mug_transient.e", "an Exodus II file (a finite-element mesh)"},
              {"dx_mri/mri.general", "an OpenDX header"},
              {"dx_mri/MRI.data", "unknown"},
              {"overview.png", "a PNG picture"},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "timeseries/readers/exodus_mesh.h"
 #include "timeseries/readers/other_formats.h"
 
 namespace timeseries {
@@ -19,15 +20,6 @@ std::set<std::string> auxiliaries(const NcHeader& header) {
                 if (const NcVariable* found = header.find(name, variable.group))
                     names.insert(found->name);
     return names;
-}
-
-// Exodus II meshes are netCDF files too, but their arrays are lists of nodes and elements.
-bool exodus(const NcHeader& header) {
-    const auto has = [&](std::string_view name) {
-        return std::ranges::find(header.dimensions, name, &NcDimension::name) !=
-               header.dimensions.end();
-    };
-    return has("num_dim") && has("num_nodes") && has("num_el_blk");
 }
 
 bool vtkHdf(const NcHeader& header) {
@@ -143,8 +135,8 @@ FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const Nc
 
 FileContents contentsOf(const NetcdfFile& file) {
     const NcHeader& header = file.header();
-    if (exodus(header))
-        throw FileError(notReadSentence(file.path(), "an Exodus II file (a finite-element mesh)"));
+    if (isExodus(header))
+        file.fail("", "expected a grid as in the files beside it, found an Exodus II mesh");
     if (vtkHdf(header)) throw FileError(notReadSentence(file.path(), "a VTKHDF file"));
     const std::vector<const NcVariable*> geographic = geographicOf(header);
     const std::vector<const NcVariable*> fields = fieldsOf(header, geographic);

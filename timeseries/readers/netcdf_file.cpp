@@ -327,4 +327,33 @@ void NetcdfFile::read(const NcVariable& variable, std::span<const std::size_t> s
           "variable '" + variable.name + "'", "values that can be read");
 }
 
+std::vector<std::string> NetcdfFile::lines(std::string_view name) const {
+    const NcVariable* found = header_.find(name, "");
+    if (!found) return {};
+    const std::string place = fmt::format("variable '{}'", name);
+    if (found->type || found->dimensions.size() != 2) fail(place, "expected rows of characters");
+    const std::uint64_t rows = header_.dimension(*found, 0).length,
+                        length = header_.dimension(*found, 1).length;
+    const auto points = static_cast<std::uint64_t>(
+        std::min(static_cast<double>(rows) * static_cast<double>(length), 1e18));
+    if (const std::string why = tooLarge(*found, points); !why.empty()) fail(place, why);
+    std::string text(points, '\0');
+    if (points > 0) {
+        const LibraryLock lock;
+        nc_type type = NC_NAT;
+        check(nc_inq_vartype(found->groupId, found->id, &type), place, "a type");
+        if (type != NC_CHAR) fail(place, "expected rows of characters");
+        check(nc_get_var_text(found->groupId, found->id, text.data()), place,
+              "text that can be read");
+    }
+    std::vector<std::string> lines;
+    for (std::uint64_t row = 0; row < rows; ++row) {
+        std::string line = text.substr(row * length, length);
+        line.resize(std::min(line.size(), line.find('\0')));
+        while (line.ends_with(' ')) line.pop_back();
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
 }  // namespace timeseries

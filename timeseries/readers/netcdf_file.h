@@ -45,6 +45,10 @@ class NetcdfFile {
     void read(const NcVariable& variable, std::span<const std::size_t> start,
               std::span<const std::size_t> count, void* values) const;
 
+    // The rows of characters of the variable of that name, each up to where it ends; none when
+    // there is none. Throws FileError.
+    std::vector<std::string> lines(std::string_view name) const;
+
     // "path: place: what", on one line.
     std::string sentence(std::string_view place, std::string_view what) const;
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;

@@ -7,7 +7,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "timeseries/readers/exodus_mesh.h"
+#include "timeseries/readers/exodus_reader.h"
 #include "timeseries/readers/netcdf_contents.h"
+#include "timeseries/readers/sequence_reader.h"
 
 namespace timeseries {
 namespace {
@@ -16,8 +19,9 @@ using Paths = std::vector<std::filesystem::path>;
 
 class NetcdfReader final : public Reader {
  public:
-    explicit NetcdfReader(std::span<const std::filesystem::path> paths)
-        : paths_(paths.begin(), paths.end()) {
+    // `first` is the first of them.
+    NetcdfReader(std::span<const std::filesystem::path> paths, std::unique_ptr<NetcdfFile> first)
+        : paths_(paths.begin(), paths.end()), file_(std::move(first)) {
         // Backwards, so that the first file is the one left open.
         contents_.resize(paths_.size());
         for (std::size_t i = paths_.size(); i-- > 0;) {
@@ -286,7 +290,12 @@ Field NetcdfReader::read(std::size_t variable, std::size_t step) {
 }  // namespace
 
 std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths) {
-    return std::make_unique<NetcdfReader>(paths);
+    auto first = std::make_unique<NetcdfFile>(paths[0], NetcdfFile::Header::New);
+    if (!isExodus(first->header())) return std::make_unique<NetcdfReader>(paths, std::move(first));
+    if (paths.size() == 1) return openExodus(std::move(first));
+    first.reset();
+    return openSequence(
+        paths, [](const std::filesystem::path& path) { return openNetcdf(std::span(&path, 1)); });
 }
 
 }  // namespace timeseries

@@ -190,7 +190,8 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, NRRD and, of VTK, image data, rectilinear, structured and unstructured grids "
+        "NetCDF, Exodus II, NRRD and, of VTK, image data, rectilinear, structured and unstructured "
+        "grids "
         "(.vti, .vtr, .vts, .vtu, .vtk, .pvd, .series)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
