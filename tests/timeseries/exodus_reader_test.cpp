@@ -183,6 +183,19 @@ TEST(Exodus, WhatDoesNotFitIsRefused) {
     EXPECT_THAT(refusal({.cube = {0, 2, 5, 4, 7, 8, 11, 10}}), HasSubstr("cell 0 has point"));
     EXPECT_THAT(refusal({.times = {0.5, std::nan("")}}),
                 HasSubstr("expected times that are finite"));
+    // Elements that no list names are not counted, however many a dimension says.
+    NetcdfBuilder many("many.e", NC_NETCDF4);
+    const int some = many.dimension("num_nodes", 8), three = many.dimension("num_dim", 3);
+    many.dimension("num_el_blk", 1);
+    many.dimension("num_el_in_blk1", std::size_t{1} << 40);
+    many.dimension("num_nod_per_el1", 8);
+    many.variable("coord", NC_DOUBLE, {three, some});
+    try {
+        open(many.close());
+        FAIL();
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("expected the variable connect1 of 1099511627776"));
+    }
     NetcdfBuilder file("bare.e", 0);
     const int dims = file.dimension("num_dim", 3), nodes = file.dimension("num_nodes", 8);
     file.dimension("num_el_blk", 1);

@@ -94,17 +94,15 @@ void addBlock(const NetcdfFile& file, std::size_t block, ExodusMesh& mesh) {
     const std::uint64_t nodes = exodusLength(header, fmt::format("num_nod_per_el{}", block));
     const std::string name = fmt::format("connect{}", block);
     const NcVariable* connect = nodes > 0 ? exodusVariable(file, name, {elements, nodes}) : nullptr;
-    const std::string kind = connect ? connect->text("elem_type") : "";
+    if (!connect)
+        file.fail("", fmt::format("expected the variable {} of {} elements", name, elements));
+    const std::string kind = connect->text("elem_type");
     const std::uint8_t type = typeOf(kind, nodes);
     if (type == 0)
         mesh.notes.push_back(
             fmt::format("{} elements of the kind \"{}\" are not drawn", elements, kind));
     const std::uint64_t points = grid.points.size();
     grid.types.resize(grid.types.size() + elements, type);
-    if (!connect) {
-        grid.ends.resize(grid.types.size(), grid.corners.size());
-        return;
-    }
     for (std::uint64_t i = 1; i <= elements; ++i)
         grid.ends.push_back(grid.corners.size() + i * nodes);
     forEach(file, *connect, [&](std::size_t, auto number) {
