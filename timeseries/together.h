@@ -55,4 +55,21 @@ inline void inParts(std::size_t count, unsigned threads,
     together(threads, [&](unsigned k) { work(count * k / threads, count * (k + 1) / threads); });
 }
 
+// What of(0), of(1), ... add up to, in pieces of one size added in their order: the same for any
+// number of threads. REQUIRES: `of` does not throw.
+template <typename Of>
+auto sumOf(std::size_t count, const Of& of) {
+    using Sum = decltype(of(count));
+    constexpr std::size_t kPiece = 1 << 14;
+    std::vector<Sum> sums((count + kPiece - 1) / kPiece, Sum(0));
+    inParts(sums.size(), threadsFor(sums.size(), 1), [&](std::size_t first, std::size_t last) {
+        for (std::size_t piece = first; piece < last; ++piece)
+            for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i)
+                sums[piece] += of(i);
+    });
+    Sum all(0);
+    for (const Sum& sum : sums) all += sum;
+    return all;
+}
+
 }  // namespace timeseries

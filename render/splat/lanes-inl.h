@@ -28,6 +28,19 @@ using I = hn::Vec<Ints>;
 
 HWY_INLINE F f(float x) { return hn::Set(Floats(), x); }
 
+// Of three vectors each, of floats or of doubles.
+template <class V>
+HWY_INLINE V dot(const V* a, const V* b) {
+    return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
+}
+template <class V>
+HWY_INLINE void cross(const V* a, const V* b, V* product) {
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        product[k] = hn::NegMulAdd(a[j], b[i], hn::Mul(a[i], b[j]));
+    }
+}
+
 // AVX3's first guess has 14 bits, others' 8 or 12.
 template <class Lanes>
 HWY_INLINE hn::Vec<Lanes> reciprocal(Lanes lanes, hn::Vec<Lanes> x) {

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 //
 #include "render/points/grid_indices-inl.h"
+#include "render/splat/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
@@ -40,15 +41,6 @@ HWY_INLINE D determinantOf(const MeshPoints& of) {
     D product = d(1);
     for (const auto& a : of.diagonal) product = hn::Mul(product, hn::Load(Doubles(), a));
     return hn::Abs(product);
-}
-HWY_INLINE D dot(const D* a, const D* b) {
-    return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
-}
-HWY_INLINE void cross(const D* a, const D* b, D* product) {
-    for (int k = 0; k < 3; ++k) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        product[k] = hn::NegMulAdd(a[j], b[i], hn::Mul(a[i], b[j]));
-    }
 }
 
 struct Triangles {  // LowerTriangle, one a lane

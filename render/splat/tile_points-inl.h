@@ -30,15 +30,6 @@ HWY_INLINE I joinedInts(const D* halves) {
     return hn::Combine(Ints(), hn::DemoteTo(HalfInts(), halves[1]),
                        hn::DemoteTo(HalfInts(), halves[0]));
 }
-HWY_INLINE F dot(const F* a, const F* b) {
-    return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
-}
-HWY_INLINE void cross(const F* a, const F* b, F* product) {
-    for (int k = 0; k < 3; ++k) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        product[k] = hn::NegMulAdd(a[j], b[i], hn::Mul(a[i], b[j]));
-    }
-}
 
 // Points of the grid, one a lane.
 struct Points {

@@ -45,6 +45,13 @@ void expectAlike(const std::vector<double>& a, const std::vector<double>& b, dou
         ASSERT_NEAR(a[i], b[i], error * most) << "pixel " << i;
 }
 
+// From so far that all rays are upright.
+View fromAbove(int pixels) {
+    View view = tests::lookFrom({0, 0, 0}, {pixels, pixels}, 0.001);
+    view.viewFromWorld = glm::lookAt(glm::dvec3(0, 0, 1000), glm::dvec3(0), glm::dvec3(0, 1, 0));
+    return view;
+}
+
 // Uneven, and larger than pixels: upright splats then grow nowhere.
 Grid uneven() {
     timeseries::Axis x = axis(7), y = axis(6, 0, 1.5), z = axis(5, 0, 0.8);
@@ -101,9 +108,7 @@ TEST(MeshSplats, ASlabOfOtherCellsIsEvenAndKeepsItsMass) {
             const World world(
                 tests::stepOf(tests::gridOf(meshOf(grid)), [](std::size_t) { return 1; }));
             const double scale = world.placed.scale().x;
-            View view = tests::lookFrom({0, 0, 0}, {400, 400}, 0.001);
-            view.viewFromWorld =
-                glm::lookAt(glm::dvec3(0, 0, 1000), glm::dvec3(0), glm::dvec3(0, 1, 0));
+            const View view = fromAbove(400);
             const auto w = weights(world, view);
             const PixelRays rays = pixelRays(view);
             double sum = 0, squares = 0;
@@ -167,9 +172,7 @@ TEST(MeshSplats, ARingLosesWhatTheFormulaSays) {
                                       });
         const World world(tests::stepOf(grid, [](std::size_t) { return 1; }));
         const double scale = world.placed.scale().x;
-        View view = tests::lookFrom({0, 0, 0}, {600, 600}, 0.001);
-        view.viewFromWorld =
-            glm::lookAt(glm::dvec3(0, 0, 1000), glm::dvec3(0), glm::dvec3(0, 1, 0));
+        const View view = fromAbove(600);
         const auto w = weights(world, view);
         const PixelRays rays = pixelRays(view);
         double sum = 0;

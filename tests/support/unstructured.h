@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -80,6 +81,16 @@ inline timeseries::Mesh atCells(const timeseries::UnstructuredGrid& grid) {
 }
 inline timeseries::Mesh atPoints(const timeseries::UnstructuredGrid& grid) {
     return meshOfPoints(grid, timeseries::UnstructuredShapes(grid));
+}
+
+// Of the cell that a point stands for.
+inline double volume(const timeseries::Mesh& mesh, std::uint64_t index) {
+    return std::abs(mesh.cell(index).determinant()) / std::pow(mesh.spread(), 3);
+}
+inline double volume(const timeseries::Mesh& mesh) {
+    double sum = 0;
+    for (std::uint64_t i = 0; i < mesh.count(); ++i) sum += volume(mesh, i);
+    return sum;
 }
 
 inline std::shared_ptr<const timeseries::Grid> gridOf(timeseries::Mesh mesh) {

@@ -17,6 +17,7 @@ namespace {
 using tests::addCell;
 using tests::bricks;
 using tests::Cut;
+using tests::volume;
 
 constexpr std::array kCuts{Cut::Hexahedra, Cut::Voxels, Cut::Tetrahedra, Cut::Wedges,
                            Cut::Polyhedra};
@@ -27,15 +28,6 @@ glm::dvec3 bent(double i, double j, double k) {
     return {i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside};
 }
 UnstructuredGrid bentBricks(Cut cut) { return bricks({5, 4, 6}, cut, bent); }
-
-double volume(const Mesh& mesh, std::uint64_t index) {
-    return std::abs(mesh.cell(index).determinant()) / std::pow(mesh.spread(), 3);
-}
-double volume(const Mesh& mesh) {
-    double sum = 0;
-    for (std::uint64_t i = 0; i < mesh.count(); ++i) sum += volume(mesh, i);
-    return sum;
-}
 
 TEST(Unstructured, CellsAndPointsTakeTheSpaceThatThereIs) {
     for (const Cut cut : kCuts) {

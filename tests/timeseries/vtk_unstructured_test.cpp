@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "tests/support/shared_data.h"
+#include "tests/support/unstructured.h"
 #include "tests/support/vtk_files.h"
 #include "timeseries/readers/reader.h"
 
@@ -42,13 +43,7 @@ std::string refusal(const std::string& text) {
     return "";
 }
 
-double volume(const Grid& grid) {
-    double sum = 0;
-    const Mesh& mesh = *grid.mesh();
-    for (std::uint64_t i = 0; i < mesh.count(); ++i)
-        sum += std::abs(mesh.cell(i).determinant()) / std::pow(mesh.spread(), 3);
-    return sum;
-}
+double volume(const Grid& grid) { return tests::volume(*grid.mesh()); }
 
 TEST(VtkUnstructured, PointsAndCellsHaveGridsOfTheirOwn) {
     const auto reader = open(tests::write("two.vtu", unstructuredText(kTwelve, kTwo)));
@@ -114,6 +109,9 @@ TEST(VtkUnstructured, ListsThatNameWhatIsNotThereAreRefused) {
     EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "200 201"),
                 HasSubstr("expected cells that take space"))
         << "of kinds that nobody knows";
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "266 266"),
+                HasSubstr("expected cells that take space"))
+        << "256 more than a tetrahedron's number";
     EXPECT_THAT(refusal(unstructuredText(kTwelve, "", list("connectivity", "0 1 3 6"))),
                 HasSubstr("expected connectivity, offsets and types"));
     EXPECT_THAT(
@@ -172,8 +170,7 @@ TEST(VtkUnstructured, VolumesAreThoseThatVtkFinds) {
             for (vtkIdType c = 0; c < 4; ++c) points->GetPoint(t + c, &p[std::size_t(c)].x);
             theirs += std::abs(vtkTetra::ComputeVolume(&p[0].x, &p[1].x, &p[2].x, &p[3].x));
         }
-        const double ours = std::abs(mesh.cell(static_cast<std::uint64_t>(cell)).determinant()) /
-                            std::pow(mesh.spread(), 3);
+        const double ours = tests::volume(mesh, static_cast<std::uint64_t>(cell));
         ASSERT_NEAR(ours, theirs, 1e-5 * theirs) << cell;
         all += theirs;
     }

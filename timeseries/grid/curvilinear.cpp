@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "timeseries/grid/grid.h"
+#include "timeseries/together.h"
 
 namespace timeseries {
 namespace {
@@ -41,27 +42,27 @@ bool isPlace(const glm::dvec3& at) {
 }
 
 CurvilinearCells::CurvilinearCells(const MeshPlaces& places)
-    : places_(places), stride_{1, places.size[0], std::uint64_t{places.size[0]} * places.size[1]} {
+    : places_(places),
+      stride_{1, places.size[0], std::uint64_t{places.size[0]} * places.size[1]},
+      firstHeight_(places.levels.size() > 1 ? places.levels[1] - places.levels[0] : 0) {
     const auto thin = std::ranges::count(places.size, 1u);
     if (thin > 0) thickness_ = thin == 3 ? 1 : thin == 2 ? meanWidth() : std::sqrt(meanWidth());
 }
 
 // Of a surface's cells the area, of a thread's the length.
 double CurvilinearCells::meanWidth() const {
-    double sum = 0;
-    std::uint64_t placed = 0;
-    for (std::uint64_t row = 0; row < places_.at.size(); ++row) {
-        if (!isPlace(places_.at[row])) continue;
+    const bool isSurface = std::ranges::count(places_.size, 1u) == 1;
+    const auto widthOf = [&](std::size_t row) {
+        if (!isPlace(places_.at[row])) return 0.0;
         const glm::dmat3 steps = stepsAt(row);
         glm::dvec3 one(0), other(0);  // the columns that are not 0
         for (int a = 0; a < 3; ++a)
             if (places_.size[static_cast<std::size_t>(a)] > 1)
                 (one == glm::dvec3(0) ? one : other) = steps[a];
-        sum +=
-            glm::length(std::ranges::count(places_.size, 1u) == 1 ? glm::cross(one, other) : one);
-        ++placed;
-    }
-    return sum / static_cast<double>(placed);
+        return glm::length(isSurface ? glm::cross(one, other) : one);
+    };
+    const auto placed = std::ranges::count_if(places_.at, isPlace);
+    return sumOf(places_.at.size(), widthOf) / static_cast<double>(placed);
 }
 
 // The mean of the ways from the point before and to the one after, or the only one of these that
@@ -90,7 +91,7 @@ glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {
         const auto axis = static_cast<std::size_t>(a);
         if (size[axis] == 1) continue;
         if (a == 2 && !places_.levels.empty())
-            steps[2].z = Axis{"", "", places_.levels}.width(0);
+            steps[2].z = firstHeight_;
         else
             steps[a] = stepAlong(row, axis, at[a] > 0, at[a] + 1 < size[axis]);
     }

@@ -39,6 +39,7 @@ class CurvilinearCells {
 
     const MeshPlaces& places_;
     std::array<std::uint64_t, 3> stride_;
+    double firstHeight_;  // the step along levels on the first one
     double thickness_ = 0;
 };
 

@@ -105,6 +105,10 @@ Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofO
     }
 }
 
+std::array<Axis, 3> spaceAxes() {
+    return {Axis{"x", "", {}}, Axis{"y", "", {}}, Axis{"z", "", {}}};
+}
+
 std::shared_ptr<const Grid> gridOfStep(const std::shared_ptr<const Grid>& series,
                                        const std::shared_ptr<const Grid>& step) {
     if (series == step || *series == *step) return series;

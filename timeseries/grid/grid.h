@@ -104,6 +104,9 @@ class Grid {
     bool ofOneStep_ = false;
 };
 
+// Coordinates x, y and z without bounds: of points that lie one by one.
+std::array<Axis, 3> spaceAxes();
+
 // The grid of a step of a series whose grid is `series`: that one, if the step's is the same; of a
 // mesh that moves the step's places, within the series' bounds, so that all are drawn in one box.
 // Null where they are no steps of one series.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <span>
 
@@ -104,11 +105,11 @@ double Measure::thickness() const {
                    ? std::pow(product / static_cast<double>(grid_.points.size()), 1.0 / extents)
                    : 1;
     }
-    double sum = 0;
-    std::size_t cells = 0;
-    for (std::size_t cell = 0; cell < grid_.types.size(); ++cell)
-        if (const double size = plain(cell).volume; size > 0) sum += size, ++cells;
-    const double mean = cells > 0 ? sum / static_cast<double>(cells) : 0;
+    const glm::dvec2 sum = sumOf(grid_.types.size(), [&](std::size_t cell) {
+        const double size = plain(cell).volume;
+        return glm::dvec2(size, size > 0 ? 1 : 0);
+    });
+    const double mean = sum.y > 0 ? sum.x / sum.y : 0;
     return dimension_ == 2 ? std::sqrt(mean) : mean;
 }
 

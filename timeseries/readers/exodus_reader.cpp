@@ -100,9 +100,7 @@ std::shared_ptr<const Grid> ExodusReader::gridOf(bool atNodes) {
     try {
         const auto mesh = std::make_shared<const Mesh>(atNodes ? meshOfPoints(mesh_.grid, *shapes_)
                                                                : meshOfCells(mesh_.grid, *shapes_));
-        return grid = std::make_shared<const Grid>(
-                   std::array<Axis, 3>{Axis{"x", "", {}}, Axis{"y", "", {}}, Axis{"z", "", {}}},
-                   mesh);
+        return grid = std::make_shared<const Grid>(spaceAxes(), mesh);
     } catch (const std::invalid_argument& flaw) {
         file_.fail("connect",
                    fmt::format("expected elements that take space, found that {}", flaw.what()));

@@ -51,7 +51,8 @@ void VtkCellReader::addCells(const VtkPiece& piece) {
         grid_.ends[cells + i] = endOf(end, corners);
     });
     forEach("types", piece.types, [&](std::uint64_t i, std::int64_t type) {
-        grid_.types[cells + i] = static_cast<std::uint8_t>(type);
+        // Beyond a byte no shape has a number.
+        grid_.types[cells + i] = type < 0 || type > 255 ? 0 : static_cast<std::uint8_t>(type);
     });
     forEach("connectivity", piece.connectivity, [&](std::uint64_t i, std::int64_t point) {
         if (point >= 0 && static_cast<std::uint64_t>(point) < piece.points)

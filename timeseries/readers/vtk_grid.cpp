@@ -69,10 +69,6 @@ std::vector<glm::dvec3> middles(const VtkHeader& header) {
     return at;
 }
 
-std::array<Axis, 3> spaceAxes() {
-    return {Axis{"x", "", {}}, Axis{"y", "", {}}, Axis{"z", "", {}}};
-}
-
 VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     VtkGrid result;
     const auto size = header.size(place);

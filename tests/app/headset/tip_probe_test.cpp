@@ -28,6 +28,16 @@ std::shared_ptr<const timeseries::Grid> uneven() {
     return std::make_shared<timeseries::Grid>(std::array{x, y, z});
 }
 
+std::uint64_t nearestOf(const render::PlacedPoints& placed, std::uint64_t count,
+                        const glm::dvec3& place) {
+    std::uint64_t nearest = 0;
+    for (std::uint64_t p = 1; p < count; ++p)
+        if (glm::distance(placed.position(p), place) <
+            glm::distance(placed.position(nearest), place))
+            nearest = p;
+    return nearest;
+}
+
 TEST(PointAt, IsTheNearestOfAllPoints) {
     const auto grid = uneven();
     const render::PlacedPoints placed(*grid);
@@ -36,11 +46,7 @@ TEST(PointAt, IsTheNearestOfAllPoints) {
     for (int i = 0; i < 500; ++i) {
         const glm::dvec3 place =
             placed.boxHalf() * glm::dvec3(side(random), side(random), side(random));
-        std::uint64_t nearest = 0;
-        for (std::uint64_t p = 1; p < grid->count(); ++p)
-            if (glm::distance(placed.position(p), place) <
-                glm::distance(placed.position(nearest), place))
-                nearest = p;
+        const std::uint64_t nearest = nearestOf(placed, grid->count(), place);
         const auto at = pointAt(placed, place);
         ASSERT_TRUE(at);
         EXPECT_EQ((*at)[0] + 5 * ((*at)[1] + 4 * (*at)[2]), nearest) << i;
@@ -58,11 +64,7 @@ TEST(PointAt, IsTheNearestOfCellsThatNameTheirCorners) {
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 place =
             placed.boxHalf() * glm::dvec3(side(random), side(random), side(random));
-        std::uint64_t nearest = 0;
-        for (std::uint64_t p = 1; p < grid->count(); ++p)
-            if (glm::distance(placed.position(p), place) <
-                glm::distance(placed.position(nearest), place))
-                nearest = p;
+        const std::uint64_t nearest = nearestOf(placed, grid->count(), place);
         const auto at = pointAt(placed, place);
         if (glm::distance(placed.position(nearest), place) > placed.widest()) continue;
         ASSERT_TRUE(at);
