@@ -74,7 +74,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
         if (step != shown) {
             shown = step;
             placed.emplace(step->grid(), e.scale);
-            onGpu.emplace(*step, *placed);
+            onGpu.emplace(*step, *placed, onGpu ? onGpu->mesh() : nullptr);
         }
         std::optional<double> error;
         if (i == frames.size() / 2 && hasDepthError(*step)) {

@@ -5,8 +5,11 @@
 namespace app {
 
 GpuSteps::Held::Held(const std::shared_ptr<const timeseries::SortedStep>& of,
-                     const std::optional<glm::dvec3>& stretch)
-    : sorted(of), scale(stretch), placed(of->grid(), stretch), onGpu(*of, placed) {}
+                     const std::optional<glm::dvec3>& stretch, std::shared_ptr<render::GlMesh> mesh)
+    : sorted(of),
+      scale(stretch),
+      placed(of->grid(), stretch),
+      onGpu(*of, placed, std::move(mesh)) {}
 
 void GpuSteps::Held::stretch(const std::optional<glm::dvec3>& by) {
     if (scale == by) return;
@@ -19,10 +22,14 @@ GpuSteps::Held& GpuSteps::use(const std::shared_ptr<const timeseries::SortedStep
                               const std::optional<glm::dvec3>& scale) {
     const auto found =
         std::ranges::find_if(held_, [&](const Held& held) { return held.sorted.lock() == sorted; });
-    if (found == held_.end())
-        held_.emplace_front(sorted, scale);
-    else
+    if (found == held_.end()) {
+        const auto& mesh = sorted->grid().mesh();
+        const auto like = std::ranges::find_if(
+            held_, [&](const Held& held) { return mesh && held.placed.mesh() == mesh; });
+        held_.emplace_front(sorted, scale, like == held_.end() ? nullptr : like->onGpu.mesh());
+    } else {
         held_.splice(held_.begin(), held_, found);
+    }
     held_.front().stretch(scale);
     return held_.front();
 }

@@ -13,8 +13,9 @@ namespace app {
 class GpuSteps {
  public:
     struct Held {
+        // `mesh`: that of another step, if it is of this one, too.
         Held(const std::shared_ptr<const timeseries::SortedStep>& of,
-             const std::optional<glm::dvec3>& stretch);
+             const std::optional<glm::dvec3>& stretch, std::shared_ptr<render::GlMesh> mesh);
         // Drawn with other proportions from now on.
         void stretch(const std::optional<glm::dvec3>& by);
 

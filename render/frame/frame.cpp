@@ -36,7 +36,9 @@ FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
               : splatter),
       as_(as) {
     inMemory_.setFont(font_);
-    if (by_ == SplatterChoice::Gl) mostCellBytes_ = GlCellSplatter::mostBytes();
+    if (by_ != SplatterChoice::Gl) return;
+    mostCellBytes_ = GlCellSplatter::mostBytes();
+    mostMeshBytes_ = GlMesh::mostBytes();
 }
 
 FrameRenderer::Gl& FrameRenderer::needGl() {

@@ -122,8 +122,10 @@ class FrameRenderer {
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
     // Whether GL sums the scene; else the program does it itself.
     bool byGl(const Scene& scene) const {
-        return by_ == SplatterChoice::Gl && !scene.placed.isMesh() &&
-               (!scene.cells || GlCells::fit(scene, mostCellBytes_));
+        if (by_ != SplatterChoice::Gl) return false;
+        if (scene.cells) return GlCells::fit(scene, mostCellBytes_);
+        const auto& mesh = scene.placed.mesh();
+        return !mesh || GlMesh::bytesOf(*mesh) <= mostMeshBytes_;
     }
     Splatter& splatter(const Scene& scene);
     std::unique_ptr<SplatFrame> splatsOf(const Scene& scene, DrawList list, const GpuStep& step);
@@ -152,8 +154,8 @@ class FrameRenderer {
     };
     std::vector<Held> targets_;  // all of different sizes
     std::size_t current_ = 0;
-    SplatterChoice by_;                // never ByDevice
-    std::uint64_t mostCellBytes_ = 0;  // on the GPU, where that draws
+    SplatterChoice by_;                                    // never ByDevice
+    std::uint64_t mostCellBytes_ = 0, mostMeshBytes_ = 0;  // on the GPU, where that draws
     LightAs as_;
     std::uint64_t orders_ = 0, eyes_ = 0;
 };

@@ -72,6 +72,7 @@ class PlacedPoints {
         return 1 / (spread * spread * spread);
     }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
+    const std::shared_ptr<const timeseries::Mesh>& mesh() const { return mesh_; }  // none: null
 
     // REQUIRES of these: not isMesh(). Lengths of the cell's sides, all > 0.
     glm::dvec3 cell(std::uint64_t index) const;

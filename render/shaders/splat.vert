@@ -3,7 +3,8 @@
 // render/model/footprint.h.
 // Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT, CUBES (all cells are equal
 // cubes: |d / a| is |d| / a, and the form in d needs no coefficients), CUT (with QUADS: long cells,
-// whose slim splats end at the domain's faces).
+// whose slim splats end at the domain's faces), MESH (points lie one by one, their cells in any
+// shape; with QUADS, but for KERNEL_POINT).
 
 // C++ mirror: SplatViewBlock in render/splat/gl_splatter.cpp.
 layout(std140, binding = 0) uniform SplatView {
@@ -16,8 +17,11 @@ layout(std140, binding = 0) uniform SplatView {
     vec4 kernel;    // radius in cells, smallest radius at unit depth, mass of a cell with sides 1, point's side in pixels
     vec4 slopeAndLengths;  // squares of x / -z and y / -z per pixel; view length of an axis length, at most; a pixel's area at unit depth
     vec4 domainLo, domainHi, boxHalf;  // in axis coordinates; w: of a splat of size 1, radius over width
-    uvec4 placed;  // points along x, y, z
-    uvec4 clipLo, clipHi;  // inclusive index box
+    vec4 meshScale;      // world lengths of the mesh's units; w: sign of the cells that are drawn
+    vec4 meshOffset;     // its origin in the world; w: a cell's volume over its determinant
+    vec4 meshFrom, meshTo;  // inclusive box in its units
+    uvec4 placed;  // points along x, y, z; w: that the mesh keeps of one level
+    uvec4 clipLo, clipHi;  // inclusive index box; of a mesh z: levels
 } view;
 
 // C++ mirror: LayerBlock.
@@ -26,8 +30,12 @@ layout(std140, binding = 1) uniform Layers {
     vec4 map[8];    // position in the map = x v + y of the value v on that scale; z: by value: the map's entries, else 0; w: points that a splat stands for
 } layers;
 
-layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: position along it, cell width
+layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: position along it, cell width; MESH: per level
 layout(binding = 1) uniform sampler2D colorMaps;       // a row a layer, linear colour
+
+#ifdef MESH
+layout(binding = 2) uniform samplerBuffer meshPoints;  // of a point place, diagonal, below; timeseries::Mesh::Point
+#endif
 
 layout(location = 0) in uint gridIndex;
 layout(location = 1) in float value;  // 0 and 1 at the ends of the narrowest map; see ValueScale
@@ -63,7 +71,9 @@ vec3 shareBelow(vec3 at) {
            v * (-2.421745329506627 + v * (0.6981470154212479 + v * (-0.04600672580023147 +
            v * -0.010745391677797065))))));
 }
+#endif
 
+#if defined(CUT) || defined(MESH)
 // Where n - d <= 0, if that is the inside of an ellipse: along which direction it is longest, from
 // where to where along it and across. Else the square of this half side.
 struct Slim {
@@ -86,6 +96,50 @@ Slim slim(vec3 n, vec3 d, vec2 l, float extent) {
     s.lo = at - halfSides;
     s.hi = at + halfSides;
     return s;
+}
+#endif
+
+#ifdef MESH
+// A lower triangular matrix; C++: timeseries::LowerTriangle.
+struct Triangle {
+    vec3 diagonal, below;
+};
+vec3 solve(Triangle l, vec3 v) {
+    const float x = v.x / l.diagonal.x, y = (v.y - l.below.x * x) / l.diagonal.y;
+    return vec3(x, y, (v.z - l.below.y * x - l.below.z * y) / l.diagonal.z);
+}
+
+// growthTo and grownTo in render/model/ellipsoid.h: orthogonal rows of m, and of root I beside them.
+Triangle grownTo(float least, Triangle m) {
+    const float squares = dot(m.diagonal, m.diagonal) + dot(m.below, m.below);
+    const vec3 shares = m.diagonal * inversesqrt(squares);
+    const float scaled = shares.x * shares.y * shares.z, k = 4.0 * scaled * scaled;
+    float t = k;
+    for (int i = 0; i < 3; ++i) t = k / ((1.0 - t) * (1.0 - t));
+    const float root = sqrt(max(least * least - t * squares, 0.0)), smallest = 1e-9 * least;
+    Triangle grown;
+    vec3 row = vec3(m.diagonal.x, 0.0, 0.0), beside = vec3(root, 0.0, 0.0);
+    grown.diagonal.x = max(sqrt(dot(row, row) + dot(beside, beside)), smallest);
+    const vec3 first = row / grown.diagonal.x, besideFirst = beside / grown.diagonal.x;
+
+    row = vec3(m.below.x, m.diagonal.y, 0.0);
+    beside = vec3(0.0, root, 0.0);
+    grown.below.x = dot(row, first);
+    row -= grown.below.x * first;
+    beside -= grown.below.x * besideFirst;
+    grown.diagonal.y = max(sqrt(dot(row, row) + dot(beside, beside)), smallest);
+    const vec3 second = row / grown.diagonal.y, besideSecond = beside / grown.diagonal.y;
+
+    row = vec3(m.below.y, m.below.z, m.diagonal.z);
+    beside = vec3(0.0, 0.0, root);
+    grown.below.y = dot(row, first);
+    row -= grown.below.y * first;
+    beside -= grown.below.y * besideFirst;
+    grown.below.z = dot(row, second) + dot(beside, besideSecond);
+    row -= grown.below.z * second;
+    beside -= grown.below.z * besideSecond;
+    grown.diagonal.z = max(sqrt(dot(row, row) + dot(beside, beside)), smallest);
+    return grown;
 }
 #endif
 
@@ -140,16 +194,32 @@ void place(vec2 offset, float extent, float depth) {
 }
 
 void main() {
+#ifdef MESH
+    const int level = int(gridIndex / view.placed.w), texel = 3 * int(gridIndex % view.placed.w);
+    const vec3 kept = texelFetch(meshPoints, texel).xyz, by = view.meshScale.xyz;
+    const vec2 ofLevel = texelFetch(axisPoints, level).xy;
+    const vec3 diagonal = texelFetch(meshPoints, texel + 1).xyz;
+    const bool none = !(view.meshScale.w * diagonal.x > 0.0);
+    Triangle cell = Triangle(by * diagonal, by.yzz * texelFetch(meshPoints, texel + 2).xyz);
+    if (ofLevel.y > 0.0) cell.diagonal.z = ofLevel.y;
+    const vec3 at = by * kept + view.meshOffset.xyz + vec3(0.0, 0.0, ofLevel.x);
+    const bool clipped = none || any(lessThan(kept, view.meshFrom.xyz)) || any(greaterThan(kept, view.meshTo.xyz)) ||
+                         uint(level) < view.clipLo.z || uint(level) > view.clipHi.z;
+    const float volume = abs(cell.diagonal.x * cell.diagonal.y * cell.diagonal.z) * view.meshOffset.w;
+#else
     const uvec3 n = view.placed.xyz;
     const uvec3 ijk = uvec3(gridIndex % n.x, gridIndex / n.x % n.y, gridIndex / n.x / n.y);
     const vec2 px = texelFetch(axisPoints, int(ijk.x)).xy;
     const vec2 py = texelFetch(axisPoints, int(n.x + ijk.y)).xy;
     const vec2 pz = texelFetch(axisPoints, int(n.x + n.y + ijk.z)).xy;
     const vec3 cell = vec3(px.y, py.y, pz.y);
-    const vec3 inView = (view.viewFromAxes * vec4(px.x, py.x, pz.x, 1.0)).xyz;
+    const vec3 at = vec3(px.x, py.x, pz.x);
+    const bool clipped = any(lessThan(ijk, view.clipLo.xyz)) || any(greaterThan(ijk, view.clipHi.xyz));
+    const float volume = cell.x * cell.y * cell.z;
+#endif
+    const vec3 inView = (view.viewFromAxes * vec4(at, 1.0)).xyz;
     const float depth = -inView.z;
     const float near = view.depths.x;
-    const bool clipped = any(lessThan(ijk, view.clipLo.xyz)) || any(greaterThan(ijk, view.clipHi.xyz));
 #ifdef QUADS
     const uint drawn = run.z + uint(gl_InstanceID);
 #else
@@ -173,7 +243,7 @@ void main() {
     const float t = clamp(depth / near - 1.0, 0.0, 1.0);
     const float fade = t * t * (3.0 - 2.0 * t);
     const uint l = min(layer, 7u);
-    const float mass = cell.x * cell.y * cell.z * view.kernel.z * fade * layers.map[l].w;
+    const float mass = volume * view.kernel.z * fade * layers.map[l].w;
 
 #if defined(WEIGHTED_COLOR) || defined(OVER)
     color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value + layers.map[l].y)
@@ -202,24 +272,30 @@ void main() {
     centreAndWeight = vec4(centre, 1.5915494309189535 * mass / (a * a), depthPerWeight);
     const float widest = a;
 #else
+#if defined(MESH)
+    const Triangle a = grownTo(smallest, Triangle(cell.diagonal * view.kernel.x, cell.below * view.kernel.x));
+    const vec3 c = solve(a, C), x = solve(a, X), y = solve(a, Y), sides = a.diagonal;
+    const float widest = sqrt(dot(a.diagonal, a.diagonal) + dot(a.below, a.below));
+#else
 #ifdef CUT
     const vec3 longest = view.domainLo.w * (view.domainHi.xyz - view.domainLo.xyz);
     const vec3 a = max(min(cell * view.kernel.x, longest), vec3(smallest));
 #else
     const vec3 a = max(cell * view.kernel.x, vec3(smallest));
 #endif
-    const vec3 c = C / a, x = X / a, y = Y / a;
+    const vec3 c = C / a, x = X / a, y = Y / a, sides = a;
+    const float widest = max(a.x, max(a.y, a.z));
+#endif
     const vec3 e = cross(c, x), f = cross(c, y);
     const float perC2 = 1.0 / dot(c, c);
     const vec2 linear = 2.0 * perC2 * vec2(dot(c, x), dot(c, y));
     quadN = vec4(depth * depth * perC2 * vec3(dot(e, e), 2.0 * dot(e, f), dot(f, f)), linear.x);
     quadD = vec4(perC2 * vec3(dot(x, x), 2.0 * dot(x, y), dot(y, y)), linear.y);
     // 5 / pi, and |ray| = |axis| sqrt(1 + slope^2) left to the fragment but for |axis|.
-    float weight = 1.5915494309189535 * mass / (a.x * a.y * a.z) * sqrt(perC2) * view.rayAxis.w;
+    float weight = 1.5915494309189535 * mass / (sides.x * sides.y * sides.z) * sqrt(perC2) * view.rayAxis.w;
 #ifdef CUT
-    const vec3 along = vec3(px.x, py.x, pz.x);
-    const vec3 lo = (min(view.domainLo.xyz, -view.boxHalf.xyz - smallest) - along) / a;
-    const vec3 hi = (max(view.domainHi.xyz, view.boxHalf.xyz + smallest) - along) / a;
+    const vec3 lo = (min(view.domainLo.xyz, -view.boxHalf.xyz - smallest) - at) / a;
+    const vec3 hi = (max(view.domainHi.xyz, view.boxHalf.xyz + smallest) - at) / a;
     const vec3 inside = 0.5 * (shareBelow(hi) - shareBelow(lo));
     weight /= inside.x * inside.y * inside.z;
     kernelC = vec4(c, depth);
@@ -229,12 +305,11 @@ void main() {
     hiFace = hi;
 #endif
     centreAndWeight = vec4(centre, weight, depthPerWeight);
-    const float widest = max(a.x, max(a.y, a.z));
 #endif
     const float onUnitPlane =
         sphereExtent(depth, widest * view.slopeAndLengths.z, length(centre / focal));
     const float extent = onUnitPlane < 0.0 ? 1e9 : onUnitPlane * max(focal.x, focal.y);
-#if defined(CUT)
+#if defined(CUT) || defined(MESH)
     const Slim s = slim(quadN.xyz, quadD.xyz, linear, extent);
     const vec2 across = vec2(s.along.y, -s.along.x), off = middleOfPicture() - centre;
     const vec2 middle = vec2(dot(off, s.along), dot(off, across));

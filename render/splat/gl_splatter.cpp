@@ -12,6 +12,7 @@
 #include "render/gl/pass.h"
 #include "render/model/covered.h"
 #include "render/model/footprint.h"
+#include "render/points/mesh_bounds.h"
 #include "render/shader_sources.h"
 #include "render/splat/gl_list.h"
 #include "render/splat/gl_targets.h"
@@ -24,6 +25,7 @@ struct SplatViewBlock {
     glm::mat4 viewFromAxes;
     glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slopeAndLengths;
     glm::vec4 domainLo, domainHi, boxHalf;
+    glm::vec4 meshScale, meshOffset, meshFrom, meshTo;
     glm::uvec4 placed, clipLo, clipHi;
 };
 
@@ -31,6 +33,21 @@ struct SplatViewBlock {
 struct LayerBlock {
     std::array<glm::vec4, kMaxLayers> style, map;
 };
+
+// How the world and the clip box lie to a mesh's own floats.
+void placeMesh(SplatViewBlock& b, const Scene& scene) {
+    const timeseries::Mesh& mesh = *scene.placed.mesh();
+    const auto stored = mesh.stored();
+    const MeshBounds bounds = boundsIn(mesh, scene.clip);
+    b.meshScale = glm::vec4(glm::dvec4(stored.unit * scene.placed.scale(), stored.sign));
+    b.meshOffset = glm::vec4(
+        glm::dvec4(scene.placed.axesFromGrid(stored.origin), scene.placed.volumePerDeterminant()));
+    b.meshFrom = glm::vec4(bounds.lo, 0);
+    b.meshTo = glm::vec4(bounds.hi, 0);
+    b.placed.w = static_cast<std::uint32_t>(stored.points.size());
+    b.clipLo = {0, 0, bounds.firstLevel, 0};
+    b.clipHi = {0, 0, bounds.lastLevel, 0};
+}
 
 SplatViewBlock viewBlock(const Scene& scene, const View& view, const PointsView& seen, int guard) {
     SplatViewBlock b{};
@@ -55,6 +72,7 @@ SplatViewBlock viewBlock(const Scene& scene, const View& view, const PointsView&
     b.placed = {scene.placed.size(), 0};
     b.clipLo = {scene.clip.lo, 0};
     b.clipHi = {scene.clip.hi, 0};
+    if (scene.placed.isMesh()) placeMesh(b, scene);
     return b;
 }
 
@@ -154,6 +172,7 @@ const gl::Program& GlSplatter::program(const Variant& variant) {
     std::string defines = defineOf(variant.channels);
     if (variant.quads) defines += "#define QUADS\n";
     if (variant.cut) defines += "#define CUT\n";
+    if (variant.mesh) defines += "#define MESH\n";
     if (variant.cubes) defines += "#define CUBES\n";
     if (variant.kernel == Kernel::Point) defines += "#define KERNEL_POINT\n";
     return programs_
@@ -213,17 +232,19 @@ void GlSplatter::draw(const GpuList& list, const View& view, Channels channels,
     // A point sprite whose centre leaves the clip volume vanishes whole, so the viewport is wider
     // than the picture by the farthest reach; sprites also have a largest size, as has a viewport.
     const double sides = 2 * (reach + 2);
+    const PlacedPoints& placed = list.scene().placed;
+    const bool square = list.scene().footprint.kernel == Kernel::Point, mesh = placed.isMesh();
+    const bool cut = placed.longCells() && !square;
     // Slim footprints fill little of a sprite.
-    const bool cut =
-        list.scene().placed.longCells() && list.scene().footprint.kernel != Kernel::Point;
-    const bool quads = cut || !(sides <= static_cast<double>(largestPoint_) &&
-                                view.size.x + sides <= largestViewport_.x &&
-                                view.size.y + sides <= largestViewport_.y);
+    const bool slim = cut || (mesh && !square);
+    const bool quads = slim || !(sides <= static_cast<double>(largestPoint_) &&
+                                 view.size.x + sides <= largestViewport_.x &&
+                                 view.size.y + sides <= largestViewport_.y);
     const int guard = quads ? 0 : static_cast<int>(std::ceil(reach)) + 1;
     const SplatViewBlock block = viewBlock(list.scene(), view, seen, guard);
     view_.write(0, sizeof block, &block);
     const gl::Program& with =
-        program({channels, list.scene().footprint.kernel, quads, list.cubes(), cut});
+        program({channels, list.scene().footprint.kernel, quads, list.cubes(), cut, mesh});
     gl::begin({.framebuffer = framebuffer,
                .size = view.size,
                .guard = guard,
@@ -234,6 +255,7 @@ void GlSplatter::draw(const GpuList& list, const View& view, Channels channels,
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, layers_.id());
     glBindTextureUnit(0, list.step().axisPoints().id());
     glBindTextureUnit(1, colorMaps_.id());
+    if (mesh) glBindTextureUnit(2, list.step().mesh()->points().id());
     list.draw(quads, pieces);
 }
 

@@ -52,7 +52,7 @@ class GlSplatter final : public Splatter {
     struct Variant {
         Channels channels;
         Kernel kernel;
-        bool quads, cubes, cut;
+        bool quads, cubes, cut, mesh;
         auto operator<=>(const Variant&) const = default;
     };
     const gl::Program& program(const Variant& variant);

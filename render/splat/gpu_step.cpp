@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -14,7 +15,19 @@ namespace {
 constexpr std::uint64_t kPointBytes = sizeof(std::uint32_t) + sizeof(std::uint16_t);
 constexpr std::uint64_t kValueBytes = sizeof(float);
 
+std::vector<glm::vec2> levelTable(const PlacedPoints& placed) {
+    const auto levels = placed.mesh()->stored().levels;
+    if (levels.empty()) return {glm::vec2(0)};
+    // Only several have heights of their own.
+    const double perUnit = placed.scale().z, height = levels.size() > 1 ? std::abs(perUnit) : 0;
+    std::vector<glm::vec2> table;
+    for (const auto& level : levels)
+        table.emplace_back(glm::dvec2(perUnit * level.at, height * level.height));
+    return table;
+}
+
 std::vector<glm::vec2> axisTable(const PlacedPoints& placed) {
+    if (placed.isMesh()) return levelTable(placed);
     std::vector<glm::vec2> table;
     for (int a = 0; a < 3; ++a)
         for (std::size_t i = 0; i < placed.positions()[a].size(); ++i)
@@ -62,8 +75,13 @@ void write(gl::Buffer& buffer, std::uint64_t first, const std::vector<T>& what) 
 
 }  // namespace
 
-GpuStep::GpuStep(const timeseries::SortedStep& step, const PlacedPoints& placed)
-    : axisTable_(axisTable(placed)), present_(blockCount(step.size())) {}
+GpuStep::GpuStep(const timeseries::SortedStep& step, const PlacedPoints& placed,
+                 std::shared_ptr<GlMesh> mesh)
+    : axisTable_(axisTable(placed)), present_(blockCount(step.size())) {
+    if (!placed.isMesh()) return;
+    const bool isIts = mesh && &mesh->mesh() == placed.mesh().get();
+    mesh_ = isIts ? std::move(mesh) : std::make_shared<GlMesh>(placed.mesh());
+}
 
 void GpuStep::makeRoom(const timeseries::SortedStep& step) {
     if (gridIndex_ && placeInBlock_) return;
@@ -90,7 +108,7 @@ void GpuStep::upload(const Scene& scene, const std::optional<ValueScale>& scale,
     makeRoom(scene.step);
     ScaledValues* const values = valuesOn(scale, scene.step.size());
     const auto blocks = neededBlocks(scene);
-    std::uint64_t sent = 0;
+    std::uint64_t sent = mesh_ ? mesh_->upload(bytes) : 0;
     for (const std::uint64_t block : blocks) {
         if (sent > 0 && sent >= bytes) break;
         sent += send(scene, block, values);
@@ -151,7 +169,7 @@ std::uint64_t GpuStep::missingBytes(const Scene& scene,
     const ScaledValues* values = nullptr;
     for (const auto* held : {&values_, &coming_})
         if (*held && scale && (*held)->scale == *scale) values = &**held;
-    std::uint64_t missing = 0;
+    std::uint64_t missing = mesh_ ? mesh_->missingBytes() : 0;
     for (const std::uint64_t block : neededBlocks(scene)) {
         const std::uint64_t count = pointsOf(block, scene.step.size());
         if (!present_[block]) missing += count * kPointBytes;
@@ -164,11 +182,13 @@ std::uint64_t GpuStep::neededBytes(const Scene& scene, const std::optional<Value
     std::uint64_t points = 0;
     for (const std::uint64_t block : neededBlocks(scene))
         points += pointsOf(block, scene.step.size());
-    return points * (kPointBytes + (scale ? kValueBytes : 0));
+    return points * (kPointBytes + (scale ? kValueBytes : 0)) +
+           (scene.placed.isMesh() ? GlMesh::bytesOf(*scene.placed.mesh()) : 0);
 }
 
 bool GpuStep::ready(const Scene& scene) const {
     const bool byValue = neededScale(scene).has_value();
+    if (mesh_ && mesh_->missingBytes() > 0) return false;
     return std::ranges::all_of(neededBlocks(scene), [&](std::uint64_t block) {
         return present_[block] && (!byValue || (values_ && values_->present[block]));
     });
@@ -182,6 +202,7 @@ ValueScale GpuStep::serving(const ValueScale& wanted) const {
 
 std::uint64_t GpuStep::bytes() const {
     std::uint64_t bytes = axisTable_.size() * sizeof axisTable_[0];
+    if (mesh_) bytes += mesh_->bytes() / static_cast<std::uint64_t>(mesh_.use_count());
     for (const auto* held : {&gridIndex_, &placeInBlock_})
         if (*held) bytes += (*held)->bytes();
     for (const auto* held : {&values_, &coming_})

@@ -9,6 +9,7 @@
 #include "render/model/scene.h"
 #include "render/model/value_scale.h"
 #include "render/points/subset.h"
+#include "render/splat/gl_mesh.h"
 
 namespace render {
 
@@ -21,26 +22,29 @@ namespace render {
 // their pace.
 //
 // A scene here is of the step and the grid that this was made for. One that is ordered needs
-// nothing: its list brings its own points.
+// nothing but the mesh, if there is one: its list brings its own points.
 class GpuStep {
  public:
     static constexpr std::uint64_t kBlock = kSubsetPeriod;
 
     // Holds no points yet, nor room for them, and asks nothing of GL until it is asked for some.
-    GpuStep(const timeseries::SortedStep& step, const PlacedPoints& placed);
+    // `mesh`: that of another step, which is shared if it is the grid's.
+    GpuStep(const timeseries::SortedStep& step, const PlacedPoints& placed,
+            std::shared_ptr<GlMesh> mesh = nullptr);
 
-    // Sends blocks that the scene's runs touch and that are not there, with their values on `scale`
-    // if there is one, until `bytes` are reached: one block at least. While values on another scale
-    // come, those that are there stay in use. Throws std::length_error for 2^31 points or more, the
-    // most that one draw call can count, and std::runtime_error when the driver has no room.
+    // Sends the mesh, and blocks that the scene's runs touch and that are not there, with their
+    // values on `scale` if there is one, until `bytes` are reached: one block at least. While
+    // values on another scale come, those that are there stay in use. Throws std::length_error for
+    // 2^31 points or more, the most that one draw call can count, and std::runtime_error when the
+    // driver has no room.
     static constexpr std::uint64_t kAll = ~std::uint64_t{0};
     void upload(const Scene& scene, const std::optional<ValueScale>& scale,
                 std::uint64_t bytes = kAll);
     // What upload() has still to send, and what it would send to a step that holds nothing.
     std::uint64_t missingBytes(const Scene& scene, const std::optional<ValueScale>& scale) const;
     static std::uint64_t neededBytes(const Scene& scene, const std::optional<ValueScale>& scale);
-    // Whether the scene can be drawn: its blocks are there, and values on some scale where a layer
-    // is coloured by value.
+    // Whether the scene can be drawn: its mesh and blocks are there, and values on some scale where
+    // a layer is coloured by value.
     bool ready(const Scene& scene) const;
     // `wanted`, or the scale of values that are there or coming and serve as well.
     ValueScale serving(const ValueScale& wanted) const;
@@ -54,8 +58,10 @@ class GpuStep {
     const gl::Buffer* values() const { return values_ ? &values_->buffer : nullptr; }
     // Of values(). REQUIRES: they are there.
     const ValueScale& valueScale() const { return values_->scale; }
+    // Place and cell's side of each index, axis after axis; of a mesh, of its levels, or 0, 0.
     const gl::BufferTexture& axisPoints() const;
-    std::uint64_t bytes() const;
+    const std::shared_ptr<GlMesh>& mesh() const { return mesh_; }  // none: null
+    std::uint64_t bytes() const;  // with its share of a mesh that others hold, too
 
  private:
     using Blocks = std::vector<bool>;  // which of the step's
@@ -76,7 +82,8 @@ class GpuStep {
         gl::Buffer buffer;
         gl::BufferTexture texture;
     };
-    std::vector<glm::vec2> axisTable_;              // place and cell's side, axis after axis
+    std::shared_ptr<GlMesh> mesh_;
+    std::vector<glm::vec2> axisTable_;              // what axisPoints() has
     mutable std::optional<AxisPoints> axisPoints_;  // of it, once asked for
     Blocks present_;                                // of gridIndex_ and placeInBlock_
     std::optional<ScaledValues> values_, coming_;   // in use; not all that a scene needs yet

@@ -194,22 +194,12 @@ TEST(MeshSplats, ARingLosesWhatTheFormulaSays) {
     }
 }
 
-// Twisted, stretched, with a hole, and seen from near by.
-std::shared_ptr<const Grid> twisted() {
-    return curvilinear({9, 8, 7}, [](double i, double j, double k) {
-        if (i == 4 && j == 4 && k == 3) return glm::dvec3(std::nan(""));
-        const double a = 0.15 * k, x = i - 4, y = 1.2 * j - 4;
-        return glm::dvec3(x * std::cos(a) - y * std::sin(a), x * std::sin(a) + y * std::cos(a),
-                          0.05 * k * (k + 8));
-    });
-}
-
 TEST(MeshSplats, RowsAndTilesSumWhatTheTruthDoes) {
     for (const auto& [from, size] : {std::pair(glm::dvec3(1.5, -2, 1), 1.0),
                                      {glm::dvec3(0.2, -0.3, 0.1), 1.0},
                                      {glm::dvec3(30, -40, 10), 1.0},
                                      {glm::dvec3(1.5, -2, 1), 2.0}}) {
-        const World world = worldOf(twisted(), {Kernel::Quartic, size});
+        const World world = worldOf(tests::twisted(), {Kernel::Quartic, size});
         const View view = tests::lookFrom(from, {120, 90}, 0.5);
         const auto truth = weights(world, view);
         for (const unsigned threads : {1u, 3u}) {
@@ -238,7 +228,7 @@ TEST(MeshSplats, FlatCellsThatLeanAreTheTruths) {
 
 // By value and in order, some of them hidden, and half of the points standing for all.
 TEST(MeshSplats, TilesSumEveryChannelAsTheTruthDoes) {
-    World world = worldOf(twisted());
+    World world = worldOf(tests::twisted());
     world.scene.layers[0].style = {ByValue{ColorMap(), 0, 1000}, 0.7};
     world.scene.stride = 2;
     const View view = tests::lookFrom({1.5, -2, 1}, {150, 130}, 0.5);
@@ -266,7 +256,7 @@ TEST(MeshSplats, TilesSumEveryChannelAsTheTruthDoes) {
 }
 
 TEST(MeshSplats, APointWithoutAPlaceIsNotDrawn) {
-    const auto grid = twisted();
+    const auto grid = tests::twisted();
     const std::size_t hole = 4 + 9 * (4 + 8 * 3);
     const World world(tests::stepOf(grid, [&](std::size_t i) { return i == hole ? 1.0 : 0.0; }),
                       RangeSet::parse("1"));
@@ -276,7 +266,7 @@ TEST(MeshSplats, APointWithoutAPlaceIsNotDrawn) {
 }
 
 TEST(MeshSplats, AreOrderedByDistance) {
-    World world = worldOf(twisted());
+    World world = worldOf(tests::twisted());
     world.scene.order = Order::BackToFront;
     const glm::dvec3 eye(1.5, -2, 1);
     const auto sorted = std::get<Sorted>(order(world.scene, eye));
@@ -293,7 +283,7 @@ TEST(MeshSplats, AreOrderedByDistance) {
 
 // The box is one of the file's coordinates.
 TEST(MeshSplats, AreClippedWhereTheyLie) {
-    const auto grid = twisted();
+    const auto grid = tests::twisted();
     World world = worldOf(grid);
     const glm::dvec3 lo(-2, -1.5, 0.3), hi(3, 2, 2.5);
     world.scene.clip = indexBox(*grid, lo, hi);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -32,6 +33,16 @@ template <typename Place>
 std::shared_ptr<const timeseries::Grid> curvilinear(std::array<std::size_t, 3> size,
                                                     const Place& place) {
     return gridOf(placesOf(size, place));
+}
+
+// Twisted, stretched, and with a hole.
+inline std::shared_ptr<const timeseries::Grid> twisted() {
+    return curvilinear({9, 8, 7}, [](double i, double j, double k) {
+        if (i == 4 && j == 4 && k == 3) return glm::dvec3(std::nan(""));
+        const double a = 0.15 * k, x = i - 4, y = 1.2 * j - 4;
+        return glm::dvec3(x * std::cos(a) - y * std::sin(a), x * std::sin(a) + y * std::cos(a),
+                          0.05 * k * (k + 8));
+    });
 }
 
 }  // namespace tests

@@ -14,8 +14,8 @@ struct MeshPlaces {
     std::array<std::size_t, 3> size{1, 1, 1};  // points along the indices i, j, k
     // [k][j][i], i fastest, in the file's space, of all points; or [j][i] when there are `levels`.
     std::vector<glm::dvec3> at;
-    // [k]: what each level adds to the third coordinate of the places below, strictly ascending or
-    // descending. None: all are in `at`.
+    // [k]: the third coordinates of the places above each other, whose own are 0, strictly
+    // ascending or descending. None: all are in `at`.
     std::vector<double> levels = {};
     // After how much each coordinate comes round to itself, as longitude does; 0: never.
     glm::dvec3 period{0};

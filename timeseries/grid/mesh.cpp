@@ -198,6 +198,10 @@ LowerTriangle<double> Mesh::cell(std::uint64_t index) const {
     return cell;
 }
 
+Mesh::Stored Mesh::stored() const {
+    return {{points_.data(), stored_}, levels_, origin_, unit_, sign_};
+}
+
 std::vector<std::string> notesOf(const Mesh& mesh) {
     std::vector<std::string> notes;
     const auto add = [&](std::uint64_t points, std::string_view what) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -66,16 +67,27 @@ class Mesh {
 
     friend bool operator==(const Mesh& a, const Mesh& b);
 
- private:
-    // 36 bytes. In the mesh's units; of columns the cells of all levels are alike but for their
-    // height. The first column of a cell's shape is negative where it is turned over.
+    // As it is kept, for who works position() and cell() out elsewhere.
+    // 36 bytes. Relative to the origin, in the mesh's units, powers of two near the extent: floats
+    // keep what they can. Of columns the cells of all levels are alike but for their height. The
+    // first column of a cell's shape is negative where it is turned over.
     struct Point {
         glm::vec3 at;
         LowerTriangle<float> cell;
     };
+    // In the file's units; from the origin.
     struct Level {
         double at, height;
     };
+    struct Stored {
+        std::span<const Point> points;  // [j][i] where there are levels
+        std::span<const Level> levels;  // heights stand for those of cells where there are several
+        glm::dvec3 origin, unit;
+        double sign;  // of the first diagonal element of the cells that are drawn
+    };
+    Stored stored() const;
+
+ private:
     struct Sums;
     void takeUnits(const std::vector<glm::dvec3>& at, double lowest, double highest);
     void takeLevels(const std::vector<double>& levels);
@@ -86,8 +98,6 @@ class Mesh {
     std::array<std::size_t, 3> size_;
     bool hasNeighbours_ = true;
     double spread_ = 1;
-    // Points are relative to the origin, in these units, powers of two near the extent: floats keep
-    // what they can.
     glm::dvec3 origin_{0}, unit_{1};
     std::uint64_t stored_ = 0;
     Pages<Point> points_;  // [stored_]
