@@ -50,15 +50,10 @@ struct NotRead {
 };
 constexpr std::array kNotRead{
     // Meshes, and grids that are curvilinear.
-    NotRead{"grids/icon_ocean_triangles.nc",
-            "on an unstructured mesh (20480 places listed along ncells), which is not read yet"},
     NotRead{"grids/can_0.vtkhdf", "is a VTKHDF file;"},
     NotRead{"grids/warping_spheres.vtkhdf", "is a VTKHDF file;"},
     NotRead{"grids/no_checkpoint.xdmf", "is an XDMF file;"},
     NotRead{"grids/plot3d/combq.bin", "is a PLOT3D file;"},
-    // Uniform grids in formats without a reader.
-    NotRead{"fmri_filtered_func_64t.nii.gz", "is a NIfTI file;"},
-    NotRead{"grids/emd_3001.map", "is an MRC map;"},
 };
 
 std::string refusalOf(const std::filesystem::path& file) {

@@ -21,7 +21,7 @@ using Path = std::filesystem::path;
 using namespace timeseries::netcdf_axes;
 
 // Each in the words of another writer.
-TEST(NetcdfAxes, ValuesOnAMeshAreToldAndRefused) {
+TEST(NetcdfAxes, ValuesOnAMeshWithoutPolygonsAreToldAndRefused) {
     const auto written = [](bool radians, const char* along, auto&& more) {
         NetcdfBuilder file("a.nc");
         const auto z = file.coordinate("depth", 3, "m");
@@ -44,7 +44,9 @@ TEST(NetcdfAxes, ValuesOnAMeshAreToldAndRefused) {
         "listed along ";
     for (const char* along : {"c", "ncells", "nod2"}) {  // by coordinates, of ICON, of FESOM
         const Path path = written(along == std::string("c"), along, nothing);
-        EXPECT_EQ(refusalOf(path), path.string() + told + along + "), which is not read yet");
+        EXPECT_EQ(refusalOf(path),
+                  path.string() + told + along +
+                      ") of which the file tells neither bounds (CF) nor faces (UGRID)");
     }
     const auto ugrid = [](NetcdfBuilder& file, int v) {
         file.text(v, "mesh", "m");
@@ -53,8 +55,10 @@ TEST(NetcdfAxes, ValuesOnAMeshAreToldAndRefused) {
     const auto cdi = [](NetcdfBuilder& file, int v) {
         file.text(v, "CDI_grid_type", "unstructured");
     };
-    EXPECT_THAT(refusalOf(written(false, "c", ugrid)), HasSubstr("on an unstructured mesh, which"));
-    EXPECT_THAT(refusalOf(written(false, "c", cdi)), HasSubstr("on an unstructured mesh, which"));
+    EXPECT_THAT(refusalOf(written(false, "c", ugrid)),
+                HasSubstr("on an unstructured mesh of which the file tells"));
+    EXPECT_THAT(refusalOf(written(false, "c", cdi)),
+                HasSubstr("on an unstructured mesh of which the file tells"));
 }
 
 TEST(NetcdfAxes, BesideValuesOnAMeshAGridIsRead) {

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <random>
 
-#include "tests/support/nrrd_builder.h"
+#include "tests/support/array_builder.h"
 
 namespace timeseries {
 namespace {
@@ -214,11 +214,11 @@ class DamagedNrrdFiles : public DamagedNrrd {
 TEST_F(DamagedNrrdFiles, DataFilesThatCannotBeUsedAreNamed) {
     ASSERT_EQ(toldOfFile("v.raw"), "");
     ASSERT_EQ(toldOfFile((folder / "head/v.raw").string()), "");
-    EXPECT_EQ(toldOfFile("none.raw"), "field 'data file': " + (folder / "head/none.raw").string() +
+    EXPECT_EQ(toldOfFile("none.raw"), "data file: " + (folder / "head/none.raw").string() +
                                           ": expected a file, but there is none");
     EXPECT_THAT(toldOfFile("../none/../v.raw"), HasSubstr("v.raw: expected a file, but there is"));
-    EXPECT_THAT(toldOfFile("LIST 3\n \nv.raw"), HasSubstr("'data file': expected the name"));
-    EXPECT_THAT(toldOfFile(""), HasSubstr("'data file': expected the name"));
+    EXPECT_THAT(toldOfFile("LIST 3\n \nv.raw"), HasSubstr("data file: expected the name"));
+    EXPECT_THAT(toldOfFile(""), HasSubstr("field 'data file': expected the name"));
     for (const char* each : {".", "..", "../..", "/"})
         EXPECT_THAT(toldOfFile(each), HasSubstr("expected a file, but it is a folder")) << each;
     EXPECT_THAT(toldOfFile("/dev/zero"), HasSubstr("/dev/zero: expected an ordinary file"));

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "tests/support/nrrd_builder.h"
+#include "tests/support/array_builder.h"
 
 namespace timeseries {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "tests/support/nrrd_builder.h"
+#include "tests/support/array_builder.h"
 
 namespace timeseries {
 namespace {

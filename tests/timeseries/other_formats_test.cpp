@@ -16,9 +16,10 @@ using namespace std::string_literals;
 using Path = std::filesystem::path;
 
 const std::string kTail =
-    "; isochron reads NetCDF, Exodus II, NRRD and, of VTK, image data, rectilinear, structured and "
-    "unstructured grids "
-    "(.vti, .vtr, .vts, .vtu, .vtk, .pvd, .series)";
+    "; isochron reads NetCDF, Exodus II, NRRD, NIfTI, MRC, FITS and, of VTK, image data, "
+    "rectilinear, "
+    "structured and unstructured grids (.vti, .vtr, .vts, .vtu, .pvti and so on, .vtk, .pvd, "
+    ".series)";
 
 // What opening a file or folder says it is.
 std::string told(const Path& path) {
@@ -26,8 +27,9 @@ std::string told(const Path& path) {
         openReader(expandSeries(std::span(&path, 1)).files);
     } catch (const FileError& error) {
         const std::string what = error.what();
-        if (what ==
-            path.string() + ": expected a NetCDF, NRRD or VTK file, found no format that is known")
+        if (what == path.string() +
+                        ": expected a NetCDF, NRRD, NIfTI, MRC, FITS or VTK file, found no format "
+                        "that is known")
             return "unknown";
         EXPECT_TRUE(what.starts_with(path.string() + " is ")) << what;
         EXPECT_TRUE(what.ends_with(kTail)) << what;
@@ -65,14 +67,9 @@ std::string gzipped(const std::string& bytes) {
 
 // The signs are those of the formats' own documents.
 TEST(OtherFormats, AreNamed) {
-    const std::string nifti = at(344, "n+1\0"s);
     for (const auto& [bytes, name] : std::vector<std::pair<std::string, std::string>>{
-             {nifti, "a NIfTI file"},
-             {gzipped(nifti), "a NIfTI file"},
-             {at(4, "n+2\0\r\n\x1a\n"s), "a NIfTI-2 file"},
              {at(0, "GRIB"), "a GRIB file"},
-             {at(0, "SIMPLE  =                    T"), "a FITS file"},
-             {at(208, "MAP "), "an MRC map"},
+             {gzipped(at(0, "GRIB")), "a GRIB file"},
              {at(128, "DICM"), "a DICOM file"},
              {at(0, "II*\0"s), "a TIFF file"},
              {at(0, "MM\0*"s), "a TIFF file"},
@@ -82,8 +79,8 @@ TEST(OtherFormats, AreNamed) {
              {at(0, "PK\3\4"), "a zip archive"},
              {"<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf/>",
               "an XDMF file"},
-             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\"/>",
-              "a VTK file of type PUnstructuredGrid"},
+             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\"/>",
+              "a VTK file of type PPolyData"},
              {"# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\n",
               "a VTK file of type polydata"},
              {gzipped("CDF\1"s), "compressed by gzip, and must be unpacked first"},
@@ -137,15 +134,12 @@ TEST(OtherFormats, RealFilesAreNamed) {
     if (!std::filesystem::exists(tests::sharedData("grids")))
         GTEST_SKIP() << "no real data at " << tests::sharedData("grids");
     for (const auto& [file, name] : std::vector<std::pair<std::string, std::string>>{
-             {"fmri_filtered_func_64t.nii.gz", "a NIfTI file"},
              {"pool_fire_vdb/fire_080.vdb", "an OpenVDB file"},
              {"bluntfin/bluntfinxyz.bin", "a PLOT3D file"},
              {"bluntfin/bluntfinq.bin", "a PLOT3D file"},
              {"grids/plot3d/combxyz.bin", "a PLOT3D file"},
              {"grids/plot3d/combq.bin", "a PLOT3D file"},
              {"grids/chombo3d/chombo3d.vtm", "a VTK file of type vtkHierarchicalBoxDataSet"},
-             {"grids/emd_3001.map", "an MRC map"},
-             {"grids/example_cube.fits", "a FITS file"},
              {"grids/no_checkpoint.xdmf", "an XDMF file"},
              {"grids/can_0.vtkhdf", "a VTKHDF file"},
              {"grids/warping_spheres.vtkhdf", "a VTKHDF file"},

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "tests/support/netcdf_builder.h"
-#include "tests/support/nrrd_builder.h"
+#include "tests/support/array_builder.h"
 #include "tests/support/reading_memory.h"
 
 namespace timeseries {

@@ -338,17 +338,17 @@ TEST_F(SeriesFiles, SeveralCandidatesAreListed) {
 }
 
 TEST_F(SeriesFiles, NoCandidateIsAFileThatIsNotRead) {
-    const std::string nifti = std::string(344, '\0') + std::string("n+1\0", 4);
-    for (const char* name : {"b_1.nii", "b_2.nii"}) writeBytes(folder_ / name, nifti);
+    for (const char* name : {"b_1.grb", "b_2.grb"}) writeBytes(folder_ / name, "GRIB");
     make({"notes.txt"});
-    EXPECT_EQ(failure(""), (folder_ / "").string() +
-                               ": expected a folder that holds NetCDF, NRRD or VTK files that are "
-                               "read, found b_*.nii (2 files), a NIfTI file; notes.txt");
+    EXPECT_EQ(failure(""),
+              (folder_ / "").string() +
+                  ": expected a folder that holds NetCDF, NRRD, NIfTI, MRC, FITS or VTK "
+                  "files that are read, found b_*.grb (2 files), a GRIB file; notes.txt");
     // Of one extension too.
     const Path one = folder_ / "one";
     std::filesystem::create_directory(one);
-    for (const char* name : {"a_1.dat", "a_2.dat", "b_1.dat"}) writeBytes(one / name, nifti);
-    EXPECT_THAT(failure("one"), HasSubstr("found a_*.dat (2 files), a NIfTI file; b_1.dat, a"));
+    for (const char* name : {"a_1.dat", "a_2.dat", "b_1.dat"}) writeBytes(one / name, "GRIB");
+    EXPECT_THAT(failure("one"), HasSubstr("found a_*.dat (2 files), a GRIB file; b_1.dat, a"));
     for (const char* name : {"b_1.dat", "b_2.dat"}) writeBytes(one / name, "CDF\1");
     EXPECT_THAT(names(expand("one")), ElementsAre("b_1.dat", "b_2.dat"));
 }

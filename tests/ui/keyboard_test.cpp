@@ -1,6 +1,6 @@
 // The window without a mouse.
 #include "app/panels/theme.h"
-#include "tests/support/nrrd_builder.h"
+#include "tests/support/array_builder.h"
 #include "tests/ui/demo_values.h"
 #include "tests/ui/desk_test.h"
 

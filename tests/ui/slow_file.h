@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "tests/support/nrrd_builder.h"
+#include "tests/support/array_builder.h"
 
 namespace ui {
 

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include "timeseries/grid/grid.h"
 #include "timeseries/together.h"
@@ -64,29 +65,32 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size) {
     const std::uint64_t stored = columns ? std::uint64_t{ni} * nj : count();
     if (count() == 0 || places.at.size() != stored || (columns && places.levels.size() != nk))
         throw std::invalid_argument("a mesh with places of another number of points");
-    double lowest = 0, highest = 0;
-    if (columns) {
-        const auto [first, last] = std::minmax(places.levels.front(), places.levels.back());
-        lowest = first;
-        highest = last;
-    }
-    takeUnits(places.at, lowest, highest);
-    takeLevels(places.levels);
     const CurvilinearCells cells(places);
-    takePoints(stored, [&](std::uint64_t i) {
+    takeColumns(stored, places.at, places.levels, [&](std::uint64_t i) {
         if (!isPlace(places.at[i])) return MeshPoint{places.at[i], {}};
         const glm::dmat3 rows = glm::transpose(cells(i));
         return MeshPoint{places.at[i], {rows[0], rows[1], rows[2]}};
     });
-    lo_.z += lowest;
-    hi_.z += highest;
 }
 
 Mesh::Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
-           const std::function<MeshPoint(std::uint64_t)>& point)
-    : size_{count, 1, 1}, hasNeighbours_(false), spread_(spread) {
-    takeUnits(between, 0, 0);
-    takePoints(count, point);
+           const std::function<MeshPoint(std::uint64_t)>& point, const std::vector<double>& levels)
+    : size_{count, 1, std::max<std::size_t>(levels.size(), 1)},
+      hasNeighbours_(false),
+      spread_(spread) {
+    takeColumns(count, between, levels, point);
+}
+
+void Mesh::takeColumns(std::uint64_t stored, const std::vector<glm::dvec3>& between,
+                       const std::vector<double>& levels,
+                       const std::function<MeshPoint(std::uint64_t)>& point) {
+    double lowest = 0, highest = 0;
+    if (!levels.empty()) std::tie(lowest, highest) = std::minmax(levels.front(), levels.back());
+    takeUnits(between, lowest, highest);
+    takeLevels(levels);
+    takePoints(stored, point);
+    lo_.z += lowest;
+    hi_.z += highest;
 }
 
 std::uint64_t Mesh::count() const { return std::uint64_t{size_[0]} * size_[1] * size_[2]; }
@@ -111,7 +115,8 @@ void Mesh::takeUnits(const std::vector<glm::dvec3>& at, double lowest, double hi
 void Mesh::takeLevels(const std::vector<double>& levels) {
     const Axis axis{"", "", levels};
     for (std::size_t k = 0; k < levels.size(); ++k)
-        levels_.push_back({levels[k] - origin_.z, levels.size() > 1 ? std::abs(axis.width(k)) : 0});
+        levels_.push_back(
+            {levels[k] - origin_.z, levels.size() > 1 ? spread_ * std::abs(axis.width(k)) : 0});
 }
 
 // In pieces of one size, added up in their order: the same for any number of threads.

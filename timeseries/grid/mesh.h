@@ -29,9 +29,12 @@ class Mesh {
     // says, none is finite, or no cell of them has a volume.
     explicit Mesh(const MeshPlaces& places);
     // Points without neighbours, as many as `count`, which lie between these, with splats that are
-    // `spread` times as wide as the cells. `point` is called by several threads at once.
+    // `spread` times as wide as the cells. `point` is called by several threads at once. With
+    // levels, as MeshPlaces has them, each is the column of points at these, of cells as high as
+    // the levels are apart; those of `point` are as high as the first.
     Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
-         const std::function<MeshPoint(std::uint64_t index)>& point);
+         const std::function<MeshPoint(std::uint64_t index)>& point,
+         const std::vector<double>& levels = {});
 
     // Points along the indices i, j and k: those before and after a point are its neighbours, if
     // there are neighbours.
@@ -75,7 +78,7 @@ class Mesh {
         glm::vec3 at;
         LowerTriangle<float> cell;
     };
-    // In the file's units; from the origin.
+    // In the file's units: from the origin; `spread` times as high as the cells.
     struct Level {
         double at, height;
     };
@@ -89,6 +92,9 @@ class Mesh {
 
  private:
     struct Sums;
+    void takeColumns(std::uint64_t stored, const std::vector<glm::dvec3>& between,
+                     const std::vector<double>& levels,
+                     const std::function<MeshPoint(std::uint64_t index)>& point);
     void takeUnits(const std::vector<glm::dvec3>& at, double lowest, double highest);
     void takeLevels(const std::vector<double>& levels);
     void takePoints(std::uint64_t count,

@@ -173,6 +173,19 @@ std::array<glm::dvec3, 3> rowsOf(const glm::dmat3& second, double volume) {
     return rows;
 }
 
+// As high as the first level, with the area that the surface had, as thick as it was taken for.
+MeshPoint prismOf(MeshPoint point, const glm::dmat3& second, double volume,
+                  const std::vector<double>& levels) {
+    if (levels.size() < 2 || !(volume > 0)) return point;
+    auto& rows = point.rows;
+    const double area = volume / std::sqrt(12 * second[2][2]);
+    const double scale = std::sqrt(area / (rows[0].x * rows[1].y));
+    rows = {scale * glm::dvec3(rows[0].x, 0, 0),
+            scale * glm::dvec3(rows[1].x, rows[1].y, 0),
+            {0, 0, std::abs(levels[1] - levels[0])}};
+    return point;
+}
+
 // For every point, the cells that it is of: those of point p stand from first[p] to first[p + 1].
 struct Stars {
     std::vector<std::uint64_t> first;
@@ -247,16 +260,19 @@ UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid)
             });
 }
 
-Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
-    return Mesh(grid.types.size(), grid.points, shapes.spread, [&](std::uint64_t cell) {
-        const CellMoments& moments = shapes.cells[cell];
-        return MeshPoint{moments.centroid, rowsOf(moments.second, moments.volume)};
-    });
+Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
+                 const std::vector<double>& levels) {
+    const auto point = [&](std::uint64_t cell) {
+        const auto& [volume, centroid, second] = shapes.cells[cell];
+        return prismOf({centroid, rowsOf(second, volume)}, second, volume, levels);
+    };
+    return Mesh(grid.types.size(), grid.points, shapes.spread, point, levels);
 }
 
-Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
+Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
+                  const std::vector<double>& levels, std::uint64_t count) {
     const Stars stars(grid);
-    return Mesh(grid.points.size(), grid.points, shapes.spread, [&](std::uint64_t point) {
+    const auto pointOf = [&](std::uint64_t point) {
         const glm::dvec3& at = grid.points[point];
         double volume = 0, whole = 0;
         glm::dmat3 second(0.0);
@@ -270,8 +286,10 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
             second += of.volume * (of.second + glm::outerProduct(away, away));
         }
         if (whole > 0) second /= whole;
-        return MeshPoint{at, rowsOf(second, volume)};
-    });
+        return prismOf({at, rowsOf(second, volume)}, second, volume, levels);
+    };
+    return Mesh(std::min<std::uint64_t>(count, grid.points.size()), grid.points, shapes.spread,
+                pointOf, levels);
 }
 
 std::vector<std::string> notesOf(const UnstructuredGrid& grid) {

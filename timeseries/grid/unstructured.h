@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,10 +44,15 @@ struct UnstructuredShapes {
 // Throw std::invalid_argument when nothing has a volume.
 //
 // One point a cell: at its centroid, as large as the cell, as far each way as its second moments.
-Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes);
-// One point a point: of each cell that it is of it has the share that all of its points have, and
-// reaches as far as these cells do about it.
-Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes);
+// With levels, surfaces in the plane of the first two coordinates stand for prisms above them, one
+// a level.
+Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
+                 const std::vector<double>& levels = {});
+// One point a point, the first `count` of them: of each cell that it is of it has the share that
+// all of its points have, and reaches as far as these cells do about it. Levels as above.
+Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
+                  const std::vector<double>& levels = {},
+                  std::uint64_t count = std::numeric_limits<std::uint64_t>::max());
 
 // What is drawn otherwise than the file says, a sentence each.
 std::vector<std::string> notesOf(const UnstructuredGrid& grid);

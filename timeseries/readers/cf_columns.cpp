@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "timeseries/readers/cf_packing.h"
+#include "timeseries/readers/cf_values.h"
 #include "timeseries/readers/units.h"
 
 namespace timeseries {
 namespace {
 
 constexpr std::size_t kShownCoordinates = 8;
-
-// Of degrees or radians; 0 of what comes round to itself in another measure, or not at all.
-double turnIn(const std::string& units) {
-    const std::string low = lower(units);
-    if (low.starts_with("deg")) return 360;
-    return low.starts_with("rad") ? 2 * std::numbers::pi : 0;
-}
 
 // Nothing but the two dimensions and, perhaps, the variable's time or what is as long as 1.
 bool spansNoMore(const NcHeader& header, const NcVariable& coordinate, const NcVariable& variable,
@@ -103,8 +96,9 @@ FoundColumns columnsOf(const NcHeader& header, const NcVariable& variable, const
         return named[which].empty() && all[which].size() == 1 ? all[which][0] : nullptr;
     };
     if (const NcVariable* lon = only(0), *lat = only(1); lon && lat)
-        found.places = {lon->name, lat->name,
-                        hasTime(*lon, variable, roles) || hasTime(*lat, variable, roles)};
+        found.places = {.x = lon->name,
+                        .y = lat->name,
+                        .inTime = hasTime(*lon, variable, roles) || hasTime(*lat, variable, roles)};
     return found;
 }
 

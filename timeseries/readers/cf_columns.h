@@ -17,6 +17,11 @@ namespace timeseries {
 struct ColumnPlaces {
     std::string x, y;
     bool inTime = false;
+    // What lies about each place: its neighbours along both dimensions; or of places in a list
+    // (cf_lists.h) the polygon of its bounds, its face of a mesh, or the faces about it as a node.
+    enum class By { Neighbours, Bounds, Faces, Nodes } by = By::Neighbours;
+    std::string faces = {};  // the mesh's connectivity
+    bool turned = false;     // of which the faces are the second dimension
     friend bool operator==(const ColumnPlaces&, const ColumnPlaces&) = default;
 };
 

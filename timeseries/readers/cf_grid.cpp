@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "timeseries/readers/cf_packing.h"
+#include "timeseries/readers/cf_values.h"
 #include "timeseries/readers/units.h"
 
 namespace timeseries {
@@ -13,18 +13,6 @@ namespace {
 
 // A step of 2^32 points needs no longer axis, and an axis costs 8 bytes a point.
 constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
-
-std::vector<double> coordinatesOf(const NetcdfFile& file, const NcVariable& coordinate) {
-    const Packing packing = packingOf(
-        coordinate, [&](const std::string& what) { file.failAttribute(coordinate, what); });
-    std::vector<double> values;
-    for (const Number& stored : file.numbers(coordinate)) {
-        const bool missing = std::ranges::any_of(
-            packing.missing, [&](const Number& fill) { return compare(stored, fill) == 0; });
-        values.push_back(missing ? std::nan("") : packing.unpack(toDouble(stored)));
-    }
-    return values;
-}
 
 // Greater values lie lower: CF 1.10, section 4.3, asks for `positive` unless the units are those of
 // pressure.
@@ -53,7 +41,7 @@ Axis axisOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& 
         return {dimension.name, "index", indexCoordinates(dimension.length), false};
     }
     Axis axis{std::string(coordinate->baseName()), coordinate->text("units"),
-              coordinatesOf(file, *coordinate), pointsDown(*coordinate)};
+              valuesOf(file, *coordinate), pointsDown(*coordinate)};
     if (const std::string why = flawOf(axis.coordinates); !why.empty()) {
         notes.push_back(axis.name + " is placed by index: " + why);
         axis.units = "index";
@@ -86,16 +74,23 @@ void noteLevels(const NcHeader& header, const FileAxes& fileAxes, const NcVariab
     }
 }
 
+// Of the space that listed places lie in.
+Axis listedAxis(const NcHeader& header, const std::string& name) {
+    const NcVariable& place = *header.find(name, "");
+    const std::string units = place.text("units");
+    return {std::string(place.baseName()), degreesIn(units) == 1 ? units : "degrees", {0.0}, false};
+}
+
 }  // namespace
 
 VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                     const Roles& roles, std::span<const NcVariable* const> geographic,
-                    std::vector<std::string>& notes) {
+                    const std::optional<ColumnPlaces>& list, std::vector<std::string>& notes) {
     const NcHeader& header = file.header();
     const std::array positions{roles.x, roles.y, roles.z};
     const std::array<const char*, 3> names{"x", "y", "z"};
-    FoundColumns found;
-    if (roles.x && roles.y &&
+    FoundColumns found{list, ""};
+    if (!list && roles.x && roles.y &&
         !(measured(fileAxes.coordinateOf(variable, *roles.x)) &&
           measured(fileAxes.coordinateOf(variable, *roles.y))))
         found = columnsOf(header, variable, roles, geographic);
@@ -105,6 +100,10 @@ VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
     VariableAxes result{{}, found.places};
     std::array<Axis, 3>& axes = result.axes;
     for (std::size_t i = 0; i < 3; ++i) {
+        if (i < 2 && list) {
+            axes[i] = listedAxis(header, i == 0 ? list->x : list->y);
+            continue;
+        }
         if (!positions[i]) {
             axes[i] = {names[i], "index", {0.0}, false};
             continue;

@@ -22,10 +22,10 @@ struct VariableAxes {
     std::optional<ColumnPlaces> columns = {};
 };
 
-// `geographic`: the file's longitudes and latitudes of any rank. Throws FileError when coordinates
-// cannot be read.
+// `geographic`: the file's longitudes and latitudes of any rank. `list`: where the points lie, of a
+// variable on a mesh. Throws FileError when coordinates cannot be read.
 VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                     const Roles& roles, std::span<const NcVariable* const> geographic,
-                    std::vector<std::string>& notes);
+                    const std::optional<ColumnPlaces>& list, std::vector<std::string>& notes);
 
 }  // namespace timeseries

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "timeseries/readers/cf_lists.h"
 #include "timeseries/readers/exodus_mesh.h"
 #include "timeseries/readers/other_formats.h"
 
@@ -31,27 +32,16 @@ bool vtkHdf(const NcHeader& header) {
 // The connectivity of an unstructured mesh (UGRID 1.0), which is no data.
 bool isConnectivity(const NcVariable& variable) { return variable.find("cf_role") != nullptr; }
 
-// Values on an unstructured mesh, by what writers of meshes say: UGRID 1.0, section "data defined
-// on unstructured grids"; CDI (ICON).
-bool saysMesh(const NcVariable& variable) {
-    const auto says = [&](const char* attribute) {
-        return lower(variable.text(attribute)) == "unstructured";
-    };
-    return (variable.find("mesh") &&
-            (variable.find("location") || variable.find("location_index_set"))) ||
-           says("grid_type") || says("CDI_grid_type");
-}
-
-// Why it is not read though it may be data: its values lie on a mesh; "" when they do not.
-std::string meshOf(const NcHeader& header, const NcVariable& variable, const Roles& roles) {
-    if (!roles.list && !saysMesh(variable)) return "";
+// Why what lies on a mesh is not read.
+std::string meshNotRead(const NcHeader& header, const NcVariable& variable, const Roles& roles) {
     std::string places;
     if (roles.list) {
         const NcDimension& along = header.dimension(variable, *roles.list);
         places = fmt::format(" ({} places listed along {})", along.length, along.name);
     }
     return fmt::format(
-        "expected values on a grid, found them on an unstructured mesh{}, which is not read yet",
+        "expected values on a grid, found them on an unstructured mesh{} of which the file tells "
+        "neither bounds (CF) nor faces (UGRID)",
         places);
 }
 
@@ -112,7 +102,8 @@ std::string obstacle(const NetcdfFile& file, const NcVariable& variable, const R
 }
 
 FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
-                      const Roles& roles, std::span<const NcVariable* const> geographic) {
+                      const Roles& roles, std::span<const NcVariable* const> geographic,
+                      const std::optional<ColumnPlaces>& list) {
     const NcHeader& header = file.header();
     FileVariable result;
     result.name = variable.name;
@@ -127,7 +118,7 @@ FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const Nc
     result.packing =
         packingOf(variable, [&](const std::string& what) { file.failAttribute(variable, what); });
     result.times = timesOf(file, fileAxes, variable, roles);
-    result.axes = axesOf(file, fileAxes, variable, roles, geographic, result.notes);
+    result.axes = axesOf(file, fileAxes, variable, roles, geographic, list, result.notes);
     return result;
 }
 
@@ -145,20 +136,28 @@ FileContents contentsOf(const NetcdfFile& file) {
     std::string passedOver;
     for (const NcVariable* field : fields) {
         const NcVariable& variable = *field;
-        const Roles roles = fileAxes.rolesOf(variable);
-        if (const std::string mesh = meshOf(header, variable, roles); !mesh.empty()) {
-            contents.damaged.push_back(
-                {variable.name, file.sentence("variable '" + variable.name + "'", mesh)});
-            continue;
+        Roles roles = fileAxes.rolesOf(variable);
+        std::optional<ColumnPlaces> list;
+        if (roles.list || saysMesh(variable)) {
+            const auto found = listOf(header, variable, roles, geographic);
+            if (!found) {
+                contents.damaged.push_back(
+                    {variable.name, file.sentence("variable '" + variable.name + "'",
+                                                  meshNotRead(header, variable, roles))});
+                continue;
+            }
+            list = found->places;
+            roles = found->roles;
         }
-        if (roles.spatial() < 2) continue;
+        if (roles.spatial() < 2 && !list) continue;
         const std::string why = obstacle(file, variable, roles);
         if (!why.empty()) {
             passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
             continue;
         }
         try {
-            contents.variables.push_back(describe(file, fileAxes, variable, roles, geographic));
+            contents.variables.push_back(
+                describe(file, fileAxes, variable, roles, geographic, list));
         } catch (const AttributeError& error) {
             contents.damaged.push_back({variable.name, error.what()});
         }

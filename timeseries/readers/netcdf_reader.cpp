@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "timeseries/readers/cf_lists.h"
 #include "timeseries/readers/exodus_mesh.h"
 #include "timeseries/readers/exodus_reader.h"
 #include "timeseries/readers/netcdf_contents.h"
@@ -157,6 +158,9 @@ std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std:
         open(0);
         return std::make_shared<const Grid>(std::move(axes), mesh);
     } catch (const std::invalid_argument& flaw) {
+        if (first.axes.columns->by != ColumnPlaces::By::Neighbours)
+            open(0).fail("variable '" + first.name + "'",
+                         fmt::format("expected cells that take space, found that {}", flaw.what()));
         notes.push_back(fmt::format("drawn in index space: of its 2-D coordinates {} and {}, {}",
                                     first.axes.columns->x, first.axes.columns->y, flaw.what()));
         first.axes.columns.reset();
@@ -171,7 +175,11 @@ std::shared_ptr<const Mesh> NetcdfReader::meshAt(std::size_t f, std::size_t v, s
     const NcVariable* const found = file.header().find(source.name, "");
     if (!found)
         file.fail("variable '" + source.name + "'", "expected it, but the file has changed");
-    return meshOf(file, *found, source.roles, *source.axes.columns, source.axes.axes[2], step);
+    const ColumnPlaces& columns = *source.axes.columns;
+    const Axis& z = source.axes.axes[2];
+    if (columns.by != ColumnPlaces::By::Neighbours)
+        return meshOfList(file, columns, source.roles.z ? z.coordinates : std::vector<double>());
+    return meshOf(file, *found, source.roles, columns, z, step);
 }
 
 void NetcdfReader::addVariable(std::size_t v) {

@@ -1,21 +1,20 @@
-// Where the values of an NRRD file lie: behind its header, or in the files that the field
-// `data file` names: one, a LIST, or a numbered pattern.
+// What the field `data file` of an NRRD header names: one file, a LIST, or a numbered pattern.
 #pragma once
 
-#include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "timeseries/readers/nrrd_header.h"
+#include "timeseries/readers/array_header.h"
 
 namespace timeseries {
 
-struct NrrdPieces {
-    std::vector<std::filesystem::path> paths;  // each holds as many values, one after the other
-    std::uint64_t pieceCount = 0;              // values in each
-    std::uint64_t headerBytes = 0;             // before them, of an attached header
+struct NrrdDataFile {
+    std::optional<std::string> field;  // nothing when the values are behind the header
+    std::vector<std::string> list;     // the lines after `data file: LIST`
 };
 
-// Throws FileError, also when a file is missing or cannot hold what is declared.
-NrrdPieces piecesOf(const NrrdHeader& header, std::vector<std::string>& notes);
+// REQUIRES: the field is there, and the header's axes are known. Throws FileError.
+std::vector<std::string> namesOf(const ArrayHeader& header, const NrrdDataFile& dataFile);
 
 }  // namespace timeseries

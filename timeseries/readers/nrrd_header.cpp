@@ -11,7 +11,7 @@
 #include <memory>
 #include <mutex>
 
-#include "timeseries/readers/reader.h"
+#include "timeseries/readers/nrrd_files.h"
 #include "timeseries/readers/words.h"
 
 namespace timeseries {
@@ -41,10 +41,11 @@ struct HeaderText {
     std::string forTeem;
     std::size_t lines = 0, pairs = 0;
     bool ended = false;  // by a blank line
+    NrrdDataFile dataFile;
 };
 
 // "0", "-3", "x" -> what is wrong with it, for sizes; teem reads the first two as huge or zero.
-void checkSizes(const NrrdHeader& header, std::string_view list) {
+void checkSizes(const ArrayHeader& header, std::string_view list) {
     for (const std::string& word : words(list)) {
         std::uint64_t size = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), size);
@@ -56,7 +57,7 @@ void checkSizes(const NrrdHeader& header, std::string_view list) {
 }
 
 // teem 1.12 loses memory over a quotation that does not end.
-void checkQuotes(const NrrdHeader& header, const std::string& field, std::string_view text) {
+void checkQuotes(const ArrayHeader& header, const std::string& field, std::string_view text) {
     bool open = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '\\' && open)
@@ -67,7 +68,7 @@ void checkQuotes(const NrrdHeader& header, const std::string& field, std::string
     if (open) header.fail(fmt::format("field '{}'", field), "expected quotation marks in pairs");
 }
 
-void takeLine(std::string_view line, NrrdHeader& header, HeaderText& text) {
+void takeLine(std::string_view line, const ArrayHeader& header, HeaderText& text) {
     if (line[0] == '#') return;
     // "name: description"; "key:=value" is teem's.
     const auto colon = line.find(": ");
@@ -77,8 +78,8 @@ void takeLine(std::string_view line, NrrdHeader& header, HeaderText& text) {
         header.fail("header", fmt::format("expected at most {} key/value pairs", kMaxPairs));
     const std::string name = field ? lower(trim(line.substr(0, colon))) : "";
     if (name == "data file" || name == "datafile") {
-        if (header.dataFile) header.fail("field 'data file'", "expected it once");
-        header.dataFile = std::string(trim(line.substr(colon + 2)));
+        if (text.dataFile.field) header.fail("field 'data file'", "expected it once");
+        text.dataFile.field = std::string(trim(line.substr(colon + 2)));
         return;
     }
     if (name == "sizes") checkSizes(header, line.substr(colon + 2));
@@ -95,7 +96,7 @@ void takeLine(std::string_view line, NrrdHeader& header, HeaderText& text) {
 }
 
 // Up to the first blank line, or to the end of the file.
-HeaderText scan(NrrdHeader& header) {
+HeaderText scan(ArrayHeader& header) {
     std::ifstream file(header.path, std::ios::binary);
     if (!file.is_open()) header.fail("", "expected a file that can be read");
     HeaderText text;
@@ -111,11 +112,11 @@ HeaderText scan(NrrdHeader& header) {
         if (line.empty()) {
             text.ended = true;
         } else if (list) {
-            header.dataFileList.emplace_back(trim(line));
+            text.dataFile.list.emplace_back(trim(line));
         } else {
             takeLine(line, header, text);
-            list = header.dataFile && (header.dataFile->starts_with("LIST") ||
-                                       header.dataFile->starts_with("SKIPLIST"));
+            const auto& field = text.dataFile.field;
+            list = field && (field->starts_with("LIST") || field->starts_with("SKIPLIST"));
         }
         line.clear();
     };
@@ -151,7 +152,7 @@ std::string folded(std::string message) {
     return message.substr(0, 200);
 }
 
-ValueType valueType(const NrrdHeader& header, int type) {
+ValueType valueType(const ArrayHeader& header, int type) {
     switch (type) {
         case nrrdTypeChar:
             return ValueType::I8;
@@ -178,34 +179,34 @@ ValueType valueType(const NrrdHeader& header, int type) {
     }
 }
 
-NrrdEncoding encodingOf(const NrrdHeader& header, const ::NrrdEncoding* encoding) {
-    if (encoding == nrrdEncodingRaw) return NrrdEncoding::Raw;
-    if (encoding == nrrdEncodingGzip) return NrrdEncoding::Gzip;
-    if (encoding == nrrdEncodingBzip2) return NrrdEncoding::Bzip2;
-    if (encoding == nrrdEncodingAscii) return NrrdEncoding::Ascii;
+ArrayEncoding encodingOf(const ArrayHeader& header, const ::NrrdEncoding* encoding) {
+    if (encoding == nrrdEncodingRaw) return ArrayEncoding::Raw;
+    if (encoding == nrrdEncodingGzip) return ArrayEncoding::Gzip;
+    if (encoding == nrrdEncodingBzip2) return ArrayEncoding::Bzip2;
+    if (encoding == nrrdEncodingAscii) return ArrayEncoding::Ascii;
     header.fail("field 'encoding'",
                 fmt::format("expected raw, gzip, bzip2 or text, found {}", encoding->name));
 }
 
-NrrdKind kindOf(const NrrdAxisInfo& axis) {
+ArrayKind kindOf(const NrrdAxisInfo& axis) {
     switch (axis.kind) {
         case nrrdKindUnknown:
-            return NrrdKind::Unknown;
+            return ArrayKind::Unknown;
         case nrrdKindDomain:
         case nrrdKindSpace:
-            return NrrdKind::Space;
+            return ArrayKind::Space;
         case nrrdKindTime:
-            return NrrdKind::Time;
+            return ArrayKind::Time;
         case nrrdKindList:
-            return NrrdKind::List;
+            return ArrayKind::List;
         default:
-            return NrrdKind::Components;
+            return ArrayKind::Components;
     }
 }
 
 std::string textOf(const char* text) { return text ? text : ""; }
 
-void takeAxis(const NrrdAxisInfo& from, std::size_t spaceDimension, NrrdAxis& axis) {
+void takeAxis(const NrrdAxisInfo& from, std::size_t spaceDimension, ArrayAxis& axis) {
     axis.size = from.size;
     axis.spacing = from.spacing;
     axis.min = from.min;
@@ -221,7 +222,7 @@ void takeAxis(const NrrdAxisInfo& from, std::size_t spaceDimension, NrrdAxis& ax
     for (std::size_t i = 0; i < spaceDimension; ++i) (*axis.direction)[i] = from.spaceDirection[i];
 }
 
-void takeSpace(const Nrrd& nrrd, NrrdHeader& header) {
+void takeSpace(const Nrrd& nrrd, ArrayHeader& header) {
     header.spaceDimension = std::min<std::size_t>(nrrd.spaceDim, 4);
     if (nrrd.spaceDim > 4)
         header.fail("field 'space dimension'",
@@ -242,25 +243,28 @@ void takeSpace(const Nrrd& nrrd, NrrdHeader& header) {
     std::copy_n(nrrd.spaceOrigin, header.spaceDimension, header.origin->begin());
 }
 
-void take(const Nrrd& nrrd, const NrrdIoState& io, NrrdHeader& header) {
+void take(const Nrrd& nrrd, const NrrdIoState& io, ArrayHeader& header) {
     header.type = valueType(header, nrrd.type);
     header.encoding = encodingOf(header, io.encoding);
     const bool little = std::endian::native == std::endian::little;
-    header.swapped = header.valueBytes() > 1 && header.encoding != NrrdEncoding::Ascii &&
+    header.swapped = header.valueBytes() > 1 && header.encoding != ArrayEncoding::Ascii &&
                      io.endian == (little ? airEndianBig : airEndianLittle);
     takeSpace(nrrd, header);
     header.axes.resize(nrrd.dim);
     for (std::size_t i = 0; i < nrrd.dim; ++i)
         takeAxis(nrrd.axis[i], header.spaceDimension, header.axes[i]);
-    header.content = textOf(nrrd.content);
-    header.sampleUnits = textOf(nrrd.sampleUnits);
     for (unsigned i = 0; i < nrrdKeyValueSize(&nrrd); ++i)
         header.keyValues.emplace_back(textOf(nrrd.kvp[2 * i]), textOf(nrrd.kvp[2 * i + 1]));
+    header.name = textOf(nrrd.content);
+    header.longName = header.keyValue("quantity");
+    header.units = textOf(nrrd.sampleUnits);
+    for (const char* key : {"unit", "units"})
+        if (header.units.empty()) header.units = header.keyValue(key);
     header.lineSkip = io.lineSkip;
     header.byteSkip = io.byteSkip;
 }
 
-void parse(const std::string& text, NrrdHeader& header) {
+void parse(const std::string& text, ArrayHeader& header) {
     const std::lock_guard lock(libraryMutex());
     const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), nrrdNuke);
     const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> io(nrrdIoStateNew(),
@@ -276,42 +280,25 @@ void parse(const std::string& text, NrrdHeader& header) {
 
 }  // namespace
 
-std::uint64_t NrrdHeader::pointCount() const {
-    std::uint64_t count = 1;
-    for (const NrrdAxis& axis : axes)
-        if (__builtin_mul_overflow(count, axis.size, &count))
-            fail("field 'sizes'", "expected at most 2^64 - 1 values");
-    return count;
-}
-
-std::size_t NrrdHeader::valueBytes() const {
-    constexpr std::array<std::size_t, 10> kBytes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-    return kBytes[static_cast<std::size_t>(type)];
-}
-
-std::string_view NrrdHeader::keyValue(std::string_view key) const {
-    for (const auto& [name, value] : keyValues)
-        if (name == key) return value;
-    return "";
-}
-
-void NrrdHeader::fail(std::string_view place, std::string_view what) const {
-    std::string sentence = fmt::format("{}{}{}", place, place.empty() ? "" : ": ", what);
-    for (char& c : sentence)
-        if (c >= '\0' && c < ' ') c = ' ';
-    throw FileError(path.string() + ": " + sentence);
-}
-
-NrrdHeader readNrrdHeader(const std::filesystem::path& path) {
-    NrrdHeader header;
+ArrayHeader readNrrdHeader(const std::filesystem::path& path) {
+    ArrayHeader header;
     header.path = path;
     const HeaderText text = scan(header);
-    header.magic = text.forTeem.substr(0, text.forTeem.find('\n'));
-    if (!header.magic.starts_with("NRRD") || header.magic.size() > 16)
+    header.format = text.forTeem.substr(0, text.forTeem.find('\n'));
+    if (!header.format.starts_with("NRRD") || header.format.size() > 16)
         header.fail("line 1", "expected NRRD and a version, as in NRRD0004");
     parse(text.forTeem, header);
-    if (!header.dataFile && !text.ended)
+    if (!text.dataFile.field && !text.ended)
         header.fail("header", "expected a blank line that ends it, or the field 'data file'");
+    if (header.byteSkip < -1)
+        header.fail("field 'byte skip'",
+                    fmt::format("expected -1 or more, found {}", header.byteSkip));
+    if (header.byteSkip == -1 && header.encoding != ArrayEncoding::Raw)
+        header.fail("field 'byte skip'", "expected -1 for the encoding raw alone");
+    if (text.dataFile.field) {
+        header.dataFiles = namesOf(header, text.dataFile);
+        header.format += ", detached values";
+    }
     return header;
 }
 

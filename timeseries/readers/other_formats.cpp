@@ -17,13 +17,7 @@ struct Magic {
 };
 
 constexpr std::array kMagics{
-    Magic{344, "n+1\0"sv, "a NIfTI file"},
-    Magic{344, "ni1\0"sv, "a NIfTI header"},
-    Magic{4, "n+2\0\r\n\x1a\n"sv, "a NIfTI-2 file"},
-    Magic{4, "ni2\0\r\n\x1a\n"sv, "a NIfTI-2 header"},
     Magic{0, "GRIB"sv, "a GRIB file"},
-    Magic{0, "SIMPLE  ="sv, "a FITS file"},
-    Magic{208, "MAP "sv, "an MRC map"},
     Magic{128, "DICM"sv, "a DICOM file"},
     Magic{0, "II*\0"sv, "a TIFF file"},
     Magic{0, "MM\0*"sv, "a TIFF file"},
@@ -109,25 +103,10 @@ bool isPlot3d(std::string_view start, std::uint64_t bytes) {
     return false;
 }
 
-// What gzip's first bytes unpack to.
-std::string unpacked(std::string_view start) {
-    z_stream stream{};
-    constexpr int kGzip = 15 + 16;
-    if (inflateInit2(&stream, kGzip) != Z_OK) return "";
-    std::string in(start), out(kBeginningBytes, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(in.data());
-    stream.avail_in = static_cast<uInt>(in.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    inflate(&stream, Z_SYNC_FLUSH);
-    out.resize(out.size() - stream.avail_out);
-    inflateEnd(&stream);
-    return out;
-}
+bool isGzip(std::string_view start) { return start.starts_with("\x1f\x8b"); }
 
 std::string insideGzip(std::string_view start) {
-    const std::string inner = unpacked(start);
-    const std::string other = otherFormat(inner, 0);
+    const std::string inner = unpackedBeginning(start), other = otherFormat(inner, 0);
     if (!other.empty()) return other;
     return "compressed by gzip, and must be unpacked first";
 }
@@ -145,15 +124,30 @@ std::string legacyType(std::string_view start) {
 
 }  // namespace
 
+std::string unpackedBeginning(std::string_view start) {
+    if (!isGzip(start)) return std::string(start);
+    z_stream stream{};
+    constexpr int kGzip = 15 + 16;
+    if (inflateInit2(&stream, kGzip) != Z_OK) return "";
+    std::string in(start), out(kBeginningBytes, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(in.data());
+    stream.avail_in = static_cast<uInt>(in.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    inflate(&stream, Z_SYNC_FLUSH);
+    out.resize(out.size() - stream.avail_out);
+    inflateEnd(&stream);
+    return out;
+}
+
 std::string otherVtkType(std::string_view type) {
     constexpr std::string_view kBlank = " \t\r\n";
     const auto first = type.find_first_not_of(kBlank);
     if (first == type.npos) return "";
     type = type.substr(first, type.find_last_not_of(kBlank) + 1 - first);
     for (const auto other :
-         {"PolyData"sv, "PImageData"sv, "PRectilinearGrid"sv, "PStructuredGrid"sv,
-          "PUnstructuredGrid"sv, "PPolyData"sv, "HyperTreeGrid"sv, "PHyperTreeGrid"sv, "Table"sv,
-          "PTable"sv, "vtkMultiBlockDataSet"sv, "vtkMultiPieceDataSet"sv, "vtkPartitionedDataSet"sv,
+         {"PolyData"sv, "PPolyData"sv, "HyperTreeGrid"sv, "PHyperTreeGrid"sv, "Table"sv, "PTable"sv,
+          "vtkMultiBlockDataSet"sv, "vtkMultiPieceDataSet"sv, "vtkPartitionedDataSet"sv,
           "vtkPartitionedDataSetCollection"sv, "vtkHierarchicalBoxDataSet"sv, "vtkOverlappingAMR"sv,
           "vtkNonOverlappingAMR"sv, "polydata"sv, "field"sv})
         if (type == other) return fmt::format("a VTK file of type {}", type);
@@ -168,7 +162,7 @@ std::string otherVtk(std::string_view start) {
 }
 
 std::string otherFormat(std::string_view start, std::uint64_t bytes) {
-    if (start.starts_with("\x1f\x8b")) return insideGzip(start);
+    if (isGzip(start)) return insideGzip(start);
     for (const Magic& magic : kMagics)
         if (start.size() >= magic.at + magic.bytes.size() &&
             start.substr(magic.at, magic.bytes.size()) == magic.bytes)
@@ -190,9 +184,9 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, Exodus II, NRRD and, of VTK, image data, rectilinear, structured and unstructured "
-        "grids "
-        "(.vti, .vtr, .vts, .vtu, .vtk, .pvd, .series)";
+        "NetCDF, Exodus II, NRRD, NIfTI, MRC, FITS and, of VTK, image data, rectilinear, "
+        "structured and "
+        "unstructured grids (.vti, .vtr, .vts, .vtu, .pvti and so on, .vtk, .pvd, .series)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
 

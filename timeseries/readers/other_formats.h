@@ -17,6 +17,9 @@ constexpr std::size_t kBeginningBytes = 1024;
 // hold the signs of others further on.
 std::string otherFormat(std::string_view start, std::uint64_t bytes);
 
+// What the first bytes of a gzip file unpack to, as far as they go; other files' as they are.
+std::string unpackedBeginning(std::string_view start);
+
 // "a VTK file of type UnstructuredGrid"; "" for the types that are read, and for other files.
 std::string otherVtk(std::string_view start);
 // As otherVtk, of the type that a file states.

@@ -6,8 +6,12 @@
 #include <fstream>
 #include <string_view>
 
+#include "timeseries/readers/array_reader.h"
+#include "timeseries/readers/fits_reader.h"
+#include "timeseries/readers/mrc_header.h"
 #include "timeseries/readers/netcdf_reader.h"
-#include "timeseries/readers/nrrd_reader.h"
+#include "timeseries/readers/nifti_header.h"
+#include "timeseries/readers/nrrd_header.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/sequence_reader.h"
@@ -54,13 +58,23 @@ std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths) {
 }
 #endif
 
+template <ArrayHeader (*read)(const std::filesystem::path& path)>
+std::unique_ptr<Reader> openWith(std::span<const std::filesystem::path> paths) {
+    return openArray(read(paths[0]));
+}
+
 const std::array kFormats = {
     Format{[](std::string_view start) {
                return start.starts_with("CDF\1"sv) || start.starts_with("CDF\2"sv) ||
                       start.starts_with("CDF\5"sv) || start.starts_with("\x89HDF\r\n\x1a\n"sv);
            },
            openNetcdf, true},
-    Format{[](std::string_view start) { return start.starts_with("NRRD0"sv); }, openNrrd},
+    Format{[](std::string_view start) { return start.starts_with("NRRD0"sv); },
+           openWith<readNrrdHeader>},
+    Format{[](std::string_view start) { return isNifti(unpackedBeginning(start)); },
+           openWith<readNiftiHeader>},
+    Format{isMrc, openWith<readMrcHeader>},
+    Format{[](std::string_view start) { return start.starts_with("SIMPLE  ="sv); }, openFits},
     Format{[](std::string_view start) {
                const auto first = start.find_first_not_of(" \t\r\n"sv);
                const bool vtk =
@@ -86,7 +100,7 @@ const Format& recognise(const std::filesystem::path& path) {
     const std::string other = otherFormatOf(path, start);
     if (!other.empty()) throw FileError(notReadSentence(path, other));
     throw FileError(
-        fmt::format("{}: expected a NetCDF, NRRD or VTK file, {}", path.string(),
+        fmt::format("{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS or VTK file, {}", path.string(),
                     start.empty() ? "but it is empty" : "found no format that is known"));
 }
 

@@ -197,9 +197,11 @@ std::vector<Paths> readableOf(const Path& folder, const std::vector<Paths>& cand
     }
     if (candidates.size() > kMostTold)
         found += fmt::format("; and {} more", candidates.size() - kMostTold);
-    throw FileError(fmt::format(
-        "{}: expected a folder that holds NetCDF, NRRD or VTK files that are read, found {}",
-        folder.string(), found));
+    throw FileError(
+        fmt::format("{}: expected a folder that holds NetCDF, NRRD, NIfTI, MRC, FITS or VTK files "
+                    "that are read, "
+                    "found {}",
+                    folder.string(), found));
 }
 
 [[noreturn]] void refuseCandidates(const Path& folder, std::span<const Paths> candidates) {

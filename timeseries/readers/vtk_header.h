@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -137,6 +138,13 @@ bool isVtkGhostName(std::string_view name);
 void checkVtkExtent(const VtkHeader& header, std::string_view place);
 // The same of an unstructured grid's points and cells.
 void checkVtkCount(const VtkHeader& header, std::string_view place);
+// Expects pieces to hold every point or cell: VTK leaves what none holds as it finds it in memory.
+// Costs a bit for each, and the pieces, whose values the file holds, declare as many.
+void checkVtkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkPlace place);
+// Of an element of an XML file.
+std::array<std::array<std::int64_t, 2>, 3> vtkExtentOf(const XmlFile& file,
+                                                       const XmlElement& element,
+                                                       std::string_view attribute);
 // The name under which a field data array of one number tells the time; nothing when it does not.
 std::optional<std::string> vtkTimeName(std::string_view arrayName);
 

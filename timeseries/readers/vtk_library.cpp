@@ -234,16 +234,6 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
     return arrays;
 }
 
-// Calls visit(tuple) for each point of the grid, x fastest.
-template <typename Visit>
-void forEachTuple(const VtkLayout& layout, Visit visit) {
-    const auto& [nx, ny, nz] = layout.size;
-    for (std::size_t z = 0; z < nz; ++z)
-        for (std::size_t y = 0; y < ny; ++y)
-            for (std::size_t x = 0; x < nx; ++x)
-                visit(x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]);
-}
-
 template <typename T>
 void copyComponent(const T* from, std::size_t components, std::size_t component,
                    const VtkLayout& layout, std::vector<T>& to) {

@@ -30,6 +30,16 @@ struct VtkLayout {
     std::array<std::size_t, 3> size{}, stride{};
 };
 
+// Calls visit(tuple) for each point of the grid, x fastest.
+template <typename Visit>
+void forEachTuple(const VtkLayout& layout, Visit visit) {
+    const auto& [nx, ny, nz] = layout.size;
+    for (std::size_t z = 0; z < nz; ++z)
+        for (std::size_t y = 0; y < ny; ++y)
+            for (std::size_t x = 0; x < nx; ++x)
+                visit(x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]);
+}
+
 // Reads this array, and no other where the file lets VTK choose, into field's values and mask.
 // The magnitude of float32 is computed in double and kept as float32; of all else it is float64.
 // Throws FileError.

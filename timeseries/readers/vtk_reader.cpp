@@ -7,7 +7,7 @@
 
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/vtk_grid.h"
-#include "timeseries/readers/vtk_library.h"
+#include "timeseries/readers/vtk_parts.h"
 
 namespace timeseries {
 namespace {
@@ -16,12 +16,6 @@ using Path = std::filesystem::path;
 
 constexpr std::size_t kMaxVariables = std::size_t{1} << 16;
 
-bool legacy(const Path& path) {
-    std::string start(5, '\0');
-    std::ifstream(path, std::ios::binary).read(start.data(), 5);
-    return start == "# vtk";
-}
-
 // JSON, not XML.
 bool isVtkSeries(const Path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -29,54 +23,27 @@ bool isVtkSeries(const Path& path) {
     return file >> first && first == '{';
 }
 
-// With the coordinates of a rectilinear grid, and the places of a structured one.
-VtkHeader headerOf(const XmlFile& file) {
-    VtkHeader header = readVtkXmlHeader(file);
-    VtkFrame frame = readVtkFrame(header);
-    header.coordinates = std::move(frame.coordinates);
-    header.places = std::move(frame.places);
-    header.unstructured = std::move(frame.unstructured);
-    header.time = frame.time;
-    if (header.kind == VtkKind::XmlRectilinear)
-        for (std::size_t i = 0; i < 3; ++i)
-            if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])
-                failVtk(
-                    file.path, "Coordinates",
-                    fmt::format("expected {} along {}, found {}", header.size(VtkPlace::Points)[i],
-                                "xyz"[i], header.coordinates[i].size()));
-    return header;
-}
-
-VtkHeader legacyHeaderOf(const Path& path) {
-    VtkHeader header = readVtkLegacyHeader(path);
-    if (isStructured(header.kind)) header.places = readVtkFrame(header).places;
-    return header;
-}
-
-// One step: a file, whose contents other than values are known.
+// One step, of which all is known but values.
 struct Frame {
-    VtkHeader header;
+    VtkContents contents;
     std::array<std::optional<VtkGrid>, 2> grids;  // by VtkPlace, where there is an array
+    const VtkHeader& header() const { return contents.whole; }
 };
 
-Frame frameOf(VtkHeader header) {
-    Frame frame{std::move(header), {}};
+Frame frameOf(VtkContents contents) {
+    Frame frame{std::move(contents), {}};
+    VtkHeader& header = frame.contents.whole;
     std::optional<UnstructuredShapes> shapes;
-    if (isUnstructured(frame.header.kind)) shapes = vtkShapesOf(frame.header);
-    for (const VtkArray& array : frame.header.arrays) {
+    if (isUnstructured(header.kind)) shapes = vtkShapesOf(header);
+    for (const VtkArray& array : header.arrays) {
         auto& grid = frame.grids[static_cast<std::size_t>(array.place)];
         if (!grid)
-            grid = shapes ? vtkGridOf(frame.header, array.place, *shapes)
-                          : vtkGridOf(frame.header, array.place);
+            grid =
+                shapes ? vtkGridOf(header, array.place, *shapes) : vtkGridOf(header, array.place);
     }
-    frame.header.places = {};
-    frame.header.unstructured = {};
+    header.places = {};
+    header.unstructured = {};
     return frame;
-}
-
-Frame frameOf(const Path& path) {
-    if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
-    return frameOf(legacy(path) ? legacyHeaderOf(path) : headerOf(readXml(path)));
 }
 
 class VtkReader final : public Reader {
@@ -84,7 +51,7 @@ class VtkReader final : public Reader {
     // `first` is of the first member.
     VtkReader(const Path& path, std::vector<VtkMember> members, Frame first, bool collection)
         : files_{path}, members_(std::move(members)), frame_(std::move(first)) {
-        const VtkHeader& header = frame_.header;
+        const VtkHeader& header = frame_.header();
         if (header.arrays.empty()) {
             std::string why;
             for (const std::string& each : header.passedOver) why += "; " + each;
@@ -129,9 +96,9 @@ void VtkReader::addTime() {
     axis->name = "step";
     if (members_[0].time) {
         axis->name = "time";
-    } else if (members_.size() == 1 && frame_.header.time) {
-        axis->name = frame_.header.time->name;
-        members_[0].time = frame_.header.time->value;
+    } else if (members_.size() == 1 && frame_.header().time) {
+        axis->name = frame_.header().time->name;
+        members_[0].time = frame_.header().time->value;
     }
     axis->counted = !members_[0].time;
     for (std::size_t i = 0; i < members_.size(); ++i)
@@ -147,8 +114,8 @@ void VtkReader::addTime() {
 }
 
 void VtkReader::addVariables(std::size_t index) {
-    const VtkArray& array = frame_.header.arrays[index];
-    const auto& all = frame_.header.arrays;
+    const VtkArray& array = frame_.header().arrays[index];
+    const auto& all = frame_.header().arrays;
     const bool both = std::ranges::any_of(
         all, [&](const VtkArray& o) { return o.name == array.name && o.place != array.place; });
     std::string name = array.name;
@@ -158,7 +125,7 @@ void VtkReader::addVariables(std::size_t index) {
     if (array.components == 1) return add(array, name, array.type, type + where, {});
 
     if (variables_.size() + array.components > kMaxVariables)
-        failVtk(frame_.header.path, fmt::format("'{}'", array.name),
+        failVtk(frame_.header().path, fmt::format("'{}'", array.name),
                 fmt::format("expected at most {} components of all arrays", kMaxVariables));
     const std::string stored = fmt::format("{}, {} components{}", type, array.components, where);
     if (array.components <= 3) {
@@ -179,7 +146,7 @@ void VtkReader::add(const VtkArray& array, const std::string& name, ValueType ty
     variable.name = name;
     variable.type = type;
     variable.storedAs = storedAs;
-    if (frame_.header.ghosts[place]) variable.missing = "ghost and blanked, by vtkGhostType";
+    if (frame_.header().ghosts[place]) variable.missing = "ghost and blanked, by vtkGhostType";
     variable.grid = frame_.grids[place]->grid;
     variable.time = time_;
     variable.notes = frame_.grids[place]->notes;
@@ -190,14 +157,14 @@ void VtkReader::add(const VtkArray& array, const std::string& name, ValueType ty
 
 void VtkReader::open(std::size_t step) {
     if (step == openStep_) return;
-    frame_ = frameOf(members_[step].path);
+    frame_ = frameOf(vtkContentsOf(members_[step].path));
     openStep_ = step;
 }
 
 Field VtkReader::read(std::size_t variable, std::size_t step) {
     open(step);
     const VtkArray& array = sources_[variable].array;
-    const VtkHeader& header = frame_.header;
+    const VtkHeader& header = frame_.header();
     const auto found = std::ranges::find_if(header.arrays, [&](const VtkArray& other) {
         return other.name == array.name && other.place == array.place;
     });
@@ -215,7 +182,7 @@ Field VtkReader::read(std::size_t variable, std::size_t step) {
     field.grid = gridOfStep(variables_[variable].grid, grid.grid);
     if (!field.grid)
         failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());
-    readVtkArray(header, *found, sources_[variable].part, grid.layout, field);
+    readVtkArray(frame_.contents, array, sources_[variable].part, grid.layout, field);
     return field;
 }
 
@@ -227,18 +194,20 @@ std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
                                     paths[1].string()));
     const Path& path = paths[0];
     std::vector<VtkMember> members{{path, std::nullopt}};
-    if (legacy(path))
-        return std::make_unique<VtkReader>(path, std::move(members), frameOf(path), false);
     if (isVtkSeries(path)) {
         members = readVtkSeries(path);
-        auto first = frameOf(members[0].path);
-        return std::make_unique<VtkReader>(path, std::move(members), std::move(first), true);
+    } else if (!isVtkLegacy(path)) {
+        const XmlFile file = readXml(path);
+        if (!isVtkCollection(file))
+            return std::make_unique<VtkReader>(path, std::move(members),
+                                               frameOf(vtkContentsOf(file)), false);
+        members = readVtkCollection(file);
+    } else {
+        return std::make_unique<VtkReader>(path, std::move(members), frameOf(vtkContentsOf(path)),
+                                           false);
     }
-    const XmlFile file = readXml(path);
-    const bool collection = isVtkCollection(file);
-    if (collection) members = readVtkCollection(file);
-    auto first = collection ? frameOf(members[0].path) : frameOf(headerOf(file));
-    return std::make_unique<VtkReader>(path, std::move(members), std::move(first), collection);
+    auto first = frameOf(vtkContentsOf(members[0].path));
+    return std::make_unique<VtkReader>(path, std::move(members), std::move(first), true);
 }
 
 }  // namespace timeseries

@@ -31,12 +31,6 @@ void claim(const Context& context, std::uint64_t& claimed, std::string_view plac
                             claimed, context.file.bytes));
 }
 
-std::array<std::array<std::int64_t, 2>, 3> extentOf(const XmlFile& file, const XmlElement& element,
-                                                    std::string_view attribute) {
-    const auto n = numbersOf<std::int32_t>(file, element, attribute, 6);
-    return {{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}}};
-}
-
 // The name that VTK gives an array without one.
 std::string nameOf(const XmlElement& array, std::size_t index) {
     return array.has("Name") ? std::string(array.attribute("Name"))
@@ -155,41 +149,6 @@ void checkFieldData(const Context& context, const XmlElement& grid) {
     }
 }
 
-// VTK leaves what no piece holds as it finds it in memory. Costs a bit for each point, and the
-// pieces, whose values the file holds, declare as many points.
-void checkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkPlace place) {
-    const std::uint64_t all = header.count(place);
-    const auto whole = header.size(place);
-    std::uint64_t found = 0;
-    for (const VtkHeader& piece : pieces) found += piece.count(place);
-    if (found >= all && pieces.size() > 1) {
-        std::vector<bool> held(all);
-        for (const VtkHeader& piece : pieces) {
-            const auto size = piece.size(place);
-            std::array<std::uint64_t, 3> first{};
-            bool flat = false;  // one layer of points within a thick grid: no cells
-            for (std::size_t i = 0; i < 3; ++i) {
-                first[i] = static_cast<std::uint64_t>(piece.extent[i][0] - header.extent[i][0]);
-                flat |= place == VtkPlace::Cells && piece.extent[i][0] == piece.extent[i][1] &&
-                        header.extent[i][0] != header.extent[i][1];
-            }
-            for (std::uint64_t z = 0; z < (flat ? 0 : size[2]); ++z)
-                for (std::uint64_t y = 0; y < size[1]; ++y) {
-                    const auto row =
-                        held.begin() +
-                        static_cast<std::ptrdiff_t>(
-                            ((first[2] + z) * whole[1] + first[1] + y) * whole[0] + first[0]);
-                    std::fill(row, row + static_cast<std::ptrdiff_t>(size[0]), true);
-                }
-        }
-        found = static_cast<std::uint64_t>(std::count(held.begin(), held.end(), true));
-    }
-    if (found < all)
-        failVtk(header.path, "Piece",
-                fmt::format("expected pieces that fill WholeExtent, found {} of its {} {}", found,
-                            all, place == VtkPlace::Points ? "points" : "cells"));
-}
-
 // What parallel writers leave for a process that has nothing of the grid. VTK is not shown it.
 bool isEmpty(const std::array<std::array<std::int64_t, 2>, 3>& extent) {
     return std::ranges::any_of(extent, [](const auto& axis) { return axis[1] < axis[0]; });
@@ -213,7 +172,7 @@ void addPieces(const Context& context, const XmlElement& grid) {
             shape.pieces = {readVtkPiece(context.file, context.encoding, *piece)};
             checkPoints(context, *piece, shape);
         } else {
-            shape.extent = extentOf(context.file, *piece, "Extent");
+            shape.extent = vtkExtentOf(context.file, *piece, "Extent");
             if (isEmpty(shape.extent)) continue;
             checkInside(header, *piece, shape);
         }
@@ -248,7 +207,7 @@ void addPieces(const Context& context, const XmlElement& grid) {
         const bool hasPlaces = isStructured(header.kind) && place == VtkPlace::Points;
         const auto isThere = [&](const VtkArray& array) { return array.place == place; };
         if (hasPlaces || std::ranges::any_of(header.arrays, isThere))
-            checkCover(header, shapes, place);
+            checkVtkCover(header, shapes, place);
     }
     std::ranges::sort(header.passedOver);
     header.passedOver.erase(std::unique(header.passedOver.begin(), header.passedOver.end()),
@@ -261,6 +220,46 @@ void addPieces(const Context& context, const XmlElement& grid) {
 }
 
 }  // namespace
+
+std::array<std::array<std::int64_t, 2>, 3> vtkExtentOf(const XmlFile& file,
+                                                       const XmlElement& element,
+                                                       std::string_view attribute) {
+    const auto n = numbersOf<std::int32_t>(file, element, attribute, 6);
+    return {{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}}};
+}
+
+void checkVtkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, VtkPlace place) {
+    const std::uint64_t all = header.count(place);
+    const auto whole = header.size(place);
+    std::uint64_t found = 0;
+    for (const VtkHeader& piece : pieces) found += piece.count(place);
+    if (found >= all && pieces.size() > 1) {
+        std::vector<bool> held(all);
+        for (const VtkHeader& piece : pieces) {
+            const auto size = piece.size(place);
+            std::array<std::uint64_t, 3> first{};
+            bool flat = false;  // one layer of points within a thick grid: no cells
+            for (std::size_t i = 0; i < 3; ++i) {
+                first[i] = static_cast<std::uint64_t>(piece.extent[i][0] - header.extent[i][0]);
+                flat |= place == VtkPlace::Cells && piece.extent[i][0] == piece.extent[i][1] &&
+                        header.extent[i][0] != header.extent[i][1];
+            }
+            for (std::uint64_t z = 0; z < (flat ? 0 : size[2]); ++z)
+                for (std::uint64_t y = 0; y < size[1]; ++y) {
+                    const auto row =
+                        held.begin() +
+                        static_cast<std::ptrdiff_t>(
+                            ((first[2] + z) * whole[1] + first[1] + y) * whole[0] + first[0]);
+                    std::fill(row, row + static_cast<std::ptrdiff_t>(size[0]), true);
+                }
+        }
+        found = static_cast<std::uint64_t>(std::count(held.begin(), held.end(), true));
+    }
+    if (found < all)
+        failVtk(header.path, "Piece",
+                fmt::format("expected pieces that fill WholeExtent, found {} of its {} {}", found,
+                            all, place == VtkPlace::Points ? "points" : "cells"));
+}
 
 VtkHeader readVtkXmlHeader(const XmlFile& file) {
     const XmlElement& root = rootOf(file);
@@ -292,7 +291,7 @@ VtkHeader readVtkXmlHeader(const XmlFile& file) {
         failVtk(file.path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));
     const XmlElement& grid = *grids[0];
     if (header.kind != VtkKind::XmlUnstructured) {
-        header.extent = extentOf(file, grid, "WholeExtent");
+        header.extent = vtkExtentOf(file, grid, "WholeExtent");
         checkVtkExtent(header, placeOf(grid) + " WholeExtent");
     }
     if (grid.has("TimeValues"))

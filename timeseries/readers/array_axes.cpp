@@ -1,4 +1,4 @@
-#include "timeseries/readers/nrrd_axes.h"
+#include "timeseries/readers/array_axes.h"
 
 #include <fmt/format.h>
 
@@ -25,17 +25,17 @@ constexpr double kAlignment = 1e-6;
 std::string place(std::size_t i) { return fmt::format("axis {}", i + 1); }
 
 // By what the axis says of itself; not by its kind.
-bool looksLikeTime(const NrrdAxis& axis) {
+bool looksLikeTime(const ArrayAxis& axis) {
     const std::string label = lower(axis.label);
     return label == "t" || label == "time" || sameDimension(axis.units, "s");
 }
 
 // How far a direction reaches into space without time, and into time.
-std::size_t spatialDimension(const NrrdHeader& header) {
+std::size_t spatialDimension(const ArrayHeader& header) {
     return header.spaceDimension - (header.timeInSpace ? 1 : 0);
 }
 
-bool alongTime(const NrrdHeader& header, const NrrdAxis& axis) {
+bool alongTime(const ArrayHeader& header, const ArrayAxis& axis) {
     if (!header.timeInSpace || !axis.direction) return false;
     const std::size_t n = spatialDimension(header);
     return std::all_of(axis.direction->begin(), axis.direction->begin() + n,
@@ -45,7 +45,7 @@ bool alongTime(const NrrdHeader& header, const NrrdAxis& axis) {
 
 // The time axis among four that do not say which it is: the one without direction when the others
 // have one, the one that looks like it, else the slowest.
-std::size_t timeOfFour(const NrrdHeader& header, const std::vector<std::size_t>& axes,
+std::size_t timeOfFour(const ArrayHeader& header, const std::vector<std::size_t>& axes,
                        std::vector<std::string>& notes) {
     const auto undirected = [&](std::size_t i) { return !header.axes[i].direction; };
     const auto only = [&](auto test) -> std::optional<std::size_t> {
@@ -55,9 +55,9 @@ std::size_t timeOfFour(const NrrdHeader& header, const std::vector<std::size_t>&
     std::optional<std::size_t> time;
     if (header.spaceDimension > 0) time = only(undirected);
     if (!time) time = only([&](std::size_t i) { return looksLikeTime(header.axes[i]); });
-    const NrrdAxis& first = header.axes[axes[0]];
+    const ArrayAxis& first = header.axes[axes[0]];
     const bool components =
-        first.kind == NrrdKind::Unknown && first.size <= kMaxComponents && !looksLikeTime(first) &&
+        first.kind == ArrayKind::Unknown && first.size <= kMaxComponents && !looksLikeTime(first) &&
         std::all_of(axes.begin() + 1, axes.end(),
                     [&](std::size_t i) { return header.axes[i].size > kMaxComponents; });
     if (components && (!time || *time == axes[0]))
@@ -71,8 +71,8 @@ std::size_t timeOfFour(const NrrdHeader& header, const std::vector<std::size_t>&
     return axes.back();
 }
 
-std::optional<std::size_t> onlyOfKind(const NrrdHeader& header,
-                                      const std::vector<std::size_t>& axes, NrrdKind kind) {
+std::optional<std::size_t> onlyOfKind(const ArrayHeader& header,
+                                      const std::vector<std::size_t>& axes, ArrayKind kind) {
     std::optional<std::size_t> found;
     for (const std::size_t i : axes) {
         if (header.axes[i].kind != kind) continue;
@@ -90,13 +90,13 @@ std::vector<double> spaced(double first, double spacing, std::uint64_t count) {
     return c;
 }
 
-Axis indexAxis(const NrrdAxis& axis, const std::string& name) {
+Axis indexAxis(const ArrayAxis& axis, const std::string& name) {
     return {axis.label.empty() ? name : axis.label, "index", indexCoordinates(axis.size), false};
 }
 
 // By spacing and minimum; cell-centred unless the file says otherwise, as teem takes it
 // (nrrdDefaultCenter): then a minimum is the border of the first cell.
-Axis spacedAxis(const NrrdAxis& axis, const std::string& name, std::vector<std::string>& notes) {
+Axis spacedAxis(const ArrayAxis& axis, const std::string& name, std::vector<std::string>& notes) {
     Axis index = indexAxis(axis, name);
     const bool cell = axis.cell.value_or(true);
     double spacing = axis.spacing;
@@ -126,7 +126,7 @@ struct Directions {
     std::array<double, 3> spacing{};  // from sample to sample
 };
 
-Directions directionsOf(const NrrdHeader& header, const NrrdRoles& roles) {
+Directions directionsOf(const ArrayHeader& header, const ArrayRoles& roles) {
     const int n = static_cast<int>(std::min<std::size_t>(spatialDimension(header), 3));
     Directions found;
     for (int i = 0; i < static_cast<int>(roles.space.size()); ++i) {
@@ -150,7 +150,7 @@ Directions directionsOf(const NrrdHeader& header, const NrrdRoles& roles) {
 }
 
 // Names of the coordinates of space: what grows along them, where the space says.
-std::string coordinateName(const NrrdHeader& header, std::size_t component) {
+std::string coordinateName(const ArrayHeader& header, std::size_t component) {
     static constexpr std::array kLetters{"x", "y", "z"};
     std::vector<std::string> parts;
     std::string text = header.space;
@@ -161,9 +161,9 @@ std::string coordinateName(const NrrdHeader& header, std::size_t component) {
     return anatomical ? parts[component] : kLetters[component];
 }
 
-Axis alignedAxis(const NrrdHeader& header, std::size_t i, std::size_t component,
+Axis alignedAxis(const ArrayHeader& header, std::size_t i, std::size_t component,
                  std::vector<std::string>& notes) {
-    const NrrdAxis& axis = header.axes[i];
+    const ArrayAxis& axis = header.axes[i];
     const std::string name = axis.label.empty() ? coordinateName(header, component) : axis.label;
     const double first = header.origin ? (*header.origin)[component] : 0;
     std::vector<double> coordinates = spaced(first, (*axis.direction)[component], axis.size);
@@ -175,8 +175,8 @@ Axis alignedAxis(const NrrdHeader& header, std::size_t i, std::size_t component,
 }
 
 // Rotated or sheared: the axes are lengths from the first sample. Returns what is in the way.
-std::string placeInFrame(const NrrdHeader& header, const NrrdRoles& roles,
-                         const Directions& directions, NrrdPlacing& placing) {
+std::string placeInFrame(const ArrayHeader& header, const ArrayRoles& roles,
+                         const Directions& directions, ArrayPlacing& placing) {
     static constexpr std::array kIndices{"i", "j", "k"};
     if (const std::string flaw = flawOf(directions.unit); !flaw.empty()) return flaw;
     const auto& units = header.spaceUnits;
@@ -187,7 +187,7 @@ std::string placeInFrame(const NrrdHeader& header, const NrrdRoles& roles,
     for (std::size_t i = 0; i < 3; ++i) {
         axes[i] = {kIndices[i], units[0], {0.0}, false};
         if (i >= roles.space.size()) continue;
-        const NrrdAxis& source = header.axes[roles.space[i]];
+        const ArrayAxis& source = header.axes[roles.space[i]];
         if (!source.label.empty()) axes[i].name = source.label;
         axes[i].coordinates = spaced(0, directions.spacing[i], source.size);
         if (const std::string flaw = flawOf(axes[i].coordinates); !flaw.empty())
@@ -202,8 +202,8 @@ std::string placeInFrame(const NrrdHeader& header, const NrrdRoles& roles,
     return "";
 }
 
-NrrdLayout layoutOf(const NrrdHeader& header, const NrrdRoles& roles) {
-    NrrdLayout layout;
+ArrayLayout layoutOf(const ArrayHeader& header, const ArrayRoles& roles) {
+    ArrayLayout layout;
     for (std::size_t i = 0; i < header.axes.size(); ++i) {
         if (i == roles.time)
             layout.steps = header.axes[i].size;
@@ -215,7 +215,7 @@ NrrdLayout layoutOf(const NrrdHeader& header, const NrrdRoles& roles) {
     return layout;
 }
 
-void checkSizes(const NrrdHeader& header, const NrrdRoles& roles, const NrrdLayout& layout) {
+void checkSizes(const ArrayHeader& header, const ArrayRoles& roles, const ArrayLayout& layout) {
     for (const std::size_t i : roles.space)
         if (header.axes[i].size > kMaxAxis)
             header.fail(place(i), fmt::format("expected at most 2^24 points along an axis, found "
@@ -230,8 +230,8 @@ void checkSizes(const NrrdHeader& header, const NrrdRoles& roles, const NrrdLayo
 }
 
 // The strides of the file's axes, `to` which axes of the grid they become.
-void setStrides(const std::array<int, 3>& to, std::size_t axes, NrrdPlacing& placing) {
-    NrrdLayout& layout = placing.layout;
+void setStrides(const std::array<int, 3>& to, std::size_t axes, ArrayPlacing& placing) {
+    ArrayLayout& layout = placing.layout;
     std::uint64_t stride = 1;
     for (int axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < axes; ++i)
@@ -246,18 +246,18 @@ void setStrides(const std::array<int, 3>& to, std::size_t axes, NrrdPlacing& pla
 
 }  // namespace
 
-NrrdRoles rolesOf(const NrrdHeader& header, std::vector<std::string>& notes) {
+ArrayRoles rolesOf(const ArrayHeader& header, std::vector<std::string>& notes) {
     std::vector<std::size_t> axes;  // of more than one sample, or of time
     for (std::size_t i = 0; i < header.axes.size(); ++i) {
-        const NrrdAxis& axis = header.axes[i];
-        if (axis.kind == NrrdKind::Components && axis.size > 1)
+        const ArrayAxis& axis = header.axes[i];
+        if (axis.kind == ArrayKind::Components && axis.size > 1)
             header.fail(place(i), fmt::format("expected one number a point, found {} ({})",
                                               axis.size, axis.kindName));
-        if (axis.kind != NrrdKind::Components) axes.push_back(i);
+        if (axis.kind != ArrayKind::Components) axes.push_back(i);
     }
-    NrrdRoles roles;
-    roles.time = onlyOfKind(header, axes, NrrdKind::Time);
-    if (!roles.time) roles.time = onlyOfKind(header, axes, NrrdKind::List);
+    ArrayRoles roles;
+    roles.time = onlyOfKind(header, axes, ArrayKind::Time);
+    if (!roles.time) roles.time = onlyOfKind(header, axes, ArrayKind::List);
     if (!roles.time)
         for (const std::size_t i : axes)
             if (alongTime(header, header.axes[i])) roles.time = i;
@@ -279,10 +279,10 @@ NrrdRoles rolesOf(const NrrdHeader& header, std::vector<std::string>& notes) {
     return roles;
 }
 
-NrrdPlacing placingOf(const NrrdHeader& header, const NrrdRoles& roles,
-                      std::vector<std::string>& notes) {
+ArrayPlacing placingOf(const ArrayHeader& header, const ArrayRoles& roles,
+                       std::vector<std::string>& notes) {
     static constexpr std::array kLetters{"x", "y", "z"};
-    NrrdPlacing placing;
+    ArrayPlacing placing;
     placing.layout = layoutOf(header, roles);
     checkSizes(header, roles, placing.layout);
 

@@ -1,4 +1,4 @@
-// NRRD files for tests, written by hand: a header's lines, then bytes.
+// Arrays in files for tests: a header by hand, then bytes.
 #pragma once
 
 #include <bzlib.h>
@@ -60,6 +60,32 @@ inline std::string encoded(const std::string& encoding, const std::string& bytes
 inline std::string nrrd(const std::string& lines, const std::string& bytes) {
     return "NRRD0004\n" + lines + "\n" + bytes;
 }
+
+// A binary header of so many bytes, zero but for what is put where.
+class BinaryHeader {
+ public:
+    BinaryHeader(std::size_t bytes, std::endian order) : bytes_(bytes, '\0'), order_(order) {}
+    template <typename T>
+    BinaryHeader& put(std::size_t at, const std::vector<T>& values) {
+        const std::string bytes = bytesOf(values, order_);
+        bytes_.replace(at, bytes.size(), bytes);
+        return *this;
+    }
+    template <typename T>
+    BinaryHeader& put(std::size_t at, T value) {
+        return put(at, std::vector<T>{value});
+    }
+    BinaryHeader& put(std::size_t at, const std::string& text) {
+        bytes_.replace(at, text.size(), text);
+        return *this;
+    }
+    const std::string& bytes() const { return bytes_; }
+    std::endian order() const { return order_; }
+
+ private:
+    std::string bytes_;
+    std::endian order_;
+};
 
 // 0, 1, 2, ...
 template <typename T>

@@ -1,4 +1,4 @@
-// The values of an NRRD file as one sequence, read where they are asked for: raw files by offset,
+// The values of an array as one sequence, read where they are asked for: raw files by offset,
 // compressed files and texts by decoding up to there. Holds a buffer, never a whole file.
 #pragma once
 
@@ -6,16 +6,16 @@
 #include <memory>
 #include <vector>
 
-#include "timeseries/readers/nrrd_files.h"
-#include "timeseries/readers/nrrd_header.h"
+#include "timeseries/readers/array_files.h"
+#include "timeseries/readers/array_header.h"
 
 namespace timeseries {
 
-class NrrdStream {
+class ArrayStream {
  public:
     // REQUIRES: header outlives this. Opens no file yet.
-    NrrdStream(const NrrdHeader& header, NrrdPieces pieces);
-    ~NrrdStream();
+    ArrayStream(const ArrayHeader& header, ArrayPieces pieces);
+    ~ArrayStream();
 
     // `count` values from `first`, of the header's type and in this machine's byte order. Fastest
     // when `first` ascends from call to call. REQUIRES: out holds them. Throws FileError.
@@ -31,8 +31,8 @@ class NrrdStream {
     bool nextWord();
     void parseWord(void* out, std::uint64_t index) const;
 
-    const NrrdHeader& header_;
-    NrrdPieces pieces_;
+    const ArrayHeader& header_;
+    ArrayPieces pieces_;
     std::uint64_t pieceBytes_;
     std::unique_ptr<Piece> piece_;
     std::size_t pieceIndex_ = 0;

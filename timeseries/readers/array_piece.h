@@ -1,4 +1,4 @@
-// One file that holds values of an NRRD file, decoded from its beginning on.
+// One file that holds values of an array, decoded from its beginning on.
 #pragma once
 
 #include <zlib.h>
@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <optional>
 
+#include "timeseries/readers/array_stream.h"
 #include "timeseries/readers/bzip2_file.h"
-#include "timeseries/readers/nrrd_stream.h"
 
 namespace timeseries {
 
-class NrrdStream::Piece {
+class ArrayStream::Piece {
  public:
     // `bytes`: of the decoded values. Passes line skip and byte skip. Throws FileError.
-    Piece(const NrrdHeader& header, const std::filesystem::path& path, std::uint64_t headerBytes,
+    Piece(const ArrayHeader& header, const std::filesystem::path& path, std::uint64_t headerBytes,
           std::uint64_t bytes);
     ~Piece();
     Piece(const Piece&) = delete;
@@ -37,7 +37,7 @@ class NrrdStream::Piece {
     void openDecoder();
     void openGzip();
 
-    const NrrdHeader& header_;
+    const ArrayHeader& header_;
     std::filesystem::path path_;
     std::uint64_t offset_;  // of the first value in the file, when not compressed
     std::uint64_t bytes_, position_ = 0;

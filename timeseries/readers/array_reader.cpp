@@ -1,12 +1,12 @@
-#include "timeseries/readers/nrrd_reader.h"
+#include "timeseries/readers/array_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "timeseries/readers/nrrd_axes.h"
-#include "timeseries/readers/nrrd_stream.h"
-#include "timeseries/readers/nrrd_times.h"
+#include "timeseries/readers/array_axes.h"
+#include "timeseries/readers/array_stream.h"
+#include "timeseries/readers/array_times.h"
 
 namespace timeseries {
 namespace {
@@ -14,52 +14,48 @@ namespace {
 // Values read at a time when they have to be turned.
 constexpr std::uint64_t kTurnCount = 1 << 15;
 
-std::string storedAs(const NrrdHeader& header) {
+std::string storedAs(const ArrayHeader& header) {
     std::string text(typeName(header.type));
     if (header.swapped) text += " of the other byte order";
-    switch (header.encoding) {
-        case NrrdEncoding::Raw:
-            return text;
-        case NrrdEncoding::Gzip:
-            return text + ", gzip";
-        case NrrdEncoding::Bzip2:
-            return text + ", bzip2";
-        case NrrdEncoding::Ascii:
-            return text + ", text";
-    }
+    static constexpr std::array kEncodings{"", ", gzip", ", bzip2", ", text"};
+    text += kEncodings[static_cast<std::size_t>(header.encoding)];
+    if (const auto& scaling = header.scaling)
+        text += fmt::format(", scale {}, offset {}", scaling->slope, scaling->offset);
     return text;
 }
 
-class NrrdReader final : public Reader {
- public:
-    explicit NrrdReader(const std::filesystem::path& path)
-        : path_(path), header_(readNrrdHeader(path)) {
-        std::vector<std::string> notes;
-        const NrrdRoles roles = rolesOf(header_, notes);
-        NrrdPlacing placing = placingOf(header_, roles, notes);
-        layout_ = placing.layout;
-        NrrdPieces pieces = piecesOf(header_, notes);
-        format_ = header_.magic + (header_.dataFile ? ", detached values" : "");
+// "brain" of brain.nii.gz.
+std::string nameOf(const std::filesystem::path& path) {
+    const std::filesystem::path stem = path.stem();
+    return (path.extension() == ".gz" ? stem.stem() : stem).string();
+}
 
+class ArrayReader final : public Reader {
+ public:
+    explicit ArrayReader(ArrayHeader header) : header_(std::move(header)) {
+        std::vector<std::string> notes = header_.notes;
+        const ArrayRoles roles = rolesOf(header_, notes);
+        ArrayPlacing placing = placingOf(header_, roles, notes);
+        layout_ = placing.layout;
+        ArrayPieces pieces = piecesOf(header_, notes);
         Variable variable;
-        variable.nameless = header_.content.empty();
-        variable.name = variable.nameless ? path.stem().string() : header_.content;
-        variable.longName = header_.keyValue("quantity");
-        variable.units = header_.sampleUnits;
-        for (const char* key : {"unit", "units"})
-            if (variable.units.empty()) variable.units = header_.keyValue(key);
-        variable.type = header_.type;
+        variable.nameless = header_.name.empty();
+        variable.name = variable.nameless ? nameOf(header_.path) : header_.name;
+        variable.longName = header_.longName;
+        variable.units = header_.units;
+        variable.type = header_.scaling ? ValueType::F64 : header_.type;
         variable.storedAs = storedAs(header_);
+        variable.categories = header_.categories;
         variable.grid =
             std::make_shared<const Grid>(std::move(placing.axes), std::move(placing.frame));
-        variable.time = std::make_shared<const TimeAxis>(nrrdTimes(header_, roles, notes));
+        variable.time = std::make_shared<const TimeAxis>(arrayTimes(header_, roles, notes));
         variable.notes = std::move(notes);
         variables_.push_back(std::move(variable));
-        stream_ = std::make_unique<NrrdStream>(header_, std::move(pieces));
+        stream_ = std::make_unique<ArrayStream>(header_, std::move(pieces));
     }
 
-    std::string format() const override { return format_; }
-    std::span<const std::filesystem::path> files() const override { return {&path_, 1}; }
+    std::string format() const override { return header_.format; }
+    std::span<const std::filesystem::path> files() const override { return {&header_.path, 1}; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
 
@@ -69,18 +65,16 @@ class NrrdReader final : public Reader {
     template <typename T>
     void scatter(std::uint64_t first, std::span<const T> from, std::vector<T>& values) const;
 
-    std::filesystem::path path_;
-    NrrdHeader header_;
-    NrrdLayout layout_;
-    std::string format_;
+    ArrayHeader header_;
+    ArrayLayout layout_;
     std::vector<Variable> variables_;
-    std::unique_ptr<NrrdStream> stream_;
+    std::unique_ptr<ArrayStream> stream_;
 };
 
 // Puts points `first` and on, counted in the file's order, where the grid has them.
 template <typename T>
-void NrrdReader::scatter(std::uint64_t first, std::span<const T> from,
-                         std::vector<T>& values) const {
+void ArrayReader::scatter(std::uint64_t first, std::span<const T> from,
+                          std::vector<T>& values) const {
     const auto& [nx, ny, nz] = layout_.size;
     const auto& [sx, sy, sz] = layout_.stride;
     std::uint64_t x = first % nx, y = first / nx % ny, z = first / nx / ny;
@@ -95,7 +89,7 @@ void NrrdReader::scatter(std::uint64_t first, std::span<const T> from,
 }
 
 template <typename T>
-void NrrdReader::fill(std::size_t step, std::vector<T>& values) {
+void ArrayReader::fill(std::size_t step, std::vector<T>& values) {
     values.resize(layout_.inner * layout_.outer);
     std::vector<T> part(layout_.turned ? std::min(kTurnCount, layout_.inner) : 0);
     for (std::uint64_t outer = 0; outer < layout_.outer; ++outer) {
@@ -120,21 +114,32 @@ Values valuesOf(ValueType type) {
     return Values(std::in_place_index<I>);
 }
 
-Field NrrdReader::read(std::size_t variable, std::size_t step) {
+std::vector<double> scaled(const Values& stored, const ArrayHeader::Scaling& by) {
+    std::vector<double> values;
+    std::visit(
+        [&](const auto& from) {
+            values.reserve(from.size());
+            for (const auto s : from)
+                values.push_back(by.slope * static_cast<double>(s) + by.offset);
+        },
+        stored);
+    return values;
+}
+
+Field ArrayReader::read(std::size_t variable, std::size_t step) {
     Field field;
     field.grid = variables_[variable].grid;
+    field.categories = header_.categories;
     field.values = valuesOf(header_.type);
     std::visit([&](auto& values) { fill(step, values); }, field.values);
+    if (header_.scaling) field.values = scaled(field.values, *header_.scaling);
     return field;
 }
 
 }  // namespace
 
-std::unique_ptr<Reader> openNrrd(std::span<const std::filesystem::path> paths) {
-    if (paths.size() > 1)
-        throw FileError(fmt::format("{} and {}: expected one NRRD file, which holds all its steps",
-                                    paths[0].string(), paths[1].string()));
-    return std::make_unique<NrrdReader>(paths[0]);
+std::unique_ptr<Reader> openArray(ArrayHeader header) {
+    return std::make_unique<ArrayReader>(std::move(header));
 }
 
 }  // namespace timeseries

@@ -1,4 +1,4 @@
-#include "timeseries/readers/nrrd_stream.h"
+#include "timeseries/readers/array_stream.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "timeseries/grid/with_type.h"
-#include "timeseries/readers/nrrd_piece.h"
+#include "timeseries/readers/array_piece.h"
 
 namespace timeseries {
 namespace {
@@ -50,17 +50,17 @@ bool parseNumber(const std::string& word, T& number) {
 
 }  // namespace
 
-NrrdStream::NrrdStream(const NrrdHeader& header, NrrdPieces pieces)
+ArrayStream::ArrayStream(const ArrayHeader& header, ArrayPieces pieces)
     : header_(header),
       pieces_(std::move(pieces)),
       pieceBytes_(pieces_.pieceCount * header.valueBytes()),
       buffer_(kBufferBytes) {}
 
-NrrdStream::~NrrdStream() = default;
+ArrayStream::~ArrayStream() = default;
 
-void NrrdStream::read(std::uint64_t first, std::uint64_t count, void* out) {
+void ArrayStream::read(std::uint64_t first, std::uint64_t count, void* out) {
     auto* bytes = static_cast<char*>(out);
-    if (header_.encoding == NrrdEncoding::Ascii) {
+    if (header_.encoding == ArrayEncoding::Ascii) {
         readText(first, count, bytes);
         return;
     }
@@ -69,7 +69,7 @@ void NrrdStream::read(std::uint64_t first, std::uint64_t count, void* out) {
     if (header_.swapped) toNative(bytes, count, size);
 }
 
-NrrdStream::Piece& NrrdStream::open(std::size_t index, bool again) {
+ArrayStream::Piece& ArrayStream::open(std::size_t index, bool again) {
     if (!piece_ || pieceIndex_ != index || again) {
         piece_.reset();
         piece_ = std::make_unique<Piece>(header_, pieces_.paths[index], pieces_.headerBytes,
@@ -81,13 +81,13 @@ NrrdStream::Piece& NrrdStream::open(std::size_t index, bool again) {
     return *piece_;
 }
 
-void NrrdStream::readBytes(std::uint64_t first, std::uint64_t count, char* out) {
+void ArrayStream::readBytes(std::uint64_t first, std::uint64_t count, char* out) {
     while (count > 0) {
         const auto index = static_cast<std::size_t>(first / pieceBytes_);
         const std::uint64_t at = first % pieceBytes_;
         std::uint64_t part = std::min(count, pieceBytes_ - at);
         Piece& piece = open(index, false);
-        if (header_.encoding == NrrdEncoding::Raw && part >= kDirectBytes) {
+        if (header_.encoding == ArrayEncoding::Raw && part >= kDirectBytes) {
             piece.readAt(at, out, part);
         } else {
             if (at < bufferBegin_ || at >= bufferBegin_ + bufferUsed_) fill(index, at);
@@ -101,11 +101,11 @@ void NrrdStream::readBytes(std::uint64_t first, std::uint64_t count, char* out) 
 }
 
 // Puts what lies at `position` of the piece at the buffer's begin.
-void NrrdStream::fill(std::size_t index, std::uint64_t position) {
+void ArrayStream::fill(std::size_t index, std::uint64_t position) {
     const auto bytesAt = [&](std::uint64_t p) {
         return static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size(), pieceBytes_ - p));
     };
-    if (header_.encoding == NrrdEncoding::Raw) {
+    if (header_.encoding == ArrayEncoding::Raw) {
         piece_->readAt(position, buffer_.data(), bytesAt(position));
     } else {
         if (position < piece_->position()) open(index, true);
@@ -119,7 +119,7 @@ void NrrdStream::fill(std::size_t index, std::uint64_t position) {
 }
 
 // The next word of the open piece, at most kMaxWord + 1 characters of it.
-bool NrrdStream::nextWord() {
+bool ArrayStream::nextWord() {
     word_.clear();
     while (true) {
         if (textAt_ == bufferUsed_) {
@@ -135,7 +135,7 @@ bool NrrdStream::nextWord() {
     }
 }
 
-void NrrdStream::parseWord(void* out, std::uint64_t index) const {
+void ArrayStream::parseWord(void* out, std::uint64_t index) const {
     withType(header_.type, [&](auto number) {
         if (word_.size() > kMaxWord || !parseNumber(word_, number)) {
             std::string shown = word_.substr(0, 40);
@@ -148,7 +148,7 @@ void NrrdStream::parseWord(void* out, std::uint64_t index) const {
     });
 }
 
-void NrrdStream::readText(std::uint64_t first, std::uint64_t count, char* out) {
+void ArrayStream::readText(std::uint64_t first, std::uint64_t count, char* out) {
     const std::size_t size = header_.valueBytes();
     for (; count > 0; ++first, --count, out += size) {
         const auto index = static_cast<std::size_t>(first / pieces_.pieceCount);

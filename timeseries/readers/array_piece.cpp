@@ -1,4 +1,4 @@
-#include "timeseries/readers/nrrd_piece.h"
+#include "timeseries/readers/array_piece.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,21 +16,21 @@ constexpr std::size_t kMaxCall = std::size_t{1} << 30;  // zlib counts in int
 
 }  // namespace
 
-NrrdStream::Piece::Piece(const NrrdHeader& header, const std::filesystem::path& path,
-                         std::uint64_t headerBytes, std::uint64_t bytes)
+ArrayStream::Piece::Piece(const ArrayHeader& header, const std::filesystem::path& path,
+                          std::uint64_t headerBytes, std::uint64_t bytes)
     : header_(header), path_(path), offset_(headerBytes), bytes_(bytes) {
     file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file_ < 0) fail("expected a file that can be read");
     try {
         skipLines();
-        if (header.encoding == NrrdEncoding::Gzip || header.encoding == NrrdEncoding::Bzip2) {
+        if (header.encoding == ArrayEncoding::Gzip || header.encoding == ArrayEncoding::Bzip2) {
             openDecoder();
             return;
         }
         struct stat status {};
         if (::fstat(file_, &status) != 0) fail("expected a file that can be read");
         const auto size = static_cast<std::uint64_t>(status.st_size);
-        const bool raw = header.encoding == NrrdEncoding::Raw;
+        const bool raw = header.encoding == ArrayEncoding::Raw;
         if (header.byteSkip == -1)
             offset_ = size - std::min(size, bytes_);
         else
@@ -45,16 +45,16 @@ NrrdStream::Piece::Piece(const NrrdHeader& header, const std::filesystem::path& 
     }
 }
 
-NrrdStream::Piece::~Piece() {
+ArrayStream::Piece::~Piece() {
     if (gzip_) gzclose_r(gzip_);
     ::close(file_);
 }
 
-void NrrdStream::Piece::fail(std::string_view what) const {
+void ArrayStream::Piece::fail(std::string_view what) const {
     header_.fail(path_ == header_.path ? "values" : path_.string(), what);
 }
 
-void NrrdStream::Piece::skipLines() {
+void ArrayStream::Piece::skipLines() {
     std::array<char, 4096> chunk;
     for (std::uint64_t left = header_.lineSkip; left > 0;) {
         const ssize_t got = ::pread(file_, chunk.data(), chunk.size(), static_cast<off_t>(offset_));
@@ -66,7 +66,7 @@ void NrrdStream::Piece::skipLines() {
     }
 }
 
-void NrrdStream::Piece::openGzip() {
+void ArrayStream::Piece::openGzip() {
     const int own = ::dup(file_);  // zlib closes it
     if (own < 0) fail("expected a file that can be read");
     gzip_ = gzdopen(own, "rb");
@@ -75,8 +75,8 @@ void NrrdStream::Piece::openGzip() {
     fail("expected memory to decode it");
 }
 
-void NrrdStream::Piece::openDecoder() {
-    const bool gzip = header_.encoding == NrrdEncoding::Gzip;
+void ArrayStream::Piece::openDecoder() {
+    const bool gzip = header_.encoding == ArrayEncoding::Gzip;
     // zlib passes what is not compressed as it is.
     std::array<unsigned char, 3> start{};
     const auto at = static_cast<off_t>(offset_);
@@ -98,7 +98,7 @@ void NrrdStream::Piece::openDecoder() {
     position_ = 0;
 }
 
-void NrrdStream::Piece::readAt(std::uint64_t position, char* out, std::size_t bytes) {
+void ArrayStream::Piece::readAt(std::uint64_t position, char* out, std::size_t bytes) {
     while (bytes > 0) {
         const ssize_t got =
             ::pread(file_, out, std::min(bytes, kMaxCall), static_cast<off_t>(offset_ + position));
@@ -110,7 +110,7 @@ void NrrdStream::Piece::readAt(std::uint64_t position, char* out, std::size_t by
     }
 }
 
-std::size_t NrrdStream::Piece::next(char* out, std::size_t bytes) {
+std::size_t ArrayStream::Piece::next(char* out, std::size_t bytes) {
     std::size_t done = 0;
     while (done < bytes) {
         const std::size_t want = std::min(bytes - done, kMaxCall);
@@ -136,7 +136,7 @@ std::size_t NrrdStream::Piece::next(char* out, std::size_t bytes) {
     return done;
 }
 
-void NrrdStream::Piece::expectNext(char* out, std::size_t bytes) {
+void ArrayStream::Piece::expectNext(char* out, std::size_t bytes) {
     if (next(out, bytes) < bytes)
         fail(fmt::format("expected {} bytes of values, found {}", bytes_, position_));
     if (position_ < bytes_ || !(gzip_ || bzip2_)) return;

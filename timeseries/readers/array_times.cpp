@@ -1,4 +1,4 @@
-#include "timeseries/readers/nrrd_times.h"
+#include "timeseries/readers/array_times.h"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ std::optional<Times> numbers(std::string_view text, std::uint64_t n) {
 }
 
 // The key names the axis or what it is measured in: its label, its unit, each with an s, or time.
-bool namesTimes(const std::string& key, const NrrdAxis& axis) {
+bool namesTimes(const std::string& key, const ArrayAxis& axis) {
     const auto plural = [&](const std::string& word) {
         return !word.empty() && (key == lower(word) || key == lower(word) + "s");
     };
@@ -50,8 +50,8 @@ struct Found {
 };
 
 // Keys of which all software that writes them means times: Slicer's sequences and multi-volumes.
-std::optional<Found> bySlicer(const NrrdHeader& header, std::size_t time, std::uint64_t n) {
-    const NrrdAxis& axis = header.axes[time];
+std::optional<Found> bySlicer(const ArrayHeader& header, std::size_t time, std::uint64_t n) {
+    const ArrayAxis& axis = header.axes[time];
     const std::string sequence = fmt::format("axis {} index values", time);
     if (auto times = numbers(header.keyValue(sequence), n))
         return Found{sequence, axis.units, *times};
@@ -63,11 +63,11 @@ std::optional<Found> bySlicer(const NrrdHeader& header, std::size_t time, std::u
     return std::nullopt;
 }
 
-std::optional<Found> byKey(const NrrdHeader& header, std::size_t time, std::uint64_t n,
+std::optional<Found> byKey(const ArrayHeader& header, std::size_t time, std::uint64_t n,
                            std::vector<std::string>& notes) {
     if (n < 2) return std::nullopt;
     if (auto found = bySlicer(header, time, n)) return found;
-    const NrrdAxis& axis = header.axes[time];
+    const ArrayAxis& axis = header.axes[time];
     std::optional<Found> found;
     for (const auto& [name, value] : header.keyValues) {
         const std::string key = lower(name);
@@ -86,7 +86,7 @@ std::optional<Found> byKey(const NrrdHeader& header, std::size_t time, std::uint
 }
 
 // Evenly, by spacing and minimum; node-centred unless the file says otherwise.
-std::optional<Times> even(const NrrdHeader& header, const NrrdAxis& axis) {
+std::optional<Times> even(const ArrayHeader& header, const ArrayAxis& axis) {
     double spacing = axis.spacing, first = axis.min;
     if (axis.direction && header.timeInSpace) {
         const std::size_t component = header.spaceDimension - 1;
@@ -107,11 +107,11 @@ std::optional<Times> even(const NrrdHeader& header, const NrrdAxis& axis) {
 
 }  // namespace
 
-TimeAxis nrrdTimes(const NrrdHeader& header, const NrrdRoles& roles,
-                   std::vector<std::string>& notes) {
+TimeAxis arrayTimes(const ArrayHeader& header, const ArrayRoles& roles,
+                    std::vector<std::string>& notes) {
     StoredTimes stored;
     if (roles.time) {
-        const NrrdAxis& axis = header.axes[*roles.time];
+        const ArrayAxis& axis = header.axes[*roles.time];
         Times times;
         if (auto found = byKey(header, *roles.time, axis.size, notes)) {
             times = std::move(found->times);

@@ -1,0 +1,236 @@
+// FITS images: where their pixels lie, and what they hold. Expected texts and formulas are of the
+// standard (version 4.0), which stores numbers in big-endian order.
+#include <fitsio.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/array_builder.h"
+#include "tests/support/shared_data.h"
+
+namespace timeseries {
+namespace {
+
+using namespace tests;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Cards of 80 letters, and END, to whole blocks of 2880.
+std::string cards(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += fmt::format("{:80}", line);
+    text += fmt::format("{:80}", "END");
+    text.resize((text.size() + 2879) / 2880 * 2880, ' ');
+    return text;
+}
+
+std::string padded(std::string bytes) {
+    bytes.resize((bytes.size() + 2879) / 2880 * 2880, '\0');
+    return bytes;
+}
+
+std::vector<std::string> sizes(int bitpix, const std::vector<int>& axes) {
+    std::vector<std::string> lines{fmt::format("BITPIX  = {:20}", bitpix),
+                                   fmt::format("NAXIS   = {:20}", axes.size())};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        lines.push_back(fmt::format("NAXIS{}  = {:20}", i + 1, axes[i]));
+    return lines;
+}
+
+std::string image(int bitpix, const std::vector<int>& axes, std::vector<std::string> more,
+                  const std::string& bytes,
+                  const std::string& first = "SIMPLE  =                    T") {
+    std::vector<std::string> lines = sizes(bitpix, axes);
+    lines.insert(lines.begin(), first);
+    lines.insert(lines.end(), more.begin(), more.end());
+    return cards(lines) + padded(bytes);
+}
+
+// 2 x 3 x 4 pixels, 0 to 23.
+std::string slab(const std::vector<std::string>& more) {
+    return image(16, {2, 3, 4}, more, bytesOf(ramp<std::int16_t>(24), std::endian::big));
+}
+
+TEST(Fits, KeywordsPlaceACubeOfTheSky) {
+    const auto reader =
+        openBytes(slab({"CTYPE1  = 'RA---TAN'", "CRVAL1  = 52.5", "CDELT1  = -0.25",
+                        "CRPIX1  = 1.0", "CTYPE2  = 'DEC--TAN'", "CRVAL2  = 31.0", "CDELT2  = 0.25",
+                        "CRPIX2  = 2.0", "CUNIT2  = 'deg'", "CTYPE3  = 'VRAD'", "CRVAL3  = 7000.0",
+                        "CDELT3  = -100.0", "CRPIX3  = 3.0", "BUNIT   = 'Jy/beam'"}));
+    const Variable& variable = reader->variables()[0];
+    const auto& axes = variable.grid->axes();
+    EXPECT_EQ(axes[0].name, "RA");
+    EXPECT_EQ(axes[0].units, "degree");
+    EXPECT_EQ(axes[0].coordinates, (std::vector<double>{0, -0.25}));
+    EXPECT_EQ(axes[1].coordinates, (std::vector<double>{-0.25, 0, 0.25}));
+    EXPECT_EQ(axes[2].name, "VRAD");
+    EXPECT_EQ(axes[2].units, "m/s");
+    EXPECT_EQ(axes[2].coordinates, (std::vector<double>{7200, 7100, 7000, 6900}));
+    EXPECT_EQ(variable.units, "Jy/beam");
+    EXPECT_THAT(variable.notes,
+                ElementsAre("RA is the angle from 52.5 degree on the plane of the sky",
+                            "DEC is the angle from 31 degree on the plane of the sky"));
+    EXPECT_EQ(valuesOf<std::int16_t>(*reader), ramp<std::int16_t>(24));
+}
+
+TEST(Fits, PixelsWithoutStepsAreCountedAndTurnedAxesAreTold) {
+    const auto counted = openBytes(slab({"CDELT2  = 0.0"}));
+    EXPECT_EQ(counted->variables()[0].grid->axes()[1].units, "index");
+    EXPECT_THAT(counted->variables()[0].notes,
+                testing::Contains(HasSubstr("y is placed by index")));
+    const auto turned =
+        openBytes(slab({"CD1_1   = 2.0", "CD2_2   = 2.0", "CDELT3  = 1.0", "CD1_2   = 0.5"}));
+    EXPECT_EQ(turned->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{2, 4}));
+    EXPECT_THAT(turned->variables()[0].notes, ElementsAre(HasSubstr("turned")));
+}
+
+template <typename T, typename Stored>
+void expectValues(int bitpix, const std::vector<std::string>& more, double zero) {
+    std::vector<Stored> stored = ramp<Stored>(24);
+    stored[1] = std::numeric_limits<Stored>::lowest();
+    stored[2] = std::numeric_limits<Stored>::max();
+    const auto reader =
+        openBytes(image(bitpix, {2, 3, 4}, more, bytesOf(stored, std::endian::big)));
+    const auto values = valuesOf<T>(*reader);
+    ASSERT_EQ(values.size(), stored.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_EQ(values[i], static_cast<T>(static_cast<T>(stored[i]) + static_cast<T>(zero))) << i;
+}
+
+TEST(Fits, EveryTypeOfNumber) {
+    expectValues<std::uint8_t, std::uint8_t>(8, {}, 0);
+    expectValues<std::int16_t, std::int16_t>(16, {}, 0);
+    expectValues<std::int32_t, std::int32_t>(32, {}, 0);
+    expectValues<std::int64_t, std::int64_t>(64, {}, 0);
+    expectValues<float, float>(-32, {}, 0);
+    expectValues<double, double>(-64, {}, 0);
+    // By an offset of half their range, with the other sign.
+    expectValues<std::int8_t, std::uint8_t>(8, {"BZERO   = -128"}, -128);
+    expectValues<std::uint16_t, std::int16_t>(16, {"BZERO   = 32768"}, 32768);
+    expectValues<std::uint32_t, std::int32_t>(32, {"BZERO   = 2147483648"}, 2147483648.0);
+    expectValues<std::uint64_t, std::int64_t>(64, {"BZERO   = 9223372036854775808"},
+                                              9223372036854775808.0);
+}
+
+TEST(Fits, BlankPixelsAreMissing) {
+    std::vector<std::int16_t> stored = ramp<std::int16_t>(24);
+    stored[5] = -99;
+    const std::string bytes = bytesOf(stored, std::endian::big);
+    for (const std::string zero : {"0", "32768"}) {
+        const Field field =
+            openBytes(image(16, {2, 3, 4}, {"BLANK   = -99", "BZERO   = " + zero}, bytes))
+                ->read(0, 0);
+        ASSERT_EQ(field.missing.size(), 24u);
+        for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(field.missing[i], i == 5) << zero;
+    }
+    // Scaled ones are floats, of which none is no number.
+    const auto scaled =
+        openBytes(image(16, {2, 3, 4}, {"BLANK   = -99", "BSCALE  = 0.5", "BZERO   = 10"}, bytes));
+    const auto values = valuesOf<float>(*scaled);
+    for (std::size_t i = 0; i < 24; ++i) {
+        if (i == 5)
+            EXPECT_TRUE(std::isnan(values[i]));
+        else
+            EXPECT_EQ(values[i], 10 + 0.5f * static_cast<float>(i));
+    }
+    EXPECT_THAT(openBytes(slab({"BLANK   = -99"}))->read(0, 0).missing, IsEmpty());
+}
+
+TEST(Fits, AFourthAxisIsTimeAndOneOfOnePixelIsNone) {
+    const std::string bytes = bytesOf(ramp<std::int16_t>(24), std::endian::big);
+    const auto one = openBytes(image(16, {2, 3, 4, 1}, {}, bytes));
+    EXPECT_EQ(one->variables()[0].time->points.size(), 1u);
+    // Time may be any of them.
+    const auto first = openBytes(
+        image(16, {2, 3, 4},
+              {"CTYPE1  = 'TIME'", "CRPIX1  = 1.0", "CRVAL1  = 5.0", "CDELT1  = 0.5"}, bytes));
+    const TimeAxis& time = *first->variables()[0].time;
+    ASSERT_EQ(time.points.size(), 2u);
+    EXPECT_EQ(time.points[1].value, 5.5);
+    EXPECT_EQ(time.units, "s");
+    const auto odd = valuesOf<std::int16_t>(*first, 1);
+    ASSERT_EQ(odd.size(), 12u);
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(odd[i], static_cast<std::int16_t>(2 * i + 1));
+    const auto last = openBytes(image(16, {2, 3, 2, 2}, {"CTYPE4  = 'STOKES'"}, bytes));
+    EXPECT_EQ(valuesOf<std::int16_t>(*last, 1)[0], 12);
+    EXPECT_THAT(last->variables()[0].notes,
+                testing::Contains("STOKES is taken for time: no axis says that it is"));
+}
+
+TEST(Fits, EveryImageIsAVariable) {
+    const std::string bytes = bytesOf(ramp<std::int16_t>(24), std::endian::big);
+    const std::string extension = "XTENSION= 'IMAGE   '";
+    const std::vector<std::string> own{"PCOUNT  = 0", "GCOUNT  = 1"};
+    auto named = own;
+    named.push_back("EXTNAME = 'ERROR'");
+    const auto reader =
+        openBytes(image(16, {}, {}, "") + image(16, {2, 3, 4}, own, bytes, extension) +
+                  image(16, {2, 3, 4}, named, bytes, extension));
+    ASSERT_EQ(reader->variables().size(), 2u);
+    EXPECT_EQ(reader->variables()[0].name, "HDU 2");
+    EXPECT_EQ(reader->variables()[1].name, "ERROR");
+    EXPECT_EQ(std::get<std::vector<std::int16_t>>(reader->read(1, 0).values),
+              ramp<std::int16_t>(24));
+}
+
+TEST(Fits, ImagesCompressedByTiles) {
+    const auto path = freshFolder() / "packed.fits";
+    std::vector<std::int32_t> values(40 * 30 * 20);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<std::int32_t>(i / 100 % 50);
+    for (const int method : {RICE_1, GZIP_2}) {
+        std::filesystem::remove(path);
+        fitsfile* file = nullptr;
+        int status = 0;
+        std::array<long, 3> axes{40, 30, 20};
+        fits_create_diskfile(&file, path.c_str(), &status);
+        fits_set_compression_type(file, method, &status);
+        fits_create_img(file, LONG_IMG, 3, axes.data(), &status);
+        fits_write_img(file, TINT, 1, static_cast<LONGLONG>(values.size()), values.data(), &status);
+        fits_close_file(file, &status);
+        ASSERT_EQ(status, 0);
+        EXPECT_LT(std::filesystem::file_size(path), values.size() * 4 / 2);
+        EXPECT_EQ(valuesOf<std::int32_t>(*openOne(path)), values);
+    }
+}
+
+TEST(Fits, WhatCannotBeReadIsNamed) {
+    const auto path = freshFolder() / "file.fits";
+    const auto refused = [&](const std::string& bytes) {
+        writeBytes(path, bytes);
+        return refusal(path);
+    };
+    const std::string whole = slab({});
+    EXPECT_THAT(refused(whole.substr(0, 1000)), HasSubstr("expected"));
+    EXPECT_THAT(refused(whole.substr(0, 2880)), HasSubstr("expected"));
+    EXPECT_THAT(refused(image(16, {20000, 20000, 20000}, {}, "")), HasSubstr("bytes of values"));
+    EXPECT_THAT(refused(image(16, {}, {}, "")), HasSubstr("more than one pixel, found none"));
+    EXPECT_THAT(
+        refused(image(16, {2, 2, 2, 2, 2}, {}, bytesOf(ramp<std::int16_t>(32), std::endian::big))),
+        HasSubstr("three axes of space and one of time at most, found 5"));
+    std::mt19937 random(17);
+    for (int trial = 0; trial < 2000; ++trial) {
+        std::string damaged = slab({"CTYPE1  = 'RA---TAN'", "CDELT1  = 1.0", "BLANK   = 3"});
+        for (int i = 0; i < 3; ++i) damaged[80 + random() % 720] = static_cast<char>(random());
+        refused(damaged);  // a sentence, if it is one
+    }
+}
+
+TEST(RealFits, ACubeIsReadAsItsHeaderSays) {
+    const auto path = tests::sharedData("grids/example_cube.fits");
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
+    const auto reader = openOne(path);
+    const Variable& variable = reader->variables()[0];
+    EXPECT_THAT(variable.grid->size(), ElementsAre(3, 4, 7));
+    EXPECT_EQ(variable.units, "Jy/beam");
+    const auto values = valuesOf<float>(*reader);
+    EXPECT_FLOAT_EQ(*std::ranges::min_element(values), -0.1408792659640e-1f);  // DATAMIN
+    EXPECT_FLOAT_EQ(*std::ranges::max_element(values), 0.1936739496887e-1f);
+}
+
+}  // namespace
+}  // namespace timeseries

@@ -1,0 +1,248 @@
+// Places one after another, with polygons about them: by bounds (CF), and by the faces of a mesh
+// (UGRID). All about a sphere's belt of 12 x 5 cells of 30 by 24 degrees, which cross the seam.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/array_builder.h"
+#include "tests/support/netcdf_builder.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/unstructured.h"
+
+namespace timeseries {
+namespace {
+
+using namespace tests;
+using testing::HasSubstr;
+
+constexpr int kAround = 12, kUp = 5, kCells = kAround * kUp, kNodes = kAround * (kUp + 1);
+constexpr double kWide = 30, kHigh = 24;
+const std::vector<double> kLevels{0, 10, 30};
+const std::vector<double> kHeights{10, 15, 20};
+
+double lonOf(double i) { return -180 + kWide * i; }
+double latOf(double j) { return -60 + kHigh * j; }
+double wrapped(double lon) { return lon - 360 * std::round(lon / 360); }
+
+// Values 0, 1, 2, ... at two times, three levels and so many places.
+void addField(NetcdfBuilder& file, int places, int list,
+              const std::vector<std::pair<std::string, std::string>>& attributes) {
+    const auto time = file.coordinate("time", 2, "s");
+    const auto depth = file.coordinate("depth", 3, "m");
+    const int field = file.variable("T", NC_INT, {time.dimension, depth.dimension, list});
+    for (const auto& [name, value] : attributes) file.text(field, name, value);
+    const int surface = file.variable("eta", NC_INT, {time.dimension, list});
+    for (const auto& [name, value] : attributes) file.text(surface, name, value);
+    file.write(time.variable, std::vector<double>{5, 7});
+    file.write(depth.variable, kLevels);
+    file.write(field, ramp<std::int32_t>(static_cast<std::size_t>(6 * places)));
+    file.write(surface, ramp<std::int32_t>(static_cast<std::size_t>(2 * places)));
+}
+
+// Each place its own corners, round it; longitudes from -180 to 180 whatever they belong to.
+std::filesystem::path withBounds(const std::string& units, bool turned = false) {
+    NetcdfBuilder file("bounds.nc");
+    const bool radians = units == "radian";
+    const double unit = radians ? std::numbers::pi / 180 : 1;
+    const int list = file.dimension("ncells", kCells), corner = file.dimension("nv", 4);
+    std::vector<double> lon, lat, lons, lats;
+    for (int j = 0; j < kUp; ++j)
+        for (int i = 0; i < kAround; ++i) {
+            lon.push_back(unit * lonOf(i));
+            lat.push_back(unit * latOf(j + 0.5));
+            for (const auto& [di, dj] : {std::pair(-0.5, 0), {0.5, 0}, {0.5, 1}, {-0.5, 1}}) {
+                lons.push_back(unit * wrapped(lonOf(i + di)));
+                lats.push_back(unit * latOf(j + dj));
+            }
+        }
+    const int x = file.variable("clon", NC_DOUBLE, {list}),
+              y = file.variable("clat", NC_DOUBLE, {list});
+    file.text(x, "standard_name", "longitude");
+    file.text(y, "standard_name", "latitude");
+    file.text(x, "units", units);
+    file.text(y, "units", units);
+    file.text(x, "bounds", "clon_vertices");
+    file.text(y, "bounds", "clat_vertices");
+    const std::vector<int> sides = turned ? std::vector{corner, list} : std::vector{list, corner};
+    const int xs = file.variable("clon_vertices", NC_DOUBLE, sides),
+              ys = file.variable("clat_vertices", NC_DOUBLE, sides);
+    addField(file, kCells, list, {{"coordinates", "clon clat"}, {"grid_type", "unstructured"}});
+    file.write(x, lon);
+    file.write(y, lat);
+    file.write(xs, lons);
+    file.write(ys, lats);
+    return file.close();
+}
+
+struct Ugrid {
+    std::string location = "face";
+    bool triangles = false, transposed = false;
+    int first = 0;  // start_index
+};
+
+// Nodes once around: those at -180 are also those at 180.
+std::filesystem::path withMesh(const Ugrid& what) {
+    NetcdfBuilder file("mesh.nc");
+    const int nodes = file.dimension("nMesh2_node", kNodes);
+    const int count = what.triangles ? 2 * kCells : kCells;
+    const int faces = file.dimension("nMesh2_face", static_cast<std::size_t>(count)),
+              most = file.dimension("nMaxMesh2_face_nodes", 4);
+    const int mesh = file.variable("Mesh2", NC_INT, {});
+    file.text(mesh, "cf_role", "mesh_topology");
+    file.number(mesh, "topology_dimension", std::int32_t{2});
+    file.text(mesh, "node_coordinates", "Mesh2_node_x Mesh2_node_y");
+    file.text(mesh, "face_node_connectivity", "Mesh2_face_nodes");
+    if (what.transposed) file.text(mesh, "face_dimension", "nMesh2_face");
+    const int x = file.variable("Mesh2_node_x", NC_DOUBLE, {nodes}),
+              y = file.variable("Mesh2_node_y", NC_DOUBLE, {nodes});
+    file.text(x, "units", "degrees_east");
+    file.text(y, "units", "degrees_north");
+    const int list =
+        file.variable("Mesh2_face_nodes", NC_INT,
+                      what.transposed ? std::vector{most, faces} : std::vector{faces, most});
+    file.text(list, "cf_role", "face_node_connectivity");
+    file.number(list, "_FillValue", std::int32_t{-999});
+    file.number(list, "start_index", std::int32_t{what.first});
+    const bool atFaces = what.location != "node";
+    addField(file, atFaces ? count : kNodes, atFaces ? faces : nodes,
+             {{"mesh", "Mesh2"}, {"location", what.location}});
+    std::vector<double> lon, lat;
+    for (int n = 0; n < kNodes; ++n) {
+        lon.push_back(lonOf(n % kAround));
+        lat.push_back(latOf(n / kAround));
+    }
+    std::vector<std::vector<std::int32_t>> rows;
+    for (int j = 0; j < kUp; ++j)
+        for (int i = 0; i < kAround; ++i) {
+            const auto node = [&](int di, int dj) {
+                return what.first + (i + di) % kAround + kAround * (j + dj);
+            };
+            if (what.triangles) {
+                rows.push_back({node(0, 0), node(1, 0), node(1, 1), -999});
+                rows.push_back({node(0, 0), node(1, 1), node(0, 1), -999});
+            } else {
+                rows.push_back({node(0, 0), node(1, 0), node(1, 1), node(0, 1)});
+            }
+        }
+    std::vector<std::int32_t> connectivity;
+    for (std::size_t i = 0; i < rows.size() * 4; ++i)
+        connectivity.push_back(what.transposed ? rows[i % rows.size()][i / rows.size()]
+                                               : rows[i / 4][i % 4]);
+    file.write(x, lon);
+    file.write(y, lat);
+    file.write(list, connectivity);
+    return file.close();
+}
+
+// The variable of three levels: at each place of each level `at(place)` and this area.
+template <typename At, typename Area>
+void expectPrisms(const std::filesystem::path& path, int places, const At& at, const Area& area) {
+    const auto reader = openOne(path);
+    const Variable& variable = reader->variables()[0];
+    ASSERT_EQ(variable.name, "T");
+    const Mesh& mesh = *variable.grid->mesh();
+    ASSERT_EQ(mesh.count(), static_cast<std::uint64_t>(3 * places));
+    double whole = 0;
+    for (int k = 0; k < 3; ++k)
+        for (int p = 0; p < places; ++p) {
+            const auto index = static_cast<std::uint64_t>(k * places + p);
+            const glm::dvec3 found = mesh.position(index), expected = at(p);
+            EXPECT_NEAR(wrapped(found.x - expected.x), 0, 1e-4) << p;
+            EXPECT_NEAR(found.y, expected.y, 1e-4) << p;
+            EXPECT_NEAR(found.z, kLevels[std::size_t(k)], 1e-5);
+            const double volume = area(p) * kHeights[std::size_t(k)];
+            EXPECT_NEAR(tests::volume(mesh, index), volume, 1e-5 * volume) << p << ' ' << k;
+            whole += volume;
+        }
+    EXPECT_NEAR(double(mesh.meanVolume()), whole / (3 * places), 1e-6 * whole);
+    for (const std::size_t step : {0u, 1u}) {
+        std::vector<std::int32_t> expected(static_cast<std::size_t>(3 * places));
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            expected[i] = static_cast<std::int32_t>(step * expected.size() + i);
+        EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values), expected);
+    }
+    EXPECT_EQ(variable.time->points[1].value, 7);
+    EXPECT_TRUE(variable.notes.empty()) << variable.notes[0];
+    // Without levels it is a sheet.
+    const Variable& surface = reader->variables()[1];
+    ASSERT_EQ(surface.name, "eta");
+    EXPECT_EQ(surface.grid->count(), static_cast<std::uint64_t>(places));
+    EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(1, 1).values)[0], places);
+}
+
+glm::dvec3 cellAt(int p) { return {lonOf(p % kAround), latOf(p / kAround + 0.5), 0}; }
+
+TEST(NetcdfLists, BoundsAreTheCellsOfTheirPlaces) {
+    for (const std::string units : {"degrees_east", "radian"}) {
+        const auto path = withBounds(units);
+        expectPrisms(path, kCells, cellAt, [](int) { return kWide * kHigh; });
+        const auto& axes = openOne(path)->variables()[0].grid->axes();
+        EXPECT_EQ(axes[0].name, "clon");
+        EXPECT_EQ(axes[0].units, units == "radian" ? "degrees" : units);
+        EXPECT_EQ(axes[2].name, "depth");
+    }
+}
+
+TEST(NetcdfLists, FacesOfAMeshAreCells) {
+    const auto at = [](int p) { return cellAt(p) + glm::dvec3(kWide / 2, 0, 0); };
+    for (const Ugrid& what : {Ugrid{}, Ugrid{.first = 1}, Ugrid{.transposed = true}})
+        expectPrisms(withMesh(what), kCells, at, [](int) { return kWide * kHigh; });
+    expectPrisms(
+        withMesh({.triangles = true}), 2 * kCells,
+        [&](int p) {
+            const double side = p % 2 == 0 ? 1.0 / 6 : -1.0 / 6;
+            return at(p / 2) + glm::dvec3(side * kWide, -side * kHigh, 0);
+        },
+        [](int) { return kWide * kHigh / 2; });
+}
+
+TEST(NetcdfLists, NodesOfAMeshHaveTheirSharesOfTheFacesAboutThem) {
+    for (const bool triangles : {false, true})
+        expectPrisms(
+            withMesh({.location = "node", .triangles = triangles}), kNodes,
+            [](int p) { return glm::dvec3(lonOf(p % kAround), latOf(p / kAround), 0); },
+            [](int p) {
+                const int row = p / kAround;
+                return kWide * kHigh * (row == 0 || row == kUp ? 0.5 : 1);
+            });
+}
+
+TEST(NetcdfLists, WithoutPolygonsTheyAreRefused) {
+    const auto told = [](const std::filesystem::path& path) -> std::string {
+        try {
+            openOne(path);
+        } catch (const FileError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(
+        told(withBounds("degrees_east", true)),
+        HasSubstr("(60 places listed along ncells) of which the file tells neither bounds (CF) "
+                  "nor faces (UGRID)"));
+    EXPECT_THAT(told(withMesh({.location = "edge"})), HasSubstr("neither bounds (CF) nor faces"));
+}
+
+// Triangles of 20 faces that are cut again and again: in the plane of longitude and latitude they
+// fill the whole, but for what lies about the poles.
+TEST(RealLists, AnOceanOfTrianglesFillsTheGlobe) {
+    const auto path = tests::sharedData("grids/icon_ocean_triangles.nc");
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
+    const auto reader = openOne(path);
+    const auto variables = reader->variables();
+    const auto found = std::ranges::find(variables, "S", &Variable::name);
+    ASSERT_NE(found, variables.end());
+    const Mesh& mesh = *found->grid->mesh();
+    EXPECT_EQ(mesh.count(), 3u * 20480);
+    EXPECT_EQ(mesh.folded(), 0u);
+    double area = 0;
+    for (std::uint64_t i = 0; i < 20480; ++i) area += tests::volume(mesh, i);
+    area /= std::abs(mesh.position(20480).z - mesh.position(0).z);
+    EXPECT_NEAR(area / (360 * 180), 1, 0.02);
+}
+
+}  // namespace
+}  // namespace timeseries

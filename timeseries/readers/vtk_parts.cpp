@@ -1,0 +1,307 @@
+#include "timeseries/readers/vtk_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <span>
+
+#include "timeseries/readers/ordinary_file.h"
+#include "timeseries/readers/vtk_xml_cells.h"
+#include "timeseries/readers/vtk_xml_numbers.h"
+
+namespace timeseries {
+namespace {
+
+using Path = std::filesystem::path;
+
+VtkHeader headerOf(const XmlFile& file) {
+    VtkHeader header = readVtkXmlHeader(file);
+    VtkFrame frame = readVtkFrame(header);
+    header.coordinates = std::move(frame.coordinates);
+    header.places = std::move(frame.places);
+    header.unstructured = std::move(frame.unstructured);
+    header.time = frame.time;
+    if (header.kind == VtkKind::XmlRectilinear)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])
+                failVtk(
+                    file.path, "Coordinates",
+                    fmt::format("expected {} along {}, found {}", header.size(VtkPlace::Points)[i],
+                                "xyz"[i], header.coordinates[i].size()));
+    return header;
+}
+
+VtkHeader legacyHeaderOf(const Path& path) {
+    VtkHeader header = readVtkLegacyHeader(path);
+    if (isStructured(header.kind)) header.places = readVtkFrame(header).places;
+    return header;
+}
+
+// The files that hold the parts; processes that had nothing of a grid leave an empty one.
+std::vector<VtkHeader> partsOf(const XmlFile& file, const XmlElement& grid, std::string_view type) {
+    std::vector<VtkHeader> parts;
+    for (const XmlElement* piece : named(grid, "Piece")) {
+        const std::string_view source = piece->attribute("Source");
+        if (source.empty())
+            failVtk(file.path, placeOf(*piece), "expected the name of a file, its Source");
+        const Path path = file.path.parent_path() / source;
+        if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
+        const XmlFile part = readXml(path);
+        if (const auto found = rootOf(part).attribute("type"); found != type)
+            failVtk(path, "VTKFile",
+                    fmt::format("expected the type {}, as a part of {}, found \"{}\"", type,
+                                file.path.filename().string(), found));
+        const auto grids = named(part.root, type);
+        const bool hasPoints =
+            type != "UnstructuredGrid" || grids.size() != 1 ||
+            !std::ranges::all_of(named(*grids[0], "Piece"), [&](const XmlElement* each) {
+                return isEmptyVtkPiece(part, *each);
+            });
+        if (hasPoints) parts.push_back(headerOf(part));
+    }
+    if (parts.empty()) failVtk(file.path, placeOf(grid), "expected a Piece that holds points");
+    return parts;
+}
+
+const VtkArray* arrayIn(const VtkHeader& part, const VtkArray& array) {
+    const auto found = std::ranges::find_if(part.arrays, [&](const VtkArray& other) {
+        return other.name == array.name && other.place == array.place && other.type == array.type &&
+               other.components == array.components;
+    });
+    return found == part.arrays.end() ? nullptr : &*found;
+}
+
+// The arrays that the first part has; all have them.
+void joinArrays(VtkHeader& whole, std::span<const VtkHeader> parts) {
+    whole.arrays = parts[0].arrays;
+    whole.passedOver = parts[0].passedOver;
+    for (const VtkHeader& part : parts) {
+        for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
+            auto& ghosts = whole.ghosts[static_cast<std::size_t>(place)];
+            ghosts = ghosts || part.ghosts[static_cast<std::size_t>(place)];
+        }
+        for (VtkArray& array : whole.arrays) {
+            const VtkArray* const its = arrayIn(part, array);
+            if (!its)
+                failVtk(part.path, fmt::format("'{}'", array.name),
+                        fmt::format("expected {} of {} components, as in {}", typeName(array.type),
+                                    array.components, parts[0].path.filename().string()));
+            if (array.notNumber.empty()) array.notNumber = its->notNumber;
+        }
+        if (!whole.time) whole.time = part.time;
+    }
+}
+
+// Where rows of a part of a structured grid begin in the whole: use(first of the part, first of
+// the whole, how many).
+template <typename Use>
+void forEachRow(const VtkHeader& whole, const VtkHeader& part, VtkPlace place, const Use& use) {
+    const auto all = whole.size(place), size = part.size(place);
+    std::array<std::uint64_t, 3> first{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        first[i] = static_cast<std::uint64_t>(part.extent[i][0] - whole.extent[i][0]);
+        // One layer of points within a thick grid has no cells of it.
+        const bool isFlat = part.extent[i][0] == part.extent[i][1];
+        if (place == VtkPlace::Cells && isFlat && whole.extent[i][0] != whole.extent[i][1]) return;
+    }
+    for (std::uint64_t z = 0; z < size[2]; ++z)
+        for (std::uint64_t y = 0; y < size[1]; ++y)
+            use((z * size[1] + y) * size[0],
+                ((first[2] + z) * all[1] + first[1] + y) * all[0] + first[0], size[0]);
+}
+
+void joinStructured(VtkHeader& whole, std::span<const VtkHeader> parts) {
+    for (const VtkHeader& part : parts)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (part.extent[i][0] < whole.extent[i][0] || part.extent[i][1] > whole.extent[i][1])
+                failVtk(part.path, "WholeExtent",
+                        "expected it inside that of " + whole.path.filename().string());
+    for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
+        const auto isThere = [&](const VtkArray& array) { return array.place == place; };
+        if (place == VtkPlace::Points || std::ranges::any_of(whole.arrays, isThere))
+            checkVtkCover(whole, parts, place);
+    }
+    if (isStructured(whole.kind)) whole.places.resize(whole.count(VtkPlace::Points));
+    for (const VtkHeader& part : parts) {
+        if (isStructured(whole.kind))
+            forEachRow(whole, part, VtkPlace::Points,
+                       [&](std::uint64_t from, std::uint64_t to, std::uint64_t count) {
+                           std::copy_n(part.places.begin() + static_cast<std::ptrdiff_t>(from),
+                                       count,
+                                       whole.places.begin() + static_cast<std::ptrdiff_t>(to));
+                       });
+        for (std::size_t i = 0; whole.kind == VtkKind::XmlRectilinear && i < 3; ++i) {
+            auto& to = whole.coordinates[i];
+            to.resize(whole.size(VtkPlace::Points)[i]);
+            std::ranges::copy(part.coordinates[i],
+                              to.begin() + (part.extent[i][0] - whole.extent[i][0]));
+        }
+    }
+}
+
+void append(UnstructuredGrid& whole, UnstructuredGrid part, bool hasFaces) {
+    const auto point = static_cast<std::uint32_t>(whole.points.size());
+    const std::uint64_t corner = whole.corners.size(), face = whole.faces.size();
+    // What names no point of its part names none of the whole.
+    constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
+    const std::uint64_t points = part.points.size();
+    const auto moved = [&](std::uint32_t i) { return i < points ? i + point : kNoPoint; };
+    for (const std::uint32_t i : part.corners) whole.corners.push_back(moved(i));
+    for (const std::uint64_t end : part.ends) whole.ends.push_back(corner + end);
+    std::ranges::copy(part.points, std::back_inserter(whole.points));
+    std::ranges::copy(part.types, std::back_inserter(whole.types));
+    if (!hasFaces) return;
+    // A count of faces, then of each how many points, and which.
+    std::uint64_t begin = 0;
+    for (std::size_t cell = 0; cell < part.types.size(); ++cell) {
+        const std::uint64_t end = part.faceEnds.empty() ? 0 : part.faceEnds[cell];
+        std::uint32_t left = 0;
+        for (std::uint64_t i = begin; i < std::min<std::uint64_t>(end, part.faces.size()); ++i) {
+            const bool isPoint = left > 0;
+            if (isPoint)
+                --left;
+            else if (i > begin)
+                left = part.faces[i];
+            if (isPoint) part.faces[i] = moved(part.faces[i]);
+        }
+        begin = std::max(begin, end);
+        whole.faceEnds.push_back(face + end);
+    }
+    std::ranges::copy(part.faces, std::back_inserter(whole.faces));
+}
+
+void joinUnstructured(VtkHeader& whole, std::span<VtkHeader> parts) {
+    const bool hasFaces = std::ranges::any_of(
+        parts, [](const VtkHeader& part) { return !part.unstructured.faceEnds.empty(); });
+    for (const VtkHeader& part : parts)
+        std::ranges::copy(part.pieces, std::back_inserter(whole.pieces));
+    checkVtkCount(whole, "pieces");
+    for (VtkHeader& part : parts) {
+        // Before its numbers are those of all.
+        if (const std::string flaw = flawOf(part.unstructured); !flaw.empty())
+            failVtk(part.path, "Cells",
+                    "expected cells of points that there are, found that " + flaw);
+        append(whole.unstructured, std::move(part.unstructured), hasFaces);
+    }
+}
+
+VtkContents joined(const XmlFile& file, std::string_view type) {
+    const auto grids = named(file.root, file.root.attribute("type"));
+    if (grids.size() != 1)
+        failVtk(file.path, "VTKFile",
+                fmt::format("expected one P{}, found {}", type, grids.size()));
+    const XmlElement& grid = *grids[0];
+    VtkContents contents;
+    VtkHeader& whole = contents.whole;
+    whole.path = file.path;
+    if (type != "UnstructuredGrid") {
+        whole.extent = vtkExtentOf(file, grid, "WholeExtent");
+        checkVtkExtent(whole, placeOf(grid) + " WholeExtent");
+    }
+    contents.parts = partsOf(file, grid, type);
+    const VtkHeader& first = contents.parts[0];
+    whole.kind = first.kind;
+    whole.format = fmt::format("{}, {} part{}", first.format, contents.parts.size(),
+                               contents.parts.size() == 1 ? "" : "s");
+    whole.origin = first.origin;
+    whole.spacing = first.spacing;
+    whole.direction = first.direction;
+    joinArrays(whole, contents.parts);
+    if (isUnstructured(whole.kind))
+        joinUnstructured(whole, contents.parts);
+    else
+        joinStructured(whole, contents.parts);
+    for (VtkHeader& part : contents.parts) {
+        part.places = {};
+        part.coordinates = {};
+        part.unstructured = {};
+    }
+    return contents;
+}
+
+// Values of parts, put where the whole has them.
+struct Gathered {
+    Field field;  // all missing, until something is there
+    template <typename T>
+    void put(const std::vector<T>& from, const std::vector<bool>& missing, std::uint64_t first,
+             std::uint64_t to, std::uint64_t count) {
+        auto& values = std::get<std::vector<T>>(field.values);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const bool isMissing = !missing.empty() && missing[first + i];
+            if (isMissing && !field.missing[to + i]) continue;
+            values[to + i] = from[first + i];
+            field.missing[to + i] = isMissing;
+        }
+    }
+};
+
+// From the file's order to the grid's.
+template <typename T>
+T arranged(const T& from, const VtkLayout& layout) {
+    T to;
+    to.reserve(from.size());
+    forEachTuple(layout, [&](std::size_t tuple) { to.push_back(from[tuple]); });
+    return to;
+}
+
+}  // namespace
+
+bool isVtkLegacy(const Path& path) {
+    std::string start(5, '\0');
+    std::ifstream(path, std::ios::binary).read(start.data(), 5);
+    return start == "# vtk";
+}
+
+VtkContents vtkContentsOf(const Path& path) {
+    if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
+    if (isVtkLegacy(path)) return {legacyHeaderOf(path), {}};
+    return vtkContentsOf(readXml(path));
+}
+
+VtkContents vtkContentsOf(const XmlFile& file) {
+    const std::string_view type = rootOf(file).attribute("type");
+    for (const std::string_view each :
+         {"ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"})
+        if (type.starts_with('P') && type.substr(1) == each) return joined(file, each);
+    return {headerOf(file), {}};
+}
+
+void readVtkArray(const VtkContents& contents, const VtkArray& array, VtkPart part,
+                  const VtkLayout& layout, Field& field) {
+    const VtkHeader& whole = contents.whole;
+    const VtkArray& its = *arrayIn(whole, array);
+    if (contents.parts.empty()) return readVtkArray(whole, its, part, layout, field);
+    const std::uint64_t count = whole.count(array.place);
+    Gathered all{{.grid = nullptr, .values = {}, .missing = std::vector<bool>(count, true)}};
+    std::uint64_t begin = 0;
+    for (const VtkHeader& each : contents.parts) {
+        const auto size = each.size(array.place);
+        Field some;
+        readVtkArray(each, *arrayIn(each, array), part,
+                     {{size[0], size[1], size[2]}, {1, size[0], size[0] * size[1]}}, some);
+        std::visit(
+            [&](const auto& from) {
+                using Vector = std::decay_t<decltype(from)>;
+                if (begin == 0 && all.field.values.index() != some.values.index())
+                    all.field.values = Vector();
+                std::get<Vector>(all.field.values).resize(count);
+                const auto put = [&](std::uint64_t first, std::uint64_t to, std::uint64_t n) {
+                    all.put(from, some.missing, first, to, n);
+                };
+                if (isUnstructured(whole.kind))
+                    put(0, begin, from.size());
+                else
+                    forEachRow(whole, each, array.place, put);
+                begin += from.size();
+            },
+            some.values);
+    }
+    std::visit([&](const auto& values) { field.values = arranged(values, layout); },
+               all.field.values);
+    if (std::ranges::find(all.field.missing, true) != all.field.missing.end())
+        field.missing = arranged(all.field.missing, layout);
+}
+
+}  // namespace timeseries

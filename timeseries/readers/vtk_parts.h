@@ -1,0 +1,29 @@
+// What VTK files hold beside values: one file, or one whose parts are files of their own (.pvti,
+// .pvtr, .pvts, .pvtu), put together.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "timeseries/readers/vtk_library.h"
+
+namespace timeseries {
+
+struct VtkContents {
+    VtkHeader whole;
+    std::vector<VtkHeader> parts;  // none: all is in the file itself
+};
+
+bool isVtkLegacy(const std::filesystem::path& path);
+
+// With the coordinates of a rectilinear grid, the places of a structured one and the cells of an
+// unstructured one. Throws FileError.
+VtkContents vtkContentsOf(const std::filesystem::path& path);
+VtkContents vtkContentsOf(const XmlFile& file);
+
+// As readVtkArray of a header; `array` is the whole's. Of points that several parts have, the one
+// that is no ghost counts.
+void readVtkArray(const VtkContents& contents, const VtkArray& array, VtkPart part,
+                  const VtkLayout& layout, Field& field);
+
+}  // namespace timeseries
