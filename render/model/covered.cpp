@@ -51,8 +51,8 @@ PixelBox coveredPixels(const Scene& scene, const View& view) {
     const PointsView seen(scene.placed, view);
     // Cells fill the domain; splats of long ones end at the domain's faces, or the least radius
     // beyond the points.
-    const bool cut =
-        scene.cells || (scene.placed.longCells() && scene.footprint.kernel != Kernel::Point);
+    const bool cut = scene.cells || (scene.placed.longCells() && !scene.placed.isMesh() &&
+                                     scene.footprint.kernel != Kernel::Point);
     const Corners at = corners(scene.placed, cut ? seen.domain : scene.placed.pointsBox());
     // What the rasteriser's rounding may add; a point splat is moved to whole pixels, too.
     const double reach = (cut ? reachOf(0, at, seen) : farthestReach(scene, seen)) + 2;

@@ -26,6 +26,7 @@
 // it passes inside: W times the share of (1 - b^2 - s^2)^3.5 between the lengths s at which it
 // enters and leaves. What is cut off goes to the rest, by a factor: each pair of faces leaves a
 // share of the density's integral over planes, (1 - t^2)^4.5, and the three shares are multiplied.
+// Columns of a mesh with few levels (a cell reaches over a tenth of them) end so above and below.
 // That is exact beside one face; along edges and at corners of the domain see
 // tests/render/footprint_test.cpp.
 #pragma once
@@ -252,6 +253,8 @@ void cutAtFaces(Splat<Real>& s, const PointsView& view, const glm::dvec3& along,
     const auto& [box, half] = std::pair(view.domain, view.placed.boxHalf());
     s.loFace = glm::vec<3, Real>(glm::min(box.lo, -half - least) - along) / a;
     s.hiFace = glm::vec<3, Real>(glm::max(box.hi, half + least) - along) / a;
+    if (view.placed.isMesh())  // columns: cut above and below
+        for (int k = 0; k < 2; ++k) s.loFace[k] = -2, s.hiFace[k] = 2;
     for (int k = 0; k < 3; ++k) {
         s.cut = s.cut || s.loFace[k] > -1 || s.hiFace[k] < 1;
         s.weight /= shareBetween(kAcrossPlanes, s.loFace[k], s.hiFace[k]);

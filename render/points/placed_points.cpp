@@ -102,6 +102,16 @@ void PlacedPoints::measureMesh() {
     }
     unitLength_ = static_cast<double>(std::cbrt(volume));
     widest_ = static_cast<double>(std::sqrt(widest2));
+    // A tenth of the box and more.
+    constexpr double kHigh = 0.2;
+    const auto levels = mesh_->stored().levels;
+    for (const auto& level : levels)
+        longCells_ = longCells_ || level.height * std::abs(meshScale_.z) > kHigh * boxHalf_.z;
+    if (!longCells_) return;
+    const bool down = meshScale_.z < 0, ascends = levels.front().at < levels.back().at;
+    const auto& [first, last] = std::pair(levels.front().height, levels.back().height);
+    const double half = std::abs(meshScale_.z) / 2;
+    beyondBox_ = {half * (ascends != down ? first : last), half * (ascends != down ? last : first)};
 }
 
 void PlacedPoints::measureAxes(const Grid& grid) {
@@ -188,7 +198,12 @@ bool PlacedPoints::cubes() const {
 }
 
 PlacedPoints::Box PlacedPoints::domain() const {
-    if (mesh_) return pointsBox();
+    if (mesh_) {
+        Box box = pointsBox();
+        box.lo.z -= beyondBox_[0];
+        box.hi.z += beyondBox_[1];
+        return box;
+    }
     Box box{};
     for (int a = 0; a < 3; ++a) {
         const auto &at = positions_[a], &width = widths_[a];

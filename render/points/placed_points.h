@@ -67,10 +67,7 @@ class PlacedPoints {
     // determinant zero where nothing is drawn.
     timeseries::LowerTriangle<double> meshCell(std::uint64_t index) const;
     // What that determinant is to be multiplied by, for splats may be wider than their cells.
-    double volumePerDeterminant() const {
-        const double spread = mesh_->spread();
-        return 1 / (spread * spread * spread);
-    }
+    double volumePerDeterminant() const { return mesh_->volumePerDeterminant(); }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
     const std::shared_ptr<const timeseries::Mesh>& mesh() const { return mesh_; }  // none: null
 
@@ -100,10 +97,11 @@ class PlacedPoints {
     // All cells are cubes of one size, to 1e-12. Not told of a mesh's.
     bool cubes() const;
     // Cells along some axis are more than 3 times as long as those of another are in the mean:
-    // their splats end where the cells do (render/model/footprint.h). Not of a mesh.
+    // their splats end where the cells do (render/model/footprint.h). Of a mesh, its columns have
+    // few levels, and splats end above and below.
     bool longCells() const { return longCells_; }
     // What the cells fill, the half ones around the outermost points included; in axis coordinates.
-    // Of a mesh pointsBox().
+    // Of a mesh pointsBox(), with half a cell above and below where its cells are long.
     struct Box {
         glm::dvec3 lo, hi;
     };
@@ -135,6 +133,7 @@ class PlacedPoints {
     glm::dvec3 boxHalf_{0};
     double unitLength_ = 1, widest_ = 0;
     bool longCells_ = false;
+    std::array<double, 2> beyondBox_{};  // how far a mesh's long cells reach below and above
 };
 
 // The unit that lengths along an axis are compared in: degrees of longitude and of latitude are

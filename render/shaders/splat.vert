@@ -294,8 +294,12 @@ void main() {
     // 5 / pi, and |ray| = |axis| sqrt(1 + slope^2) left to the fragment but for |axis|.
     float weight = 1.5915494309189535 * mass / (sides.x * sides.y * sides.z) * sqrt(perC2) * view.rayAxis.w;
 #ifdef CUT
-    const vec3 lo = (min(view.domainLo.xyz, -view.boxHalf.xyz - smallest) - at) / a;
-    const vec3 hi = (max(view.domainHi.xyz, view.boxHalf.xyz + smallest) - at) / a;
+    vec3 lo = (min(view.domainLo.xyz, -view.boxHalf.xyz - smallest) - at) / sides;
+    vec3 hi = (max(view.domainHi.xyz, view.boxHalf.xyz + smallest) - at) / sides;
+#ifdef MESH  // columns: cut above and below
+    lo.xy = vec2(-2.0);
+    hi.xy = vec2(2.0);
+#endif
     const vec3 inside = 0.5 * (shareBelow(hi) - shareBelow(lo));
     weight /= inside.x * inside.y * inside.z;
     kernelC = vec4(c, depth);

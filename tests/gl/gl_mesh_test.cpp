@@ -15,6 +15,7 @@ namespace render {
 namespace {
 
 using splat_world::World;
+using tests::columns;
 using tests::curvilinear;
 using tests::lookFrom;
 
@@ -22,16 +23,6 @@ std::shared_ptr<const timeseries::Grid> leaningLayer() {
     return curvilinear({7, 6, 8}, [](double i, double j, double k) {
         return glm::dvec3(i + 0.3 * j, j - 0.2 * i, 0.4 * i + 0.25 * j + 1e-4 * k * (1 + 0.1 * k));
     });
-}
-
-std::shared_ptr<const timeseries::Grid> columns(std::vector<double> levels) {
-    auto places = tests::placesOf({9, 7, 1}, [](double i, double j, double) {
-        if (i == 3 && j == 2) return glm::dvec3(std::nan(""), 0, 0);
-        return glm::dvec3(i + 0.2 * std::sin(j), j + 0.1 * i, 0);
-    });
-    places.size[2] = levels.size();
-    places.levels = std::move(levels);
-    return tests::gridOf(std::move(places));
 }
 
 class GlMeshes : public tests::GlTest {
@@ -58,7 +49,8 @@ const std::array kEyes{glm::dvec3(1.5, -2, 1), glm::dvec3(0.2, -0.3, 0.1), glm::
 
 TEST_F(GlMeshes, AreTheTruths) {
     for (const auto& grid :
-         {tests::twisted(), columns({1000, 850, 700, 500}), columns({3}),
+         {tests::twisted(), columns({1000, 850, 700, 500}), columns({3}), columns({0, 1}),
+          columns({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}),
           tests::gridOf(tests::atCells(tests::bricks(
               {6, 5, 4}, tests::Cut::Tetrahedra,
               [](double i, double j, double k) { return glm::dvec3(i, j + 0.1 * i * k, k); })))})

@@ -194,6 +194,16 @@ TEST(MeshSplats, ARingLosesWhatTheFormulaSays) {
     }
 }
 
+TEST(MeshSplats, RowsSumColumnsOfFewLevelsAsTheTruthDoes) {
+    const World world = worldOf(tests::columns({0, 1, 3}));
+    for (const auto& from : {glm::dvec3(1.5, -2, 1), {0.2, -0.3, 0.1}, {30, -40, 10}}) {
+        const View view = tests::lookFrom(from, {120, 90}, 0.5);
+        const auto rows = sumRows(world.scene, Runs{}, view, Channels::Weight, 0, {});
+        expectAlike(weights(world, view), {rows.begin(), rows.end()}, 2e-5);
+    }
+    EXPECT_FALSE(TileSum::canSum(world.scene, Channels::Weight));
+}
+
 TEST(MeshSplats, RowsAndTilesSumWhatTheTruthDoes) {
     for (const auto& [from, size] : {std::pair(glm::dvec3(1.5, -2, 1), 1.0),
                                      {glm::dvec3(0.2, -0.3, 0.1), 1.0},
@@ -211,6 +221,41 @@ TEST(MeshSplats, RowsAndTilesSumWhatTheTruthDoes) {
             expectAlike(truth, {tiles.begin(), tiles.end()}, 1e-5);
         }
     }
+}
+
+// Of few levels: what is drawn in all is the volume of the columns, half a level above and below
+// the outermost ones with them, and beyond these nothing.
+TEST(MeshSplats, ColumnsOfFewLevelsEndWhereTheyEnd) {
+    for (const std::vector<double>& levels :
+         {std::vector<double>{0, 20}, {50, 30, 20}, {0, 10, 20, 30, 40}}) {
+        auto places = tests::placesOf(
+            {20, 20, 1}, [](double i, double j, double) { return glm::dvec3(i + 0.3 * j, j, 0); });
+        places.size[2] = levels.size();
+        places.levels = levels;
+        const World world = worldOf(tests::gridOf(places));
+        ASSERT_TRUE(world.placed.longCells());
+        const View view = tests::lookFrom({0, -200, 0}, {400, 400}, 0.01);
+        const auto w = weights(world, view);
+        const glm::dvec3 scale = glm::abs(world.placed.scale());
+        const double above = std::abs(levels[1] - levels[0]) / 2,
+                     below = std::abs(levels[levels.size() - 2] - levels.back()) / 2;
+        const double heights = std::abs(levels.back() - levels.front()) + above + below;
+        const double volume = 400 * heights * scale.x * scale.y * scale.z;
+        EXPECT_NEAR(massDrawn(w, view, 200) * world.placed.unitLength(), volume, 0.01 * volume)
+            << levels.size();
+        // Rows of pixels above and below the box.
+        const auto box = world.placed.domain();
+        const PixelRays rays = pixelRays(view);
+        const double pixels = rays.focal.y / 200;  // a unit of the world
+        for (int y = 0; y < 400; ++y) {
+            const double z = (y + 0.5 - rays.centre.y) / pixels;
+            if (z > box.lo.z - 2 / pixels && z < box.hi.z + 2 / pixels) continue;
+            for (int x = 0; x < 400; ++x)
+                ASSERT_EQ(w[std::size_t(y) * 400 + x], 0) << x << ' ' << y;
+        }
+    }
+    EXPECT_FALSE(
+        worldOf(tests::columns({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11})).placed.longCells());
 }
 
 // A boundary layer that leans, ten thousand times as wide as high, near by and far below a pixel.

@@ -35,6 +35,17 @@ std::shared_ptr<const timeseries::Grid> curvilinear(std::array<std::size_t, 3> s
     return gridOf(placesOf(size, place));
 }
 
+// Columns that lean to each other, at these levels.
+inline std::shared_ptr<const timeseries::Grid> columns(std::vector<double> levels) {
+    auto places = placesOf({9, 7, 1}, [](double i, double j, double) {
+        if (i == 3 && j == 2) return glm::dvec3(std::nan(""), 0, 0);
+        return glm::dvec3(i + 0.2 * std::sin(j), j + 0.1 * i, 0);
+    });
+    places.size[2] = levels.size();
+    places.levels = std::move(levels);
+    return gridOf(std::move(places));
+}
+
 // Twisted, stretched, and with a hole.
 inline std::shared_ptr<const timeseries::Grid> twisted() {
     return curvilinear({9, 8, 7}, [](double i, double j, double k) {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "tests/support/netcdf_builder.h"
 #include "tests/support/array_builder.h"
+#include "tests/support/netcdf_builder.h"
 #include "tests/support/reading_memory.h"
 
 namespace timeseries {

@@ -115,8 +115,7 @@ void Mesh::takeUnits(const std::vector<glm::dvec3>& at, double lowest, double hi
 void Mesh::takeLevels(const std::vector<double>& levels) {
     const Axis axis{"", "", levels};
     for (std::size_t k = 0; k < levels.size(); ++k)
-        levels_.push_back(
-            {levels[k] - origin_.z, levels.size() > 1 ? spread_ * std::abs(axis.width(k)) : 0});
+        levels_.push_back({levels[k] - origin_.z, levels.size() > 1 ? std::abs(axis.width(k)) : 0});
 }
 
 // In pieces of one size, added up in their order: the same for any number of threads.
@@ -179,7 +178,8 @@ void Mesh::takeSums(const Sums& sums) {
         levels = levels_.size();
         const double first = levels_[0].height;
         meanVolume_ *= static_cast<long double>(sum / static_cast<double>(levels) / first);
-        const double aside = std::max(widest_.z * widest_.z - first * first, 0.0);
+        const double wide = spread_ * first;
+        const double aside = std::max(widest_.z * widest_.z - wide * wide, 0.0);
         widest_.z = std::sqrt(aside + highest * highest);
     }
     folded_ = sums.cells[1 - most] * levels;

@@ -43,11 +43,15 @@ class Mesh {
     std::uint64_t count() const;
     // In the file's space: to a 2^24th of the mesh's extent. Not finite where the point has none.
     glm::dvec3 position(std::uint64_t index) const;
-    // The shape of the cell that the point stands for, `spread` times as wide: its determinant is
-    // +- spread^3 times the volume. Zero where nothing is drawn: no place, no volume, or folded,
-    // turned inside out beside most of the others.
+    // The shape of the cell that the point stands for, `spread` times as wide. Zero where nothing
+    // is drawn: no place, no volume, or folded, turned inside out beside most of the others.
     LowerTriangle<double> cell(std::uint64_t index) const;
     double spread() const { return spread_; }
+    // A cell's volume over its determinant: columns of several levels are as high as these are
+    // apart.
+    double volumePerDeterminant() const {
+        return 1 / (spread_ * spread_ * (levels_.size() > 1 ? 1 : spread_));
+    }
     // Begins to load what these are made of: points that are asked for by value lie anywhere.
     void prefetch(std::uint64_t index) const {
         const Point* const at = points_.data() + (levels_.empty() ? index : index % stored_);
@@ -78,7 +82,7 @@ class Mesh {
         glm::vec3 at;
         LowerTriangle<float> cell;
     };
-    // In the file's units: from the origin; `spread` times as high as the cells.
+    // In the file's units, from the origin.
     struct Level {
         double at, height;
     };

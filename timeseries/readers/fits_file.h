@@ -36,8 +36,8 @@ struct FitsImage {
         std::uint64_t value;
     };
     std::optional<Blank> blank;
-    std::vector<FitsAxis> axes;         // fastest first
-    bool turned = false;                // its axes lean to those of the sky
+    std::vector<FitsAxis> axes;  // fastest first
+    bool turned = false;         // its axes lean to those of the sky
 };
 
 // Every call holds CFITSIO's lock.
