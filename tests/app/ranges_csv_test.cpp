@@ -49,9 +49,6 @@ struct NotRead {
     std::string_view file, refusal;
 };
 constexpr std::array kNotRead{
-    // Meshes, and grids that are curvilinear.
-    NotRead{"grids/can_0.vtkhdf", "is a VTKHDF file;"},
-    NotRead{"grids/warping_spheres.vtkhdf", "is a VTKHDF file;"},
     NotRead{"grids/no_checkpoint.xdmf", "is an XDMF file;"},
     NotRead{"grids/plot3d/combq.bin", "is a PLOT3D file;"},
 };

@@ -16,7 +16,7 @@ using namespace std::string_literals;
 using Path = std::filesystem::path;
 
 const std::string kTail =
-    "; isochron reads NetCDF, Exodus II, NRRD, NIfTI, MRC, FITS and, of VTK, image data, "
+    "; isochron reads NetCDF, Exodus II, VTKHDF, NRRD, NIfTI, MRC, FITS and, of VTK, image data, "
     "rectilinear, "
     "structured and unstructured grids (.vti, .vtr, .vts, .vtu, .pvti and so on, .vtk, .pvd, "
     ".series)";
@@ -141,8 +141,6 @@ TEST(OtherFormats, RealFilesAreNamed) {
              {"grids/plot3d/combq.bin", "a PLOT3D file"},
              {"grids/chombo3d/chombo3d.vtm", "a VTK file of type vtkHierarchicalBoxDataSet"},
              {"grids/no_checkpoint.xdmf", "an XDMF file"},
-             {"grids/can_0.vtkhdf", "a VTKHDF file"},
-             {"grids/warping_spheres.vtkhdf", "a VTKHDF file"},
              {"grids/no_checkpoint.h5",
               "an HDF5 file that no NetCDF wrote, without an array of three dimensions"},
              {"dx_mri/mri.general", "an OpenDX header"},

@@ -8,6 +8,7 @@
 #include "timeseries/readers/cf_lists.h"
 #include "timeseries/readers/exodus_mesh.h"
 #include "timeseries/readers/other_formats.h"
+#include "timeseries/readers/vtkhdf_mesh.h"
 
 namespace timeseries {
 namespace {
@@ -21,12 +22,6 @@ std::set<std::string> auxiliaries(const NcHeader& header) {
                 if (const NcVariable* found = header.find(name, variable.group))
                     names.insert(found->name);
     return names;
-}
-
-bool vtkHdf(const NcHeader& header) {
-    return std::ranges::any_of(header.variables, [](const NcVariable& variable) {
-        return variable.name.starts_with("VTKHDF/");
-    });
 }
 
 // The connectivity of an unstructured mesh (UGRID 1.0), which is no data.
@@ -128,7 +123,8 @@ FileContents contentsOf(const NetcdfFile& file) {
     const NcHeader& header = file.header();
     if (isExodus(header))
         file.fail("", "expected a grid as in the files beside it, found an Exodus II mesh");
-    if (vtkHdf(header)) throw FileError(notReadSentence(file.path(), "a VTKHDF file"));
+    if (isVtkHdf(header))
+        file.fail("", "expected a grid as in the files beside it, found a VTKHDF file");
     const std::vector<const NcVariable*> geographic = geographicOf(header);
     const std::vector<const NcVariable*> fields = fieldsOf(header, geographic);
     const FileAxes fileAxes(header, fields);

@@ -184,7 +184,7 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, Exodus II, NRRD, NIfTI, MRC, FITS and, of VTK, image data, rectilinear, "
+        "NetCDF, Exodus II, VTKHDF, NRRD, NIfTI, MRC, FITS and, of VTK, image data, rectilinear, "
         "structured and "
         "unstructured grids (.vti, .vtr, .vts, .vtu, .pvti and so on, .vtk, .pvd, .series)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
