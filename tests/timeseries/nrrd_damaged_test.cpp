@@ -155,6 +155,23 @@ TEST_F(DamagedNrrd, HeadersThatWouldTakeTheSquareOfTheirLengthAreNotGivenToTheLi
     EXPECT_LT(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, 2);
 }
 
+// teem writes them into a thousand bytes of the stack.
+TEST_F(DamagedNrrd, FieldsThatAreTooLongAreNotGivenToTheLibrary) {
+    for (const std::size_t length : {700u, 1000u, 1100u, 5000u, 200000u}) {
+        const std::string much(length, 'z');
+        for (const std::string& line :
+             {much, much + ": 1", "units: \"m\" " + much, "spacings: 1 " + much, "kinds: " + much,
+              "centers: " + much + " cell", "space: " + much, "labels: \"a\" " + much,
+              "sample units: m\nsample units: " + much, "endian: " + much, "data file: " + much,
+              "content: a\ncontent: " + much})
+            toldOf(line + "\n");  // a sentence, or none
+        EXPECT_EQ(toldOf("content: " + much + "\n"), "");
+        EXPECT_EQ(toldOf("key:=" + much + "\n"), "");
+    }
+    EXPECT_THAT(toldOf(std::string(900, 'z') + ": 1\n"),
+                HasSubstr("line 7: expected a field of at most 800 characters, found 903"));
+}
+
 TEST_F(DamagedNrrd, ValuesThatAreNoNumbersOfTheTypeAreNamed) {
     const auto text = [&](const std::string& type, const std::string& values) {
         return told(

@@ -22,6 +22,9 @@ constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 24;
 constexpr std::size_t kMaxLines = std::size_t{1} << 20;
 // teem compares each key, and each comment, with all before it.
 constexpr std::size_t kMaxPairs = std::size_t{1} << 13;
+// teem 1.12 writes a field that it does not understand into about a thousand bytes of the stack,
+// however long it is.
+constexpr std::size_t kMaxField = 800;
 
 // teem and its error texts (biff) are global.
 std::mutex& libraryMutex() {
@@ -74,7 +77,8 @@ void takeLine(std::string_view line, const ArrayHeader& header, HeaderText& text
     const auto colon = line.find(": ");
     const auto pair = line.find(":=");
     const bool field = colon != std::string_view::npos && colon < pair;
-    if (!field && pair != std::string_view::npos && ++text.pairs > kMaxPairs)
+    const bool isPair = !field && pair != std::string_view::npos;
+    if (isPair && ++text.pairs > kMaxPairs)
         header.fail("header", fmt::format("expected at most {} key/value pairs", kMaxPairs));
     const std::string name = field ? lower(trim(line.substr(0, colon))) : "";
     if (name == "data file" || name == "datafile") {
@@ -82,6 +86,10 @@ void takeLine(std::string_view line, const ArrayHeader& header, HeaderText& text
         text.dataFile.field = std::string(trim(line.substr(colon + 2)));
         return;
     }
+    if (!isPair && name != "content" && line.size() > kMaxField)
+        header.fail(fmt::format("line {}", text.lines),
+                    fmt::format("expected a field of at most {} characters, found {}", kMaxField,
+                                line.size()));
     if (name == "sizes") checkSizes(header, line.substr(colon + 2));
     if (name == "labels" || name == "units" || name == "space units")
         checkQuotes(header, name, line.substr(colon + 2));
