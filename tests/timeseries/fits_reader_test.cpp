@@ -85,7 +85,13 @@ TEST(Fits, PixelsWithoutStepsAreCountedAndTurnedAxesAreTold) {
     const auto turned =
         openBytes(slab({"CD1_1   = 2.0", "CD2_2   = 2.0", "CDELT3  = 1.0", "CD1_2   = 0.5"}));
     EXPECT_EQ(turned->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{2, 4}));
+    EXPECT_NEAR(turned->variables()[0].grid->axes()[1].coordinates[0], std::hypot(0.5, 2), 1e-12);
     EXPECT_THAT(turned->variables()[0].notes, ElementsAre(HasSubstr("turned")));
+    const auto mirrored = openBytes(slab(
+        {"PC1_1   = -1.0", "CDELT1  = 0.5", "CDELT2  = 1.0", "PC3_3   = 1000.0", "CDELT3  = 2.0"}));
+    const auto& axes = mirrored->variables()[0].grid->axes();
+    EXPECT_EQ(axes[0].coordinates, (std::vector<double>{-0.5, -1}));
+    EXPECT_EQ(axes[2].coordinates[1] - axes[2].coordinates[0], 2000);
 }
 
 template <typename T, typename Stored>
@@ -127,17 +133,62 @@ TEST(Fits, BlankPixelsAreMissing) {
         ASSERT_EQ(field.missing.size(), 24u);
         for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(field.missing[i], i == 5) << zero;
     }
-    // Scaled ones are floats, of which none is no number.
+    // Scaled ones are doubles, of which a blank one is no number.
     const auto scaled =
         openBytes(image(16, {2, 3, 4}, {"BLANK   = -99", "BSCALE  = 0.5", "BZERO   = 10"}, bytes));
-    const auto values = valuesOf<float>(*scaled);
+    const auto values = valuesOf<double>(*scaled);
     for (std::size_t i = 0; i < 24; ++i) {
         if (i == 5)
             EXPECT_TRUE(std::isnan(values[i]));
         else
-            EXPECT_EQ(values[i], 10 + 0.5f * static_cast<float>(i));
+            EXPECT_EQ(values[i], 10 + 0.5 * static_cast<double>(i));
     }
     EXPECT_THAT(openBytes(slab({"BLANK   = -99"}))->read(0, 0).missing, IsEmpty());
+}
+
+// Whatever their bits, scales and offsets.
+template <typename Stored>
+void expectScaled(int bitpix, const std::string& scale, const std::string& zero) {
+    std::vector<Stored> stored = ramp<Stored>(24);
+    stored[3] = std::numeric_limits<Stored>::max();
+    const auto reader = openBytes(image(bitpix, {2, 3, 4},
+                                        {"BSCALE  = " + scale, "BZERO   = " + zero, "BLANK   = 7"},
+                                        bytesOf(stored, std::endian::big)));
+    const auto values = valuesOf<double>(*reader);
+    for (std::size_t i = 0; i < 24; ++i) {
+        if (i == 7) {
+            EXPECT_TRUE(std::isnan(values[i])) << bitpix;
+            continue;
+        }
+        const double expected = static_cast<double>(stored[i]) * std::stod(scale) + std::stod(zero);
+        EXPECT_NEAR(values[i], expected, 1e-15 * std::abs(expected)) << bitpix << ' ' << i;
+    }
+}
+
+TEST(Fits, ScaledIntegersAreDoubles) {
+    for (const auto& [scale, zero] :
+         {std::pair("3", "0"), {"0.1", "0"}, {"0.001", "2451545"}, {"1", "5"}, {"-2", "32768"}}) {
+        expectScaled<std::uint8_t>(8, scale, zero);
+        expectScaled<std::int16_t>(16, scale, zero);
+        expectScaled<std::int32_t>(32, scale, zero);
+        expectScaled<std::int64_t>(64, scale, zero);
+    }
+}
+
+TEST(Fits, FloatsAreAsStored) {
+    std::vector<float> stored = ramp<float>(24);
+    stored[1] = std::numeric_limits<float>::infinity();
+    stored[2] = -stored[1];
+    stored[3] = 1e-40f;
+    stored[4] = std::nanf("");
+    const auto values =
+        valuesOf<float>(*openBytes(image(-32, {2, 3, 4}, {}, bytesOf(stored, std::endian::big))));
+    for (std::size_t i = 0; i < 24; ++i) {
+        if (i == 4)
+            EXPECT_TRUE(std::isnan(values[i]));
+        else
+            EXPECT_EQ(values[i], stored[i]) << i;
+    }
 }
 
 TEST(Fits, AFourthAxisIsTimeAndOneOfOnePixelIsNone) {
@@ -157,6 +208,9 @@ TEST(Fits, AFourthAxisIsTimeAndOneOfOnePixelIsNone) {
     for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(odd[i], static_cast<std::int16_t>(2 * i + 1));
     const auto last = openBytes(image(16, {2, 3, 2, 2}, {"CTYPE4  = 'STOKES'"}, bytes));
     EXPECT_EQ(valuesOf<std::int16_t>(*last, 1)[0], 12);
+    const auto endless =
+        openBytes(image(16, {2, 3, 4}, {"CTYPE3  = 'TIME'", "CDELT3  = 1E308"}, bytes));
+    EXPECT_TRUE(endless->variables()[0].time->counted);
     EXPECT_THAT(last->variables()[0].notes,
                 testing::Contains("STOKES is taken for time: no axis says that it is"));
 }
@@ -169,10 +223,12 @@ TEST(Fits, EveryImageIsAVariable) {
     named.push_back("EXTNAME = 'ERROR'");
     const auto reader =
         openBytes(image(16, {}, {}, "") + image(16, {2, 3, 4}, own, bytes, extension) +
+                  image(16, {2, 3, 4}, named, bytes, extension) +
                   image(16, {2, 3, 4}, named, bytes, extension));
-    ASSERT_EQ(reader->variables().size(), 2u);
-    EXPECT_EQ(reader->variables()[0].name, "HDU 2");
+    ASSERT_EQ(reader->variables().size(), 3u);
+    EXPECT_TRUE(reader->variables()[0].nameless);
     EXPECT_EQ(reader->variables()[1].name, "ERROR");
+    EXPECT_EQ(reader->variables()[2].name, "ERROR (HDU 4)");
     EXPECT_EQ(std::get<std::vector<std::int16_t>>(reader->read(1, 0).values),
               ramp<std::int16_t>(24));
 }
@@ -208,6 +264,9 @@ TEST(Fits, WhatCannotBeReadIsNamed) {
     EXPECT_THAT(refused(whole.substr(0, 1000)), HasSubstr("expected"));
     EXPECT_THAT(refused(whole.substr(0, 2880)), HasSubstr("expected"));
     EXPECT_THAT(refused(image(16, {20000, 20000, 20000}, {}, "")), HasSubstr("bytes of values"));
+    EXPECT_THAT(refused(whole.substr(0, 2880 + 40)), HasSubstr("expected 48 bytes of values"));
+    EXPECT_THAT(refused(image(16, {1, 1, 1, 1, 1, 1, 1, 2, 2, 2}, {}, std::string(16, '\0'))),
+                HasSubstr("expected"));
     EXPECT_THAT(refused(image(16, {}, {}, "")), HasSubstr("more than one pixel, found none"));
     EXPECT_THAT(
         refused(image(16, {2, 2, 2, 2, 2}, {}, bytesOf(ramp<std::int16_t>(32), std::endian::big))),

@@ -20,6 +20,7 @@ using testing::HasSubstr;
 
 constexpr int kAround = 12, kUp = 5, kCells = kAround * kUp, kNodes = kAround * (kUp + 1);
 constexpr double kWide = 30, kHigh = 24;
+constexpr double kAside = 2;  // of places from the middles of their bounds
 const std::vector<double> kLevels{0, 10, 30};
 const std::vector<double> kHeights{10, 15, 20};
 
@@ -51,8 +52,8 @@ std::filesystem::path withBounds(const std::string& units, bool turned = false) 
     std::vector<double> lon, lat, lons, lats;
     for (int j = 0; j < kUp; ++j)
         for (int i = 0; i < kAround; ++i) {
-            lon.push_back(unit * lonOf(i));
-            lat.push_back(unit * latOf(j + 0.5));
+            lon.push_back(unit * (lonOf(i) + kAside));
+            lat.push_back(unit * (latOf(j + 0.5) - kAside));
             for (const auto& [di, dj] : {std::pair(-0.5, 0), {0.5, 0}, {0.5, 1}, {-0.5, 1}}) {
                 lons.push_back(unit * wrapped(lonOf(i + di)));
                 lats.push_back(unit * latOf(j + dj));
@@ -178,7 +179,8 @@ glm::dvec3 cellAt(int p) { return {lonOf(p % kAround), latOf(p / kAround + 0.5),
 TEST(NetcdfLists, BoundsAreTheCellsOfTheirPlaces) {
     for (const std::string units : {"degrees_east", "radian"}) {
         const auto path = withBounds(units);
-        expectPrisms(path, kCells, cellAt, [](int) { return kWide * kHigh; });
+        const auto at = [](int p) { return cellAt(p) + glm::dvec3(kAside, -kAside, 0); };
+        expectPrisms(path, kCells, at, [](int) { return kWide * kHigh; });
         const auto& axes = openOne(path)->variables()[0].grid->axes();
         EXPECT_EQ(axes[0].name, "clon");
         EXPECT_EQ(axes[0].units, units == "radian" ? "degrees" : units);
@@ -210,15 +212,111 @@ TEST(NetcdfLists, NodesOfAMeshHaveTheirSharesOfTheFacesAboutThem) {
             });
 }
 
+std::string told(const std::filesystem::path& path) {
+    try {
+        openOne(path);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// Nodes and faces by hand; T at faces, and what else `more` writes.
+template <typename More>
+std::filesystem::path smallMesh(const std::vector<std::pair<double, double>>& nodes,
+                                const std::vector<std::int32_t>& connectivity, const More& more,
+                                const std::string& location = "face") {
+    static int made = 0;  // readers hold those before
+    NetcdfBuilder file(fmt::format("small{}.nc", ++made));
+    const int n = file.dimension("node", nodes.size()),
+              f = file.dimension("face", connectivity.size() / 3),
+              three = file.dimension("three", 3);
+    const int mesh = file.variable("mesh", NC_INT, {});
+    file.text(mesh, "cf_role", "mesh_topology");
+    file.text(mesh, "node_coordinates", "x y");
+    file.text(mesh, "face_node_connectivity", "nodes");
+    const int x = file.variable("x", NC_DOUBLE, {n}), y = file.variable("y", NC_DOUBLE, {n}),
+              list = file.variable("nodes", NC_INT, {f, three});
+    file.text(x, "units", "degrees_east");
+    file.text(y, "units", "degrees_north");
+    file.text(list, "cf_role", "face_node_connectivity");
+    file.number(list, "_FillValue", std::int32_t{-1});
+    const int t = file.variable("T", NC_FLOAT, {location == "node" ? n : f});
+    file.text(t, "mesh", "mesh");
+    file.text(t, "location", location);
+    more(file, f);
+    std::vector<double> xs, ys;
+    for (const auto& [lon, lat] : nodes) xs.push_back(lon), ys.push_back(lat);
+    file.write(x, xs);
+    file.write(y, ys);
+    file.write(list, connectivity);
+    return file.close();
+}
+constexpr auto kNothing = [](NetcdfBuilder&, int) {};
+
+// At a pole a longitude says nothing: a face there is about those of its other corners.
+TEST(NetcdfLists, FacesAtAPoleLieAboutTheirOtherCorners) {
+    for (const std::vector<std::int32_t>& face :
+         {std::vector<std::int32_t>{0, 1, 2}, {1, 0, 2}, {2, 1, 0}}) {
+        const auto path = smallMesh({{0, 90}, {170, 85}, {175, 85}}, face, kNothing);
+        const auto reader = openOne(path);
+        const Mesh& mesh = *reader->variables()[0].grid->mesh();
+        EXPECT_NEAR(mesh.position(0).x, 172.5, 5.0 / 3 / 2 + 1e-4);
+        EXPECT_NEAR(mesh.position(0).y, 260.0 / 3, 1e-4);
+        EXPECT_NEAR(mesh.hi().x - mesh.lo().x, 0, 1e-4);
+    }
+    // At nodes they have no second copy: each of two neighbours has its third of one triangle.
+    const auto path = smallMesh({{0, 90}, {170, 85}, {175, 85}}, {1, 2, 0}, kNothing, "node");
+    const auto reader = openOne(path);
+    const Mesh& mesh = *reader->variables()[0].grid->mesh();
+    const double third = tests::volume(mesh, 1);
+    EXPECT_GT(third, 0);
+    EXPECT_NEAR(tests::volume(mesh, 2), third, 1e-5 * third);
+}
+
+TEST(NetcdfLists, FacesWithoutNodesLieNowhereAndThoseOfNodesThatThereAreNotAreRefused) {
+    const std::vector<std::pair<double, double>> nodes{{10, 80}, {11, 80}, {11, 81}};
+    const auto reader = openOne(smallMesh(nodes, {0, 1, 2, -1, -1, -1}, kNothing));
+    const Mesh& mesh = *reader->variables()[0].grid->mesh();
+    EXPECT_EQ(mesh.absent(), 1u);
+    EXPECT_GT(mesh.lo().y, 80);
+    EXPECT_THAT(told(smallMesh(nodes, {0, 1, 700}, kNothing)),
+                HasSubstr("face 0 has node 700 of 3"));
+}
+
+TEST(NetcdfLists, WhatIsNoCoordinateOfSpaceIsNoLevel) {
+    const auto path =
+        smallMesh({{10, 80}, {11, 80}, {11, 81}}, {0, 1, 2}, [](NetcdfBuilder& file, int f) {
+            const int member = file.dimension("member", 4);
+            const int v = file.variable("V", NC_FLOAT, {member, f});
+            file.text(v, "mesh", "mesh");
+            file.text(v, "location", "face");
+        });
+    const auto reader = openOne(path);
+    ASSERT_EQ(reader->variables().size(), 1u);
+    EXPECT_EQ(reader->variables()[0].name, "T");
+}
+
+// One variable of cells that take no space costs no other.
+TEST(NetcdfLists, AMeshWithoutAreaCostsItsOwnVariablesAlone) {
+    const auto path =
+        smallMesh({{10, 80}, {11, 80}, {12, 80}}, {0, 1, 2}, [](NetcdfBuilder& file, int) {
+            const auto lat = file.coordinate("lat", 2, "degrees_north"),
+                       lon = file.coordinate("lon", 3, "degrees_east");
+            file.variable("G", NC_FLOAT, {lat.dimension, lon.dimension});
+            file.write(lat.variable, std::vector<double>{1, 2});
+            file.write(lon.variable, std::vector<double>{1, 2, 3});
+        });
+    const auto reader = openOne(path);
+    ASSERT_EQ(reader->variables().size(), 1u);
+    EXPECT_EQ(reader->variables()[0].name, "G");
+    ASSERT_EQ(reader->damaged().size(), 1u);
+    EXPECT_THAT(reader->damaged()[0].why, HasSubstr("expected cells that take space"));
+    EXPECT_THAT(told(smallMesh({{10, 80}, {11, 80}, {12, 80}}, {0, 1, 2}, kNothing)),
+                HasSubstr(".nc: variable 'T': expected cells that take space"));
+}
+
 TEST(NetcdfLists, WithoutPolygonsTheyAreRefused) {
-    const auto told = [](const std::filesystem::path& path) -> std::string {
-        try {
-            openOne(path);
-        } catch (const FileError& error) {
-            return error.what();
-        }
-        return "";
-    };
     EXPECT_THAT(
         told(withBounds("degrees_east", true)),
         HasSubstr("(60 places listed along ncells) of which the file tells neither bounds (CF) "

@@ -24,7 +24,9 @@ constexpr std::size_t kPixdim = 76, kSlope = 112, kUnits = 123, kToffset = 136, 
 std::string slab(const BinaryHeader& header) {
     return header.bytes() + bytesOf(ramp<std::uint8_t>(24), header.order());
 }
-BinaryHeader slabHeader() { return nifti1(kU8, {3, 2, 3, 4}); }
+BinaryHeader slabHeader() {
+    return nifti1(kU8, {3, 2, 3, 4}).put(kPixdim, std::vector<float>{1, 1, 1, 1});
+}
 
 // The place in the file's space of the voxel that holds each value: `at(i, j, k)`.
 template <typename At>
@@ -100,6 +102,19 @@ TEST(Nifti, WithoutEitherTheSpacingsDo) {
         slabHeader().put(kSform, std::int16_t{1}).put(kPixdim, std::vector<float>{0, 0.5, 2, 3})));
     EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("placed by pixdim")));
     EXPECT_EQ(reader->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{0, 0.5}));
+}
+
+TEST(Nifti, NothingIsInventedWhereSpacingsAreNone) {
+    for (const float none : {0.0f, std::nanf("")}) {
+        const auto reader = openBytes(nifti1(kU8, {4, 2, 3, 2, 2})
+                                          .put(kPixdim, std::vector<float>{0, none, 1, 1, none})
+                                          .bytes() +
+                                      bytesOf(ramp<std::uint8_t>(24)));
+        const Variable& variable = reader->variables()[0];
+        EXPECT_EQ(variable.grid->axes()[0].units, "index");
+        EXPECT_THAT(variable.notes, testing::Contains(HasSubstr("placed by index")));
+        EXPECT_TRUE(variable.time->counted);
+    }
 }
 
 TEST(Nifti, TheFourthDimensionIsTime) {
@@ -207,7 +222,13 @@ TEST(Nifti, WhatIsNoScalarOnAGridIsNamed) {
     EXPECT_THAT(refused(nifti1(kU8, {9, 2, 3, 4})), HasSubstr("dim[0]: expected 1 to 7"));
     EXPECT_THAT(refused(nifti1(77, {3, 2, 3, 4})),
                 HasSubstr("datatype: expected one of NIfTI's, found 77"));
-    EXPECT_THAT(refused(slabHeader().put(108, 1e9f)), HasSubstr("expected"));
+    for (const float at : {1e9f, 1e30f, -5e9f, std::nanf(""), 348.0f, 352.5f})
+        EXPECT_THAT(refused(slabHeader().put(108, at)), HasSubstr("expected")) << at;
+    EXPECT_THAT(refused(slabHeader().put(0, std::int32_t{347})),
+                HasSubstr("sizeof_hdr: expected 348, found 347"));
+    // The byte order of its size is not that of its dimensions.
+    EXPECT_THAT(refused(nifti2(kU8, {3, 2, 3, 4}).put(0, "\0\0\2\x1c"s)), HasSubstr("sizeof_hdr"));
+    EXPECT_EQ(refused(slabHeader().put(108, 0.0f)), "");
 }
 
 TEST(Nifti, FilesCutOrDamagedAnywhereAreReadOrRefused) {

@@ -150,6 +150,9 @@ TEST(VtkParts, OfStructuredGridsAreTheWhole) {
             EXPECT_EQ(byPlace(folder / "parts.pvt", name), whole) << type << ' ' << name;
         }
         EXPECT_THAT(openOne(folder / "parts.pvt")->format(), HasSubstr("(XML), 4 parts"));
+        EXPECT_EQ(openOne(folder / "parts.pvt")->variables()[0].grid->axes(),
+                  openOne(folder / "whole.vt")->variables()[0].grid->axes())
+            << type;
         // One is not enough, and what reaches beyond the whole is none of its parts.
         writeBytes(folder / "parts.pvt", listOf(type, kWhole, {pieces[0], pieces[1]}));
         EXPECT_THAT(refusal(folder / "parts.pvt"),
@@ -228,6 +231,27 @@ TEST(VtkParts, OfUnstructuredGridsStandBehindEachOther) {
               std::get<std::vector<double>>(reader->read(0, 0).values));
 }
 
+// The list says where the whole lies; parts that lie otherwise than each other are none of one.
+TEST(VtkParts, OfImagesLieWhereTheListSays) {
+    const auto folder = freshFolder();
+    const auto part = [](const std::string& extent, const std::string& origin) {
+        return imageText({.extent = extent,
+                          .attributes = "Origin=\"" + origin + "\" Spacing=\"1 1 1\"",
+                          .points = dataArray("Float64", "p", std::vector<double>(8, 1.5))});
+    };
+    writeBytes(folder / "a.vti", part("0 1 0 1 0 1", "0 0 0"));
+    writeBytes(folder / "b.vti", part("1 2 0 1 0 1", "0 0 0"));
+    const std::vector<std::string> pieces{"Source=\"a.vti\"", "Source=\"b.vti\""};
+    const std::string extent = "WholeExtent=\"0 2 0 1 0 1\"";
+    writeBytes(folder / "p.pvti",
+               listOf("ImageData", extent + " Origin=\"7 8 9\" Spacing=\"3 1 1\"", pieces));
+    const auto reader = openOne(folder / "p.pvti");
+    EXPECT_EQ(reader->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{7, 10, 13}));
+    EXPECT_EQ(reader->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{9, 10}));
+    writeBytes(folder / "b.vti", part("1 2 0 1 0 1", "500 0 0"));
+    EXPECT_THROW(openOne(folder / "p.pvti"), FileError);
+}
+
 TEST(VtkParts, GhostCellsAreMissing) {
     const auto folder = freshFolder();
     writeBytes(folder / "a.vtu", cubes(0, 3, "0 0 1"));
@@ -255,6 +279,7 @@ TEST(VtkParts, WhatIsWrongIsNamed) {
     EXPECT_THAT(told({}), HasSubstr("expected a Piece that holds points"));
     EXPECT_THAT(told({"Source=\"empty.vtu\""}), HasSubstr("expected a Piece that holds points"));
     EXPECT_THAT(told({"Extent=\"0 1 0 1 0 1\""}), HasSubstr("expected the name of a file"));
+    EXPECT_THAT(told({"Source=\"a.vtu\"", "Source=\"a.vtu\""}), HasSubstr("found a.vtu again"));
     EXPECT_THAT(told({"Source=\"none.vtu\""}), HasSubstr("none.vtu: expected a file"));
     EXPECT_THAT(told({"Source=\"parts.pvtu\""}),
                 HasSubstr("expected the type UnstructuredGrid, as a part of parts.pvtu"));

@@ -88,6 +88,8 @@ CellMoments Measure::plain(std::size_t cell) const {
     }
     if (grid_.types[cell] == kPolyhedron) return polyhedron(cell);
     const auto& corners = cornersOf(cell, *type);
+    if (corners.empty())
+        return {0, glm::dvec3(std::numeric_limits<double>::quiet_NaN()), glm::dmat3(0.0)};
     if (type->dimension == 3) return momentsOfSolid(corners, type->faceSizes, type->faces);
     return type->dimension == 2 ? momentsOfPolygon(corners) : momentsOfLine(corners);
 }
@@ -261,12 +263,15 @@ UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid)
 }
 
 Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
-                 const std::vector<double>& levels) {
+                 const std::vector<double>& levels, const std::vector<glm::dvec3>& places) {
     const auto point = [&](std::uint64_t cell) {
-        const auto& [volume, centroid, second] = shapes.cells[cell];
-        return prismOf({centroid, rowsOf(second, volume)}, second, volume, levels);
+        const CellMoments& of = shapes.cells[cell];
+        const bool hasPlace = !places.empty() && isPlace(places[cell]);
+        const glm::dvec3& at = hasPlace ? places[cell] : of.centroid;
+        return prismOf({at, rowsOf(of.second, of.volume)}, of.second, of.volume, levels);
     };
-    return Mesh(grid.types.size(), grid.points, shapes.spread, point, levels);
+    return Mesh(grid.types.size(), grid.points.empty() ? places : grid.points, shapes.spread, point,
+                levels);
 }
 
 Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,

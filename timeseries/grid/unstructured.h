@@ -45,9 +45,10 @@ struct UnstructuredShapes {
 //
 // One point a cell: at its centroid, as large as the cell, as far each way as its second moments.
 // With levels, surfaces in the plane of the first two coordinates stand for prisms above them, one
-// a level.
+// a level. With places, as many as cells, the point of a cell that has one is there.
 Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
-                 const std::vector<double>& levels = {});
+                 const std::vector<double>& levels = {},
+                 const std::vector<glm::dvec3>& places = {});
 // One point a point, the first `count` of them: of each cell that it is of it has the share that
 // all of its points have, and reaches as far as these cells do about it. Levels as above.
 Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,

@@ -1,7 +1,10 @@
 #include "timeseries/readers/cf_lists.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <stdexcept>
 
@@ -24,7 +27,7 @@ std::optional<std::size_t> positionOf(const NcVariable& variable, std::size_t di
     return static_cast<std::size_t>(found - variable.dimensions.begin());
 }
 
-// What is neither time nor the list is the levels.
+// What is neither time nor the list, and may be a coordinate of space, is the levels.
 Roles rolesOn(const NcHeader& header, const NcVariable& variable, const Roles& before,
               std::size_t list) {
     Roles roles;
@@ -32,7 +35,8 @@ Roles rolesOn(const NcHeader& header, const NcVariable& variable, const Roles& b
     if (before.t != list) roles.t = before.t;
     for (std::size_t i = variable.dimensions.size(); i-- > 0;) {
         if (i == list || roles.t == i || header.dimension(variable, i).length == 1) continue;
-        if (roles.z)
+        const bool isSpace = std::ranges::find(before.extra, i) == before.extra.end();
+        if (roles.z || !isSpace)
             roles.extra.push_back(i);
         else
             roles.z = i;
@@ -132,9 +136,10 @@ const NcVariable& boundsOf(const NetcdfFile& file, const NcVariable& coordinate)
     return *bounds;
 }
 
+constexpr double kPole = 90 - 1e-6;
+
 // As near to the reference as whole turns bring it. At a pole every longitude is the same.
 glm::dvec3 unwound(double x, double y, double reference, double turn) {
-    constexpr double kPole = 90 - 1e-6;
     if (turn > 0)
         x = std::abs(y) > kPole ? reference : x + turn * std::round((reference - x) / turn);
     return {x, y, 0};
@@ -147,50 +152,63 @@ void addPolygon(UnstructuredGrid& grid, std::vector<std::uint32_t>& corners) {
     grid.ends.push_back(grid.corners.size());
 }
 
+bool isPole(double y, double turn) { return turn > 0 && std::abs(y) > kPole; }
+
 // A polygon a place, with corners of its own.
 class OwnCorners {
  public:
     explicit OwnCorners(double turn) : turn_(turn) {}
-    void begin(double reference) { reference_ = reference, corners_.clear(); }
-    void add(double x, double y) {
-        if (!std::isfinite(x) || !std::isfinite(y)) return;
-        if (!std::isfinite(reference_)) reference_ = x;
-        const glm::dvec3 at = unwound(x, y, reference_, turn_);
-        if (!corners_.empty() && grid_.points[corners_.back()] == at) return;
-        corners_.push_back(static_cast<std::uint32_t>(grid_.points.size()));
-        grid_.points.push_back(at);
+    // About that longitude; none: about that of the first corner that has one.
+    void add(double reference, const std::vector<glm::dvec2>& corners) {
+        indices_.clear();
+        for (const glm::dvec2& corner : corners)
+            if (!std::isfinite(reference) && !isPole(corner.y, turn_)) reference = corner.x;
+        if (!std::isfinite(reference)) reference = 0;
+        for (const glm::dvec2& corner : corners) {
+            const glm::dvec3 at = unwound(corner.x, corner.y, reference, turn_);
+            if (!indices_.empty() && grid_.points[indices_.back()] == at) continue;
+            indices_.push_back(static_cast<std::uint32_t>(grid_.points.size()));
+            grid_.points.push_back(at);
+        }
+        addPolygon(grid_, indices_);
     }
-    void end() { addPolygon(grid_, corners_); }
     const UnstructuredGrid& grid() const { return grid_; }
 
  private:
-    double turn_, reference_ = 0;
-    std::vector<std::uint32_t> corners_;
+    double turn_;
+    std::vector<std::uint32_t> indices_;
     UnstructuredGrid grid_;
 };
 
-UnstructuredGrid polygonsOfBounds(const NetcdfFile& file, const ColumnPlaces& places) {
+// With the places that the file gives them.
+struct PlacedPolygons {
+    UnstructuredGrid grid;
+    std::vector<glm::dvec3> places;
+};
+
+PlacedPolygons polygonsOfBounds(const NetcdfFile& file, const ColumnPlaces& places) {
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
-    const NcVariable& xs = boundsOf(file, x);
-    const NcVariable& ys = boundsOf(file, y);
     // Bounds have the units of what they bound.
     const std::string units = x.text("units");
     const Coordinates centres = coordinatesOf(file, x, y, units);
-    const Coordinates corners = coordinatesOf(file, xs, ys, units);
-    const std::size_t each = corners.x.size() / std::max<std::size_t>(centres.x.size(), 1);
-    if (corners.x.size() != corners.y.size() || centres.x.size() != centres.y.size())
-        throw std::invalid_argument("its bounds have other numbers of corners");
-    // As when the series was opened, or the file has changed.
-    if (each * centres.x.size() != corners.x.size())
+    const Coordinates corners = coordinatesOf(file, boundsOf(file, x), boundsOf(file, y), units);
+    const std::size_t count = centres.x.size(), each = count > 0 ? corners.x.size() / count : 0;
+    if (corners.x.size() != corners.y.size() || count != centres.y.size() ||
+        each * count != corners.x.size())
         throw std::invalid_argument("its bounds are of other places");
     OwnCorners polygons(centres.turn);
-    for (std::size_t place = 0; place < centres.x.size(); ++place) {
-        polygons.begin(centres.x[place]);
+    PlacedPolygons result;
+    std::vector<glm::dvec2> polygon;
+    for (std::size_t place = 0; place < count; ++place) {
+        polygon.clear();
         for (std::size_t i = place * each; i < (place + 1) * each; ++i)
-            polygons.add(corners.x[i], corners.y[i]);
-        polygons.end();
+            if (std::isfinite(corners.x[i]) && std::isfinite(corners.y[i]))
+                polygon.emplace_back(corners.x[i], corners.y[i]);
+        polygons.add(centres.x[place], polygon);
+        result.places.emplace_back(centres.x[place], centres.y[place], 0);
     }
-    return polygons.grid();
+    result.grid = polygons.grid();
+    return result;
 }
 
 // Of each face which nodes it has, without those that there are not.
@@ -212,22 +230,30 @@ Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t no
     const std::size_t rows = file.header().dimension(faces, 0).length,
                       columns = file.header().dimension(faces, 1).length;
     Faces result;
-    result.nodes.resize(places.turned ? columns : rows);
+    const std::size_t count = places.turned ? columns : rows;
+    if (count > all.size()) throw std::invalid_argument("its faces have no nodes");
+    result.nodes.resize(count);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double node = all[i] - first;
-        if (node >= 0 && node < static_cast<double>(nodes))
-            result.nodes[places.turned ? i % columns : i / columns].push_back(
-                static_cast<std::uint32_t>(node));
+        if (!(node >= 0)) continue;  // none
+        const std::size_t face = places.turned ? i % columns : i / columns;
+        if (!(node < static_cast<double>(nodes)))
+            throw std::invalid_argument(
+                fmt::format("face {} has node {} of {}", face, all[i], nodes));
+        result.nodes[face].push_back(static_cast<std::uint32_t>(node));
     }
     return result;
 }
 
 UnstructuredGrid polygonsOfFaces(const Coordinates& nodes, const Faces& faces) {
     OwnCorners polygons(nodes.turn);
+    std::vector<glm::dvec2> polygon;
     for (const auto& face : faces.nodes) {
-        polygons.begin(std::numeric_limits<double>::quiet_NaN());
-        for (const std::uint32_t node : face) polygons.add(nodes.x[node], nodes.y[node]);
-        polygons.end();
+        polygon.clear();
+        for (const std::uint32_t node : face)
+            if (std::isfinite(nodes.x[node]) && std::isfinite(nodes.y[node]))
+                polygon.emplace_back(nodes.x[node], nodes.y[node]);
+        polygons.add(std::numeric_limits<double>::quiet_NaN(), polygon);
     }
     return polygons.grid();
 }
@@ -249,8 +275,10 @@ UnstructuredGrid polygonsAboutNodes(const Coordinates& nodes, const Faces& faces
                 corners.push_back(node);
                 continue;
             }
-            crosses = true;
-            other = nodes.x[node];
+            if (!isPole(nodes.y[node], nodes.turn)) {
+                crosses = true;
+                other = nodes.x[node];
+            }
             corners.push_back(static_cast<std::uint32_t>(grid.points.size()));
             grid.points.push_back(at);
         }
@@ -258,8 +286,10 @@ UnstructuredGrid polygonsAboutNodes(const Coordinates& nodes, const Faces& faces
         return crosses ? std::optional(other) : std::nullopt;
     };
     for (const auto& face : faces.nodes) {
-        if (face.empty()) continue;
-        if (const auto other = add(face, nodes.x[face[0]])) add(face, *other);
+        const auto first = std::ranges::find_if(
+            face, [&](std::uint32_t node) { return !isPole(nodes.y[node], nodes.turn); });
+        if (first == face.end()) continue;
+        if (const auto other = add(face, nodes.x[*first])) add(face, *other);
     }
     return grid;
 }
@@ -284,8 +314,9 @@ std::optional<FoundList> listOf(const NcHeader& header, const NcVariable& variab
 std::shared_ptr<const Mesh> meshOfList(const NetcdfFile& file, const ColumnPlaces& places,
                                        const std::vector<double>& levels) {
     if (places.by == ColumnPlaces::By::Bounds) {
-        const UnstructuredGrid grid = polygonsOfBounds(file, places);
-        return std::make_shared<const Mesh>(meshOfCells(grid, UnstructuredShapes(grid), levels));
+        const auto [grid, at] = polygonsOfBounds(file, places);
+        return std::make_shared<const Mesh>(
+            meshOfCells(grid, UnstructuredShapes(grid), levels, at));
     }
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
     const Coordinates nodes = coordinatesOf(file, x, y, x.text("units"));

@@ -151,10 +151,14 @@ void FitsReader::add(FitsImage image) {
                                    : Axis{kLetters[a], "index", {0.0}, false};
     if (image.turned)
         variable.notes.push_back("drawn along its pixels: the axes of the sky are turned to them");
-    variable.nameless = image.name.empty() && image.hdu == 1;
-    variable.name = !image.name.empty() ? image.name
-                    : image.hdu == 1    ? file_.path().stem().string()
+    // What CFITSIO calls images that it compresses is no name.
+    const bool named = !image.name.empty() && image.name != "COMPRESSED_IMAGE";
+    variable.nameless = !named && variables_.empty();
+    variable.name = named               ? image.name
+                    : variable.nameless ? file_.path().stem().string()
                                         : fmt::format("HDU {}", image.hdu);
+    if (std::ranges::find(variables_, variable.name, &Variable::name) != variables_.end())
+        variable.name += fmt::format(" (HDU {})", image.hdu);
     variable.units = image.unit;
     variable.type = image.type;
     variable.storedAs = image.storedAs;
@@ -164,14 +168,15 @@ void FitsReader::add(FitsImage image) {
     if (time) {
         const FitsAxis& axis = image.axes[*time];
         times.single = false;
-        times.counted = !axis.step || *axis.step == 0;
+        const std::vector<double> at = coordinatesOf(axis);
+        times.counted = !axis.step || *axis.step == 0 ||
+                        !std::ranges::all_of(at, [](double t) { return std::isfinite(t); });
         times.values.clear();
-        for (std::uint64_t i = 0; times.counted && i < axis.size; ++i)
-            times.values.emplace_back(static_cast<double>(i));
+        for (std::uint64_t i = 0; i < axis.size; ++i)
+            times.values.emplace_back(times.counted ? static_cast<double>(i) : at[i]);
         if (!times.counted) {
             times.name = axis.type.empty() ? "time" : quantityOf(axis);
             times.units = unitOf(axis);
-            for (const double at : coordinatesOf(axis)) times.values.emplace_back(at);
         }
     }
     variable.time = std::make_shared<const TimeAxis>(timeAxisOf(times, variable.notes));

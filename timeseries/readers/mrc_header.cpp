@@ -75,15 +75,15 @@ ValueType typeOf(const ArrayHeader& header, const Words& words) {
 
 // Which coordinate columns, rows and sections run along.
 glm::ivec3 orderOf(ArrayHeader& header, const Words& words) {
-    const glm::ivec3 order = words.integers(17) - 1;
+    const glm::ivec3 order = words.integers(17);
     const bool each = [&] {
         unsigned seen = 0;
         for (int i = 0; i < 3; ++i)
-            if (order[i] >= 0 && order[i] < 3) seen |= 1u << order[i];
+            if (order[i] >= 1 && order[i] <= 3) seen |= 1u << (order[i] - 1);
         return seen == 7;
     }();
-    if (each) return order;
-    if (order != glm::ivec3(-1))
+    if (each) return order - 1;
+    if (order != glm::ivec3(0))
         header.notes.push_back(
             "columns, rows and sections are taken for x, y and z: the header's MAPC, MAPR and MAPS "
             "name no three axes");

@@ -35,7 +35,7 @@ class NetcdfReader final : public Reader {
         format_ = file_->header().format;
         leaveOutDamaged();
         expectSameVariables();
-        for (std::size_t v = 0; v < contents_[0].size(); ++v) addVariable(v);
+        addVariables();
         for (auto& contents : contents_)  // told by variables_ now
             for (FileVariable& variable : contents) {
                 if (!variable.axes.columns) variable.axes = {};
@@ -55,6 +55,7 @@ class NetcdfReader final : public Reader {
     void addDamaged(std::vector<DamagedVariable> damaged);
     void leaveOutDamaged();
     void expectSameVariables() const;
+    void addVariables();
     void addVariable(std::size_t v);
     std::shared_ptr<const Grid> gridOf(std::size_t v, std::vector<std::string>& notes);
     // Of one step of a file, of a variable whose columns tell where its points lie.
@@ -161,8 +162,9 @@ std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std:
         return std::make_shared<const Grid>(std::move(axes), mesh);
     } catch (const std::invalid_argument& flaw) {
         if (first.axes.columns->by != ColumnPlaces::By::Neighbours)
-            open(0).fail("variable '" + first.name + "'",
-                         fmt::format("expected cells that take space, found that {}", flaw.what()));
+            throw AttributeError(open(0).sentence(
+                "variable '" + first.name + "'",
+                fmt::format("expected cells that take space, found that {}", flaw.what())));
         notes.push_back(fmt::format("drawn in index space: of its 2-D coordinates {} and {}, {}",
                                     first.axes.columns->x, first.axes.columns->y, flaw.what()));
         first.axes.columns.reset();
@@ -182,6 +184,22 @@ std::shared_ptr<const Mesh> NetcdfReader::meshAt(std::size_t f, std::size_t v, s
     if (columns.by != ColumnPlaces::By::Neighbours)
         return meshOfList(file, columns, source.roles.z ? z.coordinates : std::vector<double>());
     return meshOf(file, *found, source.roles, columns, z, step);
+}
+
+// One whose places make no cells costs no other.
+void NetcdfReader::addVariables() {
+    for (std::size_t v = 0; v < contents_[0].size();) {
+        try {
+            addVariable(v);
+            ++v;
+        } catch (const AttributeError& error) {
+            damaged_.push_back({contents_[0][v].name, error.what()});
+            for (auto& contents : contents_)
+                contents.erase(contents.begin() + static_cast<std::ptrdiff_t>(v));
+            segments_.resize(variables_.size());
+        }
+    }
+    if (variables_.empty()) throw FileError(damaged_.front().why);
 }
 
 void NetcdfReader::addVariable(std::size_t v) {
@@ -285,9 +303,14 @@ Field NetcdfReader::read(std::size_t variable, std::size_t step) {
     field.grid = variables_[variable].grid;
     const auto& columns = contents_[0][variable].axes.columns;
     if (columns && (columns->inTime || segment->file > 0)) {
-        const auto mesh = meshAt(segment->file, variable, step);
-        if (*mesh != *field.grid->mesh())
-            field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh, true);
+        try {
+            const auto mesh = meshAt(segment->file, variable, step);
+            if (*mesh != *field.grid->mesh())
+                field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh, true);
+        } catch (const std::invalid_argument& flaw) {
+            file.fail("variable '" + source.name + "'",
+                      fmt::format("expected cells that take space, found that {}", flaw.what()));
+        }
     }
     field.categories = source.categories;
     const Block block = blockOf(source, step);

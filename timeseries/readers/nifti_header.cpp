@@ -55,33 +55,55 @@ Integer inReverse(Integer value) {
     return std::bit_cast<Integer>(bytes);
 }
 
-// What the library prints its objections to, or takes for 1.
+// What the library takes for something else where it cannot be.
+struct Raw {
+    std::array<double, 8> pixdim;
+    double valuesAt;  // vox_offset
+};
+
+// As they are in the file. The library prints its objections, and follows sizes of the other byte
+// order beyond its arrays.
 template <typename Header>
-void expectDimensions(const ArrayHeader& header, const Header& raw) {
+Raw expectHeader(const ArrayHeader& header, const Header& raw, int bytes) {
     const bool swapped = raw.dim[0] < 1 || raw.dim[0] > 7;
-    const auto dim = [&](int i) { return swapped ? inReverse(raw.dim[i]) : raw.dim[i]; };
-    if (dim(0) < 1 || dim(0) > 7)
+    const auto told = [&](auto value) { return swapped ? inReverse(value) : value; };
+    const auto dimensions = told(raw.dim[0]);
+    if (dimensions < 1 || dimensions > 7)
         header.fail("dim[0]", fmt::format("expected 1 to 7 dimensions, found {}", raw.dim[0]));
-    for (int i = 1; i <= dim(0); ++i)
-        if (dim(i) < 1)
+    if (told(raw.sizeof_hdr) != bytes)
+        header.fail("sizeof_hdr",
+                    fmt::format("expected {}, found {}", bytes, told(raw.sizeof_hdr)));
+    for (int i = 1; i <= dimensions; ++i)
+        if (told(raw.dim[i]) < 1)
             header.fail(fmt::format("dim[{}]", i),
-                        fmt::format("expected one or more, found {}", dim(i)));
-    const int type = swapped ? inReverse(raw.datatype) : raw.datatype;
-    int bytes = 0, unused = 0;
-    nifti_datatype_sizes(type, &bytes, &unused);
-    if (bytes == 0) header.fail("datatype", fmt::format("expected one of NIfTI's, found {}", type));
+                        fmt::format("expected one or more, found {}", told(raw.dim[i])));
+    int each = 0, unused = 0;
+    nifti_datatype_sizes(told(raw.datatype), &each, &unused);
+    if (each == 0)
+        header.fail("datatype",
+                    fmt::format("expected one of NIfTI's, found {}", told(raw.datatype)));
+    Raw found{{}, static_cast<double>(told(raw.vox_offset))};
+    for (std::size_t i = 0; i < 8; ++i) found.pixdim[i] = static_cast<double>(told(raw.pixdim[i]));
+    return found;
 }
 
+struct Read {
+    Image image{nullptr, nifti_image_free};
+    Raw raw{};
+};
+
 template <typename Header>
-Image imageOf(const ArrayHeader& header, std::string_view start,
+Read readWith(const ArrayHeader& header, std::string_view start, int bytes,
               nifti_image* (*convert)(Header, const char*)) {
     Header raw;
-    if (start.size() < sizeof raw) return {nullptr, nifti_image_free};
+    if (start.size() < sizeof raw)
+        header.fail("header", fmt::format("expected {} bytes, found {}", bytes, start.size()));
     std::memcpy(&raw, start.data(), sizeof raw);
-    expectDimensions(header, raw);
+    Read read{{nullptr, nifti_image_free}, expectHeader(header, raw, bytes)};
     const std::lock_guard lock(libraryMutex());
     nifti_set_debug_level(0);  // it prints otherwise
-    return {convert(raw, nullptr), nifti_image_free};
+    read.image.reset(convert(raw, nullptr));
+    return read;
 }
 
 ValueType typeOf(const ArrayHeader& header, int type) {
@@ -138,7 +160,7 @@ std::string unitOf(int code) {
     }
 }
 
-void takeAxes(const nifti_image& image, ArrayHeader& header) {
+void takeAxes(const nifti_image& image, const Raw& raw, ArrayHeader& header) {
     for (int i = 5; i <= 7; ++i)
         if (image.dim[0] >= i && image.dim[i] > 1)
             header.fail(fmt::format("dim[{}]", i),
@@ -147,11 +169,13 @@ void takeAxes(const nifti_image& image, ArrayHeader& header) {
     for (int i = 1; i <= (image.dim[0] >= 4 && image.dim[4] > 1 ? 4 : 3); ++i) {
         ArrayAxis axis;
         axis.size = static_cast<std::uint64_t>(image.dim[0] >= i ? image.dim[i] : 1);
-        axis.spacing = image.pixdim[i];
+        // The library takes what is none for 1.
+        const double step = std::abs(raw.pixdim[static_cast<std::size_t>(i)]);
+        if (step > 0 && std::isfinite(step)) axis.spacing = step;
         axis.cell = false;
         axis.kind = i == 4 ? ArrayKind::Time : ArrayKind::Space;
         axis.units = unitOf(i == 4 ? image.time_units : image.xyz_units);
-        if (i == 4) axis.min = image.toffset;
+        if (i == 4 && std::isfinite(image.toffset)) axis.min = image.toffset;
         header.axes.push_back(std::move(axis));
     }
 }
@@ -192,12 +216,16 @@ void takeSpace(const nifti_image& image, ArrayHeader& header) {
 }
 
 // Of a pair, the file beside the header.
-void takeValues(const nifti_image& image, bool isPair, bool packed, ArrayHeader& header) {
+void takeValues(const nifti_image& image, const Raw& raw, double least, bool isPair, bool packed,
+                ArrayHeader& header) {
     header.encoding = packed ? ArrayEncoding::Gzip : ArrayEncoding::Raw;
     header.swapped = header.valueBytes() > 1 && image.byteorder != nifti_short_order();
-    if (image.iname_offset < 0)
-        header.fail("vox_offset", fmt::format("expected 0 or more, found {}", image.iname_offset));
-    header.byteSkip = image.iname_offset;
+    // Where nothing is told, right behind the header.
+    const double at = !isPair && raw.valuesAt == 0 ? least : raw.valuesAt;
+    if (!(at >= (isPair ? 0 : least) && at < 0x1p53) || at != std::floor(at))
+        header.fail("vox_offset",
+                    fmt::format("expected {} bytes or more, found {}", isPair ? 0 : least, at));
+    header.byteSkip = static_cast<std::int64_t>(at);
     if (!isPair) return;
     std::filesystem::path name = header.path.filename();
     if (packed) name.replace_extension();
@@ -221,15 +249,16 @@ ArrayHeader readNiftiHeader(const std::filesystem::path& path) {
     bool packed = false;
     const std::string start = beginningOf(header, packed);
     const bool second = isNifti2(start);
-    const Image image = second ? imageOf(header, start, nifti_convert_n2hdr2nim)
-                               : imageOf(header, start, nifti_convert_n1hdr2nim);
+    const auto [image, raw] = second ? readWith(header, start, 540, nifti_convert_n2hdr2nim)
+                                     : readWith(header, start, 348, nifti_convert_n1hdr2nim);
     if (!image) header.fail("header", "expected a whole NIfTI header, which the library can read");
     const bool isPair = start[(second ? kMagic2At : kMagicAt) + 1] == 'i';
     header.format = fmt::format("NIfTI-{}{}", second ? 2 : 1, isPair ? ", detached values" : "");
     header.type = typeOf(header, image->datatype);
-    takeAxes(*image, header);
+    takeAxes(*image, raw, header);
     takeSpace(*image, header);
-    takeValues(*image, isPair, packed, header);
+    // Four bytes tell of extensions.
+    takeValues(*image, raw, second ? 544 : 352, isPair, packed, header);
     const double slope = image->scl_slope, offset = image->scl_inter;
     if (slope != 0 && std::isfinite(slope) && std::isfinite(offset) && (slope != 1 || offset != 0))
         header.scaling = {slope, offset};

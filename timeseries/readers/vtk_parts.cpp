@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <span>
 
 #include "timeseries/readers/ordinary_file.h"
@@ -42,11 +44,15 @@ VtkHeader legacyHeaderOf(const Path& path) {
 // The files that hold the parts; processes that had nothing of a grid leave an empty one.
 std::vector<VtkHeader> partsOf(const XmlFile& file, const XmlElement& grid, std::string_view type) {
     std::vector<VtkHeader> parts;
+    std::set<Path> seen;
     for (const XmlElement* piece : named(grid, "Piece")) {
         const std::string_view source = piece->attribute("Source");
         if (source.empty())
             failVtk(file.path, placeOf(*piece), "expected the name of a file, its Source");
         const Path path = file.path.parent_path() / source;
+        if (!seen.insert(path).second)
+            failVtk(file.path, placeOf(*piece),
+                    fmt::format("expected files that differ, found {} again", source));
         if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
         const XmlFile part = readXml(path);
         if (const auto found = rootOf(part).attribute("type"); found != type)
@@ -134,9 +140,15 @@ void joinStructured(VtkHeader& whole, std::span<const VtkHeader> parts) {
                        });
         for (std::size_t i = 0; whole.kind == VtkKind::XmlRectilinear && i < 3; ++i) {
             auto& to = whole.coordinates[i];
-            to.resize(whole.size(VtkPlace::Points)[i]);
-            std::ranges::copy(part.coordinates[i],
-                              to.begin() + (part.extent[i][0] - whole.extent[i][0]));
+            to.resize(whole.size(VtkPlace::Points)[i], std::numeric_limits<double>::quiet_NaN());
+            auto next = to.begin() + (part.extent[i][0] - whole.extent[i][0]);
+            for (const double at : part.coordinates[i]) {
+                if (!std::isnan(*next) && *next != at)
+                    failVtk(
+                        part.path, "Coordinates",
+                        fmt::format("expected {} where another part has it, found {}", *next, at));
+                *next++ = at;
+            }
         }
     }
 }
@@ -208,6 +220,19 @@ VtkContents joined(const XmlFile& file, std::string_view type) {
     whole.origin = first.origin;
     whole.spacing = first.spacing;
     whole.direction = first.direction;
+    for (const VtkHeader& part : contents.parts)
+        if (part.origin != first.origin || part.spacing != first.spacing ||
+            part.direction != first.direction)
+            failVtk(
+                part.path, "ImageData",
+                "expected the Origin, Spacing and Direction of " + first.path.filename().string());
+    const auto take = [&](std::string_view name, auto& numbers) {
+        if (whole.kind == VtkKind::XmlImage && grid.has(name))
+            std::ranges::copy(numbersOf<double>(file, grid, name, numbers.size()), numbers.begin());
+    };
+    take("Origin", whole.origin);
+    take("Spacing", whole.spacing);
+    take("Direction", whole.direction);
     joinArrays(whole, contents.parts);
     if (isUnstructured(whole.kind))
         joinUnstructured(whole, contents.parts);
