@@ -191,6 +191,15 @@ TEST(Fits, FloatsAreAsStored) {
     }
 }
 
+TEST(Fits, ScaledFloatsKeepInfinities) {
+    std::vector<float> stored = ramp<float>(24);
+    stored[1] = std::numeric_limits<float>::infinity();
+    stored[3] = 1e-40f;
+    const auto values = valuesOf<double>(
+        *openBytes(image(-32, {2, 3, 4}, {"BSCALE  = 2.0"}, bytesOf(stored, std::endian::big))));
+    for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(values[i], 2 * static_cast<double>(stored[i]));
+}
+
 TEST(Fits, AFourthAxisIsTimeAndOneOfOnePixelIsNone) {
     const std::string bytes = bytesOf(ramp<std::int16_t>(24), std::endian::big);
     const auto one = openBytes(image(16, {2, 3, 4, 1}, {}, bytes));

@@ -280,6 +280,7 @@ TEST(VtkParts, WhatIsWrongIsNamed) {
     EXPECT_THAT(told({"Source=\"empty.vtu\""}), HasSubstr("expected a Piece that holds points"));
     EXPECT_THAT(told({"Extent=\"0 1 0 1 0 1\""}), HasSubstr("expected the name of a file"));
     EXPECT_THAT(told({"Source=\"a.vtu\"", "Source=\"a.vtu\""}), HasSubstr("found a.vtu again"));
+    EXPECT_THAT(told({"Source=\"a.vtu\"", "Source=\"./a.vtu\""}), HasSubstr("found ./a.vtu again"));
     EXPECT_THAT(told({"Source=\"none.vtu\""}), HasSubstr("none.vtu: expected a file"));
     EXPECT_THAT(told({"Source=\"parts.pvtu\""}),
                 HasSubstr("expected the type UnstructuredGrid, as a part of parts.pvtu"));

@@ -147,10 +147,10 @@ TEST(VtkHdf, PartsOfOneStepStandBehindEachOther) {
             EXPECT_NEAR(atPoints.position(i)[c], parts.points[3 * i + std::size_t(c)], 1e-6);
 }
 
-// Two steps, of one part and of two, all else than the first's. Places in Offsets may count that
-// each part has one more than cells, or not.
+// Two steps, of one part and of two, all else than the first's; the second's values may stand
+// first.
 TEST(VtkHdf, EachStepHasItsOwnCells) {
-    for (const bool counted : {false, true}) {
+    for (const bool turned : {false, true}) {
         Parts parts;
         parts.add(Cubes(0, 2));
         parts.add(Cubes(10, 1));
@@ -165,22 +165,93 @@ TEST(VtkHdf, EachStepHasItsOwnCells) {
         file.put("VTKHDF/Steps/PointOffsets", Numbers{0, 12});
         file.put("VTKHDF/Steps/CellOffsets", Numbers{0, 2});
         file.put("VTKHDF/Steps/ConnectivityIdOffsets", Numbers{0, 16});
-        if (counted) file.put("VTKHDF/Steps/PointDataOffsets/p", Numbers{0, 12});
+        if (turned) {
+            file.put("VTKHDF/Steps/PointDataOffsets/p", Numbers{24, 0});
+            file.put("VTKHDF/Steps/CellDataOffsets/c", Numbers{4, 0});
+        }
         const auto reader = openOne(file.close());
         ASSERT_EQ(reader->variables()[0].time->points.size(), 2u);
         EXPECT_EQ(reader->variables()[0].time->points[1].value, 0.5);
         const auto first = valuesOf<std::int32_t>(*reader, "p", 0);
-        EXPECT_EQ(first, ramp<std::int32_t>(12));
+        ASSERT_EQ(first.size(), 12u);
+        EXPECT_EQ(first[0], turned ? 24 : 0);
         const auto second = valuesOf<std::int32_t>(*reader, "p", 1);
         ASSERT_EQ(second.size(), 24u);
-        EXPECT_EQ(second[0], 12);
-        EXPECT_THAT(valuesOf<std::int32_t>(*reader, "c", 1), ElementsAre(2, 3, 4, 5));
+        EXPECT_EQ(second[0], turned ? 0 : 12);
+        const int at = turned ? 0 : 2;
+        EXPECT_THAT(valuesOf<std::int32_t>(*reader, "c", 1),
+                    ElementsAre(at, at + 1, at + 2, at + 3));
         const Field field = reader->read(indexOf(*reader, "c"), 1);
         for (std::uint64_t i = 0; i < 4; ++i) {
             EXPECT_NEAR(field.grid->position(i).x, 10.5 + double(i), 1e-5);
             EXPECT_NEAR(tests::volume(*field.grid->mesh(), i), 1, 1e-5);
         }
     }
+}
+
+// A triangle and a square beside each other, or a square and a triangle.
+struct Polygons {
+    std::vector<float> points;
+    Numbers connectivity, offsets;
+    void add(bool triangleFirst) {
+        append(offsets, triangleFirst ? Numbers{0, 3, 7} : Numbers{0, 4, 7});
+        append(connectivity,
+               triangleFirst ? Numbers{0, 1, 2, 1, 3, 4, 2} : Numbers{0, 1, 3, 2, 1, 4, 3});
+        append(points, triangleFirst
+                           ? std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0}
+                           : std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 2, 0, 0});
+    }
+};
+
+// Four steps of polygons with these offsets; `blocks` of cells are in the file.
+std::unique_ptr<Reader> fourSteps(const std::vector<bool>& points, const std::vector<bool>& blocks,
+                                  const Numbers& cellOffsets, const Numbers& idOffsets,
+                                  bool tellsParts = true) {
+    HdfFile file;
+    Polygons places, cells;
+    for (const bool each : points) places.add(each);
+    for (const bool each : blocks) cells.add(each);
+    file.put("VTKHDF/Points", places.points, 3);
+    file.put("VTKHDF/NumberOfPoints", Numbers(4, 5));
+    for (const std::string name : {"Vertices", "Lines", "Polygons", "Strips"}) {
+        const std::string group = "VTKHDF/" + name + "/";
+        const bool is = name == "Polygons";
+        file.put(group + "Connectivity", is ? cells.connectivity : Numbers{});
+        file.put(group + "Offsets", is ? cells.offsets : Numbers{0, 0, 0, 0});
+        file.put(group + "NumberOfCells", Numbers(4, is ? 2 : 0));
+        file.put(group + "NumberOfConnectivityIds", Numbers(4, is ? 7 : 0));
+    }
+    const auto fours = [](const Numbers& each) {
+        Numbers all;
+        for (const std::int64_t n : each) append(all, Numbers{0, 0, n, 0});
+        return all;
+    };
+    file.put("VTKHDF/CellData/c", ramp<std::int32_t>(8));
+    file.put("VTKHDF/Steps/Values", std::vector<double>{0, 1, 2, 3});
+    if (tellsParts) file.put("VTKHDF/Steps/NumberOfParts", Numbers(4, 1));
+    file.put("VTKHDF/Steps/PartOffsets", Numbers{0, 1, 2, 3});
+    file.put("VTKHDF/Steps/PointOffsets", Numbers{0, 5, 10, 15});
+    file.put("VTKHDF/Steps/CellOffsets", fours(cellOffsets), 4);
+    file.put("VTKHDF/Steps/ConnectivityIdOffsets", fours(idOffsets), 4);
+    file.put("VTKHDF/Steps/CellDataOffsets/c", Numbers{0, 2, 4, 6});
+    return openOne(file.close());
+}
+
+// As VTK reads them: cells of each step, or once for several, which then change.
+TEST(VtkHdf, PolygonsOfAStepAreItsOwn) {
+    const auto expectAreas = [](Reader& reader, const std::vector<bool>& triangleFirst) {
+        for (std::size_t step = 0; step < 4; ++step) {
+            const Field field = reader.read(0, step);
+            const double ratio =
+                tests::volume(*field.grid->mesh(), 0) / tests::volume(*field.grid->mesh(), 1);
+            EXPECT_NEAR(ratio, triangleFirst[step] ? 0.5 : 2, 1e-5) << step;
+        }
+    };
+    const std::vector<bool> changes{true, true, true, false};
+    for (const bool tellsParts : {true, false})
+        expectAreas(*fourSteps(changes, changes, {0, 2, 4, 6}, {0, 7, 14, 21}, tellsParts),
+                    changes);
+    expectAreas(*fourSteps(changes, {true, false}, {0, 0, 0, 2}, {0, 0, 0, 7}), changes);
 }
 
 // Of the places in Offsets where a step begins only the cells before count in one file, in the

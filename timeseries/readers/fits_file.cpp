@@ -207,9 +207,10 @@ std::optional<FitsImage> FitsFile::Open::image(const FitsFile& of, int hdu) cons
     const bool isInteger = bitpix > 0, plain = scale == 1 && zero == 0;
     const bool otherSign = isInteger && scale == 1 && zero == stored->signOffset;
     image.type = plain ? stored->type : otherSign ? stored->otherSign : ValueType::F64;
-    image.scaled = !plain && !otherSign;
-    if (image.scaled) image.storedAs += fmt::format(", scale {}, offset {}", scale, zero);
-    if (const auto blank = keys.integer("BLANK"); blank && isInteger && !image.scaled) {
+    const bool scaled = !plain && !otherSign;
+    image.scaledIntegers = scaled && isInteger;
+    if (scaled) image.storedAs += fmt::format(", scale {}, offset {}", scale, zero);
+    if (const auto blank = keys.integer("BLANK"); blank && isInteger && !scaled) {
         // 2^63 is beyond the integers with a sign.
         const auto offset = zero < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(zero))
                                      : static_cast<std::uint64_t>(zero);
@@ -240,8 +241,6 @@ std::vector<FitsImage> FitsFile::images() {
     const std::lock_guard lock(libraryMutex());
     std::vector<FitsImage> images;
     for (int hdu = 1;; ++hdu) {
-        if (hdu > kMostImages)
-            fail("images", fmt::format("expected at most {} HDUs, found more", kMostImages));
         int status = 0, type = 0;
         fits_movabs_hdu(open_->file, hdu, &type, &status);
         if (status == END_OF_FILE) {
@@ -251,6 +250,8 @@ std::vector<FitsImage> FitsFile::images() {
         if (status != 0)
             fail(fmt::format("HDU {}", hdu),
                  fmt::format("expected a whole header, but CFITSIO says: {}", sentenceOf(status)));
+        if (hdu > kMostImages)
+            fail("images", fmt::format("expected at most {} HDUs, found more", kMostImages));
         if (type != IMAGE_HDU) continue;
         if (auto image = open_->image(*this, hdu)) images.push_back(std::move(*image));
     }
@@ -274,7 +275,7 @@ Values FitsFile::read(const FitsImage& image, const std::vector<std::uint64_t>& 
         // Of scaled integers blank ones, of packed floats those that were not numbers. Of other
         // floats CFITSIO, asked so, would change infinities and what is next to 0.
         T none = std::numeric_limits<T>::quiet_NaN();
-        const bool asks = std::is_floating_point_v<T> && (image.scaled || image.packed);
+        const bool asks = std::is_floating_point_v<T> && (image.packed || image.scaledIntegers);
         int status = 0, any = 0;
         fits_movabs_hdu(open_->file, image.hdu, nullptr, &status);
         fits_read_subset(open_->file, memory, from.data(), to.data(), every.data(),

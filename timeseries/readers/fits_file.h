@@ -24,11 +24,11 @@ struct FitsAxis {
 };
 
 struct FitsImage {
-    int hdu = 1;          // counted from 1
-    std::string name;     // EXTNAME; ""
-    std::string unit;     // BUNIT
-    ValueType type{};     // with scale and offset applied: double, but where they turn a sign
-    bool scaled = false;  // they do more
+    int hdu = 1;       // counted from 1
+    std::string name;  // EXTNAME; ""
+    std::string unit;  // BUNIT
+    ValueType type{};  // with scale and offset applied: double, but where they turn a sign
+    bool scaledIntegers = false;
     bool packed = false;  // compressed by tiles
     std::string storedAs;
     // Of integers without a scale, the value that is none: as stored, and with the offset that

@@ -68,6 +68,9 @@ class NetcdfReader final : public Reader {
     std::vector<std::vector<FileVariable>> contents_;  // [file][variable], the same order in each
     std::vector<Variable> variables_;
     std::vector<DamagedVariable> damaged_;
+    // A variable without time is the same in all files, unless nothing in them has time: then each
+    // file is a step.
+    bool anyTime_ = false;
     std::vector<std::vector<Segment>> segments_;  // [variable]
     std::unique_ptr<NetcdfFile> file_;  // one at a time: a series may have more files than handles
     std::size_t openIndex_ = 0;
@@ -147,10 +150,11 @@ std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std:
         if (contents_[0][before].axes.columns == first.axes.columns &&
             contents_[0][before].axes.axes == axes && variables_[before].grid->mesh())
             return variables_[before].grid;
+    std::size_t file = 0;
     try {
-        const auto mesh = meshAt(0, v, 0);
+        const auto mesh = meshAt(file, v, 0);
         const bool isLong = first.axes.columns->inTime;
-        const std::size_t file = contents_.size() - 1;
+        file = contents_.size() - 1;
         const auto last = isLong || file > 0 ? meshAt(file, v, kLastStep) : mesh;
         for (int a = 0; a < 3; ++a) {
             const double lo = std::min(mesh->lo()[a], last->lo()[a]),
@@ -162,7 +166,7 @@ std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std:
         return std::make_shared<const Grid>(std::move(axes), mesh);
     } catch (const std::invalid_argument& flaw) {
         if (first.axes.columns->by != ColumnPlaces::By::Neighbours)
-            throw AttributeError(open(0).sentence(
+            throw AttributeError(open(file).sentence(
                 "variable '" + first.name + "'",
                 fmt::format("expected cells that take space, found that {}", flaw.what())));
         notes.push_back(fmt::format("drawn in index space: of its 2-D coordinates {} and {}, {}",
@@ -188,6 +192,8 @@ std::shared_ptr<const Mesh> NetcdfReader::meshAt(std::size_t f, std::size_t v, s
 
 // One whose places make no cells costs no other.
 void NetcdfReader::addVariables() {
+    anyTime_ = std::ranges::any_of(
+        contents_[0], [](const FileVariable& f) { return !f.times.single || !f.times.counted; });
     for (std::size_t v = 0; v < contents_[0].size();) {
         try {
             addVariable(v);
@@ -214,11 +220,7 @@ void NetcdfReader::addVariable(std::size_t v) {
     variable.categories = first.categories;
     variable.notes = first.notes;
 
-    // A variable without time is the same in all files, unless nothing in them has time: then each
-    // file is a step.
-    const bool anyTime = std::ranges::any_of(
-        contents_[0], [](const FileVariable& f) { return !f.times.single || !f.times.counted; });
-    const bool fixed = anyTime && first.times.single && first.times.counted;
+    const bool fixed = anyTime_ && first.times.single && first.times.counted;
     std::vector<StoredTimes> parts;
     for (std::size_t f = 0; f < (fixed ? 1 : contents_.size()); ++f)
         parts.push_back(contents_[f][v].times);

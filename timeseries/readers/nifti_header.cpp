@@ -189,11 +189,14 @@ bool isTransformation(const nifti_dmat44& m) {
 }
 
 // The sform, where there is one, else the qform: as most programs choose. Neither: by pixdim.
-void takeSpace(const nifti_image& image, ArrayHeader& header) {
+void takeSpace(const nifti_image& image, const Raw& raw, ArrayHeader& header) {
     const nifti_dmat44* transformation = nullptr;
+    // Of a qform they are the lengths; the library takes what is none for 1.
+    const bool hasSteps = std::all_of(raw.pixdim.begin() + 1, raw.pixdim.begin() + 4,
+                                      [](double d) { return std::isfinite(d) && d != 0; });
     if (image.sform_code > 0 && isTransformation(image.sto_xyz))
         transformation = &image.sto_xyz;
-    else if (image.qform_code > 0 && isTransformation(image.qto_xyz))
+    else if (image.qform_code > 0 && hasSteps && isTransformation(image.qto_xyz))
         transformation = &image.qto_xyz;
     if (!transformation) {
         if (image.sform_code > 0 || image.qform_code > 0)
@@ -256,7 +259,7 @@ ArrayHeader readNiftiHeader(const std::filesystem::path& path) {
     header.format = fmt::format("NIfTI-{}{}", second ? 2 : 1, isPair ? ", detached values" : "");
     header.type = typeOf(header, image->datatype);
     takeAxes(*image, raw, header);
-    takeSpace(*image, header);
+    takeSpace(*image, raw, header);
     // Four bytes tell of extensions.
     takeValues(*image, raw, second ? 544 : 352, isPair, packed, header);
     const double slope = image->scl_slope, offset = image->scl_inter;

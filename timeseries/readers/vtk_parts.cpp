@@ -41,6 +41,10 @@ VtkHeader legacyHeaderOf(const Path& path) {
     return header;
 }
 
+// By how much what parts share may differ, of a length beside it: writers work it out each for
+// itself.
+constexpr double kRounding = 1e-6;
+
 // The files that hold the parts; processes that had nothing of a grid leave an empty one.
 std::vector<VtkHeader> partsOf(const XmlFile& file, const XmlElement& grid, std::string_view type) {
     std::vector<VtkHeader> parts;
@@ -50,7 +54,8 @@ std::vector<VtkHeader> partsOf(const XmlFile& file, const XmlElement& grid, std:
         if (source.empty())
             failVtk(file.path, placeOf(*piece), "expected the name of a file, its Source");
         const Path path = file.path.parent_path() / source;
-        if (!seen.insert(path).second)
+        std::error_code ignored;
+        if (!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
             failVtk(file.path, placeOf(*piece),
                     fmt::format("expected files that differ, found {} again", source));
         if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
@@ -142,8 +147,10 @@ void joinStructured(VtkHeader& whole, std::span<const VtkHeader> parts) {
             auto& to = whole.coordinates[i];
             to.resize(whole.size(VtkPlace::Points)[i], std::numeric_limits<double>::quiet_NaN());
             auto next = to.begin() + (part.extent[i][0] - whole.extent[i][0]);
-            for (const double at : part.coordinates[i]) {
-                if (!std::isnan(*next) && *next != at)
+            const auto& own = part.coordinates[i];
+            const double length = std::abs(own.back() - own.front());
+            for (const double at : own) {
+                if (!std::isnan(*next) && std::abs(*next - at) > kRounding * length)
                     failVtk(
                         part.path, "Coordinates",
                         fmt::format("expected {} where another part has it, found {}", *next, at));
@@ -220,9 +227,15 @@ VtkContents joined(const XmlFile& file, std::string_view type) {
     whole.origin = first.origin;
     whole.spacing = first.spacing;
     whole.direction = first.direction;
+    const auto same = [](const auto& a, const auto& b, double unit) {
+        return std::ranges::equal(
+            a, b, [&](double x, double y) { return std::abs(x - y) <= kRounding * unit; });
+    };
+    const double unit =
+        std::abs(first.spacing[0]) + std::abs(first.spacing[1]) + std::abs(first.spacing[2]);
     for (const VtkHeader& part : contents.parts)
-        if (part.origin != first.origin || part.spacing != first.spacing ||
-            part.direction != first.direction)
+        if (!same(part.origin, first.origin, unit) || !same(part.spacing, first.spacing, unit) ||
+            !same(part.direction, first.direction, 1))
             failVtk(
                 part.path, "ImageData",
                 "expected the Origin, Spacing and Direction of " + first.path.filename().string());

@@ -88,12 +88,20 @@ Values rowsOf(const NetcdfFile& file, const NcVariable& variable, std::uint64_t 
     });
 }
 
+VtkHdfLayout::Sums VtkHdfLayout::sumsOf(const std::string& name) const {
+    constexpr std::uint64_t kEnd = std::uint64_t{1} << 62;
+    Sums sums{0};
+    for (const std::uint64_t count : countsOf(file_, name))
+        sums.push_back(std::min(sums.back() + count, kEnd));
+    return sums;
+}
+
 VtkHdfLayout::VtkHdfLayout(const NetcdfFile& file) : file_(file) {
     const NcHeader& header = file.header();
-    points_ = countsOf(file, "VTKHDF/NumberOfPoints");
+    points_ = sumsOf("VTKHDF/NumberOfPoints");
     const auto add = [&](const std::string& group, std::uint8_t shape) {
-        topologies_.push_back({group, shape, countsOf(file, group + "NumberOfCells"),
-                               countsOf(file, group + "NumberOfConnectivityIds")});
+        topologies_.push_back({group, shape, sumsOf(group + "NumberOfCells"),
+                               sumsOf(group + "NumberOfConnectivityIds")});
     };
     if (header.find("VTKHDF/Types", "")) {
         add("VTKHDF/", 0);
@@ -107,13 +115,13 @@ VtkHdfLayout::VtkHdfLayout(const NetcdfFile& file) : file_(file) {
     for (const Topology& each : topologies_)
         if (each.cells.size() != points_.size() || each.ids.size() != points_.size())
             file.fail(each.group, fmt::format("expected numbers of {} parts, found {} and {}",
-                                              points_.size(), each.cells.size(), each.ids.size()));
+                                              parts(), each.cells.size() - 1, each.ids.size() - 1));
     readSteps();
 }
 
 void VtkHdfLayout::readSteps() {
     if (!file_.header().find("VTKHDF/Steps/Values", "")) {
-        steps_.push_back({.firstPart = 0, .parts = points_.size()});
+        steps_.push_back({.firstPart = 0, .parts = parts()});
         const NcVariable* const time = file_.header().find("VTKHDF/FieldData/TimeValue", "");
         if (time && time->type && time->dimensions.size() == 1 && lengthOf(file_, *time) == 1)
             times_ = {toDouble(file_.numbers(*time)[0])};
@@ -129,7 +137,10 @@ void VtkHdfLayout::readSteps() {
             return all;
         };
         const std::size_t kinds = topologies_.size();
-        const auto parts = of("NumberOfParts", 1), first = of("PartOffsets", 1),
+        const auto first = of("PartOffsets", 1),
+                   parts = file_.header().find("VTKHDF/Steps/NumberOfParts", "")
+                               ? of("NumberOfParts", 1)
+                               : numbersOfParts(first),
                    points = of("PointOffsets", 1), cells = of("CellOffsets", kinds),
                    ids = of("ConnectivityIdOffsets", kinds);
         for (std::size_t s = 0; s < times_.size(); ++s) {
@@ -146,7 +157,7 @@ void VtkHdfLayout::readSteps() {
         if (!std::isfinite(time))
             file_.fail("VTKHDF/Steps/Values", "expected times that are finite");
     for (const VtkHdfStep& step : steps_)
-        if (step.firstPart > points_.size() || step.parts > points_.size() - step.firstPart)
+        if (step.firstPart > parts() || step.parts > parts() - step.firstPart)
             file_.fail("VTKHDF/Steps",
                        fmt::format("expected {} parts from part {} on, found {} in all", step.parts,
                                    step.firstPart, points_.size()));
@@ -154,18 +165,24 @@ void VtkHdfLayout::readSteps() {
             file_.fail("VTKHDF", "expected fewer than 2^32 points and cells, found more");
 }
 
+// What few writers leave out.
+std::vector<std::uint64_t> VtkHdfLayout::numbersOfParts(
+    const std::vector<std::uint64_t>& first) const {
+    const bool same = std::ranges::all_of(first, [](std::uint64_t part) { return part == 0; });
+    if (!same && parts() % first.size() != 0)
+        file_.fail("VTKHDF/Steps", "expected NumberOfParts of each step");
+    return std::vector<std::uint64_t>(first.size(), same ? parts() : parts() / first.size());
+}
+
 std::uint64_t VtkHdfLayout::pointsOf(const VtkHdfStep& step) const {
-    std::uint64_t sum = 0;
-    for (std::uint64_t part = 0; part < step.parts; ++part)
-        sum = std::min(sum + points_[step.firstPart + part], kMost);
-    return sum;
+    return points_[step.firstPart + step.parts] - points_[step.firstPart];
 }
 
 std::uint64_t VtkHdfLayout::cellsOf(const VtkHdfStep& step) const {
     std::uint64_t sum = 0;
     for (const Topology& each : topologies_)
-        for (std::uint64_t part = 0; part < step.parts; ++part)
-            sum = std::min(sum + each.cells[step.firstPart + part], kMost);
+        sum = std::min(sum + each.cells[step.firstPart + step.parts] - each.cells[step.firstPart],
+                       kMost);
     return sum;
 }
 
@@ -186,23 +203,28 @@ std::uint64_t VtkHdfLayout::firstValue(std::size_t step, bool atPoints,
     return sum;
 }
 
-// One more than cells stand in Offsets for each part, the first 0. Writers differ in whether a
-// step's place there counts these: the one that ends where the part's corners end is right.
+// One more than cells stand in Offsets for each part, the first 0. How many parts are before, VTK
+// takes from their number, for unstructured grids; for polygons, whose cells may be written once
+// for many steps, it counts the parts whose cells are the step's offset. The other stands in where
+// one does not end where the part's corners do.
 void VtkHdfLayout::addCells(const Topology& topology, const VtkHdfStep& step, std::size_t which,
                             std::uint64_t part, std::uint64_t points, std::uint64_t firstPoint,
                             UnstructuredGrid& grid) const {
-    const std::uint64_t number = step.firstPart + part, cells = topology.cells[number],
-                        ids = topology.ids[number];
+    const std::uint64_t number = step.firstPart + part;
+    const auto countOf = [&](const Sums& sums) { return sums[number + 1] - sums[number]; };
+    const std::uint64_t cells = countOf(topology.cells), ids = countOf(topology.ids);
     if (cells == 0) return;
-    std::uint64_t before = step.cells[which], corner = step.ids[which];
-    for (std::uint64_t i = step.firstPart; i < number; ++i) {
-        before += topology.cells[i];
-        corner += topology.ids[i];
-    }
+    const auto within = [&](const Sums& sums) { return sums[number] - sums[step.firstPart]; };
+    const std::uint64_t before = step.cells[which] + within(topology.cells),
+                        corner = step.ids[which] + within(topology.ids);
     const std::string name = topology.group + "Offsets";
     const std::uint64_t length = lengthOf(file_, expected(file_, name));
+    const auto earlier = static_cast<std::uint64_t>(
+        std::ranges::lower_bound(topology.cells, step.cells[which]) - topology.cells.begin());
+    std::array<std::uint64_t, 2> extras{number, earlier + part};
+    if (isPolygons()) std::swap(extras[0], extras[1]);
     std::vector<std::uint64_t> offsets;
-    for (const std::uint64_t extra : {part, number}) {
+    for (const std::uint64_t extra : extras) {
         if (before + extra > length || cells + 1 > length - (before + extra)) continue;
         offsets = wholeNumbers(file_, name, before + extra, cells + 1);
         if (offsets.front() == 0 && offsets.back() == ids) break;
@@ -239,7 +261,8 @@ UnstructuredGrid VtkHdfLayout::gridOf(const VtkHdfStep& step) const {
         places);
     std::uint64_t firstPoint = 0;
     for (std::uint64_t part = 0; part < step.parts; ++part) {
-        const std::uint64_t count = points_[step.firstPart + part];
+        const std::uint64_t count =
+            points_[step.firstPart + part + 1] - points_[step.firstPart + part];
         for (std::size_t k = 0; k < topologies_.size(); ++k)
             addCells(topologies_[k], step, k, part, count, firstPoint, grid);
         firstPoint += count;

@@ -39,18 +39,23 @@ class VtkHdfLayout {
     UnstructuredGrid gridOf(const VtkHdfStep& step) const;
 
  private:
+    // How many the parts before each have, and at the end all of them.
+    using Sums = std::vector<std::uint64_t>;
     struct Topology {
         std::string group;   // "VTKHDF/", "VTKHDF/Lines/"
         std::uint8_t shape;  // of all its cells, as VTK numbers them; 0: they have Types
-        std::vector<std::uint64_t> cells, ids;  // [part]
+        Sums cells, ids;
     };
+    std::size_t parts() const { return points_.size() - 1; }
+    Sums sumsOf(const std::string& name) const;
+    std::vector<std::uint64_t> numbersOfParts(const std::vector<std::uint64_t>& first) const;
     void readSteps();
     void addCells(const Topology& topology, const VtkHdfStep& step, std::size_t which,
                   std::uint64_t part, std::uint64_t points, std::uint64_t firstPoint,
                   UnstructuredGrid& grid) const;
 
     const NetcdfFile& file_;
-    std::vector<std::uint64_t> points_;  // [part]
+    Sums points_;
     std::vector<Topology> topologies_;
     std::vector<VtkHdfStep> steps_;
     std::vector<double> times_;

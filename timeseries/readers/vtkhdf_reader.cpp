@@ -161,7 +161,8 @@ void VtkHdfReader::markGhosts(const Source& source, std::size_t step, std::uint6
     std::visit(
         [&](const auto& all) {
             for (std::uint64_t i = 0; i < count; ++i) {
-                const double flag = std::clamp(static_cast<double>(all[i]), 0.0, 255.0);
+                const double told = static_cast<double>(all[i]);
+                const double flag = told > 0 ? std::min(told, 255.0) : 0;
                 field.missing[i] = (static_cast<unsigned>(flag) & bits) != 0;
             }
         },
