@@ -221,13 +221,18 @@ std::string told(const std::filesystem::path& path) {
     return "";
 }
 
+// Readers hold the files before.
+std::string nextName() {
+    static int made = 0;
+    return fmt::format("small{}.nc", ++made);
+}
+
 // Nodes and faces by hand; T at faces, and what else `more` writes.
 template <typename More>
 std::filesystem::path smallMesh(const std::vector<std::pair<double, double>>& nodes,
                                 const std::vector<std::int32_t>& connectivity, const More& more,
                                 const std::string& location = "face") {
-    static int made = 0;  // readers hold those before
-    NetcdfBuilder file(fmt::format("small{}.nc", ++made));
+    NetcdfBuilder file(nextName());
     const int n = file.dimension("node", nodes.size()),
               f = file.dimension("face", connectivity.size() / 3),
               three = file.dimension("three", 3);
