@@ -39,6 +39,10 @@ picture "$data/bluntfin/bluntfin.vts" bluntfin.png --size 1000x750 --view 25,22 
 picture "$data/grids/wrf_mercator_moving_nest.nc" moving_nest.png --variable QRAIN --size 1000x750 --view 20,25 --step 2
 picture "$data/dambreak_amr/dambreak.pvd" dam_break.png --size 1000x750 --step 4 --view 25,22 --range 0.5:1 --color '#3aa0ff' --opacity 0.22
 picture "$data/can.vtu" crushed_can.png --variable EQPS --size 1000x750 --view 15,28 --range 0.1:max --colormap inferno --opacity 0.5
+picture "$data/grids/icon_ocean_triangles.nc" ocean_of_triangles.png --variable S --size 1000x750 --view 10,50 --range 33:37.5 --colormap viridis --opacity 0.5 --scale 1,1,0.4
+picture "$data/grids/warping_spheres.vtkhdf" warping_spheres.png --size 1000x750 --step 20 --view 25,20 --range min:max --colormap cool-warm --opacity 0.8
+picture "$data/fmri_filtered_func_64t.nii.gz" brain.png --size 1000x750 --step 32 --view 25,25 --range 5000:max --colormap inferno --opacity 0.2
+picture "$data/grids/emd_3001.map" density_map.png --size 1000x750 --view 30,15 --range 0.3:max --color '#3aa0ff' --opacity 0.6
 
 # First looks: nothing is asked for, the program chooses.
 for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr \
