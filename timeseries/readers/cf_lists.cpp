@@ -211,10 +211,8 @@ PlacedPolygons polygonsOfBounds(const NetcdfFile& file, const ColumnPlaces& plac
     return result;
 }
 
-// Of each face which nodes it has, without those that there are not.
-struct Faces {
-    std::vector<std::vector<std::uint32_t>> nodes;
-};
+// Of each which nodes it has, without those that there are not.
+using Faces = std::vector<std::vector<std::uint32_t>>;
 
 Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t nodes) {
     const NcVariable& faces = found(file, places.faces);
@@ -229,10 +227,9 @@ Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t no
             first = toDouble(numbers->front());
     const std::size_t rows = file.header().dimension(faces, 0).length,
                       columns = file.header().dimension(faces, 1).length;
-    Faces result;
     const std::size_t count = places.turned ? columns : rows;
     if (count > all.size()) throw std::invalid_argument("its faces have no nodes");
-    result.nodes.resize(count);
+    Faces result(count);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double node = all[i] - first;
         if (!(node >= 0)) continue;  // none
@@ -240,7 +237,7 @@ Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t no
         if (!(node < static_cast<double>(nodes)))
             throw std::invalid_argument(
                 fmt::format("face {} has node {} of {}", face, all[i], nodes));
-        result.nodes[face].push_back(static_cast<std::uint32_t>(node));
+        result[face].push_back(static_cast<std::uint32_t>(node));
     }
     return result;
 }
@@ -248,7 +245,7 @@ Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t no
 UnstructuredGrid polygonsOfFaces(const Coordinates& nodes, const Faces& faces) {
     OwnCorners polygons(nodes.turn);
     std::vector<glm::dvec2> polygon;
-    for (const auto& face : faces.nodes) {
+    for (const auto& face : faces) {
         polygon.clear();
         for (const std::uint32_t node : face)
             if (std::isfinite(nodes.x[node]) && std::isfinite(nodes.y[node]))
@@ -285,7 +282,7 @@ UnstructuredGrid polygonsAboutNodes(const Coordinates& nodes, const Faces& faces
         addPolygon(grid, corners);
         return crosses ? std::optional(other) : std::nullopt;
     };
-    for (const auto& face : faces.nodes) {
+    for (const auto& face : faces) {
         const auto first = std::ranges::find_if(
             face, [&](std::uint32_t node) { return !isPole(nodes.y[node], nodes.turn); });
         if (first == face.end()) continue;
