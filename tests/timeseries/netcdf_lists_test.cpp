@@ -181,7 +181,8 @@ TEST(NetcdfLists, BoundsAreTheCellsOfTheirPlaces) {
         const auto path = withBounds(units);
         const auto at = [](int p) { return cellAt(p) + glm::dvec3(kAside, -kAside, 0); };
         expectPrisms(path, kCells, at, [](int) { return kWide * kHigh; });
-        const auto& axes = openOne(path)->variables()[0].grid->axes();
+        const auto reader = openOne(path);
+        const auto& axes = reader->variables()[0].grid->axes();
         EXPECT_EQ(axes[0].name, "clon");
         EXPECT_EQ(axes[0].units, units == "radian" ? "degrees" : units);
         EXPECT_EQ(axes[2].name, "depth");
