@@ -5,6 +5,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/command/commands.h"
+#include "app/files/step_cache.h"
 #include "app/say.h"
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/together.h"
@@ -17,6 +18,8 @@ struct Run {
     int operator()(const app::RenderOptions& options) const { return app::renderHeadless(options); }
     int operator()(const app::MeasureOptions& options) const { return app::measureModes(options); }
     int operator()(const app::ViewOptions& options) const { return app::view(options); }
+    int operator()(const app::IndexOptions& options) const { return app::index(options); }
+    int operator()(const app::CacheOptions& options) const { return app::cache(options); }
     int operator()(const app::Exit& exit) const {
         if (exit.code == 0)
             app::say("{}\n", exit.text);
@@ -32,7 +35,9 @@ int main(int argc, char** argv) {
     try {
         const app::Command command =
             app::parse(std::span<const char* const>(argv + 1, argv + argc));
-        timeseries::threadLimit = app::threadsOf(command);
+        const app::CommonOptions common = app::commonOf(command);
+        timeseries::threadLimit = common.threads;
+        app::chooseStepCache(common.cache);
         const int code = std::visit(Run{}, command);
         // A full disk behind a redirection shows only now.
         if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");

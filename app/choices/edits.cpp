@@ -62,22 +62,16 @@ RangeSet replaced(const RangeSet& set, std::size_t range, const Range& by) {
 
 // The finite value to which an end must come to pass one more of the ascending values. Compared as
 // selections are: floats as floats.
-template <typename T>
-std::optional<double> valuePassed(std::span<const T> values, double from, End end, bool up) {
-    using Key = std::conditional_t<std::is_floating_point_v<T>, T, double>;
-    const auto keyOf = [](T value) { return static_cast<Key>(value); };
-    Key edge = static_cast<Key>(from);
+std::optional<double> valuePassed(const SortedStep& step, double from, End end, bool up) {
+    const bool floats = step.type() == timeseries::ValueType::F32;
+    double edge = floats ? static_cast<double>(static_cast<float>(from)) : from;
     // Inwards, the outermost of what is selected is to be left out.
     const bool inward = up == (end == End::Lo);
-    const auto beyond = [&](bool orAt) {
-        if (up) {
-            const auto found = orAt ? std::ranges::lower_bound(values, edge, {}, keyOf)
-                                    : std::ranges::upper_bound(values, edge, {}, keyOf);
-            return found == values.end() ? std::optional<Key>() : keyOf(*found);
-        }
-        const auto found = orAt ? std::ranges::upper_bound(values, edge, {}, keyOf)
-                                : std::ranges::lower_bound(values, edge, {}, keyOf);
-        return found == values.begin() ? std::optional<Key>() : keyOf(*std::prev(found));
+    const auto beyond = [&](bool orAt) -> std::optional<double> {
+        const std::uint64_t place =
+            step.countBelow(up == orAt ? edge : std::nextafter(edge, kInfinity));
+        if (up ? place == step.size() : place == 0) return std::nullopt;
+        return timeseries::toDouble(step.value(up ? place : place - 1));
     };
     if (inward) {
         const auto outermost = beyond(true);
@@ -87,7 +81,8 @@ std::optional<double> valuePassed(std::span<const T> values, double from, End en
     const auto next = beyond(false);
     if (!next || !std::isfinite(*next)) return std::nullopt;
     // As it is written: the shortest text that means it.
-    return std::stod(fmt::format("{}", *next));
+    return std::stod(floats ? fmt::format("{}", static_cast<float>(*next))
+                            : fmt::format("{}", *next));
 }
 
 std::pair<double, double> endsOf(const timeseries::Axis& axis) {
@@ -117,8 +112,7 @@ RangeSet withEnd(const RangeSet& ranges, std::size_t range, End end, double valu
 
 double steppedEnd(const SortedStep& step, double from, End end, int by, double resolution) {
     const bool up = by > 0;
-    const auto passed = std::visit([&](auto values) { return valuePassed(values, from, end, up); },
-                                   step.columns().values);
+    const auto passed = valuePassed(step, from, end, up);
     if (!passed) return from;
     const double steps = roundedTo(from + by * resolution, resolution);
     return up ? std::max(steps, *passed) : std::min(steps, *passed);

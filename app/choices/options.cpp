@@ -18,8 +18,8 @@ namespace {
 
 using timeseries::RangeSet;
 
-constexpr std::array<std::string_view, 5> kCommands = {"view", "render", "measure", "info",
-                                                       "count"};
+constexpr std::array<std::string_view, 7> kCommands = {"view",  "render", "measure", "info",
+                                                       "count", "index",  "cache"};
 
 void addInfo(CLI::App& app, InfoOptions& into) {
     app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
@@ -118,6 +118,41 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     return options;
 }
 
+struct IndexText {
+    std::vector<std::string> files, variables;
+    std::string steps = "all";
+    unsigned jobs = 1;
+    bool beside = false, check = false;
+};
+
+void addIndex(CLI::App& app, IndexText& into) {
+    app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
+    app.add_option("--variable", into.variables,
+                   "Its name; repeated, several; without it the one that is shown first")
+        ->allow_extra_args(false);
+    app.add_option("--step", into.steps,
+                   "A step counted from 0, A:B, A:B:S for every S-th, or all (the default)");
+    app.add_option("--jobs", into.jobs,
+                   "Steps that are sorted at a time, each in memory; 1 by default")
+        ->check(CLI::Range(1, 64));
+    app.add_flag("--beside", into.beside,
+                 "Into a folder beside the files, isochron-index, instead of the cache");
+    app.add_flag("--check", into.check,
+                 "FILE is an index: reads all of it, and tells what is damaged")
+        ->excludes("--variable", "--step", "--beside");
+}
+
+IndexOptions indexOptions(const IndexText& text) {
+    IndexOptions options;
+    options.files.assign(text.files.begin(), text.files.end());
+    options.variables = text.variables;
+    options.steps = parseSteps(text.steps);
+    options.jobs = text.jobs;
+    options.beside = text.beside;
+    options.check = text.check;
+    return options;
+}
+
 // What `measure` takes beside the choices of a picture.
 struct MeasureText {
     unsigned views = 3, frames = 5, rays = 3;
@@ -199,13 +234,13 @@ std::vector<std::string> withCommand(std::span<const char* const> arguments) {
 
 }  // namespace
 
-unsigned threadsOf(const Command& command) {
+CommonOptions commonOf(const Command& command) {
     return std::visit(
-        []<typename Options>(const Options& options) {
+        []<typename Options>(const Options& options) -> CommonOptions {
             if constexpr (std::is_base_of_v<CommonOptions, Options>)
-                return options.threads;
+                return options;
             else
-                return 0u;
+                return {};
         },
         command);
 }
@@ -245,11 +280,23 @@ Command parse(std::span<const char* const> arguments) {
     addMeasure(*measureApp, measureText);
     addInfo(*infoApp, info);
     addCount(*countApp, countText);
+    CLI::App* indexApp = app.add_subcommand(
+        "index", "Sorts steps ahead into files, from which they are opened at once");
+    CLI::App* cacheApp = app.add_subcommand("cache", "The sorted steps that are kept");
+    IndexText indexText;
+    addIndex(*indexApp, indexText);
+    std::string cacheText = "list";
+    cacheApp->add_option("ACTION", cacheText, "list (the default) or clear")
+        ->check(CLI::IsMember({"list", "clear"}));
     CommonOptions common;
-    for (CLI::App* each : {viewApp, renderApp, measureApp, infoApp, countApp}) {
+    for (CLI::App* each : {viewApp, renderApp, measureApp, infoApp, countApp, indexApp, cacheApp}) {
         each->add_option("--threads", common.threads,
                          "At most so many cores; without it, as many as there are, 16 at most")
             ->check(CLI::Range(1, 1024));
+        each->add_option("--cache", common.cache,
+                         "The folder in which sorted steps are kept, or off; without it the "
+                         "user's own")
+            ->check(notEmpty());
         each->footer(kFooter);
     }
     const auto with = [&common](auto options) {
@@ -262,6 +309,11 @@ Command parse(std::span<const char* const> arguments) {
         app.parse(std::move(all));
         if (*infoApp) return with(info);
         if (*countApp) return with(countOptions(*countApp, countText));
+        if (*indexApp) return with(indexOptions(indexText));
+        if (*cacheApp)
+            return with(CacheOptions{
+                {},
+                cacheText == "clear" ? CacheOptions::Action::Clear : CacheOptions::Action::List});
         outputText.modelGiven = renderApp->count("--model") > 0;
         if (*renderApp) return with(renderOptions(renderText.explorer(*renderApp), outputText));
         if (*measureApp)

@@ -17,6 +17,7 @@ namespace app {
 // What every command takes.
 struct CommonOptions {
     unsigned threads = 0;  // at most; 0: as many as the machine has
+    std::string cache;     // a folder of sorted steps, "off", or "": the user's own
 };
 
 struct InfoOptions : CommonOptions {
@@ -63,6 +64,21 @@ struct ViewOptions : CommonOptions {
     Display display = Display::Auto;
 };
 
+// Sorts steps ahead, into files that are opened instead.
+struct IndexOptions : CommonOptions {
+    std::vector<std::filesystem::path> files;
+    std::vector<std::string> variables;  // none: the one shown first
+    StepChoice steps;
+    unsigned jobs = 1;    // steps at a time
+    bool beside = false;  // in a folder beside the data, not in the cache
+    bool check = false;   // the files are indices: they are read whole
+};
+
+// What sorted steps are kept.
+struct CacheOptions : CommonOptions {
+    enum class Action { List, Clear } action = Action::List;
+};
+
 // Nothing to run: help was asked for (0), or the arguments are wrong (2). The text goes to stdout
 // or stderr accordingly.
 struct Exit {
@@ -70,9 +86,9 @@ struct Exit {
     std::string text;
 };
 
-using Command =
-    std::variant<InfoOptions, CountOptions, RenderOptions, MeasureOptions, ViewOptions, Exit>;
-unsigned threadsOf(const Command& command);  // CommonOptions::threads
+using Command = std::variant<InfoOptions, CountOptions, RenderOptions, MeasureOptions, ViewOptions,
+                             IndexOptions, CacheOptions, Exit>;
+CommonOptions commonOf(const Command& command);
 
 // Whether a first argument is a command's name, and not a file's.
 bool isCommand(std::string_view argument);

@@ -26,6 +26,7 @@ fs::path folder(const char* variable, const char* underHome) {
 
 fs::path configFolder() { return folder("XDG_CONFIG_HOME", ".config"); }
 fs::path stateFolder() { return folder("XDG_STATE_HOME", ".local/state"); }
+fs::path cacheFolder() { return folder("XDG_CACHE_HOME", ".cache"); }
 
 void writeWhole(const fs::path& file, const std::string& text) {
     std::error_code ignored;  // what fails here fails below, with a better sentence

@@ -7,10 +7,12 @@
 namespace app {
 
 // $XDG_CONFIG_HOME/isochron or ~/.config/isochron, $XDG_STATE_HOME/isochron or
-// ~/.local/state/isochron (XDG Base Directory Specification 0.8: what is not absolute counts as
-// unset). Empty where there is no home either: then nothing can be kept.
+// ~/.local/state/isochron, $XDG_CACHE_HOME/isochron or ~/.cache/isochron (XDG Base Directory
+// Specification 0.8: what is not absolute counts as unset). Empty where there is no home either:
+// then nothing can be kept.
 std::filesystem::path configFolder();
 std::filesystem::path stateFolder();
+std::filesystem::path cacheFolder();
 
 // Makes the folders too. A file that appears under its name is complete. Throws std::runtime_error,
 // one sentence that names the file.

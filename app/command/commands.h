@@ -12,6 +12,10 @@ int count(const CountOptions& options);
 int renderHeadless(const RenderOptions& options);
 // Draws one step in every way, and tells times and errors.
 int measureModes(const MeasureOptions& options);
+// Sorts steps into files.
+int index(const IndexOptions& options);
+// Lists the files of sorted steps, or removes them.
+int cache(const CacheOptions& options);
 // Opens a window; returns when it is closed.
 int view(const ViewOptions& options);
 

@@ -6,6 +6,7 @@
 #include "app/command/commands.h"
 #include "app/files/dataset.h"
 #include "app/files/progress.h"
+#include "app/files/step_cache.h"
 #include "app/json_text.h"
 #include "app/say.h"
 
@@ -109,20 +110,23 @@ int count(const CountOptions& options) {
     const RangeSet kept = options.keep.value_or(RangeSet::everything());
     const auto steps = stepsOf(dataset, options.steps);
     std::vector<Row> rows;
+    auto stores = storesFor(dataset.reader->files());
+    stores.write = nullptr;  // it would be waited for
+    timeseries::StepMaker maker(std::move(dataset.reader), dataset.variable, kept, stores);
     if (!options.json) printHead(dataset, ranges);
     {
         // The table shows by itself how far it is.
         Progress progress("step", options.json ? steps.size() : 0);
         for (const std::size_t step : steps) {
             progress.at(rows.size());
-            const SortedStep sorted =
-                SortedStep::build(dataset.reader->read(dataset.variable, step), kept);
-            rows.push_back({step, sorted.statistics(), sorted.count(ranges), {}});
+            const auto sorted = maker.make(step);
+            rows.push_back({step, sorted->statistics(), sorted->count(ranges), {}});
             for (const RangeSet& layer : options.ranges)
-                rows.back().ofLayers.push_back(sorted.count(layer));
+                rows.back().ofLayers.push_back(sorted->count(layer));
             if (!options.json) print(dataset, rows.back());
         }
     }
+    tellNotes(stores);
     if (options.json) say("{}\n", jsonText(json(dataset, options.ranges, rows), 2));
     return 0;
 }

@@ -191,6 +191,7 @@ void Exploration::advance(std::chrono::nanoseconds dt) {
 }
 
 void Exploration::takeArrivals() {
+    for (std::string& note : open_->steps.takeNotes()) tell(std::move(note), false);
     std::vector<LiveSteps::Arrival> arrivals = open_->steps.poll();
     const auto there = [&](std::size_t step) -> std::shared_ptr<const SortedStep> {
         for (const LiveSteps::Arrival& arrival : arrivals)

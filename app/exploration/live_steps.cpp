@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include "app/files/step_cache.h"
+
 namespace app {
 
 using timeseries::SlotState;
@@ -22,9 +24,10 @@ void endElsewhere(T... things) {
 LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::uint64_t budgetBytes,
                      std::function<void()> wake)
     : series_(dataset.stepCount(), budgetBytes),
+      stores_(storesFor(dataset.reader->files())),
       loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader), dataset.variable,
                                                        kept, std::move(wake),
-                                                       timeseries::Ready::Whole)) {}
+                                                       timeseries::Ready::Whole, stores_)) {}
 
 LiveSteps::~LiveSteps() {
     endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_));
@@ -64,13 +67,22 @@ void LiveSteps::freeLeaving() {
     leaving_.erase(alone, leaving_.end());
 }
 
+std::vector<std::string> LiveSteps::takeNotes() {
+    std::vector<std::string> notes;
+    for (const auto& store : stores_.read)
+        for (std::string& note : store->takeNotes()) notes.push_back(std::move(note));
+    return notes;
+}
+
 void LiveSteps::retry(std::size_t step) {
     series_.retry(step);
     ask();
 }
 
 void LiveSteps::ask() {
+    using Haste = timeseries::StepLoader::Haste;
     std::vector<std::size_t> missing = series_.want(wished_);
+    const Haste haste = missing.empty() ? Haste::Nobody : Haste::Waited;
     if (missing.empty()) {
         const auto seen = [this](std::size_t step) {
             return series_.summary(step) != nullptr || series_.state(step) == SlotState::Failed;
@@ -81,7 +93,7 @@ void LiveSteps::ask() {
              ++step)
             if (!seen(step)) missing.push_back(step);
     }
-    loader_->want(std::move(missing));
+    loader_->want(std::move(missing), haste);
 }
 
 }  // namespace app

@@ -36,6 +36,8 @@ class LiveSteps {
     // that nobody wished for any more: the arrival still has it.
     std::vector<Arrival> poll();
     void retry(std::size_t step);
+    // What the steps on disk have to tell, each once.
+    std::vector<std::string> takeNotes();
 
     // Null unless loaded. Counts as use.
     std::shared_ptr<const timeseries::SortedStep> use(std::size_t step) {
@@ -48,6 +50,7 @@ class LiveSteps {
     void freeLeaving();
 
     timeseries::Series series_;
+    const timeseries::StepStores stores_;
     // Dropped by the budget, but perhaps still shown: whoever looks at them last must not be the
     // one who frees them, on the interface's thread.
     timeseries::Series::Steps leaving_;

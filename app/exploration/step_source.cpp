@@ -1,15 +1,28 @@
 #include "app/exploration/step_source.h"
 
+#include "app/files/step_cache.h"
+
 namespace app {
 namespace {
 
 constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
 
+// Whoever waits for pictures does not wait for steps to be written.
+timeseries::StepStores readOnly(timeseries::StepStores stores) {
+    stores.write = nullptr;
+    return stores;
+}
+
 }  // namespace
 
 StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept)
     : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
-      loader_(std::move(dataset.reader), dataset.variable, std::move(kept)) {}
+      stores_(readOnly(storesFor(dataset.reader->files()))),
+      loader_(
+          std::move(dataset.reader), dataset.variable, std::move(kept), [] {},
+          timeseries::Ready::Asked, stores_) {}
+
+StepSource::~StepSource() { tellNotes(stores_); }
 
 std::shared_ptr<const timeseries::SortedStep> StepSource::get(std::size_t step, std::size_t next) {
     series_.recount();  // steps that were drawn have their cells now

@@ -14,6 +14,7 @@ class StepSource {
  public:
     // Takes the dataset's reader.
     StepSource(Dataset& dataset, timeseries::RangeSet kept);
+    ~StepSource();  // tells what the steps on disk have to tell
 
     // Waits until the step is there. `next` is what will be asked for after it.
     // Throws FileError when the step cannot be read.
@@ -21,6 +22,7 @@ class StepSource {
 
  private:
     timeseries::Series series_;
+    const timeseries::StepStores stores_;
     timeseries::StepLoader loader_;
 };
 

@@ -55,23 +55,17 @@ AtInfinity atInfinity(const timeseries::StepSummary& summary, double lo, double 
 std::vector<std::uint64_t> histogram(const timeseries::SortedStep& step, double lo, double hi,
                                      std::size_t bins) {
     assert(lo < hi && bins >= 1);
-    return std::visit(
-        [&](auto values) {
-            std::vector<std::uint64_t> counts(bins);
-            auto from = values.begin();
-            for (std::size_t i = 0; i <= bins; ++i) {
-                const auto to =
-                    std::lower_bound(from, values.end(), edge(lo, hi, bins, i),
-                                     [](auto v, double e) { return static_cast<double>(v) < e; });
-                if (i > 0) counts[i - 1] = static_cast<std::uint64_t>(to - from);
-                from = to;
-            }
-            const AtInfinity infinite = atInfinity(step, lo, hi);
-            counts.front() += infinite.below;
-            counts.back() += infinite.above;
-            return counts;
-        },
-        step.columns().values);
+    std::vector<std::uint64_t> counts(bins);
+    std::uint64_t from = step.countBelow(lo);
+    for (std::size_t i = 0; i < bins; ++i) {
+        const std::uint64_t to = step.countBelow(edge(lo, hi, bins, i + 1));
+        counts[i] = to - from;
+        from = to;
+    }
+    const AtInfinity infinite = atInfinity(step, lo, hi);
+    counts.front() += infinite.below;
+    counts.back() += infinite.above;
+    return counts;
 }
 
 std::vector<double> density(const timeseries::StepSummary& summary, double lo, double hi,

@@ -22,9 +22,9 @@ class Progress {
         if (shown_) std::fputs("\r\033[K", stderr);
     }
     // The i-th, from 0, has begun.
-    void at(std::size_t i) {
+    void at(std::size_t i, const std::string& more = "") {
         now_ = count_ > 1 ? fmt::format("{} {} of {}", what_, i + 1, count_) : "";
-        show("");
+        show(more.empty() ? "" : ", " + more);
     }
     // Of it, [0, 1].
     void drawn(double share) const {

@@ -66,19 +66,53 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
     EXPECT_THAT(help, Not(HasSubstr("--display")));
 }
 
-TEST(Options, EveryCommandTakesALimitOfThreads) {
-    for (std::vector<std::string> line :
-         {std::vector<std::string>{"info", "a.nc"},
-          {"count", "a.nc", "--range", "0:1"},
-          {"render", "a.nc", "-o", "a.png"},
-          {"view", "a.nc"},
-          {"view", "--display", "headless", "a.nc", "-o", "a.png"}}) {
-        EXPECT_EQ(threadsOf(parsed(line)), 0u) << line[0];
+TEST(Options, EveryCommandTakesALimitOfThreadsAndACache) {
+    for (std::vector<std::string> line : {std::vector<std::string>{"info", "a.nc"},
+                                          {"count", "a.nc", "--range", "0:1"},
+                                          {"render", "a.nc", "-o", "a.png"},
+                                          {"view", "a.nc"},
+                                          {"view", "--display", "headless", "a.nc", "-o", "a.png"},
+                                          {"index", "a.nc"},
+                                          {"cache"}}) {
+        EXPECT_EQ(commonOf(parsed(line)).threads, 0u) << line[0];
         line.insert(line.end(), {"--threads", "3"});
-        EXPECT_EQ(threadsOf(parsed(line)), 3u) << line[0];
+        EXPECT_EQ(commonOf(parsed(line)).threads, 3u) << line[0];
         line.back() = "0";
         EXPECT_THAT(refused(line), HasSubstr("--threads")) << line[0];
+        line.resize(line.size() - 2);
+        EXPECT_EQ(commonOf(parsed(line)).cache, "") << line[0];
+        line.insert(line.end(), {"--cache", "off"});
+        EXPECT_EQ(commonOf(parsed(line)).cache, "off") << line[0];
+        line.back() = "";
+        EXPECT_THAT(refused(line), HasSubstr("--cache")) << line[0];
     }
+}
+
+TEST(Options, StepsAreIndexedOfVariablesAndSteps) {
+    const auto index = [](const std::vector<std::string>& more) {
+        std::vector<std::string> line{"index", "a.nc", "b.nc"};
+        line.insert(line.end(), more.begin(), more.end());
+        return std::get<IndexOptions>(parsed(line));
+    };
+    EXPECT_EQ(index({}).files.size(), 2u);
+    EXPECT_TRUE(index({}).variables.empty());
+    EXPECT_FALSE(index({}).steps.last);
+    EXPECT_FALSE(index({}).beside);
+    EXPECT_FALSE(index({}).check);
+    const IndexOptions some =
+        index({"--variable", "T", "--variable", "u", "--step", "3:9:2", "--jobs", "2", "--beside"});
+    EXPECT_EQ(some.variables, (std::vector<std::string>{"T", "u"}));
+    EXPECT_EQ(some.steps.stride, 2u);
+    EXPECT_EQ(some.jobs, 2u);
+    EXPECT_TRUE(some.beside);
+    EXPECT_TRUE(index({"--check"}).check);
+    EXPECT_THAT(refused({"index", "a.nc", "--jobs", "0"}), HasSubstr("--jobs"));
+    EXPECT_THAT(refused({"index", "a.nc", "--check", "--beside"}), HasSubstr("--beside"));
+    EXPECT_THAT(refused({"index"}), HasSubstr("FILE"));
+    using Action = CacheOptions::Action;
+    EXPECT_EQ(std::get<CacheOptions>(parsed({"cache"})).action, Action::List);
+    EXPECT_EQ(std::get<CacheOptions>(parsed({"cache", "clear"})).action, Action::Clear);
+    EXPECT_THAT(refused({"cache", "shrink"}), HasSubstr("shrink"));
 }
 
 TEST(Options, WrongCommandLinesExitWithTwo) {

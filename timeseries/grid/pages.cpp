@@ -17,8 +17,18 @@ bool muchIsFree(std::size_t bytes) {
 
 }  // namespace
 
-RawPages::RawPages(std::size_t bytes) {
+RawPages::RawPages(std::size_t bytes, Filled filled) {
     if (bytes == 0) return;
+    if (filled == Filled::Sparsely) {
+        void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+        if (at == MAP_FAILED) throw std::bad_alloc();
+        at_ = at;
+        mapped_ = bytes;
+        // A wish: large pages would take memory for what lies beside what is written.
+        (void)madvise(at_, bytes, MADV_NOHUGEPAGE);
+        return;
+    }
     const bool large = bytes >= 4 * kLargePage;
     if (large) align_ = std::align_val_t{kLargePage};
     at_ = ::operator new(bytes, align_);
@@ -27,6 +37,11 @@ RawPages::RawPages(std::size_t bytes) {
         (void)madvise(at_, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 }
 
-RawPages::~RawPages() { ::operator delete(at_, align_); }
+RawPages::~RawPages() {
+    if (at_ != nullptr && mapped_ > 0)
+        munmap(at_, mapped_);
+    else
+        ::operator delete(at_, align_);
+}
 
 }  // namespace timeseries

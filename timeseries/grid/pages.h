@@ -8,15 +8,22 @@
 
 namespace timeseries {
 
+// How much of it will be written.
+enum class Filled {
+    Mostly,
+    Sparsely  // pages are small, and it may be larger than the machine's memory
+};
+
 // Aligned to a cache line. Throws std::bad_alloc.
 class RawPages {
  public:
-    explicit RawPages(std::size_t bytes = 0);
+    explicit RawPages(std::size_t bytes = 0, Filled filled = Filled::Mostly);
     RawPages(RawPages&& other) noexcept
-        : at_(std::exchange(other.at_, nullptr)), align_(other.align_) {}
+        : at_(std::exchange(other.at_, nullptr)), align_(other.align_), mapped_(other.mapped_) {}
     RawPages& operator=(RawPages&& other) noexcept {
         std::swap(at_, other.at_);
         std::swap(align_, other.align_);
+        std::swap(mapped_, other.mapped_);
         return *this;
     }
     ~RawPages();
@@ -25,12 +32,14 @@ class RawPages {
  private:
     void* at_ = nullptr;
     std::align_val_t align_{64};
+    std::size_t mapped_ = 0;  // bytes, where they are the system's own pages
 };
 
 template <typename T>
 class Pages {
  public:
-    explicit Pages(std::size_t count = 0) : pages_(count * sizeof(T)) {}
+    explicit Pages(std::size_t count = 0, Filled filled = Filled::Mostly)
+        : pages_(count * sizeof(T), filled) {}
     T* data() const { return static_cast<T*>(pages_.data()); }
 
  private:

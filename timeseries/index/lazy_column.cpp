@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "timeseries/index/value_sort.h"
+#include "timeseries/index/pair_sort.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -12,46 +12,15 @@ namespace {
 
 constexpr std::uint64_t kWorthAThread = 1 << 16;  // points to put in order
 
-// Ascending by value, ties by grid index.
-template <typename T>
-void sortPairs(std::span<T> values, std::span<std::uint32_t> gridIndex) {
-    using Packed = std::conditional_t<sizeof(T) <= 4, std::uint64_t, WideKey>;
-    const std::size_t n = values.size();
-    const auto packed = std::make_unique_for_overwrite<Packed[]>(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        if constexpr (sizeof(T) <= 4) {
-            packed[i] = std::uint64_t{orderedKey(values[i])} << 32 | gridIndex[i];
-        } else {
-            packed[i] = {gridIndex[i], orderedKey(values[i])};
-        }
-    }
-    sortPacked(std::span(packed.get(), n));
-    for (std::size_t i = 0; i < n; ++i) {
-        if constexpr (sizeof(T) <= 4) {
-            values[i] = valueOfKey<T>(static_cast<OrderedKey<T>>(packed[i] >> 32));
-            gridIndex[i] = static_cast<std::uint32_t>(packed[i]);
-        } else {
-            values[i] = valueOfKey<T>(packed[i].key);
-            gridIndex[i] = static_cast<std::uint32_t>(packed[i].index);
-        }
-    }
-}
-
 }  // namespace
 
 template <typename T>
-LazyColumn<T>::LazyColumn(Partition<T> points, unsigned threads)
+LazyColumn<T>::LazyColumn(Partition<T> points, unsigned threads,
+                          std::unique_ptr<const BucketSource<T>> source)
     : points_(std::move(points)),
       threads_(threads),
+      source_(std::move(source)),
       state_(std::make_unique<std::atomic<std::uint8_t>[]>(points_.least.size())) {}
-
-template <typename T>
-std::size_t LazyColumn<T>::bucketOf(Key key) const {
-    const auto& least = points_.least;
-    return static_cast<std::size_t>(std::upper_bound(least.begin(), least.end(), key) -
-                                    least.begin()) -
-           1;
-}
 
 template <typename T>
 std::size_t LazyColumn<T>::bucketAt(std::uint64_t point) const {
@@ -66,10 +35,18 @@ std::uint64_t LazyColumn<T>::below(Key key) const {
     // All or nothing is known without a look.
     if (size() == 0 || key <= orderedKey(points_.leastValid) || key <= points_.least[0]) return 0;
     if (key > orderedKey(points_.greatestValid)) return size();
-    const std::size_t bucket = bucketOf(key);
-    const std::uint64_t first = points_.begin[bucket], end = points_.begin[bucket + 1];
-    if (key == points_.least[bucket]) return first;
-    if (points_.oneValueEach) return end;
+    // Buckets before the first one that begins at this key or beyond hold smaller keys, the last of
+    // them perhaps others, too.
+    const auto& least = points_.least;
+    const auto next =
+        static_cast<std::size_t>(std::ranges::lower_bound(least, key) - least.begin());
+    const std::size_t bucket = next - 1;
+    const std::uint64_t first = points_.begin[bucket], end = points_.begin[next];
+    const bool apart = points_.greatest.empty() ? next < buckets() && least[next] == key
+                                                : points_.greatest[bucket] < key;
+    if (apart || points_.oneValueEach) return end;
+    if (source_ && state_[bucket].load(std::memory_order_acquire) != kOrdered)
+        return first + source_->below(bucket, key);
     orderBucket(bucket);
     // By keys: the one after an infinity's is no value's.
     const auto in = values().subspan(first, end - first);
@@ -98,6 +75,7 @@ void LazyColumn<T>::order(const Run& run) const {
             points += points_.begin[b + 1] - points_.begin[b];
         }
     std::atomic<std::size_t> next{0};
+    if (source_ && !raw.empty()) source_->willNeed(raw.front(), raw.back() - raw.front() + 1);
     if (!raw.empty())
         sharing(threadsFor(points, kWorthAThread, threads_), [&](unsigned) {
             for (std::size_t i; (i = next++) < raw.size();) orderBucket(raw[i]);
@@ -133,20 +111,28 @@ template <typename T>
 void LazyColumn<T>::sortBucket(std::size_t bucket) const {
     const std::uint64_t first = points_.begin[bucket], count = points_.begin[bucket + 1] - first;
     const std::span<T> values(points_.values.data() + first, count);
+    const std::span<std::uint32_t> gridIndex(points_.gridIndex.data() + first, count);
+    if (source_) {
+        source_->fill(bucket, values, gridIndex);
+        fetched_ += count;
+        return;
+    }
     if (points_.oneValueEach) {
         std::ranges::fill(values, valueOfKey<T>(points_.least[bucket]));
         return;
     }
     // One value a thousand times, above all: grid indices ascend already.
     if (std::ranges::is_sorted(values)) return;
-    sortPairs(values, std::span(points_.gridIndex.data() + first, count));
+    const auto keys = std::make_unique_for_overwrite<Key[]>(count);
+    std::ranges::transform(values, keys.get(), [](T value) { return orderedKey(value); });
+    sortPairs<T>(std::span<const Key>(keys.get(), count), gridIndex, values);
 }
 
 template <typename T>
 std::uint64_t LazyColumn<T>::bytes() const {
-    return size() * (sizeof(T) + sizeof(std::uint32_t)) +
+    return (source_ ? fetched_.load() : size()) * (sizeof(T) + sizeof(std::uint32_t)) +
            points_.begin.capacity() * sizeof(points_.begin[0]) +
-           points_.least.capacity() * sizeof(Key) + buckets();
+           (points_.least.capacity() + points_.greatest.capacity()) * sizeof(Key) + buckets();
 }
 
 template <typename T>

@@ -1,4 +1,4 @@
-// A step's points by value, put in order where somebody looks.
+// A step's points by value, put in order, or fetched, where somebody looks.
 //
 // They lie in buckets that ascend by value. Only a bucket that is looked into is sorted, once, by
 // whoever looks first; others who look at the same time wait. Where it is not sorted, nobody has
@@ -16,11 +16,27 @@
 
 namespace timeseries {
 
-// Every const member is safe to call from any thread, and may throw std::bad_alloc.
+// Where buckets are that are not in memory. Every member is safe to call from any thread.
+template <typename T>
+class BucketSource {
+ public:
+    virtual ~BucketSource() = default;
+    // The bucket's points in order of value, ties by grid index.
+    virtual void fill(std::size_t bucket, std::span<T> values,
+                      std::span<std::uint32_t> gridIndex) const = 0;
+    // How many of its keys are below this one.
+    virtual std::uint64_t below(std::size_t bucket, OrderedKey<T> key) const = 0;
+    virtual void willNeed(std::size_t firstBucket, std::size_t buckets) const = 0;
+};
+
+// Every const member is safe to call from any thread, and may throw std::bad_alloc, and what a
+// source throws.
 template <typename T>
 class LazyColumn {
  public:
-    LazyColumn(Partition<T> points, unsigned threads);
+    // Without a source the points are in memory already, else there is only room for them.
+    LazyColumn(Partition<T> points, unsigned threads,
+               std::unique_ptr<const BucketSource<T>> source = nullptr);
 
     std::uint64_t size() const { return points_.points(); }
     // Of all points; only those for which order() was called may be read.
@@ -30,10 +46,13 @@ class LazyColumn {
     void orderAll() const { order({0, size()}); }
 
     // The points with lo <= value <= hi: at most 2 (log2 n + 2) comparisons. Sorts the buckets that
-    // the ends fall into, no other.
+    // the ends fall into, no other; of a source it reads their keys.
     Run find(const Interval<T>& interval) const;
 
-    std::uint64_t bytes() const;          // when all pages are there
+    // How many points have smaller keys; as find().
+    std::uint64_t below(OrderedKey<T> key) const;
+
+    std::uint64_t bytes() const;  // when all pages are there; with a source, of those that are
     std::uint64_t sortedBuckets() const;  // so far
 
  private:
@@ -41,16 +60,14 @@ class LazyColumn {
     enum State : std::uint8_t { kRaw, kBusy, kOrdered };
 
     std::size_t buckets() const { return points_.least.size(); }
-    // The bucket that a key falls into. REQUIRES: key >= least[0].
-    std::size_t bucketOf(Key key) const;
     std::size_t bucketAt(std::uint64_t point) const;
-    // How many points have smaller keys.
-    std::uint64_t below(Key key) const;
     void orderBucket(std::size_t bucket) const;
     void sortBucket(std::size_t bucket) const;
 
     Partition<T> points_;
     unsigned threads_;
+    std::unique_ptr<const BucketSource<T>> source_;
+    mutable std::atomic<std::uint64_t> fetched_ = 0;      // points
     std::unique_ptr<std::atomic<std::uint8_t>[]> state_;  // of each bucket
     mutable std::atomic<bool> allOrdered_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -10,8 +11,12 @@
 #include <tuple>
 #include <utility>
 
+#include "timeseries/grid/with_type.h"
 #include "timeseries/index/cell_index.h"
 #include "timeseries/index/lazy_column.h"
+#include "timeseries/index/ordered_key.h"
+#include "timeseries/index/step_file.h"
+#include "timeseries/index/stored_column.h"
 
 namespace timeseries {
 namespace {
@@ -87,6 +92,20 @@ std::optional<Range> commonPart(const Range& a, const Range& b) {
     return Range{{numberOf(common.lo)}, {numberOf(common.hi)}};
 }
 
+// The least value of T that is not less than this one; none where all are less.
+template <typename T>
+std::optional<T> leastNotBelow(double value) {
+    using Limits = std::numeric_limits<T>;
+    if constexpr (std::is_floating_point_v<T>) {
+        const T near = static_cast<T>(value);
+        return static_cast<double>(near) < value ? std::nextafter(near, Limits::infinity()) : near;
+    } else {
+        const double whole = std::ceil(value);
+        if (whole >= std::ldexp(1.0, Limits::digits)) return std::nullopt;
+        return whole <= static_cast<double>(Limits::min()) ? Limits::min() : static_cast<T>(whole);
+    }
+}
+
 // More of them look into most of a step's buckets.
 constexpr std::size_t kFewQuantiles = 64;
 
@@ -121,6 +140,26 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned 
     return step;
 }
 
+SortedStep SortedStep::stored(std::shared_ptr<const StepFile> file,
+                              std::shared_ptr<const Grid> grid, bool categories, Again again,
+                              unsigned threads) {
+    if (!std::ranges::equal(file->size(), grid->size()))
+        throw StepFileError(fmt::format("{} is the index of another grid", file->name()));
+    SortedStep step;
+    step.grid_ = std::move(grid);
+    step.kept_ = RangeSet::everything();
+    step.threads_ = threads;
+    step.ofCategories_ = categories;
+    step.cells_ = std::make_shared<LazyCells>();
+    step.statistics_ = file->statistics();
+    step.size_ = step.statistics_.points;
+    withType(file->type(), [&]<typename T>(T) {
+        step.columns_ = std::shared_ptr<const LazyColumn<T>>(storedColumn<T>(file, again, threads));
+    });
+    step.file_ = std::move(file);
+    return step;
+}
+
 std::vector<Run> SortedStep::select(const RangeSet& ranges) const {
     std::vector<Run> runs;
     std::visit(
@@ -139,6 +178,16 @@ std::uint64_t SortedStep::count(const RangeSet& ranges) const {
         },
         columns_);
     return count;
+}
+
+std::uint64_t SortedStep::countBelow(double value) const {
+    if (std::isnan(value)) return 0;
+    return std::visit(
+        [&]<typename T>(const std::shared_ptr<const LazyColumn<T>>& points) {
+            const std::optional<T> least = leastNotBelow<T>(value);
+            return least ? points->below(orderedKey(*least)) : points->size();
+        },
+        columns_);
 }
 
 RangeSet SortedStep::keptPart(const RangeSet& ranges) const {
@@ -221,6 +270,7 @@ Run SortedStep::finite() const {
 
 std::vector<double> SortedStep::quantiles(std::size_t n) const {
     std::vector<double> out;
+    if (file_ && n == file_->quantiles().size()) return file_->quantiles();
     const Run among = finite();
     if (among.count == 0) return out;
     if (n > kFewQuantiles) columns();  // all at once, on all threads

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -51,6 +53,7 @@ struct StepStatistics {
 template <typename T>
 class LazyColumn;  // timeseries/index/lazy_column.h
 class CellIndex;   // timeseries/index/cell_index.h
+class StepFile;    // timeseries/index/step_file.h
 
 // Immutable, but for what nobody can tell: points are put in order where somebody first looks.
 // Every member is safe to call from any thread. Memory: sizeof(value) + 4 bytes a kept point; 4,
@@ -64,12 +67,24 @@ class SortedStep {
     static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
                             unsigned threads = sharingThreads());
 
+    // A step that was written to a file, of which it reads what is looked at. `again` makes the
+    // same step from its source and tells `why`: it is asked, once, when the file turns out to be
+    // damaged, and what is shown is then from there. Throws StepFileError when the file is of
+    // another grid. Members may then throw what `again` throws.
+    using Again = std::function<SortedStep(const std::string& why)>;
+    static SortedStep stored(std::shared_ptr<const StepFile> file, std::shared_ptr<const Grid> grid,
+                             bool categories, Again again, unsigned threads = sharingThreads());
+    // Null unless it is read from a file.
+    const std::shared_ptr<const StepFile>& file() const { return file_; }
+
     // Disjoint, ascending, none empty. At most 2 (log2 n + 2) comparisons a range, and half a
     // millisecond where an end of a range falls among points of which none was asked for yet.
     // Throws OutsideKeptError when `ranges`, in the field's type, is not inside what was kept.
     std::vector<Run> select(const RangeSet& ranges) const;
     // The sum of select()'s counts; touches no point.
     std::uint64_t count(const RangeSet& ranges) const;
+    // How many of the kept points have values less than this one.
+    std::uint64_t countBelow(double value) const;
 
     // What of `ranges` was kept, in the field's type: select() takes it whatever the rounding of
     // its bounds.
@@ -123,6 +138,7 @@ class SortedStep {
     bool ofCategories_ = false;
     RangeSet kept_;
     StepStatistics statistics_;
+    std::shared_ptr<const StepFile> file_;
     struct LazyCells;
     std::shared_ptr<LazyCells> cells_;
 };

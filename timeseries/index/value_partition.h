@@ -20,6 +20,9 @@ struct Partition {
     // least[b + 1]. Ascending; least[0] is the least key that there is, or the first one's.
     std::vector<std::uint64_t> begin{0};
     std::vector<OrderedKey<T>> least;
+    // Each bucket's greatest key, of a step on disk alone: there one value may fill several
+    // buckets.
+    std::vector<OrderedKey<T>> greatest;
     // In a bucket ascending by grid index, whatever the values are.
     Pages<std::uint32_t> gridIndex;
     // Of each point; -0 is +0. Where each bucket is one value they are not written.

@@ -51,6 +51,9 @@ class ArrayReader final : public Reader {
         variable.time = std::make_shared<const TimeAxis>(arrayTimes(header_, roles, notes));
         variable.notes = std::move(notes);
         variables_.push_back(std::move(variable));
+        sources_ = pieces.paths;
+        if (std::ranges::find(sources_, header_.path) == sources_.end())
+            sources_.insert(sources_.begin(), header_.path);
         stream_ = std::make_unique<ArrayStream>(header_, std::move(pieces));
     }
 
@@ -58,6 +61,9 @@ class ArrayReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return {&header_.path, 1}; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    std::vector<std::filesystem::path> sources(std::size_t, std::size_t) override {
+        return sources_;
+    }
 
  private:
     template <typename T>
@@ -68,6 +74,7 @@ class ArrayReader final : public Reader {
     ArrayHeader header_;
     ArrayLayout layout_;
     std::vector<Variable> variables_;
+    std::vector<std::filesystem::path> sources_;  // the header, and where else values lie
     std::unique_ptr<ArrayStream> stream_;
 };
 

@@ -48,6 +48,7 @@ class NetcdfReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
+    std::vector<std::filesystem::path> sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 
  private:
@@ -58,6 +59,8 @@ class NetcdfReader final : public Reader {
     void addVariables();
     void addVariable(std::size_t v);
     std::shared_ptr<const Grid> gridOf(std::size_t v, std::vector<std::string>& notes);
+    // The file that holds a step, and which of its steps that is.
+    std::pair<std::size_t, std::size_t> fileOf(std::size_t variable, std::size_t step) const;
     // Of one step of a file, of a variable whose columns tell where its points lie.
     static constexpr std::size_t kLastStep = std::numeric_limits<std::size_t>::max();
     std::shared_ptr<const Mesh> meshAt(std::size_t f, std::size_t v, std::size_t step);
@@ -286,12 +289,25 @@ std::optional<StepSpan> NetcdfReader::stepsOf(std::size_t variable, std::size_t 
     return std::nullopt;  // what has no time is read of the first file
 }
 
-Field NetcdfReader::read(std::size_t variable, std::size_t step) {
+// The first file says what the variables are.
+std::vector<std::filesystem::path> NetcdfReader::sources(std::size_t variable, std::size_t step) {
+    const std::size_t file = fileOf(variable, step).first;
+    if (file == 0) return {paths_[0]};
+    return {paths_[0], paths_[file]};
+}
+
+std::pair<std::size_t, std::size_t> NetcdfReader::fileOf(std::size_t variable,
+                                                         std::size_t step) const {
     auto segment = segments_[variable].begin();
     while (step >= segment->count) step -= (segment++)->count;
-    const FileVariable& source = contents_[segment->file][variable];
+    return {segment->file, step};
+}
 
-    NetcdfFile& file = open(segment->file);
+Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
+    const auto [index, step] = fileOf(variable, seriesStep);
+    const FileVariable& source = contents_[index][variable];
+
+    NetcdfFile& file = open(index);
     const NcVariable* found = file.header().find(source.name, "");
     std::vector<std::uint64_t> lengths;
     if (found)
@@ -304,9 +320,9 @@ Field NetcdfReader::read(std::size_t variable, std::size_t step) {
     Field field;
     field.grid = variables_[variable].grid;
     const auto& columns = contents_[0][variable].axes.columns;
-    if (columns && (columns->inTime || segment->file > 0)) {
+    if (columns && (columns->inTime || index > 0)) {
         try {
-            const auto mesh = meshAt(segment->file, variable, step);
+            const auto mesh = meshAt(index, variable, step);
             if (*mesh != *field.grid->mesh())
                 field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh, true);
         } catch (const std::invalid_argument& flaw) {

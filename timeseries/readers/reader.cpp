@@ -115,10 +115,15 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
             throw FileError(
                 fmt::format("{}: expected the format of {}, so that they make one series",
                             path.string(), paths.front().string()));
-    if (format.joins || paths.size() == 1) return format.open(paths);
-    return openSequence(paths, [open = format.open](const std::filesystem::path& path) {
-        return open(std::span(&path, 1));
-    });
+    const auto now = std::chrono::system_clock::now();
+    auto reader =
+        format.joins || paths.size() == 1
+            ? format.open(paths)
+            : openSequence(paths, [open = format.open](const std::filesystem::path& path) {
+                  return open(std::span(&path, 1));
+              });
+    reader->openedAt = now;
+    return reader;
 }
 
 bool isReadable(const std::filesystem::path& path) {

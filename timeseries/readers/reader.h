@@ -2,6 +2,7 @@
 // time.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -69,6 +70,11 @@ class Reader {
     virtual std::span<const DamagedVariable> damaged() const { return {}; }
     // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
     virtual Field read(std::size_t variable, std::size_t step) = 0;
+    // Every file that the values of a step come from; none where that is not known. REQUIRES: as
+    // read(). Throws FileError.
+    virtual std::vector<std::filesystem::path> sources(std::size_t, std::size_t) { return {}; }
+    // What its files say is of this moment or later; openReader() sets it.
+    std::chrono::system_clock::time_point openedAt{};
     // Which steps of a variable files()[file] holds; none where the reader does not know. A reader
     // that joins files tells it.
     virtual std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const {

@@ -59,6 +59,7 @@ class SequenceReader final : public Reader {
     std::span<const Path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    std::vector<Path> sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override {
         const auto& begins = begins_[variable];
         return StepSpan{begins[file], begins[file + 1] - begins[file]};
@@ -79,6 +80,11 @@ class SequenceReader final : public Reader {
     std::string ownTimesFail(std::size_t v) const;
     TimeAxis ownTimes(std::size_t v) const;
     Reader& open(std::size_t file);
+    struct Member {
+        Reader& reader;
+        std::size_t variable, step;  // of the member's own
+    };
+    Member memberOf(std::size_t variable, std::size_t step);
     [[noreturn]] void differ(std::size_t a, std::size_t b, const std::string& what) const {
         throw FileError(fmt::format("{} and {}: {}", paths_[a].string(), paths_[b].string(), what));
     }
@@ -223,13 +229,22 @@ Reader& SequenceReader::open(std::size_t file) {
     return *open_.front().reader;
 }
 
-Field SequenceReader::read(std::size_t variable, std::size_t step) {
+SequenceReader::Member SequenceReader::memberOf(std::size_t variable, std::size_t step) {
     const auto& begins = begins_[variable];
     const auto file =
         static_cast<std::size_t>(std::ranges::upper_bound(begins, step) - begins.begin() - 1);
     Reader& reader = open(file);
-    const auto at = placeOf(variables_[variable], reader.variables());
-    Field field = reader.read(at.value(), step - begins[file]);
+    return {reader, placeOf(variables_[variable], reader.variables()).value(), step - begins[file]};
+}
+
+std::vector<Path> SequenceReader::sources(std::size_t variable, std::size_t step) {
+    const Member member = memberOf(variable, step);
+    return member.reader.sources(member.variable, member.step);
+}
+
+Field SequenceReader::read(std::size_t variable, std::size_t step) {
+    const Member member = memberOf(variable, step);
+    Field field = member.reader.read(member.variable, member.step);
     field.grid = gridOfStep(variables_[variable].grid, field.grid);
     return field;
 }

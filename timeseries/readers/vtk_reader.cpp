@@ -67,6 +67,7 @@ class VtkReader final : public Reader {
     std::span<const Path> files() const override { return files_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    std::vector<Path> sources(std::size_t variable, std::size_t step) override;
 
  private:
     struct Source {
@@ -159,6 +160,13 @@ void VtkReader::open(std::size_t step) {
     if (step == openStep_) return;
     frame_ = frameOf(vtkContentsOf(members_[step].path));
     openStep_ = step;
+}
+
+std::vector<Path> VtkReader::sources(std::size_t, std::size_t step) {
+    open(step);
+    std::vector<Path> paths{members_[step].path};
+    for (const VtkHeader& part : frame_.contents.parts) paths.push_back(part.path);
+    return paths;
 }
 
 Field VtkReader::read(std::size_t variable, std::size_t step) {

@@ -24,18 +24,16 @@ std::size_t stepOf(const LoadResult& result) {
 }  // namespace
 
 StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-                       std::function<void()> wake, Ready ready)
-    : reader_(std::move(reader)),
-      variable_(variable),
-      stepCount_(reader_->variables()[variable].time->points.size()),
-      kept_(std::move(kept)),
+                       std::function<void()> wake, Ready ready, StepStores stores)
+    : maker_(std::move(reader), variable, std::move(kept), std::move(stores)),
+      stepCount_(maker_.variable().time->points.size()),
       wake_(std::move(wake)),
       ready_(ready),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 StepLoader::~StepLoader() = default;  // jthread asks to stop, which ends its waits, and joins
 
-void StepLoader::want(std::vector<std::size_t> mostUrgentFirst) {
+void StepLoader::want(std::vector<std::size_t> mostUrgentFirst, Haste haste) {
     for (const std::size_t step : mostUrgentFirst)
         if (step >= stepCount_)
             throw std::out_of_range(
@@ -45,6 +43,7 @@ void StepLoader::want(std::vector<std::size_t> mostUrgentFirst) {
         std::vector<bool> underWay(stepCount_);
         if (reading_) underWay[*reading_] = true;
         for (const LoadResult& result : results_) underWay[stepOf(result)] = true;
+        haste_ = haste;
         wishes_.clear();
         for (const std::size_t step : mostUrgentFirst) {
             if (underWay[step]) continue;
@@ -84,8 +83,16 @@ std::optional<LoadResult> StepLoader::takeFirst() {
 
 void StepLoader::run(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    const auto mayBegin = [this] { return !wishes_.empty() && results_.size() < kMostResults; };
-    while (work_.wait(lock, stop, mayBegin) && !stop.stop_requested()) {
+    const auto something = [this] {
+        return mayBegin() || (wishes_.empty() && maker_.hasUnwritten());
+    };
+    while (work_.wait(lock, stop, something) && !stop.stop_requested()) {
+        if (!mayBegin()) {
+            lock.unlock();
+            write(stop);
+            lock.lock();
+            continue;
+        }
         const std::size_t step = wishes_.front();
         wishes_.pop_front();
         reading_ = step;
@@ -97,15 +104,25 @@ void StepLoader::run(const std::stop_token& stop) {
         done_.notify_one();
         lock.unlock();
         wake_();
+        write(stop);
         lock.lock();
     }
 }
 
+bool StepLoader::mayBegin() const { return !wishes_.empty() && results_.size() < kMostResults; }
+
+// What is there to be written, as long as nobody waits for anything else.
+void StepLoader::write(const std::stop_token& stop) {
+    maker_.writeOne([&](double) {
+        const std::lock_guard lock(mutex_);
+        return !stop.stop_requested() && (wishes_.empty() || haste_ == Haste::Nobody);
+    });
+}
+
 LoadResult StepLoader::load(std::size_t step) {
     try {
-        const Field field = reader_->read(variable_, step);
-        auto sorted = std::make_shared<const SortedStep>(SortedStep::build(field, kept_));
-        if (ready_ == Ready::Whole) sorted->columns();
+        auto sorted = maker_.make(step);
+        if (ready_ == Ready::Whole && !sorted->file()) sorted->columns();
         return Loaded{step, std::move(sorted)};
     } catch (const std::bad_alloc&) {
         return Failed{step, fmt::format("there is not enough memory for step {}", step)};

@@ -1,4 +1,5 @@
-// Reads and sorts time steps on one background thread, the most urgent first.
+// Reads and sorts time steps on one background thread, the most urgent first. When nothing is asked
+// for, it writes steps that were sorted to where they are found next time.
 #pragma once
 
 #include <chrono>
@@ -18,6 +19,7 @@
 #include "timeseries/index/range_set.h"
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/readers/reader.h"
+#include "timeseries/series/step_maker.h"
 
 namespace timeseries {
 
@@ -48,7 +50,7 @@ class StepLoader {
     // after each result is there to be polled; it must not throw, nor call the loader.
     StepLoader(
         std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-        std::function<void()> wake = [] {}, Ready ready = Ready::Asked);
+        std::function<void()> wake = [] {}, Ready ready = Ready::Asked, StepStores stores = {});
     ~StepLoader();
     StepLoader(const StepLoader&) = delete;
     StepLoader& operator=(const StepLoader&) = delete;
@@ -58,8 +60,9 @@ class StepLoader {
     // Replaces the wishes: what is not wished any more and not begun is not read. What is being
     // read, or read but not polled yet, is not read again. A step already polled is: wish for what
     // is missing. Throws std::out_of_range, and wishes nothing, for a step that the series does not
-    // have.
-    void want(std::vector<std::size_t> mostUrgentFirst);
+    // have. Steps that nobody waits for are written as they come.
+    enum class Haste { Waited, Nobody };
+    void want(std::vector<std::size_t> mostUrgentFirst, Haste haste = Haste::Waited);
 
     // A result, in the order in which they were finished; none when there is none yet.
     // The loader keeps few results ahead: it goes on when one is polled.
@@ -72,21 +75,22 @@ class StepLoader {
  private:
     void run(const std::stop_token& stop);
     LoadResult load(std::size_t step);
+    bool mayBegin() const;  // REQUIRES: mutex_ is held
+    void write(const std::stop_token& stop);
     bool idle() const;                      // REQUIRES: mutex_ is held
     std::optional<LoadResult> takeFirst();  // REQUIRES: mutex_ is held
 
-    const std::unique_ptr<Reader> reader_;
-    const std::size_t variable_;
+    StepMaker maker_;
     const std::size_t stepCount_;
-    const RangeSet kept_;
     const std::function<void()> wake_;
     const Ready ready_;
 
     std::mutex mutex_;
     std::condition_variable_any work_;  // the loader waits: wishes, or room for results
     std::condition_variable done_;      // waitAndPoll waits: a result
-    // The three below are guarded by mutex_.
+    // The four below are guarded by mutex_.
     std::deque<std::size_t> wishes_;  // most urgent first, each once
+    Haste haste_ = Haste::Waited;
     std::optional<std::size_t> reading_;
     std::deque<LoadResult> results_;
 

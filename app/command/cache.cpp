@@ -1,0 +1,64 @@
+// `isochron cache`: the sorted steps that are kept on disk.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/command/commands.h"
+#include "app/files/dataset.h"
+#include "app/files/step_cache.h"
+#include "app/say.h"
+
+namespace app {
+namespace {
+
+using timeseries::StepStore;
+
+std::string megabytes(std::uint64_t bytes) {
+    return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
+}
+
+// "T, step 3 of fire.nc": of what an index was made, as it says itself.
+std::string originOf(const std::string& about) {
+    const auto json = nlohmann::json::parse(about, nullptr, false);
+    if (!json.is_object()) return "of something else";
+    const auto files = json.value("files", nlohmann::json::array());
+    const std::string file = files.empty() || !files.back().is_object()
+                                 ? std::string()
+                                 : files.back().value("file", std::string());
+    return fmt::format("{}, step {} of {}", json.value("variable", std::string()),
+                       json.value("step", std::uint64_t{0}), file);
+}
+
+void list(const StepStore& store) {
+    std::uint64_t bytes = 0;
+    const std::vector<StepStore::Entry> entries = store.list();
+    for (const StepStore::Entry& entry : entries) {
+        bytes += entry.bytes;
+        const std::string about = StepStore::aboutOf(entry.path);
+        say("{:>12}  {:%Y-%m-%d %H:%M}  {}\n", megabytes(entry.bytes),
+            fmt::localtime(std::chrono::system_clock::to_time_t(entry.used)),
+            about.empty() ? entry.path.filename().string() + ", which cannot be read"
+                          : originOf(about));
+    }
+    say("{} step{} in {}: {}\n", withCommas(entries.size()), entries.size() == 1 ? "" : "s",
+        store.folder().string(), megabytes(bytes));
+}
+
+}  // namespace
+
+int cache(const CacheOptions& options) {
+    const auto store = stepCache();
+    if (!store) {
+        say("No sorted steps are kept: {}\n",
+            options.cache == "off" ? "the cache is off" : "there is no home folder");
+        return 0;
+    }
+    if (options.action == CacheOptions::Action::List)
+        list(*store);
+    else
+        say("{} removed from {}\n", megabytes(store->clear()), store->folder().string());
+    return 0;
+}
+
+}  // namespace app

@@ -1,0 +1,71 @@
+#include "app/files/step_cache.h"
+
+#include <cstdio>
+#include <mutex>
+
+#include "app/choices/user_files.h"
+#include "app/say.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+using timeseries::StepStore;
+using timeseries::StoreKind;
+
+struct Chosen {
+    std::mutex mutex;
+    std::string choice;
+    std::shared_ptr<StepStore> store;  // once asked for
+};
+
+Chosen& chosen() {
+    static Chosen only;
+    return only;
+}
+
+}  // namespace
+
+void chooseStepCache(const std::string& choice) {
+    const std::lock_guard lock(chosen().mutex);
+    chosen().choice = choice;
+    chosen().store = nullptr;
+}
+
+std::shared_ptr<StepStore> stepCache() {
+    const std::lock_guard lock(chosen().mutex);
+    if (chosen().store || chosen().choice == "off") return chosen().store;
+    fs::path folder = chosen().choice;
+    if (folder.empty() && !cacheFolder().empty()) folder = cacheFolder() / "steps";
+    if (!folder.empty())
+        chosen().store = std::make_shared<StepStore>(folder, StoreKind::Cache,
+                                                     timeseries::defaultCacheBudget(folder));
+    return chosen().store;
+}
+
+fs::path folderBeside(std::span<const fs::path> files) {
+    return fs::absolute(files.front()).parent_path() / "isochron-index";
+}
+
+std::shared_ptr<StepStore> storeBeside(std::span<const fs::path> files) {
+    return std::make_shared<StepStore>(folderBeside(files), StoreKind::Beside);
+}
+
+timeseries::StepStores storesFor(std::span<const fs::path> files) {
+    timeseries::StepStores stores;
+    if (files.empty()) return stores;
+    std::error_code gone;
+    if (fs::is_directory(folderBeside(files), gone)) stores.read.push_back(storeBeside(files));
+    if (auto cache = stepCache()) {
+        stores.read.push_back(cache);
+        stores.write = std::move(cache);
+    }
+    return stores;
+}
+
+void tellNotes(const timeseries::StepStores& stores) {
+    for (const auto& store : stores.read)
+        for (const std::string& note : store->takeNotes()) sayTo(stderr, "note: {}\n", note);
+}
+
+}  // namespace app

@@ -1,0 +1,30 @@
+// Where this program finds sorted steps on disk, and where it keeps them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "timeseries/series/step_maker.h"
+
+namespace app {
+
+// `choice`: of --cache: a folder, "off", or "" for the user's own. Once, before the stores are
+// asked for: it is the whole program's.
+void chooseStepCache(const std::string& choice);
+
+// Null where it is off, or nothing can be kept.
+std::shared_ptr<timeseries::StepStore> stepCache();
+// The folder of indices that lies beside these files and moves with them. REQUIRES: one at least.
+std::filesystem::path folderBeside(std::span<const std::filesystem::path> files);
+std::shared_ptr<timeseries::StepStore> storeBeside(std::span<const std::filesystem::path> files);
+
+// What is read: beside these files, then in the cache; and the cache, for what is sorted. Nothing
+// of no files.
+timeseries::StepStores storesFor(std::span<const std::filesystem::path> files);
+
+// What the stores have to tell, in one line each, on stderr.
+void tellNotes(const timeseries::StepStores& stores);
+
+}  // namespace app

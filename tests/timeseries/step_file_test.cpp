@@ -1,0 +1,363 @@
+#include "timeseries/index/step_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <thread>
+
+#include "tests/support/rounds.h"
+#include "tests/support/scenes.h"
+#include "tests/support/selection_oracle.h"
+#include "tests/support/step_bytes.h"
+#include "timeseries/index/brick_order.h"
+#include "timeseries/index/id_codec.h"
+
+namespace timeseries {
+namespace {
+
+using testing::HasSubstr;
+
+SortedStep never(const std::string& why) {
+    ADD_FAILURE() << "the step was asked for again: " << why;
+    throw std::runtime_error(why);
+}
+
+SortedStep storedOf(const SortedStep& step, SortedStep::Again again = never) {
+    return SortedStep::stored(tests::opened(tests::written(step)), step.sharedGrid(), false,
+                              std::move(again));
+}
+
+std::shared_ptr<const Grid> gridOf(std::array<std::size_t, 3> size) {
+    return std::make_shared<const Grid>(
+        std::array{tests::axis(size[0]), tests::axis(size[1]), tests::axis(size[2])});
+}
+
+template <typename T>
+T anyValue(std::mt19937_64& random) {
+    if constexpr (std::is_same_v<T, float>)
+        return std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    else if constexpr (std::is_same_v<T, double>)
+        return std::bit_cast<double>(random());
+    else
+        return static_cast<T>(random());
+}
+
+// Smooth, any bits, awkward or one value almost everywhere; some of it missing.
+template <typename T>
+Field randomField(std::mt19937_64& random, std::array<std::size_t, 3> size, int kind) {
+    Field field;
+    field.grid = gridOf(size);
+    const std::size_t n = field.grid->count();
+    const std::vector<T> awkward = oracle::awkwardValues<T>();
+    std::vector<T> values(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto p = field.grid->position(i);
+        if (kind == 0)
+            values[i] = static_cast<T>(60 + 50 * std::sin(p.x * .1) * std::cos(p.y * .2 + p.z));
+        if (kind == 1) values[i] = anyValue<T>(random);
+        if (kind == 2) values[i] = awkward[random() % awkward.size()];
+        if (kind == 3) values[i] = random() % 100 == 0 ? anyValue<T>(random) : T{7};
+    }
+    if (random() % 2 == 0) {
+        field.missing.resize(n);
+        for (std::size_t i = 0; i < n; ++i) field.missing[i] = random() % 5 == 0;
+    }
+    values[random() % n] = T{1};
+    field.values = std::move(values);
+    return field;
+}
+
+template <typename T>
+void expectSame(const SortedStep& expected, const SortedStep& step, std::mt19937_64& random) {
+    ASSERT_EQ(step.size(), expected.size());
+    const auto extent = [](const StepStatistics& s) {
+        return std::vector{toText(s.min),
+                           toText(s.max),
+                           toText(s.finiteMin),
+                           toText(s.finiteMax),
+                           std::to_string(s.points),
+                           std::to_string(s.missing)};
+    };
+    EXPECT_EQ(extent(step.statistics()), extent(expected.statistics()));
+    EXPECT_EQ(step.finite(), expected.finite());
+    EXPECT_EQ(step.quantiles(1025), expected.quantiles(1025));
+    EXPECT_EQ(step.quantiles(5), expected.quantiles(5));
+    // Ranges first, before all is there.
+    const std::vector<T> awkward = oracle::awkwardValues<T>();
+    for (int i = 0; i < 20; ++i) {
+        const auto any = [&] {
+            return random() % 2 == 0 ? expected.value(random() % expected.size())
+                                     : numberOf(awkward[random() % awkward.size()]);
+        };
+        Range range{{any(), random() % 2 == 0}, {any(), random() % 2 == 0}};
+        if (oracle::real(range.hi.value) < oracle::real(range.lo.value))
+            std::swap(range.lo.value, range.hi.value);
+        const RangeSet ranges({range});
+        EXPECT_EQ(step.select(ranges), expected.select(ranges)) << ranges.text();
+        const double edge = toDouble(any());
+        EXPECT_EQ(step.countBelow(edge), expected.countBelow(edge)) << edge;
+    }
+    const std::uint64_t one = random() % step.size();
+    EXPECT_EQ(step.gridIndex(one), expected.gridIndex(one));
+    const Columns a = step.columns(), b = expected.columns();
+    EXPECT_TRUE(std::ranges::equal(a.gridIndex, b.gridIndex));
+    EXPECT_EQ(std::memcmp(std::get<std::span<const T>>(a.values).data(),
+                          std::get<std::span<const T>>(b.values).data(), step.size() * sizeof(T)),
+              0);
+}
+
+template <typename T>
+class StepFileOf : public testing::Test {};
+using Types = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                             std::int32_t, std::uint64_t, std::int64_t, float, double>;
+TYPED_TEST_SUITE(StepFileOf, Types);
+
+TYPED_TEST(StepFileOf, HoldsTheListToTheLastPoint) {
+    std::mt19937_64 random(5);
+    // One point, one block to the point, several, of odd sizes, planes and lines.
+    const std::vector<std::array<std::size_t, 3>> sizes{{1, 1, 1},     {32, 32, 32},  {70, 41, 37},
+                                                        {33, 1, 2000}, {70000, 1, 1}, {5, 300, 1}};
+    for (const auto& size : sizes)
+        for (int kind = 0; kind < 4; ++kind) {
+            SCOPED_TRACE(testing::Message()
+                         << size[0] << " x " << size[1] << " x " << size[2] << ", kind " << kind);
+            const SortedStep step = SortedStep::build(randomField<TypeParam>(random, size, kind));
+            if (step.size() == 0) continue;
+            expectSame<TypeParam>(step, storedOf(step), random);
+        }
+}
+
+// The histogram's counts, against every value.
+TYPED_TEST(StepFileOf, CountsWhatIsLess) {
+    std::mt19937_64 random(6);
+    for (int kind = 0; kind < 4; ++kind) {
+        const SortedStep step = SortedStep::build(randomField<TypeParam>(random, {9, 8, 7}, kind));
+        const auto values = std::get<std::span<const TypeParam>>(step.columns().values);
+        for (int i = 0; i < 200; ++i) {
+            const double edge = i % 2 == 0 ? toDouble(step.value(random() % step.size()))
+                                           : std::bit_cast<double>(random());
+            const auto less = std::ranges::count_if(values, [&](TypeParam value) {
+                return static_cast<oracle::Real>(value) < static_cast<oracle::Real>(edge);
+            });
+            EXPECT_EQ(step.countBelow(edge), less) << edge;
+        }
+        EXPECT_EQ(step.countBelow(std::numeric_limits<double>::infinity()),
+                  std::ranges::count_if(values, [](TypeParam value) {
+                      return static_cast<double>(value) < std::numeric_limits<double>::infinity();
+                  }));
+        EXPECT_EQ(step.countBelow(-std::numeric_limits<double>::infinity()), 0u);
+    }
+}
+
+SortedStep smooth(std::array<std::size_t, 3> size = {60, 50, 40}) {
+    const auto grid = gridOf(size);
+    return tests::stepOf(grid, [&](std::size_t i) {
+        const auto p = grid->position(i);
+        return static_cast<float>(std::sin(p.x * .1) + std::cos(p.y * .13) * p.z);
+    });
+}
+
+TEST(StepFile, IsTheSameBytesOnAnyNumberOfThreads) {
+    const SortedStep step = smooth();
+    const auto once = tests::written(step, "about", 1);
+    EXPECT_EQ(tests::written(step, "about", 2), once);
+    EXPECT_EQ(tests::written(step, "about", 7), once);
+    EXPECT_EQ(tests::opened(once)->about(), "about");
+}
+
+TEST(StepFile, ReadsNoMoreThanTheBlocksOfARange) {
+    const SortedStep step = smooth({64, 64, 64});
+    const SortedStep stored = storedOf(step);
+    const std::uint64_t before = stored.bytes();
+    const timeseries::Run some{kStepBlock + 5, 10};
+    (void)stored.columns({&some, 1});
+    EXPECT_EQ(stored.bytes() - before, kStepBlock * (sizeof(float) + 4));
+    // Ends of ranges are found by their keys, which are not kept.
+    EXPECT_EQ(stored.count(RangeSet::parse("0:1")), step.count(RangeSet::parse("0:1")));
+    EXPECT_EQ(stored.bytes() - before, kStepBlock * (sizeof(float) + 4));
+}
+
+TEST(StepFile, IsReadByManyAtOnce) {
+    const SortedStep step = smooth({64, 64, 64});
+    const SortedStep stored = storedOf(step);
+    const Columns expected = step.columns();
+    std::vector<std::jthread> readers;
+    for (unsigned k = 0; k < 4; ++k)
+        readers.emplace_back([&, k] {
+            std::mt19937_64 random(k);
+            for (int i = 0; i < 50; ++i) {
+                const timeseries::Run run{random() % step.size(), 1};
+                EXPECT_EQ(stored.columns({&run, 1}).gridIndex[run.first],
+                          expected.gridIndex[run.first]);
+            }
+        });
+}
+
+TEST(StepFile, OfAnotherGridIsRefused) {
+    const SortedStep step = smooth({4, 5, 6});
+    EXPECT_THROW((void)SortedStep::stored(tests::opened(tests::written(step)), gridOf({5, 4, 6}),
+                                          false, never),
+                 StepFileError);
+}
+
+// Every sentence says which file it is of.
+void expectRefused(std::vector<std::byte> bytes, const std::string& what) {
+    try {
+        tests::opened(std::move(bytes))->check();
+        ADD_FAILURE() << what << ": it was believed";
+    } catch (const StepFileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("bytes")) << what;
+    }
+}
+
+TEST(StepFile, ThatEndsEarlyIsRefusedAtEveryLength) {
+    const auto whole = tests::written(smooth({20, 20, 20}));
+    std::mt19937_64 random(1);
+    for (int i = 0; i < tests::rounds(400); ++i) {
+        const std::size_t length =
+            i < 50 ? whole.size() - 1 - static_cast<std::size_t>(i) : random() % whole.size();
+        expectRefused({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)},
+                      "length " + std::to_string(length));
+    }
+}
+
+TEST(StepFile, NoFlippedBitIsBelieved) {
+    const auto whole = tests::written(smooth({20, 20, 20}), "about");
+    std::mt19937_64 random(2);
+    for (int i = 0; i < tests::rounds(2000); ++i) {
+        auto bytes = whole;
+        const std::size_t at = random() % bytes.size();
+        bytes[at] ^= std::byte(1 << random() % 8);
+        expectRefused(std::move(bytes), "byte " + std::to_string(at));
+    }
+}
+
+// A checksum is no defence: whatever a file says, it is refused or a list of points of the grid.
+TEST(StepFile, WithRightChecksumsAndWrongContentsIsRefusedOrAList) {
+    const SortedStep step = smooth({37, 20, 30});
+    const auto whole = tests::written(step, "about");
+    std::mt19937_64 random(3);
+    int refused = 0;
+    for (int i = 0; i < tests::rounds(3000); ++i) {
+        auto bytes = whole;
+        for (std::uint64_t flips = 1 + random() % 3; flips > 0; --flips) {
+            // Half of them in the header, the directory and the heads of blocks.
+            const std::size_t at = random() % 2 == 0   ? random() % bytes.size()
+                                   : random() % 2 == 0 ? random() % 200
+                                                       : bytes.size() - 1 - random() % 9000;
+            bytes[at] = std::byte(random());
+        }
+        tests::sumAnew(bytes);
+        try {
+            const SortedStep stored = SortedStep::stored(
+                tests::opened(std::move(bytes)), step.sharedGrid(), false,
+                [](const std::string& why) -> SortedStep { throw StepFileError(why); });
+            (void)stored.count(RangeSet::parse("0:3"));
+            for (const std::uint32_t index : stored.columns().gridIndex)
+                ASSERT_LT(index, step.grid().count());
+        } catch (const StepFileError&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 0);
+}
+
+TEST(StepFile, TurnedOutToBeDamagedIsMadeAgainOnceAndIsTheSame) {
+    const SortedStep step = smooth({64, 64, 64});
+    auto bytes = tests::written(step);
+    const auto blocks = tests::opened(bytes)->blocks();
+    bytes[blocks[3].idsAt + 100] ^= std::byte{1};
+    int made = 0;
+    const SortedStep stored = SortedStep::stored(tests::opened(bytes), step.sharedGrid(), false,
+                                                 [&](const std::string& why) {
+                                                     ++made;
+                                                     EXPECT_THAT(why, HasSubstr("block 3"));
+                                                     return smooth({64, 64, 64});
+                                                 });
+    const timeseries::Run good{0, 10};
+    (void)stored.columns({&good, 1});
+    EXPECT_EQ(made, 0);
+    std::mt19937_64 random(4);
+    expectSame<float>(step, stored, random);
+    EXPECT_EQ(made, 1);
+}
+
+TEST(StepFile, WhatCannotBeMadeAgainThrowsEachTime) {
+    const SortedStep step = smooth({20, 20, 20});
+    auto bytes = tests::written(step);
+    bytes[tests::opened(bytes)->blocks()[0].keysAt] ^= std::byte{1};
+    const SortedStep stored = SortedStep::stored(
+        tests::opened(bytes), step.sharedGrid(), false,
+        [&](const std::string&) -> SortedStep { throw std::runtime_error("gone"); });
+    EXPECT_THROW((void)stored.columns(), std::runtime_error);
+    EXPECT_THROW((void)stored.columns(), std::runtime_error);
+    EXPECT_THROW((void)stored.count(RangeSet::parse("0:1")), std::runtime_error);
+}
+
+TEST(StepFile, StopsWhereItIsToldTo) {
+    tests::BytesWritten out;
+    EXPECT_FALSE(writeStep(smooth({20, 20, 20}), "", out, [](double) { return false; }));
+    EXPECT_TRUE(out.bytes.empty());
+}
+
+TEST(BrickOrder, IsABijectionThatKeepsNearPointsNear) {
+    for (const std::array<std::uint32_t, 3> size : {std::array<std::uint32_t, 3>{1, 1, 1},
+                                                    {70, 3, 33},
+                                                    {64, 64, 64},
+                                                    {1, 40, 40},
+                                                    {500, 1, 1}}) {
+        const BrickOrder order(size);
+        const std::uint32_t points = size[0] * size[1] * size[2];
+        std::vector<std::uint32_t> codes(points), expected(points);
+        std::iota(expected.begin(), expected.end(), 0u);
+        for (std::uint32_t i = 0; i < points; ++i) {
+            codes[i] = order.code(i);
+            ASSERT_LT(codes[i], order.codes());
+        }
+        EXPECT_TRUE(order.toGridIndices(codes.data(), codes.size()));
+        EXPECT_EQ(codes, expected);
+    }
+    // The 32768 codes of the first brick are its points, whatever lies beyond it.
+    const BrickOrder order({64, 64, 64});
+    for (std::uint32_t z = 0; z < 64; z += 7)
+        for (std::uint32_t x = 0; x < 64; ++x)
+            EXPECT_EQ(order.code(x + 64 * 64 * z) < 32768, x < 32 && z < 32);
+}
+
+TEST(BrickOrder, RefusesCodesThatNoPointHas) {
+    const BrickOrder order({33, 40, 5});
+    std::vector<bool> taken(order.codes() + 100);
+    for (std::uint32_t i = 0; i < 33 * 40 * 5; ++i) taken[order.code(i)] = true;
+    for (std::uint32_t code = 0; code < taken.size(); ++code) {
+        std::uint32_t made = code;
+        ASSERT_EQ(order.toGridIndices(&made, 1), taken[code]) << code;
+    }
+}
+
+TEST(IdCodec, GivesBackAnyAscendingNumbers) {
+    std::mt19937_64 random(8);
+    for (int bits = 1; bits <= 32; ++bits)
+        for (const std::size_t most : {1u, 2u, 300u, 32768u}) {
+            std::vector<std::uint32_t> ids;
+            std::uint64_t id = random() >> (64 - bits);
+            while (ids.size() < most && id <= 0xffffffffu) {
+                ids.push_back(static_cast<std::uint32_t>(id));
+                id += 1 + (random() % 3 == 0 ? random() >> (64 - bits) : random() % 20);
+            }
+            Bytes bytes;
+            encodeIds(ids, bytes);
+            const std::size_t size = bytes.size();
+            bytes.resize(size + kReadBeyond);
+            std::vector<std::uint32_t> decoded(ids.size());
+            ASSERT_TRUE(decodeIds(std::span(bytes).first(size), decoded));
+            EXPECT_EQ(decoded, ids);
+            EXPECT_FALSE(decodeIds(std::span(bytes).first(size - 1), decoded));
+        }
+}
+
+}  // namespace
+}  // namespace timeseries

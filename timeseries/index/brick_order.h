@@ -1,0 +1,41 @@
+// Numbers for the points of a grid by which near points have near numbers: bricks of 32 points
+// along each axis, in a brick the bits of the three places by turns (Morton 1966).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace timeseries {
+
+// A bijection between grid indices (x fastest) and some of the codes below codes(). Where axes have
+// fewer points than a brick, bricks are smaller. Where the codes would need more than 32 bits, and
+// where all points lie along one axis, a code is the grid index.
+class BrickOrder {
+ public:
+    // REQUIRES: at most 2^32 points, at least one.
+    explicit BrickOrder(const std::array<std::uint32_t, 3>& size);
+
+    std::uint64_t codes() const { return codes_; }
+    std::uint32_t code(std::uint32_t gridIndex) const;
+    // Makes each code its grid index, in place. False if there is one that no point has; what is
+    // there is then not to be used.
+    bool toGridIndices(std::uint32_t* codes, std::size_t count) const;
+
+ private:
+    std::array<std::uint32_t, 3> size_;
+    std::uint64_t points_ = 0, codes_ = 0;
+    bool plain_ = false;                              // a code is the grid index
+    int brickBits_ = 0;                               // of a code, its place in the brick
+    std::array<std::vector<std::uint32_t>, 3> part_;  // of a code, by place along each axis
+    std::vector<std::uint32_t> firstOf_;              // grid index, by brick
+    // To be added, by the lower and the upper bits of the place in the brick: modulo 2^32, for
+    // there are places beyond the grid.
+    std::vector<std::uint32_t> lower_, upper_;
+    // Points along the axes, by brick, and which place that is, by place in the brick.
+    std::vector<std::array<std::uint8_t, 3>> extent_, placeWithin_;
+    std::array<std::uint8_t, 3> fullExtent_{};
+};
+
+}  // namespace timeseries

@@ -1,0 +1,120 @@
+#include "timeseries/index/id_codec.h"
+
+#include <zstd.h>
+
+#include <array>
+#include <bit>
+#include <memory>
+#include <new>
+#include <vector>
+
+namespace timeseries {
+namespace {
+
+// A gap is the difference to the number before, less 1. Gaps below kSmall are classes of their own;
+// four classes an octave hold the others: two bits below the leading one name the class, the rest
+// stands in bits of its own.
+constexpr std::uint32_t kSmall = 16;
+constexpr std::uint32_t kClasses = kSmall + 4 * (32 - 4);  // gaps of up to 32 bits
+constexpr int kLevel = 3;                                  // more costs time and gains a percent
+
+struct GapClass {
+    std::uint32_t least = 0;  // gap
+    int bits = 0;             // that the class leaves open
+};
+
+constexpr std::array<GapClass, 256> classTable() {
+    std::array<GapClass, 256> table{};
+    for (std::uint32_t c = 0; c < kClasses; ++c) {
+        if (c < kSmall) {
+            table[c] = {c, 0};
+            continue;
+        }
+        const int width = static_cast<int>((c - kSmall) >> 2) + 5;
+        table[c] = {(4u | ((c - kSmall) & 3)) << (width - 3), width - 3};
+    }
+    return table;
+}
+constexpr auto kTable = classTable();
+
+std::uint32_t classOf(std::uint32_t gap) {
+    if (gap < kSmall) return gap;
+    const int width = std::bit_width(gap);
+    return kSmall + (static_cast<std::uint32_t>(width - 5) << 2 | (gap >> (width - 3) & 3));
+}
+
+struct FreeDecoder {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+};
+struct FreeEncoder {
+    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+};
+
+}  // namespace
+
+void encodeIds(std::span<const std::uint32_t> ids, Bytes& out) {
+    append(out, ids[0]);
+    const std::size_t sizeAt = out.size();
+    append(out, std::uint32_t{0});
+
+    std::vector<std::uint8_t> classes;
+    classes.reserve(ids.size() - 1);
+    Bytes rest;
+    BitWriter bits(rest);
+    for (std::size_t i = 1; i < ids.size(); ++i) {
+        const std::uint32_t gap = ids[i] - ids[i - 1] - 1, of = classOf(gap);
+        classes.push_back(static_cast<std::uint8_t>(of));
+        bits.put(gap - kTable[of].least, kTable[of].bits);
+    }
+    bits.end();
+
+    static thread_local const std::unique_ptr<ZSTD_CCtx, FreeEncoder> context(ZSTD_createCCtx());
+    if (!context) throw std::bad_alloc();
+    const std::size_t at = out.size();
+    out.resize(at + ZSTD_compressBound(classes.size()));
+    const std::size_t size = ZSTD_compressCCtx(context.get(), out.data() + at, out.size() - at,
+                                               classes.data(), classes.size(), kLevel);
+    if (ZSTD_isError(size)) throw std::bad_alloc();  // there is room: nothing else can fail
+    out.resize(at + size);
+    const auto stored = static_cast<std::uint32_t>(size);
+    std::memcpy(out.data() + sizeAt, &stored, sizeof stored);
+    out.insert(out.end(), rest.begin(), rest.end());
+}
+
+bool decodeIds(std::span<const std::byte> from, std::span<std::uint32_t> ids) {
+    constexpr std::size_t kHead = 8;
+    if (from.size() < kHead || ids.empty()) return false;
+    std::uint64_t id = load<std::uint32_t>(from.data());
+    const std::size_t packed = load<std::uint32_t>(from.data() + 4);
+    from = from.subspan(kHead);
+    if (packed > from.size()) return false;
+
+    const std::size_t count = ids.size() - 1;
+    const auto classes = std::make_unique_for_overwrite<std::uint8_t[]>(count);
+    static thread_local const std::unique_ptr<ZSTD_DCtx, FreeDecoder> context(ZSTD_createDCtx());
+    if (!context) throw std::bad_alloc();
+    if (ZSTD_decompressDCtx(context.get(), classes.get(), count, from.data(), packed) != count)
+        return false;
+    from = from.subspan(packed);
+
+    std::uint64_t bits = 0;
+    bool known = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        known &= classes[i] < kClasses;
+        bits += static_cast<std::uint64_t>(kTable[classes[i]].bits);
+    }
+    if (!known || (bits + 7) / 8 != from.size()) return false;
+
+    ids[0] = static_cast<std::uint32_t>(id);
+    std::uint64_t bit = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const GapClass of = kTable[classes[i]];
+        const std::uint64_t open = load<std::uint64_t>(from.data() + bit / 8) >> (bit % 8);
+        bit += static_cast<std::uint64_t>(of.bits);
+        id += of.least + (open & lowBits(of.bits)) + 1;
+        ids[i + 1] = static_cast<std::uint32_t>(id);
+    }
+    return id <= ~std::uint32_t{0};
+}
+
+}  // namespace timeseries

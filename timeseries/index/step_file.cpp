@@ -1,0 +1,237 @@
+#include "timeseries/index/step_file.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cmath>
+#include <limits>
+
+#include "timeseries/grid/with_type.h"
+#include "timeseries/index/id_codec.h"
+#include "timeseries/index/ordered_key.h"
+#include "timeseries/index/pair_sort.h"
+#include "timeseries/index/step_header.h"
+
+namespace timeseries {
+namespace {
+
+std::uint64_t sumOfBytes(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+// What a number of the type was, from its bits.
+Number numberOfBits(ValueType type, std::uint64_t bits) {
+    return withType(type, [&]<typename T>(T) {
+        T value;
+        std::memcpy(&value, &bits, sizeof value);
+        return numberOf(value);
+    });
+}
+
+// Bytes read for a decoder, with what it may read beyond them.
+class Piece {
+ public:
+    explicit Piece(std::size_t bytes)
+        : bytes_(bytes), at_(std::make_unique_for_overwrite<std::byte[]>(bytes + kReadBeyond)) {
+        std::memset(at_.get() + bytes, 0, kReadBeyond);
+    }
+    std::span<std::byte> bytes() const { return {at_.get(), bytes_}; }
+
+ private:
+    std::size_t bytes_;
+    std::unique_ptr<std::byte[]> at_;
+};
+
+// More than any block of so many points needs, so that a damaged list asks for no more memory.
+constexpr std::uint64_t kMostIdsBytes = 64 + 6 * kStepBlock, kMostKeysBytes = 64 + 9 * kStepBlock;
+
+}  // namespace
+
+struct StepFile::Header : StepHeader {};
+
+void StepFile::damaged(const std::string& what) const {
+    throw DamagedStepError(fmt::format("{} is a damaged index: {}", name(), what));
+}
+
+StepFile::StepFile(std::unique_ptr<const ByteSource> bytes) : bytes_(std::move(bytes)) {
+    const Header header = readHeader();
+    readBlocks(header);
+    readSummary(header);
+    order_ = std::make_unique<const BrickOrder>(size_);
+}
+
+StepFile::Header StepFile::readHeader() const {
+    std::array<std::byte, kHeaderBytes> page;
+    if (bytes_->size() < page.size())
+        throw DamagedStepError(fmt::format("{}: expected an index of a time step, found {} bytes",
+                                           name(), bytes_->size()));
+    bytes_->read(0, page);
+    Header header;
+    std::memcpy(static_cast<StepHeader*>(&header), page.data(), sizeof(StepHeader));
+    if (header.magic != kStepMagic)
+        throw DamagedStepError(
+            fmt::format("{}: expected an index of a time step, found another file", name()));
+    if (header.endian != kEndianMark)
+        throw DamagedStepError(
+            fmt::format("{} was written on a machine of the other byte order", name()));
+    if (header.version != kStepVersion)
+        throw DamagedStepError(fmt::format("{} is of version {} of the index, expected {}", name(),
+                                           header.version, kStepVersion));
+    if (header.sum != sumOfBytes(std::span(page).first(offsetof(StepHeader, sum))))
+        damaged("its header does not match its checksum");
+    for (std::size_t i = sizeof(StepHeader); i < page.size(); ++i)
+        if (page[i] != std::byte{0}) damaged(fmt::format("expected 0 at byte {}", i));
+    if (header.fileBytes != bytes_->size())
+        damaged(fmt::format("expected {} bytes, found {}", header.fileBytes, bytes_->size()));
+    return header;
+}
+
+void StepFile::readBlocks(const Header& header) {
+    if (header.type > static_cast<std::uint32_t>(ValueType::F64))
+        damaged(fmt::format("it has no type {}", header.type));
+    type_ = static_cast<ValueType>(header.type);
+    size_ = header.size;
+    // Three numbers of 32 bits: by division, their product may pass 64.
+    constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 32;
+    std::uint64_t points = 1;
+    for (const std::uint32_t n : size_) {
+        if (n == 0 || n > kMostPoints / points) damaged("its grid has no size");
+        points *= n;
+    }
+    if (header.points == 0 || header.points > points || header.missing != points - header.points)
+        damaged(fmt::format("{} points and {} missing ones are not the grid's {}", header.points,
+                            header.missing, points));
+    if (header.blockPoints != kStepBlock || header.blocks != (header.points - 1) / kStepBlock + 1)
+        damaged("its number of blocks is not that of its points");
+
+    const auto within = [&](const StepSection& section) {
+        return section.at >= kHeaderBytes && section.bytes <= bytes_->size() &&
+               section.at <= bytes_->size() - section.bytes;
+    };
+    if (!within(header.directory) || header.directory.bytes != header.blocks * sizeof(StepBlock))
+        damaged("its directory lies outside it");
+    if (!within(header.summary) || header.summary.bytes > kMostSummary)
+        damaged("its summary lies outside it");
+
+    blocks_.resize(header.blocks);
+    const auto directory = std::as_writable_bytes(std::span(blocks_));
+    bytes_->read(header.directory.at, directory);
+    if (sumOfBytes(directory) != header.directory.sum)
+        damaged("its directory does not match its checksum");
+    const std::uint64_t mostKey = withType(type_, [](auto value) {
+        return std::uint64_t{std::numeric_limits<OrderedKey<decltype(value)>>::max()};
+    });
+    std::uint64_t left = header.points, before = 0;
+    for (const StepBlock& block : blocks_) {
+        const auto inFile = [&](std::uint64_t at, std::uint64_t size, std::uint64_t most) {
+            return at >= kHeaderBytes && size <= most && at <= bytes_->size() &&
+                   size <= bytes_->size() - at;
+        };
+        if (block.count != std::min(left, kStepBlock) || block.least < before ||
+            block.greatest < block.least || block.greatest > mostKey ||
+            !inFile(block.idsAt, block.idsBytes, kMostIdsBytes) ||
+            !inFile(block.keysAt, block.keysBytes, kMostKeysBytes))
+            damaged(fmt::format("its directory contradicts itself at block {}",
+                                &block - blocks_.data()));
+        before = block.greatest;
+        left -= block.count;
+    }
+
+    statistics_ = {header.points,
+                   header.missing,
+                   numberOfBits(type_, header.extent[0]),
+                   numberOfBits(type_, header.extent[1]),
+                   std::nan(""),
+                   std::nan("")};
+    if (header.anyFinite != 0) {
+        statistics_.finiteMin = numberOfBits(type_, header.extent[2]);
+        statistics_.finiteMax = numberOfBits(type_, header.extent[3]);
+    }
+}
+
+void StepFile::readSummary(const Header& header) {
+    const Piece piece(header.summary.bytes);
+    bytes_->read(header.summary.at, piece.bytes());
+    if (sumOfBytes(piece.bytes()) != header.summary.sum)
+        damaged("its summary does not match its checksum");
+    std::uint64_t count = 0;
+    if (piece.bytes().size() >= sizeof count) count = load<std::uint64_t>(piece.bytes().data());
+    if (piece.bytes().size() < sizeof count ||
+        count > (piece.bytes().size() - sizeof count) / sizeof(double))
+        damaged("its summary ends early");
+    quantiles_.resize(count);
+    const auto text = piece.bytes().subspan(sizeof count + count * sizeof(double));
+    std::memcpy(quantiles_.data(), piece.bytes().data() + sizeof count, count * sizeof(double));
+    about_.assign(reinterpret_cast<const char*>(text.data()), text.size());
+}
+
+void StepFile::willNeed(std::size_t firstBlock, std::size_t blocks) const {
+    if (blocks == 0) return;
+    const StepBlock &first = blocks_[firstBlock], &last = blocks_[firstBlock + blocks - 1];
+    bytes_->willNeed(first.idsAt, last.keysAt + last.keysBytes - first.idsAt);
+}
+
+template <typename Key>
+void StepFile::readKeys(const StepBlock& block, std::span<Key> keys) const {
+    const Piece piece(block.keysBytes);
+    bytes_->read(block.keysAt, piece.bytes());
+    if (static_cast<std::uint32_t>(sumOfBytes(piece.bytes())) != block.keysSum ||
+        !decodeKeys<Key>(piece.bytes(), block.layout, static_cast<Key>(block.least),
+                         static_cast<Key>(block.greatest), keys))
+        damaged(fmt::format("the values of block {} do not match its directory",
+                            &block - blocks_.data()));
+}
+
+template <typename T>
+void StepFile::read(std::size_t index, std::span<T> values,
+                    std::span<std::uint32_t> gridIndex) const {
+    const StepBlock& block = blocks_[index];
+    const Piece piece(block.idsBytes);
+    bytes_->read(block.idsAt, piece.bytes());
+    if (static_cast<std::uint32_t>(sumOfBytes(piece.bytes())) != block.idsSum ||
+        !decodeIds(piece.bytes(), gridIndex) ||
+        !order_->toGridIndices(gridIndex.data(), gridIndex.size()))
+        damaged(fmt::format("the points of block {} do not match its directory", index));
+    const auto keys = std::make_unique_for_overwrite<OrderedKey<T>[]>(block.count);
+    readKeys<OrderedKey<T>>(block, {keys.get(), block.count});
+    sortPairs<T>(std::span<const OrderedKey<T>>(keys.get(), block.count), gridIndex, values);
+}
+
+std::uint64_t StepFile::below(std::size_t index, std::uint64_t key) const {
+    const StepBlock& block = blocks_[index];
+    if (key <= block.least) return 0;
+    if (key > block.greatest) return block.count;
+    return withType(type_, [&]<typename T>(T) {
+        const auto keys = std::make_unique_for_overwrite<OrderedKey<T>[]>(block.count);
+        readKeys<OrderedKey<T>>(block, {keys.get(), block.count});
+        std::uint64_t count = 0;
+        for (std::uint32_t i = 0; i < block.count; ++i) count += keys[i] < key;
+        return count;
+    });
+}
+
+void StepFile::check() const {
+    withType(type_, [&]<typename T>(T) {
+        std::vector<T> values(kStepBlock);
+        std::vector<std::uint32_t> gridIndex(kStepBlock);
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+            read<T>(b, std::span(values).first(blocks_[b].count),
+                    std::span(gridIndex).first(blocks_[b].count));
+    });
+}
+
+#define ISOCHRON_TYPE(T) \
+    template void StepFile::read(std::size_t, std::span<T>, std::span<std::uint32_t>) const;
+ISOCHRON_TYPE(std::uint8_t)
+ISOCHRON_TYPE(std::int8_t)
+ISOCHRON_TYPE(std::uint16_t)
+ISOCHRON_TYPE(std::int16_t)
+ISOCHRON_TYPE(std::uint32_t)
+ISOCHRON_TYPE(std::int32_t)
+ISOCHRON_TYPE(std::uint64_t)
+ISOCHRON_TYPE(std::int64_t)
+ISOCHRON_TYPE(float)
+ISOCHRON_TYPE(double)
+#undef ISOCHRON_TYPE
+
+}  // namespace timeseries

@@ -1,0 +1,90 @@
+// A sorted step on disk: its points in order of value, in blocks that are read one by one.
+// timeseries/index/FORMAT.md says what lies where.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "timeseries/grid/field.h"
+#include "timeseries/index/brick_order.h"
+#include "timeseries/index/byte_source.h"
+#include "timeseries/index/key_codec.h"
+#include "timeseries/index/sorted_step.h"
+
+namespace timeseries {
+
+// Points of a block; the last one may have fewer.
+constexpr std::uint64_t kStepBlock = std::uint64_t{1} << 15;
+
+// A block as the file lists it. Keys are OrderedKey's, widened.
+struct StepBlock {
+    std::uint64_t least = 0, greatest = 0;  // keys
+    std::uint64_t idsAt = 0, keysAt = 0;    // bytes into the file
+    std::uint32_t idsBytes = 0, keysBytes = 0;
+    std::uint32_t idsSum = 0, keysSum = 0;  // the lower half of XXH3
+    std::uint32_t count = 0;
+    KeyLayout layout;
+    std::uint8_t spare = 0;
+};
+static_assert(sizeof(StepBlock) == 56);
+
+// Immutable; every member is safe to call from any thread. What a damaged file says is never
+// believed further than it can be checked: members throw StepFileError, whose sentence names it.
+class StepFile {
+ public:
+    // Reads what the file lists, a few hundred thousandths of it.
+    explicit StepFile(std::unique_ptr<const ByteSource> bytes);
+
+    ValueType type() const { return type_; }
+    const std::array<std::uint32_t, 3>& size() const { return size_; }  // of the grid, in points
+    const StepStatistics& statistics() const { return statistics_; }
+    std::span<const StepBlock> blocks() const { return blocks_; }
+    // StepSummary's, of all points.
+    const std::vector<double>& quantiles() const { return quantiles_; }
+    // What whoever wrote it said of it.
+    const std::string& about() const { return about_; }
+    std::uint64_t bytes() const { return bytes_->size(); }
+    std::string name() const { return bytes_->name(); }
+    void willNeed(std::size_t firstBlock, std::size_t blocks) const;
+
+    // The block's points by value, ties by grid index, as SortedStep has them. REQUIRES: T is of
+    // type(), and both spans have the block's count.
+    template <typename T>
+    void read(std::size_t block, std::span<T> values, std::span<std::uint32_t> gridIndex) const;
+    // How many of a block's keys are below this one.
+    std::uint64_t below(std::size_t block, std::uint64_t key) const;
+    // Reads all of it.
+    void check() const;
+
+ private:
+    struct Header;
+    Header readHeader() const;
+    void readBlocks(const Header& header);
+    void readSummary(const Header& header);
+    template <typename Key>
+    void readKeys(const StepBlock& block, std::span<Key> keys) const;
+    [[noreturn]] void damaged(const std::string& what) const;
+
+    std::unique_ptr<const ByteSource> bytes_;
+    ValueType type_{};
+    std::array<std::uint32_t, 3> size_{};
+    StepStatistics statistics_;
+    std::vector<StepBlock> blocks_;
+    std::vector<double> quantiles_;
+    std::string about_;
+    std::unique_ptr<const BrickOrder> order_;
+};
+
+// Writes a step: the same bytes for the same points, on any number of threads. `about`: what to
+// keep beside them. `goOn` is asked, with the share that is written, between some blocks.
+// REQUIRES: all values were kept, and the step has a point. False: goOn() said no, and what is
+// written is of no use. Throws StepFileError, and std::bad_alloc.
+bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
+               const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads());
+
+}  // namespace timeseries

@@ -1,0 +1,62 @@
+// Makes the sorted steps of a variable: a step that is on disk is opened, another one read and
+// sorted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "timeseries/readers/reader.h"
+#include "timeseries/series/step_store.h"
+
+namespace timeseries {
+
+struct StepStores {
+    std::vector<std::shared_ptr<StepStore>> read;  // in this order
+    std::shared_ptr<StepStore> write = nullptr;    // null: nothing is written
+    // Steps of fewer points are sorted as soon as a file is read.
+    std::uint64_t worthWriting = 8'000'000;
+};
+
+// One thread at a time.
+class StepMaker {
+ public:
+    // REQUIRES: variable < reader->variables().size().
+    StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
+              StepStores stores = {});
+
+    const Variable& variable() const { return reader_->variables()[variable_]; }
+    // Throws FileError, std::length_error, std::bad_alloc.
+    std::shared_ptr<const SortedStep> make(std::size_t step);
+
+    // Writes it at once, unless it is there. Throws as make(), and StepFileError.
+    enum class Kept { Before, Written, Not };
+    Kept keep(std::size_t step);
+
+    // Steps that were sorted, are worth writing and are still in use.
+    bool hasUnwritten();
+    // Writes one of them, if there is one, while goOn() says so; else it stays unwritten. What
+    // cannot be written is told by the store, and nothing more is.
+    void writeOne(const std::function<bool(double)>& goOn);
+
+ private:
+    struct Unwritten {
+        StepOrigin origin;
+        OriginStamp stamp;
+        std::weak_ptr<const SortedStep> step;
+    };
+    std::optional<StepOrigin> originOf(std::size_t step);
+    std::shared_ptr<const SortedStep> find(const StepOrigin& origin);
+
+    const std::unique_ptr<Reader> reader_;
+    const std::size_t variable_;
+    const RangeSet kept_;
+    StepStores stores_;
+    std::deque<Unwritten> unwritten_;  // the first built first
+};
+
+}  // namespace timeseries

@@ -1,0 +1,203 @@
+#include "timeseries/series/step_store.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "timeseries/series/whole_file.h"
+
+namespace timeseries {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::system_clock;
+using nlohmann::ordered_json;
+
+constexpr const char* kSuffix = ".isostep";
+
+std::int64_t nanoseconds(const timespec& at) {
+    return std::int64_t{at.tv_sec} * 1'000'000'000 + at.tv_nsec;
+}
+
+Clock::time_point timeOf(std::int64_t sinceEpoch) {
+    return Clock::time_point(
+        std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(sinceEpoch)));
+}
+
+fs::path nameOf(const fs::path& file, StoreKind kind) {
+    std::error_code failed;
+    if (kind == StoreKind::Beside) return file.filename();
+    const fs::path whole = fs::weakly_canonical(file, failed);
+    return failed ? fs::absolute(file, failed) : whole;
+}
+
+// JSON holds UTF-8 alone, names of files any bytes.
+std::string textOf(const fs::path& path) {
+    return ordered_json(path.string()).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+StepStore::StepStore(fs::path folder, StoreKind kind, std::uint64_t budget,
+                     std::chrono::milliseconds settled)
+    : folder_(std::move(folder)), kind_(kind), budget_(budget), settled_(settled) {}
+
+std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin) const {
+    OriginStamp stamp;
+    std::string files;
+    for (const fs::path& file : origin.files) {
+        struct stat status {};
+        if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+        files += fmt::format("{}{{\"file\": {}, \"bytes\": {}, \"modified\": {}",
+                             files.empty() ? "" : ", ", textOf(nameOf(file, kind_)), status.st_size,
+                             nanoseconds(status.st_mtim));
+        std::int64_t last = nanoseconds(status.st_mtim);
+        if (kind_ == StoreKind::Cache) {
+            files += fmt::format(", \"changed\": {}, \"device\": {}, \"inode\": {}",
+                                 nanoseconds(status.st_ctim), status.st_dev, status.st_ino);
+            last = std::max(last, nanoseconds(status.st_ctim));
+        }
+        files += "}";
+        stamp.changed = std::max(stamp.changed, timeOf(last));
+    }
+    stamp.text = fmt::format("{{\"variable\": {}, \"step\": {}, \"files\": [{}]}}",
+                             textOf(origin.variable), origin.step, files);
+    return stamp;
+}
+
+fs::path StepStore::pathOf(const StepOrigin& origin) const {
+    // Each part with its length, so that no two origins read the same.
+    std::string whole;
+    for (const fs::path& file : origin.files) {
+        const std::string name = nameOf(file, kind_).string();
+        whole += fmt::format("{}:{};", name.size(), name);
+    }
+    whole += fmt::format("{}:{};{}", origin.variable.size(), origin.variable, origin.step);
+    const XXH128_hash_t hash = XXH3_128bits(whole.data(), whole.size());
+    return folder_ / fmt::format("{:016x}{:016x}{}", hash.high64, hash.low64, kSuffix);
+}
+
+std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin) {
+    const fs::path path = pathOf(origin);
+    const auto stamp = stampOf(origin);
+    if (!stamp) return nullptr;
+    try {
+        auto bytes = timeseries::openBytes(path);
+        if (!bytes) return nullptr;
+        auto file = std::make_shared<const StepFile>(std::move(bytes));
+        if (file->about() != stamp->text) return nullptr;
+        // When it was used last; a folder that cannot be written to keeps what it has.
+        (void)::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+        return file;
+    } catch (const DamagedStepError& error) {
+        discard(path, error.what());
+    } catch (const StepFileError& error) {
+        note(error.what());
+    }
+    return nullptr;
+}
+
+bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
+                      Clock::time_point opened, const std::function<bool(double)>& goOn) {
+    const auto isStill = [&] {
+        const auto now = stampOf(origin);
+        return now && now->text == stamp.text;
+    };
+    if (stamp.changed + settled_ > std::min(opened, Clock::now()) || !isStill()) return false;
+    std::error_code failed;
+    fs::create_directories(folder_, failed);
+    if (failed) throw StepFileError(fmt::format("{}: {}", folder_.string(), failed.message()));
+    removeUnfinished(folder_);
+    WholeFile file(pathOf(origin));
+    if (!writeStep(step, stamp.text, file, goOn) || !isStill()) return false;
+    file.finish();
+    makeRoom();
+    return true;
+}
+
+std::vector<StepStore::Entry> StepStore::list() const {
+    std::vector<Entry> entries;
+    std::error_code failed;
+    for (const auto& item : fs::directory_iterator(folder_, failed)) {
+        if (item.path().extension() != kSuffix) continue;
+        struct stat status {};
+        if (::stat(item.path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+        entries.push_back({item.path(), static_cast<std::uint64_t>(status.st_size),
+                           timeOf(nanoseconds(status.st_mtim))});
+    }
+    std::ranges::sort(entries, std::greater(), &Entry::used);
+    return entries;
+}
+
+std::string StepStore::aboutOf(const fs::path& path) {
+    try {
+        auto bytes = timeseries::openBytes(path);
+        return bytes ? StepFile(std::move(bytes)).about() : "";
+    } catch (const StepFileError&) {
+        return "";
+    }
+}
+
+std::optional<Clock::time_point> StepStore::changedAt(const fs::path& file) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+    return timeOf(std::max(nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)));
+}
+
+std::uint64_t StepStore::clear() {
+    removeUnfinished(folder_);
+    std::uint64_t bytes = 0;
+    std::error_code failed;
+    for (const Entry& entry : list())
+        if (fs::remove(entry.path, failed)) bytes += entry.bytes;
+    return bytes;
+}
+
+// Those used last stay.
+void StepStore::makeRoom() {
+    if (budget_ == kNoBudget) return;
+    std::uint64_t bytes = 0;
+    std::error_code failed;
+    for (const Entry& entry : list()) {
+        bytes += entry.bytes;
+        if (bytes > budget_) fs::remove(entry.path, failed);
+    }
+}
+
+void StepStore::discard(const fs::path& path, const std::string& why) {
+    std::error_code failed;
+    fs::remove(path, failed);
+    note(why + "; it was removed, and the step is read from its own file");
+}
+
+void StepStore::giveUp(const std::string& why) {
+    note(why + ": sorted steps are not kept on disk");
+}
+
+void StepStore::note(std::string text) {
+    const std::lock_guard lock(mutex_);
+    if (std::ranges::find(told_, text) != told_.end()) return;
+    told_.push_back(text);
+    notes_.push_back(std::move(text));
+}
+
+std::vector<std::string> StepStore::takeNotes() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(notes_, {});
+}
+
+std::uint64_t defaultCacheBudget(const fs::path& folder) {
+    constexpr std::uint64_t kMost = std::uint64_t{64} << 30;
+    std::error_code failed;
+    fs::path there = folder;
+    while (!fs::exists(there, failed) && there.has_relative_path()) there = there.parent_path();
+    const fs::space_info space = fs::space(there, failed);
+    return failed ? kMost : std::min<std::uint64_t>(kMost, space.capacity / 10);
+}
+
+}  // namespace timeseries

@@ -1,0 +1,106 @@
+// A folder of sorted steps on disk, each under a name made of where it came from, so that a step
+// sorted once is opened, not sorted again.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "timeseries/index/sorted_step.h"
+#include "timeseries/index/step_file.h"
+
+namespace timeseries {
+
+// What a step was made of.
+struct StepOrigin {
+    std::vector<std::filesystem::path> files;  // all that its values come from, at least one
+    std::string variable;
+    std::size_t step = 0;
+};
+
+// An origin as it was at a moment: a text that is another one when a file of it has changed.
+struct OriginStamp {
+    std::string text;
+    // When the last change was, by the clock of the files.
+    std::chrono::system_clock::time_point changed;
+};
+
+// Whose the steps are.
+enum class StoreKind {
+    Cache,  // this machine's: files by their whole paths, and by all that the system knows of them
+    Beside  // lies beside the data and moves with it: names, sizes and times of modification
+};
+
+// Every member is safe to call from any thread, and several processes may use one folder. What
+// cannot be read is as if it were not there; nothing is ever locked for readers.
+class StepStore {
+ public:
+    static constexpr std::uint64_t kNoBudget = ~std::uint64_t{0};
+    static constexpr std::chrono::milliseconds kSettled{2000};
+    // A file of the origin that changed less than `settled` before it was opened may have changed
+    // again and have the same time: such a step is not written.
+    StepStore(std::filesystem::path folder, StoreKind kind, std::uint64_t budget = kNoBudget,
+              std::chrono::milliseconds settled = kSettled);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    // None when a file of it is not there.
+    std::optional<OriginStamp> stampOf(const StepOrigin& origin) const;
+    // Null where there is none, or it was made of what the origin no longer is; what is damaged is
+    // removed and told.
+    std::shared_ptr<const StepFile> find(const StepOrigin& origin);
+    // The file that a step is, or would be, in.
+    std::filesystem::path pathOf(const StepOrigin& origin) const;
+
+    // Writes the step, whole or not at all, over one that is there. `stamp`: of the origin before
+    // the step was read; `opened`: when its files were opened. False, and nothing is written, when
+    // the stamp is another now, or was not settled then, or goOn() says no. Throws StepFileError,
+    // whose sentence says what is not possible.
+    bool write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
+               std::chrono::system_clock::time_point opened,
+               const std::function<bool(double)>& goOn = {});
+    // Steps cannot be written there: why, is told.
+    void giveUp(const std::string& why);
+
+    struct Entry {
+        std::filesystem::path path;
+        std::uint64_t bytes = 0;
+        std::chrono::system_clock::time_point used;
+    };
+    // The last used first.
+    std::vector<Entry> list() const;
+    // What an entry was made of, OriginStamp::text; "" where it cannot be read.
+    static std::string aboutOf(const std::filesystem::path& path);
+    // When a file was changed last; none where it is not there.
+    static std::optional<std::chrono::system_clock::time_point> changedAt(
+        const std::filesystem::path& file);
+    // Removes all, and what interrupted writers have left. Returns the bytes that were taken.
+    std::uint64_t clear();
+
+    // A step turned out to be damaged: it is removed, and told.
+    void discard(const std::filesystem::path& path, const std::string& why);
+    // What a user should know, each once, since the last call.
+    std::vector<std::string> takeNotes();
+
+ private:
+    void makeRoom();
+    void removeLeftovers() const;
+    void note(std::string text);
+
+    const std::filesystem::path folder_;
+    const StoreKind kind_;
+    const std::uint64_t budget_;
+    const std::chrono::milliseconds settled_;
+    std::mutex mutex_;
+    std::vector<std::string> notes_, told_;  // guarded by mutex_
+};
+
+// A tenth of the disk that the folder is, or would be, on, at most 64 GiB.
+std::uint64_t defaultCacheBudget(const std::filesystem::path& folder);
+
+}  // namespace timeseries

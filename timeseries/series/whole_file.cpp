@@ -1,0 +1,74 @@
+#include "timeseries/series/whole_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace timeseries {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Two of one process have two names.
+std::atomic<unsigned> written{0};
+
+}  // namespace
+
+WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
+    unfinished_ = path_;
+    unfinished_ += fmt::format(".{}-{}{}", ::getpid(), written++, kSuffix);
+    file_ = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
+    if (file_ < 0) fail(errno);
+    // Where the file system knows no locks, leftovers are never taken for such.
+    (void)::flock(file_, LOCK_EX | LOCK_NB);
+}
+
+WholeFile::~WholeFile() {
+    if (file_ < 0) return;
+    ::unlink(unfinished_.c_str());
+    ::close(file_);
+}
+
+void WholeFile::fail(int code) const {
+    throw StepFileError(fmt::format("{}: {}", path_.string(), std::strerror(code)));
+}
+
+void WholeFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t put = ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) fail(errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(put));
+        at += static_cast<std::uint64_t>(put);
+    }
+}
+
+void WholeFile::finish() {
+    if (::fsync(file_) != 0) fail(errno);
+    if (::rename(unfinished_.c_str(), path_.c_str()) != 0) fail(errno);
+    ::close(std::exchange(file_, -1));
+    // The name, too, is to outlive a loss of power; where it does not, the file is made again.
+    const int folder = ::open(path_.parent_path().c_str(), O_DIRECTORY | O_RDONLY | O_CLOEXEC);
+    if (folder < 0) return;
+    (void)::fsync(folder);
+    ::close(folder);
+}
+
+void removeUnfinished(const fs::path& folder) {
+    std::error_code gone;
+    for (const auto& entry : fs::directory_iterator(folder, gone)) {
+        if (!entry.path().string().ends_with(WholeFile::kSuffix)) continue;
+        const int file = ::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+        if (file < 0) continue;
+        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
+        ::close(file);
+    }
+}
+
+}  // namespace timeseries

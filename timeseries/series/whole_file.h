@@ -1,0 +1,36 @@
+// A file that appears whole under its name, or not at all.
+#pragma once
+
+#include <filesystem>
+
+#include "timeseries/index/byte_source.h"
+
+namespace timeseries {
+
+// Written under another name beside it, which is locked (flock) as long as this lives; what an
+// interrupted program leaves is told from what is being written by that. Members throw
+// StepFileError; destruction removes what was not finished.
+class WholeFile final : public ByteSink {
+ public:
+    static constexpr const char* kSuffix = ".unfinished";
+
+    explicit WholeFile(std::filesystem::path path);
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+    ~WholeFile() override;
+
+    void write(std::uint64_t at, std::span<const std::byte> bytes) override;
+    // On the disk, and there under its name, in that order.
+    void finish();
+
+ private:
+    [[noreturn]] void fail(int code) const;
+
+    std::filesystem::path path_, unfinished_;
+    int file_ = -1;
+};
+
+// Removes what programs that were interrupted have left in the folder.
+void removeUnfinished(const std::filesystem::path& folder);
+
+}  // namespace timeseries
