@@ -8,7 +8,8 @@
 namespace timeseries {
 namespace {
 
-constexpr int kBits = 5;       // of a brick, along each axis
+constexpr int kBits = 5;  // of a brick, along each axis
+constexpr int kLeastBrickBits = 10;
 constexpr int kLowerBits = 8;  // of a place: tables that stay in the first-level cache
 
 }  // namespace
@@ -24,8 +25,7 @@ BrickOrder::BrickOrder(const std::array<std::uint32_t, 3>& size) : size_(size) {
     }
     const std::uint64_t all = bricks[0] * bricks[1] * bricks[2];
     codes_ = all << brickBits_;
-    plain_ = codes_ > std::uint64_t{1} << 32 ||
-             std::ranges::count_if(size, [](std::uint32_t n) { return n > 1; }) < 2;
+    plain_ = codes_ > std::uint64_t{1} << 32 || brickBits_ < kLeastBrickBits;
     if (plain_) {
         codes_ = points_;
         return;

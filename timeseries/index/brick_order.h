@@ -10,8 +10,9 @@
 namespace timeseries {
 
 // A bijection between grid indices (x fastest) and some of the codes below codes(). Where axes have
-// fewer points than a brick, bricks are smaller. Where the codes would need more than 32 bits, and
-// where all points lie along one axis, a code is the grid index.
+// fewer points than a brick, bricks are smaller. Where they would have fewer than 1024 points (all
+// lie along one axis, say), and where the codes would need more than 32 bits, a code is the grid
+// index.
 class BrickOrder {
  public:
     // REQUIRES: at most 2^32 points, at least one.
