@@ -7,6 +7,7 @@
 
 #include "app/command/commands.h"
 #include "app/files/dataset.h"
+#include "app/files/step_cache.h"
 #include "app/json_text.h"
 #include "app/say.h"
 
@@ -131,6 +132,42 @@ std::string unevenText(const timeseries::TimeAxis& time) {
     return even ? "" : ", uneven";
 }
 
+// Steps of a variable that are sorted on disk.
+struct Indexed {
+    std::size_t steps = 0;
+    std::uint64_t bytes = 0;
+};
+
+Indexed indexedOf(timeseries::Reader& reader, std::size_t variable,
+                  const timeseries::StepStores& stores) {
+    Indexed indexed;
+    const std::size_t steps = reader.variables()[variable].time->points.size();
+    for (std::size_t step = 0; step < steps; ++step) {
+        const auto origin = timeseries::originOf(reader, variable, step);
+        if (!origin) break;
+        for (const auto& store : stores.read) {
+            const auto file = store->look(*origin);
+            if (!file) continue;
+            ++indexed.steps;
+            indexed.bytes += file->bytes();
+            break;
+        }
+    }
+    return indexed;
+}
+
+// Where nothing is kept, no step is looked for.
+timeseries::StepStores filled(timeseries::StepStores stores) {
+    std::erase_if(stores.read, [](const auto& store) { return store->list().empty(); });
+    return stores;
+}
+
+void print(const Indexed& indexed, const Variable& v) {
+    if (indexed.steps > 0)
+        say("  index    {} of {} steps sorted on disk, {:.1f} MB\n", indexed.steps,
+            v.time->points.size(), static_cast<double>(indexed.bytes) * 1e-6);
+}
+
 void print(const Variable& v, bool shownFirst) {
     say("\n{}{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
         v.units.empty() ? "" : " (" + v.units + ")", shownFirst ? "  * shown first" : "");
@@ -171,6 +208,7 @@ int info(const InfoOptions& options) {
     const auto [reader, series] = openSeries(options.files);
     const auto variables = reader->variables();
     const std::size_t shownFirst = defaultVariable(variables);
+    const timeseries::StepStores stores = filled(storesFor(reader->files()));
     std::vector<std::string> files;
     for (const auto& file : reader->files()) files.push_back(file.string());
     if (options.json) {
@@ -179,7 +217,11 @@ int info(const InfoOptions& options) {
         if (series.here) out["named"] = files[*series.here];
         if (!series.notes.empty()) out["notes"] = series.notes;
         out["shownFirst"] = variables[shownFirst].name;
-        for (const Variable& v : variables) out["variables"].push_back(variableJson(v));
+        for (std::size_t i = 0; i < variables.size(); ++i) {
+            out["variables"].push_back(variableJson(variables[i]));
+            const Indexed indexed = indexedOf(*reader, i, stores);
+            out["variables"].back()["index"] = {{"steps", indexed.steps}, {"bytes", indexed.bytes}};
+        }
         say("{}\n", jsonText(out, 2));
         return 0;
     }
@@ -188,8 +230,10 @@ int info(const InfoOptions& options) {
     if (series.here) say("named: {}\n", fs::path(files[*series.here]).filename().string());
     for (const std::string& note : series.notes) say("note: {}\n", note);
     say("{}\n", reader->format());
-    for (std::size_t i = 0; i < variables.size(); ++i)
+    for (std::size_t i = 0; i < variables.size(); ++i) {
         print(variables[i], variables.size() > 1 && i == shownFirst);
+        print(indexedOf(*reader, i, stores), variables[i]);
+    }
     return 0;
 }
 

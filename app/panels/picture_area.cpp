@@ -152,6 +152,7 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
     std::string last =
         fmt::format("{:.1f} of {:.0f} ms  ·  {} memory  ·  {} GPU", milliseconds(p.frame),
                     milliseconds(p.budget), bytesText(series->bytes()), bytesText(r.gpuBytes));
+    if (r.step < series->stepCount() && series->isStored(r.step)) last += "  ·  from the index";
     if (const std::string limit = limitText(p); !limit.empty()) last += "  ·  " + limit;
     lines.push_back(last);
     return lines;

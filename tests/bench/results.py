@@ -6,7 +6,7 @@
     tests/bench/results.py --page       writes the page from what was last measured
 
 What a part measured stays in build/results, with its commit, time and load. On a quiet machine only:
-what else runs is in the figures. The parts: index stages draw cells vtk window headset.
+what else runs is in the figures. The parts: index stages draw cells meshes store vtk window headset.
 """
 import datetime
 import json
@@ -28,6 +28,7 @@ FILTERS = {
     "cells": ["--benchmark_filter=^cell"],
     "meshes": ["--benchmark_filter=^mesh"],
     "vtk": ["--benchmark_filter=^vtk"],
+    "store": ["--benchmark_filter=^store"],
 }
 PARTS = [*FILTERS, "window", "headset"]
 
@@ -287,6 +288,31 @@ def meshes_page(part):
             + table(["splats", "diameter", "", "cells", "upright", "mesh", "ratio", "of processor time"], rows) + opening_page(part))
 
 
+def store_page(part):
+    rows = []
+    for n, thousandths in [(256, 10), (512, 1), (512, 10), (512, 100)]:
+        f = part(f"storeRange/points:{n}/thousandths:{thousandths}")
+        rows.append([points(n), f"{thousandths / 10:g} %", f"{f['read'] / 1e6:.2f} MB", ms(f, "first_ms"), time(1e-3 * f["cold_ms"]),
+                     ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
+        if (n, thousandths) == (512, 10):
+            target("a range of 1 % of 512³ on disk, MB read", f["read"] / 1e6, 2.5)
+            target("the same, opened, selected and decoded, warm", 1e-3 * f["first_ms"], 0.01, shown=time)
+            target("the same, cold", 1e-3 * f["cold_ms"], 0.02, shown=time)
+            target("the same: read and sorted / from disk", f["second/first"], 20, at_least=True)
+        if thousandths == 10:
+            target(f"a step of {points(n)} floats on disk, bytes of ids a point", f["ids"], 1.2 if n == 256 else 1.6)
+            target(f"a step of {points(n)} floats on disk, bytes a point in all", f["file"], 3.45)
+    f = part("storeWrite/points:256")
+    rate = lambda ms: f["points"] / ms / 1e3
+    target("read, sorted and written on one thread, million points/s", rate(f["second_ms"]), 22, at_least=True)
+    target("read, sorted and written, two threads / one", f["second/first"], 1.8, at_least=True)
+    return ("The field of the index, in floats; ranges about the median, from nothing: the file and its index opened, the range selected, its points read.\n"
+            "Cold: without the index in the system's cache (the file, which the other side reads, stays there). By turns with reading the file and sorting.\n\n"
+            + table(["points", "range", "read", "from disk, warm", "cold", "read and sorted", "ratio", "of processor time"], rows)
+            + f"\nRead, sorted and written, 256³: {ms(f, 'second_ms')} on one thread, {ms(f, 'first_ms')} on both, {digits(rate(f['second_ms']))} and "
+            f"{digits(rate(f['first_ms']))} million points/s.\n")
+
+
 def opening_page(part):
     rows = []
     for side, bent in [(100, 0), (100, 1), (170, 0), (170, 1)]:
@@ -337,7 +363,7 @@ def headset_page(part):
 
 def page():
     sections = [("index", "The index", index_page), ("stages", "From a file to a picture", stages_page),
-                ("draw", "Drawing", draw_page), ("cells", "Cells", cells_page), ("meshes", "Curvilinear grids", meshes_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
+                ("draw", "Drawing", draw_page), ("cells", "Cells", cells_page), ("store", "Sorted steps on disk", store_page), ("meshes", "Curvilinear grids", meshes_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
                 ("headset", "In a headset", headset_page)]
     body, driver = "", ""
     for name, title, write in sections:

@@ -3,7 +3,7 @@
 file(READ ${README} text)
 string(REPLACE ";" "\;" text "${text}")
 string(REGEX REPLACE "\\\\\n *" "" text "${text}")  # continued lines
-string(REGEX MATCHALL "\n    \\./run (info|count|render|measure) [^\n]*" commands "${text}")
+string(REGEX MATCHALL "\n    \\./run (info|count|render|measure|index|cache) [^\n]*" commands "${text}")
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/out)
 set(count 0)

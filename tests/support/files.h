@@ -55,6 +55,7 @@ inline std::string readBytes(const std::filesystem::path& file) {
 }
 
 inline void writeBytes(const std::filesystem::path& file, const std::string& bytes) {
+    std::filesystem::remove(file);  // some file systems wait for the disk when one is written over
     std::ofstream(file, std::ios::binary) << bytes;
 }
 

@@ -202,19 +202,6 @@ std::string placeInFrame(const ArrayHeader& header, const ArrayRoles& roles,
     return "";
 }
 
-ArrayLayout layoutOf(const ArrayHeader& header, const ArrayRoles& roles) {
-    ArrayLayout layout;
-    for (std::size_t i = 0; i < header.axes.size(); ++i) {
-        if (i == roles.time)
-            layout.steps = header.axes[i].size;
-        else
-            (roles.time && i > *roles.time ? layout.outer : layout.inner) *= header.axes[i].size;
-    }
-    for (std::size_t i = 0; i < roles.space.size(); ++i)
-        layout.size[i] = header.axes[roles.space[i]].size;
-    return layout;
-}
-
 void checkSizes(const ArrayHeader& header, const ArrayRoles& roles, const ArrayLayout& layout) {
     for (const std::size_t i : roles.space)
         if (header.axes[i].size > kMaxAxis)
@@ -279,12 +266,25 @@ ArrayRoles rolesOf(const ArrayHeader& header, std::vector<std::string>& notes) {
     return roles;
 }
 
-ArrayPlacing placingOf(const ArrayHeader& header, const ArrayRoles& roles,
+ArrayLayout layoutOf(const ArrayHeader& header, const ArrayRoles& roles) {
+    ArrayLayout layout;
+    for (std::size_t i = 0; i < header.axes.size(); ++i) {
+        if (i == roles.time)
+            layout.steps = header.axes[i].size;
+        else
+            (roles.time && i > *roles.time ? layout.outer : layout.inner) *= header.axes[i].size;
+    }
+    for (std::size_t i = 0; i < roles.space.size(); ++i)
+        layout.size[i] = header.axes[roles.space[i]].size;
+    checkSizes(header, roles, layout);
+    return layout;
+}
+
+ArrayPlacing placingOf(const ArrayHeader& header, const ArrayRoles& roles, ArrayLayout layout,
                        std::vector<std::string>& notes) {
     static constexpr std::array kLetters{"x", "y", "z"};
     ArrayPlacing placing;
-    placing.layout = layoutOf(header, roles);
-    checkSizes(header, roles, placing.layout);
+    placing.layout = layout;
 
     std::array<int, 3> to{0, 1, 2};  // which axis of the grid each becomes
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -29,6 +29,9 @@ struct ArrayLayout {
     bool turned = false;                           // the strides differ from the file's order
 };
 
+// But for the strides. Throws FileError when there are more points or steps than can be read.
+ArrayLayout layoutOf(const ArrayHeader& header, const ArrayRoles& roles);
+
 struct ArrayPlacing {
     std::array<Axis, 3> axes;
     Frame frame;
@@ -39,7 +42,7 @@ struct ArrayPlacing {
 // coordinates of space give axes in the order of these; others keep the file's order, and their
 // coordinates are lengths from the first sample.
 // Throws FileError.
-ArrayPlacing placingOf(const ArrayHeader& header, const ArrayRoles& roles,
+ArrayPlacing placingOf(const ArrayHeader& header, const ArrayRoles& roles, ArrayLayout layout,
                        std::vector<std::string>& notes);
 
 }  // namespace timeseries

@@ -33,11 +33,14 @@ std::string nameOf(const std::filesystem::path& path) {
 class ArrayReader final : public Reader {
  public:
     explicit ArrayReader(ArrayHeader header) : header_(std::move(header)) {
-        std::vector<std::string> notes = header_.notes;
+        std::vector<std::string> notes = header_.notes, notesOfPieces;
         const ArrayRoles roles = rolesOf(header_, notes);
-        ArrayPlacing placing = placingOf(header_, roles, notes);
+        const ArrayLayout layout = layoutOf(header_, roles);
+        // Before axes are made of a size that no file can hold.
+        ArrayPieces pieces = piecesOf(header_, notesOfPieces);
+        ArrayPlacing placing = placingOf(header_, roles, layout, notes);
         layout_ = placing.layout;
-        ArrayPieces pieces = piecesOf(header_, notes);
+        notes.insert(notes.end(), notesOfPieces.begin(), notesOfPieces.end());
         Variable variable;
         variable.nameless = header_.name.empty();
         variable.name = variable.nameless ? nameOf(header_.path) : header_.name;

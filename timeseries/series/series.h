@@ -46,6 +46,10 @@ class Series {
 
     // REQUIRES in all that follows: every step < stepCount().
     SlotState state(std::size_t step) const { return slots_[step].state; }
+    // Whether it is loaded from a file of sorted points.
+    bool isStored(std::size_t step) const {
+        return slots_[step].sorted && slots_[step].sorted->file();
+    }
     const std::string& why(std::size_t step) const { return slots_[step].why; }  // "" unless failed
     const StepSummary* summary(std::size_t step) const {
         return slots_[step].summary.get();

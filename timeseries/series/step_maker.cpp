@@ -29,10 +29,8 @@ StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, Range
       kept_(std::move(kept)),
       stores_(std::move(stores)) {}
 
-std::optional<StepOrigin> StepMaker::originOf(std::size_t step) {
-    if ((stores_.read.empty() && !stores_.write) || kept_ != RangeSet::everything())
-        return std::nullopt;
-    StepOrigin origin{reader_->sources(variable_, step), variable().name, step};
+std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step) {
+    StepOrigin origin{reader.sources(variable, step), reader.variables()[variable].name, step};
     if (origin.files.empty()) return std::nullopt;
     return origin;
 }
@@ -57,7 +55,8 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin) {
 }
 
 std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
-    const auto origin = originOf(step);
+    const bool canBe = (!stores_.read.empty() || stores_.write) && kept_ == RangeSet::everything();
+    const auto origin = canBe ? originOf(*reader_, variable_, step) : std::nullopt;
     if (origin)
         if (auto found = find(*origin)) return found;
     std::optional<OriginStamp> stamp;

@@ -22,6 +22,9 @@ struct StepStores {
     std::uint64_t worthWriting = 8'000'000;
 };
 
+// None where the reader does not know it. Throws FileError.
+std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step);
+
 // One thread at a time.
 class StepMaker {
  public:
@@ -49,7 +52,6 @@ class StepMaker {
         OriginStamp stamp;
         std::weak_ptr<const SortedStep> step;
     };
-    std::optional<StepOrigin> originOf(std::size_t step);
     std::shared_ptr<const SortedStep> find(const StepOrigin& origin);
 
     const std::unique_ptr<Reader> reader_;

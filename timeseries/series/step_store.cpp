@@ -83,6 +83,13 @@ fs::path StepStore::pathOf(const StepOrigin& origin) const {
 }
 
 std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin) {
+    auto file = look(origin);
+    // When it was used last; a folder that cannot be written to keeps what it has.
+    if (file) (void)::utimensat(AT_FDCWD, file->name().c_str(), nullptr, 0);
+    return file;
+}
+
+std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin) {
     const fs::path path = pathOf(origin);
     const auto stamp = stampOf(origin);
     if (!stamp) return nullptr;
@@ -90,10 +97,7 @@ std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin) {
         auto bytes = timeseries::openBytes(path);
         if (!bytes) return nullptr;
         auto file = std::make_shared<const StepFile>(std::move(bytes));
-        if (file->about() != stamp->text) return nullptr;
-        // When it was used last; a folder that cannot be written to keeps what it has.
-        (void)::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
-        return file;
+        return file->about() == stamp->text ? file : nullptr;
     } catch (const DamagedStepError& error) {
         discard(path, error.what());
     } catch (const StepFileError& error) {

@@ -54,6 +54,8 @@ class StepStore {
     // Null where there is none, or it was made of what the origin no longer is; what is damaged is
     // removed and told.
     std::shared_ptr<const StepFile> find(const StepOrigin& origin);
+    // The same, which does not count as use.
+    std::shared_ptr<const StepFile> look(const StepOrigin& origin);
     // The file that a step is, or would be, in.
     std::filesystem::path pathOf(const StepOrigin& origin) const;
 

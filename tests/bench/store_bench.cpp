@@ -1,0 +1,151 @@
+// Sorted steps on disk, beside reading and sorting the file.
+#include <benchmark/benchmark.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/bench/alternate.h"
+#include "tests/bench/turbulence.h"
+#include "timeseries/readers/reader.h"
+#include "timeseries/series/step_maker.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using timeseries::RangeSet;
+using timeseries::SortedStep;
+using timeseries::StepMaker;
+using timeseries::StepStore;
+
+// A file of n^3 floats and a store for it, removed when another is asked for.
+struct World {
+    explicit World(std::size_t n)
+        : folder(fs::temp_directory_path() / ("isochron-store-" + std::to_string(::getpid()))),
+          file(folder / "field.nrrd"),
+          points(n * n * n) {
+        fs::create_directories(folder);
+        const timeseries::Field field = bench::turbulence<float>(n);
+        const auto& values = std::get<std::vector<float>>(field.values);
+        const std::string size = std::to_string(n);
+        std::ofstream out(file, std::ios::binary);
+        out << "NRRD0004\ntype: float\ndimension: 3\nsizes: " << size << ' ' << size << ' ' << size
+            << "\nendian: little\nencoding: raw\n\n";
+        out.write(reinterpret_cast<const char*>(values.data()),
+                  static_cast<std::streamsize>(values.size() * sizeof(float)));
+    }
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+    ~World() {
+        std::error_code gone;
+        fs::remove_all(folder, gone);
+    }
+
+    StepMaker maker(bool stored) const {
+        auto reader = timeseries::openReader(std::span(&file, 1));
+        timeseries::StepStores stores;
+        if (stored) stores = {{store}, store, 1};
+        return {std::move(reader), 0, RangeSet::everything(), stores};
+    }
+    std::shared_ptr<const timeseries::StepFile> index() {
+        if (!written) {
+            maker(true).keep(0);
+            written = true;
+        }
+        return store->look({{file}, "field", 0});
+    }
+
+    fs::path folder, file;
+    std::uint64_t points;
+    bool written = false;
+    std::shared_ptr<StepStore> store =
+        std::make_shared<StepStore>(folder / "steps", timeseries::StoreKind::Cache,
+                                    StepStore::kNoBudget, std::chrono::milliseconds(0));
+};
+
+World& world(std::size_t n) {
+    static std::unique_ptr<World> only;
+    static std::size_t of = 0;
+    if (of != n) {
+        only.reset();
+        only = std::make_unique<World>(n);
+        of = n;
+    }
+    return *only;
+}
+
+// A range of this share of the points about the median.
+RangeSet rangeOf(const SortedStep& step, double share) {
+    const auto at = [&](double fraction) {
+        return step.value(
+            static_cast<std::uint64_t>(fraction * static_cast<double>(step.size() - 1)));
+    };
+    return RangeSet(std::vector<timeseries::Range>{{{at(.5 - share / 2)}, {at(.5 + share / 2)}}});
+}
+
+void show(StepMaker maker, const RangeSet& range) {
+    const auto step = maker.make(0);
+    const std::vector<timeseries::Run> runs = step->select(range);
+    benchmark::DoNotOptimize(step->columns(runs).gridIndex.data());
+}
+
+// The points of a range, from nothing: opened and read by block; read and sorted.
+void storeRange(benchmark::State& state) {
+    World& w = world(static_cast<std::size_t>(state.range(0)));
+    const auto index = w.index();
+    const RangeSet range =
+        rangeOf(*w.maker(true).make(0), static_cast<double>(state.range(1)) * 1e-3);
+    std::uint64_t bytes = 0, ids = 0;
+    const auto selected = w.maker(true).make(0)->select(range);
+    for (const timeseries::StepBlock& block : index->blocks()) {
+        ids += block.idsBytes;
+        const auto first =
+            static_cast<std::uint64_t>(&block - index->blocks().data()) * timeseries::kStepBlock;
+        for (const timeseries::Run& run : selected)
+            if (first < run.first + run.count && run.first < first + block.count)
+                bytes += block.idsBytes + block.keysBytes;
+    }
+    bench::alternate(
+        state, [&] { show(w.maker(true), range); }, [&] { show(w.maker(false), range); }, 10);
+    // With the index out of the system's cache.
+    bench::Cost cold;
+    for (int i = 0; i < 7; ++i) {
+        const int file = ::open(index->name().c_str(), O_RDONLY);
+        ::fdatasync(file);
+        ::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
+        ::close(file);
+        bench::measure(cold, 1, [&] { show(w.maker(true), range); });
+    }
+    state.counters["cold_ms"] = bench::median(cold.ms);
+    state.counters["read"] = static_cast<double>(bytes);
+    state.counters["ids"] = static_cast<double>(ids) / static_cast<double>(w.points);
+    state.counters["file"] = static_cast<double>(index->bytes()) / static_cast<double>(w.points);
+}
+BENCHMARK(storeRange)
+    ->ArgNames({"points", "thousandths"})
+    ->Args({256, 10})
+    ->Args({512, 1})
+    ->Args({512, 10})
+    ->Args({512, 100})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(3);
+
+// A file read, sorted and written, on one thread and on all.
+void storeWrite(benchmark::State& state) {
+    World& w = world(static_cast<std::size_t>(state.range(0)));
+    const auto keep = [&](unsigned threads) {
+        timeseries::threadLimit = threads;
+        w.store->clear();
+        benchmark::DoNotOptimize(w.maker(true).keep(0));
+        timeseries::threadLimit = 0;
+    };
+    bench::alternate(
+        state, [&] { keep(0); }, [&] { keep(1); });
+    w.written = true;
+    state.counters["points"] = static_cast<double>(w.points);
+}
+BENCHMARK(storeWrite)->ArgNames({"points"})->Arg(256)->Unit(benchmark::kMillisecond)->Iterations(3);
+
+}  // namespace
