@@ -49,7 +49,7 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         if (!wanted) return {};
     }
     const auto cells = step.cellsIfMade();
-    const timeseries::Field field = cells ? timeseries::Field{} : fieldOf(step);
+    const timeseries::Field field = cells ? timeseries::Field{} : step.field();
     const auto errors =
         sampledErrors(first, cells ? cells->field() : field, view, depths, {.threads = threads});
     DepthErrors told;

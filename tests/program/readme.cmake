@@ -1,4 +1,4 @@
-# Runs every `./run info|count|render|measure` of the README with the program itself, in an empty folder.
+# Runs every `./run` of the README that opens no window with the program itself, in an empty folder.
 #   cmake -DPROGRAM=... -DREADME=... -DSOURCE=... -DWORK=... -P readme.cmake
 file(READ ${README} text)
 string(REPLACE ";" "\;" text "${text}")
@@ -6,6 +6,7 @@ string(REGEX REPLACE "\\\\\n *" "" text "${text}")  # continued lines
 string(REGEX MATCHALL "\n    \\./run (info|count|render|measure|index|cache) [^\n]*" commands "${text}")
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/out)
+set(ENV{XDG_CACHE_HOME} ${WORK}/cache)  # the user's own stays as it is
 set(count 0)
 foreach(command IN LISTS commands)
   if(command MATCHES "your_file")

@@ -153,7 +153,7 @@ TEST(CellIndex, OfNothingHoldsNothing) {
 TEST(CellIndex, TheFieldOfAStepIsTheFieldItWasBuiltFrom) {
     for (const bool gaps : {false, true}) {
         const Field whole = waves<std::int16_t>({9, 8, 7}, 8, gaps);
-        const Field back = fieldOf(SortedStep::build(whole));
+        const Field back = SortedStep::build(whole).field();
         ASSERT_EQ(back.type(), whole.type());
         EXPECT_EQ(back.missing, whole.missing);
         const auto &was = std::get<std::vector<std::int16_t>>(whole.values),

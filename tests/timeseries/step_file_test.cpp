@@ -26,9 +26,10 @@ SortedStep never(const std::string& why) {
     throw std::runtime_error(why);
 }
 
-SortedStep storedOf(const SortedStep& step, SortedStep::Again again = never) {
+SortedStep storedOf(const SortedStep& step,
+                    std::function<SortedStep(const std::string&)> again = never) {
     return SortedStep::stored(tests::opened(tests::written(step)), step.sharedGrid(), false,
-                              std::move(again));
+                              {std::move(again)});
 }
 
 std::shared_ptr<const Grid> gridOf(std::array<std::size_t, 3> size) {
@@ -200,7 +201,7 @@ TEST(StepFile, IsReadByManyAtOnce) {
 TEST(StepFile, OfAnotherGridIsRefused) {
     const SortedStep step = smooth({4, 5, 6});
     EXPECT_THROW((void)SortedStep::stored(tests::opened(tests::written(step)), gridOf({5, 4, 6}),
-                                          false, never),
+                                          false, {never}),
                  StepFileError);
 }
 
@@ -255,7 +256,7 @@ TEST(StepFile, WithRightChecksumsAndWrongContentsIsRefusedOrAList) {
         try {
             const SortedStep stored = SortedStep::stored(
                 tests::opened(std::move(bytes)), step.sharedGrid(), false,
-                [](const std::string& why) -> SortedStep { throw StepFileError(why); });
+                {[](const std::string& why) -> SortedStep { throw StepFileError(why); }});
             (void)stored.count(RangeSet::parse("0:3"));
             for (const std::uint32_t index : stored.columns().gridIndex)
                 ASSERT_LT(index, step.grid().count());
@@ -273,11 +274,11 @@ TEST(StepFile, TurnedOutToBeDamagedIsMadeAgainOnceAndIsTheSame) {
     bytes[blocks[3].idsAt + 100] ^= std::byte{1};
     int made = 0;
     const SortedStep stored = SortedStep::stored(tests::opened(bytes), step.sharedGrid(), false,
-                                                 [&](const std::string& why) {
+                                                 {[&](const std::string& why) {
                                                      ++made;
                                                      EXPECT_THAT(why, HasSubstr("block 3"));
                                                      return smooth({64, 64, 64});
-                                                 });
+                                                 }});
     const timeseries::Run good{0, 10};
     (void)stored.columns({&good, 1});
     EXPECT_EQ(made, 0);
@@ -292,7 +293,7 @@ TEST(StepFile, WhatCannotBeMadeAgainThrowsEachTime) {
     bytes[tests::opened(bytes)->blocks()[0].keysAt] ^= std::byte{1};
     const SortedStep stored = SortedStep::stored(
         tests::opened(bytes), step.sharedGrid(), false,
-        [&](const std::string&) -> SortedStep { throw std::runtime_error("gone"); });
+        {[&](const std::string&) -> SortedStep { throw std::runtime_error("gone"); }});
     EXPECT_THROW((void)stored.columns(), std::runtime_error);
     EXPECT_THROW((void)stored.columns(), std::runtime_error);
     EXPECT_THROW((void)stored.count(RangeSet::parse("0:1")), std::runtime_error);

@@ -204,6 +204,28 @@ TEST_F(StepStores, WhatIsDamagedIsRemovedToldAndSortedAnew) {
     EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("block 0")));
 }
 
+// What lies between points is read from the source, without any block, as long as it is the one.
+TEST_F(StepStores, TheFieldIsTheSourcesUnlessItChanged) {
+    (void)maker()->keep(0);
+    const auto expectAll = [](const Field& field) {
+        const auto& values = std::get<std::vector<float>>(field.values);
+        ASSERT_EQ(values.size(), 24u * 24 * 24);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            ASSERT_EQ(values[i], static_cast<float>(i % 100));
+    };
+    const auto step = maker()->make(0);
+    const std::uint64_t before = step->bytes();
+    const Field field = step->field();
+    expectAll(field);
+    EXPECT_EQ(field.grid, step->sharedGrid());
+    EXPECT_EQ(step->bytes(), before);
+    nrrdOf(file, 50);
+    expectAll(step->field());
+    EXPECT_GT(step->bytes(), before);
+    fs::remove(file);
+    expectAll(step->field());
+}
+
 TEST_F(StepStores, AStepStaysReadableWhenItsFileIsRemoved) {
     (void)maker()->keep(0);
     const auto step = maker()->make(0);

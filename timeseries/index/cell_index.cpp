@@ -252,27 +252,4 @@ std::vector<Interval<double>> betweenPoints(const RangeSet& ranges, ValueType ty
     return out;
 }
 
-Field fieldOf(const SortedStep& step) {
-    Field field;
-    field.grid = step.sharedGrid();
-    const std::uint64_t count = field.grid->count();
-    const Columns columns = step.columns();
-    std::visit(
-        [&]<typename T>(std::span<const T> sorted) {
-            constexpr bool kHasNan = std::is_floating_point_v<T>;
-            std::vector<T> values(count);
-            if constexpr (kHasNan)
-                std::ranges::fill(values, std::numeric_limits<T>::quiet_NaN());
-            else if (sorted.size() < count)
-                field.missing.assign(count, true);
-            for (std::size_t i = 0; i < sorted.size(); ++i) {
-                values[columns.gridIndex[i]] = sorted[i];
-                if (!field.missing.empty()) field.missing[columns.gridIndex[i]] = false;
-            }
-            field.values = std::move(values);
-        },
-        columns.values);
-    return field;
-}
-
 }  // namespace timeseries

@@ -77,7 +77,4 @@ class CellIndex {
 // numbers reach half a number farther: what was rounded to 7 was anything from 6.5 to 7.5.
 std::vector<Interval<double>> betweenPoints(const RangeSet& ranges, ValueType type);
 
-// All values in the grid's order, from a step that keeps all of them.
-Field fieldOf(const SortedStep& step);
-
 }  // namespace timeseries

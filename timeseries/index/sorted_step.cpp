@@ -141,7 +141,7 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned 
 }
 
 SortedStep SortedStep::stored(std::shared_ptr<const StepFile> file,
-                              std::shared_ptr<const Grid> grid, bool categories, Again again,
+                              std::shared_ptr<const Grid> grid, bool categories, Source source,
                               unsigned threads) {
     if (!std::ranges::equal(file->size(), grid->size()))
         throw StepFileError(fmt::format("{} is the index of another grid", file->name()));
@@ -154,9 +154,11 @@ SortedStep SortedStep::stored(std::shared_ptr<const StepFile> file,
     step.statistics_ = file->statistics();
     step.size_ = step.statistics_.points;
     withType(file->type(), [&]<typename T>(T) {
-        step.columns_ = std::shared_ptr<const LazyColumn<T>>(storedColumn<T>(file, again, threads));
+        step.columns_ =
+            std::shared_ptr<const LazyColumn<T>>(storedColumn<T>(file, source.again, threads));
     });
     step.file_ = std::move(file);
+    step.source_ = std::move(source.field);
     return step;
 }
 
@@ -236,7 +238,7 @@ std::uint64_t SortedStep::bytes() const {
 std::shared_ptr<const CellIndex> SortedStep::cells() const {
     if (!canHaveCells()) return nullptr;
     std::call_once(cells_->once, [&] {
-        cells_->index = std::make_shared<const CellIndex>(fieldOf(*this), threads_);
+        cells_->index = std::make_shared<const CellIndex>(field(), threads_);
         cells_->made = true;
     });
     return cells_->index;
@@ -253,6 +255,34 @@ std::string_view SortedStep::whyNoCells() const {
         return grid_->mesh()->hasNeighbours() ? "cells of curvilinear grids are not drawn yet"
                                               : "cells of unstructured grids are not drawn yet";
     return CellIndex::canIndex(*grid_) ? "" : "this grid has too many cells";
+}
+
+Field SortedStep::field() const {
+    if (source_)
+        if (auto read = source_()) {
+            read->grid = grid_;
+            return std::move(*read);
+        }
+    Field out;
+    out.grid = grid_;
+    const std::uint64_t count = out.grid->count();
+    const Columns all = columns();
+    std::visit(
+        [&]<typename T>(std::span<const T> sorted) {
+            constexpr bool kHasNan = std::is_floating_point_v<T>;
+            std::vector<T> values(count);
+            if constexpr (kHasNan)
+                std::ranges::fill(values, std::numeric_limits<T>::quiet_NaN());
+            else if (sorted.size() < count)
+                out.missing.assign(count, true);
+            for (std::size_t i = 0; i < sorted.size(); ++i) {
+                values[all.gridIndex[i]] = sorted[i];
+                if (!out.missing.empty()) out.missing[all.gridIndex[i]] = false;
+            }
+            out.values = std::move(values);
+        },
+        all.values);
+    return out;
 }
 
 Run SortedStep::finite() const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -67,15 +68,23 @@ class SortedStep {
     static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
                             unsigned threads = sharingThreads());
 
-    // A step that was written to a file, of which it reads what is looked at. `again` makes the
-    // same step from its source and tells `why`: it is asked, once, when the file turns out to be
-    // damaged, and what is shown is then from there. Throws StepFileError when the file is of
-    // another grid. Members may then throw what `again` throws.
-    using Again = std::function<SortedStep(const std::string& why)>;
+    // What a step on disk was made of. Called from any thread.
+    struct Source {
+        // Makes the same step anew, and tells `why`.
+        std::function<SortedStep(const std::string& why)> again;
+        // The field itself, if it is still the one; may be empty.
+        std::function<std::optional<Field>()> field = {};
+    };
+    // A step that was written to a file, of which it reads what is looked at. When the file turns
+    // out to be damaged, the step is made anew, once, and what is shown is then from there. Throws
+    // StepFileError when the file is of another grid. Members may then throw what `again` throws.
     static SortedStep stored(std::shared_ptr<const StepFile> file, std::shared_ptr<const Grid> grid,
-                             bool categories, Again again, unsigned threads = sharingThreads());
+                             bool categories, Source source, unsigned threads = sharingThreads());
     // Null unless it is read from a file.
     const std::shared_ptr<const StepFile>& file() const { return file_; }
+    // All values in the grid's order: of the source, which is soon read, where there is one.
+    // Missing points are marked or NaN. REQUIRES: all values were kept.
+    Field field() const;
 
     // Disjoint, ascending, none empty. At most 2 (log2 n + 2) comparisons a range, and half a
     // millisecond where an end of a range falls among points of which none was asked for yet.
@@ -139,6 +148,7 @@ class SortedStep {
     RangeSet kept_;
     StepStatistics statistics_;
     std::shared_ptr<const StepFile> file_;
+    std::function<std::optional<Field>()> source_;
     struct LazyCells;
     std::shared_ptr<LazyCells> cells_;
 };

@@ -161,7 +161,8 @@ void StepFile::readSummary(const Header& header) {
         damaged("its summary ends early");
     quantiles_.resize(count);
     const auto text = piece.bytes().subspan(sizeof count + count * sizeof(double));
-    std::memcpy(quantiles_.data(), piece.bytes().data() + sizeof count, count * sizeof(double));
+    for (std::size_t i = 0; i < count; ++i)
+        quantiles_[i] = load<double>(piece.bytes().data() + sizeof count + i * sizeof(double));
     about_.assign(reinterpret_cast<const char*>(text.data()), text.size());
 }
 

@@ -14,7 +14,7 @@ namespace {
 template <typename T>
 class FileBuckets final : public BucketSource<T> {
  public:
-    FileBuckets(std::shared_ptr<const StepFile> file, SortedStep::Again again)
+    FileBuckets(std::shared_ptr<const StepFile> file, Again again)
         : file_(std::move(file)), again_(std::move(again)) {}
 
     void fill(std::size_t bucket, std::span<T> values,
@@ -63,7 +63,7 @@ class FileBuckets final : public BucketSource<T> {
     }
 
     std::shared_ptr<const StepFile> file_;
-    SortedStep::Again again_;
+    Again again_;
     mutable std::mutex mutex_;
     mutable std::optional<SortedStep> made_;    // written once, before failed_
     mutable std::atomic<bool> failed_ = false;  // made_ is there
@@ -77,8 +77,8 @@ T valueOfBits(const Number& number) {
 }  // namespace
 
 template <typename T>
-std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file,
-                                                  SortedStep::Again again, unsigned threads) {
+std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file, Again again,
+                                                  unsigned threads) {
     const StepStatistics& statistics = file->statistics();
     Partition<T> points;
     for (const StepBlock& block : file->blocks()) {
@@ -97,7 +97,7 @@ std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile
 
 #define ISOCHRON_TYPE(T)                                                                        \
     template std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile>, \
-                                                               SortedStep::Again, unsigned);
+                                                               Again, unsigned);
 ISOCHRON_TYPE(std::uint8_t)
 ISOCHRON_TYPE(std::int8_t)
 ISOCHRON_TYPE(std::uint16_t)

@@ -1,7 +1,9 @@
 // The points of a step that lies in a file, read where somebody looks.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "timeseries/index/lazy_column.h"
 #include "timeseries/index/sorted_step.h"
@@ -9,9 +11,11 @@
 
 namespace timeseries {
 
-// REQUIRES: T is of file->type(). `again`: as SortedStep::stored takes it.
+using Again = std::function<SortedStep(const std::string& why)>;  // SortedStep::Source's
+
+// REQUIRES: T is of file->type().
 template <typename T>
-std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file,
-                                                  SortedStep::Again again, unsigned threads);
+std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file, Again again,
+                                                  unsigned threads);
 
 }  // namespace timeseries

@@ -8,17 +8,21 @@
 namespace timeseries {
 namespace {
 
-// The same step once more, by a reader of its own: whoever asks has no other.
-SortedStep readAgain(const std::vector<std::filesystem::path>& files, const StepOrigin& origin) {
-    const auto reader = openReader(files);
-    const auto variables = reader->variables();
-    const auto found = std::ranges::find(variables, origin.variable, &Variable::name);
-    if (found == variables.end() || origin.step >= found->time->points.size())
-        throw FileError(fmt::format("{}: expected step {} of '{}', which it had before",
-                                    files.front().string(), origin.step, origin.variable));
-    return SortedStep::build(
-        reader->read(static_cast<std::size_t>(found - variables.begin()), origin.step));
-}
+// What a step is read from once more, by a reader of its own: whoever asks has no other.
+struct Reopened {
+    std::vector<std::filesystem::path> files;
+    StepOrigin origin;
+
+    Field read() const {
+        const auto reader = openReader(files);
+        const auto variables = reader->variables();
+        const auto found = std::ranges::find(variables, origin.variable, &Variable::name);
+        if (found == variables.end() || origin.step >= found->time->points.size())
+            throw FileError(fmt::format("{}: expected step {} of '{}', which it had before",
+                                        files.front().string(), origin.step, origin.variable));
+        return reader->read(static_cast<std::size_t>(found - variables.begin()), origin.step);
+    }
+};
 
 }  // namespace
 
@@ -39,15 +43,28 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin) {
     for (const auto& store : stores_.read) {
         auto file = store->find(origin);
         if (!file || file->type() != variable().type) continue;
-        const auto again = [store, origin, path = store->pathOf(origin),
-                            files = std::vector(reader_->files().begin(), reader_->files().end())](
-                               const std::string& why) {
-            store->discard(path, why);
-            return readAgain(files, origin);
+        const Reopened source{{reader_->files().begin(), reader_->files().end()}, origin};
+        const auto again = [store, source](const std::string& why) {
+            store->discard(store->pathOf(source.origin), why);
+            return SortedStep::build(source.read());
+        };
+        // None, should it have changed before it was read, or while it was.
+        const auto field = [store, source, about = file->about()]() -> std::optional<Field> {
+            const auto isStill = [&] {
+                const auto stamp = store->stampOf(source.origin);
+                return stamp && stamp->text == about;
+            };
+            try {
+                if (!isStill()) return std::nullopt;
+                Field read = source.read();
+                return isStill() ? std::optional(std::move(read)) : std::nullopt;
+            } catch (const FileError&) {
+                return std::nullopt;
+            }
         };
         try {
-            return std::make_shared<const SortedStep>(
-                SortedStep::stored(std::move(file), variable().grid, variable().categories, again));
+            return std::make_shared<const SortedStep>(SortedStep::stored(
+                std::move(file), variable().grid, variable().categories, {again, field}));
         } catch (const StepFileError&) {  // of another grid: its file has changed
         }
     }
