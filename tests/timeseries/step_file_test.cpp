@@ -270,8 +270,7 @@ TEST(StepFile, WithRightChecksumsAndWrongContentsIsRefusedOrAList) {
 TEST(StepFile, TurnedOutToBeDamagedIsMadeAgainOnceAndIsTheSame) {
     const SortedStep step = smooth({64, 64, 64});
     auto bytes = tests::written(step);
-    const auto blocks = tests::opened(bytes)->blocks();
-    bytes[blocks[3].idsAt + 100] ^= std::byte{1};
+    bytes[tests::opened(bytes)->blocks()[3].idsAt + 100] ^= std::byte{1};
     int made = 0;
     const SortedStep stored = SortedStep::stored(tests::opened(bytes), step.sharedGrid(), false,
                                                  {[&](const std::string& why) {
