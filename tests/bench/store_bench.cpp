@@ -54,7 +54,8 @@ struct World {
             maker(true).keep(0);
             written = true;
         }
-        return store->look({{file}, "field", 0});
+        const auto reader = timeseries::openReader(std::span(&file, 1));
+        return store->look(*timeseries::originOf(*reader, 0, 0));
     }
 
     fs::path folder, file;

@@ -57,7 +57,11 @@ class StepStores : public testing::Test {
         return std::make_unique<StepMaker>(std::move(reader), 0, RangeSet::everything(),
                                            timeseries::StepStores{{in}, in, 1});
     }
-    StepOrigin origin() const { return {{file}, "field", 0}; }
+    StepOrigin originOf(const fs::path& of) const {
+        return {
+            {of}, 0, of.stem().string(), openReader(std::span(&of, 1))->variables()[0].storedAs};
+    }
+    StepOrigin origin() const { return originOf(file); }
     std::size_t files() const {
         std::error_code none;
         return static_cast<std::size_t>(std::distance(
@@ -113,9 +117,10 @@ TEST_F(StepStores, ASourceReplacedAtEqualSizeAndTimeIsSortedAnew) {
 
 TEST_F(StepStores, ASourceThatIsGoneIsNotFound) {
     (void)maker()->keep(0);
-    EXPECT_TRUE(store->find(origin()));
+    const StepOrigin gone = origin();
+    EXPECT_TRUE(store->find(gone));
     fs::remove(file);
-    EXPECT_FALSE(store->find(origin()));
+    EXPECT_FALSE(store->find(gone));
 }
 
 TEST_F(StepStores, AnotherVariableOrStepIsAnotherFile) {
@@ -127,8 +132,43 @@ TEST_F(StepStores, AnotherVariableOrStepIsAnotherFile) {
     other.variable = "fiel";
     EXPECT_FALSE(store->find(other));
     // Names that are joined are told apart.
-    EXPECT_NE(store->pathOf({{"/a/b", "/c"}, "v", 0}), store->pathOf({{"/a", "/b/c"}, "v", 0}));
-    EXPECT_NE(store->pathOf({{"/a"}, "v1", 2}), store->pathOf({{"/a"}, "v", 12}));
+    EXPECT_NE(store->pathOf({{"/a/b", "/c"}, 0, "v", ""}),
+              store->pathOf({{"/a", "/b/c"}, 0, "v", ""}));
+    EXPECT_NE(store->pathOf({{"/a"}, 2, "v", "1"}), store->pathOf({{"/a"}, 2, "v1", ""}));
+}
+
+// Which step of a series a file's is depends on the files beside it; what is kept does not.
+TEST_F(StepStores, AStepIsOfItsFileWhateverSeriesItIsOpenedIn) {
+    const auto series = [&](std::vector<fs::path> paths) {
+        return std::make_unique<StepMaker>(openReader(paths), 0, RangeSet::everything(),
+                                           timeseries::StepStores{{store}, store, 1});
+    };
+    // Two steps a file, of one value each.
+    const auto twoSteps = [&](const char* name, float value) {
+        std::vector<float> values(8, value);
+        values.resize(16, value + 1);
+        std::string bytes(values.size() * sizeof(float), '\0');
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+        tests::writeBytes(folder / name,
+                          "NRRD0004\ntype: float\ndimension: 4\nsizes: 2 2 2 2\nkinds: space space "
+                          "space time\nendian: little\nencoding: raw\n\n" +
+                              bytes);
+        return folder / name;
+    };
+    const fs::path a = twoSteps("a.nrrd", 10), b = twoSteps("b.nrrd", 20),
+                   c = twoSteps("c.nrrd", 30);
+    const auto valueOf = [](const SortedStep& step) { return toDouble(step.value(0)); };
+    for (std::size_t step = 0; step < 6; ++step)
+        EXPECT_EQ(series({a, b, c})->keep(step), StepMaker::Kept::Written);
+    for (const auto& paths : std::vector<std::vector<fs::path>>{{a, c}, {b, c}, {c, b}, {c}, {b}})
+        for (std::size_t step = 0; step < 2 * paths.size(); ++step) {
+            const float first = paths[step / 2] == a ? 10 : paths[step / 2] == b ? 20 : 30;
+            const auto made = series(paths)->make(step);
+            EXPECT_EQ(valueOf(*made), first + static_cast<float>(step % 2));
+            // And what is made anew from the source is the same step.
+            EXPECT_EQ(std::get<std::vector<float>>(made->field().values)[0], valueOf(*made));
+        }
+    EXPECT_EQ(series({a, b, c})->keep(4), StepMaker::Kept::Before);
 }
 
 // What changed a moment before it was opened may change again within the same tick of the clock.
@@ -243,15 +283,15 @@ TEST_F(StepStores, TheBudgetKeepsWhatWasUsedLast) {
     const fs::path first = file;
     for (const char* name : {"b.nrrd", "c.nrrd"}) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        EXPECT_TRUE(small->find({{first}, "field", 0}));  // used
+        EXPECT_TRUE(small->find(originOf(first)));  // used
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         file = nrrdOf(folder / name, 100);
         EXPECT_EQ(maker(small)->keep(0), StepMaker::Kept::Written);
     }
     EXPECT_EQ(files(), 2u);
-    EXPECT_TRUE(small->find({{first}, "field", 0}));
-    EXPECT_FALSE(small->find({{folder / "b.nrrd"}, "b", 0}));
-    EXPECT_TRUE(small->find({{folder / "c.nrrd"}, "c", 0}));
+    EXPECT_TRUE(small->find(originOf(first)));
+    EXPECT_FALSE(small->find(originOf(folder / "b.nrrd")));
+    EXPECT_TRUE(small->find(originOf(folder / "c.nrrd")));
 }
 
 TEST_F(StepStores, BesideTheDataTheyMoveWithThem) {

@@ -64,9 +64,7 @@ class ArrayReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return {&header_.path, 1}; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
-    std::vector<std::filesystem::path> sources(std::size_t, std::size_t) override {
-        return sources_;
-    }
+    StepSources sources(std::size_t, std::size_t step) override { return {sources_, step}; }
 
  private:
     template <typename T>

@@ -90,9 +90,7 @@ class FitsReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return {&file_.path(), 1}; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
-    std::vector<std::filesystem::path> sources(std::size_t, std::size_t) override {
-        return {file_.path()};
-    }
+    StepSources sources(std::size_t, std::size_t step) override { return {{file_.path()}, step}; }
 
  private:
     void add(FitsImage image);

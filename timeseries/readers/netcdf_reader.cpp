@@ -48,7 +48,7 @@ class NetcdfReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
-    std::vector<std::filesystem::path> sources(std::size_t variable, std::size_t step) override;
+    StepSources sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 
  private:
@@ -289,11 +289,9 @@ std::optional<StepSpan> NetcdfReader::stepsOf(std::size_t variable, std::size_t 
     return std::nullopt;  // what has no time is read of the first file
 }
 
-// The first file says what the variables are.
-std::vector<std::filesystem::path> NetcdfReader::sources(std::size_t variable, std::size_t step) {
-    const std::size_t file = fileOf(variable, step).first;
-    if (file == 0) return {paths_[0]};
-    return {paths_[0], paths_[file]};
+StepSources NetcdfReader::sources(std::size_t variable, std::size_t step) {
+    const auto [file, own] = fileOf(variable, step);
+    return {{paths_[file]}, own};
 }
 
 std::pair<std::size_t, std::size_t> NetcdfReader::fileOf(std::size_t variable,

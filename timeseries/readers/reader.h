@@ -59,6 +59,12 @@ struct StepSpan {
     std::size_t first, count;
 };
 
+// All that a step's values come from, whatever other files were opened beside these.
+struct StepSources {
+    std::vector<std::filesystem::path> files;
+    std::size_t step = 0;  // which of those that the files have
+};
+
 // Not thread-safe: one thread at a time. Different Readers may be used on different threads.
 class Reader {
  public:
@@ -70,9 +76,9 @@ class Reader {
     virtual std::span<const DamagedVariable> damaged() const { return {}; }
     // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
     virtual Field read(std::size_t variable, std::size_t step) = 0;
-    // Every file that the values of a step come from; none where that is not known. REQUIRES: as
-    // read(). Throws FileError.
-    virtual std::vector<std::filesystem::path> sources(std::size_t, std::size_t) { return {}; }
+    // What the values of a step come from; no files where that is not known. REQUIRES: as read().
+    // Throws FileError.
+    virtual StepSources sources(std::size_t, std::size_t) { return {}; }
     // What its files say is of this moment or later; openReader() sets it.
     std::chrono::system_clock::time_point openedAt{};
     // Which steps of a variable files()[file] holds; none where the reader does not know. A reader

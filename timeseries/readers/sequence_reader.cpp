@@ -59,7 +59,7 @@ class SequenceReader final : public Reader {
     std::span<const Path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
-    std::vector<Path> sources(std::size_t variable, std::size_t step) override;
+    StepSources sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override {
         const auto& begins = begins_[variable];
         return StepSpan{begins[file], begins[file + 1] - begins[file]};
@@ -237,7 +237,7 @@ SequenceReader::Member SequenceReader::memberOf(std::size_t variable, std::size_
     return {reader, placeOf(variables_[variable], reader.variables()).value(), step - begins[file]};
 }
 
-std::vector<Path> SequenceReader::sources(std::size_t variable, std::size_t step) {
+StepSources SequenceReader::sources(std::size_t variable, std::size_t step) {
     const Member member = memberOf(variable, step);
     return member.reader.sources(member.variable, member.step);
 }

@@ -67,7 +67,7 @@ class VtkReader final : public Reader {
     std::span<const Path> files() const override { return files_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
-    std::vector<Path> sources(std::size_t variable, std::size_t step) override;
+    StepSources sources(std::size_t variable, std::size_t step) override;
 
  private:
     struct Source {
@@ -162,11 +162,11 @@ void VtkReader::open(std::size_t step) {
     openStep_ = step;
 }
 
-std::vector<Path> VtkReader::sources(std::size_t, std::size_t step) {
+StepSources VtkReader::sources(std::size_t, std::size_t step) {
     open(step);
-    std::vector<Path> paths{members_[step].path};
-    for (const VtkHeader& part : frame_.contents.parts) paths.push_back(part.path);
-    return paths;
+    StepSources sources{{members_[step].path}};
+    for (const VtkHeader& part : frame_.contents.parts) sources.files.push_back(part.path);
+    return sources;
 }
 
 Field VtkReader::read(std::size_t variable, std::size_t step) {

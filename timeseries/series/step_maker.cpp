@@ -11,16 +11,18 @@ namespace {
 // What a step is read from once more, by a reader of its own: whoever asks has no other.
 struct Reopened {
     std::vector<std::filesystem::path> files;
+    std::string variable;
+    std::size_t step;  // of the series
     StepOrigin origin;
 
     Field read() const {
         const auto reader = openReader(files);
         const auto variables = reader->variables();
-        const auto found = std::ranges::find(variables, origin.variable, &Variable::name);
-        if (found == variables.end() || origin.step >= found->time->points.size())
+        const auto found = std::ranges::find(variables, variable, &Variable::name);
+        if (found == variables.end() || step >= found->time->points.size())
             throw FileError(fmt::format("{}: expected step {} of '{}', which it had before",
-                                        files.front().string(), origin.step, origin.variable));
-        return reader->read(static_cast<std::size_t>(found - variables.begin()), origin.step);
+                                        files.front().string(), step, variable));
+        return reader->read(static_cast<std::size_t>(found - variables.begin()), step);
     }
 };
 
@@ -34,16 +36,20 @@ StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, Range
       stores_(std::move(stores)) {}
 
 std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step) {
-    StepOrigin origin{reader.sources(variable, step), reader.variables()[variable].name, step};
-    if (origin.files.empty()) return std::nullopt;
-    return origin;
+    const Variable& of = reader.variables()[variable];
+    // One of two of a name could be taken for the other.
+    if (std::ranges::count(reader.variables(), of.name, &Variable::name) > 1) return std::nullopt;
+    StepSources sources = reader.sources(variable, step);
+    if (sources.files.empty()) return std::nullopt;
+    return StepOrigin{std::move(sources.files), sources.step, of.name, of.storedAs};
 }
 
-std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin) {
+std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std::size_t step) {
     for (const auto& store : stores_.read) {
         auto file = store->find(origin);
         if (!file || file->type() != variable().type) continue;
-        const Reopened source{{reader_->files().begin(), reader_->files().end()}, origin};
+        const Reopened source{
+            {reader_->files().begin(), reader_->files().end()}, variable().name, step, origin};
         const auto again = [store, source](const std::string& why) {
             store->discard(store->pathOf(source.origin), why);
             return SortedStep::build(source.read());
@@ -75,7 +81,7 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
     const bool canBe = (!stores_.read.empty() || stores_.write) && kept_ == RangeSet::everything();
     const auto origin = canBe ? originOf(*reader_, variable_, step) : std::nullopt;
     if (origin)
-        if (auto found = find(*origin)) return found;
+        if (auto found = find(*origin, step)) return found;
     std::optional<OriginStamp> stamp;
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
     auto sorted = std::make_shared<const SortedStep>(

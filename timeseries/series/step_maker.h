@@ -52,7 +52,7 @@ class StepMaker {
         OriginStamp stamp;
         std::weak_ptr<const SortedStep> step;
     };
-    std::shared_ptr<const SortedStep> find(const StepOrigin& origin);
+    std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step);
 
     const std::unique_ptr<Reader> reader_;
     const std::size_t variable_;

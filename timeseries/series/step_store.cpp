@@ -37,8 +37,8 @@ fs::path nameOf(const fs::path& file, StoreKind kind) {
 }
 
 // JSON holds UTF-8 alone, names of files any bytes.
-std::string textOf(const fs::path& path) {
-    return ordered_json(path.string()).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+std::string textOf(const std::string& text) {
+    return ordered_json(text).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -54,30 +54,32 @@ std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin) const {
         struct stat status {};
         if (::stat(file.c_str(), &status) != 0) return std::nullopt;
         files += fmt::format("{}{{\"file\": {}, \"bytes\": {}, \"modified\": {}",
-                             files.empty() ? "" : ", ", textOf(nameOf(file, kind_)), status.st_size,
-                             nanoseconds(status.st_mtim));
+                             files.empty() ? "" : ", ", textOf(nameOf(file, kind_).string()),
+                             status.st_size, nanoseconds(status.st_mtim));
         std::int64_t last = nanoseconds(status.st_mtim);
         if (kind_ == StoreKind::Cache) {
-            files += fmt::format(", \"changed\": {}, \"device\": {}, \"inode\": {}",
-                                 nanoseconds(status.st_ctim), status.st_dev, status.st_ino);
+            files += fmt::format(", \"changed\": {}", nanoseconds(status.st_ctim));
             last = std::max(last, nanoseconds(status.st_ctim));
         }
         files += "}";
         stamp.changed = std::max(stamp.changed, timeOf(last));
     }
-    stamp.text = fmt::format("{{\"variable\": {}, \"step\": {}, \"files\": [{}]}}",
-                             textOf(origin.variable), origin.step, files);
+    stamp.text =
+        fmt::format("{{\"variable\": {}, \"storedAs\": {}, \"step\": {}, \"files\": [{}]}}",
+                    textOf(origin.variable), textOf(origin.storedAs), origin.step, files);
     return stamp;
 }
 
 fs::path StepStore::pathOf(const StepOrigin& origin) const {
     // Each part with its length, so that no two origins read the same.
     std::string whole;
-    for (const fs::path& file : origin.files) {
-        const std::string name = nameOf(file, kind_).string();
-        whole += fmt::format("{}:{};", name.size(), name);
-    }
-    whole += fmt::format("{}:{};{}", origin.variable.size(), origin.variable, origin.step);
+    const auto add = [&](const std::string& part) {
+        whole += fmt::format("{}:{};", part.size(), part);
+    };
+    for (const fs::path& file : origin.files) add(nameOf(file, kind_).string());
+    add(origin.variable);
+    add(origin.storedAs);
+    add(std::to_string(origin.step));
     const XXH128_hash_t hash = XXH3_128bits(whole.data(), whole.size());
     return folder_ / fmt::format("{:016x}{:016x}{}", hash.high64, hash.low64, kSuffix);
 }

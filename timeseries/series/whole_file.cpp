@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -20,13 +21,21 @@ std::atomic<unsigned> written{0};
 
 }  // namespace
 
+// Between being made and being locked it looks like a leftover, and may be removed.
 WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
-    unfinished_ = path_;
-    unfinished_ += fmt::format(".{}-{}{}", ::getpid(), written++, kSuffix);
-    file_ = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
-    if (file_ < 0) fail(errno);
-    // Where the file system knows no locks, leftovers are never taken for such.
-    (void)::flock(file_, LOCK_EX | LOCK_NB);
+    for (;;) {
+        unfinished_ = path_;
+        unfinished_ += fmt::format(".{}-{}{}", ::getpid(), written++, kSuffix);
+        file_ = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
+        if (file_ < 0 && errno == EEXIST) continue;  // of an earlier program of this number
+        if (file_ < 0) fail(errno);
+        // Where the file system knows no locks, leftovers are never taken for such.
+        while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+        struct stat status {};
+        if (::fstat(file_, &status) == 0 && status.st_nlink > 0) return;
+        ::close(std::exchange(file_, -1));
+    }
 }
 
 WholeFile::~WholeFile() {
