@@ -48,7 +48,7 @@ def build():
 
 
 def measure(part):
-    about = {"commit": commit("tests/bench/RESULTS.md", "tests/bench/NOTES.md"), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0]}
+    about = {"commit": commit("tests/bench/RESULTS.md", "tests/bench/NOTES.md"), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0], "machine": processor()}
     print(f"{part} ...", file=sys.stderr)
     if part == "window":
         figures = said("build/release/tests/ui/ui_bench")
@@ -85,7 +85,9 @@ class Part:
 
     def line(self):
         a = self.about
-        return f"*Commit {a['commit']}, {a['date']}, load {a['load']:.1f} at its start.*\n"
+        elsewhere = a.get("machine", processor())
+        elsewhere = "" if elsewhere == processor() else f", on another machine: {elsewhere}"
+        return f"*Commit {a['commit']}, {a['date']}, load {a['load']:.1f} at its start{elsewhere}.*\n"
 
 
 SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
