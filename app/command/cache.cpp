@@ -14,10 +14,6 @@ namespace {
 
 using timeseries::StepStore;
 
-std::string megabytes(std::uint64_t bytes) {
-    return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
-}
-
 // "T, step 3 of fire.nc": of what an index was made, as it says itself.
 std::string originOf(const std::string& about) {
     const auto json = nlohmann::json::parse(about, nullptr, false);
@@ -36,13 +32,13 @@ void list(const StepStore& store) {
     for (const StepStore::Entry& entry : entries) {
         bytes += entry.bytes;
         const std::string about = StepStore::aboutOf(entry.path);
-        say("{:>12}  {:%Y-%m-%d %H:%M}  {}\n", megabytes(entry.bytes),
+        say("{:>12}  {:%Y-%m-%d %H:%M}  {}\n", megabytesText(entry.bytes),
             fmt::localtime(std::chrono::system_clock::to_time_t(entry.used)),
             about.empty() ? entry.path.filename().string() + ", which cannot be read"
                           : originOf(about));
     }
     say("{} step{} in {}: {}\n", withCommas(entries.size()), entries.size() == 1 ? "" : "s",
-        store.folder().string(), megabytes(bytes));
+        store.folder().string(), megabytesText(bytes));
 }
 
 }  // namespace
@@ -57,7 +53,7 @@ int cache(const CacheOptions& options) {
     if (options.action == CacheOptions::Action::List)
         list(*store);
     else
-        say("{} removed from {}\n", megabytes(store->clear()), store->folder().string());
+        say("{} removed from {}\n", megabytesText(store->clear()), store->folder().string());
     return 0;
 }
 

@@ -110,8 +110,7 @@ int count(const CountOptions& options) {
     const RangeSet kept = options.keep.value_or(RangeSet::everything());
     const auto steps = stepsOf(dataset, options.steps);
     std::vector<Row> rows;
-    auto stores = storesFor(dataset.reader->files());
-    stores.write = nullptr;  // it would be waited for
+    const auto stores = storesFor(dataset.reader->files());
     timeseries::StepMaker maker(std::move(dataset.reader), dataset.variable, kept, stores);
     if (!options.json) printHead(dataset, ranges);
     {

@@ -1,10 +1,10 @@
 // `isochron index`: steps sorted ahead, into files that are opened at once.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "app/command/commands.h"
@@ -29,7 +29,7 @@ struct Task {
 };
 
 struct Done {
-    std::size_t before = 0, written = 0, notKept = 0;  // steps
+    std::size_t before = 0, written = 0, notKept = 0, failed = 0;  // steps
 };
 
 // Shared by the jobs.
@@ -50,8 +50,10 @@ struct Work {
     Progress progress;
     Clock::time_point begin = Clock::now();
 
-    void finish(StepMaker::Kept kept) {
+    // What became of a step; none where it cannot be read.
+    void finish(std::optional<StepMaker::Kept> kept) {
         const std::lock_guard lock(mutex);
+        if (!kept) ++done.failed;
         if (kept == StepMaker::Kept::Before) ++done.before;
         if (kept == StepMaker::Kept::Written) ++done.written;
         if (kept == StepMaker::Kept::Not) ++done.notKept;
@@ -90,7 +92,13 @@ void work(Work& work) {
                 std::move(dataset.reader), dataset.variable, timeseries::RangeSet::everything(),
                 timeseries::StepStores{{work.store}, work.store, 1});
         }
-        work.finish(maker->keep(task.step));
+        std::optional<StepMaker::Kept> kept;
+        try {
+            kept = maker->keep(task.step);
+        } catch (const FileError& error) {  // the others are no worse for it
+            sayTo(stderr, "isochron: {}\n", error.what());
+        }
+        work.finish(kept);
     }
 }
 
@@ -143,14 +151,14 @@ int index(const IndexOptions& options) {
 
     std::uint64_t bytes = 0;
     for (const StepStore::Entry& entry : all.store->list()) bytes += entry.bytes;
-    say("{} step{}: {} written, {} there before{}; {} holds {:.1f} MB\n", all.tasks.size(),
+    say("{} step{}: {} written, {} there before{}; {} holds {}\n", all.tasks.size(),
         all.tasks.size() == 1 ? "" : "s", all.done.written, all.done.before,
         all.done.notKept == 0
             ? ""
             : fmt::format(", {} that cannot be kept: their points move, or their files changed",
                           all.done.notKept),
-        all.store->folder().string(), static_cast<double>(bytes) * 1e-6);
-    return 0;
+        all.store->folder().string(), megabytesText(bytes));
+    return all.done.failed == 0 ? 0 : 1;
 }
 
 }  // namespace app

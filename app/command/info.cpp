@@ -142,17 +142,22 @@ Indexed indexedOf(timeseries::Reader& reader, std::size_t variable,
                   const timeseries::StepStores& stores) {
     Indexed indexed;
     const std::size_t steps = reader.variables()[variable].time->points.size();
-    for (std::size_t step = 0; step < steps; ++step) {
-        const auto origin = timeseries::originOf(reader, variable, step);
-        if (!origin) break;
-        for (const auto& store : stores.read) {
-            const auto file = store->look(*origin);
-            if (!file) continue;
+    const auto look = [&](std::size_t step) -> std::shared_ptr<const timeseries::StepFile> {
+        try {
+            const auto origin = timeseries::originOf(reader, variable, step);
+            if (!origin) return nullptr;
+            for (const auto& store : stores.read)
+                if (auto file = store->look(*origin)) return file;
+        } catch (const timeseries::FileError&) {  // a member that is missing: told elsewhere
+        }
+        return nullptr;
+    };
+    if (stores.read.empty()) return indexed;
+    for (std::size_t step = 0; step < steps; ++step)
+        if (const auto file = look(step)) {
             ++indexed.steps;
             indexed.bytes += file->bytes();
-            break;
         }
-    }
     return indexed;
 }
 
@@ -164,8 +169,8 @@ timeseries::StepStores filled(timeseries::StepStores stores) {
 
 void print(const Indexed& indexed, const Variable& v) {
     if (indexed.steps > 0)
-        say("  index    {} of {} steps sorted on disk, {:.1f} MB\n", indexed.steps,
-            v.time->points.size(), static_cast<double>(indexed.bytes) * 1e-6);
+        say("  index    {} of {} steps sorted on disk, {}\n", indexed.steps, v.time->points.size(),
+            megabytesText(indexed.bytes));
 }
 
 void print(const Variable& v, bool shownFirst) {

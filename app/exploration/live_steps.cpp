@@ -13,6 +13,11 @@ using timeseries::SlotState;
 
 namespace {
 
+timeseries::StepStores writable(timeseries::StepStores stores) {
+    stores.write = stepCache();
+    return stores;
+}
+
 // A read that runs, and freeing large steps, takes long enough to be seen.
 template <typename... T>
 void endElsewhere(T... things) {
@@ -24,7 +29,7 @@ void endElsewhere(T... things) {
 LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::uint64_t budgetBytes,
                      std::function<void()> wake)
     : series_(dataset.stepCount(), budgetBytes),
-      stores_(storesFor(dataset.reader->files())),
+      stores_(writable(storesFor(dataset.reader->files()))),
       loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader), dataset.variable,
                                                        kept, std::move(wake),
                                                        timeseries::Ready::Whole, stores_)) {}

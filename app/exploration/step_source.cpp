@@ -7,17 +7,11 @@ namespace {
 
 constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
 
-// Whoever waits for pictures does not wait for steps to be written.
-timeseries::StepStores readOnly(timeseries::StepStores stores) {
-    stores.write = nullptr;
-    return stores;
-}
-
 }  // namespace
 
 StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept)
     : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
-      stores_(readOnly(storesFor(dataset.reader->files()))),
+      stores_(storesFor(dataset.reader->files())),
       loader_(
           std::move(dataset.reader), dataset.variable, std::move(kept), [] {},
           timeseries::Ready::Asked, stores_) {}

@@ -1,5 +1,7 @@
 #include "app/files/step_cache.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <mutex>
 
@@ -56,11 +58,12 @@ timeseries::StepStores storesFor(std::span<const fs::path> files) {
     if (files.empty()) return stores;
     std::error_code gone;
     if (fs::is_directory(folderBeside(files), gone)) stores.read.push_back(storeBeside(files));
-    if (auto cache = stepCache()) {
-        stores.read.push_back(cache);
-        stores.write = std::move(cache);
-    }
+    if (auto cache = stepCache()) stores.read.push_back(std::move(cache));
     return stores;
+}
+
+std::string megabytesText(std::uint64_t bytes) {
+    return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
 }
 
 void tellNotes(const timeseries::StepStores& stores) {

@@ -20,9 +20,11 @@ std::shared_ptr<timeseries::StepStore> stepCache();
 std::filesystem::path folderBeside(std::span<const std::filesystem::path> files);
 std::shared_ptr<timeseries::StepStore> storeBeside(std::span<const std::filesystem::path> files);
 
-// What is read: beside these files, then in the cache; and the cache, for what is sorted. Nothing
-// of no files.
+// What is read: beside these files, then in the cache. Nothing is written: that would be waited
+// for.
 timeseries::StepStores storesFor(std::span<const std::filesystem::path> files);
+
+std::string megabytesText(std::uint64_t bytes);  // "62.1 MB"
 
 // What the stores have to tell, in one line each, on stderr.
 void tellNotes(const timeseries::StepStores& stores);

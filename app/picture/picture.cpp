@@ -28,9 +28,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastResolution = std::numeric_limits<double>::min();
 
 Quantiles quantilesOf(const Steps& sampled) {
-    constexpr std::size_t kQuantiles = 1025;
     Quantiles rows;
-    for (const auto& [index, step] : sampled) rows.push_back(step->quantiles(kQuantiles));
+    for (const auto& [index, step] : sampled)
+        rows.push_back(step->quantiles(timeseries::kStepQuantiles));
     return rows;
 }
 

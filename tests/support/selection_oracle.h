@@ -2,6 +2,7 @@
 // bounds, no searching, only comparisons of one value with two bounds. Slow and plain on purpose.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -104,6 +105,17 @@ bool inside(std::span<const timeseries::Range> inner, std::span<const timeseries
     for (T v : candidates)
         if (holds(inner, v) && !holds(outer, v)) return false;
     return true;
+}
+
+// Of any bits, floats too.
+template <typename T>
+T anyValue(std::mt19937_64& random) {
+    if constexpr (std::is_same_v<T, float>)
+        return std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    else if constexpr (std::is_same_v<T, double>)
+        return std::bit_cast<double>(random());
+    else
+        return static_cast<T>(random());
 }
 
 // Numbers where selection goes wrong, in every type that states them exactly.

@@ -55,16 +55,6 @@ struct World {
     }
 };
 
-template <typename T>
-T anyValue(std::mt19937_64& random) {
-    if constexpr (std::is_same_v<T, float>)
-        return std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-    else if constexpr (std::is_same_v<T, double>)
-        return std::bit_cast<double>(random());
-    else
-        return static_cast<T>(random());
-}
-
 // Awkward values, any bits, values crowded together, or ties; some missing, some dropped.
 template <typename T>
 World<T> randomWorld(std::mt19937_64& random, std::size_t n) {
@@ -74,7 +64,7 @@ World<T> randomWorld(std::mt19937_64& random, std::size_t n) {
     World<T> world;
     for (std::size_t i = 0; i < n; ++i) {
         T v = awkward[random() % awkward.size()];
-        if (shape == 1) v = anyValue<T>(random);
+        if (shape == 1) v = oracle::anyValue<T>(random);
         if (shape == 2) {
             v = around;
             for (std::uint64_t k = random() % 40; k > 0; --k) v = oracle::neighbour(v, 1);
@@ -153,7 +143,7 @@ TYPED_TEST(LazyColumnOf, FirstLooksFromSeveralThreadsAtOnceSeeOneOrder) {
     std::mt19937_64 random(52);
     for (int round = 0; round < 8; ++round) {
         World<T> world;
-        for (int i = 0; i < 6000; ++i) world.field.push_back(anyValue<T>(random));
+        for (int i = 0; i < 6000; ++i) world.field.push_back(oracle::anyValue<T>(random));
         std::ranges::replace_if(
             world.field, [](T v) { return v != v; }, T{1});
         const auto sorted = world.sorted();

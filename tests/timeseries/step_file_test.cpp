@@ -37,16 +37,6 @@ std::shared_ptr<const Grid> gridOf(std::array<std::size_t, 3> size) {
         std::array{tests::axis(size[0]), tests::axis(size[1]), tests::axis(size[2])});
 }
 
-template <typename T>
-T anyValue(std::mt19937_64& random) {
-    if constexpr (std::is_same_v<T, float>)
-        return std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-    else if constexpr (std::is_same_v<T, double>)
-        return std::bit_cast<double>(random());
-    else
-        return static_cast<T>(random());
-}
-
 // Smooth, any bits, awkward or one value almost everywhere; some of it missing.
 template <typename T>
 Field randomField(std::mt19937_64& random, std::array<std::size_t, 3> size, int kind) {
@@ -59,9 +49,9 @@ Field randomField(std::mt19937_64& random, std::array<std::size_t, 3> size, int 
         const auto p = field.grid->position(i);
         if (kind == 0)
             values[i] = static_cast<T>(60 + 50 * std::sin(p.x * .1) * std::cos(p.y * .2 + p.z));
-        if (kind == 1) values[i] = anyValue<T>(random);
+        if (kind == 1) values[i] = oracle::anyValue<T>(random);
         if (kind == 2) values[i] = awkward[random() % awkward.size()];
-        if (kind == 3) values[i] = random() % 100 == 0 ? anyValue<T>(random) : T{7};
+        if (kind == 3) values[i] = random() % 100 == 0 ? oracle::anyValue<T>(random) : T{7};
     }
     if (random() % 2 == 0) {
         field.missing.resize(n);

@@ -7,6 +7,14 @@
 
 namespace timeseries {
 
+// DO(T) for each of them: for explicit instantiations.
+#define ISOCHRON_EACH_TYPE(DO) \
+    DO(std::uint8_t)           \
+    DO(std::int8_t)            \
+    DO(std::uint16_t)          \
+    DO(std::int16_t)           \
+    DO(std::uint32_t) DO(std::int32_t) DO(std::uint64_t) DO(std::int64_t) DO(float) DO(double)
+
 // Returns use(T{}), T being the type's own.
 template <typename Use>
 auto withType(ValueType type, Use use) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "timeseries/grid/with_type.h"
 #include "timeseries/index/pair_sort.h"
 #include "timeseries/together.h"
 
@@ -142,15 +143,8 @@ std::uint64_t LazyColumn<T>::sortedBuckets() const {
                       [](const auto& state) { return state.load() == kOrdered; }));
 }
 
-template class LazyColumn<std::uint8_t>;
-template class LazyColumn<std::int8_t>;
-template class LazyColumn<std::uint16_t>;
-template class LazyColumn<std::int16_t>;
-template class LazyColumn<std::uint32_t>;
-template class LazyColumn<std::int32_t>;
-template class LazyColumn<std::uint64_t>;
-template class LazyColumn<std::int64_t>;
-template class LazyColumn<float>;
-template class LazyColumn<double>;
+#define ISOCHRON_TYPE(T) template class LazyColumn<T>;
+ISOCHRON_EACH_TYPE(ISOCHRON_TYPE)
+#undef ISOCHRON_TYPE
 
 }  // namespace timeseries

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "timeseries/grid/with_type.h"
+
 namespace timeseries {
 namespace {
 
@@ -201,16 +203,7 @@ RangeSet unionOf(std::span<const RangeSet> sets) {
 #define ISOCHRON_INSTANTIATE(T)                              \
     template bool toInterval<T>(const Range&, Interval<T>&); \
     template std::vector<Interval<T>> RangeSet::toIntervals<T>() const;
-ISOCHRON_INSTANTIATE(std::uint8_t)
-ISOCHRON_INSTANTIATE(std::int8_t)
-ISOCHRON_INSTANTIATE(std::uint16_t)
-ISOCHRON_INSTANTIATE(std::int16_t)
-ISOCHRON_INSTANTIATE(std::uint32_t)
-ISOCHRON_INSTANTIATE(std::int32_t)
-ISOCHRON_INSTANTIATE(std::uint64_t)
-ISOCHRON_INSTANTIATE(std::int64_t)
-ISOCHRON_INSTANTIATE(float)
-ISOCHRON_INSTANTIATE(double)
+ISOCHRON_EACH_TYPE(ISOCHRON_INSTANTIATE)
 #undef ISOCHRON_INSTANTIATE
 
 }  // namespace timeseries

@@ -43,6 +43,9 @@ struct Columns {
     std::span<const std::uint32_t> gridIndex;  // ties ascend, too
 };
 
+// So many quantiles are kept of a step, in memory and on disk.
+constexpr std::size_t kStepQuantiles = 1024 + 1;
+
 // The whole step before anything was dropped.
 struct StepStatistics {
     std::uint64_t points = 0;   // valid: neither missing nor NaN

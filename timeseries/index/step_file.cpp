@@ -47,27 +47,28 @@ constexpr std::uint64_t kMostIdsBytes = 64 + 6 * kStepBlock, kMostKeysBytes = 64
 
 }  // namespace
 
-struct StepFile::Header : StepHeader {};
-
 void StepFile::damaged(const std::string& what) const {
     throw DamagedStepError(fmt::format("{} is a damaged index: {}", name(), what));
 }
 
 StepFile::StepFile(std::unique_ptr<const ByteSource> bytes) : bytes_(std::move(bytes)) {
-    const Header header = readHeader();
+    const StepHeader header = readHeader();
+    checkSizes(header);
+    type_ = static_cast<ValueType>(header.type);
+    size_ = header.size;
     readBlocks(header);
     readSummary(header);
     order_ = std::make_unique<const BrickOrder>(size_);
 }
 
-StepFile::Header StepFile::readHeader() const {
+StepHeader StepFile::readHeader() const {
     std::array<std::byte, kHeaderBytes> page;
     if (bytes_->size() < page.size())
         throw DamagedStepError(fmt::format("{}: expected an index of a time step, found {} bytes",
                                            name(), bytes_->size()));
     bytes_->read(0, page);
-    Header header;
-    std::memcpy(static_cast<StepHeader*>(&header), page.data(), sizeof(StepHeader));
+    StepHeader header;
+    std::memcpy(&header, page.data(), sizeof header);
     if (header.magic != kStepMagic)
         throw DamagedStepError(
             fmt::format("{}: expected an index of a time step, found another file", name()));
@@ -86,15 +87,13 @@ StepFile::Header StepFile::readHeader() const {
     return header;
 }
 
-void StepFile::readBlocks(const Header& header) {
+void StepFile::checkSizes(const StepHeader& header) const {
     if (header.type > static_cast<std::uint32_t>(ValueType::F64))
         damaged(fmt::format("it has no type {}", header.type));
-    type_ = static_cast<ValueType>(header.type);
-    size_ = header.size;
     // Three numbers of 32 bits: by division, their product may pass 64.
     constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 32;
     std::uint64_t points = 1;
-    for (const std::uint32_t n : size_) {
+    for (const std::uint32_t n : header.size) {
         if (n == 0 || n > kMostPoints / points) damaged("its grid has no size");
         points *= n;
     }
@@ -112,7 +111,9 @@ void StepFile::readBlocks(const Header& header) {
         damaged("its directory lies outside it");
     if (!within(header.summary) || header.summary.bytes > kMostSummary)
         damaged("its summary lies outside it");
+}
 
+void StepFile::readBlocks(const StepHeader& header) {
     blocks_.resize(header.blocks);
     const auto directory = std::as_writable_bytes(std::span(blocks_));
     bytes_->read(header.directory.at, directory);
@@ -149,20 +150,19 @@ void StepFile::readBlocks(const Header& header) {
     }
 }
 
-void StepFile::readSummary(const Header& header) {
+void StepFile::readSummary(const StepHeader& header) {
     const Piece piece(header.summary.bytes);
     bytes_->read(header.summary.at, piece.bytes());
     if (sumOfBytes(piece.bytes()) != header.summary.sum)
         damaged("its summary does not match its checksum");
     std::uint64_t count = 0;
-    if (piece.bytes().size() >= sizeof count) count = load<std::uint64_t>(piece.bytes().data());
-    if (piece.bytes().size() < sizeof count ||
-        count > (piece.bytes().size() - sizeof count) / sizeof(double))
-        damaged("its summary ends early");
-    quantiles_.resize(count);
-    const auto text = piece.bytes().subspan(sizeof count + count * sizeof(double));
+    if (piece.bytes().size() < sizeof count) damaged("its summary ends early");
+    count = load<std::uint64_t>(piece.bytes().data());
+    const std::span<const std::byte> rest = piece.bytes().subspan(sizeof count);
+    if (count > rest.size() / sizeof(double)) damaged("its summary ends early");
     for (std::size_t i = 0; i < count; ++i)
-        quantiles_[i] = load<double>(piece.bytes().data() + sizeof count + i * sizeof(double));
+        quantiles_.push_back(load<double>(rest.data() + i * sizeof(double)));
+    const auto text = rest.subspan(count * sizeof(double));
     about_.assign(reinterpret_cast<const char*>(text.data()), text.size());
 }
 
@@ -223,16 +223,7 @@ void StepFile::check() const {
 
 #define ISOCHRON_TYPE(T) \
     template void StepFile::read(std::size_t, std::span<T>, std::span<std::uint32_t>) const;
-ISOCHRON_TYPE(std::uint8_t)
-ISOCHRON_TYPE(std::int8_t)
-ISOCHRON_TYPE(std::uint16_t)
-ISOCHRON_TYPE(std::int16_t)
-ISOCHRON_TYPE(std::uint32_t)
-ISOCHRON_TYPE(std::int32_t)
-ISOCHRON_TYPE(std::uint64_t)
-ISOCHRON_TYPE(std::int64_t)
-ISOCHRON_TYPE(float)
-ISOCHRON_TYPE(double)
+ISOCHRON_EACH_TYPE(ISOCHRON_TYPE)
 #undef ISOCHRON_TYPE
 
 }  // namespace timeseries

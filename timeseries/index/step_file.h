@@ -18,6 +18,8 @@
 
 namespace timeseries {
 
+struct StepHeader;  // timeseries/index/step_header.h
+
 // Points of a block; the last one may have fewer.
 constexpr std::uint64_t kStepBlock = std::uint64_t{1} << 15;
 
@@ -62,10 +64,10 @@ class StepFile {
     void check() const;
 
  private:
-    struct Header;
-    Header readHeader() const;
-    void readBlocks(const Header& header);
-    void readSummary(const Header& header);
+    StepHeader readHeader() const;
+    void checkSizes(const StepHeader& header) const;
+    void readBlocks(const StepHeader& header);
+    void readSummary(const StepHeader& header);
     template <typename Key>
     void readKeys(const StepBlock& block, std::span<Key> keys) const;
     [[noreturn]] void damaged(const std::string& what) const;

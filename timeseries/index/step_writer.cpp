@@ -16,7 +16,6 @@ namespace {
 
 // So many blocks have their ids together, and their keys behind them: few are in memory at once.
 constexpr std::uint64_t kBlocksTogether = 256;
-constexpr std::size_t kQuantiles = 1024 + 1;  // Series::kQuantiles
 
 struct EncodedBlock {
     Bytes ids, keys;
@@ -103,7 +102,7 @@ StepHeader headerOf(const SortedStep& step, std::span<const std::uint32_t, 3> si
 
 Bytes summaryOf(const SortedStep& step, const std::string& about) {
     Bytes out;
-    const std::vector<double> quantiles = step.quantiles(kQuantiles);
+    const std::vector<double> quantiles = step.quantiles(kStepQuantiles);
     append(out, std::uint64_t{quantiles.size()});
     for (const double value : quantiles) append(out, value);
     const auto text = std::as_bytes(std::span(about));

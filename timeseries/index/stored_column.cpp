@@ -1,11 +1,14 @@
 #include "timeseries/index/stored_column.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstring>
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <utility>
 
+#include "timeseries/grid/with_type.h"
 #include "timeseries/index/ordered_key.h"
 
 namespace timeseries {
@@ -51,6 +54,9 @@ class FileBuckets final : public BucketSource<T> {
         const std::lock_guard lock(mutex_);
         if (failed_) return;
         made_ = again_(error.what());
+        if (made_->size() != file_->statistics().points)
+            throw StepFileError(
+                fmt::format("{}, and its source is another one by now", error.what()));
         failed_ = true;
     }
 
@@ -70,7 +76,7 @@ class FileBuckets final : public BucketSource<T> {
 };
 
 template <typename T>
-T valueOfBits(const Number& number) {
+T valueOf(const Number& number) {
     return std::visit([](auto held) { return static_cast<T>(held); }, number);
 }
 
@@ -89,8 +95,8 @@ std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile
     points.gridIndex = Pages<std::uint32_t>(statistics.points, Filled::Sparsely);
     points.values = Pages<T>(statistics.points, Filled::Sparsely);
     points.valid = statistics.points;
-    points.leastValid = valueOfBits<T>(statistics.min);
-    points.greatestValid = valueOfBits<T>(statistics.max);
+    points.leastValid = valueOf<T>(statistics.min);
+    points.greatestValid = valueOf<T>(statistics.max);
     auto source = std::make_unique<const FileBuckets<T>>(std::move(file), std::move(again));
     return std::make_unique<const LazyColumn<T>>(std::move(points), threads, std::move(source));
 }
@@ -98,16 +104,7 @@ std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile
 #define ISOCHRON_TYPE(T)                                                                        \
     template std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile>, \
                                                                Again, unsigned);
-ISOCHRON_TYPE(std::uint8_t)
-ISOCHRON_TYPE(std::int8_t)
-ISOCHRON_TYPE(std::uint16_t)
-ISOCHRON_TYPE(std::int16_t)
-ISOCHRON_TYPE(std::uint32_t)
-ISOCHRON_TYPE(std::int32_t)
-ISOCHRON_TYPE(std::uint64_t)
-ISOCHRON_TYPE(std::int64_t)
-ISOCHRON_TYPE(float)
-ISOCHRON_TYPE(double)
+ISOCHRON_EACH_TYPE(ISOCHRON_TYPE)
 #undef ISOCHRON_TYPE
 
 }  // namespace timeseries

@@ -291,6 +291,8 @@ std::optional<StepSpan> NetcdfReader::stepsOf(std::size_t variable, std::size_t 
 
 StepSources NetcdfReader::sources(std::size_t variable, std::size_t step) {
     const auto [file, own] = fileOf(variable, step);
+    const auto& columns = contents_[0][variable].axes.columns;
+    if (columns && (columns->inTime || file > 0)) return {};
     return {{paths_[file]}, own};
 }
 

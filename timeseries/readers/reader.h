@@ -76,8 +76,8 @@ class Reader {
     virtual std::span<const DamagedVariable> damaged() const { return {}; }
     // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
     virtual Field read(std::size_t variable, std::size_t step) = 0;
-    // What the values of a step come from; no files where that is not known. REQUIRES: as read().
-    // Throws FileError.
+    // What the values of a step come from; no files where that is not known, or the step's places
+    // are not those of variables(). REQUIRES: as read(). Throws FileError.
     virtual StepSources sources(std::size_t, std::size_t) { return {}; }
     // What its files say is of this moment or later; openReader() sets it.
     std::chrono::system_clock::time_point openedAt{};

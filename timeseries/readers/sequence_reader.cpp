@@ -239,6 +239,8 @@ SequenceReader::Member SequenceReader::memberOf(std::size_t variable, std::size_
 
 StepSources SequenceReader::sources(std::size_t variable, std::size_t step) {
     const Member member = memberOf(variable, step);
+    const auto& grid = variables_[variable].grid;
+    if (gridOfStep(grid, member.reader.variables()[member.variable].grid) != grid) return {};
     return member.reader.sources(member.variable, member.step);
 }
 

@@ -162,8 +162,11 @@ void VtkReader::open(std::size_t step) {
     openStep_ = step;
 }
 
-StepSources VtkReader::sources(std::size_t, std::size_t step) {
+StepSources VtkReader::sources(std::size_t variable, std::size_t step) {
     open(step);
+    const auto& own = frame_.grids[static_cast<std::size_t>(sources_[variable].array.place)];
+    const auto& grid = variables_[variable].grid;
+    if (!own || gridOfStep(grid, own->grid) != grid) return {};
     StepSources sources{{members_[step].path}};
     for (const VtkHeader& part : frame_.contents.parts) sources.files.push_back(part.path);
     return sources;

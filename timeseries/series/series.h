@@ -33,7 +33,7 @@ struct StepSummary {
 // Invariant: what is loaded took at most the budget when it was counted last, or is one step alone.
 class Series {
  public:
-    static constexpr std::size_t kQuantiles = 1024 + 1;
+    static constexpr std::size_t kQuantiles = kStepQuantiles;
 
     // Throws std::invalid_argument when there is no step.
     Series(std::size_t steps, std::uint64_t budgetBytes, Quantiles quantiles = Quantiles::Kept);

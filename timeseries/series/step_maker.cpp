@@ -8,21 +8,30 @@
 namespace timeseries {
 namespace {
 
-// What a step is read from once more, by a reader of its own: whoever asks has no other.
+// What a step on disk was made of, read by a reader of its own: whoever asks has no other.
 struct Reopened {
     std::vector<std::filesystem::path> files;
     std::string variable;
     std::size_t step;  // of the series
+    std::shared_ptr<StepStore> store;
     StepOrigin origin;
+    std::string about;  // the origin's stamp then
 
-    Field read() const {
+    bool isStill() const {
+        const auto stamp = store->stampOf(origin);
+        return stamp && stamp->text == about;
+    }
+    // None, should it have changed before it was read, or while it was.
+    std::optional<Field> read() const try {
+        if (!isStill()) return std::nullopt;
         const auto reader = openReader(files);
         const auto variables = reader->variables();
         const auto found = std::ranges::find(variables, variable, &Variable::name);
-        if (found == variables.end() || step >= found->time->points.size())
-            throw FileError(fmt::format("{}: expected step {} of '{}', which it had before",
-                                        files.front().string(), step, variable));
-        return reader->read(static_cast<std::size_t>(found - variables.begin()), step);
+        if (found == variables.end() || step >= found->time->points.size()) return std::nullopt;
+        Field field = reader->read(static_cast<std::size_t>(found - variables.begin()), step);
+        return isStill() ? std::optional(std::move(field)) : std::nullopt;
+    } catch (const FileError&) {
+        return std::nullopt;
     }
 };
 
@@ -48,25 +57,18 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
     for (const auto& store : stores_.read) {
         auto file = store->find(origin);
         if (!file || file->type() != variable().type) continue;
-        const Reopened source{
-            {reader_->files().begin(), reader_->files().end()}, variable().name, step, origin};
-        const auto again = [store, source](const std::string& why) {
-            store->discard(store->pathOf(source.origin), why);
-            return SortedStep::build(source.read());
-        };
-        // None, should it have changed before it was read, or while it was.
-        const auto field = [store, source, about = file->about()]() -> std::optional<Field> {
-            const auto isStill = [&] {
-                const auto stamp = store->stampOf(source.origin);
-                return stamp && stamp->text == about;
-            };
-            try {
-                if (!isStill()) return std::nullopt;
-                Field read = source.read();
-                return isStill() ? std::optional(std::move(read)) : std::nullopt;
-            } catch (const FileError&) {
-                return std::nullopt;
-            }
+        const Reopened source{{reader_->files().begin(), reader_->files().end()},
+                              variable().name,
+                              step,
+                              store,
+                              origin,
+                              file->about()};
+        const auto field = [source] { return source.read(); };
+        const auto again = [source](const std::string& why) {
+            source.store->discard(source.store->pathOf(source.origin), why);
+            if (const auto read = source.read()) return SortedStep::build(*read);
+            throw FileError(fmt::format("{}: it has changed since it was opened: open it again",
+                                        source.origin.files.front().string()));
         };
         try {
             return std::make_shared<const SortedStep>(SortedStep::stored(

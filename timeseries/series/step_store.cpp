@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "readers_version.h"
 #include "timeseries/series/whole_file.h"
 
 namespace timeseries {
@@ -64,9 +65,10 @@ std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin) const {
         files += "}";
         stamp.changed = std::max(stamp.changed, timeOf(last));
     }
-    stamp.text =
-        fmt::format("{{\"variable\": {}, \"storedAs\": {}, \"step\": {}, \"files\": [{}]}}",
-                    textOf(origin.variable), textOf(origin.storedAs), origin.step, files);
+    stamp.text = fmt::format(
+        "{{\"variable\": {}, \"storedAs\": {}, \"step\": {}, \"readers\": {}, \"files\": [{}]}}",
+        textOf(origin.variable), textOf(origin.storedAs), origin.step, textOf(kReadersVersion),
+        files);
     return stamp;
 }
 
