@@ -63,7 +63,7 @@ macro(rooms folder)
     endif()
   endforeach()
 endmacro()
-rooms(timeseries grid index readers series)
+rooms(timeseries grid index readers series ranks)
 rooms(render image gl points model splat reference annotate frame)
 rooms(app choices files picture measure exploration drawing panels desktop headset command)
 

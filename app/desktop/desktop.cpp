@@ -79,7 +79,7 @@ void Desktop::frame(std::chrono::nanoseconds dt) {
     gui_.setScale(panels::scaleWithRoom(glm::vec2(size), wanted));
     interact(dt);
     const Clock::time_point begin = Clock::now();
-    drawPicture();
+    exploration_.reading([&] { drawPicture(); });
     gui_.draw();
     window_.swap();
     picture_.took(Clock::now() - begin);
@@ -105,7 +105,7 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
                          .key = input.key,
                          .performance = picture_.performance()},
                         requests);
-        serve(requests);
+        exploration_.reading([&] { serve(requests); });
         if (window_.events().empty()) return;
     }
 }

@@ -9,6 +9,7 @@
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
 #include "app/picture/picture.h"
+#include "timeseries/index/byte_source.h"
 
 namespace app {
 namespace {
@@ -32,7 +33,7 @@ void Exploration::edit(Explorer next, std::string_view gesture) {
     if (!next.files.empty() && !sameData(next, explorer()))
         return openEdited(std::move(next), gesture);
     if (pending_ && pending_->travel != 0) pending_.reset();
-    change(std::move(next), gesture);
+    reading([&] { change(std::move(next), gesture); });
 }
 
 void Exploration::change(Explorer next, std::string_view gesture) {
@@ -69,10 +70,12 @@ bool Exploration::canUndo() const {
 void Exploration::undo() {
     if (pending_ && pending_->travel == 0) return cancelOpening();
     if (playback_.playing) togglePlay();
-    travel(-1);
+    reading([&] { travel(-1); });
 }
 
-void Exploration::redo() { travel(+1); }
+void Exploration::redo() {
+    reading([&] { travel(+1); });
+}
 
 // Returns how far it went.
 int Exploration::move(int by) {
@@ -114,7 +117,7 @@ void Exploration::togglePlay() {
     if (!playback_.playing) return tell(whyNothingPlays());
     playedFrom_ = explorer().steps;
     // The step asked for may have lain outside what plays.
-    play(std::chrono::nanoseconds(0));
+    reading([&] { play(std::chrono::nanoseconds(0)); });
 }
 
 std::string Exploration::whyNothingPlays() const {
@@ -177,11 +180,16 @@ void Exploration::seekTick(std::int64_t tick) {
     Explorer next = from;
     next.play.tick = tick;
     playback_ = followed(playback_, from, next);
-    open_->counts = pointCounts(next, *open_->sorted);
+    reading([&] { open_->counts = pointCounts(next, *open_->sorted); });
     history_.replace(std::move(next));
 }
 
 void Exploration::advance(std::chrono::nanoseconds dt) {
+    if (lost_) closeLost();
+    reading([&] { goOn(dt); });
+}
+
+void Exploration::goOn(std::chrono::nanoseconds dt) {
     takeOpened();
     takeFirstStep();
     if (!open_) return;
@@ -241,6 +249,28 @@ std::vector<std::size_t> Exploration::wishes() const {
 }
 
 // Looking.
+
+bool Exploration::reading(const std::function<void()>& work) {
+    try {
+        work();
+        return true;
+    } catch (const timeseries::FileError& error) {
+        lost_ = error.what();
+    } catch (const timeseries::StepFileError& error) {
+        lost_ = error.what();
+    }
+    return false;
+}
+
+void Exploration::closeLost() {
+    tell(*lost_ + ": nothing is shown any more", true);
+    lost_.reset();
+    open_.reset();
+    pending_.reset();
+    playback_ = {};
+    playedFrom_.reset();
+    history_ = History();
+}
 
 std::optional<Shown> Exploration::shown() const {
     if (!open_) return std::nullopt;

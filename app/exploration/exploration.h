@@ -95,6 +95,11 @@ class Exploration {
         return playback_.untilNextChange();
     }
 
+    // Runs what reads the step shown, not ImGui. False: it turned out that the step can be read no
+    // longer, for of a sorted one points are read when they are looked at. The next advance() tells
+    // it, and from then on nothing is shown.
+    bool reading(const std::function<void()>& work);
+
     std::optional<Shown> shown() const;
     // In words, when what is shown is not what is asked for: "requested step 7, showing 5".
     std::string waiting() const;
@@ -133,6 +138,8 @@ class Exploration {
     void play(std::chrono::nanoseconds dt);
     std::string whyNothingPlays() const;
     void keepPlayed();
+    void goOn(std::chrono::nanoseconds dt);
+    void closeLost();
     void takeArrivals();
     void show(std::size_t step, std::shared_ptr<const timeseries::SortedStep> sorted);
     std::vector<std::size_t> wishes() const;
@@ -144,6 +151,7 @@ class Exploration {
     std::optional<StepChoice> playedFrom_;  // while playing: what undo goes back to
     std::unique_ptr<Open> open_;
     std::unique_ptr<Pending> pending_;
+    std::optional<std::string> lost_;  // why what is shown can be read no longer
     std::vector<Message> messages_;
     std::uint64_t nextMessage_ = 0;
 };

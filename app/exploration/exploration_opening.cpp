@@ -162,6 +162,8 @@ void Exploration::adopt(LiveSteps::Arrival first) {
         opened.counts = pointCounts(next, *first.sorted);
     } catch (const std::invalid_argument& error) {
         return fail(error.what());
+    } catch (const std::runtime_error& error) {  // of a sorted step, of which points were read
+        return fail(error.what());
     }
     opened.step = first.step;
     opened.sorted = std::move(first.sorted);

@@ -70,10 +70,10 @@ bool Headset::frame() {
     exploration_.advance(session_->state().focused() ? dt : 0ns);
     if (!frame) return true;
     timing_ = {frame->displayTime(), frame->period(), frame->shouldRender()};
-    act(*frame, dt);
+    exploration_.reading([&] { act(*frame, dt); });
     if (frame->shouldRender()) {
         drawBoards(*frame, dt);
-        drawEyes(*frame, began);
+        exploration_.reading([&] { drawEyes(*frame, began); });
     }
     errands_.goOn();
     return true;

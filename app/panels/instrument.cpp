@@ -64,7 +64,7 @@ void Instrument::draw(Desk& desk, const Rect& at) {
                   .steps = {series.stepCount(), parts.map.min.x, parts.map.max.x},
                   .list = *ImGui::GetWindowDrawList(),
                   .s = desk.theme.scale};
-    refresh(f);
+    refresh(desk.exploration, f);
 
     const glm::vec2 mouse = vec(ImGui::GetIO().MousePos);
     const Pressing p = area("##instrument", reach(f));
@@ -106,15 +106,18 @@ void Instrument::draw(Desk& desk, const Rect& at) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
-void Instrument::refresh(const Frame& f) {
+void Instrument::refresh(Exploration& exploration, const Frame& f) {
     const auto bins =
         static_cast<std::size_t>(std::max(1.0f, f.at.histogram.size().y / (kBinPixels * f.s)));
     const bool sameAxis = axis_.lo == f.axis.lo && axis_.hi == f.axis.hi;
     axis_ = f.axis;
     if (!sameAxis || counts_.size() != bins || countedStep_.lock() != f.shown.sorted) {
         countedStep_ = f.shown.sorted;
-        counts_ = histogram(*f.shown.sorted, f.axis.lo, f.axis.hi, bins);
-        infinite_ = atInfinity(*f.shown.sorted, f.axis.lo, f.axis.hi);
+        counts_.assign(bins, 0);
+        exploration.reading([&] {
+            counts_ = histogram(*f.shown.sorted, f.axis.lo, f.axis.hi, bins);
+            infinite_ = atInfinity(*f.shown.sorted, f.axis.lo, f.axis.hi);
+        });
     }
     if (!f.hasMap()) return;
     const auto fit = static_cast<std::size_t>(std::max(1.0f, f.at.map.size().x / (2 * f.s)));

@@ -78,7 +78,7 @@ class Instrument {
     void drawAxis(const Frame& f) const;
     void drawTime(const Frame& f) const;
     std::string hoverText(const Frame& f, glm::vec2 mouse) const;
-    void refresh(const Frame& f);
+    void refresh(Exploration& exploration, const Frame& f);
 
     std::optional<std::pair<double, double>> zoomed_;
     bool linear_ = false;

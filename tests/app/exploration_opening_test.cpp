@@ -4,12 +4,18 @@
 #include <gtest/gtest.h>
 
 #include "app/picture/picture.h"
+#include "tests/support/built_paths.h"
 #include "tests/support/exploration_desk.h"
+#include "tests/support/files.h"
+#include "tests/support/random_field.h"
+#include "tests/support/step_bytes.h"
+#include "timeseries/readers/step_about.h"
 
 namespace app {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::bruteForce;
@@ -69,6 +75,49 @@ TEST(Exploration, ABadFileLeavesWhatIsShownUntouchedAndSaysWhy) {
     EXPECT_THAT(desk.errors(), ElementsAre("gone: cannot be opened"));
     desk.exploration.forgetMessage(desk.exploration.messages().front().number);
     EXPECT_THAT(desk.errors(), ElementsAre());
+}
+
+// A step that stands alone, a bit of each block's points or values wrong.
+std::filesystem::path damagedStep(bool values) {
+    std::mt19937_64 random(1);
+    auto bytes = tests::written(
+        timeseries::SortedStep::build(tests::randomField<float>(random, {200, 200, 3}, 0)),
+        textOf(timeseries::StepAbout{}));
+    for (const timeseries::StepBlock& block : tests::opened(bytes)->blocks())
+        bytes[values ? block.keysAt : block.idsAt] ^= std::byte{1};
+    const std::filesystem::path path = tests::testFolder() / "u.isostep";
+    tests::writeBytes(path, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    return path;
+}
+
+// Its points are read where somebody looks: damage comes to light late.
+TEST(Exploration, AStepThatCanBeReadNoLongerIsToldAndClosed) {
+    Exploration exploration({});
+    exploration.open(std::vector{damagedStep(false)});
+    while (exploration.opening()) exploration.advance(16ms);
+    ASSERT_TRUE(exploration.shown()) << exploration.messages().back().text;
+    const auto shown = exploration.shown()->sorted;
+    EXPECT_FALSE(exploration.reading([&] { (void)shown->columns(); }));
+    EXPECT_TRUE(exploration.shown()) << "somebody may be drawing it";
+    exploration.advance(16ms);
+    EXPECT_THAT(exploration.messages().back().text, AllOf(HasSubstr("u.isostep is a damaged index"),
+                                                          HasSubstr("nothing is shown any more")));
+    EXPECT_FALSE(exploration.shown());
+    EXPECT_EQ(exploration.explorer(), Explorer());
+    EXPECT_FALSE(exploration.canUndo());
+    exploration.advance(16ms);
+    EXPECT_FALSE(exploration.shown());
+}
+
+TEST(Exploration, AStepThatCannotBeSelectedFromIsRefusedAndWhatIsShownStays) {
+    Exploration exploration({});
+    exploration.open(std::vector{tests::demo()});
+    while (exploration.opening()) exploration.advance(16ms);
+    exploration.open(std::vector{damagedStep(true)});
+    while (exploration.opening()) exploration.advance(16ms);
+    EXPECT_THAT(exploration.messages().back().text, HasSubstr("u.isostep is a damaged index"));
+    ASSERT_TRUE(exploration.shown());
+    EXPECT_EQ(exploration.shown()->dataset.about.name, "T");
 }
 
 TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThere) {

@@ -312,7 +312,24 @@ def store_page(part):
             "Cold: without the index in the system's cache (the file, which the other side reads, stays there). By turns with reading the file and sorting.\n\n"
             + table(["points", "range", "read", "from disk, warm", "cold", "read and sorted", "ratio", "of processor time"], rows)
             + f"\nRead, sorted and written, 256³: {ms(f, 'second_ms')} on one thread, {ms(f, 'first_ms')} on both, {digits(rate(f['second_ms']))} and "
-            f"{digits(rate(f['first_ms']))} million points/s.\n")
+            f"{digits(rate(f['first_ms']))} million points/s.\n" + series_page(part) + ranks_page(part))
+
+
+def series_page(part):
+    f = part("storeSeries/steps:10000")
+    if not f:
+        return ""
+    target("10,000 sorted steps opened, to the points of the first", 1e-3 * f["first_ms"], 1, shown=time)
+    return f"\n10,000 sorted steps of 64³ points (names of one file) opened as a series, to the points of the first: {ms(f, 'first_ms')}.\n"
+
+
+def ranks_page(part):
+    f = part("storeRanks/points:400")
+    if not f:
+        return ""
+    target("the same file by mpirun, two processes / one", f["second/first"], 1.7, at_least=True)
+    return (f"\nA file of 400³ floats read, sorted and written under mpirun, one thread each: {ms(f, 'second_ms')} by one process, {ms(f, 'first_ms')} by two, "
+            f"which read, sort and write the step together: {digits(f['second/first'])} times as fast.\n")
 
 
 def opening_page(part):

@@ -4,12 +4,15 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "tests/bench/alternate.h"
 #include "tests/bench/turbulence.h"
+#include "tests/support/built_paths.h"
 #include "timeseries/readers/reader.h"
+#include "timeseries/readers/step_about.h"
 #include "timeseries/series/step_maker.h"
 
 namespace {
@@ -148,5 +151,56 @@ void storeWrite(benchmark::State& state) {
     state.counters["points"] = static_cast<double>(w.points);
 }
 BENCHMARK(storeWrite)->ArgNames({"points"})->Arg(256)->Unit(benchmark::kMillisecond)->Iterations(3);
+
+// A series of sorted steps opened, to the points of its first: a name each for one file.
+void storeSeries(benchmark::State& state) {
+    const fs::path folder =
+        fs::temp_directory_path() / ("isochron-series-" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    std::vector<fs::path> paths;
+    for (std::int64_t i = 0; i < state.range(0); ++i) {
+        paths.push_back(folder / ("u_" + std::to_string(100'000 + i) + ".isostep"));
+        if (i > 0) {
+            fs::create_hard_link(paths.front(), paths.back());
+            continue;
+        }
+        timeseries::WholeFile file(paths.back());
+        writeStep(SortedStep::build(bench::turbulence<float>(64)),
+                  textOf(timeseries::StepAbout{"u", "", 0, "", {}}), file);
+        file.finish();
+    }
+    bench::Cost cost;
+    for (auto _ : state)
+        bench::measure(cost, 1, [&] {
+            StepMaker maker(timeseries::openReader(paths), 0, RangeSet::everything());
+            benchmark::DoNotOptimize(maker.make(0)->columns().gridIndex.data());
+        });
+    fs::remove_all(folder);
+    state.counters["first_ms"] = bench::median(cost.ms);
+}
+BENCHMARK(storeSeries)
+    ->ArgNames({"steps"})
+    ->Arg(10'000)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+#ifdef MPIRUN
+// A file read, sorted and written by the program, as two processes and as one, each on one thread.
+void storeRanks(benchmark::State& state) {
+    World& w = world(static_cast<std::size_t>(state.range(0)));
+    const fs::path cache = w.folder / "ranks";
+    const auto index = [&](int ranks) {
+        fs::remove_all(cache);
+        const std::string command = std::string(MPIRUN) + " " + std::to_string(ranks) + " " +
+                                    tests::program().string() + " index " + w.file.string() +
+                                    " --threads 1 --cache " + cache.string() + " >/dev/null";
+        if (std::system(command.c_str()) != 0) state.SkipWithError("mpirun failed");
+    };
+    bench::alternate(
+        state, [&] { index(2); }, [&] { index(1); });
+    state.counters["points"] = static_cast<double>(w.points);
+}
+BENCHMARK(storeRanks)->ArgNames({"points"})->Arg(400)->Unit(benchmark::kMillisecond)->Iterations(3);
+#endif
 
 }  // namespace

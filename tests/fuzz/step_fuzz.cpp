@@ -8,6 +8,7 @@
 
 #include "tests/support/step_bytes.h"
 #include "timeseries/index/step_file.h"
+#include "timeseries/readers/step_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::vector<std::byte> bytes(size);
@@ -28,6 +29,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             if (file.below(block, file.blocks()[block].greatest) > file.blocks()[block].count)
                 std::abort();
         file.check();
+        (void)timeseries::variableOf(file);
+    } catch (const timeseries::FileError& error) {
+        if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
     } catch (const timeseries::StepFileError& error) {
         if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
     }

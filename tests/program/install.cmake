@@ -10,6 +10,11 @@ endif()
 file(GLOB_RECURSE files RELATIVE ${prefix} ${prefix}/*)
 set(expected bin/isochron share/applications/isochron.desktop
     share/icons/hicolor/scalable/apps/isochron.svg share/mime/packages/isochron.xml)
+if(MPI)
+  list(APPEND expected include/isochron_step.h lib/libisochron_step.so lib/libisochron_step.so.0
+       lib/libisochron_step.so.0.1.0)
+  list(SORT expected)
+endif()
 if(NOT "${files}" STREQUAL "${expected}")
   fail("installed: ${files}")
 endif()

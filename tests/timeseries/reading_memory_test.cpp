@@ -65,5 +65,22 @@ TEST(ReadingMemory, OfNrrdIsTwiceAStepAtMost) {
     }
 }
 
+TEST(ReadingMemory, OfAnEighthIsTwiceAnEighthAtMost) {
+    const auto packed = [](NetcdfBuilder& file, int v) { file.number(v, "scale_factor", 0.5); };
+    expectTwiceAtMost(netcdf(NC_64BIT_OFFSET, NC_FLOAT, "tzyx", [](NetcdfBuilder&, int) {}), kFloat,
+                      0, true);
+    expectTwiceAtMost(netcdf(NC_NETCDF4, NC_SHORT, "tzyx", packed), {2 * kPoints, 8 * kPoints}, 0,
+                      true);
+    const auto path = testFolder() / "file.nrrd";
+    writeHollow(
+        path,
+        nrrd(fmt::format("type: float\nendian: big\nencoding: raw\ndimension: 4\nkinds: space "
+                         "space space time\nsizes: {0} {0} {0} 3\n",
+                         kSide),
+             ""),
+        3 * kFloat.stored);
+    expectTwiceAtMost(path, kFloat, 0, true);
+}
+
 }  // namespace
 }  // namespace timeseries

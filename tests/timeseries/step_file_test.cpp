@@ -9,6 +9,7 @@
 #include <random>
 #include <thread>
 
+#include "tests/support/random_field.h"
 #include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
@@ -30,36 +31,6 @@ SortedStep storedOf(const SortedStep& step,
                     std::function<SortedStep(const std::string&)> again = never) {
     return SortedStep::stored(tests::opened(tests::written(step)), step.sharedGrid(), false,
                               {std::move(again)});
-}
-
-std::shared_ptr<const Grid> gridOf(std::array<std::size_t, 3> size) {
-    return std::make_shared<const Grid>(
-        std::array{tests::axis(size[0]), tests::axis(size[1]), tests::axis(size[2])});
-}
-
-// Smooth, any bits, awkward or one value almost everywhere; some of it missing.
-template <typename T>
-Field randomField(std::mt19937_64& random, std::array<std::size_t, 3> size, int kind) {
-    Field field;
-    field.grid = gridOf(size);
-    const std::size_t n = field.grid->count();
-    const std::vector<T> awkward = oracle::awkwardValues<T>();
-    std::vector<T> values(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto p = field.grid->position(i);
-        if (kind == 0)
-            values[i] = static_cast<T>(60 + 50 * std::sin(p.x * .1) * std::cos(p.y * .2 + p.z));
-        if (kind == 1) values[i] = oracle::anyValue<T>(random);
-        if (kind == 2) values[i] = awkward[random() % awkward.size()];
-        if (kind == 3) values[i] = random() % 100 == 0 ? oracle::anyValue<T>(random) : T{7};
-    }
-    if (random() % 2 == 0) {
-        field.missing.resize(n);
-        for (std::size_t i = 0; i < n; ++i) field.missing[i] = random() % 5 == 0;
-    }
-    values[random() % n] = T{1};
-    field.values = std::move(values);
-    return field;
 }
 
 template <typename T>
@@ -116,7 +87,8 @@ TYPED_TEST(StepFileOf, HoldsTheListToTheLastPoint) {
         for (int kind = 0; kind < 4; ++kind) {
             SCOPED_TRACE(testing::Message()
                          << size[0] << " x " << size[1] << " x " << size[2] << ", kind " << kind);
-            const SortedStep step = SortedStep::build(randomField<TypeParam>(random, size, kind));
+            const SortedStep step =
+                SortedStep::build(tests::randomField<TypeParam>(random, size, kind));
             if (step.size() == 0) continue;
             expectSame<TypeParam>(step, storedOf(step), random);
         }
@@ -126,7 +98,8 @@ TYPED_TEST(StepFileOf, HoldsTheListToTheLastPoint) {
 TYPED_TEST(StepFileOf, CountsWhatIsLess) {
     std::mt19937_64 random(6);
     for (int kind = 0; kind < 4; ++kind) {
-        const SortedStep step = SortedStep::build(randomField<TypeParam>(random, {9, 8, 7}, kind));
+        const SortedStep step =
+            SortedStep::build(tests::randomField<TypeParam>(random, {9, 8, 7}, kind));
         const auto values = std::get<std::span<const TypeParam>>(step.columns().values);
         for (int i = 0; i < 200; ++i) {
             const double edge = i % 2 == 0 ? toDouble(step.value(random() % step.size()))
@@ -145,7 +118,7 @@ TYPED_TEST(StepFileOf, CountsWhatIsLess) {
 }
 
 SortedStep smooth(std::array<std::size_t, 3> size = {60, 50, 40}) {
-    const auto grid = gridOf(size);
+    const auto grid = tests::gridOf(size);
     return tests::stepOf(grid, [&](std::size_t i) {
         const auto p = grid->position(i);
         return static_cast<float>(std::sin(p.x * .1) + std::cos(p.y * .13) * p.z);
@@ -190,8 +163,8 @@ TEST(StepFile, IsReadByManyAtOnce) {
 
 TEST(StepFile, OfAnotherGridIsRefused) {
     const SortedStep step = smooth({4, 5, 6});
-    EXPECT_THROW((void)SortedStep::stored(tests::opened(tests::written(step)), gridOf({5, 4, 6}),
-                                          false, {never}),
+    EXPECT_THROW((void)SortedStep::stored(tests::opened(tests::written(step)),
+                                          tests::gridOf({5, 4, 6}), false, {never}),
                  StepFileError);
 }
 

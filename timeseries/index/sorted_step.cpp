@@ -15,6 +15,7 @@
 #include "timeseries/index/cell_index.h"
 #include "timeseries/index/lazy_column.h"
 #include "timeseries/index/ordered_key.h"
+#include "timeseries/index/step_blocks.h"
 #include "timeseries/index/step_file.h"
 #include "timeseries/index/stored_column.h"
 
@@ -162,6 +163,12 @@ SortedStep SortedStep::stored(std::shared_ptr<const StepFile> file,
     return step;
 }
 
+SortedStep SortedStep::ofFile(std::shared_ptr<const StepFile> file,
+                              std::shared_ptr<const Grid> grid, bool categories) {
+    const auto never = [](const std::string& why) -> SortedStep { throw StepFileError(why); };
+    return stored(std::move(file), std::move(grid), categories, {never});
+}
+
 std::vector<Run> SortedStep::select(const RangeSet& ranges) const {
     std::vector<Run> runs;
     std::visit(
@@ -304,13 +311,7 @@ std::vector<double> SortedStep::quantiles(std::size_t n) const {
     const Run among = finite();
     if (among.count == 0) return out;
     if (n > kFewQuantiles) columns();  // all at once, on all threads
-    out.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const double fraction = n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
-        const double rank = fraction * static_cast<double>(among.count - 1);
-        out.push_back(
-            toDouble(value(among.first + static_cast<std::uint64_t>(std::llround(rank)))));
-    }
+    for (const std::uint64_t rank : quantileRanks(among, n)) out.push_back(toDouble(value(rank)));
     return out;
 }
 

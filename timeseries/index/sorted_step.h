@@ -83,6 +83,9 @@ class SortedStep {
     // StepFileError when the file is of another grid. Members may then throw what `again` throws.
     static SortedStep stored(std::shared_ptr<const StepFile> file, std::shared_ptr<const Grid> grid,
                              bool categories, Source source, unsigned threads = sharingThreads());
+    // The same where nothing else is known of the step: `again` throws what was wrong.
+    static SortedStep ofFile(std::shared_ptr<const StepFile> file, std::shared_ptr<const Grid> grid,
+                             bool categories);
     // Null unless it is read from a file.
     const std::shared_ptr<const StepFile>& file() const { return file_; }
     // All values in the grid's order: of the source, which is soon read, where there is one.

@@ -58,7 +58,6 @@ StepFile::StepFile(std::unique_ptr<const ByteSource> bytes) : bytes_(std::move(b
     size_ = header.size;
     readBlocks(header);
     readSummary(header);
-    order_ = std::make_unique<const BrickOrder>(size_);
 }
 
 StepHeader StepFile::readHeader() const {
@@ -166,6 +165,11 @@ void StepFile::readSummary(const StepHeader& header) {
     about_.assign(reinterpret_cast<const char*>(text.data()), text.size());
 }
 
+const BrickOrder& StepFile::order() const {
+    std::call_once(orderMade_, [&] { order_ = std::make_unique<const BrickOrder>(size_); });
+    return *order_;
+}
+
 void StepFile::willNeed(std::size_t firstBlock, std::size_t blocks) const {
     if (blocks == 0) return;
     const StepBlock &first = blocks_[firstBlock], &last = blocks_[firstBlock + blocks - 1];
@@ -191,7 +195,7 @@ void StepFile::read(std::size_t index, std::span<T> values,
     bytes_->read(block.idsAt, piece.bytes());
     if (static_cast<std::uint32_t>(sumOfBytes(piece.bytes())) != block.idsSum ||
         !decodeIds(piece.bytes(), gridIndex) ||
-        !order_->toGridIndices(gridIndex.data(), gridIndex.size()))
+        !order().toGridIndices(gridIndex.data(), gridIndex.size()))
         damaged(fmt::format("the points of block {} do not match its directory", index));
     const auto keys = std::make_unique_for_overwrite<OrderedKey<T>[]>(block.count);
     readKeys<OrderedKey<T>>(block, {keys.get(), block.count});

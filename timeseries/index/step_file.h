@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,7 +80,10 @@ class StepFile {
     std::vector<StepBlock> blocks_;
     std::vector<double> quantiles_;
     std::string about_;
-    std::unique_ptr<const BrickOrder> order_;
+    const BrickOrder& order() const;
+    // Made when the first block is read: of thousands of steps that are opened few are.
+    mutable std::once_flag orderMade_;
+    mutable std::unique_ptr<const BrickOrder> order_;
 };
 
 // Writes a step: the same bytes for the same points, on any number of threads. `about`: what to

@@ -9,6 +9,9 @@ namespace timeseries {
 
 struct WideKey {  // orders by key, then index
     std::uint64_t index, key;
+    friend bool operator<(const WideKey& a, const WideKey& b) {
+        return a.key != b.key ? a.key < b.key : a.index < b.index;
+    }
 };
 
 // Both ascend.

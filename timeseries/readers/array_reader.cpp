@@ -64,11 +64,15 @@ class ArrayReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return {&header_.path, 1}; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    Field readSlab(std::size_t variable, std::size_t step, const Slab& slab) override;
     StepSources sources(std::size_t, std::size_t step) override { return {sources_, step}; }
 
  private:
+    std::uint64_t points() const { return layout_.inner * layout_.outer; }
+    // Points [first, last) in the order of the grid. REQUIRES: all, where that is not the file's.
+    Field values(std::size_t step, std::uint64_t first, std::uint64_t last);
     template <typename T>
-    void fill(std::size_t step, std::vector<T>& values);
+    void fill(std::size_t step, std::uint64_t first, std::uint64_t last, std::vector<T>& values);
     template <typename T>
     void scatter(std::uint64_t first, std::span<const T> from, std::vector<T>& values) const;
 
@@ -97,14 +101,18 @@ void ArrayReader::scatter(std::uint64_t first, std::span<const T> from,
 }
 
 template <typename T>
-void ArrayReader::fill(std::size_t step, std::vector<T>& values) {
-    values.resize(layout_.inner * layout_.outer);
+void ArrayReader::fill(std::size_t step, std::uint64_t first, std::uint64_t last,
+                       std::vector<T>& values) {
+    values.resize(last - first);
     std::vector<T> part(layout_.turned ? std::min(kTurnCount, layout_.inner) : 0);
     for (std::uint64_t outer = 0; outer < layout_.outer; ++outer) {
         const std::uint64_t at = (outer * layout_.steps + step) * layout_.inner;
         const std::uint64_t point = outer * layout_.inner;
         if (!layout_.turned) {
-            stream_->read(at, layout_.inner, values.data() + point);
+            const std::uint64_t from = std::max(point, first);
+            const std::uint64_t to = std::min(point + layout_.inner, last);
+            if (from < to)
+                stream_->read(at + from - point, to - from, values.data() + from - first);
             continue;
         }
         for (std::uint64_t done = 0; done < layout_.inner; done += part.size()) {
@@ -134,14 +142,29 @@ std::vector<double> scaled(const Values& stored, const ArrayHeader::Scaling& by)
     return values;
 }
 
-Field ArrayReader::read(std::size_t variable, std::size_t step) {
+Field ArrayReader::values(std::size_t step, std::uint64_t first, std::uint64_t last) {
     Field field;
-    field.grid = variables_[variable].grid;
     field.categories = header_.categories;
     field.values = valuesOf(header_.type);
-    std::visit([&](auto& values) { fill(step, values); }, field.values);
+    std::visit([&](auto& values) { fill(step, first, last, values); }, field.values);
     if (header_.scaling) field.values = scaled(field.values, *header_.scaling);
     return field;
+}
+
+Field ArrayReader::read(std::size_t variable, std::size_t step) {
+    Field field = values(step, 0, points());
+    field.grid = variables_[variable].grid;
+    return field;
+}
+
+Field ArrayReader::readSlab(std::size_t variable, std::size_t step, const Slab& slab) {
+    const auto size = variables_[variable].grid->size();
+    std::uint64_t inner = 1;
+    for (std::size_t a = 0; a < slab.axis; ++a) inner *= size[a];
+    // One piece of the file, or pieces of all of it.
+    if (layout_.turned || inner * size[slab.axis] != points())
+        return Reader::readSlab(variable, step, slab);
+    return values(step, slab.first * inner, (slab.first + slab.count) * inner);
 }
 
 }  // namespace

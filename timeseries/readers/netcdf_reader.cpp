@@ -48,6 +48,7 @@ class NetcdfReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
+    Field readSlab(std::size_t variable, std::size_t step, const Slab& slab) override;
     StepSources sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 
@@ -59,6 +60,8 @@ class NetcdfReader final : public Reader {
     void addVariables();
     void addVariable(std::size_t v);
     std::shared_ptr<const Grid> gridOf(std::size_t v, std::vector<std::string>& notes);
+    // Of one step of a file: all points where there is no slab. Without a grid.
+    Field valuesOf(std::size_t variable, std::size_t index, std::size_t step, const Slab* slab);
     // The file that holds a step, and which of its steps that is.
     std::pair<std::size_t, std::size_t> fileOf(std::size_t variable, std::size_t step) const;
     // Of one step of a file, of a variable whose columns tell where its points lie.
@@ -258,7 +261,7 @@ struct Block {
     Layout layout{{1, 1, 1}, {0, 0, 0}};
 };
 
-Block blockOf(const FileVariable& variable, std::size_t step) {
+Block blockOf(const FileVariable& variable, std::size_t step, const Slab* slab) {
     Block block;
     const std::size_t rank = variable.lengths.size();
     block.start.assign(rank, 0);
@@ -268,6 +271,10 @@ Block blockOf(const FileVariable& variable, std::size_t step) {
         block.count[*variable.roles.t] = 1;
     }
     const std::array positions{variable.roles.x, variable.roles.y, variable.roles.z};
+    if (slab && positions[slab->axis]) {
+        block.start[*positions[slab->axis]] = slab->first;
+        block.count[*positions[slab->axis]] = slab->count;
+    }
     std::size_t stride = 1;
     for (std::size_t i = rank; i-- > 0;) {
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -303,10 +310,9 @@ std::pair<std::size_t, std::size_t> NetcdfReader::fileOf(std::size_t variable,
     return {segment->file, step};
 }
 
-Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
-    const auto [index, step] = fileOf(variable, seriesStep);
+Field NetcdfReader::valuesOf(std::size_t variable, std::size_t index, std::size_t step,
+                             const Slab* slab) {
     const FileVariable& source = contents_[index][variable];
-
     NetcdfFile& file = open(index);
     const NcVariable* found = file.header().find(source.name, "");
     std::vector<std::uint64_t> lengths;
@@ -318,6 +324,22 @@ Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
                   "expected it as it was when the series was opened, but the file has changed");
 
     Field field;
+    field.categories = source.categories;
+    const Block block = blockOf(source, step, slab);
+    unpack(
+        source.packing, block.layout,
+        [&](void* values) { file.read(*found, block.start, block.count, values); }, field);
+    return field;
+}
+
+Field NetcdfReader::readSlab(std::size_t variable, std::size_t seriesStep, const Slab& slab) {
+    const auto [index, step] = fileOf(variable, seriesStep);
+    return valuesOf(variable, index, step, &slab);
+}
+
+Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
+    const auto [index, step] = fileOf(variable, seriesStep);
+    Field field = valuesOf(variable, index, step, nullptr);
     field.grid = variables_[variable].grid;
     const auto& columns = contents_[0][variable].axes.columns;
     if (columns && (columns->inTime || index > 0)) {
@@ -326,15 +348,11 @@ Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
             if (*mesh != *field.grid->mesh())
                 field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh, true);
         } catch (const std::invalid_argument& flaw) {
-            file.fail("variable '" + source.name + "'",
-                      fmt::format("expected cells that take space, found that {}", flaw.what()));
+            open(index).fail(
+                "variable '" + contents_[index][variable].name + "'",
+                fmt::format("expected cells that take space, found that {}", flaw.what()));
         }
     }
-    field.categories = source.categories;
-    const Block block = blockOf(source, step);
-    unpack(
-        source.packing, block.layout,
-        [&](void* values) { file.read(*found, block.start, block.count, values); }, field);
     return field;
 }
 

@@ -15,6 +15,7 @@
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/sequence_reader.h"
+#include "timeseries/readers/step_reader.h"
 #ifdef ISOCHRON_VTK
 #include "timeseries/readers/vtk_reader.h"
 #else
@@ -75,6 +76,7 @@ const std::array kFormats = {
            openWith<readNiftiHeader>},
     Format{isMrc, openWith<readMrcHeader>},
     Format{[](std::string_view start) { return start.starts_with("SIMPLE  ="sv); }, openFits},
+    Format{[](std::string_view start) { return start.starts_with("isostep\n"sv); }, openStep},
     Format{[](std::string_view start) {
                const auto first = start.find_first_not_of(" \t\r\n"sv);
                const bool vtk =
@@ -104,7 +106,33 @@ const Format& recognise(const std::filesystem::path& path) {
                     start.empty() ? "but it is empty" : "found no format that is known"));
 }
 
+// Those of the slab, of all in the order of a grid of this size.
+template <typename T>
+std::vector<T> partOf(const std::vector<T>& all, const std::array<std::size_t, 3>& size,
+                      const Slab& slab) {
+    std::uint64_t inner = 1, outer = 1;  // points of a place along the axis, and places beyond it
+    for (std::size_t a = 0; a < 3; ++a) (a < slab.axis ? inner : outer) *= size[a];
+    outer /= size[slab.axis];
+    std::vector<T> part;
+    part.reserve(inner * slab.count * outer);
+    for (std::uint64_t o = 0; o < outer; ++o) {
+        const auto from =
+            all.begin() + static_cast<std::ptrdiff_t>((o * size[slab.axis] + slab.first) * inner);
+        part.insert(part.end(), from, from + static_cast<std::ptrdiff_t>(slab.count * inner));
+    }
+    return part;
+}
+
 }  // namespace
+
+Field Reader::readSlab(std::size_t variable, std::size_t step, const Slab& slab) {
+    Field field = read(variable, step);
+    const auto size = field.grid->size();
+    std::visit([&](auto& values) { values = partOf(values, size, slab); }, field.values);
+    if (!field.missing.empty()) field.missing = partOf(field.missing, size, slab);
+    field.grid = nullptr;
+    return field;
+}
 
 std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths) {
     if (paths.empty()) throw FileError("expected a file to open, but none is named");

@@ -16,6 +16,8 @@
 
 namespace timeseries {
 
+class StepFile;  // timeseries/index/step_file.h
+
 // A file that cannot be used. what() is one sentence: the file, the place in it, what was expected.
 struct FileError : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -65,6 +67,12 @@ struct StepSources {
     std::size_t step = 0;  // which of those that the files have
 };
 
+// The points of a grid whose places along one of its indices are [first, first + count).
+struct Slab {
+    std::size_t axis = 2;
+    std::uint64_t first = 0, count = 0;
+};
+
 // Not thread-safe: one thread at a time. Different Readers may be used on different threads.
 class Reader {
  public:
@@ -76,6 +84,11 @@ class Reader {
     virtual std::span<const DamagedVariable> damaged() const { return {}; }
     // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
     virtual Field read(std::size_t variable, std::size_t step) = 0;
+    // A part of what read() gives, in the order of the grid, without a grid. It takes the memory of
+    // all values where the format, or how they lie in the file, leaves no choice.
+    virtual Field readSlab(std::size_t variable, std::size_t step, const Slab& slab);
+    // The step as its file has it, where that is a sorted one; null where it is not.
+    virtual std::shared_ptr<const StepFile> sorted(std::size_t, std::size_t) { return nullptr; }
     // What the values of a step come from; no files where that is not known, or the step's places
     // are not those of variables(). REQUIRES: as read(). Throws FileError.
     virtual StepSources sources(std::size_t, std::size_t) { return {}; }

@@ -59,6 +59,14 @@ class SequenceReader final : public Reader {
     std::span<const Path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    Field readSlab(std::size_t variable, std::size_t step, const Slab& slab) override {
+        const Member member = memberOf(variable, step);
+        return member.reader.readSlab(member.variable, member.step, slab);
+    }
+    std::shared_ptr<const StepFile> sorted(std::size_t variable, std::size_t step) override {
+        const Member member = memberOf(variable, step);
+        return member.reader.sorted(member.variable, member.step);
+    }
     StepSources sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override {
         const auto& begins = begins_[variable];

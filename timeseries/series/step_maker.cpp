@@ -80,6 +80,10 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
 }
 
 std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
+    if (kept_ == RangeSet::everything())
+        if (auto file = reader_->sorted(variable_, step))
+            return std::make_shared<const SortedStep>(
+                SortedStep::ofFile(std::move(file), variable().grid, variable().categories));
     const bool canBe = (!stores_.read.empty() || stores_.write) && kept_ == RangeSet::everything();
     const auto origin = canBe ? originOf(*reader_, variable_, step) : std::nullopt;
     if (origin)

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "readers_version.h"
-#include "timeseries/series/whole_file.h"
 
 namespace timeseries {
 namespace {
@@ -112,6 +111,12 @@ std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin) {
 
 bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
                       Clock::time_point opened, const std::function<bool(double)>& goOn) {
+    return write(origin, stamp, opened,
+                 [&](WholeFile& file) { return writeStep(step, stamp.text, file, goOn); });
+}
+
+bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, Clock::time_point opened,
+                      const std::function<bool(WholeFile&)>& into) {
     const auto isStill = [&] {
         const auto now = stampOf(origin);
         return now && now->text == stamp.text;
@@ -122,7 +127,7 @@ bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, const 
     if (failed) throw StepFileError(fmt::format("{}: {}", folder_.string(), failed.message()));
     removeUnfinished(folder_);
     WholeFile file(pathOf(origin));
-    if (!writeStep(step, stamp.text, file, goOn) || !isStill()) return false;
+    if (!into(file) || !isStill()) return false;
     file.finish();
     makeRoom();
     return true;

@@ -14,6 +14,7 @@
 
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/index/step_file.h"
+#include "timeseries/series/whole_file.h"
 
 namespace timeseries {
 
@@ -66,6 +67,11 @@ class StepStore {
     bool write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
                std::chrono::system_clock::time_point opened,
                const std::function<bool(double)>& goOn = {});
+    // The same by whoever knows the points: into(file) writes all but finish(), and says whether
+    // it did.
+    bool write(const StepOrigin& origin, const OriginStamp& stamp,
+               std::chrono::system_clock::time_point opened,
+               const std::function<bool(WholeFile&)>& into);
     // Steps cannot be written there: why, is told.
     void giveUp(const std::string& why);
 

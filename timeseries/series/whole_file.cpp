@@ -19,6 +19,20 @@ namespace fs = std::filesystem;
 // Two of one process have two names.
 std::atomic<unsigned> written{0};
 
+[[noreturn]] void fail(const fs::path& path, int code) {
+    throw StepFileError(fmt::format("{}: {}", path.string(), std::strerror(code)));
+}
+
+void writeAll(int file, const fs::path& path, std::uint64_t at, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t put = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) fail(path, errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(put));
+        at += static_cast<std::uint64_t>(put);
+    }
+}
+
 }  // namespace
 
 // Between being made and being locked it looks like a leftover, and may be removed.
@@ -28,7 +42,7 @@ WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
         unfinished_ += fmt::format(".{}-{}{}", ::getpid(), written++, kSuffix);
         file_ = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
         if (file_ < 0 && errno == EEXIST) continue;  // of an earlier program of this number
-        if (file_ < 0) fail(errno);
+        if (file_ < 0) fail(path_, errno);
         // Where the file system knows no locks, leftovers are never taken for such.
         while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
         }
@@ -44,29 +58,37 @@ WholeFile::~WholeFile() {
     ::close(file_);
 }
 
-void WholeFile::fail(int code) const {
-    throw StepFileError(fmt::format("{}: {}", path_.string(), std::strerror(code)));
-}
-
 void WholeFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t put = ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(at));
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) fail(errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(put));
-        at += static_cast<std::uint64_t>(put);
-    }
+    writeAll(file_, path_, at, bytes);
 }
 
 void WholeFile::finish() {
-    if (::fsync(file_) != 0) fail(errno);
-    if (::rename(unfinished_.c_str(), path_.c_str()) != 0) fail(errno);
+    if (::fsync(file_) != 0) fail(path_, errno);
+    if (::rename(unfinished_.c_str(), path_.c_str()) != 0) fail(path_, errno);
     ::close(std::exchange(file_, -1));
     // The name, too, is to outlive a loss of power; where it does not, the file is made again.
-    const int folder = ::open(path_.parent_path().c_str(), O_DIRECTORY | O_RDONLY | O_CLOEXEC);
+    const fs::path parent = path_.has_parent_path() ? path_.parent_path() : ".";
+    const int folder = ::open(parent.c_str(), O_DIRECTORY | O_RDONLY | O_CLOEXEC);
     if (folder < 0) return;
     (void)::fsync(folder);
     ::close(folder);
+}
+
+FilePart::FilePart(fs::path path) : path_(std::move(path)) {
+    file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0) fail(path_, errno);
+}
+
+FilePart::~FilePart() {
+    if (file_ >= 0) ::close(file_);
+}
+
+void FilePart::write(std::uint64_t at, std::span<const std::byte> bytes) {
+    writeAll(file_, path_, at, bytes);
+}
+
+void FilePart::flush() {
+    if (::fsync(file_) != 0) fail(path_, errno);
 }
 
 void removeUnfinished(const fs::path& folder) {

@@ -22,11 +22,29 @@ class WholeFile final : public ByteSink {
     void write(std::uint64_t at, std::span<const std::byte> bytes) override;
     // On the disk, and there under its name, in that order.
     void finish();
+    // Where it is until then: for a FilePart of another process.
+    const std::filesystem::path& nameOfNow() const { return unfinished_; }
 
  private:
-    [[noreturn]] void fail(int code) const;
-
     std::filesystem::path path_, unfinished_;
+    int file_ = -1;
+};
+
+// Written into a WholeFile by another process, while that has it. It knows no lock, which a
+// network's file system might take for one against writing. Members throw StepFileError.
+class FilePart final : public ByteSink {
+ public:
+    explicit FilePart(std::filesystem::path path);
+    FilePart(const FilePart&) = delete;
+    FilePart& operator=(const FilePart&) = delete;
+    ~FilePart() override;
+
+    void write(std::uint64_t at, std::span<const std::byte> bytes) override;
+    // On the disk.
+    void flush();
+
+ private:
+    std::filesystem::path path_;
     int file_ = -1;
 };
 

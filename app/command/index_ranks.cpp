@@ -1,0 +1,241 @@
+// `mpirun isochron index`: steps are shared among ranks, and those that are left over, or that no
+// rank has memory for, are sorted by all of them together.
+#ifdef ISOCHRON_MPI
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <optional>
+
+#include "app/command/index_work.h"
+#include "app/files/dataset.h"
+#include "app/say.h"
+#include "timeseries/grid/with_type.h"
+#include "timeseries/ranks/shared_step.h"
+#include "timeseries/together.h"
+
+namespace app {
+namespace {
+
+using Clock = std::chrono::system_clock;
+using timeseries::FileError;
+using timeseries::OriginStamp;
+using timeseries::Ranks;
+using timeseries::StepMaker;
+using timeseries::StepOrigin;
+using timeseries::StepStore;
+
+struct MpiProgram {
+    MpiProgram() {
+        int provided = 0;
+        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    }
+    MpiProgram(const MpiProgram&) = delete;
+    MpiProgram& operator=(const MpiProgram&) = delete;
+    ~MpiProgram() { MPI_Finalize(); }
+};
+
+// Whether each rank of a machine can sort a step of its own: the field, its sorted list, and a
+// quarter for all else.
+bool fitsEach(const timeseries::Variable& variable, unsigned ranksOfMachine) {
+    const std::uint64_t value =
+        timeseries::withType(variable.type, [](auto of) { return std::uint64_t{sizeof of}; });
+    const auto memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    return variable.grid->count() * (2 * value + 4) < memory / 4 * 3 / ranksOfMachine;
+}
+
+// This rank's part of a grid: slices along the last index that has enough of them, else along the
+// longest.
+timeseries::Slab slabOf(const std::array<std::size_t, 3>& size, const Ranks& ranks) {
+    timeseries::Slab slab;
+    slab.axis = static_cast<std::size_t>(std::ranges::max_element(size) - size.begin());
+    for (std::size_t a = 0; a < 3; ++a)
+        if (size[a] >= ranks.size()) slab.axis = a;
+    const std::uint64_t slices = size[slab.axis];
+    slab.first = slices * ranks.rank() / ranks.size();
+    slab.count = slices * (ranks.rank() + 1) / ranks.size() - slab.first;
+    return slab;
+}
+
+// Sorts steps together with all other ranks.
+class TogetherWork {
+ public:
+    TogetherWork(const Ranks& ranks, const IndexOptions& options, std::shared_ptr<StepStore> store)
+        : ranks_(ranks), options_(options), store_(std::move(store)) {}
+
+    // Collective. Throws RanksError.
+    StepMaker::Kept keep(const IndexTask& task) {
+        std::optional<StepOrigin> origin;
+        ranks_.agreed([&] {
+            if (!dataset_ || dataset_->about.name != task.variable)
+                dataset_ = openDataset(options_.files, task.variable);
+            if (dataset_->about.grid->count() > std::uint64_t{1} << 32)
+                throw FileError(
+                    fmt::format("{}: variable '{}': expected at most the 2^32 points that one list "
+                                "holds",
+                                dataset_->name, task.variable));
+            origin = originOf(*dataset_->reader, dataset_->variable, task.step);
+        });
+        if (ranks_.sum(origin.has_value()) < ranks_.size()) return StepMaker::Kept::Not;
+        std::optional<OriginStamp> stamp;
+        bool before = false;
+        ranks_.agreed([&] {
+            if (!ranks_.isFirst()) return;
+            stamp = store_->stampOf(*origin);
+            before = store_->find(*origin) != nullptr;
+        });
+        if (ranks_.sum(before) > 0) return StepMaker::Kept::Before;
+        if (ranks_.sum(stamp.has_value()) == 0) return StepMaker::Kept::Not;
+        const bool written = write(task, *origin, stamp, firstOpening());
+        return ranks_.sum(written) > 0 ? StepMaker::Kept::Written : StepMaker::Kept::Not;
+    }
+
+ private:
+    // Each rank has opened the files for itself: what changed since the first of them did is not
+    // kept.
+    Clock::time_point firstOpening() const {
+        const std::int64_t mine = dataset_->reader->openedAt.time_since_epoch().count();
+        const std::vector<std::int64_t> all = ranks_.gather<std::int64_t>({&mine, 1});
+        return Clock::time_point(Clock::duration(std::ranges::min(all)));
+    }
+
+    // The first rank has the file, if its store wants one; the others write where it tells them.
+    bool write(const IndexTask& task, const StepOrigin& origin,
+               const std::optional<OriginStamp>& stamp, Clock::time_point opened) {
+        bool written = false;
+        ranks_.agreed([&] {
+            if (!ranks_.isFirst()) {
+                if (ranks_.fromFirst("") == "go on") writePart(task, "", nullptr);
+                return;
+            }
+            bool told = false;
+            std::exception_ptr failure;
+            try {
+                written = store_->write(origin, *stamp, opened, [&](timeseries::WholeFile& file) {
+                    told = true;
+                    ranks_.fromFirst("go on");
+                    writePart(task, stamp->text, &file);
+                    return true;
+                });
+            } catch (...) {
+                failure = std::current_exception();
+            }
+            if (!told) ranks_.fromFirst("no");
+            if (failure) std::rethrow_exception(failure);
+        });
+        return written;
+    }
+
+    void writePart(const IndexTask& task, const std::string& about, timeseries::WholeFile* file) {
+        const auto size = dataset_->about.grid->size();
+        const timeseries::Slab slab = slabOf(size, ranks_);
+        timeseries::Field field;
+        ranks_.agreed([&] {
+            if (slab.count > 0)
+                field = dataset_->reader->readSlab(dataset_->variable, task.step, slab);
+            else
+                field.values = timeseries::withType(dataset_->about.type, []<typename T>(T) {
+                    return timeseries::Values(std::vector<T>());
+                });
+        });
+        timeseries::GridBox box;
+        timeseries::SharedStep step;
+        for (std::size_t a = 0; a < 3; ++a) {
+            step.size[a] = static_cast<std::uint32_t>(size[a]);
+            box.size[a] = size[a];
+        }
+        box.first[slab.axis] = slab.first;
+        box.size[slab.axis] = slab.count;
+        step.about = about;
+        writeShared(ranks_, std::move(field), box, step, file);
+    }
+
+    const Ranks& ranks_;
+    const IndexOptions& options_;
+    const std::shared_ptr<StepStore> store_;
+    std::optional<Dataset> dataset_;
+};
+
+// By each rank for itself those that it has memory for, as many for all of them; the rest together.
+IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
+                      const std::shared_ptr<StepStore>& store, std::vector<IndexTask> tasks) {
+    std::vector<IndexTask> alone, shared;
+    const unsigned beside = ranks.onThisMachine();
+    std::size_t rounds = tasks.size() / ranks.size();
+    ranks.agreed([&] {
+        std::string last;
+        for (const IndexTask& task : tasks) {
+            if (task.variable == last) continue;
+            last = task.variable;
+            if (!fitsEach(openDataset(options.files, last).about, beside)) rounds = 0;
+        }
+    });
+    if (ranks.sum(rounds == 0) > 0) rounds = 0;  // machines may differ
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        if (i >= rounds * ranks.size())
+            shared.push_back(tasks[i]);
+        else if (i % ranks.size() == ranks.rank())
+            alone.push_back(tasks[i]);
+    }
+    IndexedSteps done;
+    ranks.agreed([&] {
+        IndexWork own(options, store, std::move(alone));
+        own.work();
+        done = own.done();
+    });
+    TogetherWork together(ranks, options, store);
+    for (const IndexTask& task : shared) {
+        std::optional<StepMaker::Kept> kept;
+        try {
+            kept = together.keep(task);
+        } catch (const timeseries::RanksError& error) {
+            if (ranks.isFirst()) sayTo(stderr, "isochron: {}\n", error.what());
+        }
+        if (!ranks.isFirst()) continue;
+        if (!kept) ++done.failed;
+        if (kept == StepMaker::Kept::Before) ++done.before;
+        if (kept == StepMaker::Kept::Written) ++done.written;
+        if (kept == StepMaker::Kept::Not) ++done.notKept;
+    }
+    std::array<std::uint64_t, 4> sums{done.before, done.written, done.notKept, done.failed};
+    ranks.sum(sums);
+    return {sums[0], sums[1], sums[2], sums[3]};
+}
+
+int indexOf(const Ranks& ranks, const IndexOptions& options) {
+    if (timeseries::threadLimit == 0)
+        timeseries::threadLimit =
+            std::max(1u, timeseries::sharingThreads() / ranks.onThisMachine());
+    std::shared_ptr<StepStore> store;
+    std::vector<IndexTask> tasks;
+    ranks.agreed([&] {
+        store = indexStoreOf(options);
+        tasks = indexTasksOf(options);
+    });
+    const IndexedSteps done = indexAll(ranks, options, store, std::move(tasks));
+    if (ranks.isFirst()) return tellIndexed(done, *store);
+    return done.failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int indexByRanks(const IndexOptions& options) {
+    const MpiProgram program;
+    const Ranks ranks(MPI_COMM_WORLD);
+    try {
+        return indexOf(ranks, options);
+    } catch (const timeseries::RanksError& error) {  // all have it, one tells it
+        if (ranks.isFirst()) sayTo(stderr, "isochron: {}\n", error.what());
+        return 1;
+    } catch (const std::exception& error) {  // the others would wait for ever
+        sayTo(stderr, "isochron: {}\n", error.what());
+        MPI_Abort(MPI_COMM_WORLD, 1);
+        return 1;
+    }
+}
+
+}  // namespace app
+#endif

@@ -1,0 +1,68 @@
+// Steps to be sorted into a store, and what became of them.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/choices/options.h"
+#include "app/files/progress.h"
+#include "timeseries/series/step_maker.h"
+
+namespace app {
+
+struct IndexTask {
+    std::string variable;
+    std::size_t step;
+};
+// All that the options ask for. Throws FileError.
+std::vector<IndexTask> indexTasksOf(const IndexOptions& options);
+
+// The store that they go to, once their files are settled: one that changed a moment ago may change
+// again and have the same time, and is waited for, so that what is read now is known to be what is
+// there. Throws FileError.
+std::shared_ptr<timeseries::StepStore> indexStoreOf(const IndexOptions& options);
+
+struct IndexedSteps {
+    std::size_t before = 0, written = 0, notKept = 0, failed = 0;
+    std::size_t all() const { return before + written + notKept + failed; }
+};
+
+// Shared by the threads that do it.
+class IndexWork {
+ public:
+    IndexWork(const IndexOptions& options, std::shared_ptr<timeseries::StepStore> store,
+              std::vector<IndexTask> tasks);
+    // Opens the files for itself and takes tasks until none is left; called from several threads.
+    // What cannot be read is told. Throws FileError where nothing can be opened, StepFileError
+    // where nothing can be written.
+    void work();
+    const IndexedSteps& done() const { return done_; }
+
+ private:
+    // What became of a step; none where it cannot be read.
+    void finish(std::optional<timeseries::StepMaker::Kept> kept);
+
+    using Clock = std::chrono::steady_clock;
+    const IndexOptions& options_;
+    const std::shared_ptr<timeseries::StepStore> store_;
+    const std::vector<IndexTask> tasks_;
+    std::atomic<std::size_t> next_{0};
+    std::mutex mutex_;
+    IndexedSteps done_;  // guarded by mutex_, as what follows
+    Progress progress_;
+    const Clock::time_point begin_ = Clock::now();
+};
+
+// In a line, on stdout; returns the exit code.
+int tellIndexed(const IndexedSteps& done, const timeseries::StepStore& store);
+
+// The same command as one of the processes that mpirun started.
+int indexByRanks(const IndexOptions& options);
+
+}  // namespace app

@@ -1,0 +1,50 @@
+// What a sorted step on disk is put together from, by whoever writes it: blocks, where they lie,
+// and what stands around them (FORMAT.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "timeseries/index/bit_fields.h"
+#include "timeseries/index/step_file.h"
+
+namespace timeseries {
+
+// So many blocks have their ids together, and their keys behind them: few are in memory at once.
+constexpr std::uint64_t kBlocksTogether = 256;
+
+struct EncodedBlock {
+    Bytes ids, keys;
+    StepBlock entry;  // it lies nowhere yet
+};
+
+// REQUIRES: at least one point, at most kStepBlock, by value, ties by grid index.
+template <typename T>
+EncodedBlock encodeBlock(std::span<const T> values, std::span<const std::uint32_t> gridIndex,
+                         const BrickOrder& order);
+
+// Gives blocks their places, one after the other from byte `at` on: all of a step, or as many as
+// lie together, from a multiple of kBlocksTogether on. Returns the byte behind them.
+std::uint64_t placeBlocks(std::span<StepBlock> blocks, std::uint64_t at);
+
+// The ranks of the points that are the quantiles at 0, 1/(n-1), ..., 1 of `among` (nearest rank);
+// none of no points.
+std::vector<std::uint64_t> quantileRanks(const Run& among, std::size_t n);
+
+// All that a file says of a step beside its points.
+struct StepFacts {
+    ValueType type{};
+    std::array<std::uint32_t, 3> size{};  // of the grid, in points
+    StepStatistics statistics;            // finiteMin is NaN where nothing is finite
+    std::vector<double> quantiles;
+    std::string about;
+};
+
+// Directory and summary, from byte `at` on, and the header, which is written last.
+void finishStep(const StepFacts& facts, std::span<const StepBlock> directory, std::uint64_t at,
+                ByteSink& sink);
+
+}  // namespace timeseries
