@@ -195,6 +195,7 @@ void Exploration::goOn(std::chrono::nanoseconds dt) {
     if (!open_) return;
     play(dt);
     takeArrivals();
+    dropPointsPassed();
     open_->steps.want(wishes());
 }
 
@@ -232,6 +233,18 @@ void Exploration::takeArrivals() {
         if (arrival.sorted && open_->passed.contains(arrival.step) &&
             distance(arrival.step) < distance(open_->step))
             show(arrival.step, std::move(arrival.sorted));
+}
+
+// Of a step on disk every point that was ever looked at stays in memory, until there are too many:
+// then it begins anew, if points are what there is too much of and half of them go.
+void Exploration::dropPointsPassed() {
+    const timeseries::Series& series = open_->steps.series();
+    const std::size_t step = open_->step;
+    if (series.bytes() <= series.budgetBytes() || !series.isStored(step)) return;
+    const std::uint64_t held = open_->sorted->pointBytes();
+    if (held < series.budgetBytes() / 2) return;
+    if (held < 2 * open_->sorted->pointBytes(runsLookedAt(explorer(), *open_->sorted))) return;
+    show(step, open_->steps.reopen(step));
 }
 
 void Exploration::show(std::size_t step, std::shared_ptr<const SortedStep> sorted) {

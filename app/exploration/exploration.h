@@ -141,6 +141,7 @@ class Exploration {
     void goOn(std::chrono::nanoseconds dt);
     void closeLost();
     void takeArrivals();
+    void dropPointsPassed();
     void show(std::size_t step, std::shared_ptr<const timeseries::SortedStep> sorted);
     std::vector<std::size_t> wishes() const;
 

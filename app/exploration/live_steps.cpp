@@ -63,6 +63,11 @@ std::vector<LiveSteps::Arrival> LiveSteps::poll() {
     return arrivals;
 }
 
+std::shared_ptr<const timeseries::SortedStep> LiveSteps::reopen(std::size_t step) {
+    leaving_.push_back(series_.reopen(step));
+    return series_.use(step);
+}
+
 void LiveSteps::freeLeaving() {
     const auto isShared = [](const auto& step) { return step.use_count() > 1; };
     const auto alone = std::partition(leaving_.begin(), leaving_.end(), isShared);

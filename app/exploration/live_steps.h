@@ -44,6 +44,8 @@ class LiveSteps {
         return series_.use(step);
     }
     const timeseries::Series& series() const { return series_; }
+    // The step with no points in memory, and in its own place. REQUIRES: series().isStored(step).
+    std::shared_ptr<const timeseries::SortedStep> reopen(std::size_t step);
 
  private:
     void ask();

@@ -48,4 +48,11 @@ PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& 
             .inClipBox = explorer.clip.has_value()};
 }
 
+std::vector<Run> runsLookedAt(const Explorer& explorer, const timeseries::SortedStep& step) {
+    std::vector<timeseries::RangeSet> all;
+    for (const LayerChoice& layer : explorer.layers) all.push_back(layer.ranges);
+    if (explorer.sweep) all.push_back(sweptRanges(explorer, step, explorer.play.tick));
+    return step.select(timeseries::unionOf(all));
+}
+
 }  // namespace app

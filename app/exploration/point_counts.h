@@ -26,4 +26,9 @@ struct PointCounts {
 // asks for values that were dropped.
 PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& step);
 
+// The points that pictures and counts of this look at: those of every layer and of the swept
+// window.
+std::vector<timeseries::Run> runsLookedAt(const Explorer& explorer,
+                                          const timeseries::SortedStep& step);
+
 }  // namespace app

@@ -41,7 +41,7 @@ layout(location = 0) in uint gridIndex;
 layout(location = 1) in float value;  // 0 and 1 at the ends of the narrowest map; see ValueScale
 layout(location = 2) in uint layer;
 layout(location = 3) in uint placeInBlock;  // of the sorted step's blocks of 2^15 points; see GpuStep
-layout(location = 4) in uvec4 run;          // first and last point to draw; of QUADS, the draw call's first; ranks to draw
+layout(location = 4) in uvec3 drawn;        // first and last place in the block to draw; ranks to draw
 
 layout(location = 0) flat out vec4 centreAndWeight;  // window offset of the centre, W's factor, tau per W
 layout(location = 1) flat out vec4 quadN;            // n.xyz of the numerator; l.x of the denominator
@@ -220,14 +220,9 @@ void main() {
     const vec3 inView = (view.viewFromAxes * vec4(at, 1.0)).xyz;
     const float depth = -inView.z;
     const float near = view.depths.x;
-#ifdef QUADS
-    const uint drawn = run.z + uint(gl_InstanceID);
-#else
-    const uint drawn = uint(gl_VertexID);
-#endif
-    const uint point = (drawn & ~32767u) + placeInBlock;
     // subsetRank in render/points/subset.h.
-    const bool selected = point >= run.x && point <= run.y && (point * 20249u & 32767u) < run.w;
+    const bool selected =
+        placeInBlock >= drawn.x && placeInBlock <= drawn.y && (placeInBlock * 20249u & 32767u) < drawn.z;
     if (!selected || clipped || !(depth > near)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the clip volume
 #ifndef QUADS

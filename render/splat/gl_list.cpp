@@ -23,7 +23,7 @@ std::vector<SortedPoint> gathered(const Scene& scene, const Sorted& list, const 
     return out;
 }
 
-// Pieces that follow each other without a gap, sent as one.
+// Pieces that lie one behind the other without a gap, sent as one.
 struct Slices {
     std::vector<GLint> first;
     std::vector<GLsizei> count;
@@ -39,27 +39,22 @@ struct Slices {
     }
 };
 
-// Of one run. Attributes without an array have one value for all.
-void drawRun(const Piece& of, const Slices& slices, bool quads) {
-    const auto first = static_cast<GLuint>(of.run.first);
-    const auto last = static_cast<GLuint>(of.run.first + of.run.count - 1);
-    const auto ranks = static_cast<GLuint>(kSubsetPeriod / of.stride);
+// Attributes without an array have one value for all.
+void drawSlices(const Piece& of, const Slices& slices, bool quads) {
     glVertexAttribI4ui(2, static_cast<GLuint>(of.layer), 0, 0, 1);
-    glVertexAttribI4ui(4, first, last, 0, ranks);
+    glVertexAttribI4ui(4, of.from, of.last, static_cast<GLuint>(kSubsetPeriod / of.stride), 1);
     if (!quads) {
         glMultiDrawArrays(GL_POINTS, slices.first.data(), slices.count.data(),
                           static_cast<GLsizei>(slices.first.size()));
         return;
     }
-    for (std::size_t i = 0; i < slices.first.size(); ++i) {
-        const auto at = static_cast<GLuint>(slices.first[i]);
-        glVertexAttribI4ui(4, first, last, at, ranks);  // gl_InstanceID counts from 0
-        glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, slices.count[i], at);
-    }
+    for (std::size_t i = 0; i < slices.first.size(); ++i)
+        glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, slices.count[i],
+                                          static_cast<GLuint>(slices.first[i]));
 }
 
-bool sameRun(const Piece& a, const Piece& b) {
-    return a.layer == b.layer && a.run.first == b.run.first;
+bool drawnAlike(const Piece& a, const Piece& b) {
+    return a.layer == b.layer && a.from == b.from && a.last == b.last && a.stride == b.stride;
 }
 
 }  // namespace
@@ -70,6 +65,8 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
     if (const auto* sorted = std::get_if<Sorted>(&list)) {
         const std::vector<SortedPoint> points = gathered(scene, *sorted, scale);
         sorted_.emplace(std::span<const SortedPoint>(points));
+    } else {
+        for (Piece& piece : pieces_) piece.first = step.placeOf(piece.first);
     }
     for (const GLuint divisor : {0u, 1u}) {
         gl::VertexArray& array = divisor == 0 ? points_ : quads_;
@@ -78,7 +75,7 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
             array.attach({0, *sorted_, 1, GL_UNSIGNED_INT, kStride, 0, divisor});
             array.attach({1, *sorted_, 1, GL_FLOAT, kStride, 4, divisor});
             array.attach({2, *sorted_, 1, GL_UNSIGNED_INT, kStride, 8, divisor});
-        } else {
+        } else if (!pieces_.empty()) {  // else there may be no room yet
             array.attach({0, step.gridIndex(), 1, GL_UNSIGNED_INT, 4, 0, divisor});
             array.attach({3, step.placeInBlock(), 1, GL_UNSIGNED_SHORT, 2, 0, divisor});
             if (step.values() != nullptr)
@@ -102,9 +99,9 @@ void GpuList::draw(bool quads, std::span<const Piece> pieces) const {
     while (!pieces.empty()) {
         Slices slices;
         std::size_t drawn = 0;
-        for (; drawn < pieces.size() && sameRun(pieces[drawn], pieces[0]); ++drawn)
+        for (; drawn < pieces.size() && drawnAlike(pieces[drawn], pieces[0]); ++drawn)
             slices.add(pieces[drawn]);
-        drawRun(pieces[0], slices, quads);
+        drawSlices(pieces[0], slices, quads);
         pieces = pieces.subspan(drawn);
     }
 }

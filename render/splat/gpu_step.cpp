@@ -37,14 +37,6 @@ std::vector<glm::vec2> axisTable(const PlacedPoints& placed) {
 
 constexpr std::uint64_t kMostDrawable = std::numeric_limits<GLint>::max();
 
-const timeseries::SortedStep& drawable(const timeseries::SortedStep& step) {
-    if (step.size() > kMostDrawable)
-        throw std::length_error(
-            fmt::format("{} kept points are more than the {} that can be drawn: keep fewer",
-                        step.size(), kMostDrawable));
-    return step;
-}
-
 std::uint64_t blockCount(std::uint64_t points) {
     return (points + GpuStep::kBlock - 1) / GpuStep::kBlock;
 }
@@ -68,6 +60,13 @@ std::vector<std::uint64_t> neededBlocks(const Scene& scene) {
     return blocks;
 }
 
+void extend(gl::Buffer& buffer, std::uint64_t bytes) {
+    gl::Buffer larger(bytes);
+    glCopyNamedBufferSubData(buffer.id(), larger.id(), 0, 0,
+                             static_cast<GLsizeiptr>(buffer.bytes()));
+    buffer = std::move(larger);
+}
+
 template <typename T>
 void write(gl::Buffer& buffer, std::uint64_t first, const std::vector<T>& what) {
     buffer.write(first * sizeof(T), what.size() * sizeof(T), what.data());
@@ -77,16 +76,33 @@ void write(gl::Buffer& buffer, std::uint64_t first, const std::vector<T>& what) 
 
 GpuStep::GpuStep(const timeseries::SortedStep& step, const PlacedPoints& placed,
                  std::shared_ptr<GlMesh> mesh)
-    : axisTable_(axisTable(placed)), present_(blockCount(step.size())) {
+    : slot_(blockCount(step.size()), kNowhere),
+      slotPoints_(std::min(kBlock, step.size())),
+      axisTable_(axisTable(placed)) {
     if (!placed.isMesh()) return;
     const bool isIts = mesh && &mesh->mesh() == placed.mesh().get();
     mesh_ = isIts ? std::move(mesh) : std::make_shared<GlMesh>(placed.mesh());
 }
 
-void GpuStep::makeRoom(const timeseries::SortedStep& step) {
-    if (gridIndex_ && placeInBlock_) return;
-    gridIndex_.emplace(drawable(step).size() * sizeof(std::uint32_t));
-    placeInBlock_.emplace(step.size() * sizeof(std::uint16_t));
+void GpuStep::makeRoom(std::span<const std::uint64_t> blocks) {
+    const std::uint64_t needed =
+        taken_ + static_cast<std::uint64_t>(std::ranges::count_if(
+                     blocks, [&](std::uint64_t block) { return !isThere(block); }));
+    if (needed <= slots_) return;
+    const std::uint64_t most = std::min<std::uint64_t>(slot_.size(), kMostDrawable / slotPoints_);
+    if (needed > most)
+        throw std::length_error(
+            fmt::format("the {} points in and about these ranges are more than the {} that can be "
+                        "drawn: choose fewer",
+                        needed * slotPoints_, kMostDrawable));
+    const std::uint64_t slots = std::clamp(2 * slots_, needed, most), points = slots * slotPoints_;
+    if (!gridIndex_) gridIndex_.emplace(0);
+    if (!placeInBlock_) placeInBlock_.emplace(0);
+    extend(*gridIndex_, points * sizeof(std::uint32_t));
+    extend(*placeInBlock_, points * sizeof(std::uint16_t));
+    for (auto* const held : {&values_, &coming_})
+        if (*held) extend((*held)->buffer, points * kValueBytes);
+    slots_ = slots;
 }
 
 void GpuStep::place(const PlacedPoints& placed) {
@@ -105,9 +121,9 @@ const gl::BufferTexture& GpuStep::axisPoints() const {
 
 void GpuStep::upload(const Scene& scene, const std::optional<ValueScale>& scale,
                      std::uint64_t bytes) {
-    makeRoom(scene.step);
-    ScaledValues* const values = valuesOn(scale, scene.step.size());
     const auto blocks = neededBlocks(scene);
+    makeRoom(blocks);
+    ScaledValues* const values = valuesOn(scale);
     std::uint64_t sent = mesh_ ? mesh_->upload(bytes) : 0;
     for (const std::uint64_t block : blocks) {
         if (sent > 0 && sent >= bytes) break;
@@ -119,20 +135,19 @@ void GpuStep::upload(const Scene& scene, const std::optional<ValueScale>& scale,
     coming_.reset();
 }
 
-GpuStep::ScaledValues* GpuStep::valuesOn(const std::optional<ValueScale>& scale,
-                                         std::uint64_t points) {
+GpuStep::ScaledValues* GpuStep::valuesOn(const std::optional<ValueScale>& scale) {
     if (!scale || (values_ && values_->scale == *scale)) {
         coming_.reset();
         return scale ? &*values_ : nullptr;
     }
     if (!coming_ || coming_->scale != *scale)
         coming_.emplace(
-            ScaledValues{gl::Buffer(points * kValueBytes), *scale, Blocks(present_.size())});
+            ScaledValues{gl::Buffer(room() * kValueBytes), *scale, Blocks(slot_.size())});
     return &*coming_;
 }
 
 std::uint64_t GpuStep::send(const Scene& scene, std::uint64_t block, ScaledValues* values) {
-    const bool sendPoints = !present_[block];
+    const bool sendPoints = !isThere(block);
     const bool sendValues = values != nullptr && !values->present[block];
     if (!sendPoints && !sendValues) return 0;
     const std::uint64_t first = block * kBlock;
@@ -145,9 +160,9 @@ std::uint64_t GpuStep::send(const Scene& scene, std::uint64_t block, ScaledValue
         std::vector<std::uint32_t> ordered;
         ordered.reserve(count);
         for (const std::uint16_t place : places) ordered.push_back(index[place]);
-        write(*gridIndex_, first, ordered);
-        write(*placeInBlock_, first, places);
-        present_[block] = true;
+        slot_[block] = static_cast<std::uint32_t>(taken_++);
+        write(*gridIndex_, placeOf(first), ordered);
+        write(*placeInBlock_, placeOf(first), places);
     }
     if (sendValues) {
         std::vector<float> scaled;
@@ -158,7 +173,7 @@ std::uint64_t GpuStep::send(const Scene& scene, std::uint64_t block, ScaledValue
                     scaled.push_back(values->scale(static_cast<double>(of[first + place])));
             },
             columns.values);
-        write(values->buffer, first, scaled);
+        write(values->buffer, placeOf(first), scaled);
         values->present[block] = true;
     }
     return count * ((sendPoints ? kPointBytes : 0) + (sendValues ? kValueBytes : 0));
@@ -172,7 +187,7 @@ std::uint64_t GpuStep::missingBytes(const Scene& scene,
     std::uint64_t missing = mesh_ ? mesh_->missingBytes() : 0;
     for (const std::uint64_t block : neededBlocks(scene)) {
         const std::uint64_t count = pointsOf(block, scene.step.size());
-        if (!present_[block]) missing += count * kPointBytes;
+        if (!isThere(block)) missing += count * kPointBytes;
         if (scale && !(values != nullptr && values->present[block])) missing += count * kValueBytes;
     }
     return missing;
@@ -190,7 +205,7 @@ bool GpuStep::ready(const Scene& scene) const {
     const bool byValue = neededScale(scene).has_value();
     if (mesh_ && mesh_->missingBytes() > 0) return false;
     return std::ranges::all_of(neededBlocks(scene), [&](std::uint64_t block) {
-        return present_[block] && (!byValue || (values_ && values_->present[block]));
+        return isThere(block) && (!byValue || (values_ && values_->present[block]));
     });
 }
 

@@ -17,9 +17,9 @@ namespace render {
 // follow each other fall on near pixels, which is quicker than order of value, and a subset lies in
 // the beginnings of blocks. Each point knows its place in the sorted block, so a run is drawn
 // exactly: all of a block that it touches, or its beginning, is sent to the vertex shader, which
-// passes only the points whose place lies in the run and the subset. Room is taken with the first
-// upload(), for all points; blocks come when a scene needs them, in slices, so that frames keep
-// their pace.
+// passes only the points whose place lies in the run and the subset. Blocks come when a scene needs
+// them, in slices, so that frames keep their pace. They lie in slots, in the order in which they
+// came; there are as many slots as were ever needed, or up to twice that.
 //
 // A scene here is of the step and the grid that this was made for. One that is ordered needs
 // nothing but the mesh, if there is one: its list brings its own points.
@@ -34,9 +34,9 @@ class GpuStep {
 
     // Sends the mesh, and blocks that the scene's runs touch and that are not there, with their
     // values on `scale` if there is one, until `bytes` are reached: one block at least. While
-    // values on another scale come, those that are there stay in use. Throws std::length_error for
-    // 2^31 points or more, the most that one draw call can count, and std::runtime_error when the
-    // driver has no room.
+    // values on another scale come, those that are there stay in use. Throws std::length_error when
+    // the blocks hold 2^31 points or more, the most that a draw call can count, and
+    // std::runtime_error when the driver has no room.
     static constexpr std::uint64_t kAll = ~std::uint64_t{0};
     void upload(const Scene& scene, const std::optional<ValueScale>& scale,
                 std::uint64_t bytes = kAll);
@@ -51,8 +51,13 @@ class GpuStep {
     // Draws the points where they are placed now; REQUIRES: of the same grid.
     void place(const PlacedPoints& placed);
 
-    // REQUIRES: upload() was called. [points] each: grid index, 4 bytes; place in the block, 2
-    // bytes; scaled value, 4 bytes.
+    // Where the point that comes first in this point's block, or so many behind it, lies in what
+    // follows. REQUIRES: the block is there.
+    std::uint64_t placeOf(std::uint64_t point) const {
+        return slot_[point / kBlock] * slotPoints_ + point % kBlock;
+    }
+    // REQUIRES: some block is there. Of each point, slot after slot: grid index, 4 bytes; place in
+    // the block, 2 bytes; scaled value, 4 bytes.
     const gl::Buffer& gridIndex() const { return *gridIndex_; }
     const gl::Buffer& placeInBlock() const { return *placeInBlock_; }
     const gl::Buffer* values() const { return values_ ? &values_->buffer : nullptr; }
@@ -71,12 +76,18 @@ class GpuStep {
         Blocks present;
     };
     // Where values on this scale go. Makes room for them.
-    ScaledValues* valuesOn(const std::optional<ValueScale>& scale, std::uint64_t points);
+    ScaledValues* valuesOn(const std::optional<ValueScale>& scale);
     // Returns the bytes sent. `values`: those to fill as well, or null.
     std::uint64_t send(const Scene& scene, std::uint64_t block, ScaledValues* values);
+    bool isThere(std::uint64_t block) const { return slot_[block] != kNowhere; }
+    // Slots for these blocks beside those that are there, wherever they are kept.
+    void makeRoom(std::span<const std::uint64_t> blocks);
+    std::uint64_t room() const { return slots_ * slotPoints_; }  // points
 
-    void makeRoom(const timeseries::SortedStep& step);
-
+    static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+    std::vector<std::uint32_t> slot_;      // of each block
+    std::uint64_t slots_ = 0, taken_ = 0;  // so many there are; the first ones hold a block
+    std::uint64_t slotPoints_;             // a block's, or the step's if these are fewer
     std::optional<gl::Buffer> gridIndex_, placeInBlock_;
     struct AxisPoints {
         gl::Buffer buffer;
@@ -85,7 +96,6 @@ class GpuStep {
     std::shared_ptr<GlMesh> mesh_;
     std::vector<glm::vec2> axisTable_;              // what axisPoints() has
     mutable std::optional<AxisPoints> axisPoints_;  // of it, once asked for
-    Blocks present_;                                // of gridIndex_ and placeInBlock_
     std::optional<ScaledValues> values_, coming_;   // in use; not all that a scene needs yet
 };
 

@@ -33,7 +33,8 @@ void cutRun(std::vector<Piece>& pieces, std::size_t layer, const timeseries::Run
         const std::uint64_t from = std::max(run.first, block), to = std::min(end, block + size);
         cut(pieces,
             {.layer = layer,
-             .run = run,
+             .from = static_cast<std::uint32_t>(from - block),
+             .last = static_cast<std::uint32_t>(to - 1 - block),
              .stride = stride,
              .first = block,
              .count = subsetCount({block, size}, prefixStride(stride)),
@@ -48,7 +49,9 @@ std::vector<Piece> piecesOf(const Scene& scene, const DrawList& list) {
     std::vector<Piece> pieces;
     if (const auto* sorted = std::get_if<Sorted>(&list)) {
         const std::uint64_t count = sorted->point.size();
-        cut(pieces, {0, {0, std::uint64_t{1} << 32}, 1, 0, count, 0}, count);
+        cut(pieces,
+            {.layer = 0, .from = 0, .last = 0, .stride = 1, .first = 0, .count = count, .cost = 0},
+            count);
         return pieces;
     }
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {

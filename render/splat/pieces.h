@@ -10,10 +10,13 @@
 namespace render {
 
 struct Piece {
-    std::size_t layer;     // of a sorted list, which brings its own: 0
-    timeseries::Run run;   // of what is sent, only its points are drawn; of a sorted list: all
+    std::size_t layer;  // of a sorted list, which brings its own: 0
+    // Of what is sent, these places in the sorted step's block are drawn; of a sorted list, which
+    // has no blocks: 0, 0.
+    std::uint32_t from, last;
     std::uint32_t stride;  // and of those only this subset
-    // What is sent to the vertex shader: points as GpuStep has them, or entries of the sorted list.
+    // What is sent to the vertex shader: points of one block in blockOrder, the first by its number
+    // in the step, or entries of the sorted list.
     std::uint64_t first, count;
     std::uint64_t cost;  // in splats
 };

@@ -77,17 +77,27 @@ TEST(Exploration, ABadFileLeavesWhatIsShownUntouchedAndSaysWhy) {
     EXPECT_THAT(desk.errors(), ElementsAre());
 }
 
-// A step that stands alone, a bit of each block's points or values wrong.
-std::filesystem::path damagedStep(bool values) {
+// A step that stands alone.
+std::vector<std::byte> bytesOfAStep() {
     std::mt19937_64 random(1);
-    auto bytes = tests::written(
-        timeseries::SortedStep::build(tests::randomField<float>(random, {200, 200, 3}, 0)),
+    return tests::written(
+        timeseries::SortedStep::build(tests::randomField<float>(random, {200, 200, 10}, 0)),
         textOf(timeseries::StepAbout{}));
-    for (const timeseries::StepBlock& block : tests::opened(bytes)->blocks())
-        bytes[values ? block.keysAt : block.idsAt] ^= std::byte{1};
+}
+
+std::filesystem::path fileOf(const std::vector<std::byte>& bytes) {
     const std::filesystem::path path = tests::testFolder() / "u.isostep";
     tests::writeBytes(path, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     return path;
+}
+
+// A bit of each block's points or values wrong.
+std::filesystem::path damagedStep(bool values) {
+    auto bytes = bytesOfAStep();
+    const auto file = tests::opened(bytes);
+    for (const timeseries::StepBlock& block : file->blocks())
+        bytes[values ? block.keysAt : block.idsAt] ^= std::byte{1};
+    return fileOf(bytes);
 }
 
 // Its points are read where somebody looks: damage comes to light late.
@@ -118,6 +128,37 @@ TEST(Exploration, AStepThatCannotBeSelectedFromIsRefusedAndWhatIsShownStays) {
     EXPECT_THAT(exploration.messages().back().text, HasSubstr("u.isostep is a damaged index"));
     ASSERT_TRUE(exploration.shown());
     EXPECT_EQ(exploration.shown()->dataset.about.name, "T");
+}
+
+// Not before they are more than the budget, and not those that are looked at.
+TEST(Exploration, PointsOfAStoredStepThatWerePassedMakeRoom) {
+    const std::filesystem::path file = fileOf(bytesOfAStep());
+    for (const bool all : {false, true})
+        for (const std::uint64_t budget : {std::uint64_t{1} << 21, std::uint64_t{1} << 30}) {
+            Exploration exploration({.budgetBytes = budget});
+            exploration.open(std::vector{file});
+            while (exploration.opening()) exploration.advance(16ms);
+            Explorer next = exploration.explorer();
+            next.layers = {layer("60:62"), layer(all ? "min:max" : "70:71")};
+            next.layers[1].visible = false;
+            exploration.edit(next);
+            const auto before = exploration.shown()->sorted;
+            const PointCounts counts = *exploration.counts();
+            (void)before->columns();  // as a window does that went through all values
+            ASSERT_GT(before->pointBytes(), 2'500'000u);
+            exploration.advance(16ms);
+            const auto after = exploration.shown()->sorted;
+            EXPECT_EQ(after != before, !all && budget < before->pointBytes());
+            EXPECT_EQ(after->file(), before->file());
+            EXPECT_EQ(*exploration.counts(), counts);
+            if (after == before) continue;
+            EXPECT_LT(exploration.series()->bytes(), 100'000u);
+            for (int frame = 0; frame < 3; ++frame) {
+                (void)after->columns(after->select(next.layers[0].ranges));
+                exploration.advance(16ms);
+                EXPECT_EQ(exploration.shown()->sorted, after);
+            }
+        }
 }
 
 TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThere) {

@@ -125,7 +125,7 @@ TEST_F(CanvasOfBlocks, AStepComesInSlicesAndTheOneBeforeStays) {
     // Back again: it is still there.
     EXPECT_EQ(draw(world_.shown(0), limits), first[2]);
     EXPECT_TRUE(report_.whole);
-    EXPECT_EQ(report_.gpuBytes / (8 * kBlockBytes), 2u);
+    EXPECT_EQ(report_.gpuBytes / (6 * kBlockBytes), 2u) << "of six blocks each";
 }
 
 TEST_F(CanvasOfBlocks, AnotherSelectionOfTheStepOnTheScreenComesInSlicesOfEightfoldSize) {

@@ -91,16 +91,18 @@ TEST_F(GpuSteps, SpritesAndQuadsDrawTheRunsOwnPoints) {
     }
 }
 
-// What the buffers hold of one point.
+// What the buffers hold of a block's points.
 struct OnGpu {
     std::vector<std::uint32_t> gridIndex;
     std::vector<std::uint16_t> place;
     std::vector<float> value;
-    explicit OnGpu(const GpuStep& step, std::size_t points)
+    OnGpu(const GpuStep& step, std::uint64_t block, std::size_t points)
         : gridIndex(points), place(points), value(points) {
-        const auto read = [](const gl::Buffer& from, auto& into) {
-            glGetNamedBufferSubData(
-                from.id(), 0, static_cast<GLsizeiptr>(into.size() * sizeof into[0]), into.data());
+        const auto read = [&](const gl::Buffer& from, auto& into) {
+            constexpr std::size_t kEach = sizeof into[0];
+            glGetNamedBufferSubData(from.id(),
+                                    static_cast<GLintptr>(step.placeOf(block * kBlock) * kEach),
+                                    static_cast<GLsizeiptr>(points * kEach), into.data());
         };
         read(step.gridIndex(), gridIndex);
         read(step.placeInBlock(), place);
@@ -116,10 +118,11 @@ class GpuStepsByValue : public GpuSteps {
         scene.layers[0].style.color = ByValue{{}, 0.2, 0.4};
         return scene;
     }
-    void expectPoints(const OnGpu& held, std::uint64_t block, const ValueScale& scale) const {
-        const std::uint64_t end = std::min((block + 1) * kBlock, step_.size());
-        for (std::uint64_t i = block * kBlock; i < end; ++i) {
-            const std::uint64_t p = block * kBlock + held.place[i];
+    void expectPoints(const GpuStep& onGpu, std::uint64_t block, const ValueScale& scale) const {
+        const std::uint64_t first = block * kBlock, count = std::min(kBlock, step_.size() - first);
+        const OnGpu held(onGpu, block, count);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const std::uint64_t p = first + held.place[i];
             ASSERT_EQ(held.gridIndex[i], step_.gridIndex()[p]);
             ASSERT_EQ(held.value[i], scale(timeseries::toDouble(step_.value(p))));
         }
@@ -142,8 +145,7 @@ TEST_F(GpuStepsByValue, BlocksComeOneByOneAndOnlyThoseThatAreAskedFor) {
     onGpu.upload(scene, scale, 1);
     EXPECT_EQ(onGpu.missingBytes(scene, scale), 0u);
     EXPECT_TRUE(onGpu.ready(scene));
-    const OnGpu held(onGpu, step_.size());
-    for (const std::uint64_t block : {0, 3}) expectPoints(held, block, *scale);
+    for (const std::uint64_t block : {0, 3}) expectPoints(onGpu, block, *scale);
     // What was not asked for is not there; one colour needs 6 bytes a point.
     const Scene other = sceneOf({{{kBlock - 1, 2}}});
     EXPECT_FALSE(onGpu.ready(other));
@@ -159,10 +161,9 @@ TEST_F(GpuStepsByValue, OneCallSendsAsManyBlocksAsReachTheBytes) {
     EXPECT_EQ(onGpu.missingBytes(scene, scale), (step_.size() - 2 * kBlock) * 10);
     onGpu.upload(scene, scale);
     EXPECT_TRUE(onGpu.ready(scene));
-    const OnGpu held(onGpu, step_.size());
-    for (std::uint64_t block = 0; block < 4; ++block) expectPoints(held, block, *scale);
+    for (std::uint64_t block = 0; block < 4; ++block) expectPoints(onGpu, block, *scale);
     EXPECT_GE(onGpu.bytes(), step_.size() * 10);
-    EXPECT_LE(onGpu.bytes(), step_.size() * 10 + 3 * 47 * 8) << "positions along three axes";
+    EXPECT_LE(onGpu.bytes(), 4 * kBlock * 10 + 3 * 47 * 8) << "positions along three axes";
 }
 
 TEST_F(GpuStepsByValue, AnOrderedSceneNeedsNothing) {
@@ -188,12 +189,58 @@ TEST_F(GpuStepsByValue, ValuesOnAnotherScaleTakeOverWhenAllAreThere) {
     EXPECT_TRUE(onGpu.ready(scene)) << "with the values before";
     EXPECT_EQ(onGpu.valueScale(), narrow);
     EXPECT_EQ(onGpu.missingBytes(scene, wider), kBlock * 4);
-    expectPoints(OnGpu(onGpu, step_.size()), 0, narrow);
+    expectPoints(onGpu, 0, narrow);
     onGpu.upload(scene, wider, 1);
     EXPECT_EQ(onGpu.valueScale(), wider);
-    const OnGpu held(onGpu, step_.size());
-    for (const std::uint64_t block : {0, 1}) expectPoints(held, block, wider);
+    for (const std::uint64_t block : {0, 1}) expectPoints(onGpu, block, wider);
     EXPECT_EQ(onGpu.bytes(), before);
+}
+
+TEST_F(GpuStepsByValue, RoomIsTakenForBlocksThatAreNeededAndGrowsWhileTheyStay) {
+    const std::uint64_t axes = 3 * 47 * 8;
+    const auto scale = neededScale(byValue({}));
+    const ValueScale wider{-3, 4};
+    GpuStep onGpu(step_, placed_);
+    onGpu.upload(byValue({}), scale);
+    EXPECT_EQ(onGpu.bytes(), axes) << "no block, no room";
+    const Scene last = byValue({{3 * kBlock + 7, 1}});
+    onGpu.upload(last, scale);
+    EXPECT_EQ(onGpu.bytes(), kBlock * 10 + axes);
+    onGpu.upload(byValue({{2 * kBlock, 2}}), scale);
+    EXPECT_EQ(onGpu.bytes(), 2 * kBlock * 10 + axes);
+    // One half of what is coming is there when room for the rest is made.
+    const Scene both = byValue({{2 * kBlock, kBlock + 1}});
+    onGpu.upload(both, wider, 1);
+    EXPECT_EQ(onGpu.valueScale(), *scale);
+    const Scene all = byValue({{0, step_.size()}});
+    onGpu.upload(all, wider, 1);
+    EXPECT_EQ(onGpu.bytes(), 4 * kBlock * 14 + axes);
+    for (const std::uint64_t block : {2, 3}) expectPoints(onGpu, block, *scale);
+    EXPECT_TRUE(onGpu.ready(both)) << "what was drawn still can be";
+    onGpu.upload(all, wider);
+    for (std::uint64_t block = 0; block < 4; ++block) expectPoints(onGpu, block, wider);
+}
+
+TEST_F(GpuSteps, BlocksAreDrawnWhereverTheyLie) {
+    GpuStep onGpu(step_, placed_);
+    for (const std::uint64_t block : {3, 0, 2, 1})
+        onGpu.upload(sceneOf({{{block * kBlock, 1}}}), {});
+    for (const std::uint64_t block : {0, 1, 3})
+        EXPECT_NE(onGpu.placeOf(block * kBlock + 5), block * kBlock + 5);
+    const View view = tests::lookFrom({1, -4, 1}, {128, 128});
+    for (const RunOfPoints run : {RunOfPoints{0, step_.size()}, RunOfPoints{kBlock - 9, 2000},
+                                  RunOfPoints{5, 3 * kBlock}, RunOfPoints{3 * kBlock + 1, 50}})
+        for (const std::uint32_t stride : {1u, 8u}) {
+            Scene scene = sceneOf({{run}});
+            scene.footprint = {.size = 0.5};
+            scene.stride = stride;
+            Accumulator<double> sums(view.size, {Channels::Weight});
+            splat(scene, Runs{}, view, {}, sums);
+            EXPECT_LE(compareScalars(plane(scene, onGpu, view, Channels::Weight), sums.planes[0])
+                          .relativeL2,
+                      1e-5)
+                << run.first << " + " << run.count << " / " << stride;
+        }
 }
 
 TEST_F(GpuStepsByValue, AScaleThatServesIsKept) {

@@ -51,7 +51,10 @@ TEST_F(Pieces, SendTheBeginningsOfAllBlocksThatARunTouchesOnceInOrder) {
         for (const Piece& piece : piecesOf(of, Runs{})) {
             EXPECT_GT(piece.count, 0u);
             EXPECT_LE(piece.count, kPiecePoints);
-            EXPECT_EQ(piece.run, run);
+            const std::uint64_t block = piece.first / kBlock * kBlock;
+            EXPECT_EQ(block + piece.from, std::max(run.first, block));
+            EXPECT_EQ(block + piece.last + 1,
+                      std::min({run.first + run.count, block + kBlock, step_->size()}));
             EXPECT_EQ(piece.stride, stride);
             for (std::uint64_t k = 0; k < piece.count; ++k) sent.push_back(piece.first + k);
         }
@@ -98,6 +101,9 @@ TEST_F(Pieces, OfASortedListAreItsEntries) {
     for (const Piece& piece : pieces) {
         EXPECT_EQ(piece.first, next);
         EXPECT_LE(piece.count, kPiecePoints);
+        EXPECT_EQ(piece.from, 0u);  // places of all of them
+        EXPECT_EQ(piece.last, 0u);
+        EXPECT_EQ(piece.stride, 1u);
         EXPECT_EQ(piece.cost, piece.count);
         next += piece.count;
     }

@@ -22,14 +22,20 @@ class GlTest : public testing::Test {
     // scene is a wall at `opaqueDepth`.
     std::vector<float> plane(const render::Scene& scene, const render::View& view,
                              render::Channels channels, float opaqueDepth = 1) {
+        render::GpuStep step(scene.step, scene.placed);
+        step.upload(scene, render::neededScale(scene));
+        return plane(scene, step, view, channels, opaqueDepth);
+    }
+    // By a step that is ready for the scene.
+    std::vector<float> plane(const render::Scene& scene, const render::GpuStep& step,
+                             const render::View& view, render::Channels channels,
+                             float opaqueDepth = 1) {
         using render::Channels;
         render::GlTargets targets(view.size);
         render::gl::begin({.framebuffer = targets.lightFramebuffer(),
                            .size = view.size,
                            .clearColor = glm::vec4(0),
                            .clearDepth = opaqueDepth});
-        render::GpuStep step(scene.step, scene.placed);
-        step.upload(scene, render::neededScale(scene));
         render::GlSplatter splatter;
         const auto list = splatter.upload(scene, render::order(scene, kMidEye), step);
         splatter.draw(*list, view, channels, 0, targets.clearedPlane(0, channels));

@@ -109,6 +109,15 @@ TEST(CellIndex, IsTheSameForAnyNumberOfThreads) {
 }
 
 // Beyond the outermost points values are repeated; an axis of one point has two half cells.
+TEST(CellIndex, IsMadeOfWhatTakesFourGibibytes) {
+    // Of n^3 points: 8 (n + 1)^3 + n^3 sizeof(value).
+    EXPECT_TRUE(CellIndex::canIndex(*gridOf({512, 512, 512}), ValueType::F64));
+    EXPECT_TRUE(CellIndex::canIndex(*gridOf({780, 780, 780}), ValueType::U8));
+    EXPECT_FALSE(CellIndex::canIndex(*gridOf({784, 784, 784}), ValueType::U8));
+    EXPECT_FALSE(CellIndex::canIndex(*gridOf({780, 780, 780}), ValueType::U16));
+    EXPECT_FALSE(CellIndex::canIndex(*gridOf({1024, 1024, 1024}), ValueType::U8));
+}
+
 TEST(CellIndex, HalfCellsRepeatTheOutermostValues) {
     Field field;
     field.grid = gridOf({2, 1, 1});

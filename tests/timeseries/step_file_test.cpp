@@ -161,6 +161,25 @@ TEST(StepFile, IsReadByManyAtOnce) {
         });
 }
 
+TEST(StepFile, OpenedAgainHoldsNoPointsButTheSameCells) {
+    const SortedStep step = smooth({64, 64, 64});
+    const SortedStep stored = storedOf(step);
+    const std::uint64_t atFirst = stored.pointBytes();
+    const std::vector<timeseries::Run> runs = {{5, 0}, {10, 100}, {2 * kStepBlock - 1, 2}};
+    constexpr std::uint64_t kBlockBytes = kStepBlock * (sizeof(float) + 4);
+    EXPECT_EQ(stored.pointBytes(runs), 3 * kBlockBytes) << "of blocks 0, 1 and 2";
+    EXPECT_EQ(stored.pointBytes(std::vector<timeseries::Run>{{10, 1}, {20, 1}}), kBlockBytes);
+    (void)stored.columns(runs);
+    EXPECT_EQ(stored.pointBytes(), atFirst + stored.pointBytes(runs));
+    ASSERT_TRUE(stored.cells());
+
+    const SortedStep again = stored.reopened();
+    EXPECT_EQ(again.pointBytes(), atFirst);
+    EXPECT_EQ(again.cellsIfMade(), stored.cellsIfMade());
+    std::mt19937_64 random(5);
+    expectSame<float>(step, again, random);
+}
+
 TEST(StepFile, OfAnotherGridIsRefused) {
     const SortedStep step = smooth({4, 5, 6});
     EXPECT_THROW((void)SortedStep::stored(tests::opened(tests::written(step)),

@@ -85,10 +85,11 @@ struct CellIndex::Row {
     }
 };
 
-bool CellIndex::canIndex(const Grid& grid) {
+bool CellIndex::canIndex(const Grid& grid, ValueType type) {
     double cells = 1;
     for (const std::size_t points : grid.size()) cells *= static_cast<double>(points) + 1;
-    return cells < 4294967296.0;
+    const auto size = withType(type, [](auto value) { return sizeof value; });
+    return cells * sizeof(list_[0]) + static_cast<double>(grid.count() * size) <= kMostBytes;
 }
 
 void CellIndex::rowOfCells(std::uint64_t row, Row& into) const {

@@ -26,10 +26,12 @@ namespace timeseries {
 // middles in [a - H, b + H]. Memory: 8 bytes a cell, and the field's values.
 class CellIndex {
  public:
-    // Whether cells of such a grid can be numbered.
-    static bool canIndex(const Grid& grid);
+    // Whether the cells of such a grid, and its values, take kMostBytes or less. They are few
+    // enough to be numbered then.
+    static constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
+    static bool canIndex(const Grid& grid, ValueType type);
     // Looks at every value, on so many threads. Cells without a finite corner are left out.
-    // REQUIRES: canIndex(*field.grid).
+    // REQUIRES: canIndex(*field.grid, its type).
     explicit CellIndex(Field field, unsigned threads = sharingThreads());
 
     const Field& field() const { return field_; }

@@ -137,6 +137,19 @@ std::uint64_t LazyColumn<T>::bytes() const {
 }
 
 template <typename T>
+std::uint64_t LazyColumn<T>::bytes(std::span<const Run> runs) const {
+    std::uint64_t points = 0;
+    std::size_t next = 0;  // the first bucket that was not counted
+    for (const Run& run : runs) {
+        if (run.count == 0) continue;
+        const std::size_t from = std::max(bucketAt(run.first), next);
+        next = std::max(next, bucketAt(run.first + run.count - 1) + 1);
+        if (from < next) points += points_.begin[next] - points_.begin[from];
+    }
+    return points * (sizeof(T) + sizeof(std::uint32_t));
+}
+
+template <typename T>
 std::uint64_t LazyColumn<T>::sortedBuckets() const {
     return static_cast<std::uint64_t>(
         std::count_if(state_.get(), state_.get() + buckets(),

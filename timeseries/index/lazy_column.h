@@ -53,6 +53,8 @@ class LazyColumn {
     std::uint64_t below(OrderedKey<T> key) const;
 
     std::uint64_t bytes() const;  // when all pages are there; with a source, of those that are
+    // What the buckets of these runs take when they are there.
+    std::uint64_t bytes(std::span<const Run> runs) const;
     std::uint64_t sortedBuckets() const;  // so far
 
  private:

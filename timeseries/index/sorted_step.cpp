@@ -159,7 +159,13 @@ SortedStep SortedStep::stored(std::shared_ptr<const StepFile> file,
             std::shared_ptr<const LazyColumn<T>>(storedColumn<T>(file, source.again, threads));
     });
     step.file_ = std::move(file);
-    step.source_ = std::move(source.field);
+    step.source_ = std::move(source);
+    return step;
+}
+
+SortedStep SortedStep::reopened() const {
+    SortedStep step = stored(file_, grid_, ofCategories_, source_, threads_);
+    step.cells_ = cells_;
     return step;
 }
 
@@ -238,8 +244,16 @@ Number SortedStep::value(std::uint64_t point) const {
 
 std::uint64_t SortedStep::bytes() const {
     const auto cells = cellsIfMade();
-    return std::visit([](const auto& points) { return points->bytes(); }, columns_) +
-           (cells ? cells->bytes() : 0) + (grid_->ofOneStep() ? grid_->mesh()->bytes() : 0);
+    return pointBytes() + (cells ? cells->bytes() : 0) +
+           (grid_->ofOneStep() ? grid_->mesh()->bytes() : 0);
+}
+
+std::uint64_t SortedStep::pointBytes() const {
+    return std::visit([](const auto& points) { return points->bytes(); }, columns_);
+}
+
+std::uint64_t SortedStep::pointBytes(std::span<const Run> runs) const {
+    return std::visit([&](const auto& points) { return points->bytes(runs); }, columns_);
 }
 
 std::shared_ptr<const CellIndex> SortedStep::cells() const {
@@ -261,12 +275,12 @@ std::string_view SortedStep::whyNoCells() const {
     if (grid_->mesh())
         return grid_->mesh()->hasNeighbours() ? "cells of curvilinear grids are not drawn yet"
                                               : "cells of unstructured grids are not drawn yet";
-    return CellIndex::canIndex(*grid_) ? "" : "this grid has too many cells";
+    return CellIndex::canIndex(*grid_, type()) ? "" : "so many cells would not fit the memory";
 }
 
 Field SortedStep::field() const {
-    if (source_)
-        if (auto read = source_()) {
+    if (source_.field)
+        if (auto read = source_.field()) {
             read->grid = grid_;
             return std::move(*read);
         }

@@ -88,6 +88,9 @@ class SortedStep {
                              bool categories);
     // Null unless it is read from a file.
     const std::shared_ptr<const StepFile>& file() const { return file_; }
+    // The same step with no points in memory, for those who look at others by now. Cells stay.
+    // REQUIRES: file().
+    SortedStep reopened() const;
     // All values in the grid's order: of the source, which is soon read, where there is one.
     // Missing points are marked or NaN. REQUIRES: all values were kept.
     Field field() const;
@@ -121,6 +124,9 @@ class SortedStep {
     const StepStatistics& statistics() const { return statistics_; }
     // Of memory held, that of cells too, and of a mesh if it is this step's alone.
     std::uint64_t bytes() const;
+    // Of memory held by points, and what those in `runs`, which ascend, take when they are there.
+    std::uint64_t pointBytes() const;
+    std::uint64_t pointBytes(std::span<const Run> runs) const;
 
     // The cells between the points, made when they are first asked for; that takes as long as
     // looking at every value twice, and 8 bytes a cell beside the values. Null unless
@@ -154,7 +160,7 @@ class SortedStep {
     RangeSet kept_;
     StepStatistics statistics_;
     std::shared_ptr<const StepFile> file_;
-    std::function<std::optional<Field>()> source_;
+    Source source_;
     struct LazyCells;
     std::shared_ptr<LazyCells> cells_;
 };

@@ -80,6 +80,15 @@ Series::Steps Series::recount() {
     return left;
 }
 
+std::shared_ptr<const SortedStep> Series::reopen(std::size_t step) {
+    Slot& slot = slots_[step];
+    auto left =
+        std::exchange(slot.sorted, std::make_shared<const SortedStep>(slot.sorted->reopened()));
+    bytes_ = bytes_ - slot.summary->bytes + slot.sorted->bytes();
+    slot.summary->bytes = slot.sorted->bytes();
+    return left;
+}
+
 void Series::failed(std::size_t step, std::string why) {
     drop(step);
     slots_[step].state = SlotState::Failed;

@@ -70,6 +70,9 @@ class Series {
     Steps loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted);
     // Steps grow while they are looked at: takes note of what they take now, and evicts.
     Steps recount();
+    // Puts the same step, its points dropped, where it is (SortedStep::reopened), and returns what
+    // left. REQUIRES: isStored(step).
+    std::shared_ptr<const SortedStep> reopen(std::size_t step);
     // A step that failed is not handed out again before retry().
     void failed(std::size_t step, std::string why);
     void retry(std::size_t step);
