@@ -63,9 +63,9 @@ BrickOrder::BrickOrder(const std::array<std::uint32_t, 3>& size) : size_(size) {
     for (std::uint32_t low = 0; low < 1u << kLowerBits; ++low) lower_.push_back(indexOf(low));
     for (std::uint32_t high = 0; high <= placeWithin_.size() >> kLowerBits; ++high)
         upper_.push_back(indexOf(high << kLowerBits));
-    for (int a = 0; a < 3; ++a) fullExtent_[a] = static_cast<std::uint8_t>(1 << bits[a]);
     firstOf_.resize(all);
     extent_.resize(all);
+    cut_.resize(all);
     for (std::uint64_t brick = 0; brick < all; ++brick) {
         const auto at =
             indicesOf(brick, glm::vec<3, std::uint64_t>(bricks[0], bricks[1], bricks[2]));
@@ -74,6 +74,7 @@ BrickOrder::BrickOrder(const std::array<std::uint32_t, 3>& size) : size_(size) {
             firstOf_[brick] += static_cast<std::uint32_t>(first * stride[a]);
             extent_[brick][a] = static_cast<std::uint8_t>(
                 std::min<std::uint64_t>(std::uint64_t{1} << bits[a], size[a] - first));
+            cut_[brick] |= extent_[brick][a] < 1 << bits[a];
         }
     }
 }
@@ -95,7 +96,7 @@ bool BrickOrder::toGridIndices(std::uint32_t* codes, std::size_t count) const {
         const std::uint32_t code = codes[i];
         const std::uint32_t brick = code >> brickBits_, place = code & mask;
         if (brick >= firstOf_.size()) return false;
-        if (extent_[brick] != fullExtent_)
+        if (cut_[brick] != 0)
             for (int a = 0; a < 3; ++a) good &= placeWithin_[place][a] < extent_[brick][a];
         codes[i] = firstOf_[brick] + lower_[place & ((1u << kLowerBits) - 1)] +
                    upper_[place >> kLowerBits];

@@ -36,7 +36,7 @@ class BrickOrder {
     std::vector<std::uint32_t> lower_, upper_;
     // Points along the axes, by brick, and which place that is, by place in the brick.
     std::vector<std::array<std::uint8_t, 3>> extent_, placeWithin_;
-    std::array<std::uint8_t, 3> fullExtent_{};
+    std::vector<std::uint8_t> cut_;  // of a brick, whether it has fewer points than most
 };
 
 }  // namespace timeseries
