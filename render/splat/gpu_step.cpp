@@ -62,8 +62,9 @@ std::vector<std::uint64_t> neededBlocks(const Scene& scene) {
 
 void extend(gl::Buffer& buffer, std::uint64_t bytes) {
     gl::Buffer larger(bytes);
+    // It may be larger already, should another buffer have found no room then.
     glCopyNamedBufferSubData(buffer.id(), larger.id(), 0, 0,
-                             static_cast<GLsizeiptr>(buffer.bytes()));
+                             static_cast<GLsizeiptr>(std::min(buffer.bytes(), larger.bytes())));
     buffer = std::move(larger);
 }
 

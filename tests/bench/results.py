@@ -312,7 +312,7 @@ def store_page(part):
             "Cold: without the index in the system's cache (the file, which the other side reads, stays there). By turns with reading the file and sorting.\n\n"
             + table(["points", "range", "read", "from disk, warm", "cold", "read and sorted", "ratio", "of processor time"], rows)
             + f"\nRead, sorted and written, 256³: {ms(f, 'second_ms')} on one thread, {ms(f, 'first_ms')} on both, {digits(rate(f['second_ms']))} and "
-            f"{digits(rate(f['first_ms']))} million points/s.\n" + series_page(part) + ranks_page(part))
+            f"{digits(rate(f['first_ms']))} million points/s.\n" + series_page(part) + large_page(part) + ranks_page(part))
 
 
 def series_page(part):
@@ -321,6 +321,19 @@ def series_page(part):
         return ""
     target("10,000 sorted steps opened, to the points of the first", 1e-3 * f["first_ms"], 1, shown=time)
     return f"\n10,000 sorted steps of 64³ points (names of one file) opened as a series, to the points of the first: {ms(f, 'first_ms')}.\n"
+
+
+def large_page(part):
+    f = part("storeLarge/points:1024")
+    if not f:
+        return ""
+    target("a step of 1024³ bytes from disk, one value of it drawn by the program, MB of memory", f["render_MB"], 2000)
+    target("the same: read and sorted / from disk", f["alone_ms"] / f["render_ms"], 20, at_least=True)
+    rows = [[what, ms(f, f"{key}_ms"), f"{f[f'{key}_MB']:,.0f} MB"] for what, key in
+            [("drawn without an index: `render --cache off`", "alone"), ("sorted and written: `index`", "index"),
+             ("counted: `count`", "count"), ("drawn: `render`", "render")]]
+    return ("\nThe program on a step of 1024³ values of 8 bits, the middle one of which is asked for, 1200 x 900 pixels:\n\n"
+            + table(["", "time", "most memory"], rows))
 
 
 def ranks_page(part):

@@ -1,6 +1,8 @@
 // Sorted steps on disk, beside reading and sorting the file.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -23,6 +25,18 @@ using timeseries::SortedStep;
 using timeseries::StepMaker;
 using timeseries::StepStore;
 
+template <typename T>
+void writeTurbulence(const fs::path& file, const char* type, std::size_t n) {
+    const timeseries::Field field = bench::turbulence<T>(n);
+    const auto& values = std::get<std::vector<T>>(field.values);
+    const std::string size = std::to_string(n);
+    std::ofstream out(file, std::ios::binary);
+    out << "NRRD0004\ntype: " << type << "\ndimension: 3\nsizes: " << size << ' ' << size << ' '
+        << size << "\nendian: little\nencoding: raw\n\n";
+    out.write(reinterpret_cast<const char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(T)));
+}
+
 // A file of n^3 floats and a store for it, removed when another is asked for.
 struct World {
     explicit World(std::size_t n)
@@ -30,14 +44,7 @@ struct World {
           file(folder / "field.nrrd"),
           points(n * n * n) {
         fs::create_directories(folder);
-        const timeseries::Field field = bench::turbulence<float>(n);
-        const auto& values = std::get<std::vector<float>>(field.values);
-        const std::string size = std::to_string(n);
-        std::ofstream out(file, std::ios::binary);
-        out << "NRRD0004\ntype: float\ndimension: 3\nsizes: " << size << ' ' << size << ' ' << size
-            << "\nendian: little\nencoding: raw\n\n";
-        out.write(reinterpret_cast<const char*>(values.data()),
-                  static_cast<std::streamsize>(values.size() * sizeof(float)));
+        writeTurbulence<float>(file, "float", n);
     }
     World(const World&) = delete;
     World& operator=(const World&) = delete;
@@ -183,6 +190,63 @@ BENCHMARK(storeSeries)
     ->Arg(10'000)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(5);
+
+// The program, its output thrown away: its time, and the most memory it had.
+struct ProgramRun {
+    double ms = 0, megabytes = 0;
+};
+ProgramRun runProgram(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), tests::program().string());
+    std::vector<char*> raw;
+    for (std::string& argument : arguments) raw.push_back(argument.data());
+    raw.push_back(nullptr);
+    const auto start = std::chrono::steady_clock::now();
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const int nowhere = ::open("/dev/null", O_WRONLY);
+        ::dup2(nowhere, STDOUT_FILENO);
+        ::dup2(nowhere, STDERR_FILENO);
+        ::execv(raw[0], raw.data());
+        ::_exit(127);
+    }
+    int status = 0;
+    rusage used{};
+    if (::wait4(child, &status, 0, &used) != child || status != 0) std::abort();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    return {took.count(), static_cast<double>(used.ru_maxrss) * 1024 / 1e6};
+}
+
+// A step of 1024^3 bytes: sorted, counted and drawn by the program.
+void storeLarge(benchmark::State& state) {
+    const fs::path folder =
+        fs::temp_directory_path() / ("isochron-large-" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    const std::string file = folder / "field.nrrd", cache = folder / "cache";
+    writeTurbulence<std::uint8_t>(file, "uint8", static_cast<std::size_t>(state.range(0)));
+    const auto tell = [&](const std::string& what, const ProgramRun& run) {
+        state.counters[what + "_ms"] = run.ms;
+        state.counters[what + "_MB"] = run.megabytes;
+    };
+    const auto median = [&](const std::vector<std::string>& arguments) {
+        std::vector<double> ms, megabytes;
+        for (int i = 0; i < 5; ++i) {
+            const ProgramRun run = runProgram(arguments);
+            ms.push_back(run.ms);
+            megabytes.push_back(run.megabytes);
+        }
+        return ProgramRun{bench::median(ms), bench::median(megabytes)};
+    };
+    tell("alone",
+         runProgram({"render", file, "--cache", "off", "--range", "128", "-o", folder / "a.png"}));
+    tell("index", runProgram({"index", file, "--cache", cache}));
+    for (auto _ : state) {
+        tell("count", median({"count", file, "--cache", cache, "--range", "128"}));
+        tell("render",
+             median({"render", file, "--cache", cache, "--range", "128", "-o", folder / "b.png"}));
+    }
+    fs::remove_all(folder);
+}
+BENCHMARK(storeLarge)->ArgNames({"points"})->Arg(1024)->Unit(benchmark::kSecond)->Iterations(1);
 
 #ifdef MPIRUN
 // A file read, sorted and written by the program, as two processes and as one, each on one thread.

@@ -8,6 +8,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/support/step_bytes.h"
+
 namespace timeseries {
 namespace {
 
@@ -193,6 +195,24 @@ TEST(Series, WhatAStepGrowsByCountsAndPushesOthersOut) {
     EXPECT_EQ(series.bytes(), grown->bytes() + (2 - left.size()) * before);
     series.loaded(0, stepOf(50));
     EXPECT_EQ(series.bytes(), bytesOf(50) + (2 - left.size()) * before);
+}
+
+// So that the next one, which counts as the largest, is asked for again.
+TEST(Series, AStepOpenedAgainTakesWhatItTookAtFirst) {
+    const auto step = stepOf(1000);
+    const auto stored = std::make_shared<const SortedStep>(
+        SortedStep::ofFile(tests::opened(tests::written(*step)), step->sharedGrid(), false));
+    const std::uint64_t first = stored->bytes(), grown = first + step->size() * 8;
+    Series series(2, grown + grown / 2);
+    series.loaded(0, stored);
+    (void)stored->columns();
+    series.recount();
+    EXPECT_EQ(series.bytes(), grown);
+    EXPECT_THAT(series.want({0, 1}), IsEmpty());
+    EXPECT_EQ(series.reopen(0), stored);
+    EXPECT_NE(series.use(0), stored);
+    EXPECT_EQ(series.bytes(), first);
+    EXPECT_THAT(series.want({0, 1}), ElementsAre(1));
 }
 
 TEST(Series, AnEvictedStepLivesOnWithWhoeverSharesIt) {

@@ -86,6 +86,9 @@ std::shared_ptr<const SortedStep> Series::reopen(std::size_t step) {
         std::exchange(slot.sorted, std::make_shared<const SortedStep>(slot.sorted->reopened()));
     bytes_ = bytes_ - slot.summary->bytes + slot.sorted->bytes();
     slot.summary->bytes = slot.sorted->bytes();
+    largest_ = 0;
+    for (const Slot& each : slots_)
+        if (each.summary) largest_ = std::max(largest_, each.summary->bytes);
     return left;
 }
 
