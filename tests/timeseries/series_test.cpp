@@ -203,7 +203,7 @@ TEST(Series, AStepOpenedAgainTakesWhatItTookAtFirst) {
     const auto stored = std::make_shared<const SortedStep>(
         SortedStep::ofFile(tests::opened(tests::written(*step)), step->sharedGrid(), false));
     const std::uint64_t first = stored->bytes(), grown = first + step->size() * 8;
-    Series series(2, grown + grown / 2);
+    Series series(2, grown);
     series.loaded(0, stored);
     (void)stored->columns();
     series.recount();
