@@ -327,12 +327,13 @@ def large_page(part):
     f = part("storeLarge/points:1024")
     if not f:
         return ""
-    target("a step of 1024³ bytes from disk, one value of it drawn by the program, MB of memory", f["render_MB"], 2000)
+    share = f"{100 * f['selected'] / 1024**3:.2g} %"
+    target(f"a step of 1024³ bytes from disk, {share} of it drawn by the program, MB of memory", f["render_MB"], 2000)
     target("the same: read and sorted / from disk", f["alone_ms"] / f["render_ms"], 20, at_least=True)
     rows = [[what, ms(f, f"{key}_ms"), f"{f[f'{key}_MB']:,.0f} MB"] for what, key in
             [("drawn without an index: `render --cache off`", "alone"), ("sorted and written: `index`", "index"),
              ("counted: `count`", "count"), ("drawn: `render`", "render")]]
-    return ("\nThe program on a step of 1024³ values of 8 bits, the middle one of which is asked for, 1200 x 900 pixels:\n\n"
+    return (f"\nThe program on a step of 1024³ values of 8 bits, one of which, that of {f['selected']:,.0f} points ({share}), is asked for, 1200 x 900 pixels:\n\n"
             + table(["", "time", "most memory"], rows))
 
 
