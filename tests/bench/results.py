@@ -329,7 +329,6 @@ def large_page(part):
         return ""
     share = f"{100 * f['selected'] / 1024**3:.2g} %"
     target(f"a step of 1024³ bytes from disk, {share} of it drawn by the program, MB of memory", f["render_MB"], 2000)
-    target("the same: read and sorted / from disk", f["alone_ms"] / f["render_ms"], 20, at_least=True)
     rows = [[what, ms(f, f"{key}_ms"), f"{f[f'{key}_MB']:,.0f} MB"] for what, key in
             [("drawn without an index: `render --cache off`", "alone"), ("sorted and written: `index`", "index"),
              ("counted: `count`", "count"), ("drawn: `render`", "render")]]
