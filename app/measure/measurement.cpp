@@ -220,13 +220,13 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     const double beforePoints = bench.prepare(Model::Points);
     const double beforeCells = bench.prepare(Model::Cells);
     const std::vector<Mode> modes = modesFor(!render::areOneColor(bench.sceneOf({}).layers));
-    struct Drawn {
+    struct TimedScene {
         render::Scene scene;
         Views shown;
         std::vector<float> turned;  // optical depth
         std::vector<double> times;
     };
-    std::vector<Drawn> drawn;
+    std::vector<TimedScene> drawn;
     const double rounds = how.frames + 2.0;  // one for what is shown, one for the truth
     const auto tell = [&](double done) {
         if (progress) progress(done / rounds);
@@ -241,7 +241,7 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     // By turns, so that what else the machine does is in the times of all.
     for (unsigned i = 0; i < how.frames; ++i) {
         tell(1.0 + i);
-        for (Drawn& each : drawn) bench.time(each.scene, each.times);
+        for (TimedScene& each : drawn) bench.time(each.scene, each.times);
     }
     tell(rounds - 1);
     const Bench::Truth truth = bench.truth();

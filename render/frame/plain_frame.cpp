@@ -7,12 +7,12 @@
 namespace render {
 namespace {
 
-constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kWithoutEnd = std::numeric_limits<std::uint64_t>::max();
 
 void sum(SplatFrame& splats, const View& view, Channels channels, std::size_t plane,
          Targets& targets) {
     const auto sums = splats.begin(view, channels, plane, targets);
-    while (!sums->done()) sums->add(kAll);
+    while (!sums->done()) sums->add(kWithoutEnd);
 }
 
 }  // namespace

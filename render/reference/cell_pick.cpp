@@ -103,7 +103,7 @@ std::uint32_t cornerAt(const Scene& scene, const glm::uvec3& cell, const glm::dv
     return at.x + size.x * (at.y + size.y * at.z);
 }
 
-timeseries::Number valueAt(const timeseries::Field& field, std::uint32_t index) {
+timeseries::Number valueOfPoint(const timeseries::Field& field, std::uint32_t index) {
     return std::visit([&](const auto& values) { return timeseries::numberOf(values[index]); },
                       field.values);
 }
@@ -123,7 +123,7 @@ std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::
     const std::uint32_t at = cornerAt(scene, seen.cell, place);
     return Picked{.layer = seen.met.layer,
                   .gridIndex = at,
-                  .value = valueAt(scene.cells->field(), at),
+                  .value = valueOfPoint(scene.cells->field(), at),
                   .world = scene.placed.position(at),
                   .depth = std::lerp(seen.fromDepth, seen.toDepth, half->share),
                   .between = ray.valueAt(seen, place)};

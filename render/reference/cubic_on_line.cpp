@@ -15,7 +15,7 @@ double trilinear(const std::array<double, 8>& f, double x, double y, double z) {
 }
 
 // At most eight places, ascending.
-class Places {
+class PlacesOnLine {
  public:
     void add(double t) {
         std::size_t i = count_++;
@@ -33,7 +33,7 @@ class Places {
 // Where the slope changes its sign: the derivative is
 // 3 (d0 (1 - t)^2 + 2 d1 t (1 - t) + d2 t^2). Of the two forms of a root each is taken where
 // nothing cancels.
-void addTurns(const Cubic& f, Places& into) {
+void addTurns(const Cubic& f, PlacesOnLine& into) {
     const double d0 = f[1] - f[0], d1 = f[2] - f[1], d2 = f[3] - f[2];
     const double square = d1 * d1 - d0 * d2;
     if (!(square > 0)) return;
@@ -61,7 +61,7 @@ double crossing(const Cubic& f, double level, double from, double to, bool rises
     return t;
 }
 
-void addCrossings(const Cubic& f, double level, const Places& turns, Places& into) {
+void addCrossings(const Cubic& f, double level, const PlacesOnLine& turns, PlacesOnLine& into) {
     const auto [least, most] = std::ranges::minmax(f);
     if (!(least < level && level < most)) return;
     double from = 0, first = f[0];
@@ -93,7 +93,7 @@ double valueAt(const Cubic& f, double t) {
 }
 
 void addPartsWithin(const Cubic& f, double lo, double hi, std::vector<LinePart>& into) {
-    Places turns, ends;
+    PlacesOnLine turns, ends;
     addTurns(f, turns);
     addCrossings(f, lo, turns, ends);
     addCrossings(f, hi, turns, ends);

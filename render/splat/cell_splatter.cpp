@@ -16,7 +16,7 @@ constexpr std::uint64_t kAtOnce = 1 << 17;
 // Listed and put in order in the time that one takes to be summed.
 constexpr std::uint64_t kListedForOne = 64;
 // Less is done before another thread has begun.
-constexpr std::size_t kWorthAThread = 1 << 9;
+constexpr std::size_t kCellsWorthAThread = 1 << 9;
 
 // The tiles that a cell's pixels are in.
 TileSpan spanOf(const CellView& view, const SeenCell& c) {
@@ -98,7 +98,7 @@ struct CellSum::Work {
 };
 
 void CellSum::Work::sum(std::span<const CellOfLayer> part, bool lastOfAll) {
-    const unsigned shared = threadsFor(part.size(), kWorthAThread, threads);
+    const unsigned shared = threadsFor(part.size(), kCellsWorthAThread, threads);
     const std::span<CellMemory::Seen> seen = std::span(memory.kept->seen).first(shared);
     together(shared, [&](unsigned k) {
         const std::size_t first = part.size() * k / shared, last = part.size() * (k + 1) / shared;

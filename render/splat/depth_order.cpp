@@ -14,7 +14,7 @@ namespace render {
 namespace {
 
 // Fewer are ordered before another thread has begun.
-constexpr std::size_t kWorthAThread = 1 << 15;
+constexpr std::size_t kKeysWorthAThread = 1 << 15;
 
 // A splat and its key: from the highest bit on, key, layer and point. Half of a key's bits sort in
 // one pass over so few counters that they stay in the first-level cache.
@@ -116,7 +116,7 @@ void DepthOrder::list(std::uint64_t splats) {
 void DepthOrder::findKeys(std::span<Keyed> slice) {
     constexpr std::size_t kBatch = 1 << 9;
     const auto gridIndex = columnsOf(*scene_).gridIndex;
-    const unsigned threads = threadsFor(slice.size(), kWorthAThread);
+    const unsigned threads = threadsFor(slice.size(), kKeysWorthAThread);
     std::vector<std::array<Counts, 2>> counts(threads);
     eachPart(threads, slice, [&](unsigned k, std::span<Keyed> part) {
         std::array<std::uint32_t, kBatch> index;
@@ -158,7 +158,7 @@ void DepthOrder::enter(Phase phase) {
 // keys, in their order where it is equal. On several threads, each of which takes a part of them.
 template <typename Put>
 void DepthOrder::sortBy(unsigned half, std::span<const Keyed> slice, const Put& put) {
-    const unsigned threads = threadsFor(slice.size(), kWorthAThread);
+    const unsigned threads = threadsFor(slice.size(), kKeysWorthAThread);
     std::vector<Counts> to(threads);  // where each part's next goes
     eachPart(threads, slice, [&](unsigned k, std::span<const Keyed> part) {
         for (const Keyed splat : part) ++to[k][halfOf(splat, half)];

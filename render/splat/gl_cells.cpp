@@ -10,7 +10,7 @@ namespace render {
 namespace {
 
 constexpr std::size_t kEyes = 2;
-constexpr std::size_t kWorthAThread = 1 << 10;
+constexpr std::size_t kGlCellsWorthAThread = 1 << 10;
 
 // In double: floats have no difference of places that are near.
 std::vector<glm::vec2> sidesOf(const Scene& scene) {
@@ -86,7 +86,7 @@ GlCells::GlCells(const Scene& scene)
       sidesTexture_(GL_RG32F, sides_) {
     const std::vector<CellOfLayer> all = cellsOf(scene, Channels::Over, 0);
     const double steep = steepnessOf(scene);
-    const unsigned shared = threadsFor(all.size(), kWorthAThread, sharingThreads());
+    const unsigned shared = threadsFor(all.size(), kGlCellsWorthAThread, sharingThreads());
     std::vector<std::vector<GlCell>> parts(shared);
     sharing(shared, [&](unsigned k) {
         const std::size_t first = all.size() * k / shared, last = all.size() * (k + 1) / shared;

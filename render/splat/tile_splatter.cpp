@@ -16,7 +16,7 @@ namespace {
 // Sorted into tiles at once: more would not make it faster.
 constexpr std::uint64_t kAtOnce = 1 << 20;
 // Less is done before another thread has begun.
-constexpr std::size_t kWorthAThread = 1 << 11;
+constexpr std::size_t kSplatsWorthAThread = 1 << 11;
 
 }  // namespace
 
@@ -131,7 +131,7 @@ void TileSum::Work::look(std::size_t first, std::size_t last) {
 
 void TileSum::Work::sumPart(std::size_t first, std::size_t last, bool lastOfAll) {
     const std::size_t count = last - first;
-    const unsigned shared = threadsFor(count, kWorthAThread, threads);
+    const unsigned shared = threadsFor(count, kSplatsWorthAThread, threads);
     together(shared, [&](unsigned k) {
         bins[k].fill(view, list, spans, first + count * k / shared,
                      first + count * (k + 1) / shared);
@@ -156,7 +156,7 @@ void TileSum::Work::sum() {
     spans.resize(count);
     list.seen.resize(ofMesh ? count : 0);
     view.meshSplats = list.seen;
-    inParts(count, threadsFor(count, kWorthAThread, threads),
+    inParts(count, threadsFor(count, kSplatsWorthAThread, threads),
             [&](std::size_t first, std::size_t last) { look(first, last); });
     std::size_t first = 0;
     std::uint64_t pairs = 0;

@@ -18,7 +18,7 @@ Explorer state(int n, std::int64_t tick = 0, int width = 100) {
 }
 
 // The same said with two stacks.
-struct Model {
+struct Mirror {
     std::vector<Explorer> past, future;
     Explorer now;
     std::string gesture;
@@ -47,7 +47,7 @@ TEST(History, IsTwoStacksForAnySequenceOfEdits) {
     std::mt19937 random(2);
     for (int run = 0; run < 40; ++run) {
         History history(state(0));
-        Model model{{}, {}, state(0), {}};
+        Mirror model{{}, {}, state(0), {}};
         // Long runs of edits reach the limit, long runs of undo the beginning.
         for (int i = 0; i < 1500; ++i) {
             const auto kind = random() % 100;

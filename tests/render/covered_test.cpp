@@ -11,8 +11,8 @@ namespace {
 
 using namespace render;
 
-struct World {
-    explicit World(const glm::dmat3& directions, const Footprint& footprint = {})
+struct CoveredWorld {
+    explicit CoveredWorld(const glm::dmat3& directions, const Footprint& footprint = {})
         : step(tests::stepOf(std::make_shared<timeseries::Grid>(
                                  std::array{tests::axis(4), tests::axis(3), tests::axis(5, 0, 0.5)},
                                  timeseries::Frame{.directions = directions}),
@@ -47,17 +47,17 @@ std::array<int, 2> touched(const Scene& scene, const View& view, const PixelBox&
 
 TEST(CoveredPixels, NoSplatTouchesAnyOther) {
     const std::array worlds{
-        World(glm::dmat3(1)),
-        World(tests::rotation(0.7)),
-        World(tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1})),
-        World(glm::dmat3(1), {.size = 2.5}),
-        World(glm::dmat3(1), {.kernel = Kernel::Point, .size = 7}),
+        CoveredWorld(glm::dmat3(1)),
+        CoveredWorld(tests::rotation(0.7)),
+        CoveredWorld(tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1})),
+        CoveredWorld(glm::dmat3(1), {.size = 2.5}),
+        CoveredWorld(glm::dmat3(1), {.kernel = Kernel::Point, .size = 7}),
     };
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-1, 1);
     int parts = 0;  // pictures that hold a part of the volume's rectangle, or all
     for (int trial = 0; trial < 60; ++trial) {
-        const World& world = worlds[static_cast<std::size_t>(trial) % worlds.size()];
+        const CoveredWorld& world = worlds[static_cast<std::size_t>(trial) % worlds.size()];
         View view = tests::lookFrom({3 * uniform(random), 3 * uniform(random), 3 * uniform(random)},
                                     {97, 64}, 0.3);
         // Turned away from the middle, so that the picture's sides cut the volume.
@@ -72,7 +72,7 @@ TEST(CoveredPixels, NoSplatTouchesAnyOther) {
 }
 
 TEST(CoveredPixels, AreLittleMoreThanThoseOfADistantVolume) {
-    const World world(glm::dmat3(1), {.kernel = Kernel::Point});
+    const CoveredWorld world(glm::dmat3(1), {.kernel = Kernel::Point});
     const View view = tests::lookFrom({0, -40, 0}, {400, 300}, 0.1);
     const PixelBox box = coveredPixels(world.scene, view);
     const glm::dvec3 half = world.placed.boxHalf();
@@ -85,7 +85,7 @@ TEST(CoveredPixels, AreLittleMoreThanThoseOfADistantVolume) {
 }
 
 TEST(CoveredPixels, AreTheWholePictureFromWithinAndNoneOfWhatIsBeside) {
-    const World world(glm::dmat3(1));
+    const CoveredWorld world(glm::dmat3(1));
     const glm::ivec2 size(64, 48);
     const View within = tests::lookFrom({0.1, 0.1, 0}, size);
     EXPECT_EQ(coveredPixels(world.scene, within), (PixelBox{{0, 0}, size}));

@@ -30,7 +30,7 @@ Scene allOf(const timeseries::SortedStep& step, const PlacedPoints& placed, Rang
             .clip = {}};
 }
 
-struct World {
+struct OrderedWorld {
     timeseries::SortedStep step = tests::noise(leaningGrid());
     PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
@@ -47,7 +47,7 @@ struct World {
 
 const glm::dvec3 kEyes[] = {{0, -3, 0}, {0.1, 0.05, -0.2}, {100, 40, 7}, {1e6, 2e5, 3}};
 
-void expectEveryPointOnce(const World& w, const Sorted& sorted) {
+void expectEveryPointOnce(const OrderedWorld& w, const Sorted& sorted) {
     std::vector<std::pair<int, std::uint32_t>> listed, expected;
     for (std::size_t i = 0; i < sorted.point.size(); ++i)
         listed.emplace_back(sorted.layer[i], sorted.point[i]);
@@ -60,13 +60,13 @@ void expectEveryPointOnce(const World& w, const Sorted& sorted) {
 }
 
 TEST(DepthOrder, EveryPointOfEveryLayerIsThereOnce) {
-    const World w;
+    const OrderedWorld w;
     expectEveryPointOnce(w, std::get<Sorted>(order(w.scene, kEyes[0])));
     expectEveryPointOnce(w, std::get<Sorted>(orderExactly(w.scene, kEyes[0])));
 }
 
 TEST(DepthOrder, NotAskedForItIsTheRunsAsTheyLie) {
-    World w;
+    OrderedWorld w;
     w.scene.order = Order::None;
     EXPECT_TRUE(std::holds_alternative<Runs>(order(w.scene, kEyes[0])));
     EXPECT_TRUE(std::holds_alternative<Runs>(orderExactly(w.scene, kEyes[0])));
@@ -90,7 +90,7 @@ TEST(DepthOrder, TheKeysAre4194304) {
 }
 
 TEST(DepthOrder, FarthestFirstToOneKeyOf4194304) {
-    const World w;
+    const OrderedWorld w;
     for (const glm::dvec3& eye : kEyes) {
         const auto sorted = std::get<Sorted>(order(w.scene, eye));
         // The farthest corner of the box is 1 from its middle.
@@ -104,14 +104,14 @@ TEST(DepthOrder, FarthestFirstToOneKeyOf4194304) {
 }
 
 TEST(DepthOrder, TheTruthsOrderIsExact) {
-    const World w;
+    const OrderedWorld w;
     const auto sorted = std::get<Sorted>(orderExactly(w.scene, kEyes[1]));
     for (std::size_t i = 1; i < sorted.point.size(); ++i)
         ASSERT_GE(w.distance(sorted.point[i - 1], kEyes[1]), w.distance(sorted.point[i], kEyes[1]));
 }
 
 TEST(DepthOrder, ClippedPointsAreNotListed) {
-    World w;
+    OrderedWorld w;
     w.scene.clip = {glm::uvec3(5, 0, 0), glm::uvec3(9, 14, 3)};
     const auto sorted = std::get<Sorted>(order(w.scene, kEyes[0]));
     ASSERT_FALSE(sorted.point.empty());
@@ -122,7 +122,7 @@ TEST(DepthOrder, ClippedPointsAreNotListed) {
 }
 
 TEST(DepthOrder, NothingSelectedIsAnEmptyList) {
-    World w;
+    OrderedWorld w;
     w.scene.layers.clear();
     EXPECT_TRUE(std::get<Sorted>(order(w.scene, kEyes[0])).point.empty());
 }
@@ -139,7 +139,7 @@ TEST(DepthOrder, EqualDistancesKeepTheOrderOfValue) {
 }
 
 TEST(DepthOrder, NothingIsLeftOfTheFrameBefore) {
-    World w;
+    OrderedWorld w;
     DepthOrder order;
     for (const char* range : {"0:1", "0.3:0.4", "0.1:0.9"})
         for (const glm::dvec3& eye : kEyes) {
@@ -152,7 +152,7 @@ TEST(DepthOrder, NothingIsLeftOfTheFrameBefore) {
 }
 
 TEST(DepthOrder, InSlicesIsTheSameList) {
-    World w;
+    OrderedWorld w;
     for (const IndexBox& clip : {IndexBox{}, IndexBox{{2, 3, 1}, {15, 9, 20}}})
         for (const std::uint32_t stride : {1u, 8u})
             for (const std::uint64_t slice : {1, 1000, 1 << 16}) {

@@ -21,7 +21,7 @@ std::shared_ptr<const timeseries::Grid> awkwardGrid() {
         timeseries::Frame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
 }
 
-struct World {
+struct AwkwardWorld {
     timeseries::SortedStep step = tests::noise(awkwardGrid());
     PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
@@ -38,7 +38,7 @@ struct World {
 };
 
 TEST(Distances, AreThoseOfThePointsInTheWorldByAnyVectors) {
-    const World w;
+    const AwkwardWorld w;
     std::vector<std::uint32_t> all(w.step.size());
     std::iota(all.begin(), all.end(), 0u);
     tests::onEachVectorTarget([&] {
@@ -54,7 +54,7 @@ TEST(Distances, AreThoseOfThePointsInTheWorldByAnyVectors) {
 }
 
 TEST(Distances, OfAnyNumberOfPoints) {
-    const World w;
+    const AwkwardWorld w;
     tests::onEachVectorTarget([&] {
         for (std::size_t count = 0; count < 20; ++count) {
             std::vector<std::uint32_t> some;
@@ -68,7 +68,7 @@ TEST(Distances, OfAnyNumberOfPoints) {
 }
 
 TEST(Distances, AreNegativeOutsideOfTheClipBoxAlone) {
-    World w;
+    AwkwardWorld w;
     std::vector<std::uint32_t> all(w.step.size());
     std::iota(all.begin(), all.end(), 0u);
     for (const IndexBox& clip :

@@ -24,8 +24,8 @@ double density(const glm::dvec3& kernel) {
 }
 
 // A selection of everything on a grid whose cells are long along z, some leaning.
-struct World {
-    World(std::array<timeseries::Axis, 3> axes, const glm::dmat3& directions = glm::dmat3(1))
+struct UniformWorld {
+    UniformWorld(std::array<timeseries::Axis, 3> axes, const glm::dmat3& directions = glm::dmat3(1))
         : step(tests::stepOf(
               std::make_shared<Grid>(std::move(axes), timeseries::Frame{.directions = directions}),
               [](std::size_t) { return 1.0; })) {}
@@ -39,8 +39,8 @@ struct World {
                 .clip = {}};
 };
 
-World thin(std::size_t levels) {
-    return World({tests::axis(24), tests::axis(20), tests::axis(levels, 0, 8)});
+UniformWorld thin(std::size_t levels) {
+    return UniformWorld({tests::axis(24), tests::axis(20), tests::axis(levels, 0, 8)});
 }
 
 struct Direct {
@@ -61,13 +61,13 @@ Direct direct(const PointsView& seen, std::uint64_t index, double depth, double 
 
 TEST(SlimFootprint, TheShareOfARayIsTheIntegralOfWhatItPassesInside) {
     const std::array worlds{thin(3), thin(1),
-                            World({tests::axis(9), tests::axis(8), tests::axis(4, 0, 6)},
-                                  tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1}))};
+                            UniformWorld({tests::axis(9), tests::axis(8), tests::axis(4, 0, 6)},
+                                         tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1}))};
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1, 1);
     int cut = 0, compared = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        const World& world = worlds[static_cast<std::size_t>(trial) % worlds.size()];
+        const UniformWorld& world = worlds[static_cast<std::size_t>(trial) % worlds.size()];
         const glm::dvec3 eye =
             4.0 * glm::normalize(glm::dvec3(uniform(random), uniform(random), uniform(random)));
         const View view = tests::lookFrom(eye, {200, 200});
@@ -179,7 +179,7 @@ double pathLength(const PointsView& seen, const glm::dvec2& pixel, double pixels
 
 TEST(SlimFootprint, NothingIsDrawnBesideTheDomain) {
     for (const std::size_t levels : {2u, 3u, 7u}) {
-        const World world = thin(levels);
+        const UniformWorld world = thin(levels);
         ASSERT_TRUE(world.placed.longCells());
         for (const glm::dvec3 eye :
              {glm::dvec3(0, -4, 0.1), glm::dvec3(3, -2, 1), glm::dvec3(0.2, 0.1, 5)}) {
@@ -209,7 +209,8 @@ TEST(SlimFootprint, AFullDomainIsItsPathLengthToTheStatedError) {
         double length, error;
     };
     for (const Case& c : {Case{3, 14, 0.125}, Case{17, 4, 0.055}}) {
-        const World world({tests::axis(60), tests::axis(12), tests::axis(c.levels, 0, c.length)});
+        const UniformWorld world(
+            {tests::axis(60), tests::axis(12), tests::axis(c.levels, 0, c.length)});
         const View view = tests::lookFrom({0, -40, 0}, {180, 150}, 0.03);
         const PointsView seen(world.placed, view);
         Accumulator<double> sums(view.size, {Channels::Weight});
@@ -232,8 +233,8 @@ TEST(SlimFootprint, AFullDomainIsItsPathLengthToTheStatedError) {
 }
 
 TEST(SlimFootprint, LiesWithinItsBounds) {
-    const World world({tests::axis(9), tests::axis(8), tests::axis(4, 0, 16)},
-                      tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1}));
+    const UniformWorld world({tests::axis(9), tests::axis(8), tests::axis(4, 0, 16)},
+                             tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1}));
     std::mt19937 random(4);
     std::uniform_real_distribution<double> uniform(-1, 1);
     double bounds = 0, squares = 0;

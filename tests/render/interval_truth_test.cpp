@@ -37,8 +37,8 @@ Field fieldOn(std::shared_ptr<const Grid> grid, const OfPoint& f) {
 }
 
 // A field and layers of ranges in it.
-struct World {
-    World(Field of, const std::vector<std::vector<Interval<double>>>& layers)
+struct TrueWorld {
+    TrueWorld(Field of, const std::vector<std::vector<Interval<double>>>& layers)
         : field(std::move(of)),
           step(timeseries::SortedStep::build(field)),
           placed(*field.grid),
@@ -68,7 +68,7 @@ struct Ray {
     glm::dvec3 from, along;  // axis coordinates, a unit of view depth
     double weight, near;     // W of that unit
 };
-Ray rayOf(const World& world, const View& view, double x, double y) {
+Ray rayOf(const TrueWorld& world, const View& view, double x, double y) {
     const PixelRays rays = pixelRays(world.placed.inAxes(view));
     const glm::dvec2 o = glm::dvec2(x, y) - rays.centre;
     const glm::dvec3 along = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
@@ -96,7 +96,7 @@ double pathThrough(const Ray& ray, const glm::dvec3& lo, const glm::dvec3& hi) {
 }
 
 // wanted(ray) of every pixel's middle.
-void expectOfRays(const World& world, const View& view, const std::vector<double>& is,
+void expectOfRays(const TrueWorld& world, const View& view, const std::vector<double>& is,
                   const std::function<double(const Ray&)>& wanted, double tolerance = 1e-9) {
     for (int y = 0; y < view.size.y; ++y)
         for (int x = 0; x < view.size.x; ++x) {
@@ -141,8 +141,8 @@ const std::array<glm::dvec3, 3> kFrom = {glm::dvec3(0.7, -3, 1.1), glm::dvec3(-1
 TEST(IntervalTruth, AConstantFieldIsAsDeepAsTheRaysWayThroughTheDomain) {
     for (const auto& grid : {unevenGrid(), shearedGrid()}) {
         // In its range, at its ends, beside it.
-        const World world(fieldOn(grid, [](const glm::uvec3&) { return 7.0; }),
-                          {{{6, 8}}, {{7, 7}}, {{7, 9}}, {{5, 7}}, {{7.5, 8}, {1, 6.5}}});
+        const TrueWorld world(fieldOn(grid, [](const glm::uvec3&) { return 7.0; }),
+                              {{{6, 8}}, {{7, 7}}, {{7, 9}}, {{5, 7}}, {{7.5, 8}, {1, 6.5}}});
         for (const glm::dvec3& from : kFrom) {
             const View view = tests::lookFrom(from, kSize);
             const auto domain = world.placed.domain();
@@ -162,7 +162,7 @@ TEST(IntervalTruth, ARangeOfALinearFieldIsASlabBetweenTwoPlanes) {
     for (const auto& grid : {unevenGrid(), shearedGrid()}) {
         const auto& x = grid->axes()[0].coordinates;
         const Field field = fieldOn(grid, [&](const glm::uvec3& p) { return x[p.x]; });
-        const World world(field, {{{0.3, 2.4}}, {{1.2, 1.2 + 1e-9}}, {{2.2, x.back()}}});
+        const TrueWorld world(field, {{{0.3, 2.4}}, {{1.2, 1.2 + 1e-9}}, {{2.2, x.back()}}});
         const auto planeAt = [&](double value) {
             return world.placed.axesFromGrid(glm::dvec3(value, 0, 0)).x;
         };
@@ -200,7 +200,7 @@ TEST(IntervalTruth, ARangeOfALinearFieldIsASlabBetweenTwoPlanes) {
 
 // x y z on one cell: along its diagonal t^3, from 0 at one end of the cell to 1 at the other.
 TEST(IntervalTruth, TakesTheRootsOfTheCubicAlongARay) {
-    const World world(
+    const TrueWorld world(
         fieldOn(tests::cube(2), [](const glm::uvec3& p) { return double(p.x * p.y * p.z); }),
         {{{0.001, 0.729}}, {{0.729, 1}}, {{0, 0.001}}});
     const double half = world.placed.boxHalf().x;
@@ -215,7 +215,7 @@ TEST(IntervalTruth, TakesTheRootsOfTheCubicAlongARay) {
 
 // x y on one cell: where x + y = 1 it is t (1 - t), which rises and falls between two ends of 0.
 TEST(IntervalTruth, FindsWhatARayEntersAndLeavesWithinACell) {
-    const World world(
+    const TrueWorld world(
         fieldOn(tests::cube(2), [](const glm::uvec3& p) { return double(p.x * p.y); }),
         {{{0.16, 1}}, {{-1, 0.16}}});
     const View view = tests::lookFrom({2, -2, 1e-9}, {1, 1}, 1e-7);
@@ -232,11 +232,12 @@ TEST(IntervalTruth, AShellOfASphericalRampConvergesWithTheSpacing) {
     const auto errorOf = [&](std::size_t n) {
         const auto grid = tests::cube(n);
         const double middle = double(n - 1) / 2;
-        const World world(fieldOn(grid,
-                                  [&](const glm::uvec3& p) {
-                                      return glm::length(glm::dvec3(p) - middle) / double(n - 1);
-                                  }),
-                          {{{kInner, kOuter}}});
+        const TrueWorld world(fieldOn(grid,
+                                      [&](const glm::uvec3& p) {
+                                          return glm::length(glm::dvec3(p) - middle) /
+                                                 double(n - 1);
+                                      }),
+                              {{{kInner, kOuter}}});
         const double side = 2 * world.placed.boxHalf().x;
         const View view = tests::lookFrom({0.7, -3, 1.1}, {24, 24}, 0.2);
         const std::vector<double> is = world.weight(view);
@@ -265,8 +266,8 @@ TEST(IntervalTruth, AShellOfASphericalRampConvergesWithTheSpacing) {
 // 0 below, 1 above, one cell between: a range that ends at a plateau's value holds all of it.
 TEST(IntervalTruth, APlateauAtARangesEndIsWhole) {
     const auto grid = tests::cube(6);
-    const World world(fieldOn(grid, [](const glm::uvec3& p) { return p.x < 3 ? 0.0 : 1.0; }),
-                      {{{0, 0}}, {{1, 1}}, {{0, 1}}, {{-5, 0}}, {{1, kInfinity}}, {{0, 0.25}}});
+    const TrueWorld world(fieldOn(grid, [](const glm::uvec3& p) { return p.x < 3 ? 0.0 : 1.0; }),
+                          {{{0, 0}}, {{1, 1}}, {{0, 1}}, {{-5, 0}}, {{1, kInfinity}}, {{0, 0.25}}});
     const auto& at = world.placed.positions()[0];
     const View view = tests::lookFrom(kFrom[0], kSize);
     const auto domain = world.placed.domain();
@@ -292,12 +293,12 @@ TEST(IntervalTruth, AUnionIsTheSumOfItsDisjointParts) {
     const Field field = fieldOn(grid, [](const glm::uvec3& p) {
         return std::sin(0.4 + 3.0 * p.x + 5.0 * p.y + 7.0 * p.z);
     });
-    const World world(field, {{{-0.7, -0.1}, {0.2, 0.3}, {0.5, 2}},
-                              {{-0.7, -0.1}},
-                              {{0.2, 0.3}},
-                              {{0.5, 2}},
-                              {{-2, 0}},
-                              {{0, 2}}});
+    const TrueWorld world(field, {{{-0.7, -0.1}, {0.2, 0.3}, {0.5, 2}},
+                                  {{-0.7, -0.1}},
+                                  {{0.2, 0.3}},
+                                  {{0.5, 2}},
+                                  {{-2, 0}},
+                                  {{0, 2}}});
     const View view = tests::lookFrom(kFrom[0], kSize);
     std::vector<std::vector<double>> w;
     for (std::size_t layer = 0; layer < 6; ++layer) w.push_back(world.weight(view, layer));
@@ -316,14 +317,14 @@ TEST(IntervalTruth, WhatIsNearestToAMissingOrClippedPointIsNowhere) {
     const auto grid = unevenGrid();
     const glm::uvec3 gone(2, 1, 1);
     for (const double missing : {kNan, kInfinity, -kInfinity}) {
-        const World holed(
+        const TrueWorld holed(
             fieldOn(grid, [&](const glm::uvec3& p) { return p == gone ? missing : 1.0; }),
             {{{0, 2}}});
-        World marked(fieldOn(grid, [](const glm::uvec3&) { return 1.0; }), {{{0, 2}}});
+        TrueWorld marked(fieldOn(grid, [](const glm::uvec3&) { return 1.0; }), {{{0, 2}}});
         marked.field.missing.assign(grid->count(), false);
         const glm::uvec3 n = marked.placed.size();
         marked.field.missing[gone.x + n.x * (gone.y + n.y * gone.z)] = true;
-        World clipped(fieldOn(grid, [](const glm::uvec3&) { return 1.0; }), {{{0, 2}}});
+        TrueWorld clipped(fieldOn(grid, [](const glm::uvec3&) { return 1.0; }), {{{0, 2}}});
         clipped.scene.clip = {gone, gone};
         const auto [lo, hi] = boxOf(holed.placed, gone);
         const glm::dvec3 first = lo, last = hi;
@@ -342,8 +343,8 @@ TEST(IntervalTruth, WhatIsNearestToAMissingOrClippedPointIsNowhere) {
 }
 
 TEST(IntervalTruth, AFieldOfNothingButMissingValuesIsEmpty) {
-    const World world(fieldOn(tests::cube(3), [](const glm::uvec3&) { return kNan; }),
-                      {{{-kInfinity, kInfinity}}});
+    const TrueWorld world(fieldOn(tests::cube(3), [](const glm::uvec3&) { return kNan; }),
+                          {{{-kInfinity, kInfinity}}});
     const View view = tests::lookFrom(kFrom[0], kSize);
     EXPECT_THAT(world.weight(view), testing::Each(0));
     EXPECT_THAT(IntervalTruth(world.scene, world.field, 1, 2).light(view),
@@ -353,9 +354,9 @@ TEST(IntervalTruth, AFieldOfNothingButMissingValuesIsEmpty) {
 // A slab's ends scale with the values, whatever their size.
 template <typename T>
 void expectScales(double unit, double lo, double hi) {
-    const World plain(fieldOn(tests::cube(5), [](const glm::uvec3& p) { return double(p.x) - 2; }),
-                      {{{lo, hi}}});
-    const World scaled(
+    const TrueWorld plain(
+        fieldOn(tests::cube(5), [](const glm::uvec3& p) { return double(p.x) - 2; }), {{{lo, hi}}});
+    const TrueWorld scaled(
         fieldOn<T>(tests::cube(5), [&](const glm::uvec3& p) { return unit * (double(p.x) - 2); }),
         {{{unit * lo, unit * hi}}});
     const View view = tests::lookFrom(kFrom[0], kSize);
@@ -374,7 +375,7 @@ TEST(IntervalTruth, HugeAndTinyValuesAreValuesLikeOthers) {
 // Both ends of doubles in one cell: their difference is more than the greatest double.
 TEST(IntervalTruth, CellsThatSpanAllDoublesHaveTheirMiddle) {
     constexpr double kMost = std::numeric_limits<double>::max();
-    const World world(
+    const TrueWorld world(
         fieldOn(tests::cube(2), [](const glm::uvec3& p) { return p.x == 0 ? -kMost : kMost; }),
         {{{0, kMost}}});
     const View view = tests::lookFrom(kFrom[0], kSize);
@@ -386,7 +387,8 @@ TEST(IntervalTruth, CellsThatSpanAllDoublesHaveTheirMiddle) {
 
 // A pixel is the mean of its rays.
 TEST(IntervalTruth, APixelIsTheMeanOfItsRays) {
-    const World world(fieldOn(tests::cube(4), [](const glm::uvec3&) { return 1.0; }), {{{0, 2}}});
+    const TrueWorld world(fieldOn(tests::cube(4), [](const glm::uvec3&) { return 1.0; }),
+                          {{{0, 2}}});
     const View view = tests::lookFrom(kFrom[0], {7, 5});
     const std::vector<double> is = world.weight(view, 0, 3);
     const auto domain = world.placed.domain();
@@ -401,7 +403,7 @@ TEST(IntervalTruth, APixelIsTheMeanOfItsRays) {
 }
 
 TEST(IntervalTruth, IsTheSameForAnyThreads) {
-    const World world(
+    const TrueWorld world(
         fieldOn(unevenGrid(), [](const glm::uvec3& p) { return std::sin(3.0 * p.x + 5.0 * p.y); }),
         {{{-0.5, 0.2}}});
     const View view = tests::lookFrom(kFrom[1], kSize);
@@ -414,8 +416,8 @@ TEST(IntervalTruth, IsTheSameForAnyThreads) {
 
 // One colour: what is taken of the light behind is 1 - e^-tau.
 TEST(IntervalTruth, LightOfOneColourIsAbsorbedByItsOpticalDepth) {
-    World world(fieldOn(tests::cube(5), [](const glm::uvec3& p) { return double(p.x); }),
-                {{{0.5, 2.2}}});
+    TrueWorld world(fieldOn(tests::cube(5), [](const glm::uvec3& p) { return double(p.x); }),
+                    {{{0.5, 2.2}}});
     world.scene.layers[0].style = {Constant{glm::dvec3(0.2, 0.5, 0.9)}, 0.4};
     const View view = tests::lookFrom(kFrom[0], kSize);
     const std::vector<double> w = world.weight(view);
@@ -431,8 +433,8 @@ TEST(IntervalTruth, LightOfOneColourIsAbsorbedByItsOpticalDepth) {
 // From +x: the blue slab stands before the red one. Where both are, they share what is taken by
 // their optical depths.
 TEST(IntervalTruth, LightComesFromWhatIsInFront) {
-    World world(fieldOn(tests::cube(5), [](const glm::uvec3& p) { return double(p.x); }),
-                {{{0.5, 1.5}}, {{2.5, 3.5}}, {{2.5, 3.5}}});
+    TrueWorld world(fieldOn(tests::cube(5), [](const glm::uvec3& p) { return double(p.x); }),
+                    {{{0.5, 1.5}}, {{2.5, 3.5}}, {{2.5, 3.5}}});
     world.scene.layers[0].style = {Constant{glm::dvec3(1, 0, 0)}, 0.6};
     world.scene.layers[1].style = {Constant{glm::dvec3(0, 0, 1)}, 0.3};
     world.scene.layers[2].style = {Constant{glm::dvec3(0, 1, 0)}, 0.3};

@@ -14,8 +14,8 @@ namespace {
 
 using timeseries::RangeSet;
 
-struct World {
-    explicit World(std::shared_ptr<const timeseries::Grid> grid) : step(tests::noise(grid)) {}
+struct PickedWorld {
+    explicit PickedWorld(std::shared_ptr<const timeseries::Grid> grid) : step(tests::noise(grid)) {}
     timeseries::SortedStep step;
     PlacedPoints placed{step.grid()};
     Scene scene{.step = step,
@@ -106,8 +106,8 @@ std::shared_ptr<const timeseries::Grid> unevenGrid() {
 }
 
 TEST(Pick, IsBruteForceOverSplats) {
-    const World cubes(tests::cube(8)), uneven(unevenGrid());
-    for (const World* world : {&cubes, &uneven}) {
+    const PickedWorld cubes(tests::cube(8)), uneven(unevenGrid());
+    for (const PickedWorld* world : {&cubes, &uneven}) {
         expectBruteForce(world->scene, tests::lookFrom({0.3, -3, 0.5}, {41, 31}), 1);
         expectBruteForce(world->scene, tests::lookFrom({0.1, -0.2, 0.3}, {41, 31}), 2);  // inside
         View view = tests::lookFrom({0, -2, 0}, {41, 31});
@@ -123,7 +123,7 @@ TEST(Pick, IsBruteForceOverSplats) {
 }
 
 TEST(Pick, IsBruteForceOverSubPixelAndPointSplats) {
-    World world(tests::cube(8));
+    PickedWorld world(tests::cube(8));
     expectBruteForce(world.scene, tests::lookFrom({0, -60, 5}, {9, 9}, 0.02), 4);
     for (const double size : {1.0, 4.0, 5.0}) {
         world.scene.footprint = {Kernel::Point, size};
@@ -132,7 +132,7 @@ TEST(Pick, IsBruteForceOverSubPixelAndPointSplats) {
 }
 
 TEST(Pick, IsBruteForceInsideAClipBoxAndOfASubset) {
-    World world(tests::cube(8));
+    PickedWorld world(tests::cube(8));
     world.scene.clip = {glm::uvec3(2, 0, 1), glm::uvec3(6, 5, 6)};
     expectBruteForce(world.scene, tests::lookFrom({0.3, -3, 0.5}, {41, 31}), 6);
     world.scene.stride = 4;

@@ -15,8 +15,8 @@ namespace {
 const glm::ivec2 kSize(48, 36);
 const glm::dvec3 kGround(0.1, 0.2, 0.4);
 
-struct World {
-    World()
+struct PlainWorld {
+    PlainWorld()
         : scene{.step = step,
                 .placed = placed,
                 .layers = {},
@@ -56,7 +56,7 @@ void expectTheTruth(const Scene& scene, const DrawList& list) {
 }
 
 TEST(PlainFrame, IsTheTruthsLightOnTheBackground) {
-    World world;
+    PlainWorld world;
     expectTheTruth(world.scene, Runs{});
     world.scene.order = Order::BackToFront;
     const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
@@ -64,7 +64,7 @@ TEST(PlainFrame, IsTheTruthsLightOnTheBackground) {
 }
 
 TEST(PlainFrame, NothingSelectedIsTheBackground) {
-    World world;
+    PlainWorld world;
     world.scene.layers.clear();
     const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
     PlainFrame frame(kSize, kGround);

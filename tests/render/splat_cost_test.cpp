@@ -9,8 +9,8 @@
 namespace render {
 namespace {
 
-struct World {
-    explicit World(double length, const char* range = "0:1")
+struct CostlyWorld {
+    explicit CostlyWorld(double length, const char* range = "0:1")
         : step(tests::noise(std::make_shared<timeseries::Grid>(
               std::array{tests::axis(12), tests::axis(12), tests::axis(6, 0, length)}))),
           scene{.step = step,
@@ -34,7 +34,7 @@ double touched(const Scene& scene, const View& view) {
 }
 
 TEST(SplatCost, SmallSplatsCostOneEach) {
-    const World world(1, "0.2:0.7");
+    const CostlyWorld world(1, "0.2:0.7");
     EXPECT_EQ(splatCost(world.scene, 0, tests::lookFrom({0, -3, 0}, {40, 30})), 1);
     EXPECT_EQ(sceneCost(world.scene, tests::lookFrom({0, -3, 0}, {40, 30})),
               static_cast<double>(pointCount(world.scene.layers[0])));
@@ -45,7 +45,7 @@ TEST(SplatCost, LargeOnesCostTheirPixels) {
     for (const double length : {1.0, 20.0})
         for (const glm::dvec3 eye :
              {glm::dvec3(0, -3, 0), glm::dvec3(0.2, -1.5, 2), glm::dvec3(0, -1.3, 0.2)}) {
-            const World world(length);
+            const CostlyWorld world(length);
             const View view = tests::lookFrom(eye, kSize);
             // A square holds 4 / pi times the pixels of its circle; some reach out of the picture.
             const double pixels = touched(world.scene, view) / kOrdinaryPixels;
@@ -55,7 +55,7 @@ TEST(SplatCost, LargeOnesCostTheirPixels) {
 }
 
 TEST(SplatCost, NothingCostsNothing) {
-    const World world(1, "2:3");
+    const CostlyWorld world(1, "2:3");
     EXPECT_EQ(sceneCost(world.scene, tests::lookFrom({0, -3, 0}, {40, 30})), 0);
 }
 

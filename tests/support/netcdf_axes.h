@@ -16,7 +16,7 @@ using Path = std::filesystem::path;
 
 inline std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
 
-inline std::vector<double> ramp(std::size_t n, double first, double step) {
+inline std::vector<double> evenly(std::size_t n, double first, double step) {
     std::vector<double> values(n);
     for (std::size_t i = 0; i < n; ++i) values[i] = first + step * static_cast<double>(i);
     return values;
@@ -43,8 +43,8 @@ struct Globe : NetcdfBuilder {
                lon = coordinate("lon", 5, "degrees_east");
     explicit Globe(const std::string& name) : NetcdfBuilder(name) {}
     Path closed() {
-        write(lat.variable, ramp(4, 0, 1));
-        write(lon.variable, ramp(5, 0, 1));
+        write(lat.variable, evenly(4, 0, 1));
+        write(lon.variable, evenly(5, 0, 1));
         return close();
     }
 };
@@ -77,9 +77,9 @@ inline std::vector<std::string> notesOfCurvilinear(const char* units) {
     if (has) {
         int id = 0;
         NetcdfBuilder::check(nc_inq_varid(file.id(), "i", &id));
-        file.write(id, ramp(3, 1, 1));
+        file.write(id, evenly(3, 1, 1));
         NetcdfBuilder::check(nc_inq_varid(file.id(), "j", &id));
-        file.write(id, ramp(2, 1, 1));
+        file.write(id, evenly(2, 1, 1));
     }
     const auto reader = open(file.close());
     EXPECT_THAT(names(*reader), ElementsAre("v"));

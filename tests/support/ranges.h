@@ -5,6 +5,9 @@
 
 namespace tests::ranges {
 
+// What doubles between it and its double have steps of.
+inline constexpr std::int64_t kTwo60 = std::int64_t{1} << 60;
+
 using timeseries::Number;
 using timeseries::Range;
 

@@ -35,7 +35,7 @@ TEST(NetcdfAxes, ValuesOnAMeshWithoutPolygonsAreToldAndRefused) {
         const int v = file.variable("S", NC_FLOAT, {z.dimension, cells});
         file.text(v, "coordinates", "clon clat");
         more(file, v);
-        file.write(z.variable, ramp(3, 0, 1));
+        file.write(z.variable, evenly(3, 0, 1));
         return file.close();
     };
     const auto nothing = [](NetcdfBuilder&, int) {};
@@ -112,7 +112,7 @@ TEST(NetcdfAxes, PlacesInTimeAreNoMesh) {
     file.text(lon, "units", "degrees_east");
     file.text(lat, "units", "degrees_north");
     file.variable("v", NC_FLOAT, {time.dimension, y, x});
-    file.write(time.variable, ramp(3, 0, 1));
+    file.write(time.variable, evenly(3, 0, 1));
     EXPECT_EQ(open(file.close())->variables()[0].time->points.size(), 3u);
 }
 
@@ -131,8 +131,8 @@ TEST(NetcdfAxes, CoordinatesBoundsAndLinesAreNotListed) {
     const int v = file.variable("v", NC_FLOAT, {y.dimension, x.dimension});
     file.text(v, "coordinates", "corner");
     file.text(v, "long_name", "what is drawn");
-    file.write(y.variable, ramp(2, 0, 1));
-    file.write(x.variable, ramp(3, 0, 1));
+    file.write(y.variable, evenly(2, 0, 1));
+    file.write(x.variable, evenly(3, 0, 1));
     const auto reader = open(file.close());
     EXPECT_THAT(names(*reader), ElementsAre("v"));
     EXPECT_EQ(reader->variables()[0].longName, "what is drawn");
@@ -175,8 +175,8 @@ TEST(NetcdfAxes, UnevenLevelsAreRectilinearAndDownIsToldByPositiveOrPressure) {
         const auto y = file.coordinate("y", 2, "m"), x = file.coordinate("x", 2, "m");
         file.variable("v", NC_FLOAT, {z.dimension, y.dimension, x.dimension});
         file.write(z.variable, levels);
-        file.write(y.variable, ramp(2, 1, -1));
-        file.write(x.variable, ramp(2, 0, 1));
+        file.write(y.variable, evenly(2, 1, -1));
+        file.write(x.variable, evenly(2, 0, 1));
         const auto reader = open(file.close());
         const Axis& axis = reader->variables()[0].grid->axes()[2];
         EXPECT_EQ(axis.coordinates, levels);
@@ -199,7 +199,7 @@ TEST(NetcdfAxes, CoordinatesThatCannotPlacePointsAreCountedAndTold) {
         NetcdfBuilder file("a.nc");
         const auto y = file.coordinate("y", 2, "m"), x = file.coordinate("x", 3, "m");
         file.variable("v", NC_FLOAT, {y.dimension, x.dimension});
-        file.write(y.variable, ramp(2, 5, 1));
+        file.write(y.variable, evenly(2, 5, 1));
         file.write(x.variable, bad);
         const auto reader = open(file.close());
         const Variable& v = reader->variables()[0];
@@ -295,7 +295,7 @@ TEST(NetcdfAxes, LevelsThatAreNoHeightsAreTold) {
         const int v =
             file.variable("v", NC_FLOAT, {lev.dimension, file.lat.dimension, file.lon.dimension});
         more(file, v, lev.dimension);
-        file.write(lev.variable, ramp(3, 1, 1));
+        file.write(lev.variable, evenly(3, 1, 1));
         const auto reader = open(file.closed());
         EXPECT_THAT(names(*reader), ElementsAre("v"));
         return reader->variables()[0].notes;
@@ -331,9 +331,9 @@ TEST(NetcdfAxes, VariablesOfOneGridShareIt) {
                x = file.coordinate("x", 2, "m");
     file.variable("a", NC_FLOAT, {t.dimension, y.dimension, x.dimension});
     file.variable("b", NC_FLOAT, {t.dimension, y.dimension, x.dimension});
-    file.write(t.variable, ramp(2, 0, 1));
-    file.write(x.variable, ramp(2, 0, 1));
-    file.write(y.variable, ramp(2, 0, 1));
+    file.write(t.variable, evenly(2, 0, 1));
+    file.write(x.variable, evenly(2, 0, 1));
+    file.write(y.variable, evenly(2, 0, 1));
     const auto reader = open(file.close());
     EXPECT_EQ(reader->variables()[0].grid, reader->variables()[1].grid);
     EXPECT_EQ(reader->variables()[0].time, reader->variables()[1].time);
@@ -359,8 +359,8 @@ TEST(NetcdfAxes, GroupsSeeTheDimensionsAroundThem) {
     NetcdfBuilder::check(nc_def_grp(file.id(), "model", &group));
     const std::array<int, 2> dimensions{x.dimension, y.dimension};
     NetcdfBuilder::check(nc_def_var(group, "T", NC_INT, 2, dimensions.data(), &v));
-    file.write(y.variable, ramp(2, 0, 1));
-    file.write(x.variable, ramp(2, 10, 1));
+    file.write(y.variable, evenly(2, 0, 1));
+    file.write(x.variable, evenly(2, 10, 1));
     const std::array<int, 4> values{1, 2, 3, 4};
     NetcdfBuilder::check(nc_put_var_int(group, v, values.data()));
     const auto reader = open(file.close());

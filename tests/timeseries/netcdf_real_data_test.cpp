@@ -7,12 +7,14 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {
 
+using tests::indexOf;
 struct Row {
     std::string file, variable;
     double lo, hi;
@@ -33,12 +35,6 @@ std::vector<Row> netcdfRows() {
         rows.push_back(std::move(row));
     }
     return rows;
-}
-
-std::size_t indexOf(const Reader& reader, const std::string& name) {
-    for (std::size_t i = 0; i < reader.variables().size(); ++i)
-        if (reader.variables()[i].name == name) return i;
-    throw std::runtime_error("no variable " + name);
 }
 
 std::unique_ptr<Reader> openShared(const std::string& name) {

@@ -41,10 +41,10 @@ TEST(NetcdfAxes, AttributesTellTheAxesOfDimensionsWithoutTellingNames) {
         file.text(c.variable, way.attribute, way.z);
         file.text(d.variable, way.attribute, way.y);
         file.variable("v", NC_FLOAT, {a.dimension, b.dimension, c.dimension, d.dimension});
-        file.write(a.variable, ramp(2, 0, 1));
-        file.write(b.variable, ramp(3, 0, 1));
-        file.write(c.variable, ramp(4, 0, 1));
-        file.write(d.variable, ramp(5, 0, 1));
+        file.write(a.variable, evenly(2, 0, 1));
+        file.write(b.variable, evenly(3, 0, 1));
+        file.write(c.variable, evenly(4, 0, 1));
+        file.write(d.variable, evenly(5, 0, 1));
         const auto reader = open(file.close());
         const Variable& v = reader->variables()[0];
         EXPECT_EQ(v.grid->size(), (std::array<std::size_t, 3>{2, 5, 4})) << way.x;
@@ -254,7 +254,7 @@ TEST(NetcdfAxes, TimesThatNobodyNamesTellWhatTheirDimensionIs) {
     const int scanned = swath.variable("scanned", NC_DOUBLE, {y});
     swath.text(scanned, "units", "seconds since 2000-01-01");
     swath.variable("v", NC_FLOAT, {y, x, z});
-    swath.write(scanned, ramp(4, 0, 1));
+    swath.write(scanned, evenly(4, 0, 1));
     EXPECT_EQ(open(swath.close())->variables()[0].grid->size(),
               (std::array<std::size_t, 3>{3, 4, 2}));
 }
@@ -280,8 +280,8 @@ TEST(NetcdfAxes, ASecondTimeIsNoHeight) {
                run = file.coordinate("run", 3, "hours since 2000-01-01");
     file.variable("v", NC_FLOAT,
                   {run.dimension, time.dimension, file.lat.dimension, file.lon.dimension});
-    file.write(time.variable, ramp(2, 0, 1));
-    file.write(run.variable, ramp(3, 0, 1));
+    file.write(time.variable, evenly(2, 0, 1));
+    file.write(run.variable, evenly(3, 0, 1));
     EXPECT_THAT(refusalOf(file.closed()),
                 HasSubstr("the dimension run of 3 is none of x, y, z and time"));
 }

@@ -1,4 +1,5 @@
 #include "timeseries/index/number.h"
+#include "tests/support/ranges.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,8 @@
 namespace timeseries {
 namespace {
 
+using tests::ranges::kTwo60;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kTwo60 = std::int64_t{1} << 60;
 
 std::partial_ordering expectedOrder(const Number& a, const Number& b) {
     return oracle::real(a) <=> oracle::real(b);

@@ -17,6 +17,7 @@ using oracle::describe;
 using oracle::Real;
 using tests::ranges::closed;
 using tests::ranges::halfOpen;
+using tests::ranges::kTwo60;
 using tests::ranges::open;
 using tests::ranges::openLow;
 using tests::ranges::operator""_i;
@@ -24,7 +25,6 @@ using tests::ranges::operator""_i;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kTwo53 = std::int64_t{1} << 53;
-constexpr std::int64_t kTwo60 = std::int64_t{1} << 60;
 
 // Reals at which two sets made of these numbers can differ: the numbers and a real between any two.
 std::vector<Real> probes(const std::vector<Number>& numbers) {

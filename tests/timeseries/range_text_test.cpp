@@ -17,12 +17,12 @@ namespace {
 using oracle::describe;
 using tests::ranges::closed;
 using tests::ranges::halfOpen;
+using tests::ranges::kTwo60;
 using tests::ranges::open;
 using tests::ranges::openLow;
 using tests::ranges::operator""_i;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::int64_t kTwo60 = std::int64_t{1} << 60;
 
 TEST(RangeText, DocumentedFormsAreRead) {
     const std::pair<const char*, RangeSet> cases[] = {

@@ -1,4 +1,5 @@
 #include "timeseries/index/sorted_step.h"
+#include "tests/support/ranges.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,11 +17,11 @@ namespace timeseries {
 namespace {
 
 using oracle::describe;
+using tests::ranges::kTwo60;
 using Indices = std::vector<std::uint32_t>;
 using Runs = std::vector<Run>;  // inside a test, Run is gtest's
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::int64_t kTwo60 = std::int64_t{1} << 60;
 
 Range closed(Number lo, Number hi) { return {{lo, false}, {hi, false}}; }
 RangeSet rangeOf(Bound lo, Bound hi) { return RangeSet(std::vector<Range>{{lo, hi}}); }

@@ -42,7 +42,7 @@ std::optional<std::vector<Values>> contents(const Path& path, std::string* why =
     }
 }
 
-std::string refusal(const std::string& text) {
+std::string whyRefused(const std::string& text) {
     std::string why;
     contents(tests::write("refused", text), &why);
     return why;
@@ -130,29 +130,30 @@ TEST(DamagedVtk, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
     };
     const std::string appended =
         "<DataArray type=\"Float64\" Name=\"v\" format=\"appended\" offset=\"0\"/>";
-    EXPECT_THAT(refusal(sized("0 999 0 999 0 999", dataArray("Float64", "v", twelve()))),
+    EXPECT_THAT(whyRefused(sized("0 999 0 999 0 999", dataArray("Float64", "v", twelve()))),
                 HasSubstr("expected 1000000000 values, found 12"));
-    EXPECT_THAT(refusal(sized("0 999 0 999 0 999", appended)),
+    EXPECT_THAT(whyRefused(sized("0 999 0 999 0 999", appended)),
                 HasSubstr("expected appended values, but the file ends before"));
-    EXPECT_THAT(refusal(sized("0 2147483647 0 1 0 1", appended)),
+    EXPECT_THAT(whyRefused(sized("0 2147483647 0 1 0 1", appended)),
                 HasSubstr("expected at least one point along each axis"));
-    EXPECT_THAT(refusal(sized("0 99999 0 99999 0 99999", appended)),
+    EXPECT_THAT(whyRefused(sized("0 99999 0 99999 0 99999", appended)),
                 HasSubstr("expected at most 2^32 points"));
-    EXPECT_THAT(refusal(sized("0 99999999999999999999 0 1 0 1", appended)),
+    EXPECT_THAT(whyRefused(sized("0 99999999999999999999 0 1 0 1", appended)),
                 HasSubstr("expected 6 integers of 32 bits"));
-    EXPECT_THAT(refusal(sized("5 2 0 1 0 1", appended)), HasSubstr("found the indices 5 to 2"));
-    EXPECT_THAT(refusal(sized("0 1 0 1", appended)), HasSubstr("expected 6 integers of 32 bits"));
+    EXPECT_THAT(whyRefused(sized("5 2 0 1 0 1", appended)), HasSubstr("found the indices 5 to 2"));
+    EXPECT_THAT(whyRefused(sized("0 1 0 1", appended)),
+                HasSubstr("expected 6 integers of 32 bits"));
     const std::string start = "# vtk DataFile Version 4.2\nt\nBINARY\nDATASET STRUCTURED_POINTS\n";
     const std::string rest = "SCALARS v double 1\nLOOKUP_TABLE default\nabc";
-    EXPECT_THAT(refusal(start + "DIMENSIONS 1000 1000 1000\nPOINT_DATA 1000000000\n" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 1000 1000 1000\nPOINT_DATA 1000000000\n" + rest),
                 HasSubstr("expected 8000000000 bytes of values, but the file ends after 3"));
-    EXPECT_THAT(refusal(start + "DIMENSIONS 100000 100000 100000\nPOINT_DATA 1\n" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 100000 100000 100000\nPOINT_DATA 1\n" + rest),
                 HasSubstr("expected at most 2^32 points"));
-    EXPECT_THAT(refusal(start + "DIMENSIONS 0 1 1\nPOINT_DATA 1\n" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 0 1 1\nPOINT_DATA 1\n" + rest),
                 HasSubstr("expected at least one point"));
-    EXPECT_THAT(refusal(start + "DIMENSIONS -1 1 1\nPOINT_DATA 1\n" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS -1 1 1\nPOINT_DATA 1\n" + rest),
                 HasSubstr("a whole number, found \"-1\""));
-    EXPECT_THAT(refusal(start + "DIMENSIONS 2 2 2\nPOINT_DATA 9\n" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 2 2 2\nPOINT_DATA 9\n" + rest),
                 HasSubstr("expected 8 points, found 9"));
 }
 
@@ -160,7 +161,7 @@ TEST(DamagedVtk, PlacesThatAreNotThereAreRefused) {
     using tests::structuredText;
     const std::string array = dataArray("Float64", "v", twelve());
     const auto with = [&](const std::string& places) {
-        return refusal(structuredText({.points = array}, places));
+        return whyRefused(structuredText({.points = array}, places));
     };
     EXPECT_THAT(with(""), HasSubstr("expected Points of one array"));
     EXPECT_THAT(with("<Points></Points>"), HasSubstr("expected Points of one array"));
@@ -175,15 +176,15 @@ TEST(DamagedVtk, PlacesThatAreNotThereAreRefused) {
                 HasSubstr("expected finite numbers of its type, found \"nan\""));
     const std::string start = "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_GRID\n";
     const std::string rest = "\nPOINT_DATA 1\nSCALARS v double 1\nLOOKUP_TABLE default\n5\n";
-    EXPECT_THAT(refusal(start + "DIMENSIONS 1 1 1" + rest), HasSubstr("expected POINTS"));
-    EXPECT_THAT(refusal(start + "DIMENSIONS 1 1 1\nPOINTS 2 float\n1 2 3 4 5 6" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 1 1 1" + rest), HasSubstr("expected POINTS"));
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 1 1 1\nPOINTS 2 float\n1 2 3 4 5 6" + rest),
                 HasSubstr("expected 1 points once, found 2"));
     EXPECT_THAT(
-        refusal(start + "DIMENSIONS 1 1 1\nPOINTS 1 float\n1 2 3\nPOINTS 1 float\n1 2 3" + rest),
+        whyRefused(start + "DIMENSIONS 1 1 1\nPOINTS 1 float\n1 2 3\nPOINTS 1 float\n1 2 3" + rest),
         HasSubstr("expected 1 points once"));
-    EXPECT_THAT(refusal(start + "DIMENSIONS 1 1 1\nPOINTS 1 strange\n1 2 3" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 1 1 1\nPOINTS 1 strange\n1 2 3" + rest),
                 HasSubstr("expected a type of number, found \"strange\""));
-    EXPECT_THAT(refusal(start + "DIMENSIONS 500 500 500\nPOINTS 125000000 double\n1 2 3" + rest),
+    EXPECT_THAT(whyRefused(start + "DIMENSIONS 500 500 500\nPOINTS 125000000 double\n1 2 3" + rest),
                 HasSubstr("expected 375000000 values"));
 }
 
@@ -202,28 +203,29 @@ std::string piecesText(const std::string& whole, const std::vector<std::array<in
 
 TEST(DamagedVtk, PiecesThatLeaveSomethingOutAreRefused) {
     const std::string row = "0 9 0 0 0 0";
-    EXPECT_THAT(refusal(piecesText(row, {{0, 2}, {6, 9}}, false)),
+    EXPECT_THAT(whyRefused(piecesText(row, {{0, 2}, {6, 9}}, false)),
                 HasSubstr("fill WholeExtent, found 7 of its 10 points"));
-    EXPECT_THAT(refusal(piecesText(row, {{0, 2}}, false)), HasSubstr("found 3 of its 10 points"));
+    EXPECT_THAT(whyRefused(piecesText(row, {{0, 2}}, false)),
+                HasSubstr("found 3 of its 10 points"));
     // As many points as the whole, but some of them twice.
-    EXPECT_THAT(refusal(piecesText(row, {{0, 5}, {2, 7}}, false)),
+    EXPECT_THAT(whyRefused(piecesText(row, {{0, 5}, {2, 7}}, false)),
                 HasSubstr("found 8 of its 10 points"));
     // Each point is there, the cell between the pieces is not.
-    EXPECT_THAT(refusal(piecesText(row, {{0, 4}, {5, 9}}, true)),
+    EXPECT_THAT(whyRefused(piecesText(row, {{0, 4}, {5, 9}}, true)),
                 HasSubstr("found 8 of its 9 cells"));
     // A layer of points is no cell, also where it would lie beyond the last.
-    EXPECT_THAT(refusal(piecesText("0 1 0 0 0 0", {{1, 1}, {1, 1}}, true)),
+    EXPECT_THAT(whyRefused(piecesText("0 1 0 0 0 0", {{1, 1}, {1, 1}}, true)),
                 HasSubstr("found 0 of its 1 cells"));
-    EXPECT_EQ(refusal(piecesText(row, {{0, 4}, {5, 9}}, false)), "");
-    EXPECT_EQ(refusal(piecesText(row, {{3, 9}, {0, 4}}, true)), "");
-    EXPECT_THAT(refusal(piecesText("0 1023 0 1023 0 1023", {{0, 2}}, false)),
+    EXPECT_EQ(whyRefused(piecesText(row, {{0, 4}, {5, 9}}, false)), "");
+    EXPECT_EQ(whyRefused(piecesText(row, {{3, 9}, {0, 4}}, true)), "");
+    EXPECT_THAT(whyRefused(piecesText("0 1023 0 1023 0 1023", {{0, 2}}, false)),
                 HasSubstr("found 3 of its 1073741824 points"));
 }
 
 TEST(DamagedVtk, EmptyPiecesFillNothing) {
-    EXPECT_THAT(refusal(piecesText("0 9 0 0 0 0", {{0, -1}, {0, 2}, {5, 4}}, false)),
+    EXPECT_THAT(whyRefused(piecesText("0 9 0 0 0 0", {{0, -1}, {0, 2}, {5, 4}}, false)),
                 HasSubstr("fill WholeExtent, found 3 of its 10 points"));
-    EXPECT_THAT(refusal(piecesText("0 9 0 0 0 0", {{0, -1}}, false)),
+    EXPECT_THAT(whyRefused(piecesText("0 9 0 0 0 0", {{0, -1}}, false)),
                 HasSubstr("expected a Piece that holds points, found none"));
 }
 
@@ -235,11 +237,11 @@ TEST(DamagedVtk, PackedBlocksThatLieAreRefused) {
         text.insert(text.find("byte_order="), "compressor=\"vtkZLibDataCompressor\" ");
         return text;
     };
-    EXPECT_THAT(refusal(packed({0xFFFFFFFF, 8, 0, 4})), HasSubstr("blocks of 8 and 0"));
-    EXPECT_THAT(refusal(packed({1, 96, 0, 0xFFFFFFF0})), HasSubstr("the file ends before"));
-    EXPECT_THAT(refusal(packed({1, 96, 0, 0})), HasSubstr("which 0 bytes cannot hold"));
-    EXPECT_THAT(refusal(packed({1, 100, 97, 9})), HasSubstr("expected 96 bytes of values"));
-    EXPECT_THAT(refusal(packed({1, 96, 0, 30})), HasSubstr("'v'"));  // no zlib stream
+    EXPECT_THAT(whyRefused(packed({0xFFFFFFFF, 8, 0, 4})), HasSubstr("blocks of 8 and 0"));
+    EXPECT_THAT(whyRefused(packed({1, 96, 0, 0xFFFFFFF0})), HasSubstr("the file ends before"));
+    EXPECT_THAT(whyRefused(packed({1, 96, 0, 0})), HasSubstr("which 0 bytes cannot hold"));
+    EXPECT_THAT(whyRefused(packed({1, 100, 97, 9})), HasSubstr("expected 96 bytes of values"));
+    EXPECT_THAT(whyRefused(packed({1, 96, 0, 30})), HasSubstr("'v'"));  // no zlib stream
 }
 
 TEST(DamagedVtk, HostileXmlIsRefused) {
@@ -247,27 +249,27 @@ TEST(DamagedVtk, HostileXmlIsRefused) {
     for (char c = 'b'; c < 'z'; ++c)
         laughs += fmt::format("<!ENTITY {} \"&{};&{};&{};&{};\">", c, char(c - 1), char(c - 1),
                               char(c - 1), char(c - 1));
-    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>" + laughs + "]><VTKFile type=\"&y;\"/>"),
+    EXPECT_THAT(whyRefused("<?xml version=\"1.0\"?>" + laughs + "]><VTKFile type=\"&y;\"/>"),
                 HasSubstr("expected no document type declaration"));
     std::string deep = "<VTKFile type=\"ImageData\">";
     for (int i = 0; i < 100000; ++i) deep += "<a>";
-    EXPECT_THAT(refusal(deep), HasSubstr("nested elements"));
+    EXPECT_THAT(whyRefused(deep), HasSubstr("nested elements"));
     // expat reads a tag or a comment again from its start with each piece of the file.
     const std::string longText(std::size_t{2} << 20, '1');
-    EXPECT_THAT(refusal(imageText({.attributes = "Spacing=\"" + longText + "\""})),
+    EXPECT_THAT(whyRefused(imageText({.attributes = "Spacing=\"" + longText + "\""})),
                 HasSubstr("expected at most 1 MiB in a tag or a comment"));
-    EXPECT_THAT(refusal("<VTKFile><!--" + longText + "--></VTKFile>"),
+    EXPECT_THAT(whyRefused("<VTKFile><!--" + longText + "--></VTKFile>"),
                 HasSubstr("expected at most 1 MiB in a tag or a comment"));
     const std::string shortText(std::size_t{1} << 19, ' ');
-    EXPECT_EQ(refusal(imageText({.attributes = "Spacing=\"1 1 1" + shortText + "\"",
-                                 .points = dataArray("Float64", "v", twelve())})),
+    EXPECT_EQ(whyRefused(imageText({.attributes = "Spacing=\"1 1 1" + shortText + "\"",
+                                    .points = dataArray("Float64", "v", twelve())})),
               "");
     std::string many = "<VTKFile type=\"ImageData\">";
     for (int i = 0; i < 300000; ++i) many += "<a/>";
-    EXPECT_THAT(refusal(many + "</VTKFile>"), HasSubstr("elements"));
-    EXPECT_THAT(refusal("<VTKFile>"), HasSubstr("expected well-formed XML"));
-    EXPECT_THAT(refusal("<VTKFile/>"), HasSubstr("expected the type ImageData"));
-    EXPECT_THAT(refusal("<VTKFile type=\"ImageData\"/>"), HasSubstr("expected one ImageData"));
+    EXPECT_THAT(whyRefused(many + "</VTKFile>"), HasSubstr("elements"));
+    EXPECT_THAT(whyRefused("<VTKFile>"), HasSubstr("expected well-formed XML"));
+    EXPECT_THAT(whyRefused("<VTKFile/>"), HasSubstr("expected the type ImageData"));
+    EXPECT_THAT(whyRefused("<VTKFile type=\"ImageData\"/>"), HasSubstr("expected one ImageData"));
 }
 
 // VTK 9.1 crashes on the unknown ones, and makes as many strings as are declared.
@@ -276,13 +278,13 @@ TEST(DamagedVtk, FieldDataOfUnknownTypeOrSizeIsRefused) {
         return imageText({.points = dataArray("Float64", "v", twelve()), .field = array});
     };
     for (const std::string type : {"Float", "float64", ""})
-        EXPECT_THAT(refusal(with(dataArray(type, "TimeValue", std::vector{2.5}))),
+        EXPECT_THAT(whyRefused(with(dataArray(type, "TimeValue", std::vector{2.5}))),
                     HasSubstr("expected a type that VTK knows, found \"" + type + "\""));
-    EXPECT_EQ(refusal(with("<Array type=\"String\" Name=\"s\" NumberOfTuples=\"1\" "
-                           "format=\"ascii\">72 105 0</Array>")),
+    EXPECT_EQ(whyRefused(with("<Array type=\"String\" Name=\"s\" NumberOfTuples=\"1\" "
+                              "format=\"ascii\">72 105 0</Array>")),
               "");
-    EXPECT_THAT(refusal(with("<Array type=\"String\" Name=\"s\" NumberOfTuples=\"1000000000\" "
-                             "format=\"ascii\">72 105 0</Array>")),
+    EXPECT_THAT(whyRefused(with("<Array type=\"String\" Name=\"s\" NumberOfTuples=\"1000000000\" "
+                                "format=\"ascii\">72 105 0</Array>")),
                 HasSubstr("expected values within the file, found 1000000000"));
 }
 
@@ -292,12 +294,12 @@ TEST(DamagedVtk, PerCentSignsThatEndShortWordsAreRefused) {
         "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
         "DIMENSIONS 1 1 1\nPOINT_DATA 1\n";
     const auto string = [&](const std::string& text) {
-        return refusal(start +
-                       "SCALARS v char 1\nLOOKUP_TABLE default\n1\nFIELD f 1\ns 1 1 string\n" +
-                       text + "\n");
+        return whyRefused(start +
+                          "SCALARS v char 1\nLOOKUP_TABLE default\n1\nFIELD f 1\ns 1 1 string\n" +
+                          text + "\n");
     };
     const auto scalars = [&](const std::string& name, const std::string& more = "") {
-        return refusal(start + "SCALARS " + name + " char 1\nLOOKUP_TABLE default\n1\n" + more);
+        return whyRefused(start + "SCALARS " + name + " char 1\nLOOKUP_TABLE default\n1\n" + more);
     };
     EXPECT_EQ(string("%25"), "");
     EXPECT_EQ(string("nothing"), "");
@@ -318,16 +320,17 @@ TEST(DamagedVtk, ArraysThatTheFileLacksAreToldOf) {
     const auto array = [](const std::string& attributes) {
         return imageText({.points = "<DataArray type=\"Float64\" Name=\"v\" " + attributes + "/>"});
     };
-    EXPECT_THAT(refusal(array("format=\"ascii\"")), HasSubstr("expected 12 values, found 0"));
-    EXPECT_THAT(refusal(array("format=\"binary\"")), HasSubstr("but the file ends"));
-    EXPECT_THAT(refusal(array("format=\"appended\"")), HasSubstr("expected an offset, found \"\""));
-    EXPECT_THAT(refusal(array("format=\"appended\" offset=\"-1\"")), HasSubstr("found \"-1\""));
-    EXPECT_THAT(refusal(array("format=\"appended\" offset=\"0\"")),
+    EXPECT_THAT(whyRefused(array("format=\"ascii\"")), HasSubstr("expected 12 values, found 0"));
+    EXPECT_THAT(whyRefused(array("format=\"binary\"")), HasSubstr("but the file ends"));
+    EXPECT_THAT(whyRefused(array("format=\"appended\"")),
+                HasSubstr("expected an offset, found \"\""));
+    EXPECT_THAT(whyRefused(array("format=\"appended\" offset=\"-1\"")), HasSubstr("found \"-1\""));
+    EXPECT_THAT(whyRefused(array("format=\"appended\" offset=\"0\"")),
                 HasSubstr("expected appended values, but the file ends before"));
-    EXPECT_THAT(refusal(array("format=\"hex\"")), HasSubstr("found \"hex\""));
-    EXPECT_THAT(refusal(array("NumberOfComponents=\"nan\"")),
+    EXPECT_THAT(whyRefused(array("format=\"hex\"")), HasSubstr("found \"hex\""));
+    EXPECT_THAT(whyRefused(array("NumberOfComponents=\"nan\"")),
                 HasSubstr("NumberOfComponents: expected a count"));
-    EXPECT_THAT(refusal(array("NumberOfComponents=\"-3\"")), HasSubstr("expected a count"));
+    EXPECT_THAT(whyRefused(array("NumberOfComponents=\"-3\"")), HasSubstr("expected a count"));
 
     const std::string start = "<VTKFile type=\"RectilinearGrid\"><RectilinearGrid WholeExtent=\"";
     const auto rectilinear = [&](const std::string& extent, const std::string& coordinates) {
@@ -338,17 +341,18 @@ TEST(DamagedVtk, ArraysThatTheFileLacksAreToldOf) {
     const std::string two = dataArray("Float32", "", std::vector{0.f, 1.f}),
                       one = dataArray("Float32", "", std::vector{0.f});
     const std::string missing = "expected Coordinates of three arrays, x, y and z";
-    EXPECT_EQ(
-        refusal(rectilinear("0 1 0 0 0 0", "<Coordinates>" + two + one + one + "</Coordinates>")),
-        "");
-    EXPECT_THAT(refusal(rectilinear("0 1 0 0 0 0", "")), HasSubstr(missing));
-    EXPECT_THAT(refusal(rectilinear("0 1 0 0 0 0", "<Coordinates/>")), HasSubstr(missing));
-    EXPECT_THAT(refusal(rectilinear("0 1 0 0 0 0", "<Coordinates>" + two + one + "</Coordinates>")),
-                HasSubstr(missing));
+    EXPECT_EQ(whyRefused(
+                  rectilinear("0 1 0 0 0 0", "<Coordinates>" + two + one + one + "</Coordinates>")),
+              "");
+    EXPECT_THAT(whyRefused(rectilinear("0 1 0 0 0 0", "")), HasSubstr(missing));
+    EXPECT_THAT(whyRefused(rectilinear("0 1 0 0 0 0", "<Coordinates/>")), HasSubstr(missing));
     EXPECT_THAT(
-        refusal(rectilinear("0 1 0 0 0 0", "<Coordinates>" + one + one + one + "</Coordinates>")),
-        HasSubstr("expected 2 values, found 1"));
-    EXPECT_THAT(refusal(start + "0 1 0 0 0 0\"/></VTKFile>"),
+        whyRefused(rectilinear("0 1 0 0 0 0", "<Coordinates>" + two + one + "</Coordinates>")),
+        HasSubstr(missing));
+    EXPECT_THAT(whyRefused(rectilinear("0 1 0 0 0 0",
+                                       "<Coordinates>" + one + one + one + "</Coordinates>")),
+                HasSubstr("expected 2 values, found 1"));
+    EXPECT_THAT(whyRefused(start + "0 1 0 0 0 0\"/></VTKFile>"),
                 HasSubstr("expected a Piece that holds points, found none"));
 }
 
@@ -365,13 +369,14 @@ TEST(DamagedVtk, MoreArraysThanAnyUseNeedsAreRefused) {
     for (int i = 0; i < 1024; ++i) ones += "1 ";
     for (int i = 0; i < 65; ++i) wide += fmt::format("w{} 1024 1 char\n{}\n", i, ones);
     const std::string why = "expected at most 4096 arrays, found ";
-    EXPECT_THAT(refusal(legacy + field), HasSubstr(why));
-    EXPECT_THAT(refusal(imageText({.extent = "0 0 0 0 0 0", .points = elements})), HasSubstr(why));
-    EXPECT_THAT(refusal(imageText({.extent = "0 0 0 0 0 0",
-                                   .points = dataArray("Int8", "v", std::vector<int>{1}),
-                                   .field = elements})),
+    EXPECT_THAT(whyRefused(legacy + field), HasSubstr(why));
+    EXPECT_THAT(whyRefused(imageText({.extent = "0 0 0 0 0 0", .points = elements})),
                 HasSubstr(why));
-    EXPECT_THAT(refusal(legacy + wide),
+    EXPECT_THAT(whyRefused(imageText({.extent = "0 0 0 0 0 0",
+                                      .points = dataArray("Int8", "v", std::vector<int>{1}),
+                                      .field = elements})),
+                HasSubstr(why));
+    EXPECT_THAT(whyRefused(legacy + wide),
                 HasSubstr("'w64': expected at most 65536 components of all arrays"));
 }
 
@@ -379,11 +384,11 @@ TEST(DamagedVtk, CollectionsThatLieAreRefused) {
     const auto collection = [](const std::string& sets) {
         return "<VTKFile type=\"Collection\"><Collection>" + sets + "</Collection></VTKFile>";
     };
-    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a file, found none"));
-    EXPECT_THAT(refusal(collection("<DataSet/>")), HasSubstr("expected the name of a file"));
-    EXPECT_THAT(refusal(collection("<DataSet timestep=\"nan\" file=\"a.vti\"/>")),
+    EXPECT_THAT(whyRefused(collection("")), HasSubstr("expected a file, found none"));
+    EXPECT_THAT(whyRefused(collection("<DataSet/>")), HasSubstr("expected the name of a file"));
+    EXPECT_THAT(whyRefused(collection("<DataSet timestep=\"nan\" file=\"a.vti\"/>")),
                 HasSubstr("timestep: expected a finite number"));
-    EXPECT_THAT(refusal("<VTKFile type=\"Collection\"/>"), HasSubstr("expected one Collection"));
+    EXPECT_THAT(whyRefused("<VTKFile type=\"Collection\"/>"), HasSubstr("expected one Collection"));
     // Of itself.
     const Path path = tests::write(
         "loop.pvd",
@@ -397,33 +402,33 @@ TEST(DamagedVtk, NumbersThatAreNoneAreRefused) {
     const std::string points = dataArray("Float64", "v", twelve());
     for (const std::string wrong : {"nan 1 1", "1 inf 1", "1 1", "1 1 1 1", "1 1 x"}) {
         EXPECT_THAT(
-            refusal(imageText({.attributes = "Spacing=\"" + wrong + "\"", .points = points})),
+            whyRefused(imageText({.attributes = "Spacing=\"" + wrong + "\"", .points = points})),
             HasSubstr("Spacing: expected 3 finite numbers"))
             << wrong;
         EXPECT_THAT(
-            refusal(imageText({.attributes = "Origin=\"" + wrong + "\"", .points = points})),
+            whyRefused(imageText({.attributes = "Origin=\"" + wrong + "\"", .points = points})),
             HasSubstr("Origin: expected 3 finite numbers"))
             << wrong;
-        EXPECT_THAT(refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
-                            "DIMENSIONS 2 1 1\nSPACING " +
-                            wrong + "\nPOINT_DATA 2\nSCALARS v int\nLOOKUP_TABLE d\n1 2\n"),
+        EXPECT_THAT(whyRefused("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                               "DIMENSIONS 2 1 1\nSPACING " +
+                               wrong + "\nPOINT_DATA 2\nSCALARS v int\nLOOKUP_TABLE d\n1 2\n"),
                     testing::AnyOf(HasSubstr("a finite number, found"), HasSubstr("found \"1\"")))
             << wrong;
     }
-    EXPECT_THAT(
-        refusal(imageText({.attributes = "Direction=\"1 0 0 0 nan 0 0 0 1\"", .points = points})),
-        HasSubstr("Direction: expected 9 finite numbers"));
+    EXPECT_THAT(whyRefused(imageText(
+                    {.attributes = "Direction=\"1 0 0 0 nan 0 0 0 1\"", .points = points})),
+                HasSubstr("Direction: expected 9 finite numbers"));
     for (const std::string wrong : {"0 nan 0 1 0 1", "0 2.5 0 1 0 1", "0 2 0 1 0 1 0"})
-        EXPECT_THAT(refusal(imageText({.extent = wrong, .points = points})),
+        EXPECT_THAT(whyRefused(imageText({.extent = wrong, .points = points})),
                     HasSubstr("WholeExtent: expected 6 integers of 32 bits"));
     // VTK takes a sign, too.
     EXPECT_EQ(
-        refusal(imageText(
+        whyRefused(imageText(
             {.extent = "+0 +2 0 1 0 1", .attributes = "Spacing=\"+1 1 1\"", .points = points})),
         "");
-    EXPECT_EQ(refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
-                      "DIMENSIONS +2 1 1\nSPACING +1 1 1\nPOINT_DATA +2\nSCALARS v int\n"
-                      "LOOKUP_TABLE d\n1 2\n"),
+    EXPECT_EQ(whyRefused("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                         "DIMENSIONS +2 1 1\nSPACING +1 1 1\nPOINT_DATA +2\nSCALARS v int\n"
+                         "LOOKUP_TABLE d\n1 2\n"),
               "");
 }
 
@@ -456,34 +461,34 @@ TEST(DamagedVtk, TextThatIsNoNumberOfItsTypeIsRefused) {
         const auto accepted = [&](const std::string& why) {
             return word.number ? why.empty() : why.find("\"" + word.text + "\"") != why.npos;
         };
-        EXPECT_PRED1(
-            accepted,
-            refusal(imageText({.extent = "0 1 0 0 0 0",
-                               .points = dataArray<std::string>(word.xml, "v", {"7", word.text})})))
+        EXPECT_PRED1(accepted, whyRefused(imageText({.extent = "0 1 0 0 0 0",
+                                                     .points = dataArray<std::string>(
+                                                         word.xml, "v", {"7", word.text})})))
             << word.xml << " " << word.text;
         EXPECT_PRED1(accepted,
-                     refusal("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
-                             "DIMENSIONS 2 1 1\nPOINT_DATA 2\nSCALARS v " +
-                             word.legacy + "\nLOOKUP_TABLE d\n7 " + word.text + "\n"))
+                     whyRefused("# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                                "DIMENSIONS 2 1 1\nPOINT_DATA 2\nSCALARS v " +
+                                word.legacy + "\nLOOKUP_TABLE d\n7 " + word.text + "\n"))
             << word.legacy << " " << word.text;
     }
 }
 
 TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {
-    EXPECT_THAT(refusal(imageText({})), HasSubstr("expected an array of numbers, found none"));
-    EXPECT_THAT(refusal(imageText({.points = "<DataArray type=\"String\" Name=\"s\" "
-                                             "format=\"ascii\">0</DataArray>"})),
+    EXPECT_THAT(whyRefused(imageText({})), HasSubstr("expected an array of numbers, found none"));
+    EXPECT_THAT(whyRefused(imageText({.points = "<DataArray type=\"String\" Name=\"s\" "
+                                                "format=\"ascii\">0</DataArray>"})),
                 HasSubstr("found none; 's' has the type String"));
     const std::string v = dataArray("Float64", "v", twelve());
-    EXPECT_THAT(refusal(imageText({.points = v + v})), HasSubstr("found 'v' again"));
-    EXPECT_THAT(refusal(imageText({.points = dataArray("Float64", "v", twelve(), 0)})),
+    EXPECT_THAT(whyRefused(imageText({.points = v + v})), HasSubstr("found 'v' again"));
+    EXPECT_THAT(whyRefused(imageText({.points = dataArray("Float64", "v", twelve(), 0)})),
                 HasSubstr("expected 1 to 1024 components, found 0"));
     for (const std::string kind : {"PPolyData", "PolyData"})
-        EXPECT_THAT(refusal("<VTKFile type=\"" + kind + "\"><" + kind + "/></VTKFile>"),
+        EXPECT_THAT(whyRefused("<VTKFile type=\"" + kind + "\"><" + kind + "/></VTKFile>"),
                     HasSubstr(" is a VTK file of type " + kind + "; isochron reads "));
-    EXPECT_THAT(refusal("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
+    EXPECT_THAT(whyRefused("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
                 HasSubstr(" is a VTK file of type polydata; isochron reads "));
-    EXPECT_THAT(refusal("# vtk DataFile Version 9.0\nt\nASCII\n"), HasSubstr("expected a version"));
+    EXPECT_THAT(whyRefused("# vtk DataFile Version 9.0\nt\nASCII\n"),
+                HasSubstr("expected a version"));
 }
 
 }  // namespace

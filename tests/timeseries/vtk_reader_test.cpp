@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "tests/support/read_variables.h"
 #include "tests/support/vtk_files.h"
 #include "timeseries/readers/reader.h"
 
@@ -20,6 +21,8 @@ using tests::bigEndianBytes;
 using tests::dataArray;
 using tests::Image;
 using tests::imageText;
+using tests::indexOf;
+using tests::valuesOf;
 using Path = std::filesystem::path;
 
 std::unique_ptr<Reader> openText(const std::string& text) {
@@ -27,20 +30,8 @@ std::unique_ptr<Reader> openText(const std::string& text) {
     return openReader(std::span(&path, 1));
 }
 
-std::size_t indexOf(const Reader& reader, std::string_view name) {
-    for (std::size_t i = 0; i < reader.variables().size(); ++i)
-        if (reader.variables()[i].name == name) return i;
-    ADD_FAILURE() << "no variable " << name;
-    return 0;
-}
-
 const Variable& variableOf(const Reader& reader, std::string_view name) {
     return reader.variables()[indexOf(reader, name)];
-}
-
-template <typename T>
-std::vector<T> valuesOf(Reader& reader, std::string_view name) {
-    return std::get<std::vector<T>>(reader.read(indexOf(reader, name), 0).values);
 }
 
 template <typename T>

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {
 
+using tests::indexOf;
 class RealVtk : public testing::Test {
  protected:
     void SetUp() override {
@@ -21,12 +23,6 @@ class RealVtk : public testing::Test {
 std::unique_ptr<Reader> openShared(const std::string& name) {
     const std::filesystem::path path = tests::sharedData(name);
     return openReader(std::span(&path, 1));
-}
-
-std::size_t indexOf(const Reader& reader, const std::string& name) {
-    for (std::size_t i = 0; i < reader.variables().size(); ++i)
-        if (reader.variables()[i].name == name) return i;
-    throw std::runtime_error("no variable " + name);
 }
 
 // The same run as pool_fire_T.nc: the cells' values at eight of its times.

@@ -7,12 +7,15 @@
 
 #include "tests/support/array_builder.h"
 #include "tests/support/netcdf_builder.h"
+#include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
 
 namespace timeseries {
 namespace {
 
+using tests::indexOf;
+using tests::valuesOf;
 using namespace tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -104,17 +107,6 @@ struct Parts {
         file.put("VTKHDF/NumberOfConnectivityIds", ids);
     }
 };
-
-std::size_t indexOf(const Reader& reader, const std::string& name) {
-    const auto found = std::ranges::find(reader.variables(), name, &Variable::name);
-    EXPECT_NE(found, reader.variables().end()) << name;
-    return static_cast<std::size_t>(found - reader.variables().begin());
-}
-
-template <typename T>
-std::vector<T> valuesOf(Reader& reader, const std::string& name, std::size_t step = 0) {
-    return std::get<std::vector<T>>(reader.read(indexOf(reader, name), step).values);
-}
 
 TEST(VtkHdf, PartsOfOneStepStandBehindEachOther) {
     Parts parts;

@@ -14,6 +14,9 @@
 
 namespace timeseries {
 
+// What a corner has that names no point, so that it is told as one that there is not.
+constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
+
 // Lists of one cell stand behind that of the cell before, and end where `...Ends` says.
 struct UnstructuredGrid {
     std::vector<glm::dvec3> points;   // in the file's space

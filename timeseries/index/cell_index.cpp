@@ -15,7 +15,7 @@
 namespace timeseries {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr float kMostFloat = std::numeric_limits<float>::max();
 
 // Two classes an octave: of a float, the exponent and the first bit of the mantissa.
@@ -37,7 +37,7 @@ std::size_t classOf(double halfRange) {
 double mostOf(std::size_t ofClass) {
     const auto next = static_cast<std::uint32_t>(ofClass + 1) << kClassBits;
     const double most = static_cast<double>(std::bit_cast<float>(next));
-    return std::isfinite(most) ? most : kInfinity;
+    return std::isfinite(most) ? most : kInfinite;
 }
 
 // Rounds as it orders: no greater number has a smaller key.
@@ -96,8 +96,8 @@ void CellIndex::rowOfCells(std::uint64_t row, Row& into) const {
     const glm::uvec3 points = pointsOf(field_);
     const auto j = static_cast<std::uint32_t>(row % size_.y);
     const auto k = static_cast<std::uint32_t>(row / size_.y);
-    std::fill(into.least.begin(), into.least.end(), kInfinity);
-    std::fill(into.greatest.begin(), into.greatest.end(), -kInfinity);
+    std::fill(into.least.begin(), into.least.end(), kInfinite);
+    std::fill(into.greatest.begin(), into.greatest.end(), -kInfinite);
     std::visit(
         [&](const auto& values) {
             for (std::uint32_t side = 0; side < 4; ++side) {

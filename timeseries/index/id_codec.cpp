@@ -15,8 +15,8 @@ namespace {
 // four classes an octave hold the others: two bits below the leading one name the class, the rest
 // stands in bits of its own.
 constexpr std::uint32_t kSmall = 16;
-constexpr std::uint32_t kClasses = kSmall + 4 * (32 - 4);  // gaps of up to 32 bits
-constexpr int kLevel = 3;                                  // more costs time and gains a percent
+constexpr std::uint32_t kGapClasses = kSmall + 4 * (32 - 4);  // gaps of up to 32 bits
+constexpr int kLevel = 3;                                     // more costs time and gains a percent
 
 struct GapClass {
     std::uint32_t least = 0;  // gap
@@ -25,7 +25,7 @@ struct GapClass {
 
 constexpr std::array<GapClass, 256> classTable() {
     std::array<GapClass, 256> table{};
-    for (std::uint32_t c = 0; c < kClasses; ++c) {
+    for (std::uint32_t c = 0; c < kGapClasses; ++c) {
         if (c < kSmall) {
             table[c] = {c, 0};
             continue;
@@ -100,7 +100,7 @@ bool decodeIds(std::span<const std::byte> from, std::span<std::uint32_t> ids) {
     std::uint64_t bits = 0;
     bool known = true;
     for (std::size_t i = 0; i < count; ++i) {
-        known &= classes[i] < kClasses;
+        known &= classes[i] < kGapClasses;
         bits += static_cast<std::uint64_t>(kTable[classes[i]].bits);
     }
     if (!known || (bits + 7) / 8 != from.size()) return false;

@@ -1,7 +1,5 @@
 #include "timeseries/index/step_blocks.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -37,10 +35,6 @@ InBrickOrder<OrderedKey<T>> inBrickOrder(std::span<const T> values,
         out.keys[i] = orderedKey(values[static_cast<std::uint32_t>(places[i])]);
     }
     return out;
-}
-
-std::uint64_t sumOfBytes(std::span<const std::byte> bytes) {
-    return XXH3_64bits(bytes.data(), bytes.size());
 }
 
 // The bits of a number that was one of the type.

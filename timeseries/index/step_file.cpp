@@ -1,7 +1,6 @@
 #include "timeseries/index/step_file.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <cmath>
 #include <limits>
@@ -14,10 +13,6 @@
 
 namespace timeseries {
 namespace {
-
-std::uint64_t sumOfBytes(std::span<const std::byte> bytes) {
-    return XXH3_64bits(bytes.data(), bytes.size());
-}
 
 // What a number of the type was, from its bits.
 Number numberOfBits(ValueType type, std::uint64_t bits) {

@@ -1,9 +1,12 @@
 // The first bytes of a sorted step on disk, as FORMAT.md lays them out.
 #pragma once
 
+#include <xxhash.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "timeseries/index/bit_fields.h"
 
@@ -13,6 +16,11 @@ constexpr std::array<char, 8> kStepMagic{'i', 's', 'o', 's', 't', 'e', 'p', '\n'
 constexpr std::uint32_t kStepVersion = 1;
 constexpr std::uint32_t kEndianMark = 0x01020304;
 constexpr std::size_t kHeaderBytes = 4096;  // on disk; beyond those of StepHeader all 0
+
+// What every sum in the file is of its bytes.
+inline std::uint64_t sumOfBytes(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
 
 struct StepSection {
     std::uint64_t at = 0, bytes = 0, sum = 0;  // XXH3

@@ -7,15 +7,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/units.h"
 #include "timeseries/readers/words.h"
 
 namespace timeseries {
 namespace {
 
-constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 32;  // SortedStep's indices
-constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;    // an axis costs 8 bytes a point
-constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 20;
 // Fewer than these along the first of four axes that tell nothing are more often the components of
 // a value than points.
 constexpr std::uint64_t kMaxComponents = 4;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 constexpr std::size_t kDirectBytes = 4096;  // so many bytes in a row are read without the buffer
-constexpr std::size_t kMaxWord = 400;       // digits of a number, written out in full
+constexpr std::size_t kMaxDigits = 400;     // digits of a number, written out in full
 
 template <std::size_t N>
 void reverse(char* values, std::uint64_t count) {
@@ -118,7 +118,7 @@ void ArrayStream::fill(std::size_t index, std::uint64_t position) {
     bufferUsed_ = bytesAt(position);
 }
 
-// The next word of the open piece, at most kMaxWord + 1 characters of it.
+// The next word of the open piece, at most kMaxDigits + 1 characters of it.
 bool ArrayStream::nextWord() {
     word_.clear();
     while (true) {
@@ -131,13 +131,13 @@ bool ArrayStream::nextWord() {
         if (separates(c) && !word_.empty()) return true;
         ++textAt_;
         if (!separates(c)) word_ += c;
-        if (word_.size() > kMaxWord) return true;
+        if (word_.size() > kMaxDigits) return true;
     }
 }
 
 void ArrayStream::parseWord(void* out, std::uint64_t index) const {
     withType(header_.type, [&](auto number) {
-        if (word_.size() > kMaxWord || !parseNumber(word_, number)) {
+        if (word_.size() > kMaxDigits || !parseNumber(word_, number)) {
             std::string shown = word_.substr(0, 40);
             for (char& c : shown)
                 if (c < ' ' || c > '~') c = '?';

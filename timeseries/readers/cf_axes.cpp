@@ -159,10 +159,6 @@ constexpr std::array kNames{
     NameRule{"k", Z, false},
 };
 
-bool isAlong(const NcVariable& variable, std::size_t dimension) {
-    return variable.type && variable.dimensions.size() == 1 && variable.dimensions[0] == dimension;
-}
-
 bool tellsAnAxis(const NcVariable& variable) {
     return kindByAttributes(variable).value_or(Other) != Other;
 }
@@ -218,12 +214,12 @@ void FileAxes::findCoordinates() {
             for (const std::string& name : words(names)) {
                 const NcVariable* found = find(name, variable.group);
                 if (!found || found->dimensions.size() != 1 ||
-                    !isAlong(*found, found->dimensions[0]) || !tellsAnAxis(*found))
+                    !found->isAlong(found->dimensions[0]) || !tellsAnAxis(*found))
                     continue;
                 auto& all = dimensions_[found->dimensions[0]].coordinates;
                 if (std::ranges::find(all, found) == all.end()) all.push_back(found);
             }
-        if (variable.dimensions.size() == 1 && isAlong(variable, variable.dimensions[0]) &&
+        if (variable.dimensions.size() == 1 && variable.isAlong(variable.dimensions[0]) &&
             looksLikeTimeUnits(lower(variable.text("units"))) && kindByAttributes(variable) == T)
             dimensions_[variable.dimensions[0]].times.push_back(&variable);
     }
@@ -234,7 +230,7 @@ void FileAxes::findCoordinates() {
 void FileAxes::findLists() {
     std::vector<bool> own(dimensions_.size()), x = own, y = own;
     for (const NcVariable& variable : header_.variables) {
-        if (variable.dimensions.size() != 1 || !isAlong(variable, variable.dimensions[0])) continue;
+        if (variable.dimensions.size() != 1 || !variable.isAlong(variable.dimensions[0])) continue;
         const std::size_t d = variable.dimensions[0];
         const auto kind = kindByAttributes(variable);
         if (variable.baseName() == header_.dimensions[d].name) own[d] = true;
@@ -260,13 +256,12 @@ void FileAxes::findTimes(std::span<const NcVariable* const> fields) {
 const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t position) const {
     const std::size_t dimension = variable.dimensions[position];
     const NcVariable* own = find(header_.dimensions[dimension].name, variable.group);
-    if (own && isAlong(*own, dimension)) return own;
+    if (own && own->isAlong(dimension)) return own;
     // An auxiliary coordinate (CF 1.10, section 5) stands in, if it tells which axis it is.
     const Dimension& known = dimensions_[dimension];
     for (const std::string& name : words(variable.text("coordinates"))) {
         const NcVariable* auxiliary = find(name, variable.group);
-        if (auxiliary && isAlong(*auxiliary, dimension) && tellsAnAxis(*auxiliary))
-            return auxiliary;
+        if (auxiliary && auxiliary->isAlong(dimension) && tellsAnAxis(*auxiliary)) return auxiliary;
     }
     if (known.coordinates.size() == 1) return known.coordinates[0];
     // Times that nobody names: of scans along y too, where y is told by its name.

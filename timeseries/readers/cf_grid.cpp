@@ -6,13 +6,11 @@
 #include <cmath>
 
 #include "timeseries/readers/cf_values.h"
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/units.h"
 
 namespace timeseries {
 namespace {
-
-// A step of 2^32 points needs no longer axis, and an axis costs 8 bytes a point.
-constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
 
 // Greater values lie lower: CF 1.10, section 4.3, asks for `positive` unless the units are those of
 // pressure.

@@ -17,10 +17,6 @@ namespace {
 // As VTK numbers them (cell_types.h).
 constexpr std::uint8_t kTriangle = 5, kPolygon = 7, kQuad = 9;
 
-bool isAlong(const NcVariable& variable, std::size_t dimension) {
-    return variable.type && variable.dimensions.size() == 1 && variable.dimensions[0] == dimension;
-}
-
 std::optional<std::size_t> positionOf(const NcVariable& variable, std::size_t dimension) {
     const auto found = std::ranges::find(variable.dimensions, dimension);
     if (found == variable.dimensions.end()) return std::nullopt;
@@ -53,7 +49,7 @@ std::optional<FoundList> byBounds(const NcHeader& header, const NcVariable& vari
     FoundList found{{}, rolesOn(header, variable, roles, *roles.list)};
     found.places.by = ColumnPlaces::By::Bounds;
     for (const NcVariable* each : geographic) {
-        if (!isAlong(*each, along)) continue;
+        if (!each->isAlong(along)) continue;
         const NcVariable* const bounds = header.find(each->text("bounds"), each->group);
         if (!bounds || !bounds->type || bounds->dimensions.size() != 2 ||
             bounds->dimensions[0] != along)
@@ -77,7 +73,7 @@ std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variab
         return std::nullopt;
     const NcVariable* x = header.find(names[0], mesh->group);
     const NcVariable* y = header.find(names[1], mesh->group);
-    if (!x || !y || x->dimensions.size() != 1 || !isAlong(*y, x->dimensions[0]) || !x->type)
+    if (!x || !y || x->dimensions.size() != 1 || !y->isAlong(x->dimensions[0]) || !x->type)
         return std::nullopt;
     if (kindByAttributes(*x) == AxisKind::Y) std::swap(x, y);
     // Which of its dimensions counts faces: the one that says so, else the first.

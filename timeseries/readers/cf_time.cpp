@@ -14,7 +14,7 @@
 namespace timeseries {
 namespace {
 
-constexpr std::uint64_t kMaxSteps = 10'000'000;  // a date each; no series is near
+constexpr std::uint64_t kMaxTimes = 10'000'000;  // a date each; no series is near
 
 const NcVariable* scalarTime(const NcHeader& header, const NcVariable& variable) {
     for (const std::string& name : words(variable.text("coordinates"))) {
@@ -110,9 +110,9 @@ StoredTimes timesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
         return times;
     }
     const NcDimension& dimension = header.dimension(variable, *roles.t);
-    if (dimension.length > kMaxSteps)
+    if (dimension.length > kMaxTimes)
         file.fail("dimension '" + dimension.name + "'",
-                  fmt::format("expected at most {} steps, found {}", kMaxSteps, dimension.length));
+                  fmt::format("expected at most {} steps, found {}", kMaxTimes, dimension.length));
     if (const NcVariable* time = fileAxes.coordinateOf(variable, *roles.t)) {
         readCoordinate(file, *time, times);
     } else {

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "timeseries/grid/with_type.h"
 
 namespace timeseries {
 namespace {
-
-constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
 // What the names of elements begin with; their number of nodes tells which they are, as numbered in
 // cell_types.h.

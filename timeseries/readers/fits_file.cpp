@@ -19,7 +19,7 @@ constexpr int kMostImages = 4096;
 // More than this, and than its bytes may hold, is believed of no compressed image.
 constexpr double kFreeBytes = 67108864, kMostPacked = 1100;
 
-std::mutex& libraryMutex() {
+std::mutex& cfitsioMutex() {
     static std::mutex one;
     return one;
 }
@@ -160,7 +160,7 @@ struct FitsFile::Open {
 
 FitsFile::FitsFile(const std::filesystem::path& path)
     : path_(path), open_(std::make_unique<Open>()) {
-    const std::lock_guard lock(libraryMutex());
+    const std::lock_guard lock(cfitsioMutex());
     int status = 0;
     // Names with brackets are names, not commands.
     fits_open_diskfile(&open_->file, path.c_str(), READONLY, &status);
@@ -170,7 +170,7 @@ FitsFile::FitsFile(const std::filesystem::path& path)
 }
 
 FitsFile::~FitsFile() {
-    const std::lock_guard lock(libraryMutex());
+    const std::lock_guard lock(cfitsioMutex());
     open_.reset();
 }
 
@@ -238,7 +238,7 @@ void FitsFile::Open::expectBytes(const FitsFile& of, const FitsImage& image, dou
 }
 
 std::vector<FitsImage> FitsFile::images() {
-    const std::lock_guard lock(libraryMutex());
+    const std::lock_guard lock(cfitsioMutex());
     std::vector<FitsImage> images;
     for (int hdu = 1;; ++hdu) {
         int status = 0, type = 0;
@@ -268,7 +268,7 @@ Values FitsFile::read(const FitsImage& image, const std::vector<std::uint64_t>& 
         points *= last[i] - first[i] + 1;
     }
     const int memory = kInMemory[static_cast<std::size_t>(image.type)];
-    const std::lock_guard lock(libraryMutex());
+    const std::lock_guard lock(cfitsioMutex());
     return withType(image.type, [&](auto value) -> Values {
         using T = decltype(value);
         std::vector<T> values(points);

@@ -8,13 +8,10 @@
 
 #include "timeseries/readers/cf_time.h"
 #include "timeseries/readers/fits_file.h"
+#include "timeseries/readers/limits.h"
 
 namespace timeseries {
 namespace {
-
-constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 32;  // SortedStep's indices
-constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;    // an axis costs 8 bytes a point
-constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 20;
 
 // "RA" of RA---TAN.
 std::string quantityOf(const FitsAxis& axis) {

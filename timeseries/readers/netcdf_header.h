@@ -43,6 +43,10 @@ struct NcVariable {
     std::string_view baseName() const;
     const NcAttribute* find(std::string_view attribute) const;
     std::string text(std::string_view attribute) const;  // "" when absent or not text
+    // Whether it is numbers, one for each place along that dimension.
+    bool isAlong(std::size_t dimension) const {
+        return type && dimensions.size() == 1 && dimensions[0] == dimension;
+    }
 };
 
 // The format of files whose dimensions have no names.

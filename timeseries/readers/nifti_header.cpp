@@ -21,7 +21,7 @@ using Image = std::unique_ptr<nifti_image, decltype(&nifti_image_free)>;
 constexpr std::size_t kMagicAt = 344, kMagic2At = 4;
 
 // What the library tells is global.
-std::mutex& libraryMutex() {
+std::mutex& niftiMutex() {
     static std::mutex one;
     return one;
 }
@@ -100,7 +100,7 @@ Read readWith(const ArrayHeader& header, std::string_view start, int bytes,
         header.fail("header", fmt::format("expected {} bytes, found {}", bytes, start.size()));
     std::memcpy(&raw, start.data(), sizeof raw);
     Read read{{nullptr, nifti_image_free}, expectHeader(header, raw, bytes)};
-    const std::lock_guard lock(libraryMutex());
+    const std::lock_guard lock(niftiMutex());
     nifti_set_debug_level(0);  // it prints otherwise
     read.image.reset(convert(raw, nullptr));
     return read;

@@ -27,7 +27,7 @@ constexpr std::size_t kMaxPairs = std::size_t{1} << 13;
 constexpr std::size_t kMaxField = 800;
 
 // teem and its error texts (biff) are global.
-std::mutex& libraryMutex() {
+std::mutex& teemMutex() {
     static std::mutex one;
     return one;
 }
@@ -273,7 +273,7 @@ void take(const Nrrd& nrrd, const NrrdIoState& io, ArrayHeader& header) {
 }
 
 void parse(const std::string& text, ArrayHeader& header) {
-    const std::lock_guard lock(libraryMutex());
+    const std::lock_guard lock(teemMutex());
     const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), nrrdNuke);
     const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> io(nrrdIoStateNew(),
                                                                      nrrdIoStateNix);

@@ -64,7 +64,7 @@ class Source {
     int bits_ = 0;
 };
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 50;
+constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 50;
 
 // How many characters stand for so many bytes.
 std::uint64_t characters(bool base64, std::uint64_t bytes) {
@@ -93,7 +93,7 @@ struct Check {
             !source.number(encoding, lastBytes))
             fail("expected values, but the file ends");
         const std::uint64_t full = blocks - (blocks > 0 && lastBytes != 0 ? 1 : 0);
-        if (blocks > available || (full > 0 && blockBytes > kMostBytes / full))
+        if (blocks > available || (full > 0 && blockBytes > kMostBlockBytes / full))
             fail(fmt::format("expected blocks within the file, found {} of {} bytes", blocks,
                              blockBytes));
         return full * blockBytes + lastBytes;

@@ -10,9 +10,6 @@
 namespace timeseries {
 namespace {
 
-// What stands where no point is, so that it is told as one that there is not.
-constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
-
 std::uint64_t endOf(std::int64_t end, std::uint64_t begin) {
     // What is beyond all lists is told as such, whatever it is.
     return end < 0 ? std::numeric_limits<std::uint64_t>::max()

@@ -5,14 +5,12 @@
 #include <algorithm>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/vtk_number.h"
 
 namespace timeseries {
 namespace {
 
-// As for every format: a step of 2^32 points needs no longer axis.
-constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
-constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 32;
 // So that no sum of an index and a length overflows VTK's int.
 constexpr std::int64_t kMaxIndex = std::int64_t{1} << 30;
 

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "timeseries/grid/cell_types.h"
 
 namespace timeseries {
 namespace {
-
-constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
 // One that is no index is told as a point that there is not.
 std::vector<std::uint32_t> indices(VtkText& text, std::string_view type, std::uint64_t count) {

@@ -134,7 +134,7 @@ vtkSmartPointer<vtkXMLReader> readerOf(const VtkHeader& header) {
     return reader;
 }
 
-vtkSmartPointer<vtkDataSet> readXml(vtkXMLReader* reader, const VtkArray* wanted) {
+vtkSmartPointer<vtkDataSet> readBy(vtkXMLReader* reader, const VtkArray* wanted) {
     reader->UpdateInformation();
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
         vtkDataArraySelection* selection = place == VtkPlace::Points
@@ -210,7 +210,7 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
         case VtkKind::XmlRectilinear:
         case VtkKind::XmlStructured:
         case VtkKind::XmlUnstructured:
-            output = readXml(readerOf(header), &wanted);
+            output = readBy(readerOf(header), &wanted);
             break;
         case VtkKind::LegacyPoints:
             output = readLegacy<vtkStructuredPointsReader>(header, &wanted);
@@ -344,7 +344,7 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
         const auto reader = readerOf(header);
         auto* const cells = dynamic_cast<VtkCellReader*>(reader.Get());
         if (cells) cells->expect(&header.pieces);
-        const auto found = readXml(reader, nullptr);
+        const auto found = readBy(reader, nullptr);
         if (cells) frame.unstructured = cells->takeCells();
         return found;
     });

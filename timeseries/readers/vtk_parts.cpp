@@ -164,7 +164,6 @@ void append(UnstructuredGrid& whole, UnstructuredGrid part, bool hasFaces) {
     const auto point = static_cast<std::uint32_t>(whole.points.size());
     const std::uint64_t corner = whole.corners.size(), face = whole.faces.size();
     // What names no point of its part names none of the whole.
-    constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
     const std::uint64_t points = part.points.size();
     const auto moved = [&](std::uint32_t i) { return i < points ? i + point : kNoPoint; };
     for (const std::uint32_t i : part.corners) whole.corners.push_back(moved(i));

@@ -14,7 +14,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::size_t kMaxVariables = std::size_t{1} << 16;
+constexpr std::size_t kMaxVtkVariables = std::size_t{1} << 16;
 
 // JSON, not XML.
 bool isVtkSeries(const Path& path) {
@@ -125,9 +125,9 @@ void VtkReader::addVariables(std::size_t index) {
     const std::string where = array.place == VtkPlace::Points ? "" : ", at cells";
     if (array.components == 1) return add(array, name, array.type, type + where, {});
 
-    if (variables_.size() + array.components > kMaxVariables)
+    if (variables_.size() + array.components > kMaxVtkVariables)
         failVtk(frame_.header().path, fmt::format("'{}'", array.name),
-                fmt::format("expected at most {} components of all arrays", kMaxVariables));
+                fmt::format("expected at most {} components of all arrays", kMaxVtkVariables));
     const std::string stored = fmt::format("{}, {} components{}", type, array.components, where);
     if (array.components <= 3) {
         const bool single = array.type == ValueType::F32;

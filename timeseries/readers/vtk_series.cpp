@@ -10,13 +10,13 @@
 namespace timeseries {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 64 << 20;  // of a list: a million files
+constexpr std::uintmax_t kMostListBytes = 64 << 20;  // of a list: a million files
 
 }  // namespace
 
 std::vector<VtkMember> readVtkSeries(const std::filesystem::path& path) {
     using nlohmann::json;
-    if (std::filesystem::file_size(path) > kMostBytes)
+    if (std::filesystem::file_size(path) > kMostListBytes)
         failVtk(path, "", "expected a list of files of at most 64 MB");
     std::ifstream file(path, std::ios::binary);
     const json root = json::parse(file, nullptr, false);

@@ -20,7 +20,7 @@ constexpr std::uint64_t kMaxTokenBytes = std::uint64_t{1} << 20;
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-constexpr std::size_t kMaxWord = 255;
+constexpr std::size_t kMaxXmlWord = 255;
 
 // An element whose end has not come.
 struct Open {
@@ -105,7 +105,7 @@ void characterData(void* user, const XML_Char* characters, int length) {
             element.textAt =
                 static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parsing.parser) + i);
         element.words += open.word.empty();
-        if (open.word.size() < kMaxWord) open.word += characters[i];
+        if (open.word.size() < kMaxXmlWord) open.word += characters[i];
     }
 }
 

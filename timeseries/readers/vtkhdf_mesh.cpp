@@ -11,7 +11,6 @@
 namespace timeseries {
 namespace {
 
-constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kMost = std::uint64_t{1} << 32;  // points, cells, corners of a step
 constexpr std::uint8_t kVertices = 2, kPolyLine = 4, kPolygon = 7;
 

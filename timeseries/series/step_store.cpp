@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kSuffix = ".isostep";
 
-std::int64_t nanoseconds(const timespec& at) {
+std::int64_t nanosecondsOf(const timespec& at) {
     return std::int64_t{at.tv_sec} * 1'000'000'000 + at.tv_nsec;
 }
 
@@ -55,11 +55,11 @@ std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin) const {
         if (::stat(file.c_str(), &status) != 0) return std::nullopt;
         files += fmt::format("{}{{\"file\": {}, \"bytes\": {}, \"modified\": {}",
                              files.empty() ? "" : ", ", textOf(nameOf(file, kind_).string()),
-                             status.st_size, nanoseconds(status.st_mtim));
-        std::int64_t last = nanoseconds(status.st_mtim);
+                             status.st_size, nanosecondsOf(status.st_mtim));
+        std::int64_t last = nanosecondsOf(status.st_mtim);
         if (kind_ == StoreKind::Cache) {
-            files += fmt::format(", \"changed\": {}", nanoseconds(status.st_ctim));
-            last = std::max(last, nanoseconds(status.st_ctim));
+            files += fmt::format(", \"changed\": {}", nanosecondsOf(status.st_ctim));
+            last = std::max(last, nanosecondsOf(status.st_ctim));
         }
         files += "}";
         stamp.changed = std::max(stamp.changed, timeOf(last));
@@ -141,7 +141,7 @@ std::vector<StepStore::Entry> StepStore::list() const {
         struct stat status {};
         if (::stat(item.path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
         entries.push_back({item.path(), static_cast<std::uint64_t>(status.st_size),
-                           timeOf(nanoseconds(status.st_mtim))});
+                           timeOf(nanosecondsOf(status.st_mtim))});
     }
     std::ranges::sort(entries, std::greater(), &Entry::used);
     return entries;
@@ -159,7 +159,7 @@ std::string StepStore::aboutOf(const fs::path& path) {
 std::optional<Clock::time_point> StepStore::changedAt(const fs::path& file) {
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0) return std::nullopt;
-    return timeOf(std::max(nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)));
+    return timeOf(std::max(nanosecondsOf(status.st_mtim), nanosecondsOf(status.st_ctim)));
 }
 
 std::uint64_t StepStore::clear() {

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::nanoseconds;
 __extension__ using Wide = __int128;
 
-constexpr std::int64_t kLongestCycle = std::int64_t{1} << 60;
+constexpr std::int64_t kLongestPlay = std::int64_t{1} << 60;
 
 bool isSpeed(double v) { return v >= 0 && std::isfinite(v); }
 
@@ -58,11 +58,11 @@ std::optional<std::string> whyUnusable(const std::vector<double>& times, std::si
 std::vector<std::int64_t> toNanoseconds(const std::vector<double>& offsets, double perSecond) {
     // A speed of 0 stands still: its places are those of the slowest, so that a step keeps how much
     // of it has gone.
-    const double slowest = static_cast<double>(kLongestCycle) / offsets.back();
+    const double slowest = static_cast<double>(kLongestPlay) / offsets.back();
     const double nsPerUnit = std::min(1e9 / std::abs(perSecond), slowest);  // 0 may be negative
     std::vector<std::int64_t> begins{0};
     for (std::size_t k = 1; k < offsets.size(); ++k) {
-        const double ns = std::min(offsets[k] * nsPerUnit, static_cast<double>(kLongestCycle));
+        const double ns = std::min(offsets[k] * nsPerUnit, static_cast<double>(kLongestPlay));
         begins.push_back(std::max<std::int64_t>(std::llround(ns), begins.back() + 1));
     }
     return begins;

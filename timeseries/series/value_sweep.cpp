@@ -18,7 +18,7 @@ using std::chrono::nanoseconds;
 __extension__ using Wide = __int128;
 
 constexpr std::int64_t kMostTimerSteps = std::int64_t{1} << 30;
-constexpr std::int64_t kLongestCycle = std::int64_t{1} << 60;
+constexpr std::int64_t kLongestSweep = std::int64_t{1} << 60;
 
 std::int64_t ceilDiv(Wide a, Wide b) { return static_cast<std::int64_t>((a + b - 1) / b); }
 
@@ -60,7 +60,7 @@ ValueSweep::ValueSweep(SweepSettings settings, SweepPosition position)
     for (const Interval<double>& r : ranges_) halfLength_ += halfLength(r);
     ticks_ = ceilDiv(settings_.timerSteps, settings_.step);
     const double ns = 1e9 / settings_.frequency;  // +inf for 0
-    if (ns <= static_cast<double>(kLongestCycle))
+    if (ns <= static_cast<double>(kLongestSweep))
         cycle_ = std::max<std::int64_t>(std::llround(ns), ticks_);
     position_.tick = std::clamp<std::int64_t>(position.tick, 0, ticks_ - 1);
     position_.into = std::max(position.into, nanoseconds(0));

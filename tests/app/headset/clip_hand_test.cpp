@@ -13,7 +13,7 @@
 namespace app::headset {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // 4 x 4 x 4 points at 0, 1, 2, 3 along axes that lean over each other, turned in the room; y is
 // drawn downwards.
@@ -67,9 +67,9 @@ TEST_F(ClipByHand, AFaceGoesWithTheHandAlongItsAxisAlone) {
         move(1, at(inStage({2.9 + by, 1.5 - by, 1.2})));
         ASSERT_TRUE(clip());
         EXPECT_NEAR(clip()->hi.x, 3 + by, millimetre());
-        EXPECT_EQ(clip()->lo, glm::dvec3(-kInfinity));
-        EXPECT_EQ(clip()->hi.y, kInfinity);
-        EXPECT_EQ(clip()->hi.z, kInfinity);
+        EXPECT_EQ(clip()->lo, glm::dvec3(-kUnbounded));
+        EXPECT_EQ(clip()->hi.y, kUnbounded);
+        EXPECT_EQ(clip()->hi.z, kUnbounded);
     }
 }
 
@@ -100,7 +100,7 @@ TEST_F(ClipByHand, AFaceStopsAtTheOtherAndIsUnboundedOutside) {
     move(1, at(inStage({-4, 1.5, 1.5})));
     EXPECT_EQ(clip()->hi.x, clip()->lo.x) << "never inside out";
     move(1, at(inStage({5, 1.5, 1.5})));
-    EXPECT_EQ(clip()->hi.x, kInfinity);
+    EXPECT_EQ(clip()->hi.x, kUnbounded);
     clip_.letGo(1, e_);
     EXPECT_EQ(take(1, {2, 1.5, 1.5}), (Face{0, -1}));
     move(1, at(inStage({-4, 1.5, 1.5})));
@@ -134,14 +134,14 @@ TEST_F(ClipByHand, AHandThatRestsOrIsNotSeenEditsNothing) {
 
 TEST_F(ClipByHand, EdgesOfTheFaceInTheHandAreLit) {
     Explorer next = e_.explorer();
-    next.clip = ClipBox{{1, -kInfinity, -kInfinity}, glm::dvec3(kInfinity)};
+    next.clip = ClipBox{{1, -kUnbounded, -kUnbounded}, glm::dvec3(kUnbounded)};
     e_.edit(next);
     take(0, {1, 1.5, 1.5});
     const auto edges = clip_.edges({}, drawn_, e_);
     ASSERT_EQ(edges.size(), 12u);
     int lit = 0;
     for (const ClipHand::Edge& edge : edges) {
-        double greatest = -kInfinity;
+        double greatest = -kUnbounded;
         for (const glm::dvec3& world : {edge.from, edge.to}) {
             const glm::dvec3 grid =
                 placed_.gridFromAxes(glm::inverse(placed_.worldFromAxes()) * world);

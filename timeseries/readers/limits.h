@@ -1,0 +1,13 @@
+// What no file is believed to be larger than.
+#pragma once
+
+#include <cstdint>
+
+namespace timeseries {
+
+constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 32;  // SortedStep's indices
+// A step of so many points needs no longer axis, and an axis costs 8 bytes a point.
+constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 20;
+
+}  // namespace timeseries
