@@ -21,7 +21,7 @@ struct PictureError::Work {
         try {
             // One thread: the interface has the others.
             errors = depthErrorsOf(picture.explorer, *picture.sorted, picture.view,
-                                   rungsOf(*picture.sorted), 1, wanted);
+                                   rungsOf(picture.explorer, *picture.sorted), 1, wanted);
         } catch (...) {  // then it is not told: a picture is as good without
         }
         picture.sorted.reset();

@@ -9,12 +9,11 @@ constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
 
 }  // namespace
 
-StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept)
+StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept, timeseries::Ready ready)
     : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
       stores_(storesFor(dataset.reader->files())),
       loader_(
-          std::move(dataset.reader), dataset.variable, std::move(kept), [] {},
-          timeseries::Ready::Asked, stores_) {}
+          std::move(dataset.reader), dataset.variable, std::move(kept), [] {}, ready, stores_) {}
 
 StepSource::~StepSource() { tellNotes(stores_); }
 

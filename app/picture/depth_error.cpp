@@ -48,19 +48,17 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         depths.push_back(opticalDepthOf(sceneOf(rung), view, wanted));
         if (!wanted) return {};
     }
-    const auto cells = step.cellsIfMade();
-    const timeseries::Field field = cells ? timeseries::Field{} : step.field();
     const auto errors =
-        sampledErrors(first, cells ? cells->field() : field, view, depths, {.threads = threads});
+        sampledErrors(first, *step.sharedField(), view, depths, {.threads = threads});
     DepthErrors told;
     for (std::size_t i = 0; i < rungs.size(); ++i)
         told.rungs.emplace_back(rungs[i], errors[i].relativeL2);
     return told;
 }
 
-std::vector<Rung> rungsOf(const timeseries::SortedStep& step) {
+std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step) {
     std::vector<Rung> rungs;
-    if (step.cellsIfMade()) rungs.push_back({Model::Cells});
+    if (step.cellsIfMade(cellsNeeded(explorer, step.type()))) rungs.push_back({Model::Cells});
     for (const std::uint32_t stride : {1u, 2u, 4u, 8u, 16u})
         rungs.push_back({Model::Points, stride});
     return rungs;

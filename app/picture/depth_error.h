@@ -43,7 +43,7 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
                           unsigned threads = render::sharingThreads(),
                           const std::atomic<bool>& wanted = true);
 // What a window draws while the picture moves and when it rests. Cells only where they are made.
-std::vector<Rung> rungsOf(const timeseries::SortedStep& step);
+std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step);
 
 // "0.4 %", "12 %", "below 0.1 %".
 std::string shareText(double error);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -238,6 +240,17 @@ std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick) {
     return render::withMinusSigns(centre) + " ± " + timeseries::toText(delta);
 }
 
+std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& e,
+                                                      timeseries::ValueType type) {
+    if (e.sweep && e.sweepLayer.visible) return {timeseries::kAllNumbers};
+    std::vector<timeseries::Interval<double>> all;
+    for (const LayerChoice& layer : e.layers)
+        if (layer.visible)
+            std::ranges::copy(timeseries::betweenPoints(layer.ranges, type),
+                              std::back_inserter(all));
+    return all;
+}
+
 render::Scene makeScene(const Explorer& e, const SortedStep& step,
                         const render::PlacedPoints& placed, std::int64_t tick, Await await) {
     render::Scene scene{.step = step,
@@ -247,8 +260,10 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
                         .order = e.order,
                         .clip = {}};
     if (e.clip) scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
-    if (e.model == Model::Cells)
-        scene.cells = await == Await::Cells ? step.cells() : step.cellsIfMade();
+    if (e.model == Model::Cells) {
+        const auto needed = cellsNeeded(e, step.type());
+        scene.cells = await == Await::Cells ? step.cells(needed) : step.cellsIfMade(needed);
+    }
     if (scene.cells && scene.order == render::Order::BackToFront) scene.light = e.light;
     scene.opacityPer = e.opacityPer;
     const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "app/choices/explorer.h"
 #include "app/files/dataset.h"
@@ -38,6 +39,11 @@ std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& un
 
 // Where the swept window stands, in as many digits as its width needs: "1426.5 ± 40".
 std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick);
+
+// Ranges between points such that a step's cells that reach into them are all that the explorer
+// shows of it, at any tick: those of its visible layers, or everything where a window is swept.
+std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& explorer,
+                                                      timeseries::ValueType type);
 
 // Who does not wait for a step's cells draws points until they are there.
 enum class Await { Cells, Nothing };

@@ -78,8 +78,8 @@ TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
 TEST(PictureError, OfEveryWayToDrawIsWhatEachWouldHave) {
     PictureError::Picture cells = waves(Model::Cells, "0.2:0.5");
     cells.sorted->cells();
-    const DepthErrors all =
-        depthErrorsOf(cells.explorer, *cells.sorted, cells.view, rungsOf(*cells.sorted));
+    const DepthErrors all = depthErrorsOf(cells.explorer, *cells.sorted, cells.view,
+                                          rungsOf(cells.explorer, *cells.sorted));
     ASSERT_EQ(all.rungs.size(), 6u);
     EXPECT_NEAR(*all.of({Model::Cells}), worked(cells), 1e-12);
     cells.explorer.model = Model::Points;

@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include "timeseries/index/sorted_step.h"
+
 namespace timeseries {
 namespace {
 
@@ -97,6 +99,75 @@ TYPED_TEST(CellIndexOf, HoldsEveryCellThatRangesReachIntoAndFewOthers) {
             needed += wanted.size();
         }
         EXPECT_LE(static_cast<double>(looked), 1.4 * static_cast<double>(needed));
+    }
+}
+
+// Whoever asks for little gets the same, in the same order, from less: for any intervals inside
+// those that there are cells of, ends at values and between them.
+TYPED_TEST(CellIndexOf, OfSomeIntervalsAloneSelectsTheSame) {
+    for (const bool gaps : {false, true}) {
+        const auto field = std::make_shared<const Field>(waves<TypeParam>({19, 12, 9}, 6, gaps));
+        const CellIndex all(field, 2);
+        std::vector<double> values =
+            std::visit([](const auto& of) { return std::vector<double>(of.begin(), of.end()); },
+                       field->values);
+        std::mt19937 random(7);
+        const auto between = [&](const Interval<double>& outer) {
+            std::uniform_real_distribution<double> share(0, 1);
+            double ends[2];
+            for (double& end : ends)
+                end = random() % 2 == 0
+                          ? outer.lo + share(random) * (outer.hi - outer.lo)
+                          : std::clamp(values[random() % values.size()], outer.lo, outer.hi);
+            return Interval<double>{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+        };
+        for (int i = 0; i < 40; ++i) {
+            const auto [lo, hi] = std::ranges::minmax(values);
+            std::vector<Interval<double>> among = {between({lo, hi})};
+            if (i % 2 == 0) among.push_back(between({lo, hi}));
+            if (i % 5 == 0) among.push_back({among[0].hi, among[0].hi});
+            const CellIndex some(field, 1 + i % 3, among);
+            EXPECT_LE(some.count(), all.count());
+            for (const Interval<double>& outer : among)
+                for (const Interval<double>& asked : {outer, between(outer)}) {
+                    ASSERT_TRUE(some.holds({{asked}}));
+                    EXPECT_EQ(selected(some, {asked}), selected(all, {asked}));
+                    const auto mine = some.select({{asked}}), whole = all.select({{asked}});
+                    EXPECT_EQ(some.halfRange(mine, 0.5), all.halfRange(whole, 0.5));
+                }
+            EXPECT_FALSE(some.holds({{{lo - 1, hi + 1}}}));
+        }
+    }
+}
+
+TEST(CellIndex, OfNothingHasNothing) {
+    const CellIndex none(waves<float>({5, 4, 3}, 8, false), 2, {});
+    EXPECT_EQ(none.count(), 0u);
+    EXPECT_TRUE(none.holds({}));
+    EXPECT_TRUE(none.select({}).empty());
+    EXPECT_FALSE(none.holds({{{0, 0}}}));
+}
+
+// The first who asks decides what is made; who then asks for more has it all.
+TEST(CellIndex, OfAStepIsMadeOfWhatIsAskedFor) {
+    const Field field = waves<float>({17, 9, 8}, 9, false);
+    for (const bool held : {false, true}) {
+        const SortedStep step = held ? SortedStep::buildForCells(field) : SortedStep::build(field);
+        const std::uint64_t points = step.pointBytes();
+        EXPECT_EQ(step.bytes() - points, held ? field.bytes() : 0);
+        EXPECT_EQ(step.sharedField()->values, field.values);
+        const std::vector<Interval<double>> little = {{0.1, 0.2}};
+        const auto some = step.cells(little);
+        EXPECT_EQ(step.bytes() - step.pointBytes(), some->bytes());
+        EXPECT_EQ(step.cellsIfMade(little), some);
+        EXPECT_EQ(step.cells({{0.15, 0.2}}), some);
+        EXPECT_EQ(step.cellsIfMade(), nullptr);
+        EXPECT_EQ(step.sharedField(), some->sharedField());
+        const auto all = step.cells({{0.1, 0.3}});
+        EXPECT_EQ(step.cellsIfMade(), all);
+        EXPECT_EQ(step.cellsIfMade(little), all);
+        EXPECT_EQ(all->count(), CellIndex(field).count());
+        EXPECT_EQ(selected(*all, little), selected(*some, little));
     }
 }
 

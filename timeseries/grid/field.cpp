@@ -11,4 +11,9 @@ std::string_view typeName(ValueType type) {
     return names[static_cast<std::size_t>(type)];
 }
 
+std::uint64_t Field::bytes() const {
+    return std::visit([](const auto& of) { return of.size() * sizeof(of[0]); }, values) +
+           missing.size() / 8;
+}
+
 }  // namespace timeseries

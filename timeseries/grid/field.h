@@ -31,6 +31,8 @@ struct Field {
     bool categories = false;  // values are names of classes: nothing lies between two of them
 
     ValueType type() const { return static_cast<ValueType>(values.index()); }
+    // Of memory, the grid's aside.
+    std::uint64_t bytes() const;
 };
 
 }  // namespace timeseries

@@ -66,23 +66,121 @@ glm::uvec3 pointsOf(const Field& field) {
     return {size[0], size[1], size[2]};
 }
 
+// Ascending and disjoint, what any of them holds.
+std::vector<Interval<double>> joined(std::vector<Interval<double>> all) {
+    std::ranges::sort(all, {}, &Interval<double>::lo);
+    std::vector<Interval<double>> out;
+    for (const Interval<double>& each : all)
+        if (!out.empty() && each.lo <= out.back().hi)
+            out.back().hi = std::max(out.back().hi, each.hi);
+        else
+            out.push_back(each);
+    return out;
+}
+
+// Keys of the middles of a class's cells that reach into an interval, and of few others.
+std::pair<std::uint32_t, std::uint32_t> keysOf(const Interval<double>& interval, double halfRange) {
+    return {keyOf(below(interval.lo - halfRange)), keyOf(above(interval.hi + halfRange))};
+}
+
 }  // namespace
 
-// What a row of cells along x takes from its four rows of points.
-struct CellIndex::Row {
-    std::vector<double> least, greatest;  // of the four, at each point; inf, -inf where none is
+// What rows of cells along x take from their four rows of points, one row after another.
+class CellIndex::Rows {
+ public:
+    explicit Rows(const Field& field)
+        : field_(field), points_(pointsOf(field)), least_(points_.x), greatest_(points_.x) {}
 
-    explicit Row(std::size_t points) : least(points), greatest(points) {}
+    void look(std::uint32_t j, std::uint32_t k) {
+        const Pair& one = pairAt(neighbour(j, 0, points_.y), k);
+        const Pair& other = pairAt(neighbour(j, 1, points_.y), k);
+        for (std::size_t i = 0; i < least_.size(); ++i) {
+            least_[i] = std::min(one.least[i], other.least[i]);
+            greatest_[i] = std::max(one.greatest[i], other.greatest[i]);
+        }
+    }
     // Half the range, and the middle, of the cell between two points; false where nothing is
     // finite.
     bool at(std::size_t cell, double& half, double& middle) const {
-        const std::size_t from = cell > 0 ? cell - 1 : 0, to = std::min(cell, least.size() - 1);
-        const double lo = std::min(least[from], least[to]);
-        const double hi = std::max(greatest[from], greatest[to]);
+        const std::size_t from = cell > 0 ? cell - 1 : 0, to = std::min(cell, least_.size() - 1);
+        const double lo = std::min(least_[from], least_[to]);
+        const double hi = std::max(greatest_[from], greatest_[to]);
         half = 0.5 * hi - 0.5 * lo;
         middle = 0.5 * hi + 0.5 * lo;
         return lo <= hi;
     }
+
+ private:
+    // Of two rows of points, on both sides of cells along z: what the next cells along y take, too.
+    struct Pair {
+        std::int64_t y = -1, k = -1;
+        std::vector<double> least, greatest;  // inf, -inf where neither has a value
+    };
+
+    const Pair& pairAt(std::uint32_t y, std::uint32_t k) {
+        Pair& pair = pairs_[y & 1];
+        if (pair.y == y && pair.k == k) return pair;
+        pair.y = y;
+        pair.k = k;
+        pair.least.assign(points_.x, kInfinite);
+        pair.greatest.assign(points_.x, -kInfinite);
+        for (const std::uint32_t side : {0u, 1u}) {
+            const std::uint64_t z = neighbour(k, side, points_.z);
+            const std::uint64_t first = points_.x * (y + std::uint64_t{points_.y} * z);
+            std::visit([&](const auto& values) { add(&values[first], first, pair); },
+                       field_.values);
+        }
+        return pair;
+    }
+    template <typename T>
+    void add(const T* values, std::uint64_t first, Pair& to) const {
+        double* const least = to.least.data();
+        double* const greatest = to.greatest.data();
+        const auto take = [&](std::size_t i, double v) {
+            least[i] = v < least[i] ? v : least[i];  // NaN is neither
+            greatest[i] = v > greatest[i] ? v : greatest[i];
+        };
+        if (field_.missing.empty())
+            for (std::size_t i = 0; i < points_.x; ++i) take(i, finiteOr(values[i], false));
+        else
+            for (std::size_t i = 0; i < points_.x; ++i)
+                take(i, finiteOr(values[i], field_.missing[first + i]));
+    }
+
+    const Field& field_;
+    glm::uvec3 points_;
+    std::array<Pair, 2> pairs_;
+    std::vector<double> least_, greatest_;
+};
+
+// What of each class is kept.
+class CellIndex::Wanted {
+ public:
+    explicit Wanted(const std::vector<Interval<double>>& among)
+        : any_(among == std::vector{kAllNumbers}) {
+        if (any_ || among.empty()) return;
+        first_ = among.front().lo;
+        last_ = among.back().hi;
+        for (std::size_t c = 0; c < kClasses; ++c)
+            for (const Interval<double>& interval : among)
+                keys_[c].push_back(keysOf(interval, mostOf(c)));
+    }
+    // False for most of those that are not, at a glance.
+    bool near(double half, double middle) const {
+        // A class's greatest half range is less than twice the least; a key is a float.
+        const double reach = 2 * half + 1e-6 * std::abs(middle) + 1e-37;
+        return any_ || (middle + reach >= first_ && middle - reach <= last_);
+    }
+    bool operator()(std::size_t ofClass, std::uint32_t key) const {
+        return any_ || std::ranges::any_of(keys_[ofClass], [&](const auto& keys) {
+                   return key >= keys.first && key <= keys.second;
+               });
+    }
+
+ private:
+    bool any_;
+    double first_ = kInfinite, last_ = -kInfinite;
+    std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, kClasses> keys_;
 };
 
 bool CellIndex::canIndex(const Grid& grid, ValueType type) {
@@ -92,46 +190,30 @@ bool CellIndex::canIndex(const Grid& grid, ValueType type) {
     return cells * sizeof(list_[0]) + static_cast<double>(grid.count() * size) <= kMostBytes;
 }
 
-void CellIndex::rowOfCells(std::uint64_t row, Row& into) const {
-    const glm::uvec3 points = pointsOf(field_);
-    const auto j = static_cast<std::uint32_t>(row % size_.y);
-    const auto k = static_cast<std::uint32_t>(row / size_.y);
-    std::fill(into.least.begin(), into.least.end(), kInfinite);
-    std::fill(into.greatest.begin(), into.greatest.end(), -kInfinite);
-    std::visit(
-        [&](const auto& values) {
-            for (std::uint32_t side = 0; side < 4; ++side) {
-                const std::uint64_t y = neighbour(j, side & 1, points.y);
-                const std::uint64_t z = neighbour(k, side >> 1, points.z);
-                const std::uint64_t first = points.x * (y + points.y * z);
-                for (std::size_t i = 0; i < points.x; ++i) {
-                    const bool isMissing = !field_.missing.empty() && field_.missing[first + i];
-                    const double v = finiteOr(values[first + i], isMissing);
-                    into.least[i] = v < into.least[i] ? v : into.least[i];  // NaN is neither
-                    into.greatest[i] = v > into.greatest[i] ? v : into.greatest[i];
-                }
-            }
-        },
-        field_.values);
-}
-
-CellIndex::CellIndex(Field field, unsigned threads)
-    : field_(std::move(field)), size_(pointsOf(field_) + 1u) {
+CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
+                     std::vector<Interval<double>> among)
+    : field_(std::move(field)), among_(joined(std::move(among))), size_(pointsOf(*field_) + 1u) {
     const std::uint64_t rows = std::uint64_t{size_.y} * size_.z;
     threads = std::max(threads, 1u);
+    const Wanted wanted(among_);
     const auto forEachCell = [&](unsigned k, const auto& use) {
-        Row row(size_.x - 1);
+        Rows cells(*field_);
         for (std::uint64_t r = rows * k / threads; r < rows * (k + 1) / threads; ++r) {
-            rowOfCells(r, row);
+            cells.look(static_cast<std::uint32_t>(r % size_.y),
+                       static_cast<std::uint32_t>(r / size_.y));
             double half = 0, middle = 0;
-            for (std::uint32_t i = 0; i < size_.x; ++i)
-                if (row.at(i, half, middle)) use(r * size_.x + i, classOf(half), middle);
+            for (std::uint32_t i = 0; i < size_.x; ++i) {
+                if (!cells.at(i, half, middle) || !wanted.near(half, middle)) continue;
+                const std::size_t ofClass = classOf(half);
+                const std::uint32_t key = keyOf(middle);
+                if (wanted(ofClass, key)) use(r * size_.x + i, ofClass, key);
+            }
         }
     };
     // How many of each class a thread has, then where its first goes.
     std::vector<std::vector<std::uint64_t>> next(threads, std::vector<std::uint64_t>(kClasses));
     sharing(threads, [&](unsigned k) {
-        forEachCell(k, [&](std::uint64_t, std::size_t of, double) { ++next[k][of]; });
+        forEachCell(k, [&](std::uint64_t, std::size_t of, std::uint32_t) { ++next[k][of]; });
     });
     std::uint64_t first = 0;
     for (std::size_t c = 0; c < kClasses; ++c) {
@@ -141,8 +223,8 @@ CellIndex::CellIndex(Field field, unsigned threads)
     }
     list_.resize(first);
     sharing(threads, [&](unsigned k) {
-        forEachCell(k, [&](std::uint64_t cell, std::size_t of, double middle) {
-            list_[next[k][of]++] = std::uint64_t{keyOf(middle)} << 32 | cell;
+        forEachCell(k, [&](std::uint64_t cell, std::size_t of, std::uint32_t key) {
+            list_[next[k][of]++] = std::uint64_t{key} << 32 | cell;
         });
     });
     // The largest first, or one thread would be left alone with it.
@@ -152,6 +234,14 @@ CellIndex::CellIndex(Field field, unsigned threads)
     sharing(threads, [&](unsigned) {
         for (std::size_t i = taken++; i < order.size(); i = taken++)
             sortPacked(std::span(list_).subspan(order[i].first, order[i].count));
+    });
+}
+
+bool CellIndex::holds(std::span<const Interval<double>> intervals) const {
+    return std::ranges::all_of(intervals, [&](const Interval<double>& asked) {
+        return std::ranges::any_of(among_, [&](const Interval<double>& has) {
+            return has.lo <= asked.lo && asked.hi <= has.hi;
+        });
     });
 }
 
@@ -165,8 +255,7 @@ std::vector<Run> CellIndex::select(std::span<const Interval<double>> intervals) 
         };
         const std::size_t ofClass = runs.size();
         for (const Interval<double>& i : intervals) {
-            const std::uint32_t lo = keyOf(below(i.lo - c.halfRange));
-            const std::uint32_t hi = keyOf(above(i.hi + c.halfRange));
+            const auto [lo, hi] = keysOf(i, c.halfRange);
             const auto from = std::ranges::lower_bound(begin, end, lo, {}, middle);
             const auto to = std::ranges::upper_bound(from, end, hi, {}, middle);
             if (from == to) continue;
@@ -218,7 +307,7 @@ void CellIndex::prefetch(std::uint32_t cell) const {
                 __builtin_prefetch(&values[p.x + points.x * (p.y + points.y * p.z)]);
             }
         },
-        field_.values);
+        field_->values);
 }
 
 std::array<double, 8> CellIndex::corners(const glm::uvec3& cell) const {
@@ -229,18 +318,14 @@ std::array<double, 8> CellIndex::corners(const glm::uvec3& cell) const {
             for (unsigned c = 0; c < 8; ++c) {
                 const glm::uvec3 p = pointAt(cell, c);
                 const std::uint64_t at = p.x + points.x * (p.y + points.y * p.z);
-                out[c] = finiteOr(values[at], !field_.missing.empty() && field_.missing[at]);
+                out[c] = finiteOr(values[at], !field_->missing.empty() && field_->missing[at]);
             }
         },
-        field_.values);
+        field_->values);
     return out;
 }
 
-std::uint64_t CellIndex::bytes() const {
-    const std::uint64_t values =
-        std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, field_.values);
-    return values + field_.missing.size() / 8 + list_.size() * sizeof(list_[0]);
-}
+std::uint64_t CellIndex::bytes() const { return field_->bytes() + list_.size() * sizeof(list_[0]); }
 
 std::vector<Interval<double>> betweenPoints(const RangeSet& ranges, ValueType type) {
     std::vector<Interval<double>> out;

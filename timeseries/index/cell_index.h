@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "timeseries/grid/field.h"
@@ -23,23 +25,32 @@ namespace timeseries {
 //
 // They are kept in classes of half their range of values, two an octave, each in order of the
 // middle of that range: in a class of ranges up to 2 H, the cells that reach into [a, b] have their
-// middles in [a - H, b + H]. Memory: 8 bytes a cell, and the field's values.
+// middles in [a - H, b + H]. Memory: 8 bytes a cell that is kept, and the field's values.
 class CellIndex {
  public:
     // Whether the cells of such a grid, and its values, take kMostBytes or less. They are few
     // enough to be numbered then.
     static constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
     static bool canIndex(const Grid& grid, ValueType type);
-    // Looks at every value, on so many threads. Cells without a finite corner are left out.
-    // REQUIRES: canIndex(*field.grid, its type).
-    explicit CellIndex(Field field, unsigned threads = sharingThreads());
+    // Looks at every value, on so many threads. Cells without a finite corner are left out, and so
+    // are those that select() would not give for `among`: who asks for little waits for little.
+    // REQUIRES: canIndex(*field->grid, its type).
+    explicit CellIndex(std::shared_ptr<const Field> field, unsigned threads = sharingThreads(),
+                       std::vector<Interval<double>> among = {kAllNumbers});
+    explicit CellIndex(Field field, unsigned threads = sharingThreads(),
+                       std::vector<Interval<double>> among = {kAllNumbers})
+        : CellIndex(std::make_shared<const Field>(std::move(field)), threads, std::move(among)) {}
 
-    const Field& field() const { return field_; }
+    const Field& field() const { return *field_; }
+    const std::shared_ptr<const Field>& sharedField() const { return field_; }
+    // Whether each of these lies in one of those among which it has cells.
+    bool holds(std::span<const Interval<double>> intervals) const;
     glm::uvec3 size() const { return size_; }  // cells along the axes
     std::uint64_t count() const { return list_.size(); }
 
     // Places in the list: disjoint, ascending, none empty. They hold every cell that reaches into
-    // one of these, and few others. Two binary searches for each class and interval.
+    // one of these, and few others: the same ones, in the same order, of every index that has them.
+    // Two binary searches for each class and interval. REQUIRES: holds(intervals).
     std::vector<Run> select(std::span<const Interval<double>> intervals) const;
     // Half the range of values in a cell that this share of the cells of these runs has or less, to
     // half an octave; 0 where there are none.
@@ -66,10 +77,11 @@ class CellIndex {
         double halfRange;  // at most, of the cells in it
         std::uint64_t first, count;
     };
-    struct Row;
-    void rowOfCells(std::uint64_t row, Row& into) const;
+    class Rows;
+    class Wanted;
 
-    Field field_;
+    std::shared_ptr<const Field> field_;
+    std::vector<Interval<double>> among_;
     glm::uvec3 size_{0};
     std::vector<Class> classes_;       // none empty
     std::vector<std::uint64_t> list_;  // ordered middle << 32 | number

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,9 @@ struct Interval {
     T lo, hi;
     friend bool operator==(const Interval&, const Interval&) = default;
 };
+
+constexpr Interval<double> kAllNumbers{-std::numeric_limits<double>::infinity(),
+                                       std::numeric_limits<double>::infinity()};
 
 // The range in the type T; false when it holds no value of T.
 // Float types: each bound goes to the nearest T, then an open end steps one T inward; a finite

@@ -112,10 +112,46 @@ constexpr std::size_t kFewQuantiles = 64;
 
 }  // namespace
 
-struct SortedStep::LazyCells {
-    std::once_flag once;
-    std::shared_ptr<const CellIndex> index;
-    std::atomic<bool> made = false;
+// Made by one thread at a time, while others see what was there before.
+class SortedStep::LazyCells {
+ public:
+    explicit LazyCells(std::optional<Field> field = {}) {
+        if (field) field_ = std::make_shared<const Field>(std::move(*field));
+    }
+    std::shared_ptr<const CellIndex> ifMade(std::span<const Interval<double>> among) const {
+        const std::lock_guard lock(held_);
+        return index_ && index_->holds(among) ? index_ : nullptr;
+    }
+    // Of the field that is held, else of read().
+    template <typename Read>
+    std::shared_ptr<const CellIndex> get(std::vector<Interval<double>> among, unsigned threads,
+                                         const Read& read) {
+        const std::lock_guard lock(making_);
+        if (auto made = ifMade(among)) return made;
+        auto field = fieldIfThere();
+        if (!field) field = std::make_shared<const Field>(read());
+        if (index_) among = {kAllNumbers};  // nobody else changes it now
+        auto index = std::make_shared<const CellIndex>(field, threads, std::move(among));
+        const std::lock_guard alone(held_);
+        field_.reset();
+        return index_ = std::move(index);
+    }
+    std::shared_ptr<const Field> fieldIfThere() const {
+        const std::lock_guard lock(held_);
+        return index_ ? index_->sharedField() : field_;
+    }
+    // Of memory.
+    std::uint64_t bytes() const {
+        const std::lock_guard lock(held_);
+        if (index_) return index_->bytes();
+        return field_ ? field_->bytes() : 0;
+    }
+
+ private:
+    std::mutex making_;
+    mutable std::mutex held_;
+    std::shared_ptr<const CellIndex> index_;
+    std::shared_ptr<const Field> field_;  // until there is an index of it
 };
 
 SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
@@ -138,6 +174,12 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned 
             step.columns_ = std::make_shared<const LazyColumn<T>>(std::move(points), threads);
         },
         field.values);
+    return step;
+}
+
+SortedStep SortedStep::buildForCells(Field field, unsigned threads) {
+    SortedStep step = build(field, RangeSet::everything(), threads);
+    if (step.canHaveCells()) step.cells_ = std::make_shared<LazyCells>(std::move(field));
     return step;
 }
 
@@ -243,9 +285,7 @@ Number SortedStep::value(std::uint64_t point) const {
 }
 
 std::uint64_t SortedStep::bytes() const {
-    const auto cells = cellsIfMade();
-    return pointBytes() + (cells ? cells->bytes() : 0) +
-           (grid_->ofOneStep() ? grid_->mesh()->bytes() : 0);
+    return pointBytes() + cells_->bytes() + (grid_->ofOneStep() ? grid_->mesh()->bytes() : 0);
 }
 
 std::uint64_t SortedStep::pointBytes() const {
@@ -256,17 +296,14 @@ std::uint64_t SortedStep::pointBytes(std::span<const Run> runs) const {
     return std::visit([&](const auto& points) { return points->bytes(runs); }, columns_);
 }
 
-std::shared_ptr<const CellIndex> SortedStep::cells() const {
+std::shared_ptr<const CellIndex> SortedStep::cells(std::vector<Interval<double>> among) const {
     if (!canHaveCells()) return nullptr;
-    std::call_once(cells_->once, [&] {
-        cells_->index = std::make_shared<const CellIndex>(field(), threads_);
-        cells_->made = true;
-    });
-    return cells_->index;
+    return cells_->get(std::move(among), threads_, [this] { return field(); });
 }
 
-std::shared_ptr<const CellIndex> SortedStep::cellsIfMade() const {
-    return cells_->made ? cells_->index : nullptr;
+std::shared_ptr<const CellIndex> SortedStep::cellsIfMade(
+    const std::vector<Interval<double>>& among) const {
+    return cells_->ifMade(among);
 }
 
 std::string_view SortedStep::whyNoCells() const {
@@ -304,6 +341,11 @@ Field SortedStep::field() const {
         },
         all.values);
     return out;
+}
+
+std::shared_ptr<const Field> SortedStep::sharedField() const {
+    auto there = cells_->fieldIfThere();
+    return there ? there : std::make_shared<const Field>(field());
 }
 
 Run SortedStep::finite() const {

@@ -71,6 +71,9 @@ class SortedStep {
     static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
                             unsigned threads = sharingThreads());
 
+    // The same of all values, for those who will ask for cells: the field is held until they do.
+    static SortedStep buildForCells(Field field, unsigned threads = sharingThreads());
+
     // What a step on disk was made of. Called from any thread.
     struct Source {
         // Makes the same step anew, and tells `why`.
@@ -94,6 +97,8 @@ class SortedStep {
     // All values in the grid's order: of the source, which is soon read, where there is one.
     // Missing points are marked or NaN. REQUIRES: all values were kept.
     Field field() const;
+    // The same, without reading, where there are cells of it or it is held for them.
+    std::shared_ptr<const Field> sharedField() const;
 
     // Disjoint, ascending, none empty. At most 2 (log2 n + 2) comparisons a range, and half a
     // millisecond where an end of a range falls among points of which none was asked for yet.
@@ -128,12 +133,15 @@ class SortedStep {
     std::uint64_t pointBytes() const;
     std::uint64_t pointBytes(std::span<const Run> runs) const;
 
-    // The cells between the points, made when they are first asked for; that takes as long as
-    // looking at every value twice, and 8 bytes a cell beside the values. Null unless
+    // The cells between the points that reach into these ranges (betweenPoints), made when they are
+    // first asked for; that takes as long as looking at every value twice, and 8 bytes a cell
+    // beside the values. Who asks for others than the first did gets all. Null unless
     // canHaveCells().
-    std::shared_ptr<const CellIndex> cells() const;
+    std::shared_ptr<const CellIndex> cells(std::vector<Interval<double>> among = {
+                                               kAllNumbers}) const;
     // Null as long as nobody has made them.
-    std::shared_ptr<const CellIndex> cellsIfMade() const;
+    std::shared_ptr<const CellIndex> cellsIfMade(const std::vector<Interval<double>>& among = {
+                                                     kAllNumbers}) const;
     // Why there are none, in a few words; "" where there can be.
     std::string_view whyNoCells() const;
     bool canHaveCells() const { return whyNoCells().empty(); }
@@ -161,7 +169,7 @@ class SortedStep {
     StepStatistics statistics_;
     std::shared_ptr<const StepFile> file_;
     Source source_;
-    struct LazyCells;
+    class LazyCells;
     std::shared_ptr<LazyCells> cells_;
 };
 

@@ -38,11 +38,18 @@ struct Reopened {
 }  // namespace
 
 StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-                     StepStores stores)
+                     StepStores stores, Use use)
     : reader_(std::move(reader)),
       variable_(variable),
       kept_(std::move(kept)),
+      use_(use),
       stores_(std::move(stores)) {}
+
+SortedStep StepMaker::sorted(Field field) const {
+    if (use_ == Use::Cells && kept_ == RangeSet::everything())
+        return SortedStep::buildForCells(std::move(field));
+    return SortedStep::build(field, kept_);
+}
 
 std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step) {
     const Variable& of = reader.variables()[variable];
@@ -90,23 +97,22 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
         if (auto found = find(*origin, step)) return found;
     std::optional<OriginStamp> stamp;
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
-    auto sorted = std::make_shared<const SortedStep>(
-        SortedStep::build(reader_->read(variable_, step), kept_));
+    auto made = std::make_shared<const SortedStep>(sorted(reader_->read(variable_, step)));
     // Where a step has places of its own, the file would not have them.
-    if (stamp && sorted->size() >= std::max<std::uint64_t>(stores_.worthWriting, 1) &&
-        sorted->sharedGrid() == variable().grid)
-        unwritten_.push_back({*origin, *stamp, sorted});
-    return sorted;
+    if (stamp && made->size() >= std::max<std::uint64_t>(stores_.worthWriting, 1) &&
+        made->sharedGrid() == variable().grid)
+        unwritten_.push_back({*origin, *stamp, made});
+    return made;
 }
 
 StepMaker::Kept StepMaker::keep(std::size_t step) {
-    const auto sorted = make(step);
-    if (sorted->file()) return Kept::Before;
+    const auto made = make(step);
+    if (made->file()) return Kept::Before;
     if (!hasUnwritten()) return Kept::Not;
     const Unwritten next = unwritten_.front();
     unwritten_.pop_front();
-    return stores_.write->write(next.origin, next.stamp, *sorted, reader_->openedAt) ? Kept::Written
-                                                                                     : Kept::Not;
+    return stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt) ? Kept::Written
+                                                                                   : Kept::Not;
 }
 
 bool StepMaker::hasUnwritten() {

@@ -28,9 +28,11 @@ std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::si
 // One thread at a time.
 class StepMaker {
  public:
+    // What will be asked of the steps first (SortedStep::buildForCells).
+    enum class Use { Points, Cells };
     // REQUIRES: variable < reader->variables().size().
     StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-              StepStores stores = {});
+              StepStores stores = {}, Use use = Use::Points);
 
     const Variable& variable() const { return reader_->variables()[variable_]; }
     // Throws FileError, std::length_error, std::bad_alloc.
@@ -53,10 +55,12 @@ class StepMaker {
         std::weak_ptr<const SortedStep> step;
     };
     std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step);
+    SortedStep sorted(Field field) const;
 
     const std::unique_ptr<Reader> reader_;
     const std::size_t variable_;
     const RangeSet kept_;
+    const Use use_;
     StepStores stores_;
     std::deque<Unwritten> unwritten_;  // the first built first
 };
