@@ -3,12 +3,20 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "app/picture/picture.h"
 #include "render/frame/plain_frame.h"
+#include "render/reference/cells_on_rays.h"
 #include "render/reference/sampled_error.h"
 
 namespace app {
+namespace {
+
+// Of a picture that is not there (sampled_error.h).
+constexpr std::size_t kPixelsAsked = 2048;
+
+}  // namespace
 
 std::string rungText(const Rung& rung) {
     if (rung.model == Model::Cells) return "cells";
@@ -41,15 +49,23 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         scene.footprint = standingFor(scene.footprint, rung.stride);
         return scene;
     };
+    // Points lie in each other's way: they are summed for all pixels. Cells do not.
+    const auto depthOf = [&](render::Scene scene) -> render::DepthAt {
+        if (!scene.cells) return render::depthFrom(opticalDepthOf(scene, view, wanted), view.size);
+        return [scene = std::move(scene), &view, threads](std::span<const glm::ivec2> pixels) {
+            return render::cellDepthAt(scene, view, pixels, threads);
+        };
+    };
     const render::Scene first = sceneOf(rungs.front());
     if (first.layers.empty()) return {};
-    std::vector<std::vector<float>> depths;
+    std::vector<render::DepthAt> pictures;
     for (const Rung& rung : rungs) {
-        depths.push_back(opticalDepthOf(sceneOf(rung), view, wanted));
+        pictures.push_back(depthOf(sceneOf(rung)));
         if (!wanted) return {};
     }
-    const auto errors =
-        sampledErrors(first, *step.sharedField(), view, depths, {.threads = threads});
+    render::Sampling sampling{.threads = threads};
+    if (first.cells) sampling.asked = kPixelsAsked;
+    const auto errors = sampledErrors(first, *step.sharedField(), view, pictures, sampling);
     DepthErrors told;
     for (std::size_t i = 0; i < rungs.size(); ++i)
         told.rungs.emplace_back(rungs[i], errors[i].relativeL2);

@@ -106,6 +106,32 @@ IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
     return out;
 }
 
+bool IntervalCells::isBeyond(const glm::uvec3& cell) const {
+    if (!field_.missing.empty()) return false;
+    const glm::uvec3 points = size_ - 1u;
+    const glm::uvec3 from = glm::max(cell, 1u) - 1u, to = glm::min(cell + 1u, points) - 1u;
+    return std::visit(
+        [&]<typename T>(const std::vector<T>& values) {
+            T least = std::numeric_limits<T>::max(), greatest = std::numeric_limits<T>::lowest();
+            double sum = 0;  // finite where all are, or too large to tell
+            for (const unsigned z : {from.z, to.z})
+                for (const unsigned y : {from.y, to.y}) {
+                    const T* row = &values[points.x * (y + std::size_t{points.y} * z)];
+                    for (const T v : {row[from.x], row[to.x]}) {
+                        least = std::min(least, v);
+                        greatest = std::max(greatest, v);
+                        if constexpr (std::is_floating_point_v<T>) sum += static_cast<double>(v);
+                    }
+                }
+            if (!std::isfinite(sum)) return false;
+            const auto lo = static_cast<double>(least), hi = static_cast<double>(greatest);
+            return std::ranges::none_of(ranges_, [&](const Interval<double>& range) {
+                return lo <= range.hi && hi >= range.lo;
+            });
+        },
+        field_.values);
+}
+
 IntervalCells::Kind IntervalCells::kindOf(const Corners& corners) const {
     if (corners.octants == 0) return Kind::Nothing;
     Kind kind = Kind::Nothing;

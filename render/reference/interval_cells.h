@@ -31,7 +31,8 @@ class IntervalCells {
 
     enum class Kind : std::uint8_t { Nothing, Whole, Part };
     Kind kind(const glm::uvec3& cell) const {
-        return kinds_.empty() ? kindOf(cornersOf(cell)) : kinds_[numberOf(cell)];
+        if (!kinds_.empty()) return kinds_[numberOf(cell)];
+        return isBeyond(cell) ? Kind::Nothing : kindOf(cornersOf(cell));
     }
     // Adds the parts, of [0, 1], of the line between two places of the cell (in units of it) on
     // which the field is in the ranges. Disjoint.
@@ -47,6 +48,8 @@ class IntervalCells {
         unsigned octants = 0;            // bit c: what is nearest to corner c is somewhere
     };
     Corners cornersOf(const glm::uvec3& cell) const;
+    // Whether all corners have values, and none reaches into a range: of most cells, and soon told.
+    bool isBeyond(const glm::uvec3& cell) const;
     // Of a piece of the line, [0, 1].
     void addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
                   const LinePart& piece, std::vector<LinePart>& into) const;

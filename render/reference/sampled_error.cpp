@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "render/model/covered.h"
@@ -24,29 +25,49 @@ std::vector<glm::ivec2> sampleOf(const std::vector<glm::ivec2>& all, std::size_t
     return some;
 }
 
+std::vector<glm::ivec2> pixelsOf(const PixelBox& box) {
+    std::vector<glm::ivec2> all;
+    for (int y = box.at.y; y < box.at.y + box.size.y; ++y)
+        for (int x = box.at.x; x < box.at.x + box.size.x; ++x) all.emplace_back(x, y);
+    return all;
+}
+
 }  // namespace
 
-std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
-                                        const View& view,
-                                        std::span<const std::vector<float>> opticalDepths,
-                                        const Sampling& sampling) {
-    const PixelBox box = coveredPixels(scene, view);
-    const auto depthAt = [&](const std::vector<float>& depth, const glm::ivec2& p) {
-        return static_cast<double>(
-            depth[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(view.size.x) +
-                  static_cast<std::size_t>(p.x)]);
+DepthAt depthFrom(std::vector<float> depth, glm::ivec2 size) {
+    return [depth = std::move(depth), size](std::span<const glm::ivec2> pixels) {
+        std::vector<double> found;
+        for (const glm::ivec2& p : pixels)
+            found.push_back(static_cast<double>(
+                depth[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(size.x) +
+                      static_cast<std::size_t>(p.x)]));
+        return found;
     };
+}
+
+std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
+                                        const View& view, std::span<const DepthAt> pictures,
+                                        const Sampling& sampling) {
+    std::mt19937 random(1);  // one picture, one figure
     std::vector<glm::ivec2> shown, rest;
-    for (int y = box.at.y; y < box.at.y + box.size.y; ++y)
-        for (int x = box.at.x; x < box.at.x + box.size.x; ++x)
-            (depthAt(opticalDepths[0], {x, y}) > 0 ? shown : rest).emplace_back(x, y);
+    {
+        const std::vector<glm::ivec2> all = pixelsOf(coveredPixels(scene, view));
+        for (std::size_t count = sampling.asked; true; count *= 4) {
+            const std::vector<glm::ivec2> asked = sampleOf(all, count, random);
+            const std::vector<double> depth = pictures[0](asked);
+            shown.clear();
+            rest.clear();
+            for (std::size_t i = 0; i < asked.size(); ++i)
+                (depth[i] > 0 ? shown : rest).push_back(asked[i]);
+            if (asked.size() == all.size() || shown.size() >= sampling.pixels / 4) break;
+        }
+    }
 
     const IntervalTruth truth(scene, field, sampling.raysAcross, sampling.threads,
                               IntervalCells::Look::WhenAsked);
-    std::vector<double> errors(opticalDepths.size());  // sums of squares, and the truth's
+    std::vector<double> errors(pictures.size());  // sums of squares, and the truth's
     double truths = 0;
     std::size_t looked = 0;
-    std::mt19937 random(1);  // one picture, one figure
     const auto add = [&](const std::vector<glm::ivec2>& all, std::size_t count) {
         const std::vector<glm::ivec2> some = sampleOf(all, count, random);
         if (some.empty()) return;
@@ -57,10 +78,11 @@ std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Fi
             for (std::size_t i = 0; i < some.size(); ++i) depth[i] += perWeight * weight[i];
         }
         const double each = static_cast<double>(all.size()) / static_cast<double>(some.size());
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            truths += each * depth[i] * depth[i];
-            for (std::size_t k = 0; k < errors.size(); ++k)
-                errors[k] += each * std::pow(depthAt(opticalDepths[k], some[i]) - depth[i], 2);
+        for (const double d : depth) truths += each * d * d;
+        for (std::size_t k = 0; k < errors.size(); ++k) {
+            const std::vector<double> drawn = pictures[k](some);
+            for (std::size_t i = 0; i < some.size(); ++i)
+                errors[k] += each * std::pow(drawn[i] - depth[i], 2);
         }
         looked += some.size();
     };

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,23 +23,29 @@ struct SampledError {
     std::size_t pixels = 0;  // looked at
 };
 
+// The optical depth of all layers, of W as path length, that a picture has at each of these pixels;
+// row 0 is at the bottom.
+using DepthAt = std::function<std::vector<double>(std::span<const glm::ivec2>)>;
+// Of a picture that is there: [y][x].
+DepthAt depthFrom(std::vector<float> depth, glm::ivec2 size);
+
 struct Sampling {
     // Half of them, or more where it is small, from what the picture shows; the others from the
     // rest of what the grid covers, where the truth may have what the picture lacks.
     std::size_t pixels = 512;
+    // So many pixels tell where that is, more where few of them show something.
+    std::size_t asked = std::numeric_limits<std::size_t>::max();
     // Of a range that is thinner than what a pixel sees of the field, few rays would tell their own
     // error.
     int raysAcross = 8;
     unsigned threads = sharingThreads();
 };
 
-// Of pictures of the scene, however they were drawn; the first chooses the pixels. Each is the
-// optical depth of all layers, of W as path length, [y][x], row 0 at the bottom, no lines. `field`:
-// the scene's, in the grid's order. The same for any number of threads. REQUIRES: layers whose
-// `cells.ranges` are there; a picture.
+// Of pictures of the scene, however they are drawn, without lines; the first chooses the pixels.
+// `field`: the scene's, in the grid's order. The same for any number of threads. REQUIRES: layers
+// whose `cells.ranges` are there; a picture.
 std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
-                                        const View& view,
-                                        std::span<const std::vector<float>> opticalDepths,
+                                        const View& view, std::span<const DepthAt> pictures,
                                         const Sampling& sampling = {});
 
 }  // namespace render

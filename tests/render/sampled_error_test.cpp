@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "render/reference/cells_on_rays.h"
 #include "render/reference/image_compare.h"
 #include "render/reference/interval_truth.h"
 #include "tests/support/cell_worlds.h"
@@ -46,7 +47,8 @@ double errorOfAll(const CellWorld& world, const std::vector<float>& depth) {
 }
 SampledError sampled(const CellWorld& world, const std::vector<float>& depth, std::size_t pixels,
                      unsigned threads = 2) {
-    return sampledErrors(world.scene, world.scene.cells->field(), kView, std::span(&depth, 1),
+    const DepthAt picture = depthFrom(depth, kView.size);
+    return sampledErrors(world.scene, world.scene.cells->field(), kView, std::span(&picture, 1),
                          {.pixels = pixels, .raysAcross = 3, .threads = threads})[0];
 }
 
@@ -73,6 +75,23 @@ TEST(SampledError, OfEveryPixelIsExact) {
     const CellWorld world(waves(), {"0.2:0.5"});
     const std::vector<float> depth = depthOf(world);
     EXPECT_NEAR(sampled(world, depth, 1 << 20).relativeL2, errorOfAll(world, depth), 1e-12);
+}
+
+// Also where the pixels that show something are not known before, and are few.
+TEST(SampledError, OfCellsThatAreAskedPixelByPixelIsThatOfThePicture) {
+    for (const char* range : {"0.2:0.5", "1.7:1.8"}) {
+        const CellWorld world(waves(), {range, "1.85:1.86"}, 0.3);
+        const DepthAt asked = [&](std::span<const glm::ivec2> pixels) {
+            return cellDepthAt(world.scene, kView, pixels, 2);
+        };
+        const double all = errorOfAll(world, depthOf(world));
+        const SampledError some =
+            sampledErrors(world.scene, world.scene.cells->field(), kView, {{asked}},
+                          {.pixels = 512, .asked = 100, .raysAcross = 3, .threads = 2})[0];
+        EXPECT_LE(some.pixels, 512u);
+        EXPECT_LT(std::max(some.relativeL2 / all, all / some.relativeL2), 1.25)
+            << range << ": " << some.relativeL2 << " of " << all;
+    }
 }
 
 // Where the picture shows nothing the truth may have something.

@@ -1,0 +1,53 @@
+#include "render/reference/cells_on_rays.h"
+
+#include <atomic>
+#include <limits>
+
+#include "render/model/cell_splat.h"
+#include "render/reference/cell_walk.h"
+#include "render/reference/interval_cells.h"
+#include "render/splat/cell_pieces.h"
+
+namespace render {
+
+std::vector<double> cellDepthAt(const Scene& scene, const View& view,
+                                std::span<const glm::ivec2> pixels, unsigned threads) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const PointsView seen(scene.placed, view);
+    const CellWalk walk(scene.placed);
+    const glm::uvec3 size = scene.cells->size();
+    std::vector<IntervalCells> layers;
+    for (const Layer& layer : scene.layers)
+        layers.emplace_back(scene.cells->field(), scene.clip, layer.cells.ranges, 1,
+                            IntervalCells::Look::WhenAsked);
+    const auto depthOf = [&](const glm::dvec2& offset) {
+        const PixelRays& rays = seen.rays;
+        const glm::dvec3 along = rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY;
+        double depth = 0;
+        walk(rays.eye, along, rays.near, [&](const glm::uvec3& cell, double, double) {
+            for (std::size_t k = 0; k < layers.size(); ++k) {
+                if (layers[k].kind(cell) == IntervalCells::Kind::Nothing) continue;
+                const CellOfLayer of{cell.x + size.x * (cell.y + size.y * cell.z),
+                                     static_cast<std::uint8_t>(k)};
+                const double perWeight = opticalDepthPerWeight(scene.layers[k].style.opacity);
+                forEachPiece(
+                    scene, {&of, 1}, [&](const ValuedCell& piece, const CellOfLayer&, unsigned) {
+                        const auto s = cellSplatAt<double>(seen, piece);
+                        if (s.visible)
+                            depth += perWeight *
+                                     fragmentOn<double>(seen, s, offset - s.centre, kNever).weight;
+                    });
+            }
+        });
+        return depth;
+    };
+    std::vector<double> depths(pixels.size());
+    std::atomic<std::size_t> next{0};
+    together(threads, [&](unsigned) {
+        for (std::size_t i; (i = next++) < pixels.size();)
+            depths[i] = depthOf(glm::dvec2(pixels[i]) + 0.5 - seen.rays.centre);
+    });
+    return depths;
+}
+
+}  // namespace render

@@ -1,0 +1,21 @@
+// What pixels have of a scene that is drawn by cells, each by its own ray: what CellSum sums for
+// all pixels (render/model/cell_splat.h), in double, for some of them.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "render/model/scene.h"
+#include "render/points/view.h"
+#include "render/together.h"
+
+namespace render {
+
+// The optical depth of all layers, of W as path length, at each of these pixels; row 0 is at the
+// bottom. Takes as long as walking through the cells of so many rays. REQUIRES: scene.cells.
+std::vector<double> cellDepthAt(const Scene& scene, const View& view,
+                                std::span<const glm::ivec2> pixels,
+                                unsigned threads = sharingThreads());
+
+}  // namespace render
