@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace render {
@@ -30,16 +31,16 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
 }
 
 CellList::CellList(const Scene& scene, Channels channels, std::size_t layer,
-                   const CellDistance* nearestFirst)
+                   const CellRank* nearestFirst)
     : scene_(scene),
       layer_(layersOf(scene.layers.size(), channels, layer).first),
       count_(cellCount(scene, channels, layer)) {
     cells_.reserve(count_);
     if (nearestFirst == nullptr) return;
-    distance_ = *nearestFirst;
+    rank_ = *nearestFirst;
     order_.emplace(*nearestFirst);
     ordered_.resize(count_);
-    distances_.reserve(count_);
+    ranks_.reserve(count_);
 }
 
 void CellList::goOn(std::uint64_t cells) {
@@ -62,8 +63,8 @@ std::uint64_t CellList::list(std::uint64_t cells) {
             cells_.push_back(
                 {scene_.cells->cell(run.first + i), static_cast<std::uint8_t>(layer_)});
             if (!order_) continue;
-            distances_.push_back((*distance_)(cells_.back().cell));
-            order_->count(distances_.back());
+            ranks_.push_back((*rank_)(cells_.back().cell));
+            order_->count(ranks_.back());
         }
         listed_ += some;
         inRun_ += some;
@@ -78,7 +79,7 @@ std::uint64_t CellList::list(std::uint64_t cells) {
 std::uint64_t CellList::place(std::uint64_t cells) {
     const std::uint64_t some = std::min(cells, count_ - placed_);
     for (std::uint64_t i = placed_; i < placed_ + some; ++i)
-        ordered_[order_->place(distances_[i])] = cells_[i];
+        ordered_[order_->place(ranks_[i])] = cells_[i];
     placed_ += some;
     return some;
 }
@@ -89,10 +90,51 @@ std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::siz
     return list.cells();
 }
 
-CellDistance::CellDistance(const Scene& scene, const View& view) : size_(scene.cells->size()) {
+CellRank::CellRank(const Scene& scene, const View& view) : size_(scene.cells->size()) {
+    constexpr std::size_t kMostBricks = 1 << 16;
     const glm::dvec3 eye = pixelRays(scene.placed.inAxes(view)).eye;
     for (int a = 0; a < 3; ++a)
         eye_[a] = cellAlong(scene.placed.positions()[static_cast<std::size_t>(a)], eye[a]);
+    std::uint32_t side = 16;
+    const auto bricksAlong = [&](int a) {  // the eye's own cell, and what lies on its two sides
+        return 1 + (size_[a] + 2 * side - 1) / side;
+    };
+    const auto bricks = [&] {
+        return std::size_t{bricksAlong(0)} * bricksAlong(1) * bricksAlong(2);
+    };
+    while (bricks() > kMostBricks) side *= 2;
+
+    // How far away each brick along an axis is: the eye's own first, then those above, then below.
+    std::array<std::vector<std::uint32_t>, 3> away;
+    std::uint32_t stride = 1;
+    for (int a = 0; a < 3; ++a) {
+        const auto axis = static_cast<std::size_t>(a);
+        const std::uint32_t own = static_cast<std::uint32_t>(eye_[a]);
+        const std::uint32_t above = (size_[a] - own - 1 + side - 1) / side;
+        away[axis].assign(bricksAlong(a), 0);
+        for (std::uint32_t i = 0; i < size_[a]; ++i) {
+            const std::uint32_t cells = i > own ? i - own : own - i;
+            const std::uint32_t brick = (cells + side - 1) / side;
+            const std::uint32_t at = i < own ? above + brick : brick;
+            away[axis][at] = brick;
+            places_[axis].push_back({at * stride, cells == 0 ? 0 : (cells - 1) % side});
+        }
+        stride *= bricksAlong(a);
+    }
+    // Bricks by the sum of their distances; any order of those of one sum will do.
+    const std::uint32_t ranks = 3 * (side - 1) + 1;  // in a brick
+    std::vector<std::uint32_t> order(bricks());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto sumOf = [&](std::uint32_t brick) {
+        const auto nx = static_cast<std::uint32_t>(away[0].size());
+        const auto ny = static_cast<std::uint32_t>(away[1].size());
+        return away[0][brick % nx] + away[1][brick / nx % ny] + away[2][brick / nx / ny];
+    };
+    std::ranges::stable_sort(order, {}, sumOf);
+    first_.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        first_[order[i]] = static_cast<std::uint32_t>(i) * ranks;
+    count_ = order.size() * ranks;
 }
 
 std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,

@@ -1,10 +1,10 @@
 // What is drawn of a scene's cells: which of them, in which order, and of each what is to be seen.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <glm/common.hpp>
 #include <optional>
 #include <span>
@@ -29,36 +29,53 @@ std::pair<std::size_t, std::size_t> layersOf(std::size_t count, Channels channel
 std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer);
 
 // An order by depth. What hides a part of a cell lies, along each axis, no farther from the eye's
-// cell than it does, and nearer along one: the sum of these distances, in cells, is an order.
-class CellDistance {
+// cell than it does and on the same side, and nearer along one: the sum of these distances is an
+// order, in bricks of cells first, then in cells within a brick, of which each is passed in one go:
+// their values lie together in memory. Any such order draws the same picture, for a ray meets its
+// cells one by one.
+class CellRank {
  public:
-    CellDistance(const Scene& scene, const View& view);
+    CellRank(const Scene& scene, const View& view);
     std::uint32_t operator()(const glm::uvec3& cell) const {
-        const glm::ivec3 from = glm::ivec3(cell) - eye_;
-        return static_cast<std::uint32_t>(std::abs(from.x) + std::abs(from.y) + std::abs(from.z));
+        std::uint32_t brick = 0, within = 0;
+        for (int a = 0; a < 3; ++a) {
+            const auto& [at, inside] = places_[static_cast<std::size_t>(a)][cell[a]];
+            brick += at;
+            within += inside;
+        }
+        return first_[brick] + within;
     }
     std::uint32_t operator()(std::uint32_t cell) const {
         return (*this)(timeseries::indicesOf(cell, size_));
     }
-    std::size_t count() const { return std::size_t{size_.x} + size_.y + size_.z + 1; }  // all less
+    std::size_t count() const { return count_; }    // all less
     const glm::ivec3& eye() const { return eye_; }  // the cell that it is in, or beside
 
  private:
+    // Of a cell's place along an axis: its brick's, times what the axes before it have, and how far
+    // it lies behind that one's first.
+    struct Place {
+        std::uint32_t brick, within;
+    };
+
     glm::uvec3 size_;
     glm::ivec3 eye_{0};
+    std::array<std::vector<Place>, 3> places_;
+    std::vector<std::uint32_t> first_;  // of a brick, its least rank
+    std::size_t count_ = 0;
 };
 
-// A counting sort by distance, whose two passes may be made a little at a time: every distance is
-// counted, then placed; those at one distance stay as they come.
+// A counting sort by rank, whose two passes may be made a little at a time: every rank is counted,
+// then placed; those of one rank stay as they come.
 class NearestFirst {
  public:
-    explicit NearestFirst(const CellDistance& distance) : next_(distance.count()) {}
-    void count(std::size_t distance) { ++next_[distance]; }
+    explicit NearestFirst(const CellRank& rank) : next_(rank.count()) {}
+    void count(std::size_t rank) { ++next_[rank]; }
     void allCounted() {
         std::size_t first = 0;
         for (std::size_t& n : next_) first += std::exchange(n, first);
     }
-    std::size_t place(std::size_t distance) { return next_[distance]++; }
+    std::size_t place(std::size_t rank) { return next_[rank]++; }
 
  private:
     std::vector<std::size_t> next_;
@@ -69,7 +86,7 @@ class NearestFirst {
 class CellList {
  public:
     CellList(const Scene& scene, Channels channels, std::size_t layer,
-             const CellDistance* nearestFirst = nullptr);
+             const CellRank* nearestFirst = nullptr);
     // Goes through so many; all are gone through once, or twice to be put in order.
     void goOn(std::uint64_t cells);
     bool done() const { return listed_ == count_ && (!order_ || placed_ == count_); }
@@ -84,9 +101,9 @@ class CellList {
     std::size_t layer_, run_ = 0;  // where listing goes on
     std::uint64_t inRun_ = 0, count_, listed_ = 0, placed_ = 0;
     std::vector<CellOfLayer> cells_, ordered_;
-    std::optional<CellDistance> distance_;
+    std::optional<CellRank> rank_;
     std::optional<NearestFirst> order_;
-    std::vector<std::uint32_t> distances_;  // of cells_, where they are to be put in order
+    std::vector<std::uint32_t> ranks_;  // of cells_, where they are to be put in order
 };
 // All of them at once.
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);

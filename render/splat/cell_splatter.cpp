@@ -90,8 +90,8 @@ struct CellSum::Work {
     static CellList listOf(const Scene& scene, const View& of, Channels channels,
                            std::size_t layer) {
         if (channels != Channels::Over) return {scene, channels, layer};
-        const CellDistance distance(scene, of);
-        return {scene, channels, layer, &distance};
+        const CellRank rank(scene, of);
+        return {scene, channels, layer, &rank};
     }
     bool done() const { return list.done() && passed == list.cells().size(); }
     void sum(std::span<const CellOfLayer> part, bool lastOfAll);

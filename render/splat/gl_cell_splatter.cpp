@@ -50,7 +50,7 @@ class GlCellPlane final : public PlaneSum {
           plane_(plane),
           targets_(targets) {
         std::tie(next_, end_) = cells_->placesOf(channels, plane);
-        if (channels == Channels::Over) order_ = cells_->farthestFirst(CellDistance(scene, view));
+        if (channels == Channels::Over) order_ = cells_->farthestFirst(CellRank(scene, view));
     }
     std::uint64_t add(std::uint64_t splats) override {
         const auto count = static_cast<std::uint32_t>(

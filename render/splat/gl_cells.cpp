@@ -129,19 +129,18 @@ std::pair<std::uint32_t, std::uint32_t> GlCells::placesOf(Channels channels,
     return {firsts_[first], firsts_[last]};
 }
 
-std::shared_ptr<const gl::Buffer> GlCells::farthestFirst(const CellDistance& distance) {
-    const auto found = std::ranges::find(ordered_, distance.eye(), &Ordered::eye);
+std::shared_ptr<const gl::Buffer> GlCells::farthestFirst(const CellRank& rank) {
+    const auto found = std::ranges::find(ordered_, rank.eye(), &Ordered::eye);
     if (found != ordered_.end()) return found->places;
-    NearestFirst order(distance);
-    for (const glm::uvec3& cell : cells_) order.count(distance(cell));
+    NearestFirst order(rank);
+    for (const glm::uvec3& cell : cells_) order.count(rank(cell));
     order.allCounted();
     std::vector<std::uint32_t> places(cells_.size());
     for (std::size_t i = 0; i < cells_.size(); ++i)
-        places[cells_.size() - 1 - order.place(distance(cells_[i]))] =
-            static_cast<std::uint32_t>(i);
+        places[cells_.size() - 1 - order.place(rank(cells_[i]))] = static_cast<std::uint32_t>(i);
     if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
-    ordered_.push_back({distance.eye(), std::make_shared<const gl::Buffer>(
-                                            std::span<const std::uint32_t>(places))});
+    ordered_.push_back(
+        {rank.eye(), std::make_shared<const gl::Buffer>(std::span<const std::uint32_t>(places))});
     return ordered_.back().places;
 }
 

@@ -39,7 +39,7 @@ class GlCells {
     // Places in pieces() that a plane takes.
     std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
     // Places of all pieces as uints, the farthest first.
-    std::shared_ptr<const gl::Buffer> farthestFirst(const CellDistance& distance);
+    std::shared_ptr<const gl::Buffer> farthestFirst(const CellRank& rank);
     std::uint64_t bytes() const;  // on the GPU
     // Middles and sizes of cells, axis after axis, in axis coordinates.
     const gl::BufferTexture& sides() const { return sidesTexture_; }
