@@ -157,28 +157,29 @@ class CellIndex::Rows {
 class CellIndex::Wanted {
  public:
     explicit Wanted(const std::vector<Interval<double>>& among)
-        : any_(among == std::vector{kAllNumbers}) {
-        if (any_ || among.empty()) return;
+        : all_(among == std::vector{kAllNumbers}) {
+        if (all_ || among.empty()) return;
         first_ = among.front().lo;
         last_ = among.back().hi;
         for (std::size_t c = 0; c < kClasses; ++c)
             for (const Interval<double>& interval : among)
                 keys_[c].push_back(keysOf(interval, mostOf(c)));
     }
+    bool isAll() const { return all_; }
     // False for most of those that are not, at a glance.
     bool near(double half, double middle) const {
         // A class's greatest half range is less than twice the least; a key is a float.
         const double reach = 2 * half + 1e-6 * std::abs(middle) + 1e-37;
-        return any_ || (middle + reach >= first_ && middle - reach <= last_);
+        return all_ || (middle + reach >= first_ && middle - reach <= last_);
     }
     bool operator()(std::size_t ofClass, std::uint32_t key) const {
-        return any_ || std::ranges::any_of(keys_[ofClass], [&](const auto& keys) {
+        return all_ || std::ranges::any_of(keys_[ofClass], [&](const auto& keys) {
                    return key >= keys.first && key <= keys.second;
                });
     }
 
  private:
-    bool any_;
+    bool all_;
     double first_ = kInfinite, last_ = -kInfinite;
     std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, kClasses> keys_;
 };
@@ -196,7 +197,7 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
     const std::uint64_t rows = std::uint64_t{size_.y} * size_.z;
     threads = std::max(threads, 1u);
     const Wanted wanted(among_);
-    const auto forEachCell = [&](unsigned k, const auto& use) {
+    const auto look = [&](unsigned k, const auto& use) {
         Rows cells(*field_);
         for (std::uint64_t r = rows * k / threads; r < rows * (k + 1) / threads; ++r) {
             cells.look(static_cast<std::uint32_t>(r % size_.y),
@@ -209,6 +210,23 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
                 if (wanted(ofClass, key)) use(r * size_.x + i, ofClass, key);
             }
         }
+    };
+    // All of them are looked at twice; of some it is kept which they are, or it would take as long.
+    struct Found {
+        std::uint32_t cell, key;
+        std::uint16_t ofClass;
+    };
+    std::vector<std::vector<Found>> found(wanted.isAll() ? 0 : threads);
+    if (!found.empty())
+        sharing(threads, [&](unsigned k) {
+            look(k, [&](std::uint64_t cell, std::size_t of, std::uint32_t key) {
+                found[k].push_back(
+                    {static_cast<std::uint32_t>(cell), key, static_cast<std::uint16_t>(of)});
+            });
+        });
+    const auto forEachCell = [&](unsigned k, const auto& use) {
+        if (found.empty()) return look(k, use);
+        for (const Found& each : found[k]) use(each.cell, each.ofClass, each.key);
     };
     // How many of each class a thread has, then where its first goes.
     std::vector<std::vector<std::uint64_t>> next(threads, std::vector<std::uint64_t>(kClasses));
