@@ -31,8 +31,7 @@ ChosenData openChosen(const Explorer& choices) {
     if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);
     auto source = std::make_unique<StepSource>(
-        dataset, e.keep.value_or(timeseries::RangeSet::everything()),
-        e.model == Model::Cells ? timeseries::Ready::ForCells : timeseries::Ready::Asked);
+        dataset, e.keep.value_or(timeseries::RangeSet::everything()), timeseries::Ready::WithField);
     if (needsSamples(e)) e = resolved(e, sample(*source, steps));
     return {std::move(dataset), std::move(e), std::move(steps), std::move(source)};
 }

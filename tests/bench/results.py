@@ -312,7 +312,21 @@ def store_page(part):
             "Cold: without the index in the system's cache (the file, which the other side reads, stays there). By turns with reading the file and sorting.\n\n"
             + table(["points", "range", "read", "from disk, warm", "cold", "read and sorted", "ratio", "of processor time"], rows)
             + f"\nRead, sorted and written, 256³: {ms(f, 'second_ms')} on one thread, {ms(f, 'first_ms')} on both, {digits(rate(f['second_ms']))} and "
-            f"{digits(rate(f['first_ms']))} million points/s.\n" + series_page(part) + large_page(part) + ranks_page(part))
+            f"{digits(rate(f['first_ms']))} million points/s.\n" + picture_page(part) + series_page(part) + large_page(part) + ranks_page(part))
+
+
+def picture_page(part):
+    f = part("storePicture/points:512")
+    if not f:
+        return ""
+    rows = []
+    for model in ["cells", "points"]:
+        ratio = f[f"{model}_file_ms"] / f[f"{model}_index_ms"]
+        target(f"first picture of 1 % of 512³ by {model}: without an index / with one", ratio, 20, at_least=True)
+        rows.append([model] + [cell for side in ["file", "index"] for cell in (ms(f, f"{model}_{side}_ms"), f"{f[f'{model}_{side}_MB']:,.0f} MB")]
+                    + [digits(ratio)])
+    return ("\n`render` of 1 % of 512³ about the median, 1200 x 900 pixels, the error that the picture states included:\n\n"
+            + table(["drawn by", "without an index", "most memory", "with one", "most memory", "ratio"], rows))
 
 
 def series_page(part):

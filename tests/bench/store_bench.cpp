@@ -1,6 +1,7 @@
 // Sorted steps on disk, beside reading and sorting the file.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -217,6 +218,41 @@ ProgramRun runProgram(std::vector<std::string> arguments) {
     return {took.count(), static_cast<double>(used.ru_maxrss) * 1024 / 1e6};
 }
 
+ProgramRun medianRun(const std::vector<std::string>& arguments) {
+    std::vector<double> ms, megabytes;
+    for (int i = 0; i < 5; ++i) {
+        const ProgramRun run = runProgram(arguments);
+        ms.push_back(run.ms);
+        megabytes.push_back(run.megabytes);
+    }
+    return {bench::median(ms), bench::median(megabytes)};
+}
+
+// The first picture of n^3 floats, 1 % of them about the median, by the program: without an index
+// and with one.
+void storePicture(benchmark::State& state) {
+    World world(static_cast<std::size_t>(state.range(0)));
+    const fs::path cache = world.folder / "cache", picture = world.folder / "picture.png";
+    const auto quantiles = world.index()->quantiles();
+    const auto at = [&](double share) {
+        return fmt::format(
+            "{}",
+            quantiles[static_cast<std::size_t>(share * static_cast<double>(quantiles.size() - 1))]);
+    };
+    const std::string range = at(0.495) + ":" + at(0.505);
+    runProgram({"index", world.file, "--cache", cache});
+    for (auto _ : state)
+        for (const std::string model : {"cells", "points"})
+            for (const std::string from : {"file", "index"}) {
+                const ProgramRun run =
+                    medianRun({"render", world.file, "--model", model, "--range", range, "--cache",
+                               from == "index" ? cache.string() : "off", "-o", picture});
+                state.counters[model + "_" + from + "_ms"] = run.ms;
+                state.counters[model + "_" + from + "_MB"] = run.megabytes;
+            }
+}
+BENCHMARK(storePicture)->ArgNames({"points"})->Arg(512)->Unit(benchmark::kSecond)->Iterations(1);
+
 // A step of 1024^3 bytes: sorted, counted and drawn by the program.
 void storeLarge(benchmark::State& state) {
     const fs::path folder =
@@ -235,22 +271,13 @@ void storeLarge(benchmark::State& state) {
         state.counters[what + "_ms"] = run.ms;
         state.counters[what + "_MB"] = run.megabytes;
     };
-    const auto median = [&](const std::vector<std::string>& arguments) {
-        std::vector<double> ms, megabytes;
-        for (int i = 0; i < 5; ++i) {
-            const ProgramRun run = runProgram(arguments);
-            ms.push_back(run.ms);
-            megabytes.push_back(run.megabytes);
-        }
-        return ProgramRun{bench::median(ms), bench::median(megabytes)};
-    };
     tell("alone",
          runProgram({"render", file, "--cache", "off", "--range", "32", "-o", folder / "a.png"}));
     tell("index", runProgram({"index", file, "--cache", cache}));
     for (auto _ : state) {
-        tell("count", median({"count", file, "--cache", cache, "--range", "32"}));
-        tell("render",
-             median({"render", file, "--cache", cache, "--range", "32", "-o", folder / "b.png"}));
+        tell("count", medianRun({"count", file, "--cache", cache, "--range", "32"}));
+        tell("render", medianRun({"render", file, "--cache", cache, "--range", "32", "-o",
+                                  folder / "b.png"}));
     }
     fs::remove_all(folder);
 }

@@ -152,7 +152,7 @@ TEST(CellIndex, OfNothingHasNothing) {
 TEST(CellIndex, OfAStepIsMadeOfWhatIsAskedFor) {
     const Field field = waves<float>({17, 9, 8}, 9, false);
     for (const bool held : {false, true}) {
-        const SortedStep step = held ? SortedStep::buildForCells(field) : SortedStep::build(field);
+        const SortedStep step = held ? SortedStep::buildWithField(field) : SortedStep::build(field);
         const std::uint64_t points = step.pointBytes();
         EXPECT_EQ(step.bytes() - points, held ? field.bytes() : 0);
         EXPECT_EQ(step.sharedField()->values, field.values);

@@ -177,7 +177,7 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned 
     return step;
 }
 
-SortedStep SortedStep::buildForCells(Field field, unsigned threads) {
+SortedStep SortedStep::buildWithField(Field field, unsigned threads) {
     SortedStep step = build(field, RangeSet::everything(), threads);
     if (step.canHaveCells()) step.cells_ = std::make_shared<LazyCells>(std::move(field));
     return step;

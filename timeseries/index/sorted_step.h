@@ -71,8 +71,9 @@ class SortedStep {
     static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
                             unsigned threads = sharingThreads());
 
-    // The same of all values, for those who will ask for cells: the field is held until they do.
-    static SortedStep buildForCells(Field field, unsigned threads = sharingThreads());
+    // The same of all values, for those who will ask for cells, or for the field: it is held until
+    // there are cells of it, where there can be.
+    static SortedStep buildWithField(Field field, unsigned threads = sharingThreads());
 
     // What a step on disk was made of. Called from any thread.
     struct Source {

@@ -26,7 +26,7 @@ std::size_t stepOf(const LoadResult& result) {
 StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
                        std::function<void()> wake, Ready ready, StepStores stores)
     : maker_(std::move(reader), variable, std::move(kept), std::move(stores),
-             ready == Ready::ForCells ? StepMaker::Use::Cells : StepMaker::Use::Points),
+             ready == Ready::WithField ? StepMaker::Holds::Field : StepMaker::Holds::Points),
       stepCount_(maker_.variable().time->points.size()),
       wake_(std::move(wake)),
       ready_(ready),

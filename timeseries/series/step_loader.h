@@ -37,9 +37,9 @@ using LoadResult = std::variant<Loaded, Failed>;
 
 // How much of a step is there when it can be polled.
 enum class Ready {
-    Asked,     // no order: points are put in order where somebody looks
-    ForCells,  // nor then, but the field, of which cells are made (SortedStep::buildForCells)
-    Whole      // all of the order, so that who looks, at a histogram above all, never waits
+    Asked,      // no order: points are put in order where somebody looks
+    WithField,  // the same, and the field itself, until cells are made of it
+    Whole       // all of the order, so that who looks, at a histogram above all, never waits
 };
 
 // Members may be called from one thread at a time: the main one. The Reader is used by the loader's

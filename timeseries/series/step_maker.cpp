@@ -38,16 +38,16 @@ struct Reopened {
 }  // namespace
 
 StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-                     StepStores stores, Use use)
+                     StepStores stores, Holds holds)
     : reader_(std::move(reader)),
       variable_(variable),
       kept_(std::move(kept)),
-      use_(use),
+      holds_(holds),
       stores_(std::move(stores)) {}
 
 SortedStep StepMaker::sorted(Field field) const {
-    if (use_ == Use::Cells && kept_ == RangeSet::everything())
-        return SortedStep::buildForCells(std::move(field));
+    if (holds_ == Holds::Field && kept_ == RangeSet::everything())
+        return SortedStep::buildWithField(std::move(field));
     return SortedStep::build(field, kept_);
 }
 

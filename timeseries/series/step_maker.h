@@ -28,11 +28,11 @@ std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::si
 // One thread at a time.
 class StepMaker {
  public:
-    // What will be asked of the steps first (SortedStep::buildForCells).
-    enum class Use { Points, Cells };
+    // What steps that are sorted have in memory (SortedStep::buildWithField).
+    enum class Holds { Points, Field };
     // REQUIRES: variable < reader->variables().size().
     StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-              StepStores stores = {}, Use use = Use::Points);
+              StepStores stores = {}, Holds holds = Holds::Points);
 
     const Variable& variable() const { return reader_->variables()[variable_]; }
     // Throws FileError, std::length_error, std::bad_alloc.
@@ -60,7 +60,7 @@ class StepMaker {
     const std::unique_ptr<Reader> reader_;
     const std::size_t variable_;
     const RangeSet kept_;
-    const Use use_;
+    const Holds holds_;
     StepStores stores_;
     std::deque<Unwritten> unwritten_;  // the first built first
 };
