@@ -13,7 +13,8 @@
 namespace app {
 namespace {
 
-// Of a picture that is not there (sampled_error.h).
+// More cells take longer to be summed for all pixels than the rays of so many pixels to pass them.
+constexpr std::uint64_t kFewCells = 1 << 18;
 constexpr std::size_t kPixelsAsked = 2048;
 
 }  // namespace
@@ -49,9 +50,14 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         scene.footprint = standingFor(scene.footprint, rung.stride);
         return scene;
     };
-    // Points lie in each other's way: they are summed for all pixels. Cells do not.
+    const auto isByRays = [](const render::Scene& scene) {
+        std::uint64_t cells = 0;
+        for (const render::Layer& layer : scene.layers) cells += render::cellCount(layer);
+        return scene.cells && cells > kFewCells;
+    };
     const auto depthOf = [&](render::Scene scene) -> render::DepthAt {
-        if (!scene.cells) return render::depthFrom(opticalDepthOf(scene, view, wanted), view.size);
+        if (!isByRays(scene))
+            return render::depthFrom(opticalDepthOf(scene, view, wanted), view.size);
         return [scene = std::move(scene), &view, threads](std::span<const glm::ivec2> pixels) {
             return render::cellDepthAt(scene, view, pixels, threads);
         };
@@ -64,7 +70,7 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         if (!wanted) return {};
     }
     render::Sampling sampling{.threads = threads};
-    if (first.cells) sampling.asked = kPixelsAsked;
+    if (isByRays(first)) sampling.asked = kPixelsAsked;
     const auto errors = sampledErrors(first, *step.sharedField(), view, pictures, sampling);
     DepthErrors told;
     for (std::size_t i = 0; i < rungs.size(); ++i)

@@ -59,7 +59,9 @@ std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Fi
             rest.clear();
             for (std::size_t i = 0; i < asked.size(); ++i)
                 (depth[i] > 0 ? shown : rest).push_back(asked[i]);
-            if (asked.size() == all.size() || shown.size() >= sampling.pixels / 4) break;
+            if (asked.size() == all.size() || shown.size() >= sampling.pixels / 4 ||
+                count >= 16 * sampling.asked)
+                break;
         }
     }
 

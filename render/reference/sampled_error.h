@@ -33,7 +33,7 @@ struct Sampling {
     // Half of them, or more where it is small, from what the picture shows; the others from the
     // rest of what the grid covers, where the truth may have what the picture lacks.
     std::size_t pixels = 512;
-    // So many pixels tell where that is, more where few of them show something.
+    // So many pixels tell where that is, up to 16 times as many where few of them show something.
     std::size_t asked = std::numeric_limits<std::size_t>::max();
     // Of a range that is thinner than what a pixel sees of the field, few rays would tell their own
     // error.

@@ -104,37 +104,46 @@ CellRank::CellRank(const Scene& scene, const View& view) : size_(scene.cells->si
     };
     while (bricks() > kMostBricks) side *= 2;
 
-    // How far away each brick along an axis is: the eye's own first, then those above, then below.
-    std::array<std::vector<std::uint32_t>, 3> away;
+    // Bricks along an axis: the eye's own cell first, then those above, then those below.
+    struct Brick {
+        std::uint32_t away = 0, cells = 0;
+    };
+    std::array<std::vector<Brick>, 3> along;
     std::uint32_t stride = 1;
     for (int a = 0; a < 3; ++a) {
         const auto axis = static_cast<std::size_t>(a);
-        const std::uint32_t own = static_cast<std::uint32_t>(eye_[a]);
+        const auto own = static_cast<std::uint32_t>(eye_[a]);
         const std::uint32_t above = (size_[a] - own - 1 + side - 1) / side;
-        away[axis].assign(bricksAlong(a), 0);
+        along[axis].resize(bricksAlong(a));
         for (std::uint32_t i = 0; i < size_[a]; ++i) {
             const std::uint32_t cells = i > own ? i - own : own - i;
-            const std::uint32_t brick = (cells + side - 1) / side;
-            const std::uint32_t at = i < own ? above + brick : brick;
-            away[axis][at] = brick;
+            const std::uint32_t away = (cells + side - 1) / side;
+            const std::uint32_t at = i < own ? above + away : away;
+            along[axis][at].away = away;
+            ++along[axis][at].cells;
             places_[axis].push_back({at * stride, cells == 0 ? 0 : (cells - 1) % side});
         }
         stride *= bricksAlong(a);
     }
-    // Bricks by the sum of their distances; any order of those of one sum will do.
-    const std::uint32_t ranks = 3 * (side - 1) + 1;  // in a brick
+    const auto ofAxes = [&](std::uint32_t brick) {
+        const auto nx = static_cast<std::uint32_t>(along[0].size());
+        const auto ny = static_cast<std::uint32_t>(along[1].size());
+        return std::array{along[0][brick % nx], along[1][brick / nx % ny],
+                          along[2][brick / nx / ny]};
+    };
+    // By the sum of their distances; any order of those of one sum will do.
     std::vector<std::uint32_t> order(bricks());
     std::iota(order.begin(), order.end(), 0u);
-    const auto sumOf = [&](std::uint32_t brick) {
-        const auto nx = static_cast<std::uint32_t>(away[0].size());
-        const auto ny = static_cast<std::uint32_t>(away[1].size());
-        return away[0][brick % nx] + away[1][brick / nx % ny] + away[2][brick / nx / ny];
-    };
-    std::ranges::stable_sort(order, {}, sumOf);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t brick) {
+        const auto [x, y, z] = ofAxes(brick);
+        return x.away + y.away + z.away;
+    });
     first_.resize(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        first_[order[i]] = static_cast<std::uint32_t>(i) * ranks;
-    count_ = order.size() * ranks;
+    for (const std::uint32_t brick : order) {
+        const auto [x, y, z] = ofAxes(brick);
+        first_[brick] = static_cast<std::uint32_t>(count_);
+        if (x.cells * y.cells * z.cells > 0) count_ += x.cells + y.cells + z.cells - 2;
+    }
 }
 
 std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,

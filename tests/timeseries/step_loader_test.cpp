@@ -104,6 +104,18 @@ TEST(StepLoader, DeliversTheStepSortedAndCutToWhatIsKept) {
     EXPECT_EQ(toDouble(four.sorted->value(0)), 4);
 }
 
+TEST(StepLoader, HoldsTheFieldWhereItIsAskedTo) {
+    for (const Ready ready : {Ready::Asked, Ready::WithField, Ready::Whole}) {
+        Script script;
+        StepLoader loader(
+            std::make_unique<ScriptedReader>(script, 10), 0, RangeSet::everything(), [] {}, ready);
+        loader.want({4});
+        const auto loaded = std::get<Loaded>(*loader.waitAndPoll());
+        const std::uint64_t beside = loaded.sorted->bytes() - loaded.sorted->pointBytes();
+        EXPECT_EQ(beside, ready == Ready::WithField ? loaded.sorted->field().bytes() : 0);
+    }
+}
+
 TEST(StepLoader, HasNothingWhenNothingIsWanted) {
     Script script;
     StepLoader loader = loaderOf(script);
