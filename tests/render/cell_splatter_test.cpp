@@ -22,8 +22,8 @@ namespace render {
 namespace {
 
 using tests::axis;
+using tests::CellWorld;
 using tests::drawn;
-using World = tests::CellWorld;
 using timeseries::Grid;
 using timeseries::RangeSet;
 
@@ -35,7 +35,7 @@ struct Ray {
     glm::dvec3 from, along;
     double length, near;
 };
-Ray rayOf(const World& world, const View& view, const glm::dvec2& pixel) {
+Ray rayOf(const CellWorld& world, const View& view, const glm::dvec2& pixel) {
     const PixelRays rays = pixelRays(world.placed.inAxes(view));
     const glm::dvec2 o = pixel - rays.centre;
     const glm::dvec3 along = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
@@ -54,7 +54,7 @@ std::pair<double, double> inside(const Ray& ray, const PlacedPoints::Box& box) {
     return {from, to};
 }
 
-double pathThrough(const World& world, const View& view, int x, int y,
+double pathThrough(const CellWorld& world, const View& view, int x, int y,
                    const PlacedPoints::Box& box) {
     const Ray ray = rayOf(world, view, {x + 0.5, y + 0.5});
     const auto [from, to] = inside(ray, box);
@@ -78,7 +78,7 @@ PlacedPoints::Box boxOf(const PlacedPoints& placed, const glm::uvec3& point) {
 }
 
 // The field at a place, linear along each axis between points and constant beyond the last.
-double fieldAt(const World& world, const std::vector<float>& values, const glm::dvec3& place) {
+double fieldAt(const CellWorld& world, const std::vector<float>& values, const glm::dvec3& place) {
     glm::uvec3 at{0};
     glm::dvec3 share{0};
     const glm::uvec3 n = world.placed.size();
@@ -106,8 +106,8 @@ double fieldAt(const World& world, const std::vector<float>& values, const glm::
 }
 
 // What a pixel sees of lo <= field <= hi, by samples, in units of l.
-double sampled(const World& world, const std::vector<float>& values, const View& view, int x, int y,
-               double lo, double hi) {
+double sampled(const CellWorld& world, const std::vector<float>& values, const View& view, int x,
+               int y, double lo, double hi) {
     constexpr int kRays = 3, kSamples = 500;
     double sum = 0;
     for (int s = 0; s < kRays * kRays; ++s) {
@@ -150,7 +150,7 @@ TEST(CellSplatter, AFieldSelectedWholeIsAsDeepAsTheRaysWayThroughTheDomain) {
     const std::array axes{axis(4), axis(5, 0, 0.7), axis(1)};
     for (const auto& grid :
          {unevenGrid(), std::make_shared<const Grid>(axes, timeseries::Frame{lean})}) {
-        const World world(tests::noise(grid), {"min:max"});
+        const CellWorld world(tests::noise(grid), {"min:max"});
         for (const glm::dvec3& from : kFrom) {
             const View view = tests::lookFrom(from, {40, 30});
             const std::vector<float> w = drawn(world.scene, view);
@@ -169,7 +169,7 @@ TEST(CellSplatter, AFieldSelectedWholeIsAsDeepAsTheRaysWayThroughTheDomain) {
 TEST(CellSplatter, AThinRangeOfALinearFieldIsAClosedShellOfItsThickness) {
     const auto grid = tests::cube(9);
     for (const double width : {2.0, 0.1, 0.001}) {
-        const World world(
+        const CellWorld world(
             tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
             {"4.3~" + std::to_string(width / 2)});
         const View view = tests::lookFrom({3, -0.4, 0.3}, {64, 64}, 0.05);
@@ -194,8 +194,9 @@ TEST(CellSplatter, PerCrossingAThinRangeOfALinearFieldStaysVisible) {
     // The last ones end in two cells each, at a face between them.
     for (const std::string range :
          {"3.3:6.3", "4.25:4.35", "4.2999:4.3001", "4.3", "4.3:max", "3.95:4.05", "3.99:4.03"}) {
-        World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
-                    {range});
+        CellWorld world(
+            tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+            {range});
         const View view = tests::lookFrom({3, -0.4, 0.3}, {64, 64}, 0.05);
         const std::vector<float> length = drawn(world.scene, view);
         world.scene.opacityPer = OpacityPer::Crossing;
@@ -214,8 +215,8 @@ TEST(CellSplatter, PerCrossingAThinRangeOfALinearFieldStaysVisible) {
 // As a headset's views are scaled: how thin a range is, is asked of the world.
 TEST(CellSplatter, PerCrossingAViewsScaleChangesNothing) {
     const auto grid = tests::cube(9);
-    World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
-                {"4.25:4.35"});
+    CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                    {"4.25:4.35"});
     world.scene.opacityPer = OpacityPer::Crossing;
     const View view = tests::lookFrom({3, -0.4, 0.3}, {32, 32}, 0.05);
     const std::vector<float> w = drawn(world.scene, view);
@@ -231,8 +232,8 @@ TEST(CellSplatter, PerCrossingAViewsScaleChangesNothing) {
 // whichever cells its rays have of it.
 TEST(CellSplatter, AThinShellHasTheColorOfItsMiddleEverywhere) {
     const auto grid = tests::cube(9);
-    World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
-                {"4.29:4.31"});
+    CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                    {"4.29:4.31"});
     world.scene.layers[0].style.color = ByValue{ColorMap(), 4.29, 4.31};
     world.scene.order = Order::BackToFront;
     world.scene.opacityPer = OpacityPer::Crossing;
@@ -264,8 +265,8 @@ TEST(CellSplatter, PerCrossingEachPieceOfTheWayCountsForItsLengthOrItsChange) {
     const std::vector<double> halves =
         tests::kSanitized ? std::vector{0.25} : std::vector{0.25, 0.05};
     for (const double half : halves) {
-        World world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
-                    {"0.3~" + std::to_string(half)});
+        CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
+                        {"0.3~" + std::to_string(half)});
         world.scene.opacityPer = OpacityPer::Crossing;
         for (const glm::dvec3& from : kFrom) {
             const View view = tests::lookFrom(from, {24, 20}, 0.002);
@@ -300,7 +301,8 @@ TEST(CellSplatter, IsTheIntervalVolumeOfTheInterpolatedField) {
         values[i] = static_cast<float>(std::sin(0.5 * p.x + 0.3) * std::cos(0.4 * p.y) +
                                        0.2 * p.z * std::sin(0.3 * p.y));
     }
-    const World world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }), {"0.1:0.5"});
+    const CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
+                          {"0.1:0.5"});
     // What linear pieces leave of a cubic, and the samples of the truth.
     for (const glm::dvec3& from : kFrom) {
         const View view = tests::lookFrom(from, {24, 20}, 0.12);
@@ -333,8 +335,8 @@ TEST(CellSplatter, AThinRangesErrorIsBoundedHoweverThinItIs) {
     const double between = std::sqrt(squares / double(values.size() - kSide * kSide));
     // With two pieces, or ramps as wide as both changes together, at least one of them is passed.
     for (const auto& [width, bound] : {std::pair(3.0, 0.0025), {0.3, 0.015}, {0.03, 0.06}}) {
-        const World world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
-                          {"0.2~" + std::to_string(width * between / 2)});
+        const CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return values[i]; }),
+                              {"0.2~" + std::to_string(width * between / 2)});
         const IntervalTruth truth(world.scene, world.scene.cells->field(), 5);
         const View view = tests::lookFrom({0.7, -2, 1.1}, {64, 64}, 0.1);
         EXPECT_LT(relativeL2(drawn(world.scene, view), truth.weight(view, 0)), bound) << width;
@@ -346,8 +348,8 @@ TEST(CellSplatter, PlateausAndUnionsAreWhole) {
     const auto grid = tests::cube(6);
     const auto step = [&](std::size_t i) { return grid->indices(i).x < 3 ? 0.0 : 1.0; };
     const View view = tests::lookFrom({0.7, -3, 1.1}, {30, 24});
-    const World both(tests::stepOf(grid, step),
-                     {"0:1", "0:0,1:1", "0:0.25,0.75:1", "0:0.25", "0.75:1"});
+    const CellWorld both(tests::stepOf(grid, step),
+                         {"0:1", "0:0,1:1", "0:0.25,0.75:1", "0:0.25", "0.75:1"});
     const std::vector<float> whole = drawn(both.scene, view);
     std::vector<double> parts(whole.size());
     for (const std::size_t layer : {3u, 4u}) {
@@ -374,9 +376,9 @@ TEST(CellSplatter, MissingAndClippedPointsTakeTheirCellsAway) {
     const auto grid = unevenGrid();
     const glm::uvec3 gone(2, 1, 1);
     const auto isGone = [&](std::size_t i) { return glm::uvec3(grid->indices(i)) == gone; };
-    const World holed(tests::stepOf(grid, [&](std::size_t i) { return isGone(i) ? kNan : 1.0; }),
-                      {"0:2"});
-    World clipped(tests::stepOf(grid, [](std::size_t) { return 1.0; }), {"0:2"});
+    const CellWorld holed(
+        tests::stepOf(grid, [&](std::size_t i) { return isGone(i) ? kNan : 1.0; }), {"0:2"});
+    CellWorld clipped(tests::stepOf(grid, [](std::size_t) { return 1.0; }), {"0:2"});
     clipped.scene.clip = {gone, gone};
     const View view = tests::lookFrom(kFrom[0], {40, 30});
     const std::vector<float> without = drawn(holed.scene, view), alone = drawn(clipped.scene, view);
@@ -396,13 +398,13 @@ TEST(CellSplatter, RangesOfWholeNumbersReachHalfANumberFarther) {
     std::vector<std::uint8_t> values;
     for (std::size_t i = 0; i < grid->count(); ++i)
         values.push_back(static_cast<std::uint8_t>(grid->indices(i).x));
-    const World world(timeseries::SortedStep::build({grid, std::move(values), {}}), {"3"});
+    const CellWorld world(timeseries::SortedStep::build({grid, std::move(values), {}}), {"3"});
     const View view = tests::lookFrom({3, 1e-3, 2e-3}, {9, 9}, 0.01);
     EXPECT_NEAR(drawn(world.scene, view)[4 * 9 + 4], 1, 1e-3);
 }
 
 TEST(CellSplatter, IsTheSameForAnyThreadsAndSlices) {
-    World world(tests::noise(unevenGrid()), {"0.2:0.5", "0.4:0.45,0.6:max"});
+    CellWorld world(tests::noise(unevenGrid()), {"0.2:0.5", "0.4:0.45,0.6:max"});
     for (const Channels channels :
          {Channels::Weight, Channels::WeightedColor, Channels::Over, Channels::Count}) {
         world.scene.order = channels == Channels::Over ? Order::BackToFront : Order::None;
@@ -418,7 +420,7 @@ TEST(CellSplatter, IsTheSameForAnyThreadsAndSlices) {
 }
 
 // Each pixel's fragments of all cells, sorted by where its ray enters them, nearest first.
-double redByDepth(const World& world, const View& view, int x, int y) {
+double redByDepth(const CellWorld& world, const View& view, int x, int y) {
     const PointsView seen(world.placed, view);
     const Ray ray = rayOf(world, view, {x + 0.5, y + 0.5});
     const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) - seen.rays.centre;
@@ -464,7 +466,7 @@ double redByDepth(const World& world, const View& view, int x, int y) {
 }
 
 TEST(CellSplatter, CellsHideWhatIsBehindThem) {
-    World world(tests::noise(unevenGrid()), {"0:0.5", "0.5:1"}, 0.9);
+    CellWorld world(tests::noise(unevenGrid()), {"0:0.5", "0.5:1"}, 0.9);
     world.scene.order = Order::BackToFront;
     for (const glm::dvec3& from : kFrom) {
         const View view = tests::lookFrom(from, {24, 20}, 0.3);
@@ -483,8 +485,8 @@ TEST(CellSplatter, LightIsThatOfARampsOneGradient) {
     const auto lean = tests::leaning({1, 0, 0.2}, {0.5, 1, 0}, {-0.3, 0.3, 1});
     const std::array axes{axis(6), axis(5, 0, 0.7), axis(4)};
     const auto grid = std::make_shared<const Grid>(axes, timeseries::Frame{lean});
-    World world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
-                {"2.2:3.6"});
+    CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                    {"2.2:3.6"});
     world.scene.order = Order::BackToFront;
     const View view = tests::lookFrom({1.1, -2.5, 0.8}, {40, 30});
     const std::vector<float> dark = drawn(world.scene, view, Channels::Over);
@@ -520,7 +522,7 @@ TEST(CellSplatter, LightIsThatOfARampsOneGradient) {
 }
 
 TEST(CellSplatter, APlateauIsLitEvenly) {
-    World world(tests::stepOf(tests::cube(4), [](std::size_t) { return 7.0; }), {"min:max"});
+    CellWorld world(tests::stepOf(tests::cube(4), [](std::size_t) { return 7.0; }), {"min:max"});
     world.scene.order = Order::BackToFront;
     const View view = tests::lookFrom({1.1, -2.5, 0.8}, {40, 30});
     const std::vector<float> dark = drawn(world.scene, view, Channels::Over);
@@ -531,7 +533,7 @@ TEST(CellSplatter, APlateauIsLitEvenly) {
 
 // Opaque things cut rays where they stand.
 TEST(CellSplatter, RaysEndAtWhatIsOpaque) {
-    const World world(tests::noise(tests::cube(5)), {"min:max"});
+    const CellWorld world(tests::noise(tests::cube(5)), {"min:max"});
     const View view = tests::lookFrom({0.7, -3, 1.1}, {40, 30});
     constexpr double kWall = 3.2;  // view depth: through the volume
     const std::vector<float> opaque(40 * 30, static_cast<float>(windowDepth(view, kWall)));

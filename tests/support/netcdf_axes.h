@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/netcdf_builder.h"
+#include "tests/support/read_variables.h"
 #include "timeseries/readers/cf_axes.h"
 #include "timeseries/readers/reader.h"
 
@@ -14,7 +15,7 @@ using testing::ElementsAre;
 using tests::NetcdfBuilder;
 using Path = std::filesystem::path;
 
-inline std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
+using tests::open;
 
 inline std::vector<double> evenly(std::size_t n, double first, double step) {
     std::vector<double> values(n);

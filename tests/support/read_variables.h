@@ -4,12 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "timeseries/readers/reader.h"
 
 namespace tests {
+
+inline std::unique_ptr<timeseries::Reader> open(const std::filesystem::path& path) {
+    return timeseries::openReader(std::span(&path, 1));
+}
 
 // Fails the test, and is the first, where there is none.
 inline std::size_t indexOf(const timeseries::Reader& reader, std::string_view name) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/support/netcdf_builder.h"
+#include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/readers/netcdf_file.h"
@@ -19,9 +20,8 @@ namespace {
 
 using testing::HasSubstr;
 using tests::NetcdfBuilder;
+using tests::open;
 using Path = std::filesystem::path;
-
-std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
 
 // Two unit cubes beside each other, of 12 nodes: a block of one hexahedron, one of two wedges.
 struct Written {

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tests/support/netcdf_builder.h"
+#include "tests/support/read_variables.h"
 #include "timeseries/index/sorted_step.h"
 
 namespace timeseries {
@@ -22,12 +23,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::ncType;
 using tests::NetcdfBuilder;
+using tests::open;
 using Path = std::filesystem::path;
 
-std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
-
 template <typename T>
-std::vector<T> valuesOf(const Field& field) {
+std::vector<T> asValues(const Field& field) {
     return std::get<std::vector<T>>(field.values);
 }
 
@@ -83,7 +83,7 @@ void expectPlaces(NetcdfBuilder& file, std::mt19937& random, const std::string& 
                     std::size_t offset = 0;
                     for (const std::string& name : names)
                         offset = offset * length[name] + at.at(name);
-                    ASSERT_EQ(valuesOf<T>(field)[point], stored[offset])
+                    ASSERT_EQ(asValues<T>(field)[point], stored[offset])
                         << message
                         << fmt::format(" at x {} y {} z {} t {} of {}", x, y, z, t,
                                        fmt::join(names, ","));
@@ -155,7 +155,7 @@ TEST(NetcdfReader, PackedShortsAreComparedWithFillBeforeUnpacking) {
     const auto reader = open(path);
     EXPECT_EQ(reader->variables()[0].type, ValueType::F64);
     const Field field = reader->read(0, 0);
-    EXPECT_THAT(valuesOf<double>(field), ElementsAre(22, 26, 30, -20, 1982, -18));
+    EXPECT_THAT(asValues<double>(field), ElementsAre(22, 26, 30, -20, 1982, -18));
     EXPECT_THAT(field.missing, ElementsAre(false, true, false, false, false, false));
 }
 
@@ -214,7 +214,7 @@ TEST(NetcdfReader, FloatScalesAreAppliedInFloatAsCfSays) {
     const std::int16_t stored[] = {1234, -777, 31, 5};
     for (std::size_t i = 0; i < 4; ++i) {
         const float product = static_cast<float>(stored[i]) * 0.1f;
-        EXPECT_EQ(valuesOf<float>(field)[i], product + 0.3f);
+        EXPECT_EQ(asValues<float>(field)[i], product + 0.3f);
     }
 }
 
@@ -225,7 +225,7 @@ TEST(NetcdfReader, SixtyFourBitIntegersStayExact) {
         file.number(v, "scale_factor", 1.0);  // a scale of one changes nothing
     });
     const Field field = open(path)->read(0, 0);
-    EXPECT_THAT(valuesOf<std::int64_t>(field), ElementsAre(big, -big, 0, big - 1));
+    EXPECT_THAT(asValues<std::int64_t>(field), ElementsAre(big, -big, 0, big - 1));
     EXPECT_THAT(field.missing, ElementsAre(false, false, false, true)) << "exactly the fill";
 
     const std::uint64_t top = std::numeric_limits<std::uint64_t>::max();
@@ -233,7 +233,7 @@ TEST(NetcdfReader, SixtyFourBitIntegersStayExact) {
         file.number(v, "_FillValue", top - 1);
     });
     const Field unsignedField = open(other)->read(0, 0);
-    EXPECT_THAT(valuesOf<std::uint64_t>(unsignedField), ElementsAre(top, top - 1, 1, 0));
+    EXPECT_THAT(asValues<std::uint64_t>(unsignedField), ElementsAre(top, top - 1, 1, 0));
     EXPECT_THAT(unsignedField.missing, ElementsAre(false, true, false, false));
 }
 
@@ -249,7 +249,7 @@ TEST(NetcdfReader, UnsignedAttributeTurnsBytesAndTheirFill) {
     const auto reader = open(path);
     EXPECT_EQ(reader->variables()[0].missing, "_FillValue 255, outside 1..254");
     const Field field = reader->read(0, 0);
-    EXPECT_THAT(valuesOf<std::uint8_t>(field), ElementsAre(255, 254, 0, 127));
+    EXPECT_THAT(asValues<std::uint8_t>(field), ElementsAre(255, 254, 0, 127));
     EXPECT_THAT(field.missing, ElementsAre(true, false, true, false));
 }
 
@@ -264,7 +264,7 @@ void expectFillOfTheStoredType(const char* sign, Meant fillOfMeant) {
     file.write(v, {0, 0}, {1, 2}, std::vector<T>{static_cast<T>(fillOfMeant), 5});
     const auto reader = open(file.close());
     const Field field = reader->read(0, 0);
-    const std::vector<Meant>& values = valuesOf<Meant>(field);
+    const std::vector<Meant>& values = asValues<Meant>(field);
     EXPECT_EQ(values[0], fillOfMeant);
     EXPECT_THAT(field.missing, ElementsAre(false, false, true, true)) << sign << sizeof(T);
     EXPECT_EQ(reader->variables()[0].missing, fmt::format("netCDF's default fill {}", values[2]));
@@ -313,7 +313,7 @@ TEST(NetcdfReader, TurnedStepsAreUnpackedAndMaskedInTheirNewPlace) {
     file.write(v, std::vector<std::int16_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
     const auto reader = open(file.close());
     const Field field = reader->read(0, 0);
-    EXPECT_THAT(valuesOf<double>(field), ElementsAre(100, 106, 101, 107, 102, 108));
+    EXPECT_THAT(asValues<double>(field), ElementsAre(100, 106, 101, 107, 102, 108));
     EXPECT_THAT(field.missing, ElementsAre(false, false, false, true, false, false));
 }
 
@@ -376,7 +376,7 @@ TEST(NetcdfReader, NanIsLeftUnmarkedAlsoAsFillAndInValidRanges) {
         file.number(v, "valid_max", 5.0f);
     });
     const Field field = open(path)->read(0, 0);
-    EXPECT_TRUE(std::isnan(valuesOf<float>(field)[1]));
+    EXPECT_TRUE(std::isnan(asValues<float>(field)[1]));
     EXPECT_THAT(field.missing, ElementsAre(false, false, true, false));
 }
 
@@ -437,7 +437,7 @@ TEST(NetcdfReader, AMalformedAttributeCostsTheVariablesThatNeedIt) {
     const auto path = threeVariables("a.nc", "two", std::numeric_limits<double>::infinity());
     const auto reader = open(path);
     EXPECT_THAT(namesOf(*reader), ElementsAre("good"));
-    EXPECT_EQ(valuesOf<float>(reader->read(0, 0)), (std::vector<float>{5, 6, 7, 8}));
+    EXPECT_EQ(asValues<float>(reader->read(0, 0)), (std::vector<float>{5, 6, 7, 8}));
     ASSERT_EQ(reader->damaged().size(), 2u);
     EXPECT_EQ(reader->damaged()[0].name, "bad");
     EXPECT_EQ(reader->damaged()[0].why,
@@ -456,7 +456,7 @@ TEST(NetcdfReader, AVariableThatIsDamagedInOneFileOfASeriesIsLeftOutOfAll) {
     const auto reader = openReader(paths);
     EXPECT_THAT(namesOf(*reader), ElementsAre("good", "level"));
     EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
-    EXPECT_EQ(valuesOf<float>(reader->read(1, 2)), std::vector<float>(8, 9));
+    EXPECT_EQ(asValues<float>(reader->read(1, 2)), std::vector<float>(8, 9));
     ASSERT_EQ(reader->damaged().size(), 1u);
     EXPECT_EQ(reader->damaged()[0].name, "bad");
     EXPECT_THAT(reader->damaged()[0].why,
@@ -476,7 +476,7 @@ TEST(NetcdfReader, FormatsAreNamed) {
             "a.nc", {1, 2, 3, 4}, [](auto&, int) {}, mode));
         EXPECT_EQ(reader->format(), name);
         EXPECT_EQ(reader->variables()[0].storedAs, "float32");
-        EXPECT_THAT(valuesOf<float>(reader->read(0, 0)), ElementsAre(1, 2, 3, 4));
+        EXPECT_THAT(asValues<float>(reader->read(0, 0)), ElementsAre(1, 2, 3, 4));
     }
 }
 
@@ -493,7 +493,7 @@ TEST(NetcdfReader, ReadersOnDifferentThreadsDoNotDisturbEachOther) {
             threads.emplace_back([&, i] {
                 for (int round = 0; round < 30; ++round) {
                     const Field field = open(paths[i])->read(0, 0);
-                    for (const float v : valuesOf<float>(field))
+                    for (const float v : asValues<float>(field))
                         wrong[i] += v != static_cast<float>(i);
                 }
             });

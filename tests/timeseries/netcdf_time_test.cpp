@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/support/netcdf_builder.h"
+#include "tests/support/read_variables.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
@@ -18,9 +19,8 @@ using testing::HasSubstr;
 using testing::Not;
 using tests::ncType;
 using tests::NetcdfBuilder;
+using tests::open;
 using Path = std::filesystem::path;
-
-std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
 
 std::string failure(const std::vector<Path>& paths) {
     try {

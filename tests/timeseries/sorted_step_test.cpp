@@ -40,13 +40,13 @@ Field fieldOf(std::vector<T> values, std::vector<bool> missing = {}) {
 }
 
 template <typename T>
-const std::vector<T>& valuesOf(const Field& field) {
+const std::vector<T>& valuesIn(const Field& field) {
     return std::get<std::vector<T>>(field.values);
 }
 
 template <typename T>
 bool valid(const Field& field, std::size_t i) {
-    const T value = valuesOf<T>(field)[i];
+    const T value = valuesIn<T>(field)[i];
     return (field.missing.empty() || !field.missing[i]) && value == value;
 }
 
@@ -54,8 +54,8 @@ bool valid(const Field& field, std::size_t i) {
 template <typename T>
 Indices expectedPoints(const Field& field, std::span<const Range> ranges) {
     Indices points;
-    for (std::size_t i = 0; i < valuesOf<T>(field).size(); ++i)
-        if (valid<T>(field, i) && oracle::holds(ranges, valuesOf<T>(field)[i]))
+    for (std::size_t i = 0; i < valuesIn<T>(field).size(); ++i)
+        if (valid<T>(field, i) && oracle::holds(ranges, valuesIn<T>(field)[i]))
             points.push_back(static_cast<std::uint32_t>(i));
     return points;
 }
@@ -87,7 +87,7 @@ void expectSelects(const SortedStep& step, const Field& field, const RangeSet& r
 // All that is promised of a step but selection: points, order, ties, statistics, memory.
 template <typename T>
 void expectSorted(const SortedStep& step, const Field& field) {
-    const auto& given = valuesOf<T>(field);
+    const auto& given = valuesIn<T>(field);
     const auto sorted = std::get<std::span<const T>>(step.columns().values);
     Indices expected = expectedPoints<T>(field, step.kept().ranges());
     std::stable_sort(expected.begin(), expected.end(),
@@ -108,7 +108,7 @@ void expectSorted(const SortedStep& step, const Field& field) {
 
 template <typename T>
 void expectStatistics(const SortedStep& step, const Field& field) {
-    const auto& given = valuesOf<T>(field);
+    const auto& given = valuesIn<T>(field);
     std::vector<T> all;
     for (std::size_t i = 0; i < given.size(); ++i)
         if (valid<T>(field, i)) all.push_back(given[i]);
@@ -179,11 +179,11 @@ std::string describe(const Field& field) {
     std::ostringstream out;
     out.precision(21);
     out << typeName(field.type()) << " [";
-    for (std::size_t i = 0; i < valuesOf<T>(field).size() && i < 40; ++i) {
-        out << ' ' << static_cast<oracle::Real>(valuesOf<T>(field)[i]);
+    for (std::size_t i = 0; i < valuesIn<T>(field).size() && i < 40; ++i) {
+        out << ' ' << static_cast<oracle::Real>(valuesIn<T>(field)[i]);
         if (!field.missing.empty() && field.missing[i]) out << "(missing)";
     }
-    out << " ] of " << valuesOf<T>(field).size();
+    out << " ] of " << valuesIn<T>(field).size();
     return out.str();
 }
 
@@ -191,7 +191,7 @@ std::string describe(const Field& field) {
 template <typename T>
 std::vector<Number> boundsFor(const Field& field) {
     std::vector<Number> bounds = oracle::awkwardNumbers();
-    const auto& values = valuesOf<T>(field);
+    const auto& values = valuesIn<T>(field);
     for (std::size_t i = 0; i < values.size() && i < 20; ++i) {
         bounds.push_back(static_cast<double>(values[i]));
         if constexpr (std::is_signed_v<T> && std::is_integral_v<T>)
@@ -400,7 +400,7 @@ TYPED_TEST(SortedStepOf, ValueStatesThePointExactly) {
     const SortedStep step = SortedStep::build(field);
     for (std::uint64_t point = 0; point < step.size(); ++point)
         ASSERT_EQ(oracle::real(step.value(point)),
-                  static_cast<oracle::Real>(valuesOf<T>(field)[step.gridIndex()[point]]));
+                  static_cast<oracle::Real>(valuesIn<T>(field)[step.gridIndex()[point]]));
 }
 
 TYPED_TEST(SortedStepOf, QuantilesAreOfTheNearestRank) {

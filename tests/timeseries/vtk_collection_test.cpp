@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "tests/support/read_variables.h"
 #include "tests/support/vtk_files.h"
 #include "timeseries/readers/reader.h"
 
@@ -14,9 +15,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::dataArray;
 using tests::imageText;
+using tests::open;
 using Path = std::filesystem::path;
-
-std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
 
 std::string refusal(const Path& path, std::size_t step = 0) {
     try {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
 #include "tests/support/vtk_files.h"
@@ -24,14 +25,13 @@ namespace {
 
 using testing::HasSubstr;
 using tests::dataArray;
+using tests::open;
 using tests::unstructuredText;
 using Path = std::filesystem::path;
 
 const std::string kTwelve =
     dataArray("Float64", "v", std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
 const std::string kTwo = dataArray("Float32", "w", std::vector<double>{5, 6});
-
-std::unique_ptr<Reader> open(const Path& path) { return openReader(std::span(&path, 1)); }
 
 std::string refusal(const std::string& text) {
     try {

@@ -97,13 +97,14 @@ built() {
     run bash -c 'build=../$1
         source .ci/setup.sh
         quietly "Configuring in Debian 13" cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-            -DCMAKE_CXX_FLAGS_RELEASE="$2" -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON
+            -DCMAKE_CXX_FLAGS_RELEASE="$2" -DISOCHRON_VTK=OFF -DISOCHRON_WERROR=ON \
+            -DCMAKE_UNITY_BUILD=ON
         quietly "Building in Debian 13" cmake --build "$build" --target $3
         cd "$build" && exec "${@:4}"' built "$@"
 }
 
 tests() {
-    # Sooner compiled than as fast as can be; by file, so that each is seen to include what it needs.
+    # Sooner compiled than as fast as can be.
     built build-tests "-O1 -DNDEBUG" "xr_tests panels_tests ui_over_tests" \
         ctest --no-tests=error --output-on-failure -j3 -L 'xr|imgui' "$@"
 }
