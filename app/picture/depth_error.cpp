@@ -9,6 +9,7 @@
 #include "render/frame/plain_frame.h"
 #include "render/reference/cells_on_rays.h"
 #include "render/reference/sampled_error.h"
+#include "render/splat/cell_pieces.h"
 
 namespace app {
 namespace {
@@ -51,9 +52,7 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         return scene;
     };
     const auto isByRays = [](const render::Scene& scene) {
-        std::uint64_t cells = 0;
-        for (const render::Layer& layer : scene.layers) cells += render::cellCount(layer);
-        return scene.cells && cells > kFewCells;
+        return scene.cells && render::cellCount(scene, render::Channels::Over, 0) > kFewCells;
     };
     const auto depthOf = [&](render::Scene scene) -> render::DepthAt {
         if (!isByRays(scene))

@@ -125,25 +125,28 @@ CellRank::CellRank(const Scene& scene, const View& view) : size_(scene.cells->si
         }
         stride *= bricksAlong(a);
     }
-    const auto ofAxes = [&](std::uint32_t brick) {
-        const auto nx = static_cast<std::uint32_t>(along[0].size());
-        const auto ny = static_cast<std::uint32_t>(along[1].size());
-        return std::array{along[0][brick % nx], along[1][brick / nx % ny],
-                          along[2][brick / nx / ny]};
+    const auto forEachBrick = [&](const auto& use) {  // how far away, and how many ranks it has
+        std::uint32_t brick = 0;
+        for (const Brick& z : along[2])
+            for (const Brick& y : along[1])
+                for (const Brick& x : along[0]) {
+                    const bool isEmpty = x.cells == 0 || y.cells == 0 || z.cells == 0;
+                    use(brick++, x.away + y.away + z.away,
+                        isEmpty ? 0 : x.cells + y.cells + z.cells - 2);
+                }
     };
-    // By the sum of their distances; any order of those of one sum will do.
-    std::vector<std::uint32_t> order(bricks());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, {}, [&](std::uint32_t brick) {
-        const auto [x, y, z] = ofAxes(brick);
-        return x.away + y.away + z.away;
+    // A counting sort by distance; any order of those at one distance will do.
+    std::vector<std::uint32_t> next(size_.x + size_.y + size_.z);
+    forEachBrick([&](std::uint32_t, std::uint32_t away, std::uint32_t ranks) {
+        next[away] += ranks;
+        count_ += ranks;
     });
-    first_.resize(order.size());
-    for (const std::uint32_t brick : order) {
-        const auto [x, y, z] = ofAxes(brick);
-        first_[brick] = static_cast<std::uint32_t>(count_);
-        if (x.cells * y.cells * z.cells > 0) count_ += x.cells + y.cells + z.cells - 2;
-    }
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
+    first_.resize(bricks());
+    forEachBrick([&](std::uint32_t brick, std::uint32_t away, std::uint32_t ranks) {
+        first_[brick] = next[away];
+        next[away] += ranks;
+    });
 }
 
 std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,
