@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -46,6 +47,8 @@ render::ColorMap parseColorMap(std::string_view name);
 // "viridis", or with the values of its ends, "viridis=300:1600", either of which may be left out.
 MapChoice parseMap(std::string_view text);
 std::string mapText(const MapChoice& map);
+
+inline constexpr double kMostFinite = std::numeric_limits<double>::max();
 
 // One finite number, read as the nearest double. `what` names it in the error.
 double parseNumber(std::string_view what, std::string_view text);

@@ -17,14 +17,13 @@ using timeseries::RangeSet;
 using Form = Choice::Form;
 using Text = std::optional<std::string>;
 
-constexpr double kMost = std::numeric_limits<double>::max();
 constexpr std::int64_t kMostWhole = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostTicks = std::int64_t{1} << 30;
 
-double number(std::string_view text, double lo = -kMost, double hi = kMost) {
+double number(std::string_view text, double lo = -kMostFinite, double hi = kMostFinite) {
     const double value = parseNumber("", text);
     if (value >= lo && value <= hi) return value;
-    throw ChoiceError(hi == kMost
+    throw ChoiceError(hi == kMostFinite
                           ? fmt::format("'{}' is not a number of at least {}", text, lo)
                           : fmt::format("'{}' is not a number from {} to {}", text, lo, hi));
 }
@@ -90,8 +89,8 @@ constexpr std::array kChoices = {
            [](const Explorer& e) {
                return ofSweep(e, [](const auto& s) { return numberText(s.delta); });
            },
-           [](Explorer& e, std::string_view t) { swept(e).delta = number(t, 0, kMost); }, "Sweep",
-           "Half the swept window's width"},
+           [](Explorer& e, std::string_view t) { swept(e).delta = number(t, 0, kMostFinite); },
+           "Sweep", "Half the swept window's width"},
     Choice{"--timer-steps", "sweep.timerSteps", Form::Whole,
            [](const Explorer& e) {
                return ofSweep(e, [](const auto& s) { return wholeText(s.timerSteps); });
@@ -108,7 +107,7 @@ constexpr std::array kChoices = {
            [](const Explorer& e) {
                return ofSweep(e, [](const auto& s) { return numberText(s.frequency); });
            },
-           [](Explorer& e, std::string_view t) { swept(e).frequency = number(t, 0, kMost); },
+           [](Explorer& e, std::string_view t) { swept(e).frequency = number(t, 0, kMostFinite); },
            "Sweep", "Cycles a second (0.1)"},
     Choice{"--swing", "sweep.swing", Form::Flag,
            [](const Explorer& e) {
@@ -250,20 +249,21 @@ constexpr std::array kChoices = {
            [](Explorer& e, std::string_view t) {
                e.play.time.pace = isOn(t) ? timeseries::Pace::RealTimes : timeseries::Pace::Even;
            }},
-    Choice{
-        "", "play.stepsPerSecond", Form::Number,
-        [](const Explorer& e) {
-            return unless(e.play.time.stepsPerSecond == kTime.stepsPerSecond,
-                          numberText(e.play.time.stepsPerSecond));
-        },
-        [](Explorer& e, std::string_view t) { e.play.time.stepsPerSecond = number(t, 0, kMost); }},
+    Choice{"", "play.stepsPerSecond", Form::Number,
+           [](const Explorer& e) {
+               return unless(e.play.time.stepsPerSecond == kTime.stepsPerSecond,
+                             numberText(e.play.time.stepsPerSecond));
+           },
+           [](Explorer& e, std::string_view t) {
+               e.play.time.stepsPerSecond = number(t, 0, kMostFinite);
+           }},
     Choice{"", "play.timeUnitsPerSecond", Form::Number,
            [](const Explorer& e) {
                return unless(e.play.time.timeUnitsPerSecond == kTime.timeUnitsPerSecond,
                              numberText(e.play.time.timeUnitsPerSecond));
            },
            [](Explorer& e, std::string_view t) {
-               e.play.time.timeUnitsPerSecond = number(t, 0, kMost);
+               e.play.time.timeUnitsPerSecond = number(t, 0, kMostFinite);
            }},
     Choice{"", "play.timeMoves", Form::Flag,
            [](const Explorer& e) { return unless(e.play.timeMoves, flag(false)); },

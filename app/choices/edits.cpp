@@ -25,8 +25,6 @@ using timeseries::Range;
 using timeseries::RangeSet;
 using timeseries::SortedStep;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // The double nearest to a number that is not less, not greater, greater, less.
 double atLeast(const Number& number) {
     const double d = timeseries::toDouble(number);
@@ -126,9 +124,8 @@ RangeSet withMoved(const RangeSet& ranges, std::size_t range, double by) {
     if (!isBounded(moved.lo) && !isBounded(moved.hi)) return ranges;
     if (!isBounded(moved.lo)) return withEnd(ranges, range, End::Hi, hi + by);
     if (!isBounded(moved.hi)) return withEnd(ranges, range, End::Lo, lo + by);
-    constexpr double kMost = std::numeric_limits<double>::max();
     Room room = roomOf(ranges, range);
-    room = {std::max(room.lo, -kMost), std::min(room.hi, kMost)};
+    room = {std::max(room.lo, -kMostFinite), std::min(room.hi, kMostFinite)};
     // The end in front is stopped; the other follows at its distance.
     const double width = hi - lo;
     if (by < 0) {

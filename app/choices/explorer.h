@@ -19,6 +19,8 @@
 
 namespace app {
 
+using timeseries::kInfinity;
+
 struct MapChoice {
     render::ColorMap map;
     // Values of the map's ends; the layer's own ends where absent.

@@ -13,7 +13,6 @@ using timeseries::Bound;
 using timeseries::Range;
 using timeseries::RangeSet;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShare = 0.10;    // of the points, to be selected
 constexpr double kTwoSided = 0.4;  // the shorter reach over the longer, from where both count
 
@@ -88,9 +87,9 @@ LayerChoice firstChoice(const Quantiles& sampled) {
     }
     const double scale = std::max(above, below);
     const auto mapped = [&](const char* name, double from, double to) {
-        constexpr double kMost = std::numeric_limits<double>::max();
-        layer.color = MapChoice{*render::colorMapNamed(name), std::clamp(from, -kMost, kMost),
-                                std::clamp(to, -kMost, kMost)};
+        layer.color =
+            MapChoice{*render::colorMapNamed(name), std::clamp(from, -kMostFinite, kMostFinite),
+                      std::clamp(to, -kMostFinite, kMostFinite)};
     };
     if (std::min(above, below) > kTwoSided * scale) {
         layer.ranges = farFrom(sorted, middle, scale);

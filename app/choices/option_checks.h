@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <limits>
 #include <string>
 
 #include "app/choices/choice_text.h"
@@ -19,8 +18,6 @@ inline constexpr const char* kFileHelp =
     "A file, any file of a numbered series, a folder, a pattern, or several files that make one "
     "series";
 
-inline constexpr double kMost = std::numeric_limits<double>::max();
-
 // Numbers are kept as text until parseNumber() reads them: CLI11 reads them by way of long doubles,
 // which rounds twice.
 inline CLI::Validator between(double lo, double hi) {
@@ -31,10 +28,11 @@ inline CLI::Validator between(double lo, double hi) {
                 if (value >= lo && value <= hi) return {};
             } catch (const ChoiceError&) {
             }
-            return hi == kMost ? fmt::format("'{}' is not a finite number of at least {}", text, lo)
-                               : fmt::format("'{}' is not a number from {} to {}", text, lo, hi);
+            return hi == kMostFinite
+                       ? fmt::format("'{}' is not a finite number of at least {}", text, lo)
+                       : fmt::format("'{}' is not a number from {} to {}", text, lo, hi);
         },
-        hi == kMost ? fmt::format("at least {}", lo) : fmt::format("{} to {}", lo, hi));
+        hi == kMostFinite ? fmt::format("at least {}", lo) : fmt::format("{} to {}", lo, hi));
 }
 
 inline CLI::Validator notEmpty() {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,8 +15,6 @@ namespace {
 using timeseries::Range;
 using timeseries::RangeSet;
 using timeseries::SortedStep;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A decimal share is no binary one: 0.1 % of 1000 is 1, not a trifle more.
 constexpr double kSlack = 1e-12;

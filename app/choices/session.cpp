@@ -25,7 +25,7 @@ using timeseries::FileError;
 using timeseries::RangeSet;
 
 constexpr int kVersion = 1;
-constexpr std::array kAxes = {"x", "y", "z"};
+constexpr std::array kAxisKeys = {"x", "y", "z"};
 
 void writeStyle(json& out, const LayerChoice& layer) {
     if (!layer.visible) out["visible"] = false;
@@ -67,8 +67,8 @@ LayerChoice readStyle(JsonObject& object) {
 void readAxes(const json& value, const std::string& where, Explorer& explorer) {
     JsonObject object(value, where);
     for (std::size_t a = 0; a < 3; ++a)
-        object.read<json>(kAxes[a], [&](const json& axis) {
-            JsonObject each(axis, object.place(kAxes[a]));
+        object.read<json>(kAxisKeys[a], [&](const json& axis) {
+            JsonObject each(axis, object.place(kAxisKeys[a]));
             each.read<bool>("flip", [&](bool b) { explorer.axes[a].flip = b; });
             each.read<std::string>("name",
                                    [&](const std::string& n) { explorer.axes[a].name = n; });
@@ -161,8 +161,8 @@ json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths)
     }
     writeChoices(e, out);
     for (std::size_t a = 0; a < 3; ++a) {
-        if (e.axes[a].flip) out["axes"][kAxes[a]]["flip"] = true;
-        if (!e.axes[a].name.empty()) out["axes"][kAxes[a]]["name"] = e.axes[a].name;
+        if (e.axes[a].flip) out["axes"][kAxisKeys[a]]["flip"] = true;
+        if (!e.axes[a].name.empty()) out["axes"][kAxisKeys[a]]["name"] = e.axes[a].name;
     }
     for (const LayerChoice& layer : e.layers) {
         json each = json::object();

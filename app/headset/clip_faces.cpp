@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 
 namespace app::headset {
 namespace {
@@ -37,7 +36,6 @@ std::optional<Hold> nearestFace(const glm::dvec3& tip, const glm::dmat4& stageFr
 
 std::optional<Crossing> crossing(const glm::dvec3& from, const glm::dvec3& along,
                                  const AxisBox& box) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Crossing c{-kInfinity, kInfinity, {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
         if (along[axis] == 0) {

@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 // Amplitude and duration.
 constexpr Pulse kGrabbed{0, 0.5, 30ms}, kTurned{0, 0.4, 15ms}, kAtEnd{0, 0.3, 20ms};
-constexpr auto kTap = 300ms;         // a longer press is a grab
+constexpr auto kGrab = 300ms;        // a longer press is a grab
 constexpr double kScrollLines = 12;  // a second
 constexpr std::size_t kTimeHand = 0, kValueHand = 1;
 
@@ -142,7 +142,7 @@ void Room::letGo(Exploration& exploration, std::size_t hand, const RoomInput& in
     meaning_[hand] = Meaning::Nothing;
     clip_.letGo(hand, exploration);
     const auto tap = std::exchange(taps_[hand], std::nullopt);
-    if (!tap || tap->age > kTap || !input.drawn) return;
+    if (!tap || tap->age > kGrab || !input.drawn) return;
     outcome_.reading = readingAt(*input.drawn, tap->from, tap->tip);
     // A tap carries nothing.
     if (outcome_.reading && !holds(1 - hand)) placement_ = tap->from;

@@ -15,7 +15,7 @@ using timeseries::ValueSweep;
 constexpr double kRest = 0.15;
 // A tap goes so far, and lasts no longer than this.
 constexpr double kTapped = 0.5;
-constexpr std::chrono::milliseconds kTap(250);
+constexpr std::chrono::milliseconds kTapAtMost(250);
 
 // Takes the whole part of what is still to be moved.
 int whole(double& rest) {
@@ -111,7 +111,7 @@ bool Sticks::moveLayer(Exploration& exploration, double ways) {
 
 bool Sticks::moveTime(Exploration& exploration, double time, std::chrono::nanoseconds dt) {
     timeWay_.held += dt;
-    if (timeWay_.held > kTap) {
+    if (timeWay_.held > kTapAtMost) {
         const auto steps = static_cast<double>(exploration.series()->stepCount());
         steps_ += rateOf(time) * std::chrono::duration<double>(dt).count() *
                   std::clamp(steps / 4, 2.0, 60.0);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "app/choices/choice_text.h"
 #include "app/choices/edits.h"
@@ -12,8 +11,6 @@
 
 namespace app::panels {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void sides(Desk& desk, Form& form) {
     struct Button {

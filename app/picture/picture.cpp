@@ -26,7 +26,6 @@ using timeseries::Range;
 using timeseries::RangeSet;
 using timeseries::SortedStep;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastResolution = std::numeric_limits<double>::min();
 
 Quantiles quantilesOf(const Steps& sampled) {

@@ -15,7 +15,7 @@
 
 namespace app {
 
-const glm::dvec3 kBackground = render::linearFromSrgb(glm::dvec3(13, 17, 23) / 255.0);
+const glm::dvec3 kBackground = render::linearFromSrgb8(13, 17, 23);
 
 bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
                 const render::Extras& extras, const std::filesystem::path& file) {

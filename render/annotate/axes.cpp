@@ -23,12 +23,9 @@ FontStyle titleStyle(glm::ivec2 pictureSize) {
 
 namespace {
 
-glm::vec3 light(int red, int green, int blue) {
-    return glm::vec3(linearFromSrgb(glm::dvec3(red, green, blue) / 255.0));
-}
-const glm::vec3 kAxisEdge = light(134, 145, 162), kNearEdge = light(84, 94, 110),
-                kFarEdge = light(52, 59, 71), kNumber = light(170, 179, 193),
-                kTitle = light(230, 233, 239);
+const glm::vec3 kAxisEdge(linearFromSrgb8(134, 145, 162)), kNearEdge(linearFromSrgb8(84, 94, 110)),
+    kFarEdge(linearFromSrgb8(52, 59, 71)), kNumber(linearFromSrgb8(170, 179, 193)),
+    kTitle(linearFromSrgb8(230, 233, 239));
 
 // A line where no text stands.
 void lineAround(FlatMesh& mesh, std::span<const PixelRect> texts, const glm::dvec3& from,

@@ -8,13 +8,13 @@
 namespace render {
 namespace {
 
-struct Span {
+struct RowSpan {
     int first, last;
 };
 
 // The pixels of a row whose middles lie inside. Sides that triangles share are crossed at the same
 // place by both, so that no pixel is drawn twice and none is left out.
-Span spanOf(const std::array<glm::dvec2, 3>& corner, int row, int width) {
+RowSpan spanOf(const std::array<glm::dvec2, 3>& corner, int row, int width) {
     const double y = row + 0.5;
     double from = std::numeric_limits<double>::infinity(), to = -from;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -104,7 +104,7 @@ void FlatRaster::forEachPixel(glm::ivec2 picture, int first, int count, const Vi
     for (const Triangle& t : triangles_) {
         const int last = std::min(t.last, first + count);
         for (int row = std::max(t.first, first); row < last; ++row) {
-            const Span span = spanOf(t.corner, row, picture.x);
+            const RowSpan span = spanOf(t.corner, row, picture.x);
             std::size_t place =
                 static_cast<std::size_t>(row - first) * static_cast<std::size_t>(picture.x) +
                 static_cast<std::size_t>(span.first);

@@ -15,11 +15,8 @@
 namespace render {
 namespace {
 
-glm::vec3 light(int red, int green, int blue) {
-    return glm::vec3(linearFromSrgb(glm::dvec3(red, green, blue) / 255.0));
-}
-const glm::vec3 kText = light(230, 233, 239), kQuiet = light(148, 157, 172),
-                kFaint = light(128, 137, 152), kFrame = light(58, 66, 79);
+const glm::vec3 kText(linearFromSrgb8(230, 233, 239)), kQuiet(linearFromSrgb8(148, 157, 172)),
+    kFaint(linearFromSrgb8(128, 137, 152)), kFrame(linearFromSrgb8(58, 66, 79));
 
 // What is said, from everything to the least; a picture takes the first that fits it.
 struct Detail {

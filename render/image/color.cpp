@@ -19,6 +19,10 @@ glm::dvec3 linearFromSrgb(glm::dvec3 encoded) {
     return {linearFromSrgb(encoded.r), linearFromSrgb(encoded.g), linearFromSrgb(encoded.b)};
 }
 
+glm::dvec3 linearFromSrgb8(int red, int green, int blue) {
+    return linearFromSrgb(glm::dvec3(red, green, blue) / 255.0);
+}
+
 const std::array<double, 255>& srgb8Steps() {
     static const auto steps = [] {
         std::array<double, 255> bounds{};

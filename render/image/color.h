@@ -11,6 +11,7 @@ namespace render {
 double srgbFromLinear(double linear);  // [0, 1] each; not clamped outside
 double linearFromSrgb(double encoded);
 glm::dvec3 linearFromSrgb(glm::dvec3 encoded);
+glm::dvec3 linearFromSrgb8(int red, int green, int blue);  // 0 to 255
 
 // The light from which each of the 256 encoded steps but the first is the nearest.
 const std::array<double, 255>& srgb8Steps();

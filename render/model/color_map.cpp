@@ -74,11 +74,8 @@ double hueAtNeutral(const Msh& saturated, double neutralM) {
 // section 5: each side goes straight in Msh from its end colour to a neutral of magnitude 88.
 std::vector<glm::vec3> coolWarm() {
     constexpr int kSide = 128;  // the neutral centre is an entry of its own
-    const auto linear8 = [](int r, int g, int b) {
-        return linearFromSrgb(glm::dvec3(r, g, b) / 255.0);
-    };
-    const Msh cool = mshFromLinear(linear8(59, 76, 192));
-    const Msh warm = mshFromLinear(linear8(180, 4, 38));
+    const Msh cool = mshFromLinear(linearFromSrgb8(59, 76, 192));
+    const Msh warm = mshFromLinear(linearFromSrgb8(180, 4, 38));
     const double neutralM = std::max({cool.m, warm.m, 88.0});
     std::vector<glm::vec3> entries;
     for (int i = -kSide; i <= kSide; ++i) {

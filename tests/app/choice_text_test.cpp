@@ -13,8 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // The text is refused, in one sentence that quotes it.
 void expectRefused(const std::function<void(std::string_view)>& parse, const std::string& text) {
     try {

@@ -20,8 +20,6 @@ namespace {
 using timeseries::Range;
 using timeseries::RangeSet;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 class RangeEdits : public testing::Test {
  protected:
     // Multiples of 1/4: sums of them are exact, and they often meet.

@@ -15,8 +15,6 @@ namespace {
 
 using timeseries::SortedStep;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 SortedStep stepOf(std::vector<double> values) {
     auto grid = std::make_shared<const timeseries::Grid>(
         std::array{tests::axis(values.size()), tests::axis(1), tests::axis(1)});

@@ -10,7 +10,7 @@
 namespace render {
 namespace {
 
-constexpr glm::ivec2 kSize{96, 64};
+constexpr glm::ivec2 kPictureSize{96, 64};
 
 class Placards : public tests::GlTest {
  protected:
@@ -31,7 +31,7 @@ class Placards : public tests::GlTest {
     }
 
     FrameRenderer renderer_;
-    View eye_ = tests::lookFrom({0, -3, 0}, kSize);
+    View eye_ = tests::lookFrom({0, -3, 0}, kPictureSize);
 };
 
 TEST_F(Placards, StandWhereTheirCornersProjectTo) {
@@ -41,9 +41,9 @@ TEST_F(Placards, StandWhereTheirCornersProjectTo) {
         return project(eye_, {x * half.x, 0.2, z * half.y}).window;
     };
     const glm::dvec2 lo = corner(-1, -1), hi = corner(1, 1);
-    for (int y = 0; y < kSize.y; ++y)
-        for (int x = 0; x < kSize.x; ++x) {
-            const glm::dvec2 centre(x + 0.5, kSize.y - y - 0.5);
+    for (int y = 0; y < kPictureSize.y; ++y)
+        for (int x = 0; x < kPictureSize.x; ++x) {
+            const glm::dvec2 centre(x + 0.5, kPictureSize.y - y - 0.5);
             // On an edge, rounding decides.
             const glm::dvec2 off = glm::min(glm::abs(centre - lo), glm::abs(centre - hi));
             if (std::min(off.x, off.y) < 0.01) continue;
@@ -59,7 +59,7 @@ TEST_F(Placards, TheNearerHidesTheFartherInAnyOrder) {
     const Placard near{standing(-0.5, {0.3, 0.3}), glm::vec3(1, 0, 0)};
     const Placard far{standing(0.5, {1, 1}), glm::vec3(0, 1, 0)};
     const Image picture = alone({near, far});
-    EXPECT_EQ(picture.at(kSize.x / 2, kSize.y / 2), glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(picture.at(kPictureSize.x / 2, kPictureSize.y / 2), glm::vec4(1, 0, 0, 1));
     EXPECT_EQ(alone({far, near}), picture);
 }
 
@@ -74,8 +74,8 @@ TEST_F(Placards, BearTheirPictureUprightInLinearLight) {
     const double fifth = linearFromSrgb(srgb8FromLinear(0.2) / 255.0);
     for (const int x : {0, 1})
         for (const int y : {0, 1}) {
-            const glm::vec4 seen =
-                picture.at(kSize.x / 2 + (2 * x - 1) * 12, kSize.y / 2 + (2 * y - 1) * 12);
+            const glm::vec4 seen = picture.at(kPictureSize.x / 2 + (2 * x - 1) * 12,
+                                              kPictureSize.y / 2 + (2 * y - 1) * 12);
             EXPECT_EQ(seen.r, x == 0 ? 1 : 0);
             EXPECT_EQ(seen.g, y == 0 ? 1 : 0);
             // Textures of 8 bits are blended with no more than 8 bits on some drivers.
@@ -103,16 +103,17 @@ TEST_F(Placards, ThePointsAreBeforeOrBehind) {
             .image;
     };
     const auto picture = [&](double y) { return pictureOf(scene, y); };
-    const glm::vec4 hidden = picture(-1).at(kSize.x / 2, kSize.y / 2);
+    const glm::vec4 hidden = picture(-1).at(kPictureSize.x / 2, kPictureSize.y / 2);
     EXPECT_EQ(hidden, glm::vec4(0, 0, 1, 1));
-    EXPECT_GT(picture(1).at(kSize.x / 2, kSize.y / 2).r, 0.5f);
+    EXPECT_GT(picture(1).at(kPictureSize.x / 2, kPictureSize.y / 2).r, 0.5f);
     // Nothing of box and axes is seen through it.
     const Image wall = picture(-1);
     for (const glm::vec4& pixel : wall.pixels) ASSERT_EQ(pixel, glm::vec4(0, 0, 1, 1));
     // Nor does it hide one that stands farther in the next picture, where there are no points.
     Scene empty = scene;
     empty.layers.clear();
-    EXPECT_EQ(pictureOf(empty, 0.2).at(kSize.x / 2, kSize.y / 2), glm::vec4(0, 0, 1, 1));
+    EXPECT_EQ(pictureOf(empty, 0.2).at(kPictureSize.x / 2, kPictureSize.y / 2),
+              glm::vec4(0, 0, 1, 1));
 }
 
 }  // namespace

@@ -12,21 +12,21 @@
 namespace render {
 namespace {
 
-constexpr glm::ivec2 kSize{64, 48};
+constexpr glm::ivec2 kPicture{64, 48};
 
 // A picture of one mesh over `ground`, in bands of so many rows; row 0 at the bottom.
-std::vector<glm::vec4> drawn(const FlatMesh& mesh, int rows = kSize.y,
+std::vector<glm::vec4> drawn(const FlatMesh& mesh, int rows = kPicture.y,
                              const glm::vec4& ground = {0, 0, 0, 1}) {
-    const FlatRaster raster(mesh, tests::fontFor(kSize), kSize);
-    std::vector<glm::vec4> light(std::size_t(kSize.x) * kSize.y, ground);
-    for (int first = 0; first < kSize.y; first += rows)
-        raster.draw({kSize, first, std::min(rows, kSize.y - first),
-                     &light[std::size_t(first) * kSize.x].x});
+    const FlatRaster raster(mesh, tests::fontFor(kPicture), kPicture);
+    std::vector<glm::vec4> light(std::size_t(kPicture.x) * kPicture.y, ground);
+    for (int first = 0; first < kPicture.y; first += rows)
+        raster.draw({kPicture, first, std::min(rows, kPicture.y - first),
+                     &light[std::size_t(first) * kPicture.x].x});
     return light;
 }
 
 const glm::vec4& at(const std::vector<glm::vec4>& light, int x, int yDown) {
-    return light[std::size_t(kSize.y - 1 - yDown) * kSize.x + x];
+    return light[std::size_t(kPicture.y - 1 - yDown) * kPicture.x + x];
 }
 
 TEST(FlatRaster, ARectangleIsEveryPixelWhoseMiddleItHoldsOnce) {
@@ -34,8 +34,8 @@ TEST(FlatRaster, ARectangleIsEveryPixelWhoseMiddleItHoldsOnce) {
     const glm::dvec2 lo(10.3, 7.5), hi(40.5, 20.7);
     mesh.rect(glm::vec2(lo), glm::vec2(hi), glm::vec4(0.5f));
     const auto light = drawn(mesh);
-    for (int y = 0; y < kSize.y; ++y)
-        for (int x = 0; x < kSize.x; ++x) {
+    for (int y = 0; y < kPicture.y; ++y)
+        for (int x = 0; x < kPicture.x; ++x) {
             const glm::dvec2 middle(x + 0.5, y + 0.5);
             // Of middles that lie on a side, those are inside that the rectangle has to its right
             // or above it: each belongs to one of two neighbours.
@@ -73,8 +73,8 @@ TEST(FlatRaster, ALinesLightIsItsDistance) {
     const auto light = drawn(mesh);
     const glm::dvec2 along = glm::normalize(b - a);
     double sum = 0;
-    for (int y = 0; y < kSize.y; ++y)
-        for (int x = 0; x < kSize.x; ++x) {
+    for (int y = 0; y < kPicture.y; ++y)
+        for (int x = 0; x < kPicture.x; ++x) {
             const glm::dvec2 p = glm::dvec2(x + 0.5, y + 0.5) - a;
             const double off = std::abs(p.x * along.y - p.y * along.x), on = glm::dot(p, along);
             sum += static_cast<double>(at(light, x, y).r);
@@ -87,17 +87,17 @@ TEST(FlatRaster, ALinesLightIsItsDistance) {
 }
 
 TEST(FlatRaster, TextIsItsGlyphsAsPicturesHaveThem) {
-    const Font& font = tests::fontFor(kSize);
+    const Font& font = tests::fontFor(kPicture);
     for (const glm::vec3 color : {glm::vec3(1), glm::vec3(0.02f, 0.05f, 0.01f)}) {
         FlatMesh mesh;
-        mesh.text(font, labelStyle(kSize), "Ag 42", {3.4f, 9}, color);
-        Image expected(kSize, {0.3f, 0.3f, 0.3f, 1});
-        draw(expected, font, font.layout("Ag 42", labelStyle(kSize), {3.4f, 9}),
+        mesh.text(font, labelStyle(kPicture), "Ag 42", {3.4f, 9}, color);
+        Image expected(kPicture, {0.3f, 0.3f, 0.3f, 1});
+        draw(expected, font, font.layout("Ag 42", labelStyle(kPicture), {3.4f, 9}),
              glm::vec4(color, 1));
-        const auto light = drawn(mesh, kSize.y, {0.3f, 0.3f, 0.3f, 1});
+        const auto light = drawn(mesh, kPicture.y, {0.3f, 0.3f, 0.3f, 1});
         double differs = 0;
-        for (int y = 0; y < kSize.y; ++y)
-            for (int x = 0; x < kSize.x; ++x) {
+        for (int y = 0; y < kPicture.y; ++y)
+            for (int x = 0; x < kPicture.x; ++x) {
                 EXPECT_NEAR(at(light, x, y).r, expected.at(x, y).r, 1e-6f) << x << ' ' << y;
                 differs += std::abs(at(light, x, y).r - 0.3f);
             }
@@ -110,7 +110,7 @@ FlatMesh everything() {
     mesh.gradient({5, 5}, {55, 12}, std::array{glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(1)});
     mesh.plate({{20, 15}, {40, 30}}, 5, glm::vec4(0.4f));
     mesh.line({-300, 20, 0.2f}, {400, 31, 0.9f}, 2, {0, 1, 0, 1});
-    mesh.text(tests::fontFor(kSize), labelStyle(kSize), "cut off", {-7, 40}, glm::vec3(1));
+    mesh.text(tests::fontFor(kPicture), labelStyle(kPicture), "cut off", {-7, 40}, glm::vec3(1));
     return mesh;
 }
 
@@ -134,16 +134,16 @@ TEST(FlatRaster, DepthIsTheNearestLinesWhereItCoversMoreThanHalf) {
     FlatMesh mesh;
     mesh.line({0, 10, 0.2f}, {64, 10, 0.8f}, 3, glm::vec4(1));  // rows 8.5 to 11.5
     mesh.line({20, 0, 0.4f}, {20, 48, 0.4f}, 4, glm::vec4(1));
-    const FlatRaster raster(mesh, tests::fontFor(kSize), kSize);
-    std::vector<float> depth(std::size_t(kSize.x) * kSize.y, 1.0f);
-    raster.drawDepth({kSize, 0, kSize.y, depth.data()});
-    for (int y = 0; y < kSize.y; ++y)
-        for (int x = 0; x < kSize.x; ++x) {
+    const FlatRaster raster(mesh, tests::fontFor(kPicture), kPicture);
+    std::vector<float> depth(std::size_t(kPicture.x) * kPicture.y, 1.0f);
+    raster.drawDepth({kPicture, 0, kPicture.y, depth.data()});
+    for (int y = 0; y < kPicture.y; ++y)
+        for (int x = 0; x < kPicture.x; ++x) {
             // A pixel's middle half a pixel from the side is covered by half, which is not more.
             double expected = 1;
             if (std::abs(y + 0.5 - 10) < 1.5) expected = 0.2 + 0.6 * (x + 0.5) / 64;
             if (std::abs(x + 0.5 - 20) < 2) expected = std::min(expected, 0.4);
-            EXPECT_NEAR(depth[std::size_t(kSize.y - 1 - y) * kSize.x + x], expected, 1e-6)
+            EXPECT_NEAR(depth[std::size_t(kPicture.y - 1 - y) * kPicture.x + x], expected, 1e-6)
                 << x << ' ' << y;
         }
 }
@@ -154,7 +154,7 @@ TEST(FlatRaster, WhatHasNoAreaOrLiesOutsideIsNotDrawn) {
     mesh.rect({-50, -50}, {-1, -1}, glm::vec4(1));
     mesh.rect({100, 100}, {1e9f, 1e9f}, glm::vec4(1));
     for (const glm::vec4& pixel : drawn(mesh)) EXPECT_EQ(pixel, glm::vec4(0, 0, 0, 1));
-    EXPECT_TRUE(FlatRaster(FlatMesh(), tests::fontFor(kSize), kSize).empty());
+    EXPECT_TRUE(FlatRaster(FlatMesh(), tests::fontFor(kPicture), kPicture).empty());
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace render {
 namespace {
 
-const glm::ivec2 kSize(48, 36);
+const glm::ivec2 kPicture(48, 36);
 const glm::dvec3 kGround(0.1, 0.2, 0.4);
 
 struct PlainWorld {
@@ -34,21 +34,21 @@ struct PlainWorld {
 };
 
 void expectTheTruth(const Scene& scene, const DrawList& list) {
-    const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
-    Accumulator<double> sums(kSize, channelsFor(scene));
+    const View view = tests::lookFrom({0.7, -3, 1.1}, kPicture);
+    Accumulator<double> sums(kPicture, channelsFor(scene));
     splat<double>(scene, list, view, {}, sums);
-    PlainFrame frame(kSize, kGround);
+    PlainFrame frame(kPicture, kGround);
     frame.draw(scene, view);
     const Image light = frame.light();
     const std::vector<float> depth = opticalDepthOf(scene, view);
     double most = 0;
-    for (int y = 0; y < kSize.y; ++y)
-        for (int x = 0; x < kSize.x; ++x) {
+    for (int y = 0; y < kPicture.y; ++y)
+        for (int x = 0; x < kPicture.x; ++x) {
             const Resolved wanted = resolvePixel(sums, scene.layers, x, y);
             const glm::dvec3 seen = wanted.rgb + (1 - wanted.alpha) * kGround;
-            const glm::vec4& is = light.at(x, kSize.y - 1 - y);
+            const glm::vec4& is = light.at(x, kPicture.y - 1 - y);
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(is[c], seen[c], 1e-4) << x << ' ' << y;
-            ASSERT_NEAR(depth[std::size_t(y * kSize.x + x)], wanted.opticalDepth,
+            ASSERT_NEAR(depth[std::size_t(y * kPicture.x + x)], wanted.opticalDepth,
                         1e-4 * (1 + wanted.opticalDepth));
             most = std::max(most, wanted.opticalDepth);
         }
@@ -59,17 +59,17 @@ TEST(PlainFrame, IsTheTruthsLightOnTheBackground) {
     PlainWorld world;
     expectTheTruth(world.scene, Runs{});
     world.scene.order = Order::BackToFront;
-    const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
+    const View view = tests::lookFrom({0.7, -3, 1.1}, kPicture);
     expectTheTruth(world.scene, orderExactly(world.scene, pixelRays(view).eye));
 }
 
 TEST(PlainFrame, NothingSelectedIsTheBackground) {
     PlainWorld world;
     world.scene.layers.clear();
-    const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
-    PlainFrame frame(kSize, kGround);
+    const View view = tests::lookFrom({0.7, -3, 1.1}, kPicture);
+    PlainFrame frame(kPicture, kGround);
     frame.draw(world.scene, view);
-    EXPECT_EQ(frame.light(), Image(kSize, glm::vec4(glm::vec3(kGround), 1)));
+    EXPECT_EQ(frame.light(), Image(kPicture, glm::vec4(glm::vec3(kGround), 1)));
 }
 
 }  // namespace

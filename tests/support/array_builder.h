@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/files.h"
+#include "tests/support/read_variables.h"
 #include "timeseries/readers/reader.h"
 
 namespace tests {
@@ -95,15 +96,11 @@ std::vector<T> ramp(std::size_t count) {
     return values;
 }
 
-inline std::unique_ptr<timeseries::Reader> openOne(const std::filesystem::path& path) {
-    return timeseries::openReader(std::span(&path, 1));
-}
-
 // Opens a file of these bytes.
 inline std::unique_ptr<timeseries::Reader> openBytes(const std::string& bytes) {
     const std::filesystem::path path = tests::freshFolder() / "file.nrrd";
     tests::writeBytes(path, bytes);
-    return openOne(path);
+    return open(path);
 }
 
 template <typename T>
@@ -114,7 +111,7 @@ std::vector<T> valuesOf(timeseries::Reader& reader, std::size_t step = 0) {
 // What the file is refused with, behind its path; "" when it is read whole.
 inline std::string refusal(const std::filesystem::path& path) {
     try {
-        const auto reader = openOne(path);
+        const auto reader = open(path);
         for (std::size_t t = 0; t < reader->variables()[0].time->points.size(); ++t)
             reader->read(0, t);
     } catch (const timeseries::FileError& error) {

@@ -90,15 +90,14 @@ class RandomExplorer {
         return number();
     }
     timeseries::RangeSet ranges() {
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
         for (;;) {
             std::vector<timeseries::Range> some(1 + random_() % 3);
             for (auto& range : some) {
                 range = {{exact(), maybe()}, {exact(), maybe()}};
                 if (timeseries::compare(range.lo.value, range.hi.value) > 0)
                     std::swap(range.lo, range.hi);
-                if (random_() % 6 == 0) range.lo = {-kInfinity, random_() % 4 == 0};
-                if (random_() % 6 == 0) range.hi = {kInfinity, random_() % 4 == 0};
+                if (random_() % 6 == 0) range.lo = {-app::kInfinity, random_() % 4 == 0};
+                if (random_() % 6 == 0) range.hi = {app::kInfinity, random_() % 4 == 0};
             }
             if (timeseries::RangeSet set(some); !set.empty()) return set;
         }

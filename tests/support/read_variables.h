@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,19 @@ namespace tests {
 
 inline std::unique_ptr<timeseries::Reader> open(const std::filesystem::path& path) {
     return timeseries::openReader(std::span(&path, 1));
+}
+
+// What they are refused with; "" when they open.
+inline std::string refusalOf(const std::vector<std::filesystem::path>& paths) {
+    try {
+        timeseries::openReader(paths);
+    } catch (const timeseries::FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+inline std::string refusalOf(const std::filesystem::path& path) {
+    return refusalOf(std::vector{path});
 }
 
 // Fails the test, and is the first, where there is none.
@@ -30,6 +44,14 @@ inline std::size_t indexOf(const timeseries::Reader& reader, std::string_view na
 template <typename T>
 std::vector<T> valuesOf(timeseries::Reader& reader, std::string_view name, std::size_t step = 0) {
     return std::get<std::vector<T>>(reader.read(indexOf(reader, name), step).values);
+}
+
+// Of the first variable.
+inline std::vector<double> timesOf(const timeseries::Reader& reader) {
+    std::vector<double> times;
+    for (const timeseries::TimePoint& point : reader.variables()[0].time->points)
+        times.push_back(point.value);
+    return times;
 }
 
 }  // namespace tests

@@ -207,7 +207,6 @@ TEST(CellIndex, HalfCellsRepeatTheOutermostValues) {
 TEST(CellIndex, ExtremeValuesAreFound) {
     Field field;
     field.grid = gridOf({10, 1, 1});
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     field.values =
         std::vector<double>{1e300,  -1e300,   -kInfinity, 5e-324, 0,
                             1e-300, -1.7e308, 1.7e308,    1e15,   std::nextafter(1e15, 2e15)};

@@ -259,7 +259,7 @@ TEST(Fits, ImagesCompressedByTiles) {
         fits_close_file(file, &status);
         ASSERT_EQ(status, 0);
         EXPECT_LT(std::filesystem::file_size(path), values.size() * 4 / 2);
-        EXPECT_EQ(valuesOf<std::int32_t>(*openOne(path)), values);
+        EXPECT_EQ(valuesOf<std::int32_t>(*open(path)), values);
     }
 }
 
@@ -291,7 +291,7 @@ TEST(Fits, WhatCannotBeReadIsNamed) {
 TEST(RealFits, ACubeIsReadAsItsHeaderSays) {
     const auto path = tests::sharedData("grids/example_cube.fits");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const auto reader = openOne(path);
+    const auto reader = open(path);
     const Variable& variable = reader->variables()[0];
     EXPECT_THAT(variable.grid->size(), ElementsAre(3, 4, 7));
     EXPECT_EQ(variable.units, "Jy/beam");

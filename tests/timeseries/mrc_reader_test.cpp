@@ -174,7 +174,7 @@ TEST(Mrc, WhatCannotBeReadIsNamed) {
 TEST(RealMrc, AMapWithPermutedAxesHoldsWhatItsHeaderSays) {
     const auto path = tests::sharedData("grids/emd_3001.map");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const auto reader = openOne(path);
+    const auto reader = open(path);
     const auto values = valuesOf<float>(*reader);
     double sum = 0;
     for (const float v : values) sum += static_cast<double>(v);

@@ -11,6 +11,7 @@
 
 #include "tests/support/files.h"
 #include "tests/support/netcdf_builder.h"
+#include "tests/support/read_variables.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
@@ -19,12 +20,9 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 using tests::NetcdfBuilder;
+using tests::readBytes;
+using tests::refusalOf;
 using Path = std::filesystem::path;
-
-std::string bytesOf(const Path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Path write(const std::string& name, const std::string& bytes) {
     const Path path = tests::testFolder() / name;
@@ -47,15 +45,6 @@ std::optional<std::vector<Values>> contents(const Path& path) {
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         return std::nullopt;
     }
-}
-
-std::string refusal(const std::vector<Path>& paths) {
-    try {
-        openReader(paths);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
 }
 
 // Two record variables, a fixed one, coordinates and attributes.
@@ -85,7 +74,7 @@ Path sample(int mode) {
 }
 
 void cutEverywhere(int mode, std::size_t stride) {
-    const std::string whole = bytesOf(sample(mode));
+    const std::string whole = readBytes(sample(mode));
     const auto expected = contents(write("whole.nc", whole));
     ASSERT_TRUE(expected);
     std::size_t refused = 0;
@@ -112,7 +101,7 @@ TEST(DamagedNetcdf, Netcdf4FilesCutAnywhereAreRefused) { cutEverywhere(NC_NETCDF
 TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
     std::mt19937 random(5);
     for (const int mode : {0, NC_CDF5}) {
-        const std::string whole = bytesOf(sample(mode));
+        const std::string whole = readBytes(sample(mode));
         const Path path = tests::testFolder() / "flipped.nc";
         for (int i = 0; i < 1000; ++i) {
             std::string bytes = whole;
@@ -128,7 +117,7 @@ TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
 // File Format Specification", III.E): 16 bytes, then objects, each an index in 2 bytes, 6 others,
 // its size in 8 and its bytes, padded to 8; index 0 is what is free.
 TEST(DamagedNetcdf, Netcdf4HeadersThatCrashHdf5AreReadOrRefused) {
-    const std::string whole = bytesOf(sample(NC_NETCDF4));
+    const std::string whole = readBytes(sample(NC_NETCDF4));
     const std::size_t heap = whole.find("GCOL");
     ASSERT_NE(heap, std::string::npos);
     const Path path = tests::testFolder() / "heap.nc";
@@ -145,28 +134,28 @@ TEST(DamagedNetcdf, Netcdf4HeadersThatCrashHdf5AreReadOrRefused) {
 }
 
 TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
-    EXPECT_EQ(refusal({}), "expected a file to open, but none is named");
+    EXPECT_EQ(refusalOf(std::vector<Path>{}), "expected a file to open, but none is named");
     const Path missing = tests::testFolder() / "there_is_none.nc";
-    EXPECT_EQ(refusal({missing}), missing.string() + ": expected a file, but there is none");
+    EXPECT_EQ(refusalOf({missing}), missing.string() + ": expected a file, but there is none");
     const Path folder = tests::testFolder();
-    EXPECT_EQ(refusal({folder}), folder.string() + ": expected a file, but it is a folder");
-    EXPECT_THAT(refusal({"/dev/null"}), HasSubstr("expected an ordinary file"));
+    EXPECT_EQ(refusalOf({folder}), folder.string() + ": expected a file, but it is a folder");
+    EXPECT_THAT(refusalOf("/dev/null"), HasSubstr("expected an ordinary file"));
     const Path empty = write("empty.nc", "");
-    EXPECT_THAT(refusal({empty}), HasSubstr("but it is empty"));
+    EXPECT_THAT(refusalOf({empty}), HasSubstr("but it is empty"));
     const Path circle = folder / "circle.nc";
     std::filesystem::create_symlink(circle, circle);
-    EXPECT_EQ(refusal({circle}), circle.string() + ": expected a file that can be read, but " +
-                                     std::generic_category().message(ELOOP));
+    EXPECT_EQ(refusalOf({circle}), circle.string() + ": expected a file that can be read, but " +
+                                       std::generic_category().message(ELOOP));
     if (geteuid() == 0) return;  // whom nothing is forbidden
     const std::string denied =
         ": expected a file that can be read, but " + std::generic_category().message(EACCES);
     const Path locked = write("locked.nc", "CDF\1");
     std::filesystem::permissions(locked, std::filesystem::perms::none);
-    EXPECT_EQ(refusal({locked}), locked.string() + denied);
+    EXPECT_EQ(refusalOf({locked}), locked.string() + denied);
     const Path shut = folder / "shut", inside = shut / "v.nc";
     std::filesystem::create_directory(shut);
     std::filesystem::permissions(shut, std::filesystem::perms::none);
-    EXPECT_EQ(refusal({inside}), inside.string() + denied);
+    EXPECT_EQ(refusalOf({inside}), inside.string() + denied);
     std::filesystem::permissions(shut, std::filesystem::perms::owner_all);
 }
 
@@ -177,7 +166,7 @@ TEST(DamagedNetcdf, OtherFormatsAreToldApart) {
           "\x89HDF\r\n\x1a"s, std::string(100, '\0')}) {
         const Path path = write("other.bin", bytes);
         EXPECT_THAT(
-            refusal({path}),
+            refusalOf({path}),
             StartsWith(path.string() + ": expected a NetCDF, NRRD, NIfTI, MRC, FITS or VTK file, "
                                        "found no format that is known"));
     }
@@ -193,26 +182,27 @@ TEST(DamagedNetcdf, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
     NetcdfBuilder file("huge.nc");
     const int y = file.dimension("y", 60000), x = file.dimension("x", 60000);
     file.variable("v", NC_DOUBLE, {y, x});
-    const std::string why = refusal({file.close()});
+    const std::string why = refusalOf({file.close()});
     EXPECT_THAT(why, HasSubstr("v(y, x): expected values that a file of"));
 
     NetcdfBuilder more("more.nc");
     const int z = more.dimension("z", 100000), b = more.dimension("y", 100000),
               a = more.dimension("x", 100000);
     more.variable("v", NC_BYTE, {z, b, a});
-    EXPECT_THAT(refusal({more.close()}), HasSubstr("expected at most 2^32 points"));
+    EXPECT_THAT(refusalOf({more.close()}), HasSubstr("expected at most 2^32 points"));
 
     NetcdfBuilder steps("steps.nc");
     const int t = steps.dimension("time", std::size_t{1} << 40), d = steps.dimension("y", 2),
               c = steps.dimension("x", 2);
     steps.variable("v", NC_BYTE, {t, d, c});
-    EXPECT_THAT(refusal({steps.close()}), HasSubstr("steps, found 1099511627776"));
+    EXPECT_THAT(refusalOf({steps.close()}), HasSubstr("steps, found 1099511627776"));
 }
 
 TEST(DamagedNetcdf, MoreVariablesThanNetcdfAllowsAreRefused) {
     NetcdfBuilder file("many.nc", 0);
     for (int i = 0; i < NC_MAX_VARS + 1; ++i) file.variable(fmt::format("v{}", i), NC_BYTE, {});
-    EXPECT_THAT(refusal({file.close()}), HasSubstr("expected at most 8192 variables, found 8193"));
+    EXPECT_THAT(refusalOf({file.close()}),
+                HasSubstr("expected at most 8192 variables, found 8193"));
 }
 
 TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {
@@ -225,7 +215,7 @@ TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {
     for (float& value : values) value = static_cast<float>(random());
     file.write(v, values);
     const Path path = file.close();
-    std::string bytes = bytesOf(path);
+    std::string bytes = readBytes(path);
     // The chunk is most of the file: overwrite the middle of it.
     for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 64; ++i) bytes[i] = '\xFF';
     const Path damaged = write("damaged.nc", bytes);
@@ -244,7 +234,7 @@ TEST(DamagedNetcdf, AnEmptySeriesIsTold) {
     const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 2),
               x = file.dimension("x", 2);
     file.variable("v", NC_FLOAT, {t, y, x});
-    EXPECT_THAT(refusal({file.close()}), HasSubstr("v(time, y, x): the dimension time is empty"));
+    EXPECT_THAT(refusalOf({file.close()}), HasSubstr("v(time, y, x): the dimension time is empty"));
 }
 
 TEST(DamagedNetcdf, AFileThatChangesAfterItWasOpenedIsTold) {

@@ -20,16 +20,9 @@ using testing::Not;
 using tests::ncType;
 using tests::NetcdfBuilder;
 using tests::open;
+using tests::refusalOf;
+using tests::timesOf;
 using Path = std::filesystem::path;
-
-std::string failure(const std::vector<Path>& paths) {
-    try {
-        openReader(paths);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 // v(time, y = 2, x = 2), every value of step t being first + t.
 template <typename T = double>
@@ -50,12 +43,6 @@ Path series(const std::string& name, const std::vector<T>& times, const std::str
     file.write(v, {0, 0, 0}, {times.size(), 2, 2}, values);
     file.write(fixed, std::vector<float>{1, 2, 3, 4});
     return file.close();
-}
-
-std::vector<double> timesOf(const Reader& reader) {
-    std::vector<double> values;
-    for (const TimePoint& point : reader.variables()[0].time->points) values.push_back(point.value);
-    return values;
 }
 
 // The first value of every step.
@@ -218,14 +205,14 @@ TEST(NetcdfTime, ReferencesOfLaterFilesAreConvertedToTheFirst) {
 TEST(NetcdfTime, OverlappingTimesAreRefusedNamingBothFiles) {
     const Path a = series("a.nc", {0.0, 2.0}, "s"), b = series("b.nc", {1.0, 3.0}, "s"),
                c = series("c.nc", {2.0}, "s");
-    EXPECT_THAT(failure({b, a}), AllOf(HasSubstr(a.string()), HasSubstr(b.string()),
-                                       HasSubstr("expected times that do not overlap")));
-    EXPECT_THAT(failure({a, c}), HasSubstr("do not overlap")) << "the same time twice";
-    EXPECT_THAT(failure({a, a}), HasSubstr("do not overlap")) << "the same file twice";
+    EXPECT_THAT(refusalOf({b, a}), AllOf(HasSubstr(a.string()), HasSubstr(b.string()),
+                                         HasSubstr("expected times that do not overlap")));
+    EXPECT_THAT(refusalOf({a, c}), HasSubstr("do not overlap")) << "the same time twice";
+    EXPECT_THAT(refusalOf({a, a}), HasSubstr("do not overlap")) << "the same file twice";
     const Path d = series("d.nc", {1000.0, 3000.0}, "ms"), e = series("e.nc", {-9.0}, "s");
-    EXPECT_EQ(failure({a, d, e}), a.string() + " and " + d.string() +
-                                      ": variable 'v': expected times that do not overlap, found "
-                                      "0 to 2 and 1 to 3 (s)");
+    EXPECT_EQ(refusalOf({a, d, e}), a.string() + " and " + d.string() +
+                                        ": variable 'v': expected times that do not overlap, found "
+                                        "0 to 2 and 1 to 3 (s)");
 }
 
 TEST(NetcdfTime, UnitsThatCannotMeetAreRefused) {
@@ -237,11 +224,11 @@ TEST(NetcdfTime, UnitsThatCannotMeetAreRefused) {
         return one.string() + " and " + other.string() +
                ": variable 'v': expected times in units that agree, found " + found;
     };
-    EXPECT_EQ(failure({a, b}), sentence(a, b, "\"s\" () and \"m\" ()"));
-    EXPECT_EQ(failure({a, e, c}), sentence(a, c, "\"s\" () and \"days since 2000-01-01\" ()"));
-    EXPECT_EQ(failure({d, c}), sentence(d, c,
-                                        "\"days since 2000-01-01\" (noleap) and \"days since "
-                                        "2000-01-01\" ()"));
+    EXPECT_EQ(refusalOf({a, b}), sentence(a, b, "\"s\" () and \"m\" ()"));
+    EXPECT_EQ(refusalOf({a, e, c}), sentence(a, c, "\"s\" () and \"days since 2000-01-01\" ()"));
+    EXPECT_EQ(refusalOf({d, c}), sentence(d, c,
+                                          "\"days since 2000-01-01\" (noleap) and \"days since "
+                                          "2000-01-01\" ()"));
     EXPECT_THAT(timesOf(*openReader(std::vector<Path>{a, e})), ElementsAre(0, 0.002));
 }
 
@@ -251,8 +238,8 @@ TEST(NetcdfTime, UnitsThatNobodyKnowsMeetTheirLike) {
                     std::vector<Path>{series("a.nc", {1.0}, flood), series("b.nc", {2.5}, flood)})),
                 ElementsAre(1, 2.5));
     const Path a = series("a.nc", {1.0}, flood), b = series("b.nc", {2.5}, "days since 2000-1-1");
-    EXPECT_THAT(failure({a, b}), HasSubstr("expected times in units that agree"));
-    EXPECT_THAT(failure({b, a}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(refusalOf({a, b}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(refusalOf({b, a}), HasSubstr("expected times in units that agree"));
 }
 
 // Steps that are counted are none of another file's times, though these have no units either.
@@ -262,8 +249,8 @@ TEST(NetcdfTime, CountedStepsDoNotContinueTimes) {
     file.variable("v", NC_FLOAT, {t, y, x});
     file.variable("orography", NC_FLOAT, {y, x});
     const Path counted = file.close(), timed = series("a.nc", {-1.0}, "");
-    EXPECT_THAT(failure({timed, counted}), HasSubstr("expected times in units that agree"));
-    EXPECT_THAT(failure({counted, timed}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(refusalOf({timed, counted}), HasSubstr("expected times in units that agree"));
+    EXPECT_THAT(refusalOf({counted, timed}), HasSubstr("expected times in units that agree"));
 }
 
 // Only dates need a calendar.
@@ -276,8 +263,8 @@ TEST(NetcdfTime, CalendarsOfPlainNumbersNeedNotAgree) {
 
 TEST(NetcdfTime, FilesWithAStepWithoutATimeAreNotJoined) {
     const Path a = series("a.nc", {1.0}, "s"), b = series("b.nc", {2.0, std::nan("")}, "s");
-    EXPECT_THAT(failure({a, b}), AllOf(HasSubstr(a.string() + " and " + b.string()),
-                                       HasSubstr("expected finite times")));
+    EXPECT_THAT(refusalOf({a, b}), AllOf(HasSubstr(a.string() + " and " + b.string()),
+                                         HasSubstr("expected finite times")));
 }
 
 TEST(NetcdfTime, MoreStepsThanAnySeriesHasAreRefused) {
@@ -287,7 +274,7 @@ TEST(NetcdfTime, MoreStepsThanAnySeriesHasAreRefused) {
     const int v = file.variable("v", NC_BYTE, {t, y, x});
     const std::array<std::size_t, 3> chunk{4096, 2, 2};  // nothing of them is written
     NetcdfBuilder::check(nc_def_var_chunking(file.id(), v, NC_CHUNKED, chunk.data()));
-    EXPECT_THAT(failure({file.close()}),
+    EXPECT_THAT(refusalOf({file.close()}),
                 HasSubstr("dimension 'time': expected at most 10000000 steps, found 10000001"));
 }
 
@@ -337,12 +324,12 @@ TEST(NetcdfTime, FilesThatDifferAreRefusedNamingBoth) {
     const Path a = still("a.nc", 2, "K", NC_FLOAT, 1), grid = still("b.nc", 3, "K", NC_FLOAT, 1),
                units = still("c.nc", 2, "degC", NC_FLOAT, 1),
                type = still("d.nc", 2, "K", NC_SHORT, 1);
-    EXPECT_THAT(failure({a, grid}),
+    EXPECT_THAT(refusalOf({a, grid}),
                 AllOf(HasSubstr(a.string() + " and " + grid.string()), HasSubstr("the same grid")));
-    EXPECT_THAT(failure({a, units}), HasSubstr("the same units, found \"K\" and \"degC\""));
-    EXPECT_THAT(failure({a, type}), HasSubstr("the same type, found float32 and int16"));
+    EXPECT_THAT(refusalOf({a, units}), HasSubstr("the same units, found \"K\" and \"degC\""));
+    EXPECT_THAT(refusalOf({a, type}), HasSubstr("the same type, found float32 and int16"));
     const Path other = series("e.nc", {1.0}, "s");  // holds orography too
-    EXPECT_THAT(failure({other, a}),
+    EXPECT_THAT(refusalOf({other, a}),
                 HasSubstr("expected the same variables, found 'orography' and 'none'"));
 }
 

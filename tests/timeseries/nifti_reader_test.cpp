@@ -202,7 +202,7 @@ TEST(Nifti, AHeaderBesideItsValues) {
         writeBytes(folder / header, packed(header, head));
         EXPECT_THAT(refusal(folder / header), HasSubstr("img")) << header;
         writeBytes(folder / image, packed(image, values));
-        const auto reader = openOne(folder / header);
+        const auto reader = open(folder / header);
         EXPECT_EQ(valuesOf<std::uint8_t>(*reader), ramp<std::uint8_t>(24)) << header;
         EXPECT_EQ(reader->variables()[0].name, std::string(header).substr(0, 1));
         EXPECT_EQ(reader->format(), "NIfTI-1, detached values");
@@ -260,7 +260,7 @@ TEST(Nifti, FilesCutOrDamagedAnywhereAreReadOrRefused) {
 TEST(RealNifti, AnFmriSeriesIsReadAsItsHeaderSays) {
     const auto path = tests::sharedData("fmri_filtered_func_64t.nii.gz");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const auto reader = openOne(path);
+    const auto reader = open(path);
     const Variable& variable = reader->variables()[0];
     EXPECT_EQ(variable.grid->count(), 64u * 64 * 21);
     EXPECT_EQ(variable.type, ValueType::I16);

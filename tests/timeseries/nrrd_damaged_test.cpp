@@ -277,7 +277,7 @@ TEST_F(DamagedNrrdFiles, ListsThatDoNotFitAreRefused) {
 TEST_F(DamagedNrrdFiles, TooLongAFileIsToldNotRefused) {
     writeBytes(folder / "head/long.raw", std::string(30, 'a'));
     EXPECT_EQ(toldOfFile("long.raw"), "");
-    EXPECT_THAT(openOne(folder / "head/file.nhdr")->variables()[0].notes,
+    EXPECT_THAT(open(folder / "head/file.nhdr")->variables()[0].notes,
                 testing::Contains(HasSubstr("6 bytes behind the values")));
 }
 

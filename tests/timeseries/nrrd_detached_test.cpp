@@ -25,7 +25,7 @@ class DetachedNrrd : public testing::Test {
         return refusal(folder / "file.nhdr");
     }
     void expectRamp() {
-        const auto reader = openOne(folder / "file.nhdr");
+        const auto reader = tests::open(folder / "file.nhdr");
         EXPECT_EQ(valuesOf<std::uint8_t>(*reader), ramp<std::uint8_t>(24));
     }
     std::string part(std::size_t first, std::size_t count) const {

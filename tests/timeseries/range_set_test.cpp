@@ -22,7 +22,6 @@ using tests::ranges::open;
 using tests::ranges::openLow;
 using tests::ranges::operator""_i;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kTwo53 = std::int64_t{1} << 53;
 

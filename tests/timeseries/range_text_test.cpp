@@ -22,8 +22,6 @@ using tests::ranges::open;
 using tests::ranges::openLow;
 using tests::ranges::operator""_i;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 TEST(RangeText, DocumentedFormsAreRead) {
     const std::pair<const char*, RangeSet> cases[] = {
         {"1:2", RangeSet({closed(1_i, 2_i)})},

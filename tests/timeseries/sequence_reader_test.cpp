@@ -8,6 +8,7 @@
 
 #include "tests/support/files.h"
 #include "tests/support/netcdf_builder.h"
+#include "tests/support/read_variables.h"
 
 namespace timeseries {
 namespace {
@@ -17,6 +18,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using tests::timesOf;
 using Path = std::filesystem::path;
 
 // What a fake file holds. Step t of variable v is filled with first + t + 100 v.
@@ -100,12 +102,6 @@ class Sequence : public testing::Test {
     Path broken_;
     int open_ = 0, opened_ = 0, mostOpen_ = 0;
 };
-
-std::vector<double> timesOf(const Reader& reader) {
-    std::vector<double> values;
-    for (const TimePoint& point : reader.variables()[0].time->points) values.push_back(point.value);
-    return values;
-}
 
 float firstValue(Reader& reader, std::size_t variable, std::size_t step) {
     return std::get<std::vector<float>>(reader.read(variable, step).values)[0];

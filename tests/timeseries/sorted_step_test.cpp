@@ -21,8 +21,6 @@ using tests::ranges::kTwo60;
 using Indices = std::vector<std::uint32_t>;
 using Runs = std::vector<Run>;  // inside a test, Run is gtest's
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Range closed(Number lo, Number hi) { return {{lo, false}, {hi, false}}; }
 RangeSet rangeOf(Bound lo, Bound hi) { return RangeSet(std::vector<Range>{{lo, hi}}); }
 

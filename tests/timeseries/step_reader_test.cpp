@@ -7,6 +7,7 @@
 
 #include "tests/support/files.h"
 #include "tests/support/random_field.h"
+#include "tests/support/read_variables.h"
 #include "tests/support/step_bytes.h"
 #include "timeseries/readers/step_about.h"
 #include "timeseries/series/step_maker.h"
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::refusalOf;
 
 StepAbout aboutAt(double time) {
     StepAbout about;
@@ -39,15 +41,6 @@ fs::path put(const fs::path& path, const std::vector<std::byte>& bytes) {
 Field fieldOf(std::array<std::size_t, 3> size, unsigned seed) {
     std::mt19937_64 random(seed);
     return tests::randomField<float>(random, size, 2);
-}
-
-std::string refusalOf(const fs::path& path) {
-    try {
-        (void)openReader(std::span(&path, 1));
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "nothing";
 }
 
 TEST(StepReader, OpensWhatTheStepSaysOfItself) {

@@ -31,7 +31,7 @@ using testing::HasSubstr;
 // Of each point of the file, its values by where it lies; missing ones left out.
 std::map<std::array<double, 3>, double> byPlace(const std::filesystem::path& path,
                                                 const std::string& name) {
-    const auto reader = openOne(path);
+    const auto reader = open(path);
     const auto variables = reader->variables();
     const auto found = std::ranges::find(variables, name, &Variable::name);
     EXPECT_NE(found, variables.end()) << name;
@@ -149,9 +149,9 @@ TEST(VtkParts, OfStructuredGridsAreTheWhole) {
             EXPECT_EQ(whole.size(), name == "p" ? 60u : 24u);
             EXPECT_EQ(byPlace(folder / "parts.pvt", name), whole) << type << ' ' << name;
         }
-        EXPECT_THAT(openOne(folder / "parts.pvt")->format(), HasSubstr("(XML), 4 parts"));
-        EXPECT_EQ(openOne(folder / "parts.pvt")->variables()[0].grid->axes(),
-                  openOne(folder / "whole.vt")->variables()[0].grid->axes())
+        EXPECT_THAT(open(folder / "parts.pvt")->format(), HasSubstr("(XML), 4 parts"));
+        EXPECT_EQ(open(folder / "parts.pvt")->variables()[0].grid->axes(),
+                  open(folder / "whole.vt")->variables()[0].grid->axes())
             << type;
         // One is not enough, and what reaches beyond the whole is none of its parts.
         writeBytes(folder / "parts.pvt", listOf(type, kWhole, {pieces[0], pieces[1]}));
@@ -159,7 +159,7 @@ TEST(VtkParts, OfStructuredGridsAreTheWhole) {
                     HasSubstr("expected pieces that fill WholeExtent, found"));
         writeBytes(folder / "parts.pvt",
                    listOf(type, "WholeExtent=\"0 3 0 3 0 2\"", {pieces[0], pieces[1]}));
-        EXPECT_THROW(openOne(folder / "parts.pvt"), FileError);
+        EXPECT_THROW(open(folder / "parts.pvt"), FileError);
     }
 }
 
@@ -211,7 +211,7 @@ TEST(VtkParts, OfUnstructuredGridsStandBehindEachOther) {
                             {"Source=\"a.vtu\"", "Source=\"b.vtu\"", "Source=\"c.vtu\""}));
     for (const std::string name : {"p", "c"})
         EXPECT_EQ(byPlace(path, name), byPlace(folder / "whole.vtu", name)) << name;
-    const auto reader = openOne(path);
+    const auto reader = open(path);
     EXPECT_EQ(reader->format(), "VTK unstructured grid (XML), 2 parts");
     // The points between them are in both, each with the volume of its own part's cells.
     const Grid& atPoints = *reader->variables()[0].grid;
@@ -225,7 +225,7 @@ TEST(VtkParts, OfUnstructuredGridsStandBehindEachOther) {
         folder / "series.pvd",
         "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"1\" file=\"parts.pvtu\"/>"
         "<DataSet timestep=\"2\" file=\"parts.pvtu\"/></Collection></VTKFile>");
-    const auto series = openOne(folder / "series.pvd");
+    const auto series = open(folder / "series.pvd");
     ASSERT_EQ(series->variables()[0].time->points.size(), 2u);
     EXPECT_EQ(std::get<std::vector<double>>(series->read(0, 1).values),
               std::get<std::vector<double>>(reader->read(0, 0).values));
@@ -245,11 +245,11 @@ TEST(VtkParts, OfImagesLieWhereTheListSays) {
     const std::string extent = "WholeExtent=\"0 2 0 1 0 1\"";
     writeBytes(folder / "p.pvti",
                listOf("ImageData", extent + " Origin=\"7 8 9\" Spacing=\"3 1 1\"", pieces));
-    const auto reader = openOne(folder / "p.pvti");
+    const auto reader = open(folder / "p.pvti");
     EXPECT_EQ(reader->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{7, 10, 13}));
     EXPECT_EQ(reader->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{9, 10}));
     writeBytes(folder / "b.vti", part("1 2 0 1 0 1", "500 0 0"));
-    EXPECT_THROW(openOne(folder / "p.pvti"), FileError);
+    EXPECT_THROW(open(folder / "p.pvti"), FileError);
 }
 
 TEST(VtkParts, GhostCellsAreMissing) {
@@ -269,7 +269,7 @@ TEST(VtkParts, WhatIsWrongIsNamed) {
     const auto told = [&](const std::vector<std::string>& pieces) -> std::string {
         writeBytes(folder / "parts.pvtu", listOf("UnstructuredGrid", "", pieces));
         try {
-            const auto reader = openOne(folder / "parts.pvtu");
+            const auto reader = open(folder / "parts.pvtu");
             reader->read(0, 0);
         } catch (const FileError& error) {
             return error.what();

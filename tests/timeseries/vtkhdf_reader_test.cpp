@@ -119,7 +119,7 @@ TEST(VtkHdf, PartsOfOneStepStandBehindEachOther) {
     file.put("VTKHDF/CellData/c", ramp<std::int32_t>(5));
     file.put("VTKHDF/CellData/vtkGhostType", std::vector<std::uint8_t>{0, 0, 1, 2, 8});
     file.put("VTKHDF/FieldData/TimeValue", std::vector<double>{2.5});
-    const auto reader = openOne(file.close());
+    const auto reader = open(file.close());
     EXPECT_EQ(reader->format(), "VTKHDF unstructured grid");
     EXPECT_EQ(reader->variables()[0].time->points[0].value, 2.5);
     EXPECT_EQ(valuesOf<float>(*reader, "p"), ramp<float>(28));
@@ -161,7 +161,7 @@ TEST(VtkHdf, EachStepHasItsOwnCells) {
             file.put("VTKHDF/Steps/PointDataOffsets/p", Numbers{24, 0});
             file.put("VTKHDF/Steps/CellDataOffsets/c", Numbers{4, 0});
         }
-        const auto reader = openOne(file.close());
+        const auto reader = open(file.close());
         ASSERT_EQ(reader->variables()[0].time->points.size(), 2u);
         EXPECT_EQ(reader->variables()[0].time->points[1].value, 0.5);
         const auto first = valuesOf<std::int32_t>(*reader, "p", 0);
@@ -226,7 +226,7 @@ std::unique_ptr<Reader> fourSteps(const std::vector<bool>& points, const std::ve
     file.put("VTKHDF/Steps/CellOffsets", fours(cellOffsets), 4);
     file.put("VTKHDF/Steps/ConnectivityIdOffsets", fours(idOffsets), 4);
     file.put("VTKHDF/Steps/CellDataOffsets/c", Numbers{0, 2, 4, 6});
-    return openOne(file.close());
+    return open(file.close());
 }
 
 // As VTK reads them: cells of each step, or once for several, which then change.
@@ -267,7 +267,7 @@ TEST(VtkHdf, CellsThatDoNotChangeStandOnce) {
     file.put("VTKHDF/Steps/PointOffsets", Numbers{0, 12});
     file.put("VTKHDF/Steps/CellOffsets", Numbers{0, 0});
     file.put("VTKHDF/Steps/ConnectivityIdOffsets", Numbers{0, 0});
-    const auto reader = openOne(file.close());
+    const auto reader = open(file.close());
     const Field second = reader->read(0, 1);
     EXPECT_EQ(std::get<std::vector<double>>(second.values)[0], 12);
     double volume = 0;
@@ -294,7 +294,7 @@ TEST(VtkHdf, PolygonsAreSurfaces) {
     topology("Polygons", {0, 1, 2, 3, 1, 4, 5, 2}, {0, 4, 8});
     topology("Strips", {}, {0});
     file.put("VTKHDF/CellData/c", ramp<std::int32_t>(3));
-    const auto reader = openOne(file.close());
+    const auto reader = open(file.close());
     EXPECT_EQ(reader->format(), "VTKHDF polygons");
     const Grid& grid = *reader->variables()[0].grid;
     EXPECT_EQ(grid.mesh()->flat(), 1u);  // the line
@@ -313,7 +313,7 @@ TEST(VtkHdf, NumbersThatDoNotFitAreRefused) {
         parts.put(file);
         file.put("VTKHDF/CellData/c", ramp<std::int32_t>(2));
         try {
-            const auto reader = openOne(file.close());
+            const auto reader = open(file.close());
             reader->read(0, 0);
         } catch (const FileError& error) {
             return error.what();
@@ -343,7 +343,7 @@ TEST(VtkHdf, NumbersThatDoNotFitAreRefused) {
 TEST(RealVtkHdf, SpheresThatWarpAreSurfacesOfTheirSteps) {
     const auto path = tests::sharedData("grids/warping_spheres.vtkhdf");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const auto reader = openOne(path);
+    const auto reader = open(path);
     EXPECT_EQ(reader->variables()[0].time->points.size(), 100u);
     for (const std::size_t step : {0u, 50u, 99u}) {
         const Field field = reader->read(0, step);

@@ -1,6 +1,5 @@
 // The clip box.
 #include <glm/common.hpp>
-#include <limits>
 #include <utility>
 
 #include "app/choices/camera.h"
@@ -64,9 +63,8 @@ TEST_F(DeskClips, WhatLiesBeyondTheDraggedFaceUntilItIsUndone) {
     const double length = z.back() - z.front(), face = after.clip->hi.z;
     EXPECT_NEAR(face, z.front() + 0.4 * length,
                 2 * length / static_cast<double>(slider().size().x));
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(after.clip->lo, glm::dvec3(-kInfinity));
-    EXPECT_EQ(after.clip->hi, glm::dvec3(kInfinity, kInfinity, face));
+    EXPECT_EQ(after.clip->lo, glm::dvec3(-app::kInfinity));
+    EXPECT_EQ(after.clip->hi, glm::dvec3(app::kInfinity, app::kInfinity, face));
     const app::ClipBox clip = *std::exchange(after.clip, before.clip);
     EXPECT_TRUE(after == before) << "and nothing else";
 

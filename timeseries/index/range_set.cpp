@@ -10,8 +10,6 @@
 namespace timeseries {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 bool holdsNothing(const Range& range) {
     const auto order = compare(range.lo.value, range.hi.value);
     if (order == std::partial_ordering::less) return false;

@@ -17,6 +17,8 @@
 
 namespace timeseries {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();  // the end of an open range
+
 struct Bound {
     Number value;
     bool open = false;
@@ -33,8 +35,7 @@ struct Interval {
     friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-constexpr Interval<double> kAllNumbers{-std::numeric_limits<double>::infinity(),
-                                       std::numeric_limits<double>::infinity()};
+constexpr Interval<double> kAllNumbers{-kInfinity, kInfinity};
 
 // The range in the type T; false when it holds no value of T.
 // Float types: each bound goes to the nearest T, then an open end steps one T inward; a finite

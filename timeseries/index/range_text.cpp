@@ -16,8 +16,6 @@
 namespace timeseries {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 [[noreturn]] void fail(std::string_view piece, std::string_view why) {
     throw RangeSyntaxError(fmt::format("range '{}': {}", piece, why));
 }

@@ -16,7 +16,7 @@ namespace {
 
 // One behind the other: the parts that a variable's values are read from, a step at a time. Null:
 // the block has none of it.
-struct Part {
+struct BlockPart {
     const NcVariable* variable;
     std::uint64_t count;
     std::optional<std::size_t> among;  // of variables that stand in one, the second dimension
@@ -40,8 +40,8 @@ class ExodusReader final : public Reader {
  private:
     void addTime();
     void addVariables();
-    std::vector<Part> partsOf(bool atNodes, std::size_t index) const;
-    void add(const std::string& name, bool atNodes, std::vector<Part> parts);
+    std::vector<BlockPart> partsOf(bool atNodes, std::size_t index) const;
+    void add(const std::string& name, bool atNodes, std::vector<BlockPart> parts);
     std::shared_ptr<const Grid> gridOf(bool atNodes);
 
     std::vector<std::filesystem::path> paths_;
@@ -53,7 +53,7 @@ class ExodusReader final : public Reader {
     std::optional<UnstructuredShapes> shapes_;
     std::array<std::shared_ptr<const Grid>, 2> grids_;  // at elements, at nodes
     std::vector<Variable> variables_;
-    std::vector<std::vector<Part>> parts_;  // [variable]
+    std::vector<std::vector<BlockPart>> parts_;  // [variable]
 };
 
 void ExodusReader::addTime() {
@@ -72,8 +72,8 @@ void ExodusReader::addTime() {
     time_ = std::move(time);
 }
 
-std::vector<Part> ExodusReader::partsOf(bool atNodes, std::size_t index) const {
-    std::vector<Part> parts;
+std::vector<BlockPart> ExodusReader::partsOf(bool atNodes, std::size_t index) const {
+    std::vector<BlockPart> parts;
     if (atNodes) {
         const std::uint64_t nodes = mesh_.grid.points.size(),
                             all = exodusLength(file_.header(), "num_nod_var");
@@ -107,15 +107,16 @@ std::shared_ptr<const Grid> ExodusReader::gridOf(bool atNodes) {
     }
 }
 
-void ExodusReader::add(const std::string& name, bool atNodes, std::vector<Part> parts) {
-    const auto first = std::ranges::find_if(parts, [](const Part& part) { return part.variable; });
+void ExodusReader::add(const std::string& name, bool atNodes, std::vector<BlockPart> parts) {
+    const auto first =
+        std::ranges::find_if(parts, [](const BlockPart& part) { return part.variable; });
     if (first == parts.end()) return;
     Variable variable;
     variable.name = name;
     variable.type = *first->variable->type;
     variable.storedAs = std::string(typeName(variable.type)) + (atNodes ? "" : ", at elements");
     std::size_t without = 0;
-    for (const Part& part : parts) {
+    for (const BlockPart& part : parts) {
         if (part.variable && part.variable->type != variable.type)
             file_.fail("variable '" + name + "'", "expected the same type in all blocks");
         without += !part.variable && part.count > 0;
@@ -150,7 +151,7 @@ Field ExodusReader::read(std::size_t variable, std::size_t step) {
     withType(variables_[variable].type, [&]<typename T>(T) {
         auto& values = field.values.emplace<std::vector<T>>(field.grid->count());
         std::uint64_t at = 0;
-        for (const Part& part : parts_[variable]) {
+        for (const BlockPart& part : parts_[variable]) {
             if (part.variable && part.among)
                 file_.read(*part.variable, std::array<std::size_t, 3>{step, *part.among, 0},
                            std::array<std::size_t, 3>{1, 1, part.count}, values.data() + at);

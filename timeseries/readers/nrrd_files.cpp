@@ -98,9 +98,9 @@ std::vector<std::string> listed(const ArrayHeader& header, const NrrdDataFile& d
 }
 
 // "PATTERN MIN MAX STEP [SUBDIM]"; nothing when the text has no such numbers: then it is a name.
-std::optional<std::vector<std::string>> numbered(const ArrayHeader& header,
-                                                 const NrrdDataFile& dataFile,
-                                                 const std::vector<std::string>& head) {
+std::optional<std::vector<std::string>> namedByNumbers(const ArrayHeader& header,
+                                                       const NrrdDataFile& dataFile,
+                                                       const std::vector<std::string>& head) {
     if (head.size() < 4 || head.size() > 5 || head[0].find('%') == std::string::npos)
         return std::nullopt;
     const auto pattern = Pattern::parse(head[0]);
@@ -130,7 +130,7 @@ std::vector<std::string> namesOf(const ArrayHeader& header, const NrrdDataFile& 
     if (head.empty()) header.fail(kPlace, "expected the name of a file");
     if (field.starts_with("LIST") || field.starts_with("SKIPLIST"))
         return listed(header, dataFile, head);
-    if (auto names = numbered(header, dataFile, head)) return *names;
+    if (auto names = namedByNumbers(header, dataFile, head)) return *names;
     return {field};
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t kMostComponents = 1024;
 
 // An array at points or cells, or a number of each of its rows.
-struct Source {
+struct ArrayOf {
     const NcVariable* array;
     std::string name;  // in the file
     bool atPoints;
@@ -44,11 +44,11 @@ class VtkHdfReader final : public Reader {
  private:
     void addTime();
     void addArrays(bool atPoints);
-    void add(Source source, const std::string& name, ValueType type, const std::string& storedAs);
+    void add(ArrayOf source, const std::string& name, ValueType type, const std::string& storedAs);
     void open(std::size_t step);
     std::shared_ptr<const Grid> gridAt(bool atPoints);
     const NcVariable* ghostsAt(bool atPoints) const;
-    void markGhosts(const Source& source, std::size_t step, std::uint64_t count,
+    void markGhosts(const ArrayOf& source, std::size_t step, std::uint64_t count,
                     Field& field) const;
 
     std::vector<std::filesystem::path> paths_;
@@ -62,7 +62,7 @@ class VtkHdfReader final : public Reader {
     std::optional<UnstructuredShapes> shapes_;
     std::array<std::shared_ptr<const Grid>, 2> grids_;  // at cells, at points
     std::vector<Variable> variables_;
-    std::vector<Source> sources_;
+    std::vector<ArrayOf> sources_;
 };
 
 void VtkHdfReader::addTime() {
@@ -105,7 +105,7 @@ const NcVariable* VtkHdfReader::ghostsAt(bool atPoints) const {
     return found && found->type ? found : nullptr;
 }
 
-void VtkHdfReader::add(Source source, const std::string& name, ValueType type,
+void VtkHdfReader::add(ArrayOf source, const std::string& name, ValueType type,
                        const std::string& storedAs) {
     Variable variable;
     variable.name = name;
@@ -150,7 +150,7 @@ void VtkHdfReader::addArrays(bool atPoints) {
 }
 
 // Duplicate and hidden points; duplicate, refined and hidden cells (vtkDataSetAttributes).
-void VtkHdfReader::markGhosts(const Source& source, std::size_t step, std::uint64_t count,
+void VtkHdfReader::markGhosts(const ArrayOf& source, std::size_t step, std::uint64_t count,
                               Field& field) const {
     const NcVariable* const ghosts = ghostsAt(source.atPoints);
     if (!ghosts) return;
@@ -171,7 +171,7 @@ void VtkHdfReader::markGhosts(const Source& source, std::size_t step, std::uint6
 
 Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
     open(step);
-    const Source& source = sources_[variable];
+    const ArrayOf& source = sources_[variable];
     Field field;
     field.grid = gridOfStep(variables_[variable].grid, gridAt(source.atPoints));
     if (!field.grid) file_.fail("VTKHDF", "expected the steps of one series");

@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 #include <random>
 
 #include "app/headset/standing.h"
@@ -13,8 +12,6 @@
 
 namespace app::headset {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool isIn(const glm::dvec3& at, const AxisBox& box) {
     for (int a = 0; a < 3; ++a)
