@@ -29,7 +29,7 @@ inline void together(unsigned threads, const std::function<void(unsigned)>& work
     work(0);
 }
 
-// The same for work that may throw: what one thread threw, if any, comes when all have ended.
+// together() for work that may throw: what one thread threw, if any, comes when all have ended.
 inline void sharing(unsigned threads, const std::function<void(unsigned)>& work) {
     std::vector<std::exception_ptr> failures(threads);
     together(threads, [&](unsigned k) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/sweep_edits.h"
 
 namespace app {
 namespace {
@@ -50,12 +51,13 @@ std::string triple(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.
 Text unless(bool untouched, Text text) { return untouched ? std::nullopt : std::move(text); }
 
 timeseries::SweepSettings& swept(Explorer& e) {
-    if (!e.sweep) throw ChoiceError("there is no sweep that it could be of");
-    return *e.sweep;
+    if (auto* const sweep = sweepOf(e)) return *sweep;
+    throw ChoiceError("there is no sweep that it could be of");
 }
 template <typename Of>
 Text ofSweep(const Explorer& e, const Of& text) {
-    return e.sweep ? text(*e.sweep) : Text();
+    const auto* const sweep = sweepOf(e);
+    return sweep != nullptr ? text(*sweep) : Text();
 }
 
 const CursorSettings kTime;
@@ -80,8 +82,7 @@ constexpr std::array kChoices = {
                return ofSweep(e, [](const auto& s) { return s.animation.text(); });
            },
            [](Explorer& e, std::string_view t) {
-               e.sweep.emplace().path = timeseries::SweepPath::Loop;
-               e.sweep->animation = RangeSet::parse(t);
+               setSweep(e, {.animation = RangeSet::parse(t), .path = timeseries::SweepPath::Loop});
                e.oneTick = false;
            },
            "Sweep", "Animate a window of values through these ranges; a layer before the others"},
@@ -291,15 +292,15 @@ const Choice& choiceOf(std::string_view option) {
 }
 
 std::optional<Flaw> flawOf(const Explorer& e) {
-    const std::size_t layers = e.layers.size() + (e.sweep ? 1 : 0);
-    if (layers > render::kMaxLayers)
+    if (e.layers.size() > render::kMaxLayers)
         return Flaw{"layers", fmt::format("{} layers are more than the {} that are drawn at once",
-                                          layers, render::kMaxLayers)};
+                                          e.layers.size(), render::kMaxLayers)};
     if (e.play.time.first > e.play.time.last)
         return Flaw{"play.last", fmt::format("the last step {} lies before the first {}",
                                              e.play.time.last, e.play.time.first)};
-    if (!e.sweep) return std::nullopt;
-    const std::int64_t ticks = ticksOf(*e.sweep);
+    const auto* const sweep = sweepOf(e);
+    if (sweep == nullptr) return std::nullopt;
+    const std::int64_t ticks = ticksOf(*sweep);
     if (e.oneTick && e.play.tick >= ticks)
         return Flaw{"sweep.tick",
                     fmt::format("{} is none of the sweep's, 0 to {}", e.play.tick, ticks - 1)};

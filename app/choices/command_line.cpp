@@ -58,20 +58,14 @@ void addStyle(const LayerChoice& layer, Arguments& arguments) {
     arguments.number("--opacity", *layer.opacity);
 }
 
-// Styles go to the swept layer first, then to the others in their order.
 void addLayers(const Explorer& e, Arguments& arguments) {
-    std::size_t place = 1;
-    const auto add = [&](const LayerChoice& layer) {
+    for (std::size_t i = 0; i < e.layers.size(); ++i) {
+        const LayerChoice& layer = e.layers[i];
+        if (!layer.motion) arguments.option("--range", layer.ranges.text());
         addStyle(layer, arguments);
-        if (!layer.visible) arguments.option("--hide", std::to_string(place));
-        ++place;
-    };
-    if (e.sweep) add(e.sweepLayer);
-    for (const LayerChoice& layer : e.layers) {
-        arguments.option("--range", layer.ranges.text());
-        add(layer);
+        if (!layer.visible) arguments.option("--hide", std::to_string(i + 1));
     }
-    if (e.layers.empty() && !e.sweep) {  // no layer, or a hidden one: the same picture
+    if (e.layers.empty()) {  // no layer, or a hidden one: the same picture
         arguments.option("--range", "min:max");
         arguments.option("--hide", "1");
     }
@@ -100,7 +94,7 @@ void addChoices(const Explorer& e, Arguments& arguments) {
 
 std::vector<std::string> renderArguments(const Explorer& e, const fs::path& output,
                                          const fs::path& folder) {
-    assert(!e.layers.empty() || e.sweep || e.noLayers);
+    assert(!e.layers.empty() || e.noLayers);
     Arguments arguments({"render"});
     for (const fs::path& file : e.files) arguments.file(relativeTo(folder, file));
     addChoices(e, arguments);

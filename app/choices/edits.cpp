@@ -243,14 +243,13 @@ RangeSet newRanges(const Explorer& explorer, const SortedStep& step) {
 }
 
 std::size_t addLayer(Explorer& explorer, RangeSet ranges, const SortedStep& step) {
-    assert(explorer.layers.size() + (explorer.sweep ? 1 : 0) < render::kMaxLayers);
+    assert(explorer.layers.size() < render::kMaxLayers);
     const auto isTaken = [&](const glm::dvec3& color) {
         const auto has = [&](const LayerChoice& layer) {
             const auto* rgb = layer.color ? std::get_if<glm::dvec3>(&*layer.color) : nullptr;
             return rgb != nullptr && *rgb == color;
         };
-        return std::ranges::any_of(explorer.layers, has) ||
-               (explorer.sweep && has(explorer.sweepLayer));
+        return std::ranges::any_of(explorer.layers, has);
     };
     LayerChoice layer;
     layer.color = *std::ranges::find_if_not(kLayerColors, isTaken);

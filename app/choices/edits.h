@@ -55,8 +55,7 @@ void removeLayer(Explorer& explorer, std::size_t layer);
 timeseries::RangeSet newRanges(const Explorer& explorer, const timeseries::SortedStep& step);
 // A new layer, last; its colour is the next that no layer has (constant colours by place, as for
 // several --range), its opacity that of a lump of so many points (opacityFor). Layers that were
-// coloured by value stay so. Returns its place. REQUIRES: fewer than render::kMaxLayers layers, the
-// swept one counted.
+// coloured by value stay so. Returns its place. REQUIRES: fewer than render::kMaxLayers layers.
 std::size_t addLayer(Explorer& explorer, timeseries::RangeSet ranges,
                      const timeseries::SortedStep& step);
 

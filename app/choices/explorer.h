@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -29,11 +30,13 @@ struct MapChoice {
 };
 
 struct LayerChoice {
-    timeseries::RangeSet ranges;
+    timeseries::RangeSet ranges;  // that stand; of a layer that moves none
     // sRGB components as written, #rrggbb / 255; or a map. Absent: chosen by place (see styled()).
     std::optional<std::variant<glm::dvec3, MapChoice>> color;
     std::optional<double> opacity;  // of one unit length of fully selected points, [0, 1]
     bool visible = true;            // a hidden layer is neither drawn nor counted in totals
+    // The swept window: the layer shows values that move.
+    std::optional<timeseries::SweepSettings> motion{};
     friend bool operator==(const LayerChoice&, const LayerChoice&) = default;
 };
 
@@ -99,12 +102,10 @@ struct Explorer {
     std::string variable;             // "": the file's first
     std::optional<StepChoice> steps;  // absent: the middle one
     std::optional<timeseries::RangeSet> keep;
-    std::array<AxisChoice, 3> axes;   // x, y, z
-    std::vector<LayerChoice> layers;  // empty: a first choice from the data, but for `noLayers`
-    bool noLayers = false;            // the last one was taken away: none are wanted
-    // The swept window is a layer of its own, before the others; its ranges are ignored.
-    std::optional<timeseries::SweepSettings> sweep;
-    LayerChoice sweepLayer;
+    std::array<AxisChoice, 3> axes;  // x, y, z
+    // Empty: a first choice from the data, but for `noLayers`. The first one alone may move.
+    std::vector<LayerChoice> layers;
+    bool noLayers = false;  // the last one was taken away: none are wanted
     // One picture of the sweep, where it stands (play.tick), instead of its whole cycle. A window
     // shows one at a time anyway and has no use for it.
     bool oneTick = false;
@@ -122,6 +123,14 @@ struct Explorer {
 
     friend bool operator==(const Explorer&, const Explorer&) = default;
 };
+
+// Of the layer that moves; null where none does.
+inline const timeseries::SweepSettings* sweepOf(const Explorer& e) {
+    return !e.layers.empty() && e.layers.front().motion ? &*e.layers.front().motion : nullptr;
+}
+inline timeseries::SweepSettings* sweepOf(Explorer& e) {
+    return const_cast<timeseries::SweepSettings*>(sweepOf(std::as_const(e)));
+}
 
 // Whether both are about the same sorted steps.
 inline bool sameData(const Explorer& a, const Explorer& b) {

@@ -71,37 +71,33 @@ std::vector<std::variant<glm::dvec3, MapChoice>> ExplorerOptions::colorsInOrder(
     return colors;
 }
 
-// The layers that have a style of their own: the swept one first, then the ranges'.
+// Styles go to the swept layer first, then to the ranges'.
 void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
     if (given(app, "--range")) {
-        e.layers.clear();
+        std::erase_if(e.layers, [](const LayerChoice& layer) { return !layer.motion; });
         e.noLayers = false;
         for (const std::string& range : ranges_)
             e.layers.push_back({RangeSet::parse(range), {}, {}});
     }
-    std::vector<LayerChoice*> layers;
-    if (e.sweep) layers.push_back(&e.sweepLayer);
-    for (LayerChoice& layer : e.layers) layers.push_back(&layer);
     const auto colors = colorsInOrder(app);
     const std::size_t styles = std::max(colors.size(), opacities_.size());
-    if (layers.empty() && (styles == 1 || !hidden_.empty())) {
+    if (e.layers.empty() && (styles == 1 || !hidden_.empty())) {
         // A style for the first choice, whose range is not known yet.
-        e.layers.push_back({RangeSet(), {}, {}});
+        e.layers.emplace_back();
         e.noLayers = false;
-        layers.push_back(&e.layers.back());
     }
-    if (styles > layers.size())
+    if (styles > e.layers.size())
         throw ChoiceError(
             fmt::format("{} colours or opacities for {} layers: give a --range for each", styles,
-                        layers.size()));
-    for (std::size_t i = 0; i < colors.size(); ++i) layers[i]->color = colors[i];
+                        e.layers.size()));
+    for (std::size_t i = 0; i < colors.size(); ++i) e.layers[i].color = colors[i];
     for (std::size_t i = 0; i < opacities_.size(); ++i)
-        layers[i]->opacity = parseNumber("opacity", opacities_[i]);
+        e.layers[i].opacity = parseNumber("opacity", opacities_[i]);
     for (const std::size_t number : hidden_) {
-        if (number > layers.size())
+        if (number > e.layers.size())
             throw ChoiceError(
-                fmt::format("--hide {} of {} layers: 1 is the first", number, layers.size()));
-        layers[number - 1]->visible = false;
+                fmt::format("--hide {} of {} layers: 1 is the first", number, e.layers.size()));
+        e.layers[number - 1].visible = false;
     }
 }
 
@@ -158,7 +154,8 @@ Explorer ExplorerOptions::explorer(const CLI::App& app) const {
     for (std::size_t i = 0; i < choices().size(); ++i) {
         const Choice& choice = choices()[i];
         if (*choice.option == '\0' || !given(app, choice.option)) continue;
-        if (choice.group == std::string_view("Sweep") && !e.sweep && !given(app, "--sweep"))
+        if (choice.group == std::string_view("Sweep") && sweepOf(e) == nullptr &&
+            !given(app, "--sweep"))
             throw ChoiceError(fmt::format("{} needs --sweep beside it", choice.option));
         take(choice, texts_[i], e);
     }

@@ -126,7 +126,7 @@ void writeChoices(const Explorer& e, json& out) {
         const auto [object, key] = splitKey(choice.key);
         (object.empty() ? out : out[object])[key] = valueOf(choice.form, *text);
     }
-    if (e.sweep) writeStyle(out["sweep"], e.sweepLayer);
+    if (sweepOf(e) != nullptr) writeStyle(out["sweep"], e.layers.front());
 }
 
 void readChoices(JsonObject& session, Explorer& e) {
@@ -143,8 +143,11 @@ void readChoices(JsonObject& session, Explorer& e) {
                   [&](const std::string& text) { choice.take(e, text); });
     }
     if (const auto sweep = objects.find("sweep"); sweep != objects.end()) {
-        if (!e.sweep) throw ChoiceError("session.sweep has no animation");
-        e.sweepLayer = readStyle(sweep->second);
+        const auto* const settings = sweepOf(e);
+        if (settings == nullptr) throw ChoiceError("session.sweep has no animation");
+        LayerChoice swept = readStyle(sweep->second);
+        swept.motion = *settings;
+        e.layers.front() = std::move(swept);
     }
     for (const auto& [name, object] : objects) object.refuseOthers();
 }
@@ -165,6 +168,7 @@ json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths)
         if (!e.axes[a].name.empty()) out["axes"][kAxisKeys[a]]["name"] = e.axes[a].name;
     }
     for (const LayerChoice& layer : e.layers) {
+        if (layer.motion) continue;  // in "sweep"
         json each = json::object();
         if (!layer.ranges.empty()) each["range"] = layer.ranges.text();
         writeStyle(each, layer);

@@ -52,6 +52,12 @@ RangeSet visibleRanges(const Explorer& e) {
 
 }  // namespace
 
+void setSweep(Explorer& e, timeseries::SweepSettings settings) {
+    if (sweepOf(e) == nullptr) e.layers.emplace(e.layers.begin());
+    e.layers.front().motion = std::move(settings);
+    e.noLayers = false;
+}
+
 void startSweep(Explorer& e, const Extent& values, const SortedStep& step, bool timePlays) {
     const double width = values.hi - values.lo;
     timeseries::SweepSettings sweep;
@@ -66,18 +72,11 @@ void startSweep(Explorer& e, const Extent& values, const SortedStep& step, bool 
         begin = beginningOf(sweep, step, wanted);
         if (begin.isSeen || !(delta > 0)) break;
     }
-    e.sweep = sweep;
-    e.sweepLayer = {.ranges = {},
-                    .color = MapChoice{.map = {}, .lo = values.lo, .hi = values.hi},
-                    .opacity = opacityFor(begin.points),
-                    .visible = true};
+    setSweep(e, std::move(sweep));
+    e.layers.front().color = MapChoice{.map = {}, .lo = values.lo, .hi = values.hi};
+    e.layers.front().opacity = opacityFor(begin.points);
     if (timePlays && e.play.timeMoves) e.play.sweepMoves = false;
     e.play.tick = begin.tick;
-}
-
-void stopSweep(Explorer& e) {
-    e.sweep.reset();
-    e.noLayers = e.layers.empty();
 }
 
 }  // namespace app

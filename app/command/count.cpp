@@ -54,7 +54,7 @@ ordered_json json(const RangeSet& layer) {
 
 ordered_json json(const Dataset& dataset, const Row& row) {
     ordered_json out{{"step", row.step},
-                     {"time", dataset.about.time->points[row.step].value},
+                     {"time", dataset.variable.time->points[row.step].value},
                      {"points", row.statistics.points},
                      {"missing", row.statistics.missing},
                      {"min", number(row.statistics.min)},
@@ -70,8 +70,8 @@ ordered_json json(const Dataset& dataset, const Row& row) {
 ordered_json json(const Dataset& dataset, const std::vector<RangeSet>& layers,
                   const std::vector<Row>& rows) {
     ordered_json out{{"file", dataset.name},
-                     {"variable", dataset.about.name},
-                     {"units", dataset.about.units},
+                     {"variable", dataset.variable.name},
+                     {"units", dataset.variable.units},
                      {"layers", ordered_json::array()}};
     for (const RangeSet& layer : layers) out["layers"].push_back(json(layer));
     if (!dataset.series.recognised.empty()) out["series"] = dataset.series.recognised;
@@ -81,9 +81,9 @@ ordered_json json(const Dataset& dataset, const std::vector<RangeSet>& layers,
 }
 
 void printHead(const Dataset& dataset, const RangeSet& ranges) {
-    const auto& about = dataset.about;
-    say("{}: {}{}, range {}\n", dataset.name, about.name,
-        about.units.empty() ? "" : " (" + about.units + ")", ranges.text());
+    const auto& variable = dataset.variable;
+    say("{}: {}{}, range {}\n", dataset.name, variable.name,
+        variable.units.empty() ? "" : " (" + variable.units + ")", ranges.text());
     if (!dataset.series.recognised.empty()) say("{}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("note: {}\n", note);
     say("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8}\n", "step", "time", "points",
@@ -98,20 +98,20 @@ void print(const Dataset& dataset, const Row& row) {
     };
     const timeseries::StepStatistics& s = row.statistics;
     say("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8.2f}\n", row.step,
-        timeText(*dataset.about.time, row.step), withCommas(s.points), withCommas(s.missing),
+        timeText(*dataset.variable.time, row.step), withCommas(s.points), withCommas(s.missing),
         value(s.min), value(s.max), withCommas(row.selected), row.percent(row.selected));
 }
 
 }  // namespace
 
 int count(const CountOptions& options) {
-    Dataset dataset = openDataset(options.files, options.variable);
+    OpenDataset dataset = openDataset(options.files, options.variable);
     const RangeSet ranges = timeseries::unionOf(options.ranges);
     const RangeSet kept = options.keep.value_or(RangeSet::everything());
     const auto steps = stepsOf(dataset, options.steps);
     std::vector<Row> rows;
     const auto stores = storesFor(dataset.reader->files());
-    timeseries::StepMaker maker(std::move(dataset.reader), dataset.variable, kept, stores);
+    timeseries::StepMaker maker(std::move(dataset.reader), dataset.variableIndex, kept, stores);
     if (!options.json) printHead(dataset, ranges);
     {
         // The table shows by itself how far it is.

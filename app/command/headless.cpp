@@ -6,7 +6,7 @@
 #include "app/command/commands.h"
 #include "app/exploration/chosen_data.h"
 #include "app/files/dataset.h"
-#include "app/files/frames.h"
+#include "app/files/frame_files.h"
 #include "app/files/progress.h"
 #include "app/picture/depth_error.h"
 #include "app/picture/picture.h"
@@ -20,9 +20,9 @@ namespace {
 
 using timeseries::SortedStep;
 
-void tellStyle(const Explorer& e, const timeseries::Variable& about) {
-    const auto tell = [&](const timeseries::RangeSet& ranges, const LayerChoice& layer) {
-        if (!layer.visible) return;
+void tellStyle(const Explorer& e, const timeseries::Variable& variable) {
+    for (const LayerChoice& layer : e.layers) {
+        if (!layer.visible) continue;
         std::string color;
         if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
             color = colorText(*rgb);
@@ -30,16 +30,16 @@ void tellStyle(const Explorer& e, const timeseries::Variable& about) {
             const auto& map = std::get<MapChoice>(*layer.color);
             color = fmt::format("{} from {:g} to {:g}", map.map.name(), *map.lo, *map.hi);
         }
-        say("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, about.units), color, *layer.opacity);
-    };
-    if (e.sweep) tell(e.sweep->animation, e.sweepLayer);
-    for (const LayerChoice& layer : e.layers) tell(layer.ranges, layer);
+        const auto& ranges = layer.motion ? layer.motion->animation : layer.ranges;
+        say("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, variable.units), color,
+            *layer.opacity);
+    }
 }
 
-void tellFiles(const Frames& frames, const timeseries::Variable& about) {
-    std::string times = timeText(*about.time, frames.front().step);
-    if (frames.size() > 1) times += " to " + timeText(*about.time, frames.back().step);
-    say("{}: {}, {}\n", frames.names(), about.name, times);
+void tellFiles(const FrameFiles& frames, const timeseries::Variable& variable) {
+    std::string times = timeText(*variable.time, frames.front().step);
+    if (frames.size() > 1) times += " to " + timeText(*variable.time, frames.back().step);
+    say("{}: {}, {}\n", frames.names(), variable.name, times);
 }
 
 // What is said of the pictures once they are made.
@@ -60,11 +60,12 @@ std::optional<double> errorOf(const Explorer& e, const FrameAt& frame, const Sor
 
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
 // the GPU.
-Told drawFrames(const RenderOptions& options, const Explorer& e, const timeseries::Variable& about,
-                const Frames& frames, StepSource& source, render::FrameRenderer& renderer) {
+Told drawFrames(const RenderOptions& options, const Explorer& e,
+                const timeseries::Variable& variable, const FrameFiles& frames, StepSource& source,
+                render::FrameRenderer& renderer) {
     std::shared_ptr<const SortedStep> shown;
     std::optional<render::PlacedPoints> placed;
-    std::optional<render::GpuStep> onGpu;
+    std::optional<render::GlStep> onGpu;
     Progress progress("picture", frames.size());
     Told told;
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -82,7 +83,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e, const timeserie
             told.of = frame.file;
         }
         const bool isMixed = writeStill({.explorer = e,
-                                         .about = about,
+                                         .variable = variable,
                                          .stepIndex = frame.step,
                                          .step = *step,
                                          .placed = *placed,
@@ -133,10 +134,10 @@ int renderHeadless(const RenderOptions& options) {
     const Explorer& e = chosen.explorer;
     const Dataset& dataset = chosen.dataset;
     Drawing drawing(options);
-    const Frames frames(options.output, e, chosen.steps);
+    const FrameFiles frames(options.output, e, chosen.steps);
     const auto [mixed, error, middle] =
-        drawFrames(options, e, dataset.about, frames, *chosen.source, drawing.renderer());
-    tellFiles(frames, dataset.about);
+        drawFrames(options, e, dataset.variable, frames, *chosen.source, drawing.renderer());
+    tellFiles(frames, dataset.variable);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
     if (mixed > 0)
@@ -145,13 +146,13 @@ int renderHeadless(const RenderOptions& options) {
             mixed == frames.size() ? ""
                                    : fmt::format(" in {} of {} pictures", mixed, frames.size()),
             render::kMixedDepth);
-    tellStyle(e, dataset.about);
+    tellStyle(e, dataset.variable);
     if (const std::string text = depthErrorText(error); !text.empty())
         say("  {} of optical depth{}\n", text,
             frames.size() == 1 ? "" : fmt::format(" in {}", middle.string()));
-    if (e.sweep && !e.oneTick && e.sweep->frequency > 0)
+    if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
-            static_cast<double>(frames.size()) * e.sweep->frequency, e.sweep->frequency);
+            static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);
     say("  drawn by {}\n", drawing.name());
     return 0;
 }

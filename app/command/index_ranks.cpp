@@ -70,14 +70,14 @@ class TogetherWork {
     StepMaker::Kept keep(const IndexTask& task) {
         std::optional<StepOrigin> origin;
         ranks_.agreed([&] {
-            if (!dataset_ || dataset_->about.name != task.variable)
+            if (!dataset_ || dataset_->variable.name != task.variable)
                 dataset_ = openDataset(options_.files, task.variable);
-            if (dataset_->about.grid->count() > std::uint64_t{1} << 32)
+            if (dataset_->variable.grid->count() > std::uint64_t{1} << 32)
                 throw FileError(
                     fmt::format("{}: variable '{}': expected at most the 2^32 points that one list "
                                 "holds",
                                 dataset_->name, task.variable));
-            origin = originOf(*dataset_->reader, dataset_->variable, task.step);
+            origin = originOf(*dataset_->reader, dataset_->variableIndex, task.step);
         });
         if (ranks_.sum(origin.has_value()) < ranks_.size()) return StepMaker::Kept::Not;
         std::optional<OriginStamp> stamp;
@@ -130,14 +130,14 @@ class TogetherWork {
     }
 
     void writePart(const IndexTask& task, const std::string& about, timeseries::WholeFile* file) {
-        const auto size = dataset_->about.grid->size();
+        const auto size = dataset_->variable.grid->size();
         const timeseries::Slab slab = slabOf(size, ranks_);
         timeseries::Field field;
         ranks_.agreed([&] {
             if (slab.count > 0)
-                field = dataset_->reader->readSlab(dataset_->variable, task.step, slab);
+                field = dataset_->reader->readSlab(dataset_->variableIndex, task.step, slab);
             else
-                field.values = timeseries::withType(dataset_->about.type, []<typename T>(T) {
+                field.values = timeseries::withType(dataset_->variable.type, []<typename T>(T) {
                     return timeseries::Values(std::vector<T>());
                 });
         });
@@ -156,7 +156,7 @@ class TogetherWork {
     const Ranks& ranks_;
     const IndexOptions& options_;
     const std::shared_ptr<StepStore> store_;
-    std::optional<Dataset> dataset_;
+    std::optional<OpenDataset> dataset_;
 };
 
 // By each rank for itself those that it has memory for, as many for all of them; the rest together.
@@ -170,7 +170,7 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
         for (const IndexTask& task : tasks) {
             if (task.variable == last) continue;
             last = task.variable;
-            if (!fitsEach(openDataset(options.files, last).about, beside)) rounds = 0;
+            if (!fitsEach(openDataset(options.files, last).variable, beside)) rounds = 0;
         }
     });
     if (ranks.sum(rounds == 0) > 0) rounds = 0;  // machines may differ

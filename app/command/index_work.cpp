@@ -24,7 +24,7 @@ std::vector<IndexTask> indexTasksOf(const IndexOptions& options) {
     for (const std::string& name : names) {
         const Dataset dataset = openDataset(options.files, name);
         for (const std::size_t step : stepsOf(dataset, options.steps))
-            tasks.push_back({dataset.about.name, step});
+            tasks.push_back({dataset.variable.name, step});
     }
     return tasks;
 }
@@ -71,9 +71,9 @@ void IndexWork::work() {
     for (std::size_t i; (i = next_++) < tasks_.size();) {
         const IndexTask& task = tasks_[i];
         if (!maker || variable != task.variable) {
-            Dataset dataset = openDataset(options_.files, task.variable);
+            OpenDataset dataset = openDataset(options_.files, task.variable);
             variable = task.variable;
-            maker = std::make_unique<StepMaker>(std::move(dataset.reader), dataset.variable,
+            maker = std::make_unique<StepMaker>(std::move(dataset.reader), dataset.variableIndex,
                                                 timeseries::RangeSet::everything(),
                                                 timeseries::StepStores{{store_}, store_, 1});
         }

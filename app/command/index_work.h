@@ -62,7 +62,7 @@ class IndexWork {
 // In a line, on stdout; returns the exit code.
 int tellIndexed(const IndexedSteps& done, const timeseries::StepStore& store);
 
-// The same command as one of the processes that mpirun started.
+// `index` as one of the processes that mpirun started.
 int indexByRanks(const IndexOptions& options);
 
 }  // namespace app

@@ -33,7 +33,7 @@ std::string kindOf(const timeseries::Grid& grid) {
     return spacing + (upright ? ", rotated" : ", sheared");
 }
 
-ordered_json frameJson(const timeseries::Frame& frame) {
+ordered_json frameJson(const timeseries::CoordinateFrame& frame) {
     ordered_json out{{"names", frame.names},
                      {"origin", {frame.origin.x, frame.origin.y, frame.origin.z}}};
     for (int a = 0; a < 3; ++a) {
@@ -104,7 +104,7 @@ std::string axisText(const Axis& axis, bool ofMesh) {
                        axis.down ? ", downward" : "");
 }
 
-std::string frameText(const timeseries::Frame& frame) {
+std::string frameText(const timeseries::CoordinateFrame& frame) {
     const auto place = [&](const glm::dvec3& p) {
         return fmt::format("({:g}, {:g}, {:g})", p.x, p.y, p.z);
     };

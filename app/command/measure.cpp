@@ -25,12 +25,10 @@ using nlohmann::ordered_json;
 std::string rangesText(const ChosenData& data, const timeseries::SortedStep& step) {
     const Explorer& e = data.explorer;
     std::string text;
-    const auto add = [&](const timeseries::RangeSet& ranges, bool isVisible) {
-        if (isVisible)
-            text += (text.empty() ? "" : "; ") + rangeLabel(ranges, data.dataset.about.units);
-    };
-    if (e.sweep) add(sweptRanges(e, step, e.play.tick), e.sweepLayer.visible);
-    for (const LayerChoice& layer : e.layers) add(layer.ranges, layer.visible);
+    for (const LayerChoice& layer : e.layers)
+        if (layer.visible)
+            text += (text.empty() ? "" : "; ") +
+                    rangeLabel(rangesAt(layer, step, e.play.tick), data.dataset.variable.units);
     return text;
 }
 
@@ -42,12 +40,12 @@ struct Subject {
     std::size_t stepIndex;
 
     std::string title() const {
-        const timeseries::Variable& about = data.dataset.about;
-        const std::string time = about.time->points.size() > 1
-                                     ? fmt::format(", {}", timeText(*about.time, stepIndex))
+        const timeseries::Variable& variable = data.dataset.variable;
+        const std::string time = variable.time->points.size() > 1
+                                     ? fmt::format(", {}", timeText(*variable.time, stepIndex))
                                      : "";
         return fmt::format("{}: {}{}, {}", data.explorer.files.front().filename().string(),
-                           about.name, time, rangesText(data, step));
+                           variable.name, time, rangesText(data, step));
     }
 };
 
@@ -62,8 +60,8 @@ ordered_json json(const Subject& subject, const std::vector<Measured>& modes) {
     const MeasureOptions& options = subject.options;
     const Explorer& e = subject.data.explorer;
     ordered_json out{{"file", subject.data.dataset.name},
-                     {"variable", subject.data.dataset.about.name},
-                     {"units", subject.data.dataset.about.units},
+                     {"variable", subject.data.dataset.variable.name},
+                     {"units", subject.data.dataset.variable.units},
                      {"step", subject.stepIndex},
                      {"ranges", rangesText(subject.data, subject.step)},
                      {"points", subject.step.statistics().points},

@@ -23,16 +23,16 @@ Desktop::Desktop(Exploration& exploration, std::optional<ExportJob>& exporting)
       gui_(window_, window_.contentScale()),
       exploration_(exploration),
       interface_([] { Window::wake(); }),
-      errands_(exploration_, picture_.canvas(), exporting,
-               [this](const std::string& text) { window_.setClipboard(text); }),
+      fileActions_(exploration_, picture_.canvas(), exporting,
+                   [this](const std::string& text) { window_.setClipboard(text); }),
       signals_([this] {
           stopped_ = true;
           Window::wake();
       }) {
     render::gl::recordErrors();
-    interface_.choices().scale = errands_.preferences().uiScale;
+    interface_.choices().scale = fileActions_.preferences().uiScale;
     interface_.choices().frameBudget =
-        std::chrono::nanoseconds(std::llround(1e6 * errands_.preferences().frameMilliseconds));
+        std::chrono::nanoseconds(std::llround(1e6 * fileActions_.preferences().frameMilliseconds));
 }
 
 Desktop::End Desktop::run() {
@@ -44,10 +44,10 @@ Desktop::End Desktop::run() {
             if (headsetAnswers()) return End::ToHeadset;
         }
     } catch (...) {
-        errands_.rescue();
+        fileActions_.rescue();
         throw;
     }
-    errands_.finish();
+    fileActions_.finish();
     return End::Closed;
 }
 
@@ -70,8 +70,8 @@ bool Desktop::headsetAnswers() {
 
 void Desktop::frame(std::chrono::nanoseconds dt) {
     exploration_.advance(dt);
-    errands_.prefer(interface_.choices());
-    errands_.goOn();  // before all is drawn: nothing else may wake it
+    fileActions_.prefer(interface_.choices());
+    fileActions_.goOn();  // before all is drawn: nothing else may wake it
     const glm::ivec2 size = window_.framebufferSize();
     if (size.x == 0 || size.y == 0) return;  // minimised
     const auto wanted = static_cast<float>(
@@ -97,10 +97,10 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
         interface_.draw(exploration_,
                         {.window = glm::vec2(window_.framebufferSize()),
                          .theme = gui_.theme(),
-                         .offers = errands_.offers(),
+                         .offers = fileActions_.offers(),
                          .boxHalfEdges = picture_.boxHalfEdges(),
                          .eye = picture_.eye(),
-                         .exporting = errands_.exporting(),
+                         .exporting = fileActions_.exporting(),
                          .dt = first ? dt : 0ns,
                          .key = input.key,
                          .performance = picture_.performance()},
@@ -112,7 +112,7 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
 
 void Desktop::serve(const panels::Requests& requests) {
     const auto picture = exploration_.shown();
-    errands_.serve(requests, interface_, picture ? picture_.errorOf(*picture) : std::nullopt);
+    fileActions_.serve(requests, interface_, picture ? picture_.errorOf(*picture) : std::nullopt);
     if (std::ranges::count(requests.commands, panels::Command::Headset) > 0) askForHeadset();
     const Explorer& shown = exploration_.explorer();
     if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover, shown));
@@ -142,8 +142,8 @@ void Desktop::title() {
         const bool clipped = counts != nullptr && counts->inClipBox;
         text = fmt::format("{} · {} · {} · {} points{}",
                            std::filesystem::path(shown->dataset.name).filename().string(),
-                           shown->dataset.about.name,
-                           timeText(*shown->dataset.about.time, shown->step),
+                           shown->dataset.variable.name,
+                           timeText(*shown->dataset.variable.time, shown->step),
                            withCommas(counts != nullptr ? counts->selected : 0),
                            clipped ? " in the clip box" : "");
     }
@@ -162,8 +162,8 @@ void Desktop::sleep() {
     // While it is minimised, nothing is drawn.
     if (const glm::ivec2 size = window_.framebufferSize(); size.x > 0 && size.y > 0)
         within(picture_.untilNextDraw());
-    within(errands_.untilKept());
-    if (errands_.exporting() || asked_.valid()) within(100ms);
+    within(fileActions_.untilKept());
+    if (fileActions_.exporting() || asked_.valid()) within(100ms);
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
     const Clock::time_point before = Clock::now();
     window_.wait(atMost);

@@ -8,7 +8,7 @@
 #include <optional>
 #include <variant>
 
-#include "app/desktop/errands.h"
+#include "app/desktop/file_actions.h"
 #include "app/desktop/gui.h"
 #include "app/desktop/picture_view.h"
 #include "app/desktop/stop_signals.h"
@@ -47,13 +47,13 @@ class Desktop {
     Exploration& exploration_;
     panels::Interface interface_;
     PictureView picture_;
-    Errands errands_;
+    FileActions fileActions_;
     Clock::time_point last_ = Clock::now();
     // Frames until the loop may sleep: the interface shows what the exploration was a frame ago.
     int restless_ = 2;
     // While a runtime is asked: it may take its time.
     std::future<std::variant<xr::Session::Offer, xr::NoHeadset>> asked_;
-    AtConnectionsEnd atConnectionsEnd_{[this] { errands_.rescue(); }};
+    AtConnectionsEnd atConnectionsEnd_{[this] { fileActions_.rescue(); }};
     StopSignals signals_;  // last: its thread uses what stands above
 };
 

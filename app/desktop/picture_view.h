@@ -9,7 +9,7 @@
 
 #include "app/drawing/canvas.h"
 #include "app/drawing/picture_error.h"
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 #include "render/frame/frame_pace.h"
 #include "render/frame/kept_picture.h"
 #include "render/frame/present.h"
@@ -32,7 +32,8 @@ class PictureView {
     // What an eye sees at a place of the picture, y down; none there, and where the picture is
     // still of other data.
     std::optional<Reading> read(glm::vec2 at, const Explorer& shown) const;
-    // Likewise, where that keeps nobody waiting: none too where it would take kSoon or more.
+    // What read() answers where that keeps nobody waiting: none too where it would take kSoon or
+    // more.
     std::optional<Reading> readSoon(glm::vec2 at, const Explorer& shown);
     static constexpr std::chrono::milliseconds kSoon{50};
 

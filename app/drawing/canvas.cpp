@@ -4,12 +4,12 @@
 
 #include "app/choices/camera.h"
 #include "app/drawing/cell_maker.h"
-#include "app/drawing/gpu_steps.h"
+#include "app/drawing/gl_steps.h"
 #include "app/drawing/refinement.h"
 #include "app/drawing/screen.h"
 #include "app/drawing/telling.h"
 #include "app/picture/still.h"
-#include "render/gl/gpu_timer.h"
+#include "render/gl/timer.h"
 #include "render/model/splat_cost.h"
 #include "render/reference/cell_pick.h"
 #include "render/splat/cell_pieces.h"
@@ -57,15 +57,6 @@ void thinOut(render::Scene& scene, std::span<const render::View> eyes, const Can
     }
 }
 
-// Which layer of the explorer is the scene's k-th: hidden ones are not in the scene, and the swept
-// window comes first.
-std::optional<std::size_t> layerOf(const Explorer& e, std::size_t k) {
-    if (e.sweep && e.sweepLayer.visible && k-- == 0) return std::nullopt;
-    std::size_t layer = 0;
-    while (!e.layers[layer].visible || k-- > 0) ++layer;
-    return layer;
-}
-
 // What is on the screen, being refined.
 struct Resting {
     Screen of;
@@ -86,8 +77,8 @@ struct Canvas::State {
     State(render::SplatterChoice splatter, render::LightAs as) : renderer(splatter, as) {}
 
     render::FrameRenderer renderer;
-    render::gl::GpuTimer timer, refineTimer;
-    GpuSteps steps;
+    render::gl::Timer timer, refineTimer;
+    GlSteps steps;
     CellMaker cells;
     std::optional<Screen> screen;
     std::uint32_t stride = 1;        // of what was shown last
@@ -98,18 +89,18 @@ struct Canvas::State {
     // What every frame begins with: brings what is shown and tells of it. `moving`: the eyes for
     // which the limits hold.
     CanvasReport begin(const Shown& shown, const CanvasLimits& limits,
-                       std::span<const render::View> moving, render::gl::GpuTimer& of);
+                       std::span<const render::View> moving, render::gl::Timer& of);
     // For a picture that moves: as much as keeps to the limit. Cells have no subsets: where they
     // are too many, points stand for them, if they are there.
     render::Scene thinned(render::Scene scene, std::span<const render::View> eyes,
                           const CanvasLimits& limits) const;
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
-    GpuSteps::Held& bring(const Shown& shown, const CanvasLimits& limits,
-                          std::span<const render::View> moving, CanvasReport& report);
+    GlSteps::Held& bring(const Shown& shown, const CanvasLimits& limits,
+                         std::span<const render::View> moving, CanvasReport& report);
     // The step on the screen takes other choices, if all that they select is there to be drawn.
     void choose(const Explorer& choices);
-    bool isThere(const GpuSteps::Held& held, const render::Scene& scene) const {
+    bool isThere(const GlSteps::Held& held, const render::Scene& scene) const {
         return !renderer.takesPointsFromGpu(scene) || held.onGpu.ready(scene);
     }
     // What stands there in what was shown last.
@@ -140,10 +131,10 @@ void Canvas::State::choose(const Explorer& choices) {
     screen = std::move(changed);
 }
 
-GpuSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limits,
-                                     std::span<const render::View> moving, CanvasReport& report) {
-    GpuSteps::Held& held = steps.use(shown.sorted, shown.explorer.scale);
-    Screen next{shown.sorted, &held, shown.explorer, shown.dataset.about, shown.step};
+GlSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limits,
+                                    std::span<const render::View> moving, CanvasReport& report) {
+    GlSteps::Held& held = steps.use(shown.sorted, shown.explorer.scale);
+    Screen next{shown.sorted, &held, shown.explorer, shown.dataset.variable, shown.step};
     const render::Scene scene = sceneOf(next);
     const bool onScreen = screen && screen->held == &held;
     // While the picture moves, points may stand for cells.
@@ -156,7 +147,7 @@ GpuSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& lim
         if (const std::uint64_t missing = held.onGpu.missingBytes(points, scale); missing > 0)
             report.uploaded =
                 1 - static_cast<double>(missing) /
-                        static_cast<double>(render::GpuStep::neededBytes(points, scale));
+                        static_cast<double>(render::GlStep::neededBytes(points, scale));
     }
     const bool mayMove = keepsTo(limits, scene, moving) || isThere(held, points);
     if (isThere(held, scene) && mayMove) {
@@ -174,9 +165,9 @@ Canvas::Canvas(render::SplatterChoice splatter, render::LightAs as)
 Canvas::~Canvas() = default;
 
 CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits,
-                                  std::span<const render::View> moving, render::gl::GpuTimer& of) {
+                                  std::span<const render::View> moving, render::gl::Timer& of) {
     CanvasReport report;
-    const GpuSteps::Held& coming = bring(shown, limits, moving, report);
+    const GlSteps::Held& coming = bring(shown, limits, moving, report);
     steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
     report.gpuBytes = steps.bytes() + renderer.cellBytes();
     if (const auto timed = of.poll()) {
@@ -287,6 +278,8 @@ std::optional<Drawn> Canvas::drawn() const {
     return Drawn{&state_->screen->held->placed, state_->screen->sorted, state_->screen->step};
 }
 
+const Screen* Canvas::screen() const { return state_->screen ? &*state_->screen : nullptr; }
+
 std::optional<render::Picked> Canvas::State::pick(const render::View& eye,
                                                   const glm::dvec2& window) const {
     const render::Scene scene = sceneOf(*screen);
@@ -304,18 +297,15 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
     const timeseries::SortedStep& step = *state_->screen->sorted;
     const std::uint64_t i = picked->gridIndex;
     const auto at = step.grid().indices(i);
-    return Probe{*picked,
-                 layerOf(state_->screen->explorer, picked->layer),
-                 step.grid().position(i),
-                 {at.x, at.y, at.z}};
+    return Probe{*picked, step.grid().position(i), {at.x, at.y, at.z}};
 }
 
 void Canvas::save(const Shown& shown, const std::filesystem::path& file,
                   const std::optional<double>& error) {
     state_->resting.reset();
-    GpuSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
+    GlSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
     writeStill({.explorer = shown.explorer,
-                .about = shown.dataset.about,
+                .variable = shown.dataset.variable,
                 .stepIndex = shown.step,
                 .step = *shown.sorted,
                 .placed = held.placed,

@@ -22,12 +22,13 @@
 
 namespace app {
 
+struct Screen;
+
 struct CanvasLimits {
     // In one frame, all layers and eyes, in ordinary splats (render/model/splat_cost.h); see
     // FramePace.
     std::uint64_t splats = 1'000'000;
-    // Likewise, where cells are drawn, whose cost is told less well and learnt apart; absent: as
-    // many.
+    // In one frame of cells, whose cost is told less well and learnt apart; absent: as many.
     std::optional<std::uint64_t> cells = {};
     std::uint64_t of(const render::Scene& scene) const {
         return scene.cells ? cells.value_or(splats) : splats;
@@ -49,7 +50,6 @@ struct CanvasScene {
 // to what is seen.
 struct Probe {
     render::Picked picked;
-    std::optional<std::size_t> layer;  // of Explorer::layers; none: of the swept window
     glm::dvec3 coordinates;            // the grid's, in its units
     std::array<std::size_t, 3> index;  // along x, y, z
 };
@@ -78,7 +78,7 @@ class Canvas {
     // or another function.
     CanvasReport refine(const Shown& shown, std::span<const render::View> eyes,
                         const CanvasLimits& limits, const Show& show);
-    // Likewise, placards alone: where draw() has nothing to draw.
+    // Draws placards alone: where draw() has nothing to draw.
     void drawPlacards(std::span<const render::Placard> placards, std::span<const render::View> eyes,
                       const Show& show);
 
@@ -88,6 +88,7 @@ class Canvas {
     bool shows(const Explorer& data) const;
     // What is on the screen, until the next draw(); none before the first.
     std::optional<Drawn> drawn() const;
+    const Screen* screen() const;  // likewise, with the choices that it shows
     // What an eye sees at a window position (pixels, y up), of what was drawn last; see pick.h.
     std::optional<Probe> probe(const render::View& eye, const glm::dvec2& window) const;
     // The picture as files have it: drawn whole and read back, with the session embedded. The step

@@ -25,7 +25,7 @@ struct CanvasReport {
     double refined = 0;   // share that refine() has drawn; it shows all at once
     std::uint64_t gpuBytes = 0;  // of steps and cells held there
     std::uint64_t cost = 0;      // of what this call drew, in ordinary splats, of all eyes
-    // Of an earlier call of the same function (gl::GpuTimer), what it drew and what that cost: what
+    // Of an earlier call of the same function (gl::Timer), what it drew and what that cost: what
     // FramePace learns from. None in most frames of a GPU that is behind.
     std::optional<std::chrono::nanoseconds> gpuTime = {};
     std::uint64_t gpuSplats = 0;

@@ -16,7 +16,7 @@ constexpr double kOrdering = 0.2;
 }  // namespace
 
 Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
-                       const render::GpuStep& onGpu, std::span<const render::View> eyes)
+                       const render::GlStep& onGpu, std::span<const render::View> eyes)
     : renderer_(renderer),
       picture_(std::move(picture)),
       eyes_(eyes.begin(), eyes.end()),

@@ -18,7 +18,7 @@ class Refinement {
  public:
     // The renderer, `onGpu`, ready for the picture, and what the picture refers to must outlive
     // this. REQUIRES: at least one eye, all of one size.
-    Refinement(render::FrameRenderer& renderer, Picture picture, const render::GpuStep& onGpu,
+    Refinement(render::FrameRenderer& renderer, Picture picture, const render::GlStep& onGpu,
                std::span<const render::View> eyes);
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
@@ -41,7 +41,7 @@ class Refinement {
     const Picture picture_;
     const std::vector<render::View> eyes_;
     const render::FrameContent content_;
-    const render::GpuStep& onGpu_;
+    const render::GlStep& onGpu_;
     render::DepthOrder order_;
     std::optional<const render::FrameRenderer::Prepared> frame_;  // once it is ordered
     double cost_ = 0, drawn_ = 0;  // of all eyes, and of what is drawn

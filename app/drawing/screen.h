@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "app/drawing/gpu_steps.h"
+#include "app/drawing/gl_steps.h"
 #include "app/files/dataset.h"
 #include "app/picture/picture.h"
 
@@ -13,9 +13,9 @@ namespace app {
 // A step, and choices of which all that they select is there to be drawn.
 struct Screen {
     std::shared_ptr<const timeseries::SortedStep> sorted;
-    GpuSteps::Held* held;
+    GlSteps::Held* held;
     Explorer explorer;
-    timeseries::Variable about;
+    timeseries::Variable variable;
     std::size_t step;
 };
 

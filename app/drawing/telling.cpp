@@ -12,7 +12,7 @@ render::Legend Telling::legend(const Screen& screen, const render::Scene& scene,
     const bool byCells = scene.cells != nullptr;  // they may come later
     if (!legend_ || of_ != e || step_.lock() != screen.sorted || byCells_ != byCells) {
         if (!sameData(of_, e)) mixed_ = false;
-        legend_ = makeLegend(screen.explorer, screen.about, screen.step, scene,
+        legend_ = makeLegend(screen.explorer, screen.variable, screen.step, scene,
                              screen.explorer.play.tick);
         of_ = std::move(e);
         step_ = screen.sorted;

@@ -22,11 +22,11 @@ Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
 
 ChosenData openChosen(const Explorer& choices) {
     Explorer e = choices;
-    Dataset dataset = openDataset(e.files, e.variable);
-    e.variable = dataset.about.name;
+    OpenDataset dataset = openDataset(e.files, e.variable);
+    e.variable = dataset.variable.name;
     chooseAxes(dataset, e.axes);
     if (e.clip)
-        if (const std::string flaw = clipFlaw(*e.clip, *dataset.about.grid); !flaw.empty())
+        if (const std::string flaw = clipFlaw(*e.clip, *dataset.variable.grid); !flaw.empty())
             throw ChoiceError(flaw);
     if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);

@@ -13,7 +13,7 @@
 namespace app {
 
 struct ChosenData {
-    Dataset dataset;    // its reader is the source's
+    Dataset dataset;
     Explorer explorer;  // resolved, its variable and steps named
     std::vector<std::size_t> steps;
     std::unique_ptr<StepSource> source;

@@ -37,8 +37,8 @@ namespace app {
 // What can be drawn now. `explorer` is resolved and fits `dataset`.
 struct Shown {
     const Explorer& explorer;
-    const Dataset& dataset;  // without its reader
-    std::size_t step;        // the one that `sorted` is, which need not be the one asked for
+    const Dataset& dataset;
+    std::size_t step;  // the one that `sorted` is, which need not be the one asked for
     std::shared_ptr<const timeseries::SortedStep> sorted;
 };
 
@@ -47,7 +47,7 @@ class Exploration {
     struct Settings {
         std::uint64_t budgetBytes = std::uint64_t{4} << 30;  // of steps in memory
         std::function<void()> wake = [] {};                  // from other threads: something came
-        OpenDataset openDataset = app::openDataset;
+        DatasetOpener openDataset = app::openDataset;
     };
     explicit Exploration(Settings settings);
     ~Exploration();
@@ -63,7 +63,7 @@ class Exploration {
 
     const Explorer& explorer() const { return history_.now(); }
     // See History::edit. Other files, another variable or another kept range start to open, as an
-    // edit of its own: layers and sweep of other data, where `next` leaves them as they are, become
+    // edit of its own: layers of other data, where `next` leaves them as they are, become
     // the first choice. What cannot be (a layer outside the kept range, a sweep that reaches no
     // value) is refused with a message. What `next` leaves open is resolved from the step shown.
     void edit(Explorer next, std::string_view gesture = {});
@@ -114,7 +114,7 @@ class Exploration {
         bool isError;
     };
     const std::vector<Message>& messages() const { return messages_; }
-    // The same text again, right after itself, is not repeated.
+    // A text that was told last is not told again.
     void tell(std::string text, bool isError = false);
     void forgetMessage(std::uint64_t number);
 

@@ -51,10 +51,6 @@ void Exploration::openEdited(Explorer next, std::string_view gesture) {
         next.layers.clear();
         next.noLayers = false;
     }
-    if (next.sweep == now.sweep) {
-        next.sweep.reset();
-        next.sweepLayer = {};
-    }
     if (next.keep == now.keep) next.keep.reset();
     if (next.files != now.files && next.clip == now.clip) next.clip.reset();
     if (next.files != now.files && next.axes == now.axes) next.axes = {};
@@ -88,9 +84,9 @@ void Exploration::takeOpened() {
     if (!result) return;
     pending_->opening.reset();
     if (auto* why = std::get_if<std::string>(&*result)) return fail(std::move(*why));
-    auto& dataset = std::get<Dataset>(*result);
+    auto& dataset = std::get<OpenDataset>(*result);
     Explorer& wish = pending_->wish;
-    wish.variable = dataset.about.name;
+    wish.variable = dataset.variable.name;
     chooseAxes(dataset, wish.axes);
     const std::size_t last = dataset.stepCount() - 1;
     const StepChoice asked =
@@ -158,7 +154,7 @@ void Exploration::adopt(LiveSteps::Arrival first) {
     timeseries::Playback playback;
     try {
         if (needsSamples(next)) next = resolved(next, {{first.step, first.sorted}});
-        playback = playbackOf(next, *opened.dataset.about.time);
+        playback = playbackOf(next, *opened.dataset.variable.time);
         opened.counts = pointCounts(next, *first.sorted);
     } catch (const std::invalid_argument& error) {
         return fail(error.what());

@@ -11,9 +11,9 @@
 namespace app {
 
 struct Exploration::Open {
-    Open(Dataset opened, const Explorer& wish, const Settings& settings, const Wake& wake)
-        : dataset(std::move(opened)),
-          steps(dataset, wish.keep.value_or(timeseries::RangeSet::everything()),
+    Open(OpenDataset opened, const Explorer& wish, const Settings& settings, const Wake& wake)
+        : dataset(opened),
+          steps(opened, wish.keep.value_or(timeseries::RangeSet::everything()),
                 settings.budgetBytes, wake.callable()) {}
 
     Dataset dataset;

@@ -126,7 +126,7 @@ std::string lastLine(std::string_view text) {
 Explorer animationOf(const Shown& shown) {
     const PlayChoice& play = shown.explorer.play;
     Explorer e = shown.explorer;
-    e.oneTick = e.sweep && !play.sweepMoves;
+    e.oneTick = sweepOf(e) != nullptr && !play.sweepMoves;
     if (play.timeMoves)
         e.steps =
             StepChoice{play.time.first, std::min(play.time.last, shown.dataset.stepCount() - 1),
@@ -147,7 +147,7 @@ void ExportJob::Pipe::drain(std::string& into) {
     }
 }
 
-ExportJob::ExportJob(const Explorer& explorer, Frames frames, const fs::path& program)
+ExportJob::ExportJob(const Explorer& explorer, FrameFiles frames, const fs::path& program)
     : frames_(std::move(frames)) {
     for (Pipe* const pipe : {&out_, &errors_}) {
         std::array<int, 2> ends{};

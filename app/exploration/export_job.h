@@ -9,7 +9,7 @@
 #include <string>
 
 #include "app/exploration/exploration.h"
-#include "app/files/frames.h"
+#include "app/files/frame_files.h"
 
 namespace app {
 
@@ -25,7 +25,7 @@ class ExportJob {
 
     // Starts it: `isochron render` makes these frames of the explorer. `program`: isochron. Throws
     // std::runtime_error, one sentence, when it cannot be started.
-    ExportJob(const Explorer& explorer, Frames frames,
+    ExportJob(const Explorer& explorer, FrameFiles frames,
               const std::filesystem::path& program = "/proc/self/exe");
     // Cancels what still runs, and waits for its end, for a moment: nothing of it is left.
     ~ExportJob();
@@ -40,7 +40,7 @@ class ExportJob {
 
     State state() const { return state_; }
     std::size_t done() const { return done_; }  // pictures, of frames().size()
-    const Frames& frames() const { return frames_; }
+    const FrameFiles& frames() const { return frames_; }
     // One sentence, once it has ended: what was made and where, or why it failed.
     std::string outcome() const;
 
@@ -57,7 +57,7 @@ class ExportJob {
     void ended(int status);
     void removeSession() const;
 
-    Frames frames_;
+    FrameFiles frames_;
     std::filesystem::path session_;
     Pipe out_, errors_;
     pid_t child_ = -1;

@@ -16,8 +16,8 @@ timeseries::Playback playbackOf(Explorer& explorer, const timeseries::TimeAxis& 
     timeseries::Playback playback{.timeMoves = explorer.play.timeMoves,
                                   .sweepMoves = explorer.play.sweepMoves};
     playback.time.emplace(times, settings).seek(explorer.steps->first);
-    if (explorer.sweep)
-        playback.sweep.emplace(*explorer.sweep, timeseries::SweepPosition{explorer.play.tick, {}});
+    if (const auto* const sweep = sweepOf(explorer))
+        playback.sweep.emplace(*sweep, timeseries::SweepPosition{explorer.play.tick, {}});
     explorer.play.tick = playback.sweep ? playback.sweep->tick() : 0;
     return playback;
 }
@@ -26,12 +26,13 @@ timeseries::Playback followed(timeseries::Playback playback, const Explorer& bef
                               Explorer& after) {
     if (after.play.time != before.play.time) playback.time->set(after.play.time);
     if (after.steps != before.steps) playback.time->seek(after.steps->first);
-    if (!after.sweep) {
+    const timeseries::SweepSettings* const sweep = sweepOf(after);
+    if (sweep == nullptr) {
         playback.sweep.reset();
     } else if (!playback.sweep) {
-        playback.sweep.emplace(*after.sweep, timeseries::SweepPosition{after.play.tick, {}});
+        playback.sweep.emplace(*sweep, timeseries::SweepPosition{after.play.tick, {}});
     } else {
-        if (after.sweep != playback.sweep->settings()) playback.sweep->set(*after.sweep);
+        if (*sweep != playback.sweep->settings()) playback.sweep->set(*sweep);
         if (after.play.tick != before.play.tick)
             playback.sweep->seek(
                 std::clamp<std::int64_t>(after.play.tick, 0, playback.sweep->ticksPerCycle() - 1));

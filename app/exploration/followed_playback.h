@@ -14,7 +14,7 @@ namespace app {
 // timeseries refuses.
 timeseries::Playback playbackOf(Explorer& explorer, const timeseries::TimeAxis& axis);
 
-// The same playback after an edit from `before` to `after`: what the edit leaves alone goes on
+// The playback after an edit from `before` to `after`: what the edit leaves alone goes on
 // where it is. Sets after.play.tick to where the window then stands. Throws as above.
 timeseries::Playback followed(timeseries::Playback playback, const Explorer& before,
                               Explorer& after);

@@ -26,12 +26,12 @@ void endElsewhere(T... things) {
 
 }  // namespace
 
-LiveSteps::LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::uint64_t budgetBytes,
-                     std::function<void()> wake)
+LiveSteps::LiveSteps(OpenDataset& dataset, const timeseries::RangeSet& kept,
+                     std::uint64_t budgetBytes, std::function<void()> wake)
     : series_(dataset.stepCount(), budgetBytes),
       stores_(writable(storesFor(dataset.reader->files()))),
-      loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader), dataset.variable,
-                                                       kept, std::move(wake),
+      loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader),
+                                                       dataset.variableIndex, kept, std::move(wake),
                                                        timeseries::Ready::Whole, stores_)) {}
 
 LiveSteps::~LiveSteps() {

@@ -19,7 +19,7 @@ class LiveSteps {
  public:
     // Takes the dataset's reader. `wake` is called from the loader's thread when a step is there,
     // also after this is gone.
-    LiveSteps(Dataset& dataset, const timeseries::RangeSet& kept, std::uint64_t budgetBytes,
+    LiveSteps(OpenDataset& dataset, const timeseries::RangeSet& kept, std::uint64_t budgetBytes,
               std::function<void()> wake);
     // Waits for nothing: a read that is running ends on a thread of its own, see exploration.h.
     ~LiveSteps();

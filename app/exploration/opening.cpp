@@ -10,13 +10,14 @@ namespace app {
 
 struct Opening::Shared {
     std::mutex mutex;
-    std::optional<std::variant<Dataset, std::string>> result;
+    std::optional<std::variant<OpenDataset, std::string>> result;
 };
 
 namespace {
 
-std::variant<Dataset, std::string> opened(const std::vector<std::filesystem::path>& named,
-                                          const std::string& variable, const OpenDataset& open) {
+std::variant<OpenDataset, std::string> opened(const std::vector<std::filesystem::path>& named,
+                                              const std::string& variable,
+                                              const DatasetOpener& open) {
     try {
         return open(named, variable);
     } catch (const std::bad_alloc&) {
@@ -28,7 +29,7 @@ std::variant<Dataset, std::string> opened(const std::vector<std::filesystem::pat
 
 }  // namespace
 
-Opening::Opening(std::vector<std::filesystem::path> named, std::string variable, OpenDataset open,
+Opening::Opening(std::vector<std::filesystem::path> named, std::string variable, DatasetOpener open,
                  std::function<void()> wake)
     : named_(std::move(named)), shared_(std::make_shared<Shared>()) {
     std::thread([shared = shared_, named = named_, variable = std::move(variable),
@@ -42,7 +43,7 @@ Opening::Opening(std::vector<std::filesystem::path> named, std::string variable,
     }).detach();
 }
 
-std::optional<std::variant<Dataset, std::string>> Opening::poll() {
+std::optional<std::variant<OpenDataset, std::string>> Opening::poll() {
     const std::lock_guard lock(shared_->mutex);
     return std::exchange(shared_->result, std::nullopt);
 }

@@ -18,17 +18,11 @@ std::uint64_t sum(const std::vector<Run>& runs) {
 
 PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& step) {
     std::vector<timeseries::RangeSet> visible;
-    // Those of the layers, of the swept window and of all that is visible.
-    std::vector<std::vector<Run>> sets;
+    std::vector<std::vector<Run>> sets;  // of the layers, and of all that is visible
     for (const LayerChoice& layer : explorer.layers) {
-        sets.push_back(step.select(layer.ranges));
-        if (layer.visible) visible.push_back(layer.ranges);
-    }
-    sets.emplace_back();
-    if (explorer.sweep) {
-        const timeseries::RangeSet window = sweptRanges(explorer, step, explorer.play.tick);
-        sets.back() = step.select(window);
-        if (explorer.sweepLayer.visible) visible.push_back(window);
+        timeseries::RangeSet ranges = rangesAt(layer, step, explorer.play.tick);
+        sets.push_back(step.select(ranges));
+        if (layer.visible) visible.push_back(std::move(ranges));
     }
     sets.push_back(step.select(timeseries::unionOf(visible)));
 
@@ -39,10 +33,10 @@ PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& 
     } else {
         for (const std::vector<Run>& runs : sets) points.push_back(sum(runs));
     }
-    const std::size_t layers = explorer.layers.size();
-    return {.layers = {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(layers)},
-            .swept = points[layers],
-            .selected = points[layers + 1],
+    const std::uint64_t selected = points.back();
+    points.pop_back();
+    return {.layers = std::move(points),
+            .selected = selected,
             .kept = step.size(),
             .total = step.statistics().points,
             .inClipBox = explorer.clip.has_value()};
@@ -50,8 +44,8 @@ PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& 
 
 std::vector<Run> runsLookedAt(const Explorer& explorer, const timeseries::SortedStep& step) {
     std::vector<timeseries::RangeSet> all;
-    for (const LayerChoice& layer : explorer.layers) all.push_back(layer.ranges);
-    if (explorer.sweep) all.push_back(sweptRanges(explorer, step, explorer.play.tick));
+    for (const LayerChoice& layer : explorer.layers)
+        all.push_back(rangesAt(layer, step, explorer.play.tick));
     return step.select(timeseries::unionOf(all));
 }
 

@@ -9,25 +9,23 @@
 
 namespace app {
 
-// Hidden layers count in `layers` only. With a clip box, the first three are of the points inside
+// Hidden layers count in `layers` only. With a clip box, the first two are of the points inside
 // it.
 struct PointCounts {
     std::vector<std::uint64_t> layers;  // in the order of Explorer::layers
-    std::uint64_t swept = 0;            // of the swept window
-    std::uint64_t selected = 0;         // in any visible layer or the swept window, each once
+    std::uint64_t selected = 0;         // in any visible layer, each once
     std::uint64_t kept = 0;
     std::uint64_t total = 0;  // valid, before anything was dropped
     bool inClipBox = false;   // there is one
     friend bool operator==(const PointCounts&, const PointCounts&) = default;
 };
 
-// Microseconds: binary searches only; with a clip box, a look at every selected point. The window
+// Microseconds: binary searches only; with a clip box, a look at every selected point. A window
 // stands at explorer.play.tick. REQUIRES: a resolved explorer. Throws OutsideKeptError when a layer
 // asks for values that were dropped.
 PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& step);
 
-// The points that pictures and counts of this look at: those of every layer and of the swept
-// window.
+// The points that pictures and counts of this look at: those of every layer.
 std::vector<timeseries::Run> runsLookedAt(const Explorer& explorer,
                                           const timeseries::SortedStep& step);
 

@@ -16,12 +16,12 @@ std::string valueText(const Reading& reading, const Shown& shown) {
         shown.sorted->type() == timeseries::ValueType::F32
             ? fmt::format("{}", static_cast<float>(timeseries::toDouble(reading.value)))
             : timeseries::toText(reading.value);
-    return withUnit(number, shown.dataset.about.units);
+    return withUnit(number, shown.dataset.variable.units);
 }
 
 std::string betweenText(const Reading& reading, const Shown& shown) {
     if (!reading.between) return "";
-    return withUnit(fmt::format("{:.5g}", *reading.between), shown.dataset.about.units) +
+    return withUnit(fmt::format("{:.5g}", *reading.between), shown.dataset.variable.units) +
            " between points";
 }
 

@@ -9,11 +9,11 @@ constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
 
 }  // namespace
 
-StepSource::StepSource(Dataset& dataset, timeseries::RangeSet kept)
+StepSource::StepSource(OpenDataset& dataset, timeseries::RangeSet kept)
     : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
       stores_(storesFor(dataset.reader->files())),
       loader_(
-          std::move(dataset.reader), dataset.variable, std::move(kept), [] {},
+          std::move(dataset.reader), dataset.variableIndex, std::move(kept), [] {},
           timeseries::Ready::WithField, stores_) {}
 
 StepSource::~StepSource() { tellNotes(stores_); }

@@ -13,7 +13,7 @@ namespace app {
 class StepSource {
  public:
     // Takes the dataset's reader.
-    StepSource(Dataset& dataset, timeseries::RangeSet kept);
+    StepSource(OpenDataset& dataset, timeseries::RangeSet kept);
     ~StepSource();  // tells what the steps on disk have to tell
 
     // Waits until the step is there. `next` is what will be asked for after it.

@@ -25,8 +25,8 @@ AtInfinity atInfinity(const timeseries::StepSummary& summary, double lo, double 
 std::vector<std::uint64_t> histogram(const timeseries::SortedStep& step, double lo, double hi,
                                      std::size_t bins);
 
-// The same of a step that may have left memory: between its quantiles, points are taken as spread
-// evenly; where quantiles are equal, the value has all their points.
+// The histogram of a step that may have left memory: between its quantiles, points are taken as
+// spread evenly; where quantiles are equal, the value has all their points.
 std::vector<double> density(const timeseries::StepSummary& summary, double lo, double hi,
                             std::size_t bins);
 

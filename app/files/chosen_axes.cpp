@@ -77,12 +77,12 @@ class AxesReader : public Reader {
 
 }  // namespace
 
-void chooseAxes(Dataset& dataset, const Axes& axes) {
+void chooseAxes(OpenDataset& dataset, const Axes& axes) {
     if (axes == Axes{}) return;
     dataset.reader = std::make_unique<AxesReader>(std::move(dataset.reader), axes);
     const auto all = dataset.reader->variables();
     dataset.variables.assign(all.begin(), all.end());
-    dataset.about = dataset.variables[dataset.variable];
+    dataset.variable = dataset.variables[dataset.variableIndex];
 }
 
 }  // namespace app

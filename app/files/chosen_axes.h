@@ -11,6 +11,6 @@ namespace app {
 // From here on the dataset's grids, and those of every step that is read, have the axes chosen: a
 // flipped one counts downwards where the file's counts upwards, and the reverse. Whatever places,
 // labels or reads points follows.
-void chooseAxes(Dataset& dataset, const std::array<AxisChoice, 3>& axes);
+void chooseAxes(OpenDataset& dataset, const std::array<AxisChoice, 3>& axes);
 
 }  // namespace app

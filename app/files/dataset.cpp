@@ -46,29 +46,32 @@ std::size_t defaultVariable(std::span<const timeseries::Variable> variables) {
                                     variables.begin());
 }
 
-Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable) {
+OpenDataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable) {
     auto [reader, series] = openSeries(named);
-    Dataset dataset{std::move(reader), std::move(series), 0, {}, named.front().string(), 0, {}};
+    OpenDataset dataset;
+    dataset.reader = std::move(reader);
+    dataset.series = std::move(series);
+    dataset.name = named.front().string();
     for (const timeseries::DamagedVariable& each : dataset.reader->damaged())
         if (each.name == variable) throw FileError(each.why);
     const auto variables = dataset.reader->variables();
-    dataset.variable = defaultVariable(variables);
+    dataset.variableIndex = defaultVariable(variables);
     std::string names;
     bool found = variable.empty();
     for (std::size_t i = 0; i < variables.size(); ++i) {
         names += (names.empty() ? "" : ", ") + variables[i].name;
         if (variables[i].name != variable) continue;
-        dataset.variable = i;
+        dataset.variableIndex = i;
         found = true;
     }
     if (!found)
         throw FileError(
             fmt::format("{}: no variable '{}'; it has {}", dataset.name, variable, names));
-    dataset.about = variables[dataset.variable];
+    dataset.variable = variables[dataset.variableIndex];
     dataset.variables.assign(variables.begin(), variables.end());
     timeseries::StepSpan span{0, dataset.stepCount()};
     if (dataset.series.here)
-        span = dataset.reader->stepsOf(dataset.variable, *dataset.series.here).value_or(span);
+        span = dataset.reader->stepsOf(dataset.variableIndex, *dataset.series.here).value_or(span);
     dataset.defaultStep = span.first + span.count / 2;
     return dataset;
 }
@@ -77,7 +80,8 @@ std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choic
     const std::size_t count = dataset.stepCount(), last = choice.last.value_or(count - 1);
     if (last >= count || choice.first > last)
         throw FileError(fmt::format("{}: no step {}; variable {} has steps 0 to {}", dataset.name,
-                                    std::max(last, choice.first), dataset.about.name, count - 1));
+                                    std::max(last, choice.first), dataset.variable.name,
+                                    count - 1));
     std::vector<std::size_t> steps((last - choice.first) / choice.stride + 1);
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = choice.first + i * choice.stride;
     return steps;

@@ -25,17 +25,21 @@ struct OpenedSeries {
 // are damaged variables. Throws FileError.
 OpenedSeries openSeries(std::span<const std::filesystem::path> named);
 
+// A variable of a series, with all that is told of it. Apart from the reader, which a loader takes.
 struct Dataset {
-    std::unique_ptr<timeseries::Reader> reader;
     timeseries::ExpandedSeries series;
-    std::size_t variable = 0;
-    timeseries::Variable about;  // a copy: it outlives the reader's move to a loader
+    std::size_t variableIndex = 0;
+    timeseries::Variable variable;
 
     std::string name;             // the file, folder or pattern named first, for messages
     std::size_t defaultStep = 0;  // the middle one; of the member's own when one was named
-    std::vector<timeseries::Variable> variables = {};  // all that the reader has; copies too
+    std::vector<timeseries::Variable> variables = {};  // all that the reader has
 
-    std::size_t stepCount() const { return about.time->points.size(); }
+    std::size_t stepCount() const { return variable.time->points.size(); }
+};
+
+struct OpenDataset : Dataset {
+    std::unique_ptr<timeseries::Reader> reader;
 };
 
 // Which variable is meant when none is named: the one of the most levels, then of the most steps,
@@ -44,7 +48,7 @@ std::size_t defaultVariable(std::span<const timeseries::Variable> variables);
 
 // `variable`: by name; "" is the default one. Throws FileError, also for a name that is not there
 // or of what is damaged.
-Dataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable);
+OpenDataset openDataset(std::span<const std::filesystem::path> named, const std::string& variable);
 
 // The chosen steps, all there; throws FileError when one is not.
 std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice);

@@ -40,7 +40,7 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
 void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanoseconds period) {
     // A GPU goes on after the calls; what it took is told some frames later.
     if (onProcessor_) render::gl::finishDrawing();
-    Governor::Frame frame{period, std::chrono::steady_clock::now() - began, {}};
+    Governor::FrameCost frame{period, std::chrono::steady_clock::now() - began, {}};
     const std::uint64_t fewest = report_.cost * report_.stride / render::kMaxStride;
     if (onProcessor_ && report_.cost > 0) {
         frame.splats = {report_.cost, fewest, frame.work, report_.cells.has_value()};

@@ -5,7 +5,7 @@
 
 namespace app::headset {
 
-void Governor::took(const Frame& frame) {
+void Governor::took(const FrameCost& frame) {
     if (frame.period.count() <= 0) return;
     const auto target =
         std::chrono::nanoseconds(std::llround(kShare * static_cast<double>(frame.period.count())));

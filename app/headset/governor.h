@@ -24,7 +24,7 @@ class Governor {
     // `refreshRates`: those that the display offers.
     explicit Governor(std::vector<double> refreshRates = {}) : rate_(std::move(refreshRates)) {}
 
-    struct Frame {
+    struct FrameCost {
         std::chrono::nanoseconds period;  // the display's own (xr::DisplayPeriod)
         std::chrono::nanoseconds work;    // all that was done for it, not what was waited
         // What was learnt of what splats cost: of this frame, or of one before.
@@ -35,12 +35,12 @@ class Governor {
         };
         std::optional<Splats> splats;
     };
-    void took(const Frame& frame);
+    void took(const FrameCost& frame);
 
     // The most for the next frame, all eyes together. Fewer at once; more where a while has shown
     // that they fit, and a longer one where that was wrong before.
     std::uint64_t splats() const { return splats_; }
-    // Likewise of cells, whose cost is learnt apart.
+    // The most cells for the next frame; their cost is learnt apart.
     std::uint64_t cells() const { return cells_.budget(); }
     // Of the recommended resolution. Lowered where not even the fewest splats fit, and climbs back
     // where they would.

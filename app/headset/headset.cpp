@@ -40,10 +40,11 @@ Headset::Headset(Exploration& exploration, std::optional<ExportJob>& exporting,
       session_(std::move(session)),
       eyes_(session_->refreshRates()),
       panel_([] {}),
-      errands_(exploration_, eyes_.canvas(), exporting,
-               [this](const std::string& text) {
-                   if (desktop::Window* window = graphics_->window()) window->setClipboard(text);
-               }),
+      fileActions_(exploration_, eyes_.canvas(), exporting,
+                   [this](const std::string& text) {
+                       if (desktop::Window* window = graphics_->window())
+                           window->setClipboard(text);
+                   }),
       signals_([this] { stopped_ = true; }) {}
 
 void Headset::run() {
@@ -51,10 +52,10 @@ void Headset::run() {
         while (frame()) {
         }
     } catch (...) {
-        errands_.rescue();
+        fileActions_.rescue();
         throw;
     }
-    errands_.finish();
+    fileActions_.finish();
 }
 
 // The runtime draws with the same context: its errors are no complaint about our picture.
@@ -75,7 +76,7 @@ bool Headset::frame() {
         drawBoards(*frame, dt);
         exploration_.reading([&] { drawEyes(*frame, began); });
     }
-    errands_.goOn();
+    fileActions_.goOn();
     return true;
 }
 
@@ -95,7 +96,7 @@ std::chrono::nanoseconds Headset::since(std::chrono::nanoseconds displayTime) {
 }
 
 void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
-    RoomInput input{.hands = frame.hands(),
+    HandInput input{.hands = frame.hands(),
                     .head = frame.head(),
                     .dt = dt,
                     .drawn = {},
@@ -108,7 +109,7 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
         first.emplace(shown->sorted->grid(), shown->explorer.scale);
         input.drawn = Drawn{&*first, shown->sorted, shown->step};
     }
-    const RoomOutcome outcome = room_.update(exploration_, input);
+    const HandOutcome outcome = interaction_.update(exploration_, input);
     for (const Pulse& pulse : outcome.pulses)
         session_->vibrate(pulse.hand, pulse.amplitude, pulse.duration);
     if (outcome.reading) {
@@ -118,20 +119,21 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
 }
 
 void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
-    std::string text = readoutText(exploration_, room_.tip(), eyes_.scale());
+    std::string text = readoutText(exploration_, {eyes_.canvas().screen(), eyes_.report().counts},
+                                   interaction_.tip(), eyes_.scale());
     if (const std::string rate = eyes_.refreshRate().loweredText(); !rate.empty())
         text += "\n" + rate;
     readout_.write(text);
-    if (!room_.panel()) return;
-    Panel::Around around{
-        .offers = errands_.offers(),
-        .help = helpText(session_->runtimeName(), session_->controls()),
-        .exporting = errands_.exporting(),
-        .performance = performance(frame),
-        .buttons = {.canUndo = room_.canUndoMove(), .clipsByHand = room_.clipsByHand()}};
-    const Panel::Asked asked = panel_.draw(exploration_, room_.pointer(), around, dt);
-    asked_ = asked.room;
-    errands_.serve(asked.requests, panel_.interface());
+    if (!interaction_.panel()) return;
+    Panel::Around around{.offers = fileActions_.offers(),
+                         .help = helpText(session_->runtimeName(), session_->controls()),
+                         .exporting = fileActions_.exporting(),
+                         .performance = performance(frame),
+                         .buttons = {.canUndo = interaction_.canUndoMove(),
+                                     .clipsByHand = interaction_.clipsByHand()}};
+    const Panel::Asked asked = panel_.draw(exploration_, interaction_.pointer(), around, dt);
+    asked_ = asked.interaction;
+    fileActions_.serve(asked.requests, panel_.interface());
 }
 
 // Of now and then: numbers that change with every frame cannot be read, and the panel would be
@@ -149,11 +151,11 @@ const panels::Performance& Headset::performance(const xr::Session::Frame& frame)
 }
 
 std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) const {
-    RoomBoards boards{
+    Boards boards{
         .panel = nullptr, .readout = &readout_.board(), .readoutHalf = readout_.half(), .kept = {}};
-    if (room_.panel()) boards.panel = &panel_.board();
+    if (interaction_.panel()) boards.panel = &panel_.board();
     if (const auto& kept = panel_.interface().reading()) boards.kept = kept->world;
-    return placardsOf(room_, frame.hands(), *frame.head(), boards);
+    return placardsOf(interaction_, frame.hands(), *frame.head(), boards);
 }
 
 void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
@@ -162,7 +164,7 @@ void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
     render::gl::forgetErrors();  // the runtime's
     if (eyes.empty() || !frame.head()) return;
     const auto shown = exploration_.shown();
-    eyes_.draw(shown ? &*shown : nullptr, eyes, room_.placement(), placards(frame),
+    eyes_.draw(shown ? &*shown : nullptr, eyes, interaction_.placement(), placards(frame),
                Eyes::Splats::Governed,
                [&](render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
     checkDriver(exploration_);

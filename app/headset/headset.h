@@ -7,14 +7,14 @@
 #include <variant>
 #include <vector>
 
-#include "app/desktop/errands.h"
+#include "app/desktop/file_actions.h"
 #include "app/desktop/stop_signals.h"
 #include "app/desktop/x_errors.h"
 #include "app/exploration/exploration.h"
 #include "app/headset/eyes.h"
 #include "app/headset/graphics.h"
+#include "app/headset/hand_interaction.h"
 #include "app/headset/panel.h"
-#include "app/headset/room.h"
 #include "app/headset/text_board.h"
 #include "xr/session.h"
 
@@ -33,7 +33,7 @@ class Headset {
     // One round of it, which the runtime paces; false when the session has ended.
     bool frame();
 
-    const Room& room() const { return room_; }
+    const HandInteraction& interaction() const { return interaction_; }
     const Panel& panel() const { return panel_; }
     const Eyes& eyes() const { return eyes_; }
     // When what was drawn last is seen, and the display's period; for who measures.
@@ -60,18 +60,18 @@ class Headset {
     Exploration& exploration_;
     std::unique_ptr<Graphics> graphics_;
     std::unique_ptr<xr::Session> session_;
-    Room room_;
-    std::optional<RoomCommand> asked_;  // by the panel, for the next frame
+    HandInteraction interaction_;
+    std::optional<HandCommand> asked_;  // by the panel, for the next frame
     Eyes eyes_;
     Panel panel_;
     TextBoard readout_;
-    desktop::Errands errands_;
+    desktop::FileActions fileActions_;
     std::optional<std::chrono::nanoseconds> lastDisplay_;
     panels::Performance performance_;
     std::chrono::nanoseconds performanceOf_{0};  // when it was taken, as display time
     Timing timing_;
     bool leaving_ = false;  // the window is closed, and the runtime was told
-    desktop::AtConnectionsEnd atConnectionsEnd_{[this] { errands_.rescue(); }};
+    desktop::AtConnectionsEnd atConnectionsEnd_{[this] { fileActions_.rescue(); }};
     desktop::StopSignals signals_;  // last: its thread uses what stands above
 };
 

@@ -60,7 +60,8 @@ Panel::Asked Panel::draw(Exploration& exploration, const std::optional<Pointer>&
                     asked.requests);
     const panels::Layout layout =
         panels::layoutOf(size, context_.theme.scale, interface_.choices().sideWidth);
-    if (exploration.shown()) asked.room = drawRoomButtons(context_.theme, layout, around.buttons);
+    if (exploration.shown())
+        asked.interaction = drawHandButtons(context_.theme, layout, around.buttons);
     panels::drawFigures(context_.theme, layout, around.performance, exploration.series());
     if (pointer)
         ImGui::GetForegroundDrawList()->AddCircleFilled(

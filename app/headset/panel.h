@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/headset/room_buttons.h"
+#include "app/headset/hand_buttons.h"
 #include "app/panels/interface.h"
 #include "render/annotate/placard.h"
 
@@ -34,12 +34,12 @@ class Panel {
         std::string help;  // stands where a window has its picture
         std::optional<std::string> exporting;
         panels::Performance performance;
-        RoomButtons buttons;
+        HandButtons buttons;
     };
-    // What it asks of the front end, and of the room.
+    // What it asks of the front end, and of the hands' interaction.
     struct Asked {
         panels::Requests requests;
-        std::optional<RoomCommand> room;
+        std::optional<HandCommand> interaction;
     };
     // A frame of the interface; its picture is drawn only when it is another than before.
     Asked draw(Exploration& exploration, const std::optional<Pointer>& pointer,

@@ -26,27 +26,32 @@ Plate lineOf(const glm::dvec3& from, const glm::dvec3& to, double halfWidth, con
 }
 
 // The hand that the readout stands near.
-std::optional<xr::Pose> readoutHand(const Room& room, const std::array<xr::Hand, 2>& hands) {
-    if (room.tip() && hands[room.tip()->hand].grip) return hands[room.tip()->hand].grip;
+std::optional<xr::Pose> readoutHand(const HandInteraction& interaction,
+                                    const std::array<xr::Hand, 2>& hands) {
+    if (interaction.tip() && hands[interaction.tip()->hand].grip)
+        return hands[interaction.tip()->hand].grip;
     return hands[1].grip ? hands[1].grip : hands[0].grip;
 }
 
 }  // namespace
 
-std::vector<render::Placard> placardsOf(const Room& room, const std::array<xr::Hand, 2>& hands,
-                                        const xr::Pose& head, const RoomBoards& boards) {
+std::vector<render::Placard> placardsOf(const HandInteraction& interaction,
+                                        const std::array<xr::Hand, 2>& hands, const xr::Pose& head,
+                                        const Boards& boards) {
     std::vector<render::Placard> placards;
     const auto put = [&](const Plate& plate,
                          const std::variant<const render::Board*, glm::vec3>& face) {
-        placards.push_back({worldFromPlacard(plate, room.placement()), face});
+        placards.push_back({worldFromPlacard(plate, interaction.placement()), face});
     };
-    if (room.panel() && boards.panel != nullptr) put(*room.panel(), boards.panel);
+    if (interaction.panel() && boards.panel != nullptr) put(*interaction.panel(), boards.panel);
     for (std::size_t i = 0; i < 2; ++i) {
         const xr::Hand& hand = hands[i];
-        const glm::vec3& color = room.holds(i) || room.holdsFace(i) ? kAccent : kQuiet;
+        const glm::vec3& color =
+            interaction.holds(i) || interaction.holdsFace(i) ? kAccent : kQuiet;
         if (hand.grip) put(facingHead(hand.grip->position, head, glm::dvec2(kHandHalf)), color);
-        if (!hand.aim || room.holds(i)) continue;
-        const auto hit = room.panel() ? hitOf(*hand.aim, *room.panel()) : std::nullopt;
+        if (!hand.aim || interaction.holds(i)) continue;
+        const auto hit =
+            interaction.panel() ? hitOf(*hand.aim, *interaction.panel()) : std::nullopt;
         const glm::dvec3 from = hand.aim->position;
         const glm::dvec3 along = hand.aim->orientation * glm::dvec3(0, 0, -1);
         put(lineOf(from, from + (hit ? hit->distance : kRayLength) * along, kRayHalfWidth, head),
@@ -54,19 +59,20 @@ std::vector<render::Placard> placardsOf(const Room& room, const std::array<xr::H
     }
     if (boards.readout != nullptr) {
         // Without hands: under the volume.
-        const glm::dvec3 under = room.placement().stageFromVolume.position - glm::dvec3(0, 0.45, 0);
-        const xr::Pose at = readoutHand(room, hands).value_or(xr::Pose{{1, 0, 0, 0}, under});
+        const glm::dvec3 under =
+            interaction.placement().stageFromVolume.position - glm::dvec3(0, 0.45, 0);
+        const xr::Pose at = readoutHand(interaction, hands).value_or(xr::Pose{{1, 0, 0, 0}, under});
         put(readoutNear(at, head, boards.readoutHalf), boards.readout);
     }
     const auto inStage = [&](const glm::dvec3& world) {
-        return glm::dvec3(xr::stageFromWorld(room.placement()) * glm::dvec4(world, 1));
+        return glm::dvec3(xr::stageFromWorld(interaction.placement()) * glm::dvec4(world, 1));
     };
     const auto mark = [&](const glm::dvec3& world, const glm::vec3& color) {
         put(facingHead(inStage(world), head, glm::dvec2(kMarkHalf)), color);
     };
     if (boards.kept) mark(*boards.kept, kMark);
-    if (room.tip()) mark(room.tip()->reading.world, kAccent);
-    for (const ClipHand::Edge& edge : room.clipEdges())
+    if (interaction.tip()) mark(interaction.tip()->reading.world, kAccent);
+    for (const ClipHand::Edge& edge : interaction.clipEdges())
         put(lineOf(inStage(edge.from), inStage(edge.to), edge.lit ? kLitHalfWidth : kEdgeHalfWidth,
                    head),
             edge.lit ? kAccent : kQuiet);

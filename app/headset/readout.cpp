@@ -9,19 +9,24 @@
 namespace app::headset {
 namespace {
 
-// The swept window, or else the first layer that is seen.
-std::string valuesText(const Explorer& e, const Shown& shown) {
-    const timeseries::Variable& about = shown.dataset.about;
-    if (e.sweep && e.sweepLayer.visible)
-        return about.name + " " +
-               rangeLabel(sweptRanges(e, *shown.sorted, e.play.tick), about.units);
+// The first layer that is seen.
+std::string valuesText(const Screen& screen) {
+    const Explorer& e = screen.explorer;
     for (const LayerChoice& layer : e.layers)
-        if (layer.visible) return about.name + " " + rangeLabel(layer.ranges, about.units);
-    return about.name + ", nothing visible";
+        if (layer.visible)
+            return screen.variable.name + " " +
+                   rangeLabel(rangesAt(layer, *screen.sorted, e.play.tick), screen.variable.units);
+    return screen.variable.name + ", nothing visible";
+}
+
+std::string pictureText(const Screen& screen) {
+    const timeseries::TimeAxis& time = *screen.variable.time;
+    return fmt::format("{}\n{}, step {} of 0\u2013{}", valuesText(screen),
+                       timeText(time, screen.step), screen.step, time.points.size() - 1);
 }
 
 std::string tipText(const TipProbe::At& tip, const Shown& shown) {
-    std::string text = shown.dataset.about.name;
+    std::string text = shown.dataset.variable.name;
     if (tip.value == TipProbe::Value::Found)
         text += " " + valueText(tip.reading, shown);
     else
@@ -34,21 +39,18 @@ std::string tipText(const TipProbe::At& tip, const Shown& shown) {
 
 }  // namespace
 
-std::string readoutText(const Exploration& exploration, const std::optional<TipProbe::At>& tip,
-                        double renderScale) {
+std::string readoutText(const Exploration& exploration, const Before& eyes,
+                        const std::optional<TipProbe::At>& tip, double renderScale) {
     const auto shown = exploration.shown();
     if (!shown) {
         const auto opening = exploration.opening();
         return opening ? "opening " + *opening : "no file is open";
     }
     std::string text = tip ? tipText(*tip, *shown) : "";
-    text += valuesText(exploration.explorer(), *shown);
-    text +=
-        fmt::format("\n{}, step {} of 0\u2013{}", timeText(*shown->dataset.about.time, shown->step),
-                    shown->step, shown->dataset.stepCount() - 1);
-    if (const PointCounts* counts = exploration.counts())
-        text += fmt::format("\n{} points{}", withCommas(counts->selected),
-                            counts->inClipBox ? " in the clip box" : "");
+    text += eyes.screen ? pictureText(*eyes.screen) : shown->dataset.variable.name + " \u2026";
+    if (eyes.counts)
+        text += fmt::format("\n{} points{}", withCommas(eyes.counts->selected),
+                            eyes.counts->inClipBox ? " in the clip box" : "");
     if (const std::string waiting = exploration.waiting(); !waiting.empty()) text += "\n" + waiting;
     if (exploration.playback().playing) text += "\nplaying";
     if (renderScale < 1) text += fmt::format("\nresolution {} %", std::lround(100 * renderScale));

@@ -29,7 +29,7 @@ inline constexpr double kPanelMetresPerPixel = 0.0008;
 Plate panelBefore(const xr::Pose& head);
 // Upright at a place, turned to the head.
 Plate facingHead(const glm::dvec3& at, const xr::Pose& head, glm::dvec2 half);
-// The same above a hand: a text.
+// Above a hand, upright and turned to the head: a text.
 Plate readoutNear(const xr::Pose& hand, const xr::Pose& head, glm::dvec2 half);
 
 // The square from -1 to 1 (render::Placard) onto the plate, in the world of the volume.

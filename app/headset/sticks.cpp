@@ -127,8 +127,9 @@ bool Sticks::moveTime(Exploration& exploration, double time, std::chrono::nanose
 
 void toggleSwing(Exploration& exploration) {
     Explorer next = exploration.explorer();
-    if (!next.sweep) return;
-    next.sweep->path = next.sweep->path == SweepPath::Swing ? SweepPath::Loop : SweepPath::Swing;
+    timeseries::SweepSettings* const sweep = sweepOf(next);
+    if (sweep == nullptr) return;
+    sweep->path = sweep->path == SweepPath::Swing ? SweepPath::Loop : SweepPath::Swing;
     exploration.edit(std::move(next));
 }
 

@@ -7,11 +7,11 @@ namespace app::panels {
 
 class AnimationPage {
  public:
-    void draw(Desk& desk, const Rect& at);
+    void draw(PanelContext& context, const Rect& at);
 
  private:
-    void time(Desk& desk, Form& form);
-    void sweep(Desk& desk, Form& form);
+    void time(PanelContext& context, Form& form);
+    void sweep(PanelContext& context, Form& form);
     TextField speed_, stride_, range_, delta_, timerSteps_, step_, frequency_;
 };
 

@@ -39,15 +39,15 @@ bool mapRow(const Theme& theme, const Rect& at, std::string_view name, bool now)
 
 }  // namespace
 
-bool ColorEditor::draw(Desk& desk, LayerChoice& layer) {
+bool ColorEditor::draw(PanelContext& context, LayerChoice& layer) {
     constexpr std::array kKinds = {"One colour", "By value"};
-    const float s = desk.theme.scale, width = 264 * s;
+    const float s = context.theme.scale, width = 264 * s;
     const bool byValue = layer.color && std::holds_alternative<MapChoice>(*layer.color);
     const glm::vec2 at = vec(ImGui::GetCursorScreenPos());
     bool changed = false;
     if (ImGui::IsWindowAppearing()) hex_ = lo_ = hi_ = {};  // of another layer, perhaps
-    if (const auto kind = segmented(desk.theme, "kind", {at, at + glm::vec2(width, 28 * s)}, kKinds,
-                                    byValue ? 1 : 0)) {
+    if (const auto kind = segmented(context.theme, "kind", {at, at + glm::vec2(width, 28 * s)},
+                                    kKinds, byValue ? 1 : 0)) {
         if (*kind == 1)
             layer.color = MapChoice{};
         else
@@ -56,11 +56,12 @@ bool ColorEditor::draw(Desk& desk, LayerChoice& layer) {
     }
     ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 38 * s)));
     const bool maps = layer.color && std::holds_alternative<MapChoice>(*layer.color);
-    return (maps ? drawMaps(desk, layer, width) : drawConstant(desk, layer, width)) || changed;
+    return (maps ? drawMaps(context, layer, width) : drawConstant(context, layer, width)) ||
+           changed;
 }
 
-bool ColorEditor::drawConstant(Desk& desk, LayerChoice& layer, float width) {
-    const float s = desk.theme.scale;
+bool ColorEditor::drawConstant(PanelContext& context, LayerChoice& layer, float width) {
+    const float s = context.theme.scale;
     bool changed = false;
     const glm::vec2 at = vec(ImGui::GetCursorScreenPos());
     const float cell = (width + 4 * s) / kLayerColors.size();
@@ -68,7 +69,7 @@ bool ColorEditor::drawConstant(Desk& desk, LayerChoice& layer, float width) {
         const glm::vec2 corner = at + glm::vec2(cell * static_cast<float>(i), 0);
         const bool now = layer.color == std::variant<glm::dvec3, MapChoice>(kLayerColors[i]);
         ImGui::PushID(static_cast<int>(i));
-        if (paletteCell(desk.theme, {corner, corner + glm::vec2(cell - 4 * s, 24 * s)},
+        if (paletteCell(context.theme, {corner, corner + glm::vec2(cell - 4 * s, 24 * s)},
                         kLayerColors[i], now)) {
             layer.color = kLayerColors[i];
             changed = true;
@@ -96,20 +97,21 @@ bool ColorEditor::drawConstant(Desk& desk, LayerChoice& layer, float width) {
         // As a text would say it, so that what is saved is what is shown.
         take(colorText(glm::dvec3(c[0], c[1], c[2])));
     const glm::vec2 field = vec(ImGui::GetCursorScreenPos());
-    if (const auto hex = hex_.draw(desk.theme, "##hex", {field, field + glm::vec2(width, 28 * s)},
-                                   colorText(srgb), "#rrggbb"))
+    if (const auto hex =
+            hex_.draw(context.theme, "##hex", {field, field + glm::vec2(width, 28 * s)},
+                      colorText(srgb), "#rrggbb"))
         take(*hex);
     return changed;
 }
 
-bool ColorEditor::drawMaps(Desk& desk, LayerChoice& layer, float width) {
-    const float s = desk.theme.scale;
+bool ColorEditor::drawMaps(PanelContext& context, LayerChoice& layer, float width) {
+    const float s = context.theme.scale;
     bool changed = false;
     MapChoice choice = std::get<MapChoice>(*layer.color);
     glm::vec2 at = vec(ImGui::GetCursorScreenPos());
     for (const std::string_view name : render::colorMapNames()) {
         const render::ColorMap map = *render::colorMapNamed(name);
-        if (mapRow(desk.theme, {at, at + glm::vec2(width, 26 * s)}, name, choice.map == map)) {
+        if (mapRow(context.theme, {at, at + glm::vec2(width, 26 * s)}, name, choice.map == map)) {
             choice.map = map;
             changed = true;
         }
@@ -124,9 +126,11 @@ bool ColorEditor::drawMaps(Desk& desk, LayerChoice& layer, float width) {
         end = entered;
         changed = true;
     };
-    const auto lo = valueField(desk, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
+    const auto lo =
+        valueField(context, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
     take(lo, lo < most, choice.lo, lo_);
-    const auto hi = valueField(desk, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
+    const auto hi =
+        valueField(context, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
     take(hi, hi > least, choice.hi, hi_);
     if (changed) layer.color = choice;
     return changed;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/choices/explorer.h"
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {
@@ -10,11 +10,11 @@ namespace app::panels {
 class ColorEditor {
  public:
     // In a popup that is open; true when it has changed the layer's colour.
-    bool draw(Desk& desk, LayerChoice& layer);
+    bool draw(PanelContext& context, LayerChoice& layer);
 
  private:
-    bool drawConstant(Desk& desk, LayerChoice& layer, float width);
-    bool drawMaps(Desk& desk, LayerChoice& layer, float width);
+    bool drawConstant(PanelContext& context, LayerChoice& layer, float width);
+    bool drawMaps(PanelContext& context, LayerChoice& layer, float width);
     TextField hex_, lo_, hi_;
 };
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "app/exploration/export_job.h"
-#include "app/files/frames.h"
+#include "app/files/frame_files.h"
 
 namespace app::panels {
 namespace {
@@ -79,29 +79,29 @@ void FilePanel::list(const fs::path& folder) {
     listing_.emplace(folder, all_, wake_);
 }
 
-void FilePanel::take(Desk& desk, const fs::path& path) {
+void FilePanel::take(PanelContext& context, const fs::path& path) {
     if (*for_ == For::Open) {
-        desk.requests.open = {path};
+        context.requests.open = {path};
         return close();
     }
     if (warnedOf_ != path.string()) {
-        warning_ = warning(desk, path);
+        warning_ = warning(context, path);
         warnedOf_ = path.string();
         if (!warning_.empty()) return;
     }
     if (*for_ == For::Save)
-        desk.requests.save = path;
+        context.requests.save = path;
     else
-        desk.requests.exportTo = path;
+        context.requests.exportTo = path;
     close();
 }
 
-std::string FilePanel::warning(const Desk& desk, const fs::path& path) const {
-    const auto shown = desk.exploration.shown();
+std::string FilePanel::warning(const PanelContext& context, const fs::path& path) const {
+    const auto shown = context.exploration.shown();
     std::size_t files = 1, existing = 0;
     if (*for_ == For::Export && shown) {
         const Explorer animation = animationOf(*shown);
-        const Frames frames(path, animation, stepsOf(shown->dataset, *animation.steps));
+        const FrameFiles frames(path, animation, stepsOf(shown->dataset, *animation.steps));
         files = frames.fileCount();
         existing = frames.existing();
     } else {
@@ -114,7 +114,7 @@ std::string FilePanel::warning(const Desk& desk, const fs::path& path) const {
                        existing == 1 ? "exists" : "exist", existing == 1 ? "it" : "them");
 }
 
-void FilePanel::draw(Desk& desk) {
+void FilePanel::draw(PanelContext& context) {
     if (!for_) return;
     if (listing_) {
         if (auto contents = listing_->poll()) {
@@ -122,9 +122,9 @@ void FilePanel::draw(Desk& desk) {
             listing_.reset();
         }
     }
-    const Theme& theme = desk.theme;
+    const Theme& theme = context.theme;
     const float s = theme.scale;
-    const Rect& window = desk.layout.window;
+    const Rect& window = context.layout.window;
     const glm::vec2 half = 0.5f * glm::min(glm::vec2(640, 520) * s, window.size() - 24 * s);
     const Rect at{glm::floor(window.centre() - half), glm::floor(window.centre() + half)};
     ImGui::SetNextWindowFocus();
@@ -148,7 +148,7 @@ void FilePanel::draw(Desk& desk) {
         "##path", "type a path, or choose below", &typed_,
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID("##path"));
-    drawList(desk, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
+    drawList(context, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
 
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) close();
     if (!for_) return end();
@@ -179,15 +179,15 @@ void FilePanel::draw(Desk& desk) {
             typed_.clear();
             focus_ = true;
         } else if (!typed_.empty() || *for_ == For::Open) {
-            take(desk, chosen());
+            take(context, chosen());
             focus_ = for_.has_value();
         }
     }
     end();
 }
 
-void FilePanel::drawList(Desk& desk, const Rect& at) {
-    const float s = desk.theme.scale;
+void FilePanel::drawList(PanelContext& context, const Rect& at) {
+    const float s = context.theme.scale;
     ImGui::GetWindowDrawList()->AddRectFilled(im(at.min), im(at.max), kGround, 5 * s);
     ImGui::SetCursorScreenPos(im(at.min));
     ImGui::BeginChild("##list", im(at.size()));
@@ -203,8 +203,8 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
             list.AddRectFilled(im(r.min), im(r.max), lit ? faded(kAccent, 0.16f) : kField, 4 * s);
         drawIcon(list, icon, {r.min.x + 16 * s, r.centre().y}, s,
                  icon == Icon::Folder ? kAccent : kDim);
-        text(desk.theme, {r.min.x + 34 * s, r.centre().y},
-             fitting(*desk.theme.text, name, r.size().x - 44 * s));
+        text(context.theme, {r.min.x + 34 * s, r.centre().y},
+             fitting(*context.theme.text, name, r.size().x - 44 * s));
         return p;
     };
     std::optional<fs::path> enter, open;
@@ -220,8 +220,8 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
         if ((p.doubled || (p.clicked && p.focused)) && !entry.isFolder) open = entry.path;
     }
     if (!contents_.why.empty())
-        text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, contents_.why, kError);
-    if (listing_) text(desk.theme, {at.min.x + 14 * s, y + 14 * s}, "…", kDim);
+        text(context.theme, {at.min.x + 14 * s, y + 14 * s}, contents_.why, kError);
+    if (listing_) text(context.theme, {at.min.x + 14 * s, y + 14 * s}, "…", kDim);
     ImGui::SetCursorScreenPos({origin.x, y});
     ImGui::Dummy({1, 4 * s});
     ImGui::EndChild();
@@ -229,7 +229,7 @@ void FilePanel::drawList(Desk& desk, const Rect& at) {
         if (*for_ == For::Open) typed_.clear();
         list(*enter);
     }
-    if (open) take(desk, *for_ == For::Open ? *open : chosen());
+    if (open) take(context, *for_ == For::Open ? *open : chosen());
 }
 
 }  // namespace app::panels

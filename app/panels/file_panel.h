@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/files/folder_listing.h"
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {
@@ -23,16 +23,16 @@ class FilePanel {
     void close() { for_.reset(); }
     bool isOpen() const { return for_.has_value(); }
     bool isListing() const { return isOpen() && listing_.has_value(); }
-    void draw(Desk& desk);
+    void draw(PanelContext& context);
 
  private:
     // The path typed. A session has its ending, by which it is known when it is opened.
     std::filesystem::path chosen() const;
     void list(const std::filesystem::path& folder);
-    void drawList(Desk& desk, const Rect& at);
-    void take(Desk& desk, const std::filesystem::path& path);
+    void drawList(PanelContext& context, const Rect& at);
+    void take(PanelContext& context, const std::filesystem::path& path);
     // What would be replaced, asked as one line; "" when nothing would.
-    std::string warning(const Desk& desk, const std::filesystem::path& path) const;
+    std::string warning(const PanelContext& context, const std::filesystem::path& path) const;
 
     std::function<void()> wake_;
     std::optional<For> for_;

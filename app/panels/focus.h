@@ -4,7 +4,7 @@
 // the next Tab goes on from where it was.
 //
 // Dear ImGui's own navigation is not used: it stays within one window, needs items of its own
-// where a hand-drawn instrument has handles, and differs between the versions that we build with.
+// where a hand-drawn histogram has handles, and differs between the versions that we build with.
 #pragma once
 
 #include <imgui.h>
@@ -65,7 +65,7 @@ class Focus {
     std::span<const Control> controls() const { return shown_; }
     // The control that has the keys.
     std::optional<ImGuiID> holder() const { return has_ ? std::optional(place_) : std::nullopt; }
-    // Likewise, or that was pressed last: where Tab goes on from.
+    // The control that has the keys, or was pressed last: where Tab goes on from.
     ImGuiID place() const { return place_; }
 
     // Text may come before the field that has just got the focus has begun to take it.

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {

@@ -43,19 +43,19 @@ bool popupRow(const Theme& theme, std::string_view label, float width, std::stri
     return p.clicked;
 }
 
-void menu(Desk& desk, std::span<const Named> recent) {
+void menu(PanelContext& context, std::span<const Named> recent) {
     constexpr std::size_t kRecent = 5;
-    const float width = 240 * desk.theme.scale;
+    const float width = 240 * context.theme.scale;
     const auto item = [&](const char* label, const char* keys, Command command,
                           bool enabled = true) {
-        if (popupRow(desk.theme, label, width, keys, enabled))
-            desk.requests.commands.push_back(command);
+        if (popupRow(context.theme, label, width, keys, enabled))
+            context.requests.commands.push_back(command);
     };
     const auto separator = [] {
         ImGui::Spacing();
         ImGui::Separator();
     };
-    const bool open = desk.exploration.shown().has_value();
+    const bool open = context.exploration.shown().has_value();
     item("Open…", "Ctrl+O", Command::Open);
     item("Save session…", "Ctrl+S", Command::Save, open);
     separator();
@@ -63,38 +63,39 @@ void menu(Desk& desk, std::span<const Named> recent) {
     item("Export the animation…", "Ctrl+E", Command::Export, open);
     item("Copy as command line", "Ctrl+C", Command::CopyCommandLine, open);
     separator();
-    item("Undo", "Ctrl+Z", Command::Undo, desk.exploration.canUndo());
-    item("Redo", "Ctrl+Y", Command::Redo, desk.exploration.canRedo());
+    item("Undo", "Ctrl+Z", Command::Undo, context.exploration.canUndo());
+    item("Redo", "Ctrl+Y", Command::Redo, context.exploration.canRedo());
     separator();
-    if (!desk.inHeadset) item("Into the headset", "Ctrl+H", Command::Headset);
+    if (!context.inHeadset) item("Into the headset", "Ctrl+H", Command::Headset);
     item("All keys", "H", Command::Help);
     if (recent.empty()) return;
     separator();
     int id = 0;
     for (const Named& named : recent.first(std::min(kRecent, recent.size()))) {
         ImGui::PushID(++id);
-        if (popupRow(desk.theme, shortName(named), width, "recent")) desk.requests.open = named;
+        if (popupRow(context.theme, shortName(named), width, "recent"))
+            context.requests.open = named;
         ImGui::PopID();
     }
 }
 
-void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
-    const float s = desk.theme.scale;
+void variableChoice(PanelContext& context, const Rect& at, const Shown& shown) {
+    const float s = context.theme.scale;
     const Pressing p = button("##variable", at);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.min), im(at.max), p.hovered ? kRaised : kField, 5 * s);
-    text(desk.theme, {at.min.x + 10 * s, at.centre().y},
-         fitting(*desk.theme.text, titleOf(shown.dataset.about), at.size().x - 36 * s));
+    text(context.theme, {at.min.x + 10 * s, at.centre().y},
+         fitting(*context.theme.text, titleOf(shown.dataset.variable), at.size().x - 36 * s));
     drawIcon(list, Icon::Down, {at.max.x - 14 * s, at.centre().y}, s, kDim);
     if (p.clicked) ImGui::OpenPopup("variables");
     ImGui::SetNextWindowPos({at.min.x, at.max.y + 4 * s});
     ImGui::SetNextWindowSizeConstraints({at.size().x, 0}, {at.size().x, 400 * s});
     if (!beginPopup("variables")) return;
     for (const timeseries::Variable& v : shown.dataset.variables) {
-        const bool now = v.name == shown.dataset.about.name;
+        const bool now = v.name == shown.dataset.variable.name;
         ImGui::PushID(v.name.c_str());
-        if (popupRow(desk.theme, titleOf(v), at.size().x - 24 * s, {}, true, now) && !now)
-            edit(desk, {}, [&](Explorer& e) { e.variable = v.name; });
+        if (popupRow(context.theme, titleOf(v), at.size().x - 24 * s, {}, true, now) && !now)
+            edit(context, {}, [&](Explorer& e) { e.variable = v.name; });
         ImGui::PopID();
     }
     endPopup();
@@ -102,21 +103,22 @@ void variableChoice(Desk& desk, const Rect& at, const Shown& shown) {
 
 }  // namespace
 
-void drawHeader(Desk& desk, const Rect& at, std::span<const Named> recent) {
-    const float s = desk.theme.scale, left = at.min.x + kMargin * s, right = at.max.x - kMargin * s;
+void drawHeader(PanelContext& context, const Rect& at, std::span<const Named> recent) {
+    const float s = context.theme.scale, left = at.min.x + kMargin * s,
+                right = at.max.x - kMargin * s;
     const Rect button{{right - 28 * s, at.min.y + 12 * s}, {right, at.min.y + 40 * s}};
-    const Shown shown = *desk.exploration.shown();
+    const Shown shown = *context.exploration.shown();
     const std::string name = std::filesystem::path(shown.dataset.name).filename().string();
-    text(desk.theme, {left, button.centre().y},
-         fitting(*desk.theme.strong, name, button.min.x - left - 8 * s), kText, 0,
-         desk.theme.strong);
-    if (iconButton(desk.theme, "##menu", button, Icon::Menu, "Menu")) ImGui::OpenPopup("menu");
+    text(context.theme, {left, button.centre().y},
+         fitting(*context.theme.strong, name, button.min.x - left - 8 * s), kText, 0,
+         context.theme.strong);
+    if (iconButton(context.theme, "##menu", button, Icon::Menu, "Menu")) ImGui::OpenPopup("menu");
     ImGui::SetNextWindowPos({right, button.max.y + 4 * s}, ImGuiCond_Always, {1, 0});
     if (beginPopup("menu")) {
-        menu(desk, recent);
+        menu(context, recent);
         endPopup();
     }
-    variableChoice(desk, {{left, at.min.y + 48 * s}, {right, at.min.y + 78 * s}}, shown);
+    variableChoice(context, {{left, at.min.y + 48 * s}, {right, at.min.y + 78 * s}}, shown);
 }
 
 }  // namespace app::panels

@@ -4,11 +4,11 @@
 #include <span>
 
 #include "app/choices/preferences.h"
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 
 namespace app::panels {
 
 // REQUIRES: something is shown.
-void drawHeader(Desk& desk, const Rect& at, std::span<const Named> recent);
+void drawHeader(PanelContext& context, const Rect& at, std::span<const Named> recent);
 
 }  // namespace app::panels

@@ -15,17 +15,17 @@ void write(ImFont& font, float size, glm::vec2 at, std::string_view what, ImU32 
 
 }  // namespace
 
-void drawHelp(const Desk& desk) {
+void drawHelp(const PanelContext& context) {
     std::size_t groups = 0;
     std::string_view last;
     for (const HelpLine& help : helpLines()) {
         groups += help.group != last ? 1 : 0;
         last = help.group;
     }
-    const Rect& picture = desk.layout.picture;
-    const auto [at, s] = helpLayout(picture, desk.theme.scale, helpLines().size(), groups);
-    ImFont &font = *desk.theme.text, &strong = *desk.theme.strong;
-    const float size = font.FontSize * s / desk.theme.scale, width = at.size().x;
+    const Rect& picture = context.layout.picture;
+    const auto [at, s] = helpLayout(picture, context.theme.scale, helpLines().size(), groups);
+    ImFont &font = *context.theme.text, &strong = *context.theme.strong;
+    const float size = font.FontSize * s / context.theme.scale, width = at.size().x;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(picture.min), im(picture.max), faded(kGround, 0.6f));
     list.AddRectFilled(im(at.min), im(at.max), faded(kPanel, 0.98f), 8 * s);
@@ -39,7 +39,7 @@ void drawHelp(const Desk& desk) {
             last = help.group;
         }
         write(font, size, {at.min.x + 100 * s, y}, help.keys, kText);
-        const float room = (0.53f * width - 20 * s) * desk.theme.scale / s;
+        const float room = (0.53f * width - 20 * s) * context.theme.scale / s;
         write(font, size, {at.min.x + 0.47f * width, y}, fitting(font, help.does, room), kDim);
         y += kHelpLine * s;
     }

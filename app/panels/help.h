@@ -1,10 +1,10 @@
 // All keys and gestures over the picture.
 #pragma once
 
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 
 namespace app::panels {
 
-void drawHelp(const Desk& desk);
+void drawHelp(const PanelContext& context);
 
 }  // namespace app::panels

@@ -18,11 +18,11 @@ float nameColumn(ImFont& font, std::span<const std::string> names, float scale) 
     return std::min(std::ceil(widest), kMost * scale);
 }
 
-void HoverTip::follow(Desk& desk, const std::optional<glm::vec2>& cursor,
+void HoverTip::follow(PanelContext& context, const std::optional<glm::vec2>& cursor,
                       std::chrono::nanoseconds dt) {
-    const std::uint64_t picture = desk.performance.picture;
+    const std::uint64_t picture = context.performance.picture;
     const bool rests = cursor && cursor == at_ && picture == picture_ &&
-                       desk.performance.report.whole && !desk.exploration.playback().playing;
+                       context.performance.report.whole && !context.exploration.playback().playing;
     at_ = cursor;
     picture_ = picture;
     isNew_ = false;
@@ -35,7 +35,7 @@ void HoverTip::follow(Desk& desk, const std::optional<glm::vec2>& cursor,
     rested_ += dt;
     if (asked_ || rested_ < kRest) return;
     asked_ = true;
-    desk.requests.hover = at_;
+    context.requests.hover = at_;
 }
 
 void HoverTip::take(const std::optional<Reading>& reading) {
@@ -50,13 +50,13 @@ std::optional<std::chrono::nanoseconds> HoverTip::untilNextChange() const {
     return std::max(nanoseconds(0), kRest - rested_);
 }
 
-void HoverTip::draw(const Desk& desk) const {
-    const auto shown = desk.exploration.shown();
+void HoverTip::draw(const PanelContext& context) const {
+    const auto shown = context.exploration.shown();
     if (!reading_ || !at_ || !shown) return;
-    const Theme& theme = desk.theme;
+    const Theme& theme = context.theme;
     const float s = theme.scale, line = 19 * s;
     const std::string value =
-        fmt::format("{}  {}", shown->dataset.about.name, valueText(*reading_, *shown));
+        fmt::format("{}  {}", shown->dataset.variable.name, valueText(*reading_, *shown));
     std::array<std::string, 3> places, names;
     for (std::size_t i = 0; i < 3; ++i) names[i] = shown->sorted->grid().axes()[i].name;
     const std::string between = betweenText(*reading_, *shown);
@@ -68,7 +68,7 @@ void HoverTip::draw(const Desk& desk) const {
     }
     const float lines = between.empty() ? 4 : 5;
     // Below and right of the pointer; on its other side where the picture ends.
-    const Rect& picture = desk.layout.picture;
+    const Rect& picture = context.layout.picture;
     const glm::vec2 size(width + 22 * s, lines * line + 14 * s), pointer = picture.min + *at_;
     glm::vec2 corner = pointer + glm::vec2(16 * s);
     if (corner.x + size.x > picture.max.x) corner.x = pointer.x - 12 * s - size.x;

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 
 namespace app::panels {
 
@@ -19,9 +19,10 @@ class HoverTip {
  public:
     // Once a frame. `cursor`: where the pointer is on the picture, in its pixels; none where it is
     // elsewhere or has pressed something. Asks for a reading by Requests::hover.
-    void follow(Desk& desk, const std::optional<glm::vec2>& cursor, std::chrono::nanoseconds dt);
+    void follow(PanelContext& context, const std::optional<glm::vec2>& cursor,
+                std::chrono::nanoseconds dt);
     void take(const std::optional<Reading>& reading);
-    void draw(const Desk& desk) const;
+    void draw(const PanelContext& context) const;
     // Until something happens by itself.
     std::optional<std::chrono::nanoseconds> untilNextChange() const;
 

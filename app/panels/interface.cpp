@@ -7,8 +7,8 @@
 #include "app/choices/view_edits.h"
 #include "app/panels/header.h"
 #include "app/panels/help.h"
-#include "app/panels/left_offer.h"
 #include "app/panels/quality_page.h"
+#include "app/panels/recovery_offer.h"
 
 namespace app::panels {
 namespace {
@@ -51,33 +51,41 @@ void mark(ImDrawList& list, glm::vec2 at, float s) {
 }  // namespace
 
 void Interface::draw(Exploration& exploration, const Surroundings& around, Requests& requests) {
-    Desk desk{.exploration = exploration,
-              .theme = around.theme,
-              .layout = layoutOf(around.window, around.theme.scale, choices_.sideWidth),
-              .choices = choices_,
-              .requests = requests,
-              .performance = around.performance,
-              .inHeadset = !around.hasPicture};
-    const std::size_t layers = exploration.explorer().layers.size();
-    choices_.layer = std::min(choices_.layer, layers == 0 ? 0 : layers - 1);
+    PanelContext context{.exploration = exploration,
+                         .theme = around.theme,
+                         .layout = layoutOf(around.window, around.theme.scale, choices_.sideWidth),
+                         .choices = choices_,
+                         .requests = requests,
+                         .performance = around.performance,
+                         .inHeadset = !around.hasPicture};
+    keepSelection(exploration.explorer());
     forgetOtherData(exploration.explorer());
     popup_ = files_.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     takeKey(exploration, around.key, requests);
     ImGui::PushFont(around.theme.text);
     const bool started = exploration.shown().has_value();
-    if (!started) desk.layout.picture = desk.layout.window;
-    drawPicture(desk, around);
+    if (!started) context.layout.picture = context.layout.window;
+    drawPicture(context, around);
     if (started) {
-        drawSide(desk, around);
-        timeBar_.draw(desk, desk.layout.timeBar);
+        drawSide(context, around);
+        timeBar_.draw(context, context.layout.timeBar);
     }
-    files_.draw(desk);
+    files_.draw(context);
     focus_.end(around.theme.scale);
     ImGui::PopFont();
     if (ImGui::IsMouseReleased(0) || ImGui::IsMouseReleased(2)) exploration.endGesture();
 }
 
 // A value of other data, at a step that these may not have.
+// One of the layers that stand, and the same where the swept one comes or goes before them.
+void Interface::keepSelection(const Explorer& now) {
+    const std::size_t first = sweepOf(now) != nullptr ? 1 : 0, count = now.layers.size();
+    if (first == 1 && !sweeps_) ++choices_.layer;
+    if (first == 0 && sweeps_ && choices_.layer > 0) --choices_.layer;
+    sweeps_ = first == 1;
+    choices_.layer = std::max(first, std::min(choices_.layer, count == 0 ? 0 : count - 1));
+}
+
 void Interface::forgetOtherData(const Explorer& now) {
     if (sameData(now, probed_)) return;
     probe_.clear();
@@ -100,68 +108,69 @@ void Interface::takeKey(Exploration& exploration, const std::optional<KeyPress>&
     }
 }
 
-void Interface::drawPicture(Desk& desk, const Surroundings& around) {
-    beginRegion("##picture", desk.layout.picture, kClear);
-    const bool shown = desk.exploration.shown().has_value();
-    if (shown && around.eye) drawMarks(desk, *around.eye);
-    if (!shown && !desk.exploration.opening()) drawStartScreen(desk, around.offers);
+void Interface::drawPicture(PanelContext& context, const Surroundings& around) {
+    beginRegion("##picture", context.layout.picture, kClear);
+    const bool shown = context.exploration.shown().has_value();
+    if (shown && around.eye) drawMarks(context, *around.eye);
+    if (!shown && !context.exploration.opening()) drawStartScreen(context, around.offers);
     const float s = around.theme.scale;
-    float top = desk.layout.picture.min.y + 14 * s;
+    float top = context.layout.picture.min.y + 14 * s;
     if (shown && !around.offers.autosave.empty()) {
-        drawLeftOffer(desk, around.offers.autosave);
+        drawRecoveryOffer(context, around.offers.autosave);
         top += 40 * s;
     }
-    drawPictureOverlay(desk, top, around.exporting);
-    const Rect& picture = desk.layout.picture;
+    drawPictureOverlay(context, top, around.exporting);
+    const Rect& picture = context.layout.picture;
     messages_.draw(
-        desk, around.exporting ? exportPlace(picture, s).min.y - 8 * s : messagesBottom(picture, s),
+        context,
+        around.exporting ? exportPlace(picture, s).min.y - 8 * s : messagesBottom(picture, s),
         around.dt);
-    if (help_) drawHelp(desk);
+    if (help_) drawHelp(context);
     // Last: ImGui gives the mouse to the first that lies under it.
     if (shown) {
-        if (around.hasPicture) picture_.handle(desk, around.boxHalfEdges);
-        hover_.follow(desk, help_ || popup_ ? std::nullopt : picture_.pointer(), around.dt);
-        hover_.draw(desk);
+        if (around.hasPicture) picture_.handle(context, around.boxHalfEdges);
+        hover_.follow(context, help_ || popup_ ? std::nullopt : picture_.pointer(), around.dt);
+        hover_.draw(context);
     }
     endRegion();
 }
 
-void Interface::drawSide(Desk& desk, const Surroundings& around) {
-    beginRegion("##side", desk.layout.side, kPanel);
-    const Rect& side = desk.layout.side;
+void Interface::drawSide(PanelContext& context, const Surroundings& around) {
+    beginRegion("##side", context.layout.side, kPanel);
+    const Rect& side = context.layout.side;
     ImGui::GetWindowDrawList()->AddLine({side.min.x + 0.5f, side.min.y},
                                         {side.min.x + 0.5f, side.max.y}, kLine);
     // Where there is no layer, a sentence has its row.
-    if (!instrument_.isHeld())
-        layerRows_ = std::max<std::size_t>(1, LayersPanel::rows(desk.exploration.explorer()));
-    const SideLayout parts = sideLayout(desk.layout, layerRows_);
-    drawHeader(desk, parts.header, around.offers.recent);
+    if (!histogram_.isHeld())
+        layerRows_ = std::max<std::size_t>(1, context.exploration.explorer().layers.size());
+    const SideLayout parts = sideLayout(context.layout, layerRows_);
+    drawHeader(context, parts.header, around.offers.recent);
     hairline(side.min.x, side.max.x, parts.layers.min.y);
-    layers_.draw(desk, parts.layers);
-    hairline(side.min.x, side.max.x, parts.instrument.min.y);
-    instrument_.draw(desk, parts.instrument);
-    drawTabs(desk, parts.tabs);
+    layers_.draw(context, parts.layers);
+    hairline(side.min.x, side.max.x, parts.histogramPanel.min.y);
+    histogram_.draw(context, parts.histogramPanel);
+    drawTabs(context, parts.tabs);
     switch (choices_.page) {
         case Page::Animation:
-            animation_.draw(desk, parts.page);
+            animation_.draw(context, parts.page);
             break;
         case Page::View:
-            view_.draw(desk, parts.page);
+            view_.draw(context, parts.page);
             break;
         case Page::Quality:
-            drawQualityPage(desk, parts.page);
+            drawQualityPage(context, parts.page);
             break;
         case Page::Probe:
-            probe_.draw(desk, parts.page);
+            probe_.draw(context, parts.page);
             break;
     }
-    drawEdge(desk);
+    drawEdge(context);
     endRegion();
 }
 
-void Interface::drawTabs(Desk& desk, const Rect& at) {
+void Interface::drawTabs(PanelContext& context, const Rect& at) {
     constexpr std::array kPages = {"Animation", "View", "Quality", "Probe"};
-    const float s = desk.theme.scale;
+    const float s = context.theme.scale;
     hairline(at.min.x, at.max.x, at.min.y);
     hairline(at.min.x, at.max.x, at.max.y - 1);
     const Rect inner{{at.min.x + kMargin * s, at.min.y}, {at.max.x - kMargin * s, at.max.y}};
@@ -176,8 +185,8 @@ void Interface::drawTabs(Desk& desk, const Rect& at) {
         const bool lit = now == i;
         const Pressing p = area(kPages[i], cell);
         if (p.pressed) focus_.touch(ImGui::GetID("##pages"));
-        text(desk.theme, cell.centre(), kPages[i], lit || p.hovered ? kText : kDim, 0.5f,
-             lit ? desk.theme.strong : desk.theme.text);
+        text(context.theme, cell.centre(), kPages[i], lit || p.hovered ? kText : kDim, 0.5f,
+             lit ? context.theme.strong : context.theme.text);
         if (lit)
             ImGui::GetWindowDrawList()->AddRectFilled({cell.min.x + 14 * s, cell.max.y - 2 * s},
                                                       {cell.max.x - 14 * s, cell.max.y}, kAccent);
@@ -186,9 +195,9 @@ void Interface::drawTabs(Desk& desk, const Rect& at) {
 }
 
 // The column's left edge is dragged to another width.
-void Interface::drawEdge(Desk& desk) {
-    const Rect& side = desk.layout.side;
-    const float s = desk.theme.scale;
+void Interface::drawEdge(PanelContext& context) {
+    const Rect& side = context.layout.side;
+    const float s = context.theme.scale;
     const Rect at{side.min, {side.min.x + kGrip * s, side.max.y}};
     const Pressing p = area("##edge", at);
     const Focus::Turn turn = focus_.control(ImGui::GetID("##edge"), at, Focus::Takes::LeftRight);
@@ -199,22 +208,22 @@ void Interface::drawEdge(Desk& desk) {
         ImGui::GetWindowDrawList()->AddRectFilled(im(side.min), {side.min.x + 2 * s, side.max.y},
                                                   faded(kAccent, p.held ? 1.0f : 0.6f));
     }
-    if (p.held) choices_.sideWidth = (desk.layout.window.max.x - ImGui::GetIO().MousePos.x) / s;
+    if (p.held) choices_.sideWidth = (context.layout.window.max.x - ImGui::GetIO().MousePos.x) / s;
 }
 
-void Interface::drawMarks(Desk& desk, const render::View& eye) const {
+void Interface::drawMarks(PanelContext& context, const render::View& eye) const {
     std::vector<glm::vec2> places;
     for (const std::optional<Reading>* reading : {&probe_.first(), &probe_.second()}) {
         if (!*reading) continue;
         const render::Projected at = render::project(eye, (*reading)->world);
         if (at.depth <= 0) continue;
-        places.push_back(desk.layout.picture.min +
+        places.push_back(context.layout.picture.min +
                          glm::vec2(at.window.x, static_cast<double>(eye.size.y) - at.window.y));
     }
     ImDrawList& list = *ImGui::GetWindowDrawList();
     if (places.size() == 2)
-        list.AddLine(im(places[0]), im(places[1]), faded(kText, 0.7f), 1.5f * desk.theme.scale);
-    for (const glm::vec2& place : places) mark(list, place, desk.theme.scale);
+        list.AddLine(im(places[0]), im(places[1]), faded(kText, 0.7f), 1.5f * context.theme.scale);
+    for (const glm::vec2& place : places) mark(list, place, context.theme.scale);
 }
 
 bool Interface::obey(Exploration& exploration, Command command) {

@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "app/panels/animation_page.h"
-#include "app/panels/desk.h"
 #include "app/panels/file_panel.h"
 #include "app/panels/focus.h"
+#include "app/panels/histogram_panel.h"
 #include "app/panels/hover_tip.h"
-#include "app/panels/instrument.h"
 #include "app/panels/layers_panel.h"
 #include "app/panels/messages.h"
+#include "app/panels/panel_context.h"
 #include "app/panels/picture_area.h"
 #include "app/panels/probe_page.h"
 #include "app/panels/start_screen.h"
@@ -59,18 +59,20 @@ class Interface {
 
  private:
     void takeKey(Exploration& exploration, const std::optional<KeyPress>& key, Requests& requests);
+    void keepSelection(const Explorer& now);
     void forgetOtherData(const Explorer& now);
-    void drawPicture(Desk& desk, const Surroundings& around);
-    void drawSide(Desk& desk, const Surroundings& around);
-    void drawTabs(Desk& desk, const Rect& at);
-    void drawEdge(Desk& desk);
-    void drawMarks(Desk& desk, const render::View& eye) const;
+    void drawPicture(PanelContext& context, const Surroundings& around);
+    void drawSide(PanelContext& context, const Surroundings& around);
+    void drawTabs(PanelContext& context, const Rect& at);
+    void drawEdge(PanelContext& context);
+    void drawMarks(PanelContext& context, const render::View& eye) const;
     bool close(Exploration& exploration);
 
     Choices choices_;
+    bool sweeps_ = false;  // the first layer, when it was last looked at
     Focus focus_;
     LayersPanel layers_;
-    Instrument instrument_;
+    HistogramPanel histogram_;
     TimeBar timeBar_;
     AnimationPage animation_;
     ViewPage view_;
@@ -80,7 +82,7 @@ class Interface {
     HoverTip hover_;
     Messages messages_;
     FilePanel files_;
-    std::size_t layerRows_ = 0;  // that have room; new ones get theirs once the instrument is free
+    std::size_t layerRows_ = 0;  // that have room; new ones get theirs once the histogram is free
     bool help_ = false;
     bool popup_ = false;  // one, or the files, was open as the frame began
 };

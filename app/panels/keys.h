@@ -39,7 +39,7 @@ enum class Command {
 };
 
 // Printing keys are their capital's or own ASCII code; the others are GLFW's numbers, which
-// input.cpp holds against GLFW's.
+// desktop/gui.cpp holds against GLFW's.
 enum class Key : int {
     Space = 32,
     Escape = 256,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/choices/explorer.h"
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 
 namespace app::panels {
 

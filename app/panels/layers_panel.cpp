@@ -4,7 +4,6 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/edits.h"
-#include "app/choices/sweep_edits.h"
 #include "app/panels/layer_style.h"
 #include "app/panels/number_field.h"
 #include "app/picture/picture.h"
@@ -12,98 +11,80 @@
 namespace app::panels {
 namespace {
 
-// Row 0 is the swept window's while there is one.
-LayerChoice& layerOf(Explorer& e, std::size_t row) {
-    if (e.sweep && row == 0) return e.sweepLayer;
-    return e.layers[row - (e.sweep ? 1 : 0)];
-}
-bool isSwept(const Explorer& e, std::size_t row) { return e.sweep && row == 0; }
-
 std::string percent(std::uint64_t count, std::uint64_t of) {
     if (of == 0) return "";
     const double share = 100 * static_cast<double>(count) / static_cast<double>(of);
     return fmt::format("{:.{}f} %", share, share >= 10 ? 1 : share >= 0.1 ? 2 : 4);
 }
 
-std::string sweptText(const Desk& desk) {
-    const auto& sweep = desk.exploration.playback().sweep;
+std::string sweptText(const PanelContext& context) {
+    const auto& sweep = context.exploration.playback().sweep;
     return sweep ? "swept  " + app::sweptText(*sweep, sweep->tick()) : "";
 }
 
-void remove(Desk& desk, std::size_t row) {
-    edit(desk, {}, [&](Explorer& e) {
-        if (isSwept(e, row))
-            stopSweep(e);
-        else
-            removeLayer(e, row - (e.sweep ? 1 : 0));
-    });
+void add(PanelContext& context, const timeseries::SortedStep& step) {
+    edit(context, {},
+         [&](Explorer& e) { context.choices.layer = addLayer(e, newRanges(e, step), step); });
 }
 
-void add(Desk& desk, const timeseries::SortedStep& step) {
-    edit(desk, {},
-         [&](Explorer& e) { desk.choices.layer = addLayer(e, newRanges(e, step), step); });
-}
-
-void amountText(Desk& desk, const Rect& at, std::size_t row) {
-    const PointCounts* counts = desk.exploration.counts();
-    if (counts == nullptr) return;
-    const bool swept = desk.exploration.explorer().sweep.has_value();
-    const std::size_t layer = row - (swept ? 1 : 0);
-    if (!(swept && row == 0) && layer >= counts->layers.size()) return;
-    const std::uint64_t count = swept && row == 0 ? counts->swept : counts->layers[layer];
+void amountText(PanelContext& context, const Rect& at, std::size_t row) {
+    const PointCounts* counts = context.exploration.counts();
+    if (counts == nullptr || row >= counts->layers.size()) return;
+    const std::uint64_t count = counts->layers[row];
     const std::string amount =
         withCommas(count) + (counts->inClipBox ? " in the clip box" : " points");
     const std::string share = "  ·  " + percent(count, counts->total);
-    ImFont& font = *desk.theme.small;
+    ImFont& font = *context.theme.small;
     const bool fits = widthOf(font, amount + share) <= at.size().x;
-    text(desk.theme, {at.min.x, at.centre().y}, fits ? amount + share : amount, kDim, 0, &font);
+    text(context.theme, {at.min.x, at.centre().y}, fits ? amount + share : amount, kDim, 0, &font);
 }
 
-void opacitySlider(Desk& desk, const Rect& at, std::size_t row) {
-    Explorer next = desk.exploration.explorer();
-    double opacity = layerOf(next, row).opacity.value_or(0.5);
-    const Rect bar{at.min, {at.max.x - 36 * desk.theme.scale, at.max.y}};
+void opacitySlider(PanelContext& context, const Rect& at, std::size_t row) {
+    Explorer next = context.exploration.explorer();
+    double opacity = next.layers[row].opacity.value_or(0.5);
+    const Rect bar{at.min, {at.max.x - 36 * context.theme.scale, at.max.y}};
     // The square root: most useful opacities are small.
     double fraction = std::sqrt(opacity);
-    if (slider(desk.theme, "##opacity", bar, fraction)) {
+    if (slider(context.theme, "##opacity", bar, fraction)) {
         opacity = roundedTo(fraction * fraction, 0.002);
-        layerOf(next, row).opacity = opacity;
-        desk.exploration.edit(std::move(next), fmt::format("opacity {}", row));
+        next.layers[row].opacity = opacity;
+        context.exploration.edit(std::move(next), fmt::format("opacity {}", row));
     }
-    if (ImGui::IsItemHovered()) tip(desk.theme, "Opacity of one cell");
-    text(desk.theme, {at.max.x, at.centre().y}, fmt::format("{:.2g}", opacity), kDim, 1,
-         desk.theme.small);
+    if (ImGui::IsItemHovered()) tip(context.theme, "Opacity of one cell");
+    text(context.theme, {at.max.x, at.centre().y}, fmt::format("{:.2g}", opacity), kDim, 1,
+         context.theme.small);
 }
 
 }  // namespace
 
-std::size_t LayersPanel::rows(const Explorer& e) { return e.layers.size() + (e.sweep ? 1 : 0); }
-
-void LayersPanel::draw(Desk& desk, const Rect& at) {
-    const float s = desk.theme.scale, left = at.min.x + kMargin * s, right = at.max.x - kMargin * s;
+void LayersPanel::draw(PanelContext& context, const Rect& at) {
+    const float s = context.theme.scale, left = at.min.x + kMargin * s,
+                right = at.max.x - kMargin * s;
     const float title = at.min.y + 0.5f * kLayersTitle * s;
-    text(desk.theme, {left, title}, "Layers", kText, 0, desk.theme.strong);
-    const std::size_t count = rows(desk.exploration.explorer());
-    const auto shown = desk.exploration.shown();
+    text(context.theme, {left, title}, "Layers", kText, 0, context.theme.strong);
+    const auto layers = [&] { return context.exploration.explorer().layers.size(); };
+    const std::size_t count = layers();
+    const auto shown = context.exploration.shown();
     if (shown && count < render::kMaxLayers &&
-        iconButton(desk.theme, "##add", {{right - 24 * s, title - 12 * s}, {right, title + 12 * s}},
-                   Icon::Add, "Add a layer"))
-        add(desk, *shown->sorted);
+        iconButton(context.theme, "##add",
+                   {{right - 24 * s, title - 12 * s}, {right, title + 12 * s}}, Icon::Add,
+                   "Add a layer"))
+        add(context, *shown->sorted);
 
     const Rect list{{at.min.x, at.min.y + kLayersTitle * s}, at.max};
     const glm::vec2 grip(kGrip * s, 0);
     ImGui::SetCursorScreenPos(im(list.min + grip));
     ImGui::BeginChild("##rows", im(list.size() - grip));
     if (shown && count == 0)
-        text(desk.theme, {left, list.min.y + 10 * s}, "No layer: nothing is drawn. + adds one.",
-             kDim, 0, desk.theme.small);
+        text(context.theme, {left, list.min.y + 10 * s}, "No layer: nothing is drawn. + adds one.",
+             kDim, 0, context.theme.small);
     const bool grown = count > texts_.size();
     texts_.resize(count);
     const glm::vec2 top = vec(ImGui::GetCursorScreenPos());
     // A row may remove itself: the rest waits for the next frame.
-    for (std::size_t i = 0; i < count && rows(desk.exploration.explorer()) == count; ++i) {
+    for (std::size_t i = 0; i < count && layers() == count; ++i) {
         ImGui::PushID(static_cast<int>(i));
-        row(desk, layerRow(list, top.y + static_cast<float>(i) * kLayerRow * s, s), i);
+        row(context, layerRow(list, top.y + static_cast<float>(i) * kLayerRow * s, s), i);
         ImGui::PopID();
     }
     ImGui::SetCursorScreenPos({top.x, top.y + static_cast<float>(count) * kLayerRow * s});
@@ -112,15 +93,13 @@ void LayersPanel::draw(Desk& desk, const Rect& at) {
     ImGui::EndChild();
 }
 
-void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
-    const Explorer& e = desk.exploration.explorer();
-    Explorer now = e;
-    const LayerChoice layer = layerOf(now, row);
-    const bool swept = isSwept(e, row);
-    const std::size_t index = row - (e.sweep ? 1 : 0);
-    const float s = desk.theme.scale;
+void LayersPanel::row(PanelContext& context, const LayerRowLayout& at, std::size_t row) {
+    const Explorer& e = context.exploration.explorer();
+    const LayerChoice layer = e.layers[row];
+    const bool swept = layer.motion.has_value();
+    const float s = context.theme.scale;
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const bool selected = !swept && index == desk.choices.layer;
+    const bool selected = !swept && row == context.choices.layer;
     if (selected && e.layers.size() > 1) {
         const ImVec2 from(at.row.min.x + kGrip * s, at.row.min.y);
         list.AddRectFilled(from, im(at.row.max), faded(kField, 0.6f));
@@ -130,48 +109,47 @@ void LayersPanel::row(Desk& desk, const LayerRowLayout& at, std::size_t row) {
     drawSwatch(list, at.swatch, layer, s);
     if (pressing.hovered) list.AddRect(im(at.swatch.min), im(at.swatch.max), kText, 4 * s, 0, s);
     if (pressing.clicked) ImGui::OpenPopup("color");
-    colorPopup(desk, at.swatch, row);
+    colorPopup(context, at.swatch, row);
 
     if (swept)
-        text(desk.theme, {at.text.min.x + 8 * s, at.text.centre().y},
-             fitting(*desk.theme.text, sweptText(desk), at.text.size().x - 8 * s), kAccent);
+        text(context.theme, {at.text.min.x + 8 * s, at.text.centre().y},
+             fitting(*context.theme.text, sweptText(context), at.text.size().x - 8 * s), kAccent);
     else
-        editText(desk, at, row);
-    if (iconButton(desk.theme, "##eye", at.eye, layer.visible ? Icon::Eye : Icon::EyeClosed,
+        editText(context, at, row);
+    if (iconButton(context.theme, "##eye", at.eye, layer.visible ? Icon::Eye : Icon::EyeClosed,
                    layer.visible ? "Hide" : "Show"))
-        edit(desk, {}, [&](Explorer& next) { layerOf(next, row).visible = !layer.visible; });
-    amountText(desk, at.amount, row);
-    opacitySlider(desk, at.opacity, row);
+        edit(context, {}, [&](Explorer& next) { next.layers[row].visible = !layer.visible; });
+    amountText(context, at.amount, row);
+    opacitySlider(context, at.opacity, row);
     if (!swept && ImGui::IsMouseClicked(0) && at.row.holds(vec(ImGui::GetIO().MousePos)) &&
         ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
-        desk.choices.layer = index;
-    if (!swept && focus().in(at.row)) desk.choices.layer = index;
-    if (iconButton(desk.theme, "##remove", at.remove, Icon::Remove, "Remove")) remove(desk, row);
+        context.choices.layer = row;
+    if (!swept && focus().in(at.row)) context.choices.layer = row;
+    if (iconButton(context.theme, "##remove", at.remove, Icon::Remove, "Remove"))
+        edit(context, {}, [&](Explorer& next) { removeLayer(next, row); });
 }
 
-void LayersPanel::colorPopup(Desk& desk, const Rect& swatch, std::size_t row) {
-    ImGui::SetNextWindowPos({swatch.min.x, swatch.max.y + 4 * desk.theme.scale});
-    ImGui::SetNextWindowSize({292 * desk.theme.scale, 0});
+void LayersPanel::colorPopup(PanelContext& context, const Rect& swatch, std::size_t row) {
+    ImGui::SetNextWindowPos({swatch.min.x, swatch.max.y + 4 * context.theme.scale});
+    ImGui::SetNextWindowSize({292 * context.theme.scale, 0});
     if (!beginPopup("color")) return;
-    Explorer next = desk.exploration.explorer();
-    if (color_.draw(desk, layerOf(next, row)))
-        desk.exploration.edit(std::move(next), fmt::format("color {}", row));
+    Explorer next = context.exploration.explorer();
+    if (color_.draw(context, next.layers[row]))
+        context.exploration.edit(std::move(next), fmt::format("color {}", row));
     endPopup();
 }
 
-void LayersPanel::editText(Desk& desk, const LayerRowLayout& at, std::size_t row) {
-    const Explorer& e = desk.exploration.explorer();
-    Explorer now = e;
-    const auto entered =
-        texts_[row].draw(desk.theme, "##ranges", at.text,
-                         rangesText(desk, layerOf(now, row).ranges), "600:1600 or top 1 %");
+void LayersPanel::editText(PanelContext& context, const LayerRowLayout& at, std::size_t row) {
+    const timeseries::RangeSet& now = context.exploration.explorer().layers[row].ranges;
+    const auto entered = texts_[row].draw(context.theme, "##ranges", at.text,
+                                          rangesText(context, now), "600:1600 or top 1 %");
     if (!entered) return;
-    const auto shown = desk.exploration.shown();
+    const auto shown = context.exploration.shown();
     if (!shown) return;
     try {
         const timeseries::RangeSet ranges = parseSelection(*entered, *shown->sorted);
         shown->sorted->select(ranges);  // throws where they were not kept
-        edit(desk, {}, [&](Explorer& next) { layerOf(next, row).ranges = ranges; });
+        edit(context, {}, [&](Explorer& next) { next.layers[row].ranges = ranges; });
     } catch (const std::invalid_argument& error) {
         texts_[row].refuse(error.what());
     }

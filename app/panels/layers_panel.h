@@ -4,22 +4,19 @@
 #include <vector>
 
 #include "app/panels/color_editor.h"
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {
 
 class LayersPanel {
  public:
-    void draw(Desk& desk, const Rect& at);
-
-    // Rows that the explorer's layers take, the swept one counted.
-    static std::size_t rows(const Explorer& explorer);
+    void draw(PanelContext& context, const Rect& at);
 
  private:
-    void row(Desk& desk, const LayerRowLayout& at, std::size_t row);
-    void colorPopup(Desk& desk, const Rect& swatch, std::size_t row);
-    void editText(Desk& desk, const LayerRowLayout& at, std::size_t row);
+    void row(PanelContext& context, const LayerRowLayout& at, std::size_t row);
+    void colorPopup(PanelContext& context, const Rect& swatch, std::size_t row);
+    void editText(PanelContext& context, const LayerRowLayout& at, std::size_t row);
     std::vector<TextField> texts_;
     ColorEditor color_;
 };

@@ -44,20 +44,20 @@ std::size_t statusLines(const Layout& layout) {
 }
 
 SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
-    constexpr float kHeader = 90, kLeastInstrument = 212, kInstrument = 290, kLeastPage = 140,
+    constexpr float kHeader = 90, kLeastHistogram = 212, kHistogram = 290, kLeastPage = 140,
                     kPage = 316, kLeastRows = 2.1f;
     // Where a large scale leaves no room for that: the tabs stay in the window, for behind one of
     // them the scale is chosen.
-    constexpr float kTightInstrument = 100, kTightPage = 60;
+    constexpr float kTightHistogram = 100, kTightPage = 60;
     const float s = layout.scale;
     const Rect& side = layout.side;
     const float rest = side.size().y / s - kHeader - kTabsHeight;
     const float rows = kLayersTitle + kLayerRow * static_cast<float>(layerRows) + 8;
-    const float fewRows = std::clamp(rest - kTightInstrument - kTightPage, kLayersTitle,
+    const float fewRows = std::clamp(rest - kTightHistogram - kTightPage, kLayersTitle,
                                      kLayersTitle + kLeastRows * kLayerRow);
-    const float layers = std::min(rows, std::max(fewRows, rest - kLeastInstrument - kLeastPage));
-    const float leastPage = std::clamp(rest - layers - kLeastInstrument, kTightPage, kLeastPage);
-    const float page = std::clamp(rest - layers - kInstrument, leastPage, kPage);
+    const float layers = std::min(rows, std::max(fewRows, rest - kLeastHistogram - kLeastPage));
+    const float leastPage = std::clamp(rest - layers - kLeastHistogram, kTightPage, kLeastPage);
+    const float page = std::clamp(rest - layers - kHistogram, leastPage, kPage);
     float top = side.min.y;
     const auto next = [&](float height) {
         const Rect r = crisp(box(side.min.x, top, side.max.x, top + height * s));
@@ -67,7 +67,7 @@ SideLayout sideLayout(const Layout& layout, std::size_t layerRows) {
     SideLayout out;
     out.header = next(kHeader);
     out.layers = next(layers);
-    out.instrument = next(std::max(kTightInstrument, rest - layers - page));
+    out.histogramPanel = next(std::max(kTightHistogram, rest - layers - page));
     out.tabs = next(kTabsHeight);
     out.page = next(page);
     return out;
@@ -87,24 +87,24 @@ LayerRowLayout layerRow(const Rect& layers, float top, float scale) {
     return out;
 }
 
-InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasMap) {
-    const float s = scale, left = instrument.min.x + kMargin * s,
-                right = instrument.max.x - kMargin * s;
-    const float top = instrument.min.y + 34 * s, bottom = instrument.max.y - 26 * s;
+HistogramLayout histogramLayout(const Rect& histogramPanel, float scale, bool hasMap) {
+    const float s = scale, left = histogramPanel.min.x + kMargin * s,
+                right = histogramPanel.max.x - kMargin * s;
+    const float top = histogramPanel.min.y + 34 * s, bottom = histogramPanel.max.y - 26 * s;
     const float gutter = 52 * s;
     const float bars = hasMap ? 0.36f * (right - left - gutter) : right - left - gutter;
     const float axis = left + bars, map = axis + gutter;
-    InstrumentLayout out;
-    out.title = crisp(box(left, instrument.min.y + 6 * s, right, top - 4 * s));
+    HistogramLayout out;
+    out.title = crisp(box(left, histogramPanel.min.y + 6 * s, right, top - 4 * s));
     out.histogram = crisp(box(left, top, axis, bottom));
     out.axis = crisp(box(axis, top, map, bottom));
     out.map = crisp(box(map, top, hasMap ? right : map, bottom));
-    out.times = crisp(box(map, bottom + 3 * s, right, instrument.max.y - 4 * s));
+    out.times = crisp(box(map, bottom + 3 * s, right, histogramPanel.max.y - 4 * s));
     return out;
 }
 
-Rect endHandle(const InstrumentLayout& instrument, float scale, float y, bool isUpper) {
-    const Rect& bars = instrument.histogram;
+Rect endHandle(const HistogramLayout& histogramPanel, float scale, float y, bool isUpper) {
+    const Rect& bars = histogramPanel.histogram;
     const float height = 11 * scale, right = bars.min.x - scale;
     const float top = std::clamp(y - (isUpper ? height : 0), bars.min.y,
                                  std::max(bars.min.y, bars.max.y - height));

@@ -47,7 +47,7 @@ std::size_t statusLines(const Layout& layout);
 // The side column from top to bottom. It shows all layers while there is room, and scrolls them
 // where there is not.
 struct SideLayout {
-    Rect header, layers, instrument, tabs, page;
+    Rect header, layers, histogramPanel, tabs, page;
 };
 constexpr float kLayersTitle = 32, kLayerRow = 58, kTabsHeight = 40;
 SideLayout sideLayout(const Layout& layout, std::size_t layerRows);
@@ -59,16 +59,16 @@ struct LayerRowLayout {
 // `top`: of the row, which scrolling moves.
 LayerRowLayout layerRow(const Rect& layers, float top, float scale);
 
-// The instrument: bars grow left from the axis, the map lies right of it. A series of one step has
-// no map.
-struct InstrumentLayout {
+// The histogram panel: bars grow left from the axis, the map lies right of it. A series of one step
+// has no map.
+struct HistogramLayout {
     Rect title, histogram, axis, map, times;
 };
-InstrumentLayout instrumentLayout(const Rect& instrument, float scale, bool hasMap);
+HistogramLayout histogramLayout(const Rect& histogramPanel, float scale, bool hasMap);
 // The handle of an end of a range whose line is at y, left of the histogram. An upper end's stands
 // above its line, a lower one's below: handles of a thin range are apart, and those of two ranges
 // that meet. Within the histogram's height, also where the end is not.
-Rect endHandle(const InstrumentLayout& instrument, float scale, float y, bool isUpper);
+Rect endHandle(const HistogramLayout& histogramPanel, float scale, float y, bool isUpper);
 
 // The time bar: the rail lies right of the buttons and left of the settings.
 struct TimeBarLayout {

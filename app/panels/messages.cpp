@@ -23,13 +23,13 @@ struct Card {
 };
 
 // Upwards from `bottom`; `hasButtons` below its text in any case.
-Card cardOf(const Desk& desk, const std::string& message, float bottom, bool opened,
+Card cardOf(const PanelContext& context, const std::string& message, float bottom, bool opened,
             bool hasButtons) {
-    const float s = desk.theme.scale;
-    const Rect& picture = desk.layout.picture;
+    const float s = context.theme.scale;
+    const Rect& picture = context.layout.picture;
     const float width = std::min(420 * s, picture.size().x - 2 * kMargin * s);
     const float right = picture.max.x - kMargin * s, left = right - width, wrap = width - 60 * s;
-    const ImFont& font = *desk.theme.text;
+    const ImFont& font = *context.theme.text;
     const float line = font.FontSize;
     const auto heightOf = [&](std::string_view text) {
         const Characters c(text);
@@ -70,12 +70,12 @@ void drawText(const Theme& theme, const Card& card) {
 }  // namespace
 
 // Draws upwards from `bottom`; returns its top.
-float Messages::card(Desk& desk, const Exploration::Message& message, float bottom,
+float Messages::card(PanelContext& context, const Exploration::Message& message, float bottom,
                      const Others& others, Pressed& pressed) {
-    const Theme& theme = desk.theme;
+    const Theme& theme = context.theme;
     const float s = theme.scale;
     const bool opened = opened_.contains(message.number);
-    const Card place = cardOf(desk, message.text, bottom, opened, others.count > 0);
+    const Card place = cardOf(context, message.text, bottom, opened, others.count > 0);
     const Rect& at = place.at;
     ImGui::PushID(static_cast<int>(message.number));
     drawGround(theme, at, message.isError);
@@ -108,8 +108,8 @@ float Messages::card(Desk& desk, const Exploration::Message& message, float bott
     return at.min.y;
 }
 
-void Messages::draw(Desk& desk, float bottom, std::chrono::nanoseconds dt) {
-    const std::vector<Exploration::Message> messages = desk.exploration.messages();
+void Messages::draw(PanelContext& context, float bottom, std::chrono::nanoseconds dt) {
+    const std::vector<Exploration::Message> messages = context.exploration.messages();
     const auto isGone = [&](std::uint64_t number) {
         return std::none_of(messages.begin(), messages.end(),
                             [&](const auto& m) { return m.number == number; });
@@ -120,7 +120,7 @@ void Messages::draw(Desk& desk, float bottom, std::chrono::nanoseconds dt) {
         std::ranges::count(messages, true, &Exploration::Message::isError));
     if (errors < 2) areAllShown_ = false;
     const bool all = areAllShown_;
-    const float s = desk.theme.scale;
+    const float s = context.theme.scale;
     bool isLast = true;  // of the errors
     for (std::size_t i = messages.size(); i-- > 0;) {
         const Exploration::Message& message = messages[i];
@@ -129,16 +129,16 @@ void Messages::draw(Desk& desk, float bottom, std::chrono::nanoseconds dt) {
         if (message.isError && std::exchange(isLast, false))
             others = {.count = errors - 1, .shown = all};
         Pressed pressed;
-        bottom = card(desk, message, bottom, others, pressed) - 8 * s;
+        bottom = card(context, message, bottom, others, pressed) - 8 * s;
         if (!message.isError) {
             auto& shown = shownFor_[message.number];
             shown += dt;
             pressed.close = pressed.close || shown >= kStay;
         }
         for (const Exploration::Message& each : messages)
-            if (pressed.closeAll && each.isError) desk.exploration.forgetMessage(each.number);
-        if (pressed.close) desk.exploration.forgetMessage(message.number);
-        if (bottom < desk.layout.picture.centre().y) break;  // the picture stays in sight
+            if (pressed.closeAll && each.isError) context.exploration.forgetMessage(each.number);
+        if (pressed.close) context.exploration.forgetMessage(message.number);
+        if (bottom < context.layout.picture.centre().y) break;  // the picture stays in sight
     }
 }
 

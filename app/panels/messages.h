@@ -7,14 +7,14 @@
 #include <map>
 #include <set>
 
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 
 namespace app::panels {
 
 class Messages {
  public:
     // Upwards from `bottom`.
-    void draw(Desk& desk, float bottom, std::chrono::nanoseconds dt);
+    void draw(PanelContext& context, float bottom, std::chrono::nanoseconds dt);
     // Until the next one goes by itself; none when none does.
     std::optional<std::chrono::nanoseconds> untilNextGoes() const;
 
@@ -27,8 +27,8 @@ class Messages {
     struct Pressed {
         bool close = false, closeAll = false;
     };
-    float card(Desk& desk, const Exploration::Message& message, float bottom, const Others& others,
-               Pressed& pressed);
+    float card(PanelContext& context, const Exploration::Message& message, float bottom,
+               const Others& others, Pressed& pressed);
     std::map<std::uint64_t, std::chrono::nanoseconds> shownFor_;  // of those that go by themselves
     std::set<std::uint64_t> opened_;                              // long ones, shown whole
     bool areAllShown_ = false;                                    // of the errors

@@ -7,16 +7,16 @@
 namespace app::panels {
 namespace {
 
-timeseries::ValueType typeOf(const Desk& desk) {
-    const auto shown = desk.exploration.shown();
+timeseries::ValueType typeOf(const PanelContext& context) {
+    const auto shown = context.exploration.shown();
     return shown ? shown->sorted->type() : timeseries::ValueType::F64;
 }
 
 }  // namespace
 
-std::optional<double> numberField(Desk& desk, TextField& field, const char* id, const Rect& at,
-                                  std::string_view what, double shown) {
-    const auto entered = field.draw(desk.theme, id, at, timeseries::toText(shown));
+std::optional<double> numberField(PanelContext& context, TextField& field, const char* id,
+                                  const Rect& at, std::string_view what, double shown) {
+    const auto entered = field.draw(context.theme, id, at, timeseries::toText(shown));
     if (!entered) return std::nullopt;
     try {
         return parseNumber(what, *entered);
@@ -26,13 +26,13 @@ std::optional<double> numberField(Desk& desk, TextField& field, const char* id, 
     }
 }
 
-std::optional<double> valueField(Desk& desk, TextField& field, const char* id, const Rect& at,
-                                 std::string_view what, double shown) {
-    return numberField(desk, field, id, at, what, shortestIn(typeOf(desk), shown));
+std::optional<double> valueField(PanelContext& context, TextField& field, const char* id,
+                                 const Rect& at, std::string_view what, double shown) {
+    return numberField(context, field, id, at, what, shortestIn(typeOf(context), shown));
 }
 
-std::string rangesText(const Desk& desk, const timeseries::RangeSet& ranges) {
-    return shortestIn(typeOf(desk), ranges).text();
+std::string rangesText(const PanelContext& context, const timeseries::RangeSet& ranges) {
+    return shortestIn(typeOf(context), ranges).text();
 }
 
 }  // namespace app::panels

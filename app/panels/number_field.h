@@ -2,18 +2,18 @@
 // expected.
 #pragma once
 
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {
 
 // `what` names the number to its user. Keeps what is being typed in `field`.
-std::optional<double> numberField(Desk& desk, TextField& field, const char* id, const Rect& at,
-                                  std::string_view what, double shown);
-// The same of a value of the field that is explored, told with the digits of its own type.
-std::optional<double> valueField(Desk& desk, TextField& field, const char* id, const Rect& at,
-                                 std::string_view what, double shown);
+std::optional<double> numberField(PanelContext& context, TextField& field, const char* id,
+                                  const Rect& at, std::string_view what, double shown);
+// A number that is a value of the field that is explored, told with the digits of its own type.
+std::optional<double> valueField(PanelContext& context, TextField& field, const char* id,
+                                 const Rect& at, std::string_view what, double shown);
 // As the text of a field of ranges.
-std::string rangesText(const Desk& desk, const timeseries::RangeSet& ranges);
+std::string rangesText(const PanelContext& context, const timeseries::RangeSet& ranges);
 
 }  // namespace app::panels

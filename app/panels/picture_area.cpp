@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/choices/view_edits.h"
-#include "app/panels/drawn_text.h"
+#include "app/panels/counts_text.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {
@@ -33,43 +33,44 @@ std::string limitText(const Performance& p) {
 }
 
 // A step may be in memory and not yet on the GPU.
-std::string waitingText(const Desk& desk) {
-    std::string waiting = desk.exploration.waiting();
-    const auto shown = desk.exploration.shown();
-    if (waiting.empty() && shown && desk.performance.report.uploaded < 1 &&
-        desk.performance.report.step != shown->step)
-        waiting =
-            fmt::format("requested step {}, showing {}", shown->step, desk.performance.report.step);
+std::string waitingText(const PanelContext& context) {
+    std::string waiting = context.exploration.waiting();
+    const auto shown = context.exploration.shown();
+    if (waiting.empty() && shown && context.performance.report.uploaded < 1 &&
+        context.performance.report.step != shown->step)
+        waiting = fmt::format("requested step {}, showing {}", shown->step,
+                              context.performance.report.step);
     return waiting;
 }
 
 // A rounded label, from `top` on; `align` as of text(). Returns where it is.
-Rect pill(const Desk& desk, glm::vec2 top, float align, std::string_view what, float room = 0) {
-    const float s = desk.theme.scale, width = widthOf(*desk.theme.text, what) + 28 * s + room;
+Rect pill(const PanelContext& context, glm::vec2 top, float align, std::string_view what,
+          float room = 0) {
+    const float s = context.theme.scale, width = widthOf(*context.theme.text, what) + 28 * s + room;
     const float left = top.x - align * width;
     const Rect at{{left, top.y}, {left + width, top.y + 32 * s}};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.min), im(at.max), faded(kField, 0.95f), 16 * s);
     list.AddRect(im(at.min), im(at.max), kLine, 16 * s);
-    text(desk.theme, {at.min.x + 14 * s, at.centre().y}, what);
+    text(context.theme, {at.min.x + 14 * s, at.centre().y}, what);
     return at;
 }
 
 // The same with a button; returns whether that was pressed.
-bool cancelPill(const Desk& desk, glm::vec2 top, float align, std::string_view what,
+bool cancelPill(const PanelContext& context, glm::vec2 top, float align, std::string_view what,
                 const char* id) {
-    const float s = desk.theme.scale;
-    const Rect at = pill(desk, top, align, what, 84 * s);
-    return textButton(desk.theme, id,
+    const float s = context.theme.scale;
+    const Rect at = pill(context, top, align, what, 84 * s);
+    return textButton(context.theme, id,
                       {{at.max.x - 78 * s, at.min.y + 4 * s}, {at.max.x - 6 * s, at.max.y - 4 * s}},
                       "Cancel");
 }
 
 }  // namespace
 
-void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
-    Exploration& exploration = desk.exploration;
-    const Rect& at = desk.layout.picture;
+void PictureArea::handle(PanelContext& context, const glm::dmat3& boxHalfEdges) {
+    Exploration& exploration = context.exploration;
+    const Rect& at = context.layout.picture;
     const ImGuiIO& io = ImGui::GetIO();
     ImGui::SetCursorScreenPos(im(at.min));
     ImGui::InvisibleButton("##picture", im(glm::max(at.size(), glm::vec2(1))),
@@ -85,7 +86,7 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
         const glm::dvec2 by(static_cast<double>(io.MouseDelta.x),
                             static_cast<double>(io.MouseDelta.y));
-        edit(desk, "camera", [&](Explorer& e) {
+        edit(context, "camera", [&](Explorer& e) {
             e.view =
                 grip_ == Grip::Turn ? orbited(e.view, by, looking) : panned(e.view, by, looking);
         });
@@ -93,36 +94,37 @@ void PictureArea::handle(Desk& desk, const glm::dmat3& boxHalfEdges) {
     if (!ImGui::IsItemHovered()) return;
     if (!ImGui::IsItemActive()) pointer_ = place;
     if (io.MouseWheel != 0)
-        edit(desk, "zoom", [&](Explorer& e) {
+        edit(context, "zoom", [&](Explorer& e) {
             e.view =
                 zoomed(e.view, std::pow(0.88, static_cast<double>(io.MouseWheel)), cursor, looking);
         });
     if (ImGui::IsMouseDoubleClicked(0)) {
-        desk.requests.probe = glm::vec2(place);
-        desk.requests.ruler = io.KeyShift;
-        desk.choices.page = Page::Probe;
+        context.requests.probe = glm::vec2(place);
+        context.requests.ruler = io.KeyShift;
+        context.choices.page = Page::Probe;
     }
 }
 
-void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>& exporting) {
-    Exploration& exploration = desk.exploration;
-    const Rect& picture = desk.layout.picture;
-    const float s = desk.theme.scale, middle = picture.centre().x;
+void drawPictureOverlay(PanelContext& context, float top,
+                        const std::optional<std::string>& exporting) {
+    Exploration& exploration = context.exploration;
+    const Rect& picture = context.layout.picture;
+    const float s = context.theme.scale, middle = picture.centre().x;
     float y = top;
     if (const auto opening = exploration.opening()) {
         const std::string what =
-            fitting(*desk.theme.text, "Opening " + *opening, picture.size().x - 140 * s);
-        if (cancelPill(desk, {middle, y}, 0.5f, what, "##opening")) exploration.cancelOpening();
+            fitting(*context.theme.text, "Opening " + *opening, picture.size().x - 140 * s);
+        if (cancelPill(context, {middle, y}, 0.5f, what, "##opening")) exploration.cancelOpening();
         y += 40 * s;
     }
-    if (const std::string waiting = waitingText(desk); !waiting.empty())
-        pill(desk, {middle, y}, 0.5f, waiting);
+    if (const std::string waiting = waitingText(context); !waiting.empty())
+        pill(context, {middle, y}, 0.5f, waiting);
     if (exporting) {
         // For as long as it takes: not at the top, where the legend is.
         const Rect place = exportPlace(picture, s);
-        const std::string what = fitting(*desk.theme.text, *exporting, place.size().x - 112 * s);
-        if (cancelPill(desk, {place.max.x, place.min.y}, 1, what, "##exporting"))
-            desk.requests.cancelExport = true;
+        const std::string what = fitting(*context.theme.text, *exporting, place.size().x - 112 * s);
+        if (cancelPill(context, {place.max.x, place.min.y}, 1, what, "##exporting"))
+            context.requests.cancelExport = true;
     }
 }
 

@@ -1,7 +1,7 @@
 // The picture under the hand: turn, move, zoom, probe; and what is said over it.
 #pragma once
 
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 
 namespace app::panels {
 
@@ -9,7 +9,7 @@ class PictureArea {
  public:
     // Takes the mouse over the picture, where nothing drawn before has it. `boxHalfEdges`:
     // PlacedPoints::boxHalfEdges() of what is drawn there. REQUIRES: something is shown.
-    void handle(Desk& desk, const glm::dmat3& boxHalfEdges);
+    void handle(PanelContext& context, const glm::dmat3& boxHalfEdges);
     // The pointer's place on the picture, in its pixels; none where it is elsewhere or drags.
     const std::optional<glm::vec2>& pointer() const { return pointer_; }
 
@@ -20,7 +20,8 @@ class PictureArea {
 };
 
 // What is opening, what is shown instead of what is asked for, from `top` on; how far an export is.
-void drawPictureOverlay(Desk& desk, float top, const std::optional<std::string>& exporting);
+void drawPictureOverlay(PanelContext& context, float top,
+                        const std::optional<std::string>& exporting);
 
 // How many points the picture has, and how fast it came; nothing before the first.
 std::vector<std::string> figuresOf(const Performance& performance,

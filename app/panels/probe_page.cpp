@@ -12,17 +12,17 @@ void line(const Theme& theme, Form& form, std::string_view label, std::string_vi
 }
 
 // As one length where all axes have one unit, and along each axis.
-void ruler(Desk& desk, Form& form, const Reading& a, const Reading& b,
+void ruler(PanelContext& context, Form& form, const Reading& a, const Reading& b,
            const timeseries::Grid& grid) {
     const glm::dvec3 apart = b.position - a.position;
     const auto& axes = grid.axes();
     if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
-        line(desk.theme, form, "Distance",
+        line(context.theme, form, "Distance",
              withUnit(fmt::format("{:.6g}", glm::length(apart)), axes[0].units));
     for (int i = 0; i < 3; ++i) {
         const timeseries::Axis& axis = axes[static_cast<std::size_t>(i)];
         if (axis.coordinates.size() > 1)
-            line(desk.theme, form, "Δ " + axis.name,
+            line(context.theme, form, "Δ " + axis.name,
                  withUnit(fmt::format("{:.6g}", apart[i]), axis.units));
     }
 }
@@ -38,10 +38,10 @@ void ProbePage::take(const std::optional<Reading>& reading, bool isRuler) {
     }
 }
 
-void ProbePage::draw(Desk& desk, const Rect& at) {
-    const auto shown = desk.exploration.shown();
+void ProbePage::draw(PanelContext& context, const Rect& at) {
+    const auto shown = context.exploration.shown();
     if (!shown) return;
-    Form form(desk.theme, "##probe", at);
+    Form form(context.theme, "##probe", at);
     if (!first_) {
         form.note(
             "Double click on the picture keeps the point that is seen there, at half of the light, "
@@ -50,13 +50,14 @@ void ProbePage::draw(Desk& desk, const Rect& at) {
     }
     const timeseries::Grid& grid = shown->sorted->grid();
     const Reading& r = second_ ? *second_ : *first_;
-    if (r.between) line(desk.theme, form, "Seen", betweenText(r, *shown));
-    line(desk.theme, form, shown->dataset.about.name, valueText(r, *shown));
+    if (r.between) line(context.theme, form, "Seen", betweenText(r, *shown));
+    line(context.theme, form, shown->dataset.variable.name, valueText(r, *shown));
     for (std::size_t i = 0; i < 3; ++i)
-        line(desk.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
-    line(desk.theme, form, "Time", timeText(*shown->dataset.about.time, r.step));
-    if (second_) ruler(desk, form, *first_, *second_, grid);
-    if (textButton(desk.theme, "Clear", part(form.row(), 0, 3, desk.theme.scale), "Clear")) clear();
+        line(context.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
+    line(context.theme, form, "Time", timeText(*shown->dataset.variable.time, r.step));
+    if (second_) ruler(context, form, *first_, *second_, grid);
+    if (textButton(context.theme, "Clear", part(form.row(), 0, 3, context.theme.scale), "Clear"))
+        clear();
 }
 
 }  // namespace app::panels

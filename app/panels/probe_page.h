@@ -9,7 +9,7 @@ namespace app::panels {
 
 class ProbePage {
  public:
-    void draw(Desk& desk, const Rect& at);
+    void draw(PanelContext& context, const Rect& at);
     // What a probe found. `ruler`: as another end of the ruler.
     void take(const std::optional<Reading>& reading, bool ruler);
     void clear() { first_.reset(), second_.reset(); }

@@ -10,100 +10,101 @@ namespace app::panels {
 namespace {
 
 // Sizes from 1/4 to 4 of the kernel, from 1 to 16 pixels of points, evenly by factors.
-void sizeSlider(Desk& desk, Form& form) {
-    const render::Footprint now = desk.exploration.explorer().footprint;
+void sizeSlider(PanelContext& context, Form& form) {
+    const render::Footprint now = context.exploration.explorer().footprint;
     const bool point = now.kernel == render::Kernel::Point;
     const double least = point ? 1 : 0.25;
     const Rect row = form.row("Size");
-    const float s = desk.theme.scale;
+    const float s = context.theme.scale;
     double fraction = std::log2(now.size / least) / 4;
     // A key: a pixel, or a fifth of an octave.
     const double step = point ? std::log2((now.size + 1) / now.size) / 4 : 0.05;
-    if (slider(desk.theme, "##size", {row.min, {row.max.x - 56 * s, row.max.y}}, fraction, step))
-        edit(desk, "splat size", [&](Explorer& e) {
+    if (slider(context.theme, "##size", {row.min, {row.max.x - 56 * s, row.max.y}}, fraction, step))
+        edit(context, "splat size", [&](Explorer& e) {
             const double size = least * std::exp2(4 * fraction);
             e.footprint.size = point ? std::round(size) : roundedTo(size, 0.01 * size);
         });
-    text(desk.theme, {row.max.x, row.centre().y},
+    text(context.theme, {row.max.x, row.centre().y},
          point ? fmt::format("{:.0f} px", now.size) : fmt::format("× {:.2f}", now.size), kDim, 1,
-         desk.theme.small);
+         context.theme.small);
 }
 
-void pointRows(Desk& desk, Form& form) {
+void pointRows(PanelContext& context, Form& form) {
     constexpr std::array kKernels = {"Squares", "Soft splats"};
-    const Explorer& e = desk.exploration.explorer();
-    if (const auto kernel = segmented(desk.theme, "kernel", form.row("Points as"), kKernels,
+    const Explorer& e = context.exploration.explorer();
+    if (const auto kernel = segmented(context.theme, "kernel", form.row("Points as"), kKernels,
                                       static_cast<std::size_t>(e.footprint.kernel)))
-        edit(desk, {}, [&](Explorer& next) {
+        edit(context, {}, [&](Explorer& next) {
             next.footprint = {.kernel = static_cast<render::Kernel>(*kernel),
                               .size = *kernel == 0 ? 3.0 : 1.0};
         });
-    sizeSlider(desk, form);
+    sizeSlider(context, form);
 }
 
-void budget(Desk& desk, Form& form) {
+void budget(PanelContext& context, Form& form) {
     constexpr std::array kRates = {"60", "30", "20", "10"};
     constexpr std::array<std::int64_t, 4> kPerSecond = {60, 30, 20, 10};
     std::size_t now = 0;
     for (std::size_t i = 0; i < kPerSecond.size(); ++i)
-        if (std::llround(1e9 / static_cast<double>(desk.choices.frameBudget.count())) ==
+        if (std::llround(1e9 / static_cast<double>(context.choices.frameBudget.count())) ==
             kPerSecond[i])
             now = i;
-    if (const auto rate = segmented(desk.theme, "rate", form.row("Frames / s"), kRates, now))
-        desk.choices.frameBudget = std::chrono::nanoseconds(1'000'000'000 / kPerSecond[*rate]);
+    if (const auto rate = segmented(context.theme, "rate", form.row("Frames / s"), kRates, now))
+        context.choices.frameBudget = std::chrono::nanoseconds(1'000'000'000 / kPerSecond[*rate]);
     form.note("While the picture moves, so many points are drawn as fit this pace; at rest, all.");
 }
 
-void interfaceScale(Desk& desk, Form& form) {
+void interfaceScale(PanelContext& context, Form& form) {
     constexpr std::array kNames = {"Monitor's", "1", "1.25", "1.5", "2"};
     constexpr std::array<double, 5> kScales = {0, 1, 1.25, 1.5, 2};
     std::size_t now = 0;
     for (std::size_t i = 1; i < kScales.size(); ++i)
-        if (desk.choices.scale == kScales[i]) now = i;
-    if (const auto chosen = segmented(desk.theme, "interface", form.row("Interface"), kNames, now))
-        desk.choices.scale = *chosen == 0 ? std::nullopt : std::optional(kScales[*chosen]);
+        if (context.choices.scale == kScales[i]) now = i;
+    if (const auto chosen =
+            segmented(context.theme, "interface", form.row("Interface"), kNames, now))
+        context.choices.scale = *chosen == 0 ? std::nullopt : std::optional(kScales[*chosen]);
 }
 
 }  // namespace
 
-void drawQualityPage(Desk& desk, const Rect& at) {
-    if (!desk.exploration.shown()) return;
+void drawQualityPage(PanelContext& context, const Rect& at) {
+    if (!context.exploration.shown()) return;
     constexpr std::array kOrders = {"None", "By depth"};
-    Form form(desk.theme, "##quality", at);
-    const Explorer& e = desk.exploration.explorer();
+    Form form(context.theme, "##quality", at);
+    const Explorer& e = context.exploration.explorer();
     constexpr std::array kModels = {"Points", "Cells"};
-    if (const auto model = segmented(desk.theme, "model", form.row("Draw"), kModels,
+    if (const auto model = segmented(context.theme, "model", form.row("Draw"), kModels,
                                      static_cast<std::size_t>(e.model)))
-        edit(desk, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
+        edit(context, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
     constexpr std::array kLights = {"Off", "Soft", "Full"};
     constexpr std::array kPers = {"Length", "Crossing"};
-    const std::string_view whyNot = desk.exploration.shown()->sorted->whyNoCells();
+    const std::string_view whyNot = context.exploration.shown()->sorted->whyNoCells();
     if (e.model == Model::Cells && !whyNot.empty())
         form.note(fmt::format("Points are drawn: {}.", whyNot));
     if (e.model == Model::Cells && whyNot.empty()) {
         form.note("Between points, too: a thin range is a closed shell.");
-        if (const auto light = segmented(desk.theme, "light", form.row("Light"), kLights,
+        if (const auto light = segmented(context.theme, "light", form.row("Light"), kLights,
                                          static_cast<std::size_t>(e.light)))
-            edit(desk, {},
+            edit(context, {},
                  [&](Explorer& next) { next.light = static_cast<render::Light>(*light); });
-        if (const auto per = segmented(desk.theme, "per", form.row("Opacity per"), kPers,
+        if (const auto per = segmented(context.theme, "per", form.row("Opacity per"), kPers,
                                        static_cast<std::size_t>(e.opacityPer)))
-            edit(desk, {},
+            edit(context, {},
                  [&](Explorer& next) { next.opacityPer = static_cast<render::OpacityPer>(*per); });
         form.note("Per crossing, a thin range is as opaque as a wide one.");
     } else {
-        pointRows(desk, form);
+        pointRows(context, form);
     }
-    if (const auto order = segmented(desk.theme, "order", form.row("Order"), kOrders,
+    if (const auto order = segmented(context.theme, "order", form.row("Order"), kOrders,
                                      static_cast<std::size_t>(e.order)))
-        edit(desk, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });
+        edit(context, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });
     form.note(e.order == render::Order::None ? "Colours mix along the line of sight. By depth, "
                                                "what is in front hides what is behind."
                                              : "What is in front hides what is behind.");
-    if (desk.inHeadset) return;  // the display's rate, and a panel as large as it is
+    if (context.inHeadset) return;  // the display's rate, and a panel as large as it is
     form.space(6);
-    budget(desk, form);
-    interfaceScale(desk, form);
+    budget(context, form);
+    interfaceScale(context, form);
 }
 
 }  // namespace app::panels

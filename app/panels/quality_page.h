@@ -5,6 +5,6 @@
 
 namespace app::panels {
 
-void drawQualityPage(Desk& desk, const Rect& at);
+void drawQualityPage(PanelContext& context, const Rect& at);
 
 }  // namespace app::panels

@@ -22,30 +22,30 @@ bool offer(const Theme& theme, const Rect& at, Icon icon, std::string_view what,
 
 }  // namespace
 
-void drawStartScreen(Desk& desk, const StartOffers& offers) {
+void drawStartScreen(PanelContext& context, const StartOffers& offers) {
     constexpr std::size_t kRecent = 5;
-    const Theme& theme = desk.theme;
+    const Theme& theme = context.theme;
     const float s = theme.scale;
     const std::size_t recent = std::min(kRecent, offers.recent.size());
-    const StartLayout at = startLayout(desk.layout.picture, s, recent);
+    const StartLayout at = startLayout(context.layout.picture, s, recent);
     const float left = at.first.min.x;
     text(theme, {left, at.first.min.y - 60 * s}, "isochron", kText, 0, theme.title);
     text(theme, {left, at.first.min.y - 26 * s},
          "Drop a file, a folder or a member of a series here, or open one:", kDim);
     auto next = [&, i = std::size_t{0}]() mutable { return at.offer(i++); };
     if (offer(theme, next(), Icon::Folder, "Open…", "Ctrl+O"))
-        desk.requests.commands.push_back(Command::Open);
+        context.requests.commands.push_back(Command::Open);
     if (!offers.autosave.empty() &&
         offer(theme, next(), Icon::Loop, "Go on where the last session broke off", ""))
-        desk.requests.open = {offers.autosave};
+        context.requests.open = {offers.autosave};
     if (!offers.demo.empty() &&
         offer(theme, next(), Icon::Play, "The demo: a pool fire", offers.demo.filename().string()))
-        desk.requests.open = {offers.demo};
+        context.requests.open = {offers.demo};
     for (std::size_t i = 0; i < recent; ++i) {
         const Named& named = offers.recent[i];
         if (offer(theme, next(), Icon::File, shortName(named),
                   named.front().parent_path().string()))
-            desk.requests.open = named;
+            context.requests.open = named;
     }
 }
 

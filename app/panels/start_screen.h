@@ -4,7 +4,7 @@
 #include <span>
 
 #include "app/choices/preferences.h"
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 
 namespace app::panels {
 
@@ -14,6 +14,6 @@ struct StartOffers {
     std::filesystem::path autosave;  // of a session that did not end well; "" without one
 };
 
-void drawStartScreen(Desk& desk, const StartOffers& offers);
+void drawStartScreen(PanelContext& context, const StartOffers& offers);
 
 }  // namespace app::panels

@@ -12,32 +12,33 @@ namespace {
 using timeseries::Ending;
 using timeseries::SlotState;
 
-void buttons(Desk& desk, const TimeBarLayout& at) {
-    Exploration& exploration = desk.exploration;
+void buttons(PanelContext& context, const TimeBarLayout& at) {
+    Exploration& exploration = context.exploration;
     const bool playing = exploration.playback().playing;
-    if (iconButton(desk.theme, "##back", at.back, Icon::StepBack, "One step back   ,"))
+    if (iconButton(context.theme, "##back", at.back, Icon::StepBack, "One step back   ,"))
         exploration.stepBy(-1);
     ImGui::GetWindowDrawList()->AddCircleFilled(im(at.play.centre()), 0.5f * at.play.size().x,
                                                 playing ? faded(kAccent, 0.18f) : kField, 40);
-    if (iconButton(desk.theme, "##play", at.play, playing ? Icon::Pause : Icon::Play,
+    if (iconButton(context.theme, "##play", at.play, playing ? Icon::Pause : Icon::Play,
                    playing ? "Pause   Space" : "Play   Space", playing))
         exploration.togglePlay();
-    if (iconButton(desk.theme, "##forward", at.forward, Icon::StepForward, "One step forward   ."))
+    if (iconButton(context.theme, "##forward", at.forward, Icon::StepForward,
+                   "One step forward   ."))
         exploration.stepBy(1);
 }
 
-void now(Desk& desk, const Rect& at, const Dataset& dataset, std::size_t step) {
-    const float s = desk.theme.scale, width = at.size().x;
-    text(desk.theme, {at.min.x, at.centre().y - 9 * s},
-         fitting(*desk.theme.strong, timeText(*dataset.about.time, step), width), kText, 0,
-         desk.theme.strong);
-    const bool counted = dataset.about.time->counted;
+void now(PanelContext& context, const Rect& at, const Dataset& dataset, std::size_t step) {
+    const float s = context.theme.scale, width = at.size().x;
+    text(context.theme, {at.min.x, at.centre().y - 9 * s},
+         fitting(*context.theme.strong, timeText(*dataset.variable.time, step), width), kText, 0,
+         context.theme.strong);
+    const bool counted = dataset.variable.time->counted;
     const std::string place =
         dataset.stepCount() == 1
             ? "the only one"
             : fmt::format("{}of 0–{}", counted ? "" : fmt::format("step {} ", step),
                           dataset.stepCount() - 1);
-    text(desk.theme, {at.min.x, at.centre().y + 10 * s}, place, kDim, 0, desk.theme.small);
+    text(context.theme, {at.min.x, at.centre().y + 10 * s}, place, kDim, 0, context.theme.small);
 }
 
 // A cell a step, or a cell a few pixels where steps are narrower: each tells its least ready step.
@@ -105,35 +106,35 @@ void bracket(float x, const Rect& at, float way, float scale, ImU32 color) {
                            {std::max(x, x + 5 * way * scale), y + 2 * scale}, color);
 }
 
-void endingButton(Desk& desk, const Rect& at) {
-    const timeseries::CursorSettings& time = desk.exploration.explorer().play.time;
+void endingButton(PanelContext& context, const Rect& at) {
+    const timeseries::CursorSettings& time = context.exploration.explorer().play.time;
     const Icon icon = time.ending == Ending::Once   ? Icon::Once
                       : time.ending == Ending::Loop ? Icon::Loop
                                                     : Icon::PingPong;
     const char* what = time.ending == Ending::Once   ? "Stops at the end   L"
                        : time.ending == Ending::Loop ? "Starts again at the end   L"
                                                      : "Turns round at the ends   L";
-    if (iconButton(desk.theme, "##ending", at, icon, what))
-        desk.requests.commands.push_back(Command::NextEnding);
+    if (iconButton(context.theme, "##ending", at, icon, what))
+        context.requests.commands.push_back(Command::NextEnding);
 }
 
-void speedField(Desk& desk, TextField& field, const Rect& at, const Dataset& dataset) {
-    const timeseries::CursorSettings& time = desk.exploration.explorer().play.time;
-    const float s = desk.theme.scale;
+void speedField(PanelContext& context, TextField& field, const Rect& at, const Dataset& dataset) {
+    const timeseries::CursorSettings& time = context.exploration.explorer().play.time;
+    const float s = context.theme.scale;
     const bool even = time.pace == timeseries::Pace::Even;
     const double shown = even ? time.stepsPerSecond : time.timeUnitsPerSecond;
     const Rect box{at.min, {at.min.x + 46 * s, at.max.y}};
     if (const auto value =
-            numberField(desk, field, "##speed", box, even ? "steps/s" : "units/s", shown))
-        edit(desk, {}, [&](Explorer& e) {
+            numberField(context, field, "##speed", box, even ? "steps/s" : "units/s", shown))
+        edit(context, {}, [&](Explorer& e) {
             (even ? e.play.time.stepsPerSecond : e.play.time.timeUnitsPerSecond) =
                 std::max(0.0, *value);
         });
     const std::string unit =
-        dataset.about.time->units.substr(0, dataset.about.time->units.find(' '));
-    text(desk.theme, {box.max.x + 7 * s, at.centre().y},
-         even ? "steps/s" : fitting(*desk.theme.small, unit + "/s", 42 * s), kDim, 0,
-         desk.theme.small);
+        dataset.variable.time->units.substr(0, dataset.variable.time->units.find(' '));
+    text(context.theme, {box.max.x + 7 * s, at.centre().y},
+         even ? "steps/s" : fitting(*context.theme.small, unit + "/s", 42 * s), kDim, 0,
+         context.theme.small);
 }
 
 }  // namespace
@@ -148,27 +149,27 @@ void setPoint(timeseries::CursorSettings& time, Point point, std::size_t step) {
     }
 }
 
-void TimeBar::draw(Desk& desk, const Rect& at) {
+void TimeBar::draw(PanelContext& context, const Rect& at) {
     beginRegion("##time", at, kPanel);
     hairline(at.min.x, at.max.x, at.min.y);
-    if (const auto shown = desk.exploration.shown()) {
-        const TimeBarLayout parts = timeBarLayout(at, desk.theme.scale);
-        const auto& time = desk.exploration.playback().time;
-        buttons(desk, parts);
-        now(desk, parts.now, shown->dataset, time ? time->step() : shown->step);
-        rail(desk, parts.rail);
-        endingButton(desk, parts.ending);
-        speedField(desk, speed_, parts.speed, shown->dataset);
+    if (const auto shown = context.exploration.shown()) {
+        const TimeBarLayout parts = timeBarLayout(at, context.theme.scale);
+        const auto& time = context.exploration.playback().time;
+        buttons(context, parts);
+        now(context, parts.now, shown->dataset, time ? time->step() : shown->step);
+        rail(context, parts.rail);
+        endingButton(context, parts.ending);
+        speedField(context, speed_, parts.speed, shown->dataset);
     }
     endRegion();
 }
 
-void TimeBar::rail(Desk& desk, const Rect& at) {
-    Exploration& exploration = desk.exploration;
+void TimeBar::rail(PanelContext& context, const Rect& at) {
+    Exploration& exploration = context.exploration;
     const auto shown = exploration.shown();
     const timeseries::Series& series = *exploration.series();
     const auto& time = exploration.playback().time;
-    const float s = desk.theme.scale;
+    const float s = context.theme.scale;
     const StepAxis axis{series.stepCount(), at.min.x, at.max.x};
     const Rect bar{{at.min.x, at.centre().y - 6 * s}, {at.max.x, at.centre().y + 6 * s}};
     const std::size_t first = time ? time->settings().first : 0,
@@ -189,7 +190,7 @@ void TimeBar::rail(Desk& desk, const Rect& at) {
     if (p.held) {
         if (grip_ == Grip::Cursor && time && step != time->step()) exploration.seek(step);
         if (grip_ == Grip::In || grip_ == Grip::Out)
-            edit(desk, "in and out points", [&](Explorer& e) {
+            edit(context, "in and out points", [&](Explorer& e) {
                 setPoint(e.play.time, grip_ == Grip::In ? Point::In : Point::Out, step);
             });
     }
@@ -210,8 +211,8 @@ void TimeBar::rail(Desk& desk, const Rect& at) {
         list.AddCircleFilled({x, bar.min.y - 8 * s}, 4.5f * s, kText, 20);
     }
     if (p.hovered && !p.held && shown)
-        tip(desk.theme, fmt::format("{}  ·  {}", timeText(*shown->dataset.about.time, step),
-                                    stateText(series, step)));
+        tip(context.theme, fmt::format("{}  ·  {}", timeText(*shown->dataset.variable.time, step),
+                                       stateText(series, step)));
     if (p.hovered && (onIn || onOut)) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 

@@ -2,18 +2,18 @@
 // and speed.
 #pragma once
 
-#include "app/panels/desk.h"
+#include "app/panels/panel_context.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {
 
 class TimeBar {
  public:
-    void draw(Desk& desk, const Rect& at);
+    void draw(PanelContext& context, const Rect& at);
 
  private:
     enum class Grip { None, Cursor, In, Out };
-    void rail(Desk& desk, const Rect& at);
+    void rail(PanelContext& context, const Rect& at);
     Grip grip_ = Grip::None;
     TextField speed_;
 };

@@ -12,7 +12,7 @@
 namespace app::panels {
 namespace {
 
-void sides(Desk& desk, Form& form) {
+void sides(PanelContext& context, Form& form) {
     struct Button {
         const char* label;
         Command command;
@@ -21,58 +21,59 @@ void sides(Desk& desk, Form& form) {
         Button{"Front", Command::Front}, Button{"Back", Command::Back},
         Button{"Left", Command::Left},   Button{"Right", Command::Right},
         Button{"Top", Command::Top},     Button{"Bottom", Command::Bottom}};
-    const float s = desk.theme.scale;
-    if (textButton(desk.theme, "Fit", form.row("Look"), "Fit all   F"))
-        desk.requests.commands.push_back(Command::Fit);
+    const float s = context.theme.scale;
+    if (textButton(context.theme, "Fit", form.row("Look"), "Fit all   F"))
+        context.requests.commands.push_back(Command::Fit);
     for (std::size_t line = 0; line < 2; ++line) {
         const Rect row = form.row(line == 0 ? "From" : " ");
         for (std::size_t i = 0; i < 3; ++i) {
             const Button& b = kButtons[3 * line + i];
-            if (textButton(desk.theme, b.label, part(row, i, 3, s), b.label))
-                desk.requests.commands.push_back(b.command);
+            if (textButton(context.theme, b.label, part(row, i, 3, s), b.label))
+                context.requests.commands.push_back(b.command);
         }
     }
 }
 
 }  // namespace
 
-void ViewPage::draw(Desk& desk, const Rect& at) {
-    if (!desk.exploration.shown()) return;
+void ViewPage::draw(PanelContext& context, const Rect& at) {
+    if (!context.exploration.shown()) return;
     constexpr std::array kProjections = {"Perspective", "Orthographic"};
     constexpr std::array kEyes = {"One", "Side by side", "Top, bottom"};
-    Form form(desk.theme, "##view", at);
-    sides(desk, form);
-    const Explorer& e = desk.exploration.explorer();
-    if (const auto p = segmented(desk.theme, "projection", form.row("Projection"), kProjections,
+    Form form(context.theme, "##view", at);
+    sides(context, form);
+    const Explorer& e = context.exploration.explorer();
+    if (const auto p = segmented(context.theme, "projection", form.row("Projection"), kProjections,
                                  static_cast<std::size_t>(e.view.projection)))
-        edit(desk, {}, [&](Explorer& next) { next.view.projection = static_cast<Projection>(*p); });
+        edit(context, {},
+             [&](Explorer& next) { next.view.projection = static_cast<Projection>(*p); });
     const std::size_t eyes = e.stereo.mode == Stereo::Off         ? 0
                              : e.stereo.mode == Stereo::TopBottom ? 2
                                                                   : 1;
-    if (const auto chosen = segmented(desk.theme, "eyes", form.row("Eyes"), kEyes, eyes))
-        edit(desk, {}, [&](Explorer& next) {
+    if (const auto chosen = segmented(context.theme, "eyes", form.row("Eyes"), kEyes, eyes))
+        edit(context, {}, [&](Explorer& next) {
             next.stereo.mode = *chosen == 0   ? Stereo::Off
                                : *chosen == 1 ? Stereo::SideBySide
                                               : Stereo::TopBottom;
         });
     form.space(6);
-    clip(desk, form);
+    clip(context, form);
     form.space(6);
-    scale(desk, form);
-    axes(desk, form);
+    scale(context, form);
+    axes(context, form);
 }
 
-void ViewPage::clip(Desk& desk, Form& form) {
-    const auto shown = desk.exploration.shown();
+void ViewPage::clip(PanelContext& context, Form& form) {
+    const auto shown = context.exploration.shown();
     const timeseries::Grid& grid = shown->sorted->grid();
-    const float s = desk.theme.scale;
+    const float s = context.theme.scale;
     for (int i = 0; i < 3; ++i) {
         const auto place = static_cast<std::size_t>(i);
         const timeseries::Axis& axis = grid.axes()[place];
         if (axis.coordinates.size() < 2) continue;
         const double least = std::min(axis.coordinates.front(), axis.coordinates.back());
         const double most = std::max(axis.coordinates.front(), axis.coordinates.back());
-        const ClipBox now = desk.exploration.explorer().clip.value_or(
+        const ClipBox now = context.exploration.explorer().clip.value_or(
             ClipBox{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)});
         const double width = most - least;
         double lo = std::clamp((now.lo[i] - least) / width, 0.0, 1.0),
@@ -82,8 +83,8 @@ void ViewPage::clip(Desk& desk, Form& form) {
                                               unit.empty() || unit == "index" ? "" : ", " + unit));
         const Rect bar{row.min, {row.max.x - (kSideField + kSideGap) * s, row.max.y}};
         ImGui::PushID(i);
-        if (rangeSlider(desk.theme, "##clip", bar, lo, hi))
-            edit(desk, "clip", [&](Explorer& e) {
+        if (rangeSlider(context.theme, "##clip", bar, lo, hi))
+            edit(context, "clip", [&](Explorer& e) {
                 const double resolution = width / static_cast<double>(bar.size().x);
                 const auto at = [&](double fraction) {
                     return roundedTo(least + fraction * width, resolution);
@@ -93,12 +94,12 @@ void ViewPage::clip(Desk& desk, Form& form) {
             });
         const Rect field{{row.max.x - kSideField * s, row.min.y}, row.max};
         const auto entered =
-            clip_[place].draw(desk.theme, "##side", field,
-                              clipSideText(desk.exploration.explorer().clip, grid, place));
+            clip_[place].draw(context.theme, "##side", field,
+                              clipSideText(context.exploration.explorer().clip, grid, place));
         ImGui::PopID();
         if (!entered) continue;
         try {
-            edit(desk, {},
+            edit(context, {},
                  [&](Explorer& e) { e.clip = withClipSide(e.clip, grid, place, *entered); });
         } catch (const ChoiceError& error) {
             clip_[place].refuse(error.what());
@@ -107,14 +108,14 @@ void ViewPage::clip(Desk& desk, Form& form) {
     form.note("From : to, or one value for a slice. Only what lies between is drawn.");
 }
 
-void ViewPage::scale(Desk& desk, Form& form) {
-    const auto& now = desk.exploration.explorer().scale;
+void ViewPage::scale(PanelContext& context, Form& form) {
+    const auto& now = context.exploration.explorer().scale;
     const std::string text = now ? fmt::format("{:g},{:g},{:g}", now->x, now->y, now->z) : "";
-    const auto entered = scale_.draw(desk.theme, "##scale", form.row("Axes' scale"), text,
+    const auto entered = scale_.draw(context.theme, "##scale", form.row("Axes' scale"), text,
                                      "fitted, or x,y,z: 1,1,20");
     if (!entered) return;
     try {
-        edit(desk, {}, [&](Explorer& e) {
+        edit(context, {}, [&](Explorer& e) {
             e.scale = entered->empty() ? std::nullopt : std::optional(parseScale(*entered));
         });
     } catch (const ChoiceError& error) {
@@ -123,19 +124,19 @@ void ViewPage::scale(Desk& desk, Form& form) {
 }
 
 // For files that do not say which way an axis runs, or what it is. The file is read again.
-void ViewPage::axes(Desk& desk, Form& form) {
+void ViewPage::axes(PanelContext& context, Form& form) {
     constexpr std::array kLabels = {"x", "y", "z"};
-    const float s = desk.theme.scale;
-    const auto now = desk.exploration.explorer().axes;
-    const auto& shown = desk.exploration.shown()->sorted->grid().axes();
+    const float s = context.theme.scale;
+    const auto now = context.exploration.explorer().axes;
+    const auto& shown = context.exploration.shown()->sorted->grid().axes();
     const Rect flips = form.row("Flip"), names = form.row("Names");
     for (std::size_t a = 0; a < 3; ++a) {
         ImGui::PushID(kLabels[a]);
-        if (textButton(desk.theme, "##flip", part(flips, a, 3, s), kLabels[a], now[a].flip))
-            edit(desk, {}, [&](Explorer& e) { e.axes[a].flip = !now[a].flip; });
-        if (const auto name = names_[a].draw(desk.theme, "##name", part(names, a, 3, s),
+        if (textButton(context.theme, "##flip", part(flips, a, 3, s), kLabels[a], now[a].flip))
+            edit(context, {}, [&](Explorer& e) { e.axes[a].flip = !now[a].flip; });
+        if (const auto name = names_[a].draw(context.theme, "##name", part(names, a, 3, s),
                                              now[a].name, shown[a].name.c_str()))
-            edit(desk, {}, [&](Explorer& e) { e.axes[a].name = *name; });
+            edit(context, {}, [&](Explorer& e) { e.axes[a].name = *name; });
         ImGui::PopID();
     }
 }

@@ -12,12 +12,12 @@ class ViewPage {
     // Of a side of the clip box, right of its slider; in units of the design.
     static constexpr float kSideField = 124, kSideGap = 8;
 
-    void draw(Desk& desk, const Rect& at);
+    void draw(PanelContext& context, const Rect& at);
 
  private:
-    void clip(Desk& desk, Form& form);
-    void scale(Desk& desk, Form& form);
-    void axes(Desk& desk, Form& form);
+    void clip(PanelContext& context, Form& form);
+    void scale(PanelContext& context, Form& form);
+    void axes(PanelContext& context, Form& form);
     TextField scale_;
     std::array<TextField, 3> clip_;  // a side an axis
     std::array<TextField, 3> names_;

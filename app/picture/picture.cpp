@@ -130,65 +130,75 @@ int digitsOf(const RangeSet& ranges) {
 }  // namespace
 
 bool needsSamples(const Explorer& e) {
-    if (e.sweep && (infinite(e.sweep->animation) || openStyle(e.sweepLayer))) return true;
     const auto open = [](const LayerChoice& layer) {
-        return layer.ranges.empty() || openStyle(layer);
+        return openStyle(layer) ||
+               (layer.motion ? infinite(layer.motion->animation) : layer.ranges.empty());
     };
-    return std::ranges::any_of(e.layers, open) || (e.layers.empty() && !e.sweep && !e.noLayers);
+    return std::ranges::any_of(e.layers, open) || (e.layers.empty() && !e.noLayers);
 }
+
+namespace {
+
+// Through finite values alone. Throws ChoiceError where that leaves none.
+RangeSet finitePart(const RangeSet& animation, const Extent& data) {
+    std::vector<Range> finite;
+    for (Range range : animation.ranges()) {
+        if (!std::isfinite(timeseries::toDouble(range.lo.value))) range.lo = {data.lo};
+        if (!std::isfinite(timeseries::toDouble(range.hi.value))) range.hi = {data.hi};
+        finite.push_back(range);
+    }
+    RangeSet within(std::move(finite));
+    if (within.empty())
+        throw ChoiceError(fmt::format("sweep {} reaches none of the data's values, {} to {}",
+                                      animation.text(), data.lo, data.hi));
+    return within;
+}
+
+// What of the data it shows, and its style where a map alone was asked for.
+void chooseFirst(LayerChoice& layer, const Quantiles& quantiles, const Steps& sampled) {
+    const LayerChoice first = firstChoice(quantiles);
+    layer.ranges = first.ranges;
+    auto* map = layer.color ? std::get_if<MapChoice>(&*layer.color) : nullptr;
+    const auto* chosen = first.color ? std::get_if<MapChoice>(&*first.color) : nullptr;
+    if (!layer.color)
+        layer.color = first.color;
+    else if (map && chosen)  // where it says nothing else, it spans what was chosen
+        *map = {map->map, map->lo ? map->lo : chosen->lo, map->hi ? map->hi : chosen->hi};
+    if (!sampled.empty()) layer.ranges = sampled.begin()->second->keptPart(layer.ranges);
+}
+
+}  // namespace
 
 Explorer resolved(const Explorer& explorer, const Steps& sampled) {
     Explorer e = explorer;
     const Quantiles quantiles = quantilesOf(sampled);
     const Extent data = extentOf(quantiles);
-    if (e.layers.empty() && !e.sweep && !e.noLayers) e.layers.push_back({});
-    const std::size_t count = e.layers.size() + (e.sweep ? 1 : 0);
-    std::size_t place = 0;
-    if (e.sweep) {
-        std::vector<Range> finite;
-        for (Range range : e.sweep->animation.ranges()) {
-            if (!std::isfinite(timeseries::toDouble(range.lo.value))) range.lo = {data.lo};
-            if (!std::isfinite(timeseries::toDouble(range.hi.value))) range.hi = {data.hi};
-            finite.push_back(range);
-        }
-        const RangeSet within(std::move(finite));
-        if (within.empty())
-            throw ChoiceError(fmt::format("sweep {} reaches none of the data's values, {} to {}",
-                                          e.sweep->animation.text(), data.lo, data.hi));
-        e.sweep->animation = within;
-        style(e.sweepLayer, finiteEnds(e.sweep->animation, data), place++, count);
+    if (e.layers.empty() && !e.noLayers) e.layers.push_back({});
+    for (std::size_t place = 0; place < e.layers.size(); ++place) {
+        LayerChoice& layer = e.layers[place];
+        if (layer.motion)
+            layer.motion->animation = finitePart(layer.motion->animation, data);
+        else if (layer.ranges.empty())
+            chooseFirst(layer, quantiles, sampled);
+        const RangeSet& all = layer.motion ? layer.motion->animation : layer.ranges;
+        style(layer, finiteEnds(all, data), place, e.layers.size());
         // A swept window holds about its share of the animation's points.
-        if (!e.sweepLayer.opacity)
-            e.sweepLayer.opacity = opacityFor(mostSelected(e.sweep->animation, sampled) / 8);
-    }
-    for (LayerChoice& layer : e.layers) {
-        if (layer.ranges.empty()) {
-            const LayerChoice first = firstChoice(quantiles);
-            layer.ranges = first.ranges;
-            // A map alone was asked for: where it says nothing else, it spans what was chosen.
-            auto* map = layer.color ? std::get_if<MapChoice>(&*layer.color) : nullptr;
-            const auto* chosen = first.color ? std::get_if<MapChoice>(&*first.color) : nullptr;
-            if (!layer.color)
-                layer.color = first.color;
-            else if (map && chosen)
-                *map = {map->map, map->lo ? map->lo : chosen->lo, map->hi ? map->hi : chosen->hi};
-            if (!sampled.empty()) layer.ranges = sampled.begin()->second->keptPart(layer.ranges);
-        }
-        style(layer, finiteEnds(layer.ranges, data), place++, count);
-        if (!layer.opacity) layer.opacity = opacityFor(mostSelected(layer.ranges, sampled));
+        if (!layer.opacity)
+            layer.opacity = opacityFor(mostSelected(all, sampled) / (layer.motion ? 8 : 1));
     }
     return e;
 }
 
-RangeSet sweptRanges(const Explorer& e, const SortedStep& step, std::int64_t tick) {
-    return step.keptPart(RangeSet(std::vector{timeseries::ValueSweep(*e.sweep).window(tick)}));
+RangeSet rangesAt(const LayerChoice& layer, const SortedStep& step, std::int64_t tick) {
+    if (!layer.motion) return layer.ranges;
+    return step.keptPart(RangeSet(std::vector{timeseries::ValueSweep(*layer.motion).window(tick)}));
 }
 
 Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, std::int64_t tick) {
     Explorer e = explorer;
     e.steps = StepChoice{stepIndex, stepIndex};
-    e.oneTick = e.sweep.has_value();
-    if (e.sweep) e.play.tick = tick;
+    e.oneTick = sweepOf(e) != nullptr;
+    if (e.oneTick) e.play.tick = tick;
     return e;
 }
 
@@ -241,12 +251,12 @@ std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick) {
 
 std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& e,
                                                       timeseries::ValueType type) {
-    if (e.sweep && e.sweepLayer.visible) return {timeseries::kAllNumbers};
     std::vector<timeseries::Interval<double>> all;
-    for (const LayerChoice& layer : e.layers)
-        if (layer.visible)
-            std::ranges::copy(timeseries::betweenPoints(layer.ranges, type),
-                              std::back_inserter(all));
+    for (const LayerChoice& layer : e.layers) {
+        if (!layer.visible) continue;
+        if (layer.motion) return {timeseries::kAllNumbers};
+        std::ranges::copy(timeseries::betweenPoints(layer.ranges, type), std::back_inserter(all));
+    }
     return all;
 }
 
@@ -265,15 +275,14 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
     }
     if (scene.cells && scene.order == render::Order::BackToFront) scene.light = e.light;
     scene.opacityPer = e.opacityPer;
-    const auto add = [&](const RangeSet& ranges, const LayerChoice& layer) {
-        if (!layer.visible) return;
+    for (const LayerChoice& layer : e.layers) {
+        if (!layer.visible) continue;
+        const RangeSet ranges = rangesAt(layer, step, tick);
         scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
         render::Cells& cells = scene.layers.back().cells;
         cells.ranges = timeseries::betweenPoints(ranges, step.type());
         if (scene.cells) cells.candidates = scene.cells->select(cells.ranges);
-    };
-    if (e.sweep) add(sweptRanges(e, step, tick), e.sweepLayer);
-    for (const LayerChoice& layer : e.layers) add(layer.ranges, layer);
+    }
     // The same picture without it.
     if (scene.light == render::Light::Off && render::areOneColor(scene.layers))
         scene.order = render::Order::None;
@@ -306,11 +315,11 @@ std::vector<std::string> amounts(const render::Scene& scene, bool isClipped) {
 
 }  // namespace
 
-render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
+render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variable,
                           std::size_t stepIndex, const render::Scene& scene, std::int64_t tick) {
     render::Legend legend;
     const std::vector<std::string> amountOf = amounts(scene, e.clip.has_value());
-    const std::string unit = render::shownUnit(about.units);
+    const std::string unit = render::shownUnit(variable.units);
     // A colour bar's ends come from what was chosen alone, not from the step: they stand still
     // while time and sweep play, and an export, which sees one step at a time, has the same. An
     // open end of a range is the map's, which was taken from the data when the layer was made.
@@ -323,24 +332,28 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& about,
             told.shown.emplace(ends.lo, ends.hi);
         }
     };
-    if (e.sweep && e.sweepLayer.visible)
-        add(sweptText(timeseries::ValueSweep(*e.sweep), tick) + (unit.empty() ? "" : " " + unit),
-            e.sweep->animation);
-    for (const LayerChoice& layer : e.layers)
-        if (layer.visible) add(rangeLabel(layer.ranges, about.units), layer.ranges);
+    for (const LayerChoice& layer : e.layers) {
+        if (!layer.visible) continue;
+        if (layer.motion)
+            add(sweptText(timeseries::ValueSweep(*layer.motion), tick) +
+                    (unit.empty() ? "" : " " + unit),
+                layer.motion->animation);
+        else
+            add(rangeLabel(layer.ranges, variable.units), layer.ranges);
+    }
 
-    legend.title = about.longName.empty() ? about.name : about.longName;
+    legend.title = variable.longName.empty() ? variable.name : variable.longName;
     if (!unit.empty()) legend.title += " (" + unit + ")";
-    const std::size_t steps = about.time->points.size();
-    const bool timed = !about.time->counted;
-    if (timed) legend.time = timeText(*about.time, stepIndex);
+    const std::size_t steps = variable.time->points.size();
+    const bool timed = !variable.time->counted;
+    if (timed) legend.time = timeText(*variable.time, stepIndex);
     if (steps > 1)
         legend.time +=
             fmt::format("{}step {} of 0\u2013{}", timed ? ", " : "", stepIndex, steps - 1);
     if (scene.step.statistics().points == 0)
         legend.emptiness = fmt::format("all {} points of this step are missing",
                                        withCommas(scene.step.statistics().missing));
-    legend.notes = about.notes;
+    legend.notes = variable.notes;
     if (legend.layers.empty())
         legend.notes.push_back(e.layers.empty() ? "nothing is drawn: there is no layer"
                                                 : "nothing is drawn: every layer is hidden");
@@ -360,10 +373,10 @@ bool isMixed(const Explorer& e, const render::Scene& scene) {
                            eyes(e.view, e.stereo, scene.placed.boxHalfEdges(), e.size).front());
 }
 
-Picture makePicture(const Explorer& e, const timeseries::Variable& about, std::size_t stepIndex,
+Picture makePicture(const Explorer& e, const timeseries::Variable& variable, std::size_t stepIndex,
                     const SortedStep& step, const render::PlacedPoints& placed, std::int64_t tick) {
     render::Scene scene = makeScene(e, step, placed, tick);
-    render::Legend legend = makeLegend(e, about, stepIndex, scene, tick);
+    render::Legend legend = makeLegend(e, variable, stepIndex, scene, tick);
     return {std::move(scene), std::move(legend)};
 }
 

@@ -24,11 +24,10 @@ bool needsSamples(const Explorer& explorer);
 // the data.
 Explorer resolved(const Explorer& explorer, const Steps& sampled);
 
-// The swept window where it stands at `tick`, as a layer's ranges: it reaches beyond the
-// animation's ends, and only what was kept can be shown. REQUIRES: a resolved explorer with a
-// sweep.
-timeseries::RangeSet sweptRanges(const Explorer& explorer, const timeseries::SortedStep& step,
-                                 std::int64_t tick);
+// What a layer selects: its ranges, or where its window stands at `tick`. That reaches beyond the
+// animation's ends, and only what was kept can be shown of it. REQUIRES: a resolved layer.
+timeseries::RangeSet rangesAt(const LayerChoice& layer, const timeseries::SortedStep& step,
+                              std::int64_t tick);
 
 // The choices of one picture of a series: its step alone, and a sweep that stands at `tick`. Draws
 // the same pixels.
@@ -56,7 +55,7 @@ render::Scene makeScene(const Explorer& explorer, const timeseries::SortedStep& 
                         const render::PlacedPoints& placed, std::int64_t tick = 0,
                         Await await = Await::Cells);
 // What is said of it. With a clip box every selected point is looked at, for the counts.
-render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& about,
+render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& variable,
                           std::size_t stepIndex, const render::Scene& scene, std::int64_t tick = 0);
 // Whether the picture is to say that its colours are mixed (render/frame/mean_depth.h), and how it
 // does. Apart from the legend, for it depends on the view and takes milliseconds.
@@ -69,7 +68,7 @@ struct Picture {
     render::Scene scene;
     render::Legend legend;
 };
-Picture makePicture(const Explorer& explorer, const timeseries::Variable& about,
+Picture makePicture(const Explorer& explorer, const timeseries::Variable& variable,
                     std::size_t stepIndex, const timeseries::SortedStep& step,
                     const render::PlacedPoints& placed, std::int64_t tick = 0);
 

@@ -17,12 +17,12 @@ namespace app {
 
 const glm::dvec3 kBackground = render::linearFromSrgb8(13, 17, 23);
 
-bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
+bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GlStep& onGpu,
                 const render::Extras& extras, const std::filesystem::path& file) {
     const Explorer& e = still.explorer;
     const auto views = eyes(e.view, e.stereo, still.placed.boxHalfEdges(), e.size);
     Picture picture =
-        makePicture(e, still.about, still.stepIndex, still.step, still.placed, still.tick);
+        makePicture(e, still.variable, still.stepIndex, still.step, still.placed, still.tick);
     const bool mixed = isMixed(e, picture.scene);
     if (mixed) picture.legend.notes.emplace_back(kMixedColors);
     render::Metadata metadata;

@@ -18,7 +18,7 @@ extern const glm::dvec3 kBackground;
 
 struct Still {
     const Explorer& explorer;  // resolved
-    const timeseries::Variable& about;
+    const timeseries::Variable& variable;
     std::size_t stepIndex;
     const timeseries::SortedStep& step;
     const render::PlacedPoints& placed;  // of the explorer's scale
@@ -32,7 +32,7 @@ struct Still {
 // Whether the picture says that its colours are mixed. By the file's ending; two files where the
 // stereo mode makes two. `onGpu` holds the step. Throws ImageError; std::runtime_error on a GL
 // error.
-bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GpuStep& onGpu,
+bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GlStep& onGpu,
                 const render::Extras& extras, const std::filesystem::path& file);
 
 }  // namespace app

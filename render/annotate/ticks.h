@@ -21,7 +21,7 @@ std::vector<double> niceTicks(double lo, double hi, int wanted);
 // powers of ten where plain digits would be long: "0.5", "1.0", "−2×10⁻⁹".
 std::vector<std::string> tickTexts(std::span<const double> ticks);
 
-// The same with their common beginning left out as far as they need it to fit, the sign kept:
+// Texts with their common beginning left out as far as they need it to fit, the sign kept:
 // "…6846500", "…6847000".
 std::vector<std::string> withoutCommonStart(std::vector<std::string> texts,
                                             const std::function<bool(const std::string&)>& fits);

@@ -76,17 +76,17 @@ Targets& FrameRenderer::use(glm::ivec2 size, const LightPass& light) {
     return targets();
 }
 
-FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GlStep& step,
                                                std::span<const View> eyes) {
     return prepare(content, step, eyes, listFor(content.scene, eyes));
 }
 
-FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GlStep& step,
                                                std::span<const View> eyes, DrawList list) {
     return prepare(content, step, eyes, std::move(list), as_);
 }
 
-FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GpuStep& step,
+FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GlStep& step,
                                                std::span<const View> eyes, DrawList list,
                                                LightAs as) {
     LightPass& light = lightFor(content, eyes);
@@ -100,7 +100,7 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
 }
 
 std::unique_ptr<SplatFrame> FrameRenderer::splatsOf(const Scene& scene, DrawList list,
-                                                    const GpuStep& step) {
+                                                    const GlStep& step) {
     if (!scene.cells || !byGl(scene)) return splatter(scene).prepare(scene, std::move(list), step);
     try {
         return needGl().cells.prepare(scene, list, step);
@@ -185,7 +185,7 @@ double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
     return sum;
 }
 
-std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GpuStep& step,
+std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GlStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
     if (takesPointsFromGpu(content.scene)) step.upload(content.scene, neededScale(content.scene));
     const Prepared frame =
@@ -238,7 +238,7 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
 }
 
 // From the runs: an ordered list interleaves the layers.
-void FrameRenderer::addData(const FrameContent& content, GpuStep& step, std::span<const View> eyes,
+void FrameRenderer::addData(const FrameContent& content, GlStep& step, std::span<const View> eyes,
                             LightPass& light, const Extras& extras,
                             std::vector<EyePicture>& pictures) {
     Scene scene = content.scene;

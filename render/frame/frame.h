@@ -56,12 +56,12 @@ class FrameRenderer {
     // Draws each eye and reads it back, with all that the scene needs of its step on the GPU: the
     // picture does not depend on what was drawn before. Order is taken from the point midway
     // between the eyes. REQUIRES: at least one eye. Throws std::runtime_error on a GL error.
-    std::vector<EyePicture> render(const FrameContent& content, GpuStep& step,
+    std::vector<EyePicture> render(const FrameContent& content, GlStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
     // Whether drawing takes the scene's points from the GPU: GL sums them, and no cells.
     bool takesPointsFromGpu(const Scene& scene) const { return byGl(scene) && !scene.cells; }
-    // The same in its parts, for front ends that show the light instead of reading it. REQUIRES: a
+    // render() in its parts, for front ends that show the light instead of reading it. REQUIRES: a
     // step that is ready for the scene, if its points are taken from it.
     struct Prepared {
         const FrameContent& content;
@@ -70,14 +70,14 @@ class FrameRenderer {
         LightPass& light;
         LightAs as;
     };
-    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes);
+    Prepared prepare(const FrameContent& content, const GlStep& step, std::span<const View> eyes);
     // With a list that somebody else has made for midEye(eyes), if it is not Exact's.
-    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
+    Prepared prepare(const FrameContent& content, const GlStep& step, std::span<const View> eyes,
                      DrawList list);
     // One of the eyes that the frame was prepared for; its light is then in targets().
     void drawEye(const Prepared& frame, const View& eye);
-    // The same bit for bit over several frames, in which nothing else is drawn. Frame and view must
-    // outlive it.
+    // An eye drawn over several frames, bit for bit as drawEye() draws it, in which nothing else is
+    // drawn. Frame and view must outlive it.
     struct EyeInWork {
         const Prepared& frame;
         const View& eye;
@@ -99,7 +99,7 @@ class FrameRenderer {
                       const std::function<void(std::size_t eye, Targets&)>& show);
     Targets& targets() { return *targets_[current_].targets; }  // of the eye drawn last
 
-    // That cells take on the GPU; points: GpuStep::bytes.
+    // That cells take on the GPU; points: GlStep::bytes.
     std::uint64_t cellBytes() const { return gl_ ? gl_->cells.bytes() : 0; }
 
     struct Counts {
@@ -111,7 +111,7 @@ class FrameRenderer {
     // Keeps targets of these eyes' sizes, and no others.
     void makeRoom(std::span<const View> eyes, const LightPass& light);
     Targets& use(glm::ivec2 size, const LightPass& light);  // which targets() then are
-    Prepared prepare(const FrameContent& content, const GpuStep& step, std::span<const View> eyes,
+    Prepared prepare(const FrameContent& content, const GlStep& step, std::span<const View> eyes,
                      DrawList list, LightAs as);
     struct Gl {
         GlSplatter splatter;
@@ -128,14 +128,14 @@ class FrameRenderer {
         return !mesh || GlMesh::bytesOf(*mesh) <= mostMeshBytes_;
     }
     Splatter& splatter(const Scene& scene);
-    std::unique_ptr<SplatFrame> splatsOf(const Scene& scene, DrawList list, const GpuStep& step);
+    std::unique_ptr<SplatFrame> splatsOf(const Scene& scene, DrawList list, const GlStep& step);
     DrawList listFor(const Scene& scene, std::span<const View> eyes);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
     bool drawSplats(EyeInWork& work, double cost);
     void drawWhole(const Prepared& frame, const View& eye,
                    const std::function<void(double)>& progress);
     // Data alone: what the picture shows beside it hides nothing.
-    void addData(const FrameContent& content, GpuStep& step, std::span<const View> eyes,
+    void addData(const FrameContent& content, GlStep& step, std::span<const View> eyes,
                  LightPass& light, const Extras& extras, std::vector<EyePicture>& pictures);
     // Row 0 at the top.
     std::vector<float> dataPlane(SplatFrame& splats, const View& view, Channels channels,

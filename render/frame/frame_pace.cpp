@@ -48,17 +48,17 @@ void FramePace::fit() {
     std::vector<double> slopes, fixed, shares;
     for (std::size_t i = 1; i < recent_.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
-            const Frame &a = recent_[i], &b = recent_[j];
+            const Sample &a = recent_[i], &b = recent_[j];
             const double apart = a.splats - b.splats;
             if (std::abs(apart) > kTellingDifference * std::max(a.splats, b.splats))
                 slopes.push_back((a.ns - b.ns) / apart);
         }
-    for (const Frame& f : recent_) shares.push_back(f.ns / std::max(f.splats, 1.0));
+    for (const Sample& f : recent_) shares.push_back(f.ns / std::max(f.splats, 1.0));
     // Nothing tells the two apart in a first frame.
     if (recent_.size() == 1) perSplatNs_ = shares[0] / 2;
     if (!slopes.empty()) perSplatNs_ = median(std::move(slopes));
     perSplatNs_ = std::max(perSplatNs_, kLeastPerSplatNs);
-    for (const Frame& f : recent_) fixed.push_back(f.ns - perSplatNs_ * f.splats);
+    for (const Sample& f : recent_) fixed.push_back(f.ns - perSplatNs_ * f.splats);
     fixedNs_ = median(std::move(fixed));
     if (fixedNs_ >= 0) return;
     fixedNs_ = 0;
@@ -68,7 +68,7 @@ void FramePace::fit() {
 void FramePace::follow() {
     const auto now = static_cast<double>(budget_);
     double known = static_cast<double>(first_);
-    for (const Frame& frame : recent_) known = std::max(known, kMostGrowth * frame.splats);
+    for (const Sample& frame : recent_) known = std::max(known, kMostGrowth * frame.splats);
     const double most = std::min(known, static_cast<double>(kMost));
     const double wanted =
         std::clamp((targetNs_ - fixedNs_) / perSplatNs_, static_cast<double>(kFewest), most);

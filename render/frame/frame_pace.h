@@ -30,7 +30,7 @@ class FramePace {
                                    kMost = std::uint64_t{1} << 31;
 
  private:
-    struct Frame {
+    struct Sample {
         double splats, ns;
     };
     void fit();
@@ -38,7 +38,7 @@ class FramePace {
 
     double targetNs_, fixedNs_ = 0, perSplatNs_ = 0;
     std::uint64_t first_, budget_;
-    std::deque<Frame> recent_;
+    std::deque<Sample> recent_;
 };
 
 }  // namespace render

@@ -27,8 +27,7 @@ PlainFrame::PlainFrame(glm::ivec2 size, const glm::dvec3& background)
 void PlainFrame::draw(const Scene& scene, const View& view) {
     // Cells come in an order of their own.
     DrawList list = scene.cells ? DrawList(Runs{}) : order_(scene, pixelRays(view).eye);
-    const auto splats =
-        splatter_.prepare(scene, std::move(list), GpuStep(scene.step, scene.placed));
+    const auto splats = splatter_.prepare(scene, std::move(list), GlStep(scene.step, scene.placed));
     light_.drawDepth({}, {}, view, targets_);
     const std::vector<Channels> channels = channelsFor(scene);
     for (std::size_t i = 0; i < channels.size(); ++i) sum(*splats, view, channels[i], i, targets_);
@@ -44,7 +43,7 @@ std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
     plain.order = Order::None;
     MemoryTargets targets(view.size);
     ProcessorSplatter splatter;
-    const auto splats = splatter.prepare(plain, Runs{}, GpuStep(scene.step, scene.placed));
+    const auto splats = splatter.prepare(plain, Runs{}, GlStep(scene.step, scene.placed));
     std::vector<float> depth(static_cast<std::size_t>(view.size.x) *
                              static_cast<std::size_t>(view.size.y));
     for (std::size_t k = 0; k < plain.layers.size(); ++k) {

@@ -37,7 +37,8 @@ class Present {
     // program's encoding.
     void draw(Targets& light, GLuint framebuffer, glm::ivec2 at = {0, 0},
               Encoding encoding = Encoding::Program) const;
-    // Likewise all of it, `size` pixels large: between pixels of the light, what lies around them.
+    // Draws all of the light, `size` pixels large: between pixels of the light, what lies around
+    // them.
     void drawScaled(Targets& light, GLuint framebuffer, glm::ivec2 at, glm::ivec2 size) const;
 
  private:

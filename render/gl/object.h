@@ -30,7 +30,7 @@ class Object {
     Delete destroy_;
 };
 
-// Immutable size; contents may be replaced whole with write().
+// Immutable size; contents may be replaced with write().
 class Buffer : public Object {
  public:
     explicit Buffer(std::size_t bytes, const void* contents = nullptr);

@@ -111,7 +111,7 @@ class PlacedPoints {
     Box pointsBox() const;
     // Half sides of the points' box, in axis coordinates; all zero for a single point.
     glm::dvec3 boxHalf() const { return boxHalf_; }
-    // The same in the world: columns from the centre of the box to the middles of its faces.
+    // The half box in the world: columns from the centre of the box to the middles of its faces.
     glm::dmat3 boxHalfEdges() const;
     // World length per grid unit along each axis, signed; their ratios are what a picture states.
     glm::dvec3 scale() const;

@@ -101,7 +101,7 @@ class Frame final : public SplatFrame {
 }  // namespace
 
 std::unique_ptr<SplatFrame> ExactSplatter::prepare(const Scene& scene, DrawList list,
-                                                   const GpuStep&) {
+                                                   const GlStep&) {
     return std::make_unique<Frame>(scene, std::move(list));
 }
 

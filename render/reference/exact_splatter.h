@@ -12,7 +12,7 @@ class ExactSplatter final : public Splatter {
  public:
     // Asks nothing of the step on the GPU.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
-                                        const GpuStep& step) override;
+                                        const GlStep& step) override;
 };
 
 }  // namespace render

@@ -29,7 +29,7 @@ class IntervalTruth {
     // in units of l, from the near plane on. [y][x], row 0 at the bottom. Not a bit depends on the
     // threads.
     std::vector<double> weight(const View& view, std::size_t layer) const;
-    // The same of these pixels alone.
+    // The plane W at these pixels alone.
     std::vector<double> weight(const View& view, std::size_t layer,
                                std::span<const glm::ivec2> pixels) const;
     // The light of all layers, ordered: emission and absorption along each ray, of optical depth

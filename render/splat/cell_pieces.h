@@ -136,7 +136,7 @@ void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
     }
 }
 
-// The same of several cells, with each range of their layers: use(piece, of, octant).
+// The octants of several cells, with each range of their layers: use(piece, of, octant).
 template <typename Use>
 void forEachPiece(const Scene& scene, std::span<const CellOfLayer> cells, const Use& use) {
     constexpr std::size_t kAhead = 16;

@@ -32,7 +32,7 @@ struct CellView : TileLayout {
 std::array<float, 6> gradientMetric(const PlacedPoints& placed);
 // What gradients are measured against, of the field a length of the world (render/model/light.h).
 double steepnessOf(const Scene& scene);
-// The same of f in a cell: a plateau is lit evenly.
+// What gradients of f in a cell are measured against: a plateau is lit evenly.
 float steepnessIn(const CellSplat<float>& cell, double steep);
 
 // Where values of a cell are in a map, [0, 1] in it: that of f is at + f perValue.

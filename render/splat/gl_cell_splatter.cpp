@@ -124,7 +124,7 @@ const gl::Program& GlCellSplatter::program(const Variant& variant) {
         .first->second;
 }
 
-std::unique_ptr<SplatFrame> GlCellSplatter::prepare(const Scene& scene, DrawList, const GpuStep&) {
+std::unique_ptr<SplatFrame> GlCellSplatter::prepare(const Scene& scene, DrawList, const GlStep&) {
     if (!cells_ || !cells_->areOf(scene)) {
         cells_.reset();  // before there are others
         cells_ = std::make_shared<GlCells>(scene);

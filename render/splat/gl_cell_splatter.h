@@ -24,7 +24,7 @@ class GlCellSplatter final : public Splatter {
     // Asks nothing of the step on the GPU. REQUIRES: GlCells::fit(scene, mostBytes()). Throws
     // std::runtime_error where there is no room.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
-                                        const GpuStep& step) override;
+                                        const GlStep& step) override;
 
     // Of the frame's view, to draw these places of the cells, in the order of the list if there is
     // one.

@@ -59,7 +59,7 @@ bool drawnAlike(const Piece& a, const Piece& b) {
 
 }  // namespace
 
-GpuList::GpuList(const Scene& scene, const DrawList& list, const GpuStep& step,
+GpuList::GpuList(const Scene& scene, const DrawList& list, const GlStep& step,
                  const ValueScale& scale)
     : scene_(scene), step_(step), cubes_(scene.placed.cubes()), pieces_(piecesOf(scene, list)) {
     if (const auto* sorted = std::get_if<Sorted>(&list)) {

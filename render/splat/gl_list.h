@@ -12,10 +12,10 @@ namespace render {
 class GpuList {
  public:
     // Both must outlive the list. REQUIRES: a step that is ready for the scene.
-    GpuList(const Scene& scene, const DrawList& list, const GpuStep& step, const ValueScale& scale);
+    GpuList(const Scene& scene, const DrawList& list, const GlStep& step, const ValueScale& scale);
 
     const Scene& scene() const { return scene_; }
-    const GpuStep& step() const { return step_; }
+    const GlStep& step() const { return step_; }
     bool cubes() const { return cubes_; }
 
     // What makes up a plane, in the order of drawing; see GlSplatter::draw.
@@ -25,7 +25,7 @@ class GpuList {
 
  private:
     const Scene& scene_;
-    const GpuStep& step_;
+    const GlStep& step_;
     bool cubes_;
     std::vector<Piece> pieces_;
     std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first

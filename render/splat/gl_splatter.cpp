@@ -205,7 +205,7 @@ void GlSplatter::setLayers(const Scene& scene, const ValueScale& scale) {
 }
 
 std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& list,
-                                            const GpuStep& step) {
+                                            const GlStep& step) {
     ++counts_.uploads;
     // A sorted list brings its own values.
     const bool own = std::holds_alternative<Sorted>(list) || step.values() == nullptr;
@@ -215,7 +215,7 @@ std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& 
 }
 
 std::unique_ptr<SplatFrame> GlSplatter::prepare(const Scene& scene, DrawList list,
-                                                const GpuStep& step) {
+                                                const GlStep& step) {
     return std::make_unique<GlFrame>(*this, upload(scene, list, step));
 }
 

@@ -24,12 +24,12 @@ class GlSplatter final : public Splatter {
     ~GlSplatter() override;
 
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
-                                        const GpuStep& step) override;
+                                        const GlStep& step) override;
     // What resolving a frame's planes needs, whoever sums them; upload() does it.
     void setLayers(const Scene& scene, const ValueScale& scale);
 
     // Once a frame. `step` holds the scene's step and is ready for it. The list refers to both.
-    std::unique_ptr<GpuList> upload(const Scene& scene, const DrawList& list, const GpuStep& step);
+    std::unique_ptr<GpuList> upload(const Scene& scene, const DrawList& list, const GlStep& step);
 
     // Once an eye: adds one plane into a framebuffer whose one colour attachment is of that kind
     // (R32F or RGBA32F) and whose depth attachment is the opaque scene's, tested, not written.

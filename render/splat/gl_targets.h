@@ -25,7 +25,7 @@ class GlTargets final : public Targets {
     // Makes plane i of this kind, cleared, and gives its framebuffer; its depth attachment is the
     // opaque scene's.
     GLuint clearedPlane(std::size_t i, Channels channels);
-    // The same, holding whatever it held.
+    // Plane i of this kind, holding whatever it held.
     GLuint plane(std::size_t i, Channels channels);
     GLuint planeFramebuffer(std::size_t i) const { return planes_[i]->framebuffer.id(); }
     const gl::Texture& plane(std::size_t i) const { return planes_[i]->texture; }

@@ -81,7 +81,7 @@ class Frame final : public SplatFrame {
 }  // namespace
 
 std::unique_ptr<SplatFrame> ProcessorSplatter::prepare(const Scene& scene, DrawList list,
-                                                       const GpuStep&) {
+                                                       const GlStep&) {
     return std::make_unique<Frame>(scene, std::move(list), memory_);
 }
 

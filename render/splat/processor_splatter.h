@@ -13,7 +13,7 @@ class ProcessorSplatter final : public Splatter {
  public:
     // Asks nothing of the step on the GPU.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
-                                        const GpuStep& step) override;
+                                        const GlStep& step) override;
 
     // Kept from frame to frame: pages that are new cost more than what is done with them.
     struct Memory {

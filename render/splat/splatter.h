@@ -7,7 +7,7 @@
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
-#include "render/splat/gpu_step.h"
+#include "render/splat/gl_step.h"
 #include "render/splat/targets.h"
 
 namespace render {
@@ -43,7 +43,7 @@ class Splatter {
     virtual ~Splatter() = default;
     // `step` holds the scene's step and is ready for it.
     virtual std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
-                                                const GpuStep& step) = 0;
+                                                const GlStep& step) = 0;
 };
 
 }  // namespace render

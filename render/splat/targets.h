@@ -45,7 +45,7 @@ class Targets {
     Image readLight() const;
     // Where the light is in memory as Srgb8, four bytes a pixel; else none.
     virtual std::span<const std::uint8_t> srgb8() const { return {}; }
-    // The same as GL has it. What is in memory is written there.
+    // These targets as GL has them. What is in memory is written there.
     virtual GlTargets& onGl() = 0;
 
  private:

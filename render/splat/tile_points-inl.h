@@ -68,7 +68,7 @@ HWY_INLINE Points see(const TileView& view, const std::uint32_t* index, glm::ive
             joined(windowDepth)};
 }
 
-// The same in float, which is near enough to find tiles.
+// Where points are seen, in float, which is near enough to find tiles.
 HWY_INLINE Points seeRoughly(const TileView& view, const std::uint32_t* index) {
     const Floats floats;
     D at[3][2];

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "app/choices/sweep_edits.h"
 #include "tests/support/random_explorer.h"
 
 namespace app {
@@ -32,7 +33,6 @@ TEST(Choices, TakenFromTheirTextsAreTheSame) {
         copy.axes = e.axes;
         copy.layers = e.layers;
         copy.noLayers = e.noLayers;
-        copy.sweepLayer = e.sweepLayer;
         EXPECT_EQ(copy, e) << i;
     }
 }
@@ -44,14 +44,14 @@ TEST(Choices, WhatCannotStandTogetherIsNamed) {
     };
     Explorer e;
     EXPECT_EQ(keyOf(e), "");
-    e.sweep.emplace().animation = timeseries::RangeSet::parse("0:9");
-    e.layers.resize(render::kMaxLayers - 1);
+    setSweep(e, {.animation = timeseries::RangeSet::parse("0:9")});
+    e.layers.resize(render::kMaxLayers);
     EXPECT_EQ(keyOf(e), "");
     e.layers.emplace_back();
     EXPECT_EQ(keyOf(e), "layers") << "the swept one counts";
-    e.layers.clear();
+    e.layers.resize(1);
     e.oneTick = true;
-    e.play.tick = ticksOf(*e.sweep) - 1;
+    e.play.tick = ticksOf(*sweepOf(e)) - 1;
     EXPECT_EQ(keyOf(e), "");
     ++e.play.tick;
     EXPECT_EQ(keyOf(e), "sweep.tick");

@@ -9,20 +9,20 @@
 namespace app {
 namespace {
 
-Dataset scripted() {
+OpenDataset scripted() {
     return tests::scriptedDataset({}, std::make_shared<tests::Script>(), "a", "");
 }
 
 TEST(ChosenAxes, NoneLeaveTheDatasetAlone) {
-    Dataset dataset = scripted();
+    OpenDataset dataset = scripted();
     const auto* const reader = dataset.reader.get();
     chooseAxes(dataset, {});
     EXPECT_EQ(dataset.reader.get(), reader);
 }
 
 TEST(ChosenAxes, AreThoseOfEveryVariableAndStepWithTheFilesCoordinates) {
-    const Dataset file = scripted();
-    Dataset dataset = scripted();
+    const OpenDataset file = scripted();
+    OpenDataset dataset = scripted();
     const std::string format = dataset.reader->format();
     std::array<AxisChoice, 3> axes;
     axes[1].name = "latitude";
@@ -42,17 +42,18 @@ TEST(ChosenAxes, AreThoseOfEveryVariableAndStepWithTheFilesCoordinates) {
             EXPECT_EQ(after[a].name, axes[a].name.empty() ? before[a].name : axes[a].name);
         }
     }
-    EXPECT_EQ(dataset.about.grid, dataset.variables[dataset.variable].grid);
-    const auto field = dataset.reader->read(dataset.variable, 0);
-    EXPECT_EQ(*field.grid, *dataset.about.grid);
-    EXPECT_EQ(field.values, file.reader->read(file.variable, 0).values);
-    EXPECT_EQ(dataset.reader->read(dataset.variable, 1).grid, field.grid) << "shared as before";
+    EXPECT_EQ(dataset.variable.grid, dataset.variables[dataset.variableIndex].grid);
+    const auto field = dataset.reader->read(dataset.variableIndex, 0);
+    EXPECT_EQ(*field.grid, *dataset.variable.grid);
+    EXPECT_EQ(field.values, file.reader->read(file.variableIndex, 0).values);
+    EXPECT_EQ(dataset.reader->read(dataset.variableIndex, 1).grid, field.grid)
+        << "shared as before";
     // Drawn the other way round: a point and its mirror image change places.
-    const render::PlacedPoints one(*file.about.grid), other(*dataset.about.grid);
-    for (std::uint64_t i = 0; i < file.about.grid->count(); ++i) {
+    const render::PlacedPoints one(*file.variable.grid), other(*dataset.variable.grid);
+    for (std::uint64_t i = 0; i < file.variable.grid->count(); ++i) {
         const glm::dvec3 p = one.position(i), q = other.position(i);
         EXPECT_EQ(q, glm::dvec3(p.x, p.y, -p.z));
-        EXPECT_EQ(dataset.about.grid->position(i), file.about.grid->position(i));
+        EXPECT_EQ(dataset.variable.grid->position(i), file.variable.grid->position(i));
     }
 }
 
@@ -68,16 +69,16 @@ TEST(ChosenAxes, LeaveAMeshWhereItIs) {
     file.write(lon, std::vector<double>{0, 1, 2, 0.5, 1.5, 2.5});
     file.write(lat, std::vector<double>{5, 5, 5.25, 6, 6, 6});
     const std::filesystem::path path = file.close();
-    const Dataset before = openDataset(std::span(&path, 1), "");
-    Dataset dataset = openDataset(std::span(&path, 1), "");
-    ASSERT_TRUE(before.about.grid->mesh());
+    const OpenDataset before = openDataset(std::span(&path, 1), "");
+    OpenDataset dataset = openDataset(std::span(&path, 1), "");
+    ASSERT_TRUE(before.variable.grid->mesh());
     std::array<AxisChoice, 3> axes;
     axes[0] = {true, "Longitude"};
     chooseAxes(dataset, axes);
-    EXPECT_EQ(dataset.about.grid->axes()[0].name, "Longitude");
-    EXPECT_TRUE(dataset.about.grid->axes()[0].down);
-    EXPECT_EQ(*dataset.about.grid->mesh(), *before.about.grid->mesh());
-    EXPECT_EQ(dataset.reader->read(0, 0).grid, dataset.about.grid);
+    EXPECT_EQ(dataset.variable.grid->axes()[0].name, "Longitude");
+    EXPECT_TRUE(dataset.variable.grid->axes()[0].down);
+    EXPECT_EQ(*dataset.variable.grid->mesh(), *before.variable.grid->mesh());
+    EXPECT_EQ(dataset.reader->read(0, 0).grid, dataset.variable.grid);
 }
 
 }  // namespace

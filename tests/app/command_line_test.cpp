@@ -37,12 +37,10 @@ Explorer closed(Explorer e) {
         }
         if (!layer.opacity) layer.opacity = 0.1;
     };
-    close(e.sweepLayer);
-    std::erase_if(e.layers, [](const LayerChoice& layer) { return layer.ranges.empty(); });
-    if (e.layers.empty() && !e.sweep)
-        e.layers.push_back({timeseries::RangeSet::parse("0:1"), {}, {}});
+    std::erase_if(e.layers,
+                  [](const LayerChoice& layer) { return layer.ranges.empty() && !layer.motion; });
+    if (e.layers.empty()) e.layers.push_back({timeseries::RangeSet::parse("0:1"), {}, {}});
     for (LayerChoice& layer : e.layers) close(layer);
-    if (!e.sweep) e.sweepLayer = {};
     return e;
 }
 

@@ -80,7 +80,7 @@ std::filesystem::path timed(const std::filesystem::path& folder, const std::stri
     return folder / name;
 }
 
-Dataset open(const std::filesystem::path& file, const std::string& variable) {
+OpenDataset open(const std::filesystem::path& file, const std::string& variable) {
     return openDataset(std::span(&file, 1), variable);
 }
 
@@ -123,15 +123,15 @@ TEST(Dataset, TheDefaultVariableIsNotTheFilesFirst) {
     file.write(z.variable, std::vector<double>{0, 1, 2});
     for (const int axis : {y.variable, x.variable}) file.write(axis, std::vector<double>{0, 1});
     const auto path = file.close();
-    EXPECT_EQ(open(path, "").about.name, "air");
-    EXPECT_EQ(open(path, "").variable, 1u);
-    EXPECT_EQ(open(path, "ground").variable, 0u);
+    EXPECT_EQ(open(path, "").variable.name, "air");
+    EXPECT_EQ(open(path, "").variableIndex, 1u);
+    EXPECT_EQ(open(path, "ground").variableIndex, 0u);
 }
 
 TEST(Dataset, AVariableIsChosenByNameOrTheFirst) {
     const auto file = twoVariables();
-    EXPECT_EQ(open(file, "").about.name, "first");
-    EXPECT_EQ(open(file, "second").about.name, "second");
+    EXPECT_EQ(open(file, "").variable.name, "first");
+    EXPECT_EQ(open(file, "second").variable.name, "second");
     EXPECT_EQ(open(file, "second").stepCount(), 3u);
     EXPECT_EQ(open(file, "").name, file.string());
 }
@@ -161,7 +161,7 @@ TEST(Dataset, ADamagedVariableIsToldAndCannotBeChosen) {
                             ": variable 'bad': scale_factor: expected a number, found the text "
                             "\"two\"";
     const Dataset dataset = open(path, "");
-    EXPECT_EQ(dataset.about.name, "good");
+    EXPECT_EQ(dataset.variable.name, "good");
     EXPECT_THAT(dataset.series.notes, testing::ElementsAre("'bad' is left out: " + why));
     try {
         open(path, "bad");

@@ -1,4 +1,4 @@
-#include "app/panels/drawn_text.h"
+#include "app/panels/counts_text.h"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 #include "app/choices/choice_text.h"
 #include "app/choices/first_choice.h"
 #include "app/choices/layer_colors.h"
+#include "app/choices/sweep_edits.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
@@ -227,13 +228,13 @@ TEST(AddLayer, TakesTheNextFreeColourAndAnOpacityForItsPoints) {
     EXPECT_EQ(e.layers[2].ranges, RangeSet::parse("100:199"));
     addLayer(e, RangeSet::parse("5"), step);
     EXPECT_EQ(std::get<glm::dvec3>(*e.layers[3].color), kLayerColors[2]);
-    e.sweep.emplace();
-    e.sweepLayer.color = kLayerColors[3];
+    setSweep(e, {});
+    e.layers.front().color = kLayerColors[3];
     addLayer(e, RangeSet::parse("5"), step);
-    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[4].color), kLayerColors[4]) << "the swept one has 3";
-    e.layers.erase(e.layers.begin() + 1);
+    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[5].color), kLayerColors[4]) << "the swept one has 3";
+    e.layers.erase(e.layers.begin() + 2);
     addLayer(e, RangeSet::parse("5"), step);
-    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[4].color), kLayerColors[1]) << "free again";
+    EXPECT_EQ(std::get<glm::dvec3>(*e.layers[5].color), kLayerColors[1]) << "free again";
 }
 
 TEST(ClipEnd, StopsAtTheOtherEndAndIsUnboundedWhereTheAxisEnds) {

@@ -127,7 +127,7 @@ TEST(Exploration, AStepThatCannotBeSelectedFromIsRefusedAndWhatIsShownStays) {
     while (exploration.opening()) exploration.advance(16ms);
     EXPECT_THAT(exploration.messages().back().text, HasSubstr("u.isostep is a damaged index"));
     ASSERT_TRUE(exploration.shown());
-    EXPECT_EQ(exploration.shown()->dataset.about.name, "T");
+    EXPECT_EQ(exploration.shown()->dataset.variable.name, "T");
 }
 
 // Not before they are more than the budget, and not those that are looked at.
@@ -166,7 +166,7 @@ TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThe
     desk.open("a");
     Explorer next = desk.exploration.explorer();
     next.layers = {layer("3:4"), layer("5:6")};
-    next.sweep = timeseries::SweepSettings{.animation = RangeSet::parse("1:2")};
+    setSweep(next, timeseries::SweepSettings{.animation = RangeSet::parse("1:2")});
     desk.exploration.edit(next);
     desk.startOpening("b");
     next = desk.exploration.explorer();
@@ -179,7 +179,7 @@ TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThe
     EXPECT_EQ(now.view, next.view);
     EXPECT_EQ(now.order, next.order);
     EXPECT_EQ(now.layers.size(), 1u);
-    EXPECT_FALSE(now.sweep);
+    EXPECT_FALSE(sweepOf(now));
 }
 
 TEST(Exploration, AFileWithoutAStepThatCanBeReadIsRefused) {

@@ -231,8 +231,10 @@ TEST(Exploration, ASweepMovesItsWindowAndKeepsItsPlaceWhenChanged) {
     desk.open("a");
     Explorer next = desk.exploration.explorer();
     // A cycle of one second has 100 ticks.
-    next.sweep = timeseries::SweepSettings{
-        .animation = RangeSet::parse("0:64"), .delta = 3, .timerSteps = 100, .frequency = 1};
+    setSweep(
+        next,
+        timeseries::SweepSettings{
+            .animation = RangeSet::parse("0:64"), .delta = 3, .timerSteps = 100, .frequency = 1});
     next.play.timeMoves = false;
     desk.exploration.edit(next);
     desk.exploration.togglePlay();
@@ -241,7 +243,7 @@ TEST(Exploration, ASweepMovesItsWindowAndKeepsItsPlaceWhenChanged) {
     EXPECT_EQ(desk.asked(), 5u);
     EXPECT_EQ(*desk.exploration.counts(), bruteForce(world, *desk.exploration.shown()));
     next = desk.exploration.explorer();
-    next.sweep->timerSteps = 200;
+    sweepOf(next)->timerSteps = 200;
     desk.exploration.edit(next);
     EXPECT_EQ(desk.exploration.explorer().play.tick, 50);
     desk.exploration.undo();

@@ -7,6 +7,8 @@
 #include <map>
 #include <random>
 
+#include "app/choices/edits.h"
+#include "app/choices/sweep_edits.h"
 #include "app/picture/picture.h"
 #include "tests/support/exploration_desk.h"
 
@@ -46,7 +48,7 @@ TEST(Exploration, CountsAreThoseOfEveryValueLookedAt) {
     desk.open("a");
     Explorer next = desk.exploration.explorer();
     next.layers = {layer("3:20"), layer("[10,30)"), layer("40:50", false)};
-    next.sweep = timeseries::SweepSettings{.animation = RangeSet::parse("min:max"), .delta = 6};
+    setSweep(next, timeseries::SweepSettings{.animation = RangeSet::parse("min:max"), .delta = 6});
     desk.exploration.edit(next);
     desk.exploration.seekTick(100);
     desk.exploration.seek(8);
@@ -54,8 +56,8 @@ TEST(Exploration, CountsAreThoseOfEveryValueLookedAt) {
     EXPECT_EQ(desk.exploration.explorer().play.tick, 100);
     const PointCounts counts = bruteForce(world, *desk.exploration.shown());
     EXPECT_EQ(*desk.exploration.counts(), counts);
-    EXPECT_GT(counts.swept, 0u);
-    EXPECT_LT(counts.selected, counts.layers[0] + counts.layers[1] + counts.swept);
+    EXPECT_GT(counts.layers[0], 0u);
+    EXPECT_LT(counts.selected, counts.layers[0] + counts.layers[1] + counts.layers[2]);
 }
 
 TEST(Exploration, ALayerOutsideWhatIsKeptIsRefusedInWordsOnce) {
@@ -133,13 +135,13 @@ TEST(Exploration, WhateverIsDoneWhatIsShownIsWholeAndCounted) {
                 e.variable = random() % 2 ? "T" : "P";
                 break;
             case 4:
-                e.sweep = timeseries::SweepSettings{
-                    .animation = RangeSet::parse("min:max"),
-                    .delta = 5,
-                    .timerSteps = 1 + static_cast<std::int64_t>(random() % 50)};
+                setSweep(e, timeseries::SweepSettings{
+                                .animation = RangeSet::parse("min:max"),
+                                .delta = 5,
+                                .timerSteps = 1 + static_cast<std::int64_t>(random() % 50)});
                 break;
             case 5:
-                e.sweep.reset();
+                if (sweepOf(e)) removeLayer(e, 0);
                 break;
             case 6:
                 e.keep = random() % 2 ? std::optional(RangeSet::parse("2:1030")) : std::nullopt;
@@ -186,11 +188,11 @@ TEST(Exploration, WhateverIsDoneWhatIsShownIsWholeAndCounted) {
         x.advance(std::chrono::milliseconds(random() % 200));
         const Shown shown = *x.shown();
         ASSERT_FALSE(needsSamples(shown.explorer)) << command;
-        ASSERT_EQ(shown.explorer.variable, shown.dataset.about.name) << command;
+        ASSERT_EQ(shown.explorer.variable, shown.dataset.variable.name) << command;
         ASSERT_EQ(shown.explorer.files.front(), shown.dataset.name) << command;
         ASSERT_LT(desk.asked(), shown.dataset.stepCount()) << command;
         ASSERT_EQ(*x.counts(), bruteForce(worlds.at(shown.dataset.name), shown)) << command;
-        ASSERT_EQ(shown.explorer.sweep.has_value(), x.playback().sweep.has_value()) << command;
+        ASSERT_EQ(sweepOf(shown.explorer) != nullptr, x.playback().sweep.has_value()) << command;
         ASSERT_LE(x.messages().size(), 100u);
     }
     if (x.playback().playing) x.togglePlay();

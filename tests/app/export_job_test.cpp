@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/choices/session.h"
+#include "app/choices/sweep_edits.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
@@ -44,7 +45,7 @@ Explorer example() {
 }
 
 // Three pictures.
-Frames into(const std::filesystem::path& output) { return {output, example(), {2, 3, 4}}; }
+FrameFiles into(const std::filesystem::path& output) { return {output, example(), {2, 3, 4}}; }
 
 TEST(ExportJob, TellsItsProgressAndGivesItsSession) {
     const auto folder = tests::freshFolder();
@@ -164,7 +165,7 @@ class AnimationOf : public testing::Test {
     AnimationOf() {
         auto time = std::make_shared<timeseries::TimeAxis>();
         time->points.resize(kSteps);
-        dataset_.about.time = time;
+        dataset_.variable.time = time;
         explorer_.steps = StepChoice{3, 3};
         explorer_.layers = {
             {.ranges = timeseries::RangeSet::parse("0:0.25"), .color = {}, .opacity = {}}};
@@ -182,19 +183,18 @@ class AnimationOf : public testing::Test {
 
 TEST_F(AnimationOf, IsWhatPlays) {
     PlayChoice& play = explorer_.play;
-    explorer_.sweep =
-        timeseries::SweepSettings{.animation = timeseries::RangeSet::parse("0:1"), .delta = 0.1};
+    setSweep(explorer_, {.animation = timeseries::RangeSet::parse("0:1"), .delta = 0.1});
     play.time.first = 2;
     play.tick = 40;
     EXPECT_EQ(animation().steps, (StepChoice{2, 9}));
-    EXPECT_EQ(animation().sweep, explorer_.sweep);
+    EXPECT_EQ(animation().layers, explorer_.layers);
     EXPECT_FALSE(animation().oneTick);
     play.timeMoves = false;
     EXPECT_EQ(animation().steps, (StepChoice{3, 3}));
     play.timeMoves = true;
     play.sweepMoves = false;
     EXPECT_EQ(animation().steps, (StepChoice{2, 9}));
-    EXPECT_EQ(animation().sweep, explorer_.sweep);
+    EXPECT_EQ(animation().layers, explorer_.layers);
     EXPECT_TRUE(animation().oneTick);
     EXPECT_EQ(animation().play.tick, 40);
 }

@@ -44,7 +44,7 @@ TEST_P(EveryLayout, PictureColumnAndBarFillTheWindowWithoutOverlap) {
 }
 
 TEST_P(EveryLayout, PartsOfTheColumnFollowEachOtherToItsEnd) {
-    const std::vector<Rect> parts = {side_.header, side_.layers, side_.instrument, side_.tabs,
+    const std::vector<Rect> parts = {side_.header, side_.layers, side_.histogramPanel, side_.tabs,
                                      side_.page};
     float y = layout_.side.min.y;
     for (const Rect& part : parts) {
@@ -105,7 +105,7 @@ TEST_P(EveryLayout, ThePageAndALayersRowHaveTheirRoom) {
     EXPECT_LE(side_.page.max.y, layout_.timeBar.min.y + 1);
     if (GetParam().layers == 0) return;
     const float row = side_.layers.min.y + kLayersTitle * layout_.scale;
-    EXPECT_LE(layerRow(side_.layers, row, layout_.scale).text.max.y, side_.instrument.min.y);
+    EXPECT_LE(layerRow(side_.layers, row, layout_.scale).text.max.y, side_.histogramPanel.min.y);
 }
 
 TEST(Layout, TheScaleIsWhatIsWantedWhereThereIsRoom) {
@@ -136,14 +136,14 @@ TEST(Layout, LinesOfTheHelpLieApartWithinThePicture) {
 TEST_P(EveryLayout, HandlesOfRangesLieBesideBarsNumbersAndEachOther) {
     const float scale = GetParam().scale;
     for (const bool hasMap : {false, true}) {
-        const InstrumentLayout parts = instrumentLayout(side_.instrument, scale, hasMap);
+        const HistogramLayout parts = histogramLayout(side_.histogramPanel, scale, hasMap);
         const Rect& bars = parts.histogram;
         for (float y = bars.min.y - 300; y < bars.max.y + 300; y += 7.3f) {
             const Rect upper = endHandle(parts, scale, y, true),
                        lower = endHandle(parts, scale, y, false);
             for (const Rect& handle : {upper, lower}) {
                 EXPECT_LE(handle.max.x, bars.min.x);
-                EXPECT_GT(handle.min.x, side_.instrument.min.x);
+                EXPECT_GT(handle.min.x, side_.histogramPanel.min.x);
                 EXPECT_GE(handle.min.y, bars.min.y);
                 EXPECT_LE(handle.max.y, bars.max.y);
             }
@@ -156,9 +156,9 @@ TEST_P(EveryLayout, HandlesOfRangesLieBesideBarsNumbersAndEachOther) {
 }
 
 TEST(Layout, ASeriesOfOneStepGivesItsRoomToTheHistogram) {
-    const Rect instrument{{1040, 200}, {1440, 500}};
-    const InstrumentLayout with = instrumentLayout(instrument, 1, true),
-                           without = instrumentLayout(instrument, 1, false);
+    const Rect histogramPanel{{1040, 200}, {1440, 500}};
+    const HistogramLayout with = histogramLayout(histogramPanel, 1, true),
+                          without = histogramLayout(histogramPanel, 1, false);
     EXPECT_EQ(without.map.size().x, 0);
     EXPECT_EQ(without.histogram.size().x, with.histogram.size().x + with.map.size().x);
     EXPECT_EQ(with.histogram.max.x, with.axis.min.x);

@@ -63,15 +63,15 @@ class LiveStepsDropping : public testing::Test {
         for (const std::thread::id thread : freed_->threads())
             EXPECT_NE(thread, std::this_thread::get_id());
     }
-    Dataset dataset() const {
-        Dataset dataset = tests::scriptedDataset({}, script_, "a", "");
+    OpenDataset dataset() const {
+        OpenDataset dataset = tests::scriptedDataset({}, script_, "a", "");
         dataset.reader = std::make_unique<NotingReader>(script_, freed_);
         return dataset;
     }
 
     std::shared_ptr<tests::Script> script_ = std::make_shared<tests::Script>();
     std::shared_ptr<Freed> freed_ = std::make_shared<Freed>();
-    Dataset dataset_ = dataset();
+    OpenDataset dataset_ = dataset();
     std::optional<LiveSteps> steps_{std::in_place, dataset_, timeseries::RangeSet::everything(), 1,
                                     [script = script_] { script->wake(); }};
     std::shared_ptr<const timeseries::SortedStep> shown_;

@@ -1,5 +1,6 @@
 // Options beside a session.
 #include "app/choices/options.h"
+#include "app/choices/sweep_edits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,10 +29,11 @@ class OptionsWithSession : public testing::Test {
         saved_.keep = RangeSet::parse("0:2000");
         saved_.layers = {{RangeSet::parse("600:1600"), parseColor("#112233"), 0.5},
                          {RangeSet::parse("300:400"), parseColor("#445566"), 0.6}};
-        saved_.sweep.emplace();
-        saved_.sweep->animation = RangeSet::parse("300:1600");
-        saved_.sweep->delta = 20;
-        saved_.sweepLayer = {{}, parseColor("#778899"), 0.7};
+        setSweep(saved_, {});
+        sweepOf(saved_)->animation = RangeSet::parse("300:1600");
+        sweepOf(saved_)->delta = 20;
+        saved_.layers.front().color = parseColor("#778899");
+        saved_.layers.front().opacity = 0.7;
         saved_.footprint = {render::Kernel::Point, 2};
         saved_.order = render::Order::BackToFront;
         saved_.axes[0] = {true, "height"};
@@ -93,21 +95,21 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
     expectOnly({"--name-axis", "x=a"}, [](Explorer& e) { e.axes[0].name = "a"; });
     expectOnly({"--keep", "1:2"}, [](Explorer& e) { e.keep = RangeSet::parse("1:2"); });
     expectOnly({"--range", "1:2"}, [](Explorer& e) {
-        e.layers = {{RangeSet::parse("1:2"), {}, {}}};
+        e.layers = {e.layers.front(), {RangeSet::parse("1:2"), {}, {}}};
     });
-    expectOnly({"--color", "#ffffff"}, [](Explorer& e) { e.sweepLayer.color = glm::dvec3(1); });
-    expectOnly({"--opacity", "0.1"}, [](Explorer& e) { e.sweepLayer.opacity = 0.1; });
+    expectOnly({"--color", "#ffffff"}, [](Explorer& e) { e.layers.front().color = glm::dvec3(1); });
+    expectOnly({"--opacity", "0.1"}, [](Explorer& e) { e.layers.front().opacity = 0.1; });
     expectOnly({"--sweep", "5:6"}, [](Explorer& e) {
-        e.sweep.emplace();
-        e.sweep->path = timeseries::SweepPath::Loop;
-        e.sweep->animation = RangeSet::parse("5:6");
+        setSweep(e, {});
+        sweepOf(e)->path = timeseries::SweepPath::Loop;
+        sweepOf(e)->animation = RangeSet::parse("5:6");
     });
-    expectOnly({"--delta", "3"}, [](Explorer& e) { e.sweep->delta = 3; });
+    expectOnly({"--delta", "3"}, [](Explorer& e) { sweepOf(e)->delta = 3; });
     expectOnly({"--tick", "9"}, [](Explorer& e) {
         e.oneTick = true;
         e.play.tick = 9;
     });
-    expectOnly({"--timer-steps", "9"}, [](Explorer& e) { e.sweep->timerSteps = 9; });
+    expectOnly({"--timer-steps", "9"}, [](Explorer& e) { sweepOf(e)->timerSteps = 9; });
     // Which are of points.
     expectOnly({"--splat", "kernel"}, [](Explorer& e) {
         e.footprint.kernel = render::Kernel::Quartic;
@@ -127,7 +129,7 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
     expectOnly({"--target", "1,2,3"}, [](Explorer& e) { e.view.target = {1, 2, 3}; });
     expectOnly({"--orthographic"},
                [](Explorer& e) { e.view.projection = Projection::Orthographic; });
-    expectOnly({"--hide", "2"}, [](Explorer& e) { e.layers[0].visible = false; });
+    expectOnly({"--hide", "2"}, [](Explorer& e) { e.layers[1].visible = false; });
     expectOnly({"--size", "5x6"}, [](Explorer& e) { e.size = {5, 6}; });
     expectOnly({"--stereo", "off"}, [](Explorer& e) { e.stereo.mode = Stereo::Off; });
     expectOnly({"--eye-distance", "0"}, [](Explorer& e) { e.stereo.eyeDistance = 0; });

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/sweep_edits.h"
 #include "tests/support/picture_of_a_ramp.h"
 #include "tests/support/scenes.h"
 
@@ -227,19 +228,18 @@ TEST_F(PictureOfARamp, HiddenLayersAreNeitherDrawnNorInTheLegend) {
     std::mt19937 random(31);
     for (int i = 0; i < 50; ++i) {
         Explorer e = withRanges({"0:9", "100:199", "500:max"});
-        e.sweep.emplace();
-        e.sweep->animation = RangeSet::parse("300:400");
-        e.sweep->delta = 5;
+        setSweep(e, {});
+        sweepOf(e)->animation = RangeSet::parse("300:400");
+        sweepOf(e)->delta = 5;
         e = resolved(e, steps_);
         const std::int64_t tick = static_cast<std::int64_t>(random() % 256);
         const Picture whole = pictureOf(e, tick);
-        e.sweepLayer.visible = random() % 2 == 0;
         for (LayerChoice& layer : e.layers) layer.visible = random() % 2 == 0;
         EXPECT_FALSE(needsSamples(e));
         const Picture picture = pictureOf(e, tick);
         std::size_t shown = 0;
         for (std::size_t k = 0; k < whole.scene.layers.size(); ++k) {
-            if (!(k == 0 ? e.sweepLayer : e.layers[k - 1]).visible) continue;
+            if (!e.layers[k].visible) continue;
             ASSERT_LT(shown, picture.scene.layers.size());
             EXPECT_EQ(picture.scene.layers[shown].runs, whole.scene.layers[k].runs);
             EXPECT_EQ(picture.legend.layers[shown].range, whole.legend.layers[k].range);

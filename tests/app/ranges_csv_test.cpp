@@ -64,8 +64,8 @@ std::string refusalOf(const std::filesystem::path& file) {
 
 // By the name that is selected by, without what tells points' from cells', the end of its path in
 // HDF5, or in full; the file's default one where the list has no name.
-std::size_t indexOf(const Dataset& dataset, const std::string& name) {
-    if (name.empty()) return dataset.variable;
+std::size_t indexOf(const OpenDataset& dataset, const std::string& name) {
+    if (name.empty()) return dataset.variableIndex;
     const auto variables = dataset.reader->variables();
     const auto found = std::ranges::find_if(variables, [&](const auto& v) {
         return v.name == name || v.name == name + " (points)" || v.name.ends_with('/' + name) ||
@@ -76,7 +76,7 @@ std::size_t indexOf(const Dataset& dataset, const std::string& name) {
 }
 
 void expectAgreement(const std::filesystem::path& file, const std::vector<Row>& rows) {
-    const Dataset dataset = openDataset(std::span(&file, 1), "");
+    const OpenDataset dataset = openDataset(std::span(&file, 1), "");
     std::map<std::size_t, std::vector<const Row*>> byVariable;
     for (const Row& row : rows) byVariable[indexOf(dataset, row.variable)].push_back(&row);
     for (const auto& [variable, its] : byVariable) {

@@ -14,7 +14,7 @@ namespace {
 template <typename T>
 std::string textOf(T value, const std::string& units) {
     tests::ShownSteps world(2);
-    world.dataset.about.units = units;
+    world.dataset.variable.units = units;
     world.steps[0] = std::make_shared<const timeseries::SortedStep>(
         timeseries::SortedStep::build({tests::cube(2), std::vector<T>(8, value), {}}));
     Reading reading;

@@ -132,12 +132,12 @@ TEST(Options, CellsAreDrawnUnlessSplatsAreChosen) {
 TEST(Options, TheSweepTakesItsSettings) {
     const Explorer e = explorer({"--sweep", "300:400,900:1600", "--delta", "25", "--timer-steps",
                                  "128", "--timer-step", "4", "--frequency", "0.5", "--swing"});
-    ASSERT_TRUE(e.sweep);
-    EXPECT_EQ(*e.sweep, (timeseries::SweepSettings{RangeSet::parse("300:400,900:1600"), 25, 128, 4,
-                                                   0.5, timeseries::SweepPath::Swing}));
+    ASSERT_TRUE(sweepOf(e));
+    EXPECT_EQ(*sweepOf(e), (timeseries::SweepSettings{RangeSet::parse("300:400,900:1600"), 25, 128,
+                                                      4, 0.5, timeseries::SweepPath::Swing}));
     const Explorer plain = explorer({"--sweep", "min:max"});
-    EXPECT_EQ(*plain.sweep, (timeseries::SweepSettings{RangeSet::everything(), 0, 256, 1, 0.1,
-                                                       timeseries::SweepPath::Loop}));
+    EXPECT_EQ(*sweepOf(plain), (timeseries::SweepSettings{RangeSet::everything(), 0, 256, 1, 0.1,
+                                                          timeseries::SweepPath::Loop}));
     for (const std::vector<std::string>& alone : {std::vector<std::string>{"--delta", "1"},
                                                   {"--timer-steps", "2"},
                                                   {"--timer-step", "2"},
@@ -198,9 +198,9 @@ TEST(Options, MapsTakeTheValuesOfTheirEnds) {
 TEST(Options, HiddenLayersAreCountedAsStylesAre) {
     const Explorer e = explorer(
         {"--range", "0:1", "--range", "2:3", "--sweep", "5:9", "--hide", "1", "--hide", "3"});
-    EXPECT_FALSE(e.sweepLayer.visible);
-    EXPECT_TRUE(e.layers.at(0).visible);
-    EXPECT_FALSE(e.layers.at(1).visible);
+    EXPECT_FALSE(e.layers.front().visible);
+    EXPECT_TRUE(e.layers.at(1).visible);
+    EXPECT_FALSE(e.layers.at(2).visible);
     EXPECT_FALSE(explorer({"--hide", "1"}).layers.at(0).visible) << "the first choice";
     EXPECT_THAT(renderRefused({"--range", "0:1", "--hide", "2"}), HasSubstr("--hide 2"));
 }
@@ -208,10 +208,10 @@ TEST(Options, HiddenLayersAreCountedAsStylesAre) {
 TEST(Options, TheSweptLayerTakesTheFirstStyle) {
     const Explorer e = explorer({"--range", "0:1", "--sweep", "5:9", "--color", "#ff0000",
                                  "--colormap", "cividis", "--opacity", "0.3"});
-    EXPECT_EQ(rgb(e.sweepLayer), parseColor("#ff0000"));
-    EXPECT_EQ(e.sweepLayer.opacity, 0.3);
-    EXPECT_EQ(mapName(e.layers.at(0)), "cividis");
-    EXPECT_FALSE(e.layers.at(0).opacity);
+    EXPECT_EQ(rgb(e.layers.at(0)), parseColor("#ff0000"));
+    EXPECT_EQ(e.layers.front().opacity, 0.3);
+    EXPECT_EQ(mapName(e.layers.at(1)), "cividis");
+    EXPECT_FALSE(e.layers.at(1).opacity);
 }
 
 TEST(Options, OneStyleWithoutARangeIsTheFirstChoices) {

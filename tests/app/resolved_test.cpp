@@ -1,4 +1,5 @@
 // What is chosen where the user left it open.
+#include "app/choices/sweep_edits.h"
 #include "app/picture/picture.h"
 
 #include <gmock/gmock.h>
@@ -23,10 +24,9 @@ bool nothingOpen(const Explorer& e) {
         const auto* map = std::get_if<MapChoice>(&*layer.color);
         return map == nullptr || (map->lo && map->hi);
     };
-    if (e.sweep && !closed(e.sweepLayer)) return false;
-    return (e.sweep || !e.layers.empty()) && std::ranges::all_of(e.layers, [&](const auto& layer) {
-               return closed(layer) && !layer.ranges.empty();
-           });
+    return !e.layers.empty() && std::ranges::all_of(e.layers, [&](const auto& layer) {
+        return closed(layer) && layer.ranges.empty() == layer.motion.has_value();
+    });
 }
 
 TEST_F(PictureOfARamp, ResolvedLeavesNothingOpenAndIsIdempotent) {
@@ -49,9 +49,8 @@ TEST_F(PictureOfARamp, ResolvedLeavesNothingOpenAndIsIdempotent) {
             return layer;
         };
         if (random() % 3 == 0) {
-            e.sweep.emplace();
-            e.sweep->animation = RangeSet::parse(ranges[random() % 2]);
-            e.sweepLayer = style({});
+            e.layers.push_back(style({}));
+            e.layers.front().motion.emplace().animation = RangeSet::parse(ranges[random() % 2]);
         }
         for (std::size_t n = random() % 4; n > 0; --n)
             e.layers.push_back(style(maybe() ? RangeSet::parse(ranges[random() % 8]) : RangeSet()));
@@ -121,18 +120,18 @@ TEST_F(PictureOfARamp, AMapOfARangeBeyondTheDataHasItsEndsInOrder) {
 
 TEST_F(PictureOfARamp, AnUnboundedSweepGoesThroughTheDatasValues) {
     Explorer e;
-    e.sweep.emplace();
-    e.sweep->animation = RangeSet::everything();
+    setSweep(e, {});
+    sweepOf(e)->animation = RangeSet::everything();
     EXPECT_TRUE(needsSamples(e));
     const Explorer r = resolved(e, steps_);
-    EXPECT_EQ(r.sweep->animation, RangeSet::parse("0:999"));
+    EXPECT_EQ(sweepOf(r)->animation, RangeSet::parse("0:999"));
 }
 
 TEST_F(PictureOfARamp, AnUnboundedSweepBeyondTheDataIsRefused) {
     for (const char* animation : {"2000:max", "min:-5"}) {
         Explorer e;
-        e.sweep.emplace();
-        e.sweep->animation = RangeSet::parse(animation);
+        setSweep(e, {});
+        sweepOf(e)->animation = RangeSet::parse(animation);
         try {
             resolved(e, steps_);
             ADD_FAILURE() << animation;

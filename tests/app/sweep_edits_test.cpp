@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "app/choices/edits.h"
 #include "app/choices/session.h"
 #include "app/picture/picture.h"
 #include "tests/support/scenes.h"
@@ -32,7 +33,7 @@ double normal(std::size_t i) {
 }
 
 std::uint64_t inWindow(const Explorer& e, double (*value)(std::size_t), std::int64_t tick) {
-    const timeseries::Range window = timeseries::ValueSweep(*e.sweep).window(tick);
+    const timeseries::Range window = timeseries::ValueSweep(*sweepOf(e)).window(tick);
     std::uint64_t points = 0;
     for (std::size_t i = 0; i < kPoints; ++i) {
         const auto v = static_cast<double>(static_cast<float>(value(i)));
@@ -68,7 +69,7 @@ TEST(StartSweep, BeginsNearWhatIsShown) {
     Explorer e;
     e.layers = {{RangeSet::parse("900:1000"), glm::dvec3(1), 0.5}};
     startSweep(e, extentOf(step), step, true);
-    const double contour = timeseries::ValueSweep(*e.sweep).contour(e.play.tick);
+    const double contour = timeseries::ValueSweep(*sweepOf(e)).contour(e.play.tick);
     EXPECT_GE(contour, 900);
     EXPECT_LE(contour, 1000);
 }
@@ -77,7 +78,8 @@ TEST(StartSweep, AConstantFieldIsSweptToo) {
     const SortedStep step = tests::stepOf(tests::cube(4), [](std::size_t) { return 7.0; });
     Explorer e;
     startSweep(e, extentOf(step), step, true);
-    EXPECT_EQ(step.count(sweptRanges(e, step, e.play.tick)), 64u) << "there is nothing else";
+    EXPECT_EQ(step.count(rangesAt(e.layers.front(), step, e.play.tick)), 64u)
+        << "there is nothing else";
 }
 
 TEST(StartSweep, WhatPlaysStaysAsItWasChosen) {
@@ -94,18 +96,18 @@ TEST(StartSweep, WhatPlaysStaysAsItWasChosen) {
     EXPECT_EQ(moves(true, true, false), std::pair(true, true)) << "time cannot play";
 }
 
-TEST(StopSweep, LeavesTheLayersAsTheyAre) {
+TEST(StartSweep, TakenBackLeavesTheLayersAsTheyWere) {
     const SortedStep step = tests::stepOf(tests::cube(kEdge), even);
     Explorer e;
     e.layers = {{RangeSet::parse("0:1"), glm::dvec3(1), 0.5}};
     const Explorer before = e;
     startSweep(e, extentOf(step), step, true);
-    stopSweep(e);
+    removeLayer(e, 0);
     EXPECT_EQ(e.layers, before.layers);
     EXPECT_FALSE(e.noLayers);
     e.layers.clear();
     startSweep(e, extentOf(step), step, true);
-    stopSweep(e);
+    removeLayer(e, 0);
     EXPECT_FALSE(needsSamples(e)) << "no first choice";
     const std::map<std::size_t, std::shared_ptr<const SortedStep>> none;
     EXPECT_TRUE(resolved(e, none).layers.empty());

@@ -1,4 +1,6 @@
 // The swept window as a layer of a picture.
+#include "app/choices/edits.h"
+#include "app/choices/sweep_edits.h"
 #include "app/picture/picture.h"
 
 #include <fmt/format.h>
@@ -17,27 +19,27 @@ using namespace app::ramp;
 
 TEST_F(PictureOfARamp, ASweepsLegendStandsStillButForItsContour) {
     Explorer e;
-    e.sweep.emplace();
-    e.sweep->animation = RangeSet::parse("100.123456789:899.987654321");
-    e.sweep->delta = 20;
+    setSweep(e, {});
+    sweepOf(e)->animation = RangeSet::parse("100.123456789:899.987654321");
+    sweepOf(e)->delta = 20;
     const Explorer r = resolved(e, steps_);
     for (std::int64_t tick = 0; tick < 256; tick += 7) {
         const Picture p = makePicture(r, about_, 1, *step_, placed_, tick);
         const render::LegendLayer& told = p.legend.layers.at(0);
         EXPECT_EQ(told.shown, std::pair(100.123456789, 899.987654321));
         // To a fiftieth of the window's half width, 0.4: one decimal.
-        const double contour = timeseries::ValueSweep(*r.sweep).contour(tick);
+        const double contour = timeseries::ValueSweep(*sweepOf(r)).contour(tick);
         EXPECT_EQ(told.range, fmt::format("{:.1f} ± 20 K", contour));
     }
 }
 
 TEST_F(PictureOfARamp, TheSweptWindowIsTheFirstLayerOfEachTick) {
     Explorer e = withRanges({"0:9"});
-    e.sweep.emplace();
-    e.sweep->animation = RangeSet::parse("100:200");
-    e.sweep->delta = 5;
-    e.sweep->timerSteps = 11;
-    e.sweep->path = timeseries::SweepPath::Loop;
+    setSweep(e, {});
+    sweepOf(e)->animation = RangeSet::parse("100:200");
+    sweepOf(e)->delta = 5;
+    sweepOf(e)->timerSteps = 11;
+    sweepOf(e)->path = timeseries::SweepPath::Loop;
     for (std::int64_t tick = 0; tick < 11; ++tick) {
         const Picture p = pictureOf(e, tick);
         ASSERT_EQ(p.scene.layers.size(), 2u);
@@ -54,11 +56,11 @@ TEST_F(PictureOfARamp, TheSweptWindowIsCutToWhatWasKept) {
     step_ = ramp(0, RangeSet::parse("150:160"));
     Explorer e;
     e.keep = RangeSet::parse("150:160");
-    e.sweep.emplace();
-    e.sweep->animation = RangeSet::parse("100:200");
-    e.sweep->delta = 5;
-    e.sweep->timerSteps = 11;
-    e.sweep->path = timeseries::SweepPath::Loop;
+    setSweep(e, {});
+    sweepOf(e)->animation = RangeSet::parse("100:200");
+    sweepOf(e)->delta = 5;
+    sweepOf(e)->timerSteps = 11;
+    sweepOf(e)->path = timeseries::SweepPath::Loop;
     std::vector<std::string> amounts;
     for (std::int64_t tick = 4; tick < 8; ++tick)
         amounts.push_back(pictureOf(e, tick).legend.layers.at(0).amount);
@@ -72,11 +74,11 @@ TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {
     const auto step = ramp(0, RangeSet::parse("(600,900)"));
     Explorer e;
     e.keep = RangeSet::parse("(600,900)");
-    e.sweep.emplace();
-    e.sweep->animation = *e.keep;
-    e.sweep->timerSteps = 3;
+    setSweep(e, {});
+    sweepOf(e)->animation = *e.keep;
+    sweepOf(e)->timerSteps = 3;
     for (const double delta : {0.0, 1e-9, 2.0}) {
-        e.sweep->delta = delta;
+        sweepOf(e)->delta = delta;
         const Explorer whole = resolved(e, {{1, step}});
         for (std::int64_t tick = 0; tick < 3; ++tick) {
             const Picture picture = makePicture(whole, about_, 1, *step, placed_, tick);
@@ -87,9 +89,9 @@ TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {
 
 TEST_F(PictureOfARamp, OneTickAloneIsTheSweepWhereItStands) {
     Explorer e = withRanges({"0:9"});
-    e.sweep.emplace();
-    e.sweep->animation = RangeSet::parse("100:200");
-    e.sweep->timerSteps = 11;
+    setSweep(e, {});
+    sweepOf(e)->animation = RangeSet::parse("100:200");
+    sweepOf(e)->timerSteps = 11;
     e = resolved(e, steps_);
     const Explorer alone = onlyThis(e, 1, 7);
     Explorer expected = e;
@@ -98,7 +100,7 @@ TEST_F(PictureOfARamp, OneTickAloneIsTheSweepWhereItStands) {
     expected.play.tick = 7;
     EXPECT_TRUE(alone == expected);
     EXPECT_FALSE(needsSamples(alone));
-    e.sweep.reset();
+    removeLayer(e, 0);
     EXPECT_FALSE(onlyThis(e, 1, 7).oneTick);
 }
 

@@ -1,5 +1,5 @@
 // What panels ask for, done.
-#include "app/desktop/errands.h"
+#include "app/desktop/file_actions.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -15,7 +15,7 @@ namespace app::desktop {
 namespace {
 
 // For the window and for the headset's panel: one function serves both.
-TEST(Errands, DiscardTheSessionThatWasLeft) {
+TEST(FileActions, DiscardTheSessionThatWasLeft) {
     const auto home = tests::freshFolder();
     setenv("XDG_STATE_HOME", home.c_str(), 1);
     setenv("XDG_CONFIG_HOME", home.c_str(), 1);
@@ -33,13 +33,13 @@ TEST(Errands, DiscardTheSessionThatWasLeft) {
     Exploration exploration({});
     panels::Interface interface([] {});
     std::optional<ExportJob> exporting;
-    Errands errands(exploration, canvas, exporting, [](const std::string&) {});
-    const auto file = errands.offers().autosave;
+    FileActions fileActions(exploration, canvas, exporting, [](const std::string&) {});
+    const auto file = fileActions.offers().autosave;
     ASSERT_TRUE(std::filesystem::exists(file));
     panels::Requests requests;
     requests.discardLeft = true;
-    errands.serve(requests, interface);
-    EXPECT_TRUE(errands.offers().autosave.empty());
+    fileActions.serve(requests, interface);
+    EXPECT_TRUE(fileActions.offers().autosave.empty());
     EXPECT_FALSE(std::filesystem::exists(file));
 }
 

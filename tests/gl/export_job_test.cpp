@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/choices/session.h"
+#include "app/choices/sweep_edits.h"
 #include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 
@@ -59,8 +60,9 @@ TEST(ExportJobOfTheProgram, HandsOnWhyItFailed) {
 TEST(ExportJobOfTheProgram, LeavesWholePicturesOnlyWhenCancelled) {
     const auto folder = tests::freshFolder();
     Explorer e = fire();
-    e.sweep = timeseries::SweepSettings{
-        .animation = timeseries::RangeSet::parse("300:1600"), .delta = 50, .timerSteps = 100000};
+    setSweep(e, timeseries::SweepSettings{.animation = timeseries::RangeSet::parse("300:1600"),
+                                          .delta = 50,
+                                          .timerSteps = 100000});
     ExportJob job(e, {folder / "fire.png", e, {3, 4, 5}}, tests::program());
     for (job.poll(); job.done() < 2; job.poll()) {
         ASSERT_EQ(job.state(), State::Running) << job.outcome();

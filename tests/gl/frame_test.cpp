@@ -25,7 +25,7 @@ struct FrameWorld {
     gl::HeadlessContext context_;
     timeseries::SortedStep step_ = tests::noise(tests::cube(20));
     PlacedPoints placed_{step_.grid()};
-    GpuStep onGpu_{step_, placed_};
+    GlStep onGpu_{step_, placed_};
     Scene scene_{
         .step = step_,
         .placed = placed_,
@@ -102,7 +102,7 @@ constexpr std::uint64_t kPiece = std::max(kPiecePoints, TileSum::kLeast + kSubse
 TEST_P(Frame, AnEyeDrawnBitByBitIsTheSameBitForBit) {
     const timeseries::SortedStep step = tests::noise(tests::cube(40));
     const PlacedPoints placed(step.grid());
-    GpuStep onGpu(step, placed);
+    GlStep onGpu(step, placed);
     for (const Order order : {Order::None, Order::BackToFront})
         // From outside by point sprites, from inside by quads.
         for (const glm::dvec3 from : {glm::dvec3(-0.05, -3, 0), glm::dvec3(0.2, 0.1, 0.3)}) {
@@ -214,7 +214,7 @@ TEST_P(Frame, ChannelsOfDataAreTheTruthsWhereCellsAreAThousandTimesAsLongAsWide)
     const timeseries::Grid grid({tests::axis(12), tests::axis(10), tests::axis(8, 0, 1000)});
     const auto step = tests::noise(std::make_shared<timeseries::Grid>(grid));
     const PlacedPoints placed(grid);
-    GpuStep onGpu(step, placed);
+    GlStep onGpu(step, placed);
     const Scene scene{
         .step = step,
         .placed = placed,

@@ -45,7 +45,7 @@ class GlCellsOf : public testing::Test {
                    .clearColor = glm::vec4(0),
                    .clearDepth = opaque});
         layers_.setLayers(scene, ValueScale::of(scene.layers));
-        const auto frame = cells_.prepare(scene, Runs{}, GpuStep(scene.step, scene.placed));
+        const auto frame = cells_.prepare(scene, Runs{}, GlStep(scene.step, scene.placed));
         const auto sum = frame->begin(view, channels, layer, targets);
         std::uint64_t added = 0;
         while (!sum->done()) added += sum->add(slice);
@@ -136,9 +136,9 @@ TEST_F(GlCellsOf, OctantsAreTheProcessors) {
 TEST_F(GlCellsOf, AnyUprightOrLeaningGridIsTheProcessors) {
     timeseries::Axis down = tests::axis(7, 100, -3), uneven = tests::axis(5);
     uneven.coordinates = {0, 1, 4, 4.5, 9};
-    timeseries::Frame leaning;
+    timeseries::CoordinateFrame leaning;
     leaning.directions = tests::leaning({1, 0.2, 0}, {-0.3, 1, 0.1}, {0.1, 0.4, 1});
-    for (const timeseries::Frame& frame : {timeseries::Frame{}, leaning}) {
+    for (const timeseries::CoordinateFrame& frame : {timeseries::CoordinateFrame{}, leaning}) {
         CellWorld world(
             sampled(std::make_shared<Grid>(std::array{down, uneven, tests::axis(6, -2, 2)}, frame),
                     wave),

@@ -151,10 +151,10 @@ TEST_F(GlMeshes, ComeInSlicesAndOnceForAllSteps) {
     EXPECT_EQ(GlMesh::bytesOf(*grid->mesh()), whole);
     Scene ordered = one.scene;
     ordered.order = Order::BackToFront;
-    GpuStep first(one.step, one.placed);
+    GlStep first(one.step, one.placed);
     EXPECT_FALSE(first.ready(ordered));
     EXPECT_EQ(first.missingBytes(ordered, {}), whole);
-    EXPECT_EQ(GpuStep::neededBytes(ordered, {}), whole);
+    EXPECT_EQ(GlStep::neededBytes(ordered, {}), whole);
     first.upload(ordered, {}, 100);
     EXPECT_EQ(first.missingBytes(ordered, {}), whole - 100);
     EXPECT_FALSE(first.ready(ordered));
@@ -163,10 +163,10 @@ TEST_F(GlMeshes, ComeInSlicesAndOnceForAllSteps) {
     EXPECT_TRUE(first.ready(ordered));
     const std::uint64_t alone = first.bytes();
 
-    const GpuStep second(other.step, other.placed, first.mesh());
+    const GlStep second(other.step, other.placed, first.mesh());
     EXPECT_EQ(second.mesh(), first.mesh());
     EXPECT_EQ(first.bytes() + whole / 2, alone);
-    EXPECT_NE(GpuStep(own.step, own.placed, first.mesh()).mesh(), first.mesh());
+    EXPECT_NE(GlStep(own.step, own.placed, first.mesh()).mesh(), first.mesh());
 }
 
 }  // namespace

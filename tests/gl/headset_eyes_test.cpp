@@ -38,9 +38,9 @@ class HeadsetEyes : public testing::Test {
     // The light of a renderer that has seen nothing else, pictures of `size`.
     std::vector<render::EyePicture> rendered(const Shown& shown, glm::ivec2 size) const {
         const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
-        render::GpuStep onGpu(*shown.sorted, placed);
+        render::GlStep onGpu(*shown.sorted, placed);
         const Picture picture =
-            makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed);
+            makePicture(shown.explorer, shown.dataset.variable, shown.step, *shown.sorted, placed);
         render::FrameRenderer renderer;
         std::array views{viewOf(eyes_[0], placement_), viewOf(eyes_[1], placement_)};
         for (render::View& view : views) view.size = size;

@@ -1,4 +1,4 @@
-// The panel under a ray: what is pressed there is asked of the room.
+// The panel under a ray: what is pressed there is asked for.
 #include "app/headset/panel.h"
 
 #include <gtest/gtest.h>
@@ -20,18 +20,18 @@ class PanelUnderARay : public testing::Test {
                           .performance = {},
                           .buttons = {.canUndo = true}};
 
-    static Pointer on(RoomCommand command, bool pressed) {
+    static Pointer on(HandCommand command, bool pressed) {
         const glm::vec2 size(kPanelPixels);
-        const panels::Rect button = roomButton(panels::layoutOf(size, kPanelScale), command);
+        const panels::Rect button = handButton(panels::layoutOf(size, kPanelScale), command);
         return {.at = glm::dvec2(button.centre() / size), .pressed = pressed};
     }
-    std::optional<RoomCommand> draw(const std::optional<Pointer>& pointer) {
+    std::optional<HandCommand> draw(const std::optional<Pointer>& pointer) {
         return panel_.draw(world_.exploration, pointer, around_, std::chrono::milliseconds(10))
-            .room;
+            .interaction;
     }
     // All that is asked while the ray comes, presses, and lets go.
-    std::vector<RoomCommand> click(RoomCommand button) {
-        std::vector<RoomCommand> asked;
+    std::vector<HandCommand> click(HandCommand button) {
+        std::vector<HandCommand> asked;
         for (const bool pressed : {false, true, true, false, false})
             if (const auto command = draw(on(button, pressed))) asked.push_back(*command);
         return asked;
@@ -40,25 +40,25 @@ class PanelUnderARay : public testing::Test {
 
 TEST_F(PanelUnderARay, EachButtonAsksForItsOwnOnceAClick) {
     draw({});  // before there is a ray
-    for (const RoomCommand command : {RoomCommand::Bring, RoomCommand::UndoMove,
-                                      RoomCommand::ResetSize, RoomCommand::ClipByHand})
+    for (const HandCommand command : {HandCommand::Bring, HandCommand::UndoMove,
+                                      HandCommand::ResetSize, HandCommand::ClipByHand})
         EXPECT_EQ(click(command), std::vector{command});
 }
 
 TEST_F(PanelUnderARay, WhereNoMoveIsLeftNoneIsTakenBack) {
     draw({});
     around_.buttons.canUndo = false;
-    EXPECT_TRUE(click(RoomCommand::UndoMove).empty());
-    EXPECT_EQ(click(RoomCommand::Bring).size(), 1u);
+    EXPECT_TRUE(click(HandCommand::UndoMove).empty());
+    EXPECT_EQ(click(HandCommand::Bring).size(), 1u);
 }
 
 TEST_F(PanelUnderARay, BeforeThereAreDataItHasNoButtons) {
     Exploration empty({});
     for (const bool pressed : {false, true, false})
         EXPECT_FALSE(panel_
-                         .draw(empty, on(RoomCommand::Bring, pressed), around_,
+                         .draw(empty, on(HandCommand::Bring, pressed), around_,
                                std::chrono::milliseconds(10))
-                         .room);
+                         .interaction);
 }
 
 // At a step that the others do not have, of a variable that is not theirs.

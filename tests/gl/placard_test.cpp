@@ -93,7 +93,7 @@ TEST_F(Placards, ThePointsAreBeforeOrBehind) {
         {},
         Order::None,
         {}};
-    GpuStep onGpu(step, placed);
+    GlStep onGpu(step, placed);
     const auto pictureOf = [&](const Scene& drawn, double y) {
         const std::vector<Placard> placards{{standing(y, {2, 2}), glm::vec3(0, 0, 1)}};
         return renderer_

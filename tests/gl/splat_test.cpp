@@ -371,7 +371,7 @@ TEST_F(GlSplat, ValuesOnAServingScaleDrawTheSameColours) {
         GlTargets targets(view.size);
         gl::begin(
             {.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
-        GpuStep onGpu(step, placed);
+        GlStep onGpu(step, placed);
         onGpu.upload(scene, scale);
         GlSplatter splatter;
         const auto list = splatter.upload(scene, Runs{}, onGpu);

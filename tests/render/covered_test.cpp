@@ -15,7 +15,7 @@ struct CoveredWorld {
     explicit CoveredWorld(const glm::dmat3& directions, const Footprint& footprint = {})
         : step(tests::stepOf(std::make_shared<timeseries::Grid>(
                                  std::array{tests::axis(4), tests::axis(3), tests::axis(5, 0, 0.5)},
-                                 timeseries::Frame{.directions = directions}),
+                                 timeseries::CoordinateFrame{.directions = directions}),
                              [](std::size_t) { return 1.0; })),
           placed(step.grid()),
           scene{.step = step,

@@ -167,8 +167,8 @@ TEST(Truth, AShearedSlabIsAsDeepAsTheRaysPathThroughIt) {
     // The same columns leaning: k is 30 degrees off the slab's normal, j 20 degrees off its own.
     const glm::dmat3 lean =
         tests::leaning({1, 0, 0}, {std::tan(0.35), 1, 0}, {0.5, 0, std::sqrt(0.75)});
-    const auto grid =
-        std::make_shared<Grid>(std::array{axis(40), axis(40), axis(8)}, timeseries::Frame{lean});
+    const auto grid = std::make_shared<Grid>(std::array{axis(40), axis(40), axis(8)},
+                                             timeseries::CoordinateFrame{lean});
     const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }));
     const double cell = world.placed.cell(0).x;
     const double thickness = 8 * cell * std::sqrt(0.75) / world.placed.unitLength();
@@ -188,7 +188,7 @@ TEST(Truth, AShearedSlabIsAsDeepAsTheRaysPathThroughIt) {
 TEST(Truth, ShearedCellsKeepTheTotalFromEverySide) {
     const auto grid = std::make_shared<Grid>(
         std::array{axis(2), axis(2, 0, 2), axis(2, 0, 0.5)},
-        timeseries::Frame{tests::leaning({1, 0, 0.2}, {1.5, 1, 0}, {-0.6, 0.3, 1})});
+        timeseries::CoordinateFrame{tests::leaning({1, 0, 0.2}, {1.5, 1, 0}, {-0.6, 0.3, 1})});
     for (const Footprint footprint : {Footprint{Kernel::Quartic, 1}, Footprint{Kernel::Point, 3}}) {
         const World world(tests::stepOf(grid, [](std::size_t) { return 1.0; }),
                           RangeSet::everything(), footprint);
@@ -221,7 +221,7 @@ TEST(Truth, APointSplatIsASquareOfPixelsWithTheMassOfItsCell) {
         const glm::dmat3 directions = tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1});
         const World world(
             tests::stepOf(std::make_shared<Grid>(std::array{axis(1), axis(1), axis(1)},
-                                                 timeseries::Frame{directions}),
+                                                 timeseries::CoordinateFrame{directions}),
                           [](std::size_t) { return 1.0; }),
             RangeSet::everything(), {Kernel::Point, size});
         const double volume = glm::determinant(directions) * std::pow(world.placed.cell(0).x, 3);

@@ -125,11 +125,11 @@ TEST(Truth, OffAxisSplatsAreTheEllipsesThatALensWouldDraw) {
 TEST(Truth, EveryPixelThatASplatReachesIsDrawn) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    const World world(
-        tests::stepOf(std::make_shared<Grid>(
-                          std::array{axis(1), axis(1), axis(1)},
-                          timeseries::Frame{tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1})}),
-                      [](std::size_t) { return 1.0; }));
+    const World world(tests::stepOf(
+        std::make_shared<Grid>(
+            std::array{axis(1), axis(1), axis(1)},
+            timeseries::CoordinateFrame{tests::leaning({1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1})}),
+        [](std::size_t) { return 1.0; }));
     for (int trial = 0; trial < 300; ++trial) {
         const glm::dvec3 way(uniform(random), uniform(random), uniform(random));
         const double distance = 6 + 30 * std::abs(uniform(random));
@@ -165,7 +165,7 @@ TEST(Truth, TheUnitOfAViewChangesNothing) {
         for (const Footprint footprint :
              {Footprint{}, Footprint{Kernel::Point, 2}, Footprint{Kernel::Quartic, 1.5}}) {
             const World world(tests::stepOf(std::make_shared<Grid>(
-                                                axes, timeseries::Frame{tests::leaning(
+                                                axes, timeseries::CoordinateFrame{tests::leaning(
                                                           {1, 0.4, 0}, {0, 1, 0.5}, {0.3, 0, 1})}),
                                             [](std::size_t i) { return double(i); }),
                               RangeSet::everything(), footprint);

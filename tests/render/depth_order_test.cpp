@@ -18,7 +18,7 @@ using timeseries::RangeSet;
 std::shared_ptr<const timeseries::Grid> leaningGrid() {
     return std::make_shared<timeseries::Grid>(
         std::array{tests::axis(20), tests::axis(15, 0, 1.7), tests::axis(24, 3, 0.6)},
-        timeseries::Frame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
+        timeseries::CoordinateFrame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
 }
 
 Scene allOf(const timeseries::SortedStep& step, const PlacedPoints& placed, RangeStyle style = {}) {

@@ -18,7 +18,7 @@ std::shared_ptr<const timeseries::Grid> awkwardGrid() {
     for (double& x : uneven.coordinates) x = -std::exp(0.3 * x);
     return std::make_shared<timeseries::Grid>(
         std::array{tests::axis(11, 5, -0.3), uneven, tests::axis(13, 0, 1.7)},
-        timeseries::Frame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
+        timeseries::CoordinateFrame{tests::leaning({1, 0.3, 0}, {0.5, -1, 0}, {0.4, 0.2, 1}), {}});
 }
 
 struct AwkwardWorld {

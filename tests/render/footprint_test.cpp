@@ -27,7 +27,8 @@ double density(const glm::dvec3& kernel) {
 struct UniformWorld {
     UniformWorld(std::array<timeseries::Axis, 3> axes, const glm::dmat3& directions = glm::dmat3(1))
         : step(tests::stepOf(
-              std::make_shared<Grid>(std::move(axes), timeseries::Frame{.directions = directions}),
+              std::make_shared<Grid>(std::move(axes),
+                                     timeseries::CoordinateFrame{.directions = directions}),
               [](std::size_t) { return 1.0; })) {}
     timeseries::SortedStep step;
     PlacedPoints placed{step.grid()};

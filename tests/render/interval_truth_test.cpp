@@ -132,7 +132,7 @@ std::shared_ptr<const Grid> unevenGrid() {
 std::shared_ptr<const Grid> shearedGrid() {
     const auto lean = tests::leaning({1, 0, 0.2}, {0.5, 1, 0}, {-0.3, 0.3, 1});
     return std::make_shared<Grid>(std::array{axis(4), axis(5, 0, 0.7), axis(1)},
-                                  timeseries::Frame{lean});
+                                  timeseries::CoordinateFrame{lean});
 }
 
 const std::array<glm::dvec3, 3> kFrom = {glm::dvec3(0.7, -3, 1.1), glm::dvec3(-1.3, 1.2, -0.8),

@@ -31,8 +31,8 @@ class CanvasOfNoise : public testing::Test {
     void drawApart(const Shown& shown, const std::filesystem::path& file) {
         render::FrameRenderer renderer(render::SplatterChoice::Gl);
         const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
-        render::GpuStep onGpu(*shown.sorted, placed);
-        writeStill({shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed, 0},
+        render::GlStep onGpu(*shown.sorted, placed);
+        writeStill({shown.explorer, shown.dataset.variable, shown.step, *shown.sorted, placed, 0},
                    renderer, onGpu, {}, file);
     }
 
@@ -51,7 +51,7 @@ class CanvasOfBlocks : public CanvasOfNoise {
         world_ = tests::ShownSteps(64);
         world_.explorer.order = render::Order::None;  // in order lists bring their own points
     }
-    static constexpr std::uint64_t kBlockBytes = render::GpuStep::kBlock * 10;
+    static constexpr std::uint64_t kBlockBytes = render::GlStep::kBlock * 10;
 };
 
 }  // namespace app::canvas_of_noise

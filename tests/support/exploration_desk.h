@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "app/choices/sweep_edits.h"
 #include "app/exploration/exploration.h"
 #include "tests/support/scripted_reader.h"
 #include "tests/support/selection_oracle.h"
@@ -60,8 +61,10 @@ struct ExplorationDesk {
     void sweep(const char* ranges, double delta = 0,
                timeseries::SweepPath path = timeseries::SweepPath::Swing) {
         app::Explorer next = exploration.explorer();
-        next.sweep = timeseries::SweepSettings{
-            .animation = timeseries::RangeSet::parse(ranges), .delta = delta, .path = path};
+        app::setSweep(
+            next,
+            timeseries::SweepSettings{
+                .animation = timeseries::RangeSet::parse(ranges), .delta = delta, .path = path});
         exploration.edit(next);
     }
     std::size_t asked() const { return exploration.explorer().steps->first; }
@@ -92,19 +95,18 @@ inline app::PointCounts bruteForce(const World& world, const app::Shown& shown) 
     app::PointCounts counts;
     counts.layers.resize(e.layers.size());
     std::optional<timeseries::Range> window;
-    if (e.sweep) window = timeseries::ValueSweep(*e.sweep).window(e.play.tick);
+    if (const auto* const sweep = app::sweepOf(e))
+        window = timeseries::ValueSweep(*sweep).window(e.play.tick);
     for (std::size_t i = 0; i < world.edge * world.edge * world.edge; ++i) {
         const float value = world.value(static_cast<std::size_t>(at), shown.step, i);
         ++counts.total;
         if (!oracle::holds(kept.ranges(), value)) continue;
         ++counts.kept;
         bool selected = false;
-        if (window && oracle::holds(*window, value)) {
-            ++counts.swept;
-            selected = e.sweepLayer.visible;
-        }
         for (std::size_t k = 0; k < e.layers.size(); ++k) {
-            if (!oracle::holds(e.layers[k].ranges.ranges(), value)) continue;
+            const bool holds = k == 0 && window ? oracle::holds(*window, value)
+                                                : oracle::holds(e.layers[k].ranges.ranges(), value);
+            if (!holds) continue;
             ++counts.layers[k];
             selected = selected || e.layers[k].visible;
         }

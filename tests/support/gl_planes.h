@@ -22,12 +22,12 @@ class GlTest : public testing::Test {
     // scene is a wall at `opaqueDepth`.
     std::vector<float> plane(const render::Scene& scene, const render::View& view,
                              render::Channels channels, float opaqueDepth = 1) {
-        render::GpuStep step(scene.step, scene.placed);
+        render::GlStep step(scene.step, scene.placed);
         step.upload(scene, render::neededScale(scene));
         return plane(scene, step, view, channels, opaqueDepth);
     }
     // By a step that is ready for the scene.
-    std::vector<float> plane(const render::Scene& scene, const render::GpuStep& step,
+    std::vector<float> plane(const render::Scene& scene, const render::GlStep& step,
                              const render::View& view, render::Channels channels,
                              float opaqueDepth = 1) {
         using render::Channels;

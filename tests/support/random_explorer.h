@@ -30,16 +30,17 @@ class RandomExplorer {
             if (random_() % 4 == 0) axis.name = pick(kNames);
         }
         if (maybe()) {
-            e.sweep.emplace();
-            e.sweep->animation = ranges();
-            e.sweep->delta = std::abs(number());
-            e.sweep->timerSteps = 1 + static_cast<std::int64_t>(random_() % 1000);
-            e.sweep->step = 1 + static_cast<std::int64_t>(random_() % 9);
-            e.sweep->frequency = unit();
-            e.sweep->path = maybe() ? timeseries::SweepPath::Loop : timeseries::SweepPath::Swing;
-            e.sweepLayer = styled({});
+            e.layers.push_back(styled({}));
+            e.layers.front().motion.emplace();
+            app::sweepOf(e)->animation = ranges();
+            app::sweepOf(e)->delta = std::abs(number());
+            app::sweepOf(e)->timerSteps = 1 + static_cast<std::int64_t>(random_() % 1000);
+            app::sweepOf(e)->step = 1 + static_cast<std::int64_t>(random_() % 9);
+            app::sweepOf(e)->frequency = unit();
+            app::sweepOf(e)->path =
+                maybe() ? timeseries::SweepPath::Loop : timeseries::SweepPath::Swing;
         }
-        const std::size_t most = render::kMaxLayers - (e.sweep ? 1 : 0);
+        const std::size_t most = render::kMaxLayers - e.layers.size();
         for (std::size_t i = random_() % (most + 1); i > 0; --i)
             e.layers.push_back(styled(random_() % 5 == 0 ? timeseries::RangeSet() : ranges()));
         if (maybe()) e.model = app::Model::Cells;
@@ -56,11 +57,11 @@ class RandomExplorer {
         if (maybe()) e.stereo.convergence = 0.01 + unit();
         e.size = {pixels(), pixels()};
         if (maybe()) e.play = play();
-        if (e.sweep && maybe()) {
+        if (app::sweepOf(e) && maybe()) {
             e.oneTick = true;
             e.play.tick =
                 static_cast<std::int64_t>(random_()) & std::numeric_limits<std::int64_t>::max();
-            e.play.tick %= app::ticksOf(*e.sweep);
+            e.play.tick %= app::ticksOf(*app::sweepOf(e));
         }
         return e;
     }

@@ -149,22 +149,21 @@ class ScriptedReader : public timeseries::Reader {
 };
 
 // As app::openDataset chooses the variable.
-inline app::Dataset scriptedDataset(const World& world, std::shared_ptr<Script> script,
-                                    const std::string& name, const std::string& variable) {
-    app::Dataset dataset{std::make_unique<ScriptedReader>(world, std::move(script)),
-                         {{name}, {}, "", {}},
-                         0,
-                         {},
-                         name,
-                         world.steps / 2};
+inline app::OpenDataset scriptedDataset(const World& world, std::shared_ptr<Script> script,
+                                        const std::string& name, const std::string& variable) {
+    app::OpenDataset dataset;
+    dataset.reader = std::make_unique<ScriptedReader>(world, std::move(script));
+    dataset.series.files = {name};
+    dataset.name = name;
+    dataset.defaultStep = world.steps / 2;
     const auto at = std::ranges::find(world.variables, variable);
     if (!variable.empty() && at == world.variables.end())
         throw timeseries::FileError(fmt::format("{}: no variable '{}'", name, variable));
     if (!variable.empty())
-        dataset.variable = static_cast<std::size_t>(at - world.variables.begin());
+        dataset.variableIndex = static_cast<std::size_t>(at - world.variables.begin());
     const auto variables = dataset.reader->variables();
     dataset.variables.assign(variables.begin(), variables.end());
-    dataset.about = variables[dataset.variable];
+    dataset.variable = variables[dataset.variableIndex];
     return dataset;
 }
 

@@ -9,13 +9,13 @@ namespace tests {
 // Steps of noise (each other noise) on n^3 points, values in [0, 1); nothing reads them.
 struct ShownSteps {
     explicit ShownSteps(std::size_t n, std::size_t count = 2) {
-        dataset.about.name = "noise";
-        dataset.about.time = std::make_shared<const timeseries::TimeAxis>(
+        dataset.variable.name = "noise";
+        dataset.variable.time = std::make_shared<const timeseries::TimeAxis>(
             timeseries::TimeAxis{"time", "s", "", std::vector(count, timeseries::TimePoint{})});
         for (std::size_t i = 0; i < count; ++i)
             steps.push_back(std::make_shared<const timeseries::SortedStep>(
                 noise(cube(n), static_cast<unsigned>(i + 1))));
-        dataset.about.grid = steps[0]->sharedGrid();
+        dataset.variable.grid = steps[0]->sharedGrid();
         explorer.files = {"noise.nc"};
         explorer.size = {200, 150};
         explorer.model = app::Model::Points;  // most tests are of them

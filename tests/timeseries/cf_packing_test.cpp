@@ -307,7 +307,8 @@ TEST(CfPacking, AnUnpackedBoundIsNotReadAsBits) {
 }
 
 TEST(CfPacking, NumbersInTheFieldsOrderAreReadStraightIntoIt) {
-    const auto straight = [](const Layout& layout, std::vector<NcAttribute> attributes = {}) {
+    const auto straight = [](const StridedLayout& layout,
+                             std::vector<NcAttribute> attributes = {}) {
         const void* told = nullptr;
         Field field;
         unpack(

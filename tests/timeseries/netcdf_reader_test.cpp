@@ -12,7 +12,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/support/netcdf_builder.h"
+#include "tests/support/netcdf_plane.h"
 #include "tests/support/read_variables.h"
 #include "timeseries/index/sorted_step.h"
 
@@ -21,26 +21,13 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::asValues;
 using tests::ncType;
 using tests::NetcdfBuilder;
 using tests::open;
+using tests::plane;
+using tests::refusalOf;
 using Path = std::filesystem::path;
-
-template <typename T>
-std::vector<T> asValues(const Field& field) {
-    return std::get<std::vector<T>>(field.values);
-}
-
-// What FileError says; "" when none is thrown.
-template <typename Do>
-std::string failure(Do action) {
-    try {
-        action();
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 // "x0 y1 z2" of each point, from a value that encodes its place in the file.
 template <typename T>
@@ -130,18 +117,6 @@ TEST(NetcdfReader, EveryValueLandsInItsPlaceWhateverTheOrderOfDimensionsAndTheTy
                 break;
         }
     }
-}
-
-// v(y = 2, x = 3) with what the test puts on it.
-template <typename T, typename Attributes>
-Path plane(const std::string& name, const std::vector<T>& values, Attributes attributes,
-           int mode = NC_NETCDF4) {
-    NetcdfBuilder file(name, mode);
-    const int y = file.dimension("y", 2), x = file.dimension("x", values.size() / 2);
-    const int v = file.variable("v", ncType<T>(), {y, x});
-    attributes(file, v);
-    file.write(v, values);
-    return file.close();
 }
 
 TEST(NetcdfReader, PackedShortsAreComparedWithFillBeforeUnpacking) {
@@ -237,56 +212,6 @@ TEST(NetcdfReader, SixtyFourBitIntegersStayExact) {
     EXPECT_THAT(unsignedField.missing, ElementsAre(false, true, false, false));
 }
 
-TEST(NetcdfReader, UnsignedAttributeTurnsBytesAndTheirFill) {
-    const auto path = plane<std::int8_t>(
-        "a.nc", {-1, -2, 0, 127},
-        [](auto& file, int v) {
-            file.text(v, "_Unsigned", "true");
-            file.template number<std::int8_t>(v, "_FillValue", -1);
-            file.template number<std::int8_t>(v, "valid_range", {1, -2});  // 1 to 254
-        },
-        NC_CLASSIC_MODEL);
-    const auto reader = open(path);
-    EXPECT_EQ(reader->variables()[0].missing, "_FillValue 255, outside 1..254");
-    const Field field = reader->read(0, 0);
-    EXPECT_THAT(asValues<std::uint8_t>(field), ElementsAre(255, 254, 0, 127));
-    EXPECT_THAT(field.missing, ElementsAre(true, false, true, false));
-}
-
-// What the library itself leaves where nothing was written is missing, and nothing else: not the
-// fill of the type that the values are meant as.
-template <typename T, typename Meant>
-void expectFillOfTheStoredType(const char* sign, Meant fillOfMeant) {
-    NetcdfBuilder file("a.nc");
-    const int y = file.dimension("y", 2), x = file.dimension("x", 2);
-    const int v = file.variable("v", ncType<T>(), {y, x});
-    file.text(v, "_Unsigned", sign);
-    file.write(v, {0, 0}, {1, 2}, std::vector<T>{static_cast<T>(fillOfMeant), 5});
-    const auto reader = open(file.close());
-    const Field field = reader->read(0, 0);
-    const std::vector<Meant>& values = asValues<Meant>(field);
-    EXPECT_EQ(values[0], fillOfMeant);
-    EXPECT_THAT(field.missing, ElementsAre(false, false, true, true)) << sign << sizeof(T);
-    EXPECT_EQ(reader->variables()[0].missing, fmt::format("netCDF's default fill {}", values[2]));
-}
-
-TEST(NetcdfReader, TheDefaultFillIsOfTheStoredTypeWhateverTheUnsignedAttributeSays) {
-    expectFillOfTheStoredType<std::int16_t>("true", std::uint16_t{NC_FILL_USHORT});
-    expectFillOfTheStoredType<std::int32_t>("true", std::uint32_t{NC_FILL_UINT});
-    expectFillOfTheStoredType<std::int64_t>("true", std::uint64_t{NC_FILL_UINT64});
-    expectFillOfTheStoredType<std::uint16_t>("false", std::int16_t{NC_FILL_SHORT});
-    expectFillOfTheStoredType<std::uint32_t>("false", std::int32_t{NC_FILL_INT});
-    expectFillOfTheStoredType<std::uint64_t>("false", std::int64_t{NC_FILL_INT64});
-}
-
-TEST(NetcdfReader, ClassicFilesHaveDefaultFillsToo) {
-    const auto path = plane<float>(
-        "a.nc", {NC_FILL_FLOAT, 5, 6, 7}, [](auto&, int) {}, 0);
-    const auto reader = open(path);
-    EXPECT_EQ(reader->variables()[0].missing, "netCDF's default fill 9.96921e+36");
-    EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(true, false, false, false));
-}
-
 TEST(NetcdfReader, StorageIsToldInTheDigitsOfTheFile) {
     const auto path = plane<std::uint8_t>("a.nc", {1, 2, 3, 4}, [](auto& file, int v) {
         file.number(v, "scale_factor", 0.1f);
@@ -301,83 +226,6 @@ TEST(NetcdfReader, StorageIsToldInTheDigitsOfTheFile) {
         file.number(v, "missing_value", 1e300);  // no float: it stands for none
     });
     EXPECT_EQ(open(floats)->variables()[0].missing, "_FillValue -1e+34");
-}
-
-TEST(NetcdfReader, TurnedStepsAreUnpackedAndMaskedInTheirNewPlace) {
-    NetcdfBuilder file("a.nc");
-    const int x = file.dimension("x", 2), t = file.dimension("time", 2), y = file.dimension("y", 3);
-    const int v = file.variable("v", NC_SHORT, {x, t, y});
-    file.number(v, "add_offset", 100.0);
-    file.number<std::int16_t>(v, "_FillValue", 7);
-    // x 0: t 0: y 0..2, t 1: y 0..2; x 1: the same.
-    file.write(v, std::vector<std::int16_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
-    const auto reader = open(file.close());
-    const Field field = reader->read(0, 0);
-    EXPECT_THAT(asValues<double>(field), ElementsAre(100, 106, 101, 107, 102, 108));
-    EXPECT_THAT(field.missing, ElementsAre(false, false, false, true, false, false));
-}
-
-TEST(NetcdfReader, MissingValuesMayBeSeveral) {
-    const auto path = plane<float>("a.nc", {1, -9, -99, -9.5f}, [](auto& file, int v) {
-        file.number(v, "missing_value", std::vector<double>{-9, -99});
-    });
-    const auto reader = open(path);
-    EXPECT_THAT(reader->variables()[0].missing, HasSubstr("missing_value -9, missing_value -99"));
-    EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(false, true, true, false));
-}
-
-TEST(NetcdfReader, FillOfAnotherTypeIsTheNearestOfTheVariables) {
-    // 1e20 as a double is not the float 1e20, but means it.
-    const auto path = plane<float>("a.nc", {1, 1e20f, 1.0001e20f, 2}, [](auto& file, int v) {
-        file.number(v, "missing_value", 1e20);
-    });
-    EXPECT_THAT(open(path)->read(0, 0).missing, ElementsAre(false, true, false, false));
-}
-
-TEST(NetcdfReader, ValidRangeIsInStoredValuesUnlessItHasTheScalesType) {
-    const auto stored = plane<std::int16_t>("a.nc", {9, 10, 20, 21}, [](auto& file, int v) {
-        file.number(v, "scale_factor", 0.5);
-        file.template number<std::int16_t>(v, "valid_min", 10);
-        file.template number<std::int16_t>(v, "valid_max", 20);
-    });
-    EXPECT_THAT(open(stored)->read(0, 0).missing, ElementsAre(true, false, false, true));
-    const auto unpacked = plane<std::int16_t>("b.nc", {9, 10, 20, 21}, [](auto& file, int v) {
-        file.number(v, "scale_factor", 0.5);
-        file.number(v, "valid_range", std::vector<double>{4.75, 10});
-    });
-    EXPECT_THAT(open(unpacked)->read(0, 0).missing, ElementsAre(true, false, false, true));
-}
-
-TEST(NetcdfReader, DefaultFillIsMissingExceptInBytes) {
-    const auto shorts =
-        plane<std::int16_t>("a.nc", {NC_FILL_SHORT, -32766, -32768, 1}, [](auto&, int) {});
-    EXPECT_THAT(open(shorts)->read(0, 0).missing, ElementsAre(true, false, false, false));
-    const auto bytes = plane<std::int8_t>("b.nc", {NC_FILL_BYTE, -128, 127, 1}, [](auto&, int) {});
-    EXPECT_TRUE(open(bytes)->read(0, 0).missing.empty());
-    const auto floats = plane<float>(
-        "c.nc", {NC_FILL_FLOAT, std::nextafter(NC_FILL_FLOAT, 0.0f), 1, 2}, [](auto&, int) {});
-    EXPECT_THAT(open(floats)->read(0, 0).missing, ElementsAre(true, false, false, false));
-    // A _FillValue of its own takes the default's place; a variable that is not filled has none.
-    const auto own = plane<std::int16_t>("d.nc", {NC_FILL_SHORT, 5, 6, 7}, [](auto& file, int v) {
-        file.template number<std::int16_t>(v, "_FillValue", 5);
-    });
-    EXPECT_THAT(open(own)->read(0, 0).missing, ElementsAre(false, true, false, false));
-    const auto noFill =
-        plane<std::int16_t>("e.nc", {NC_FILL_SHORT, 5, 6, 7}, [](auto& file, int v) {
-            NetcdfBuilder::check(nc_def_var_fill(file.id(), v, NC_NOFILL, nullptr));
-        });
-    EXPECT_TRUE(open(noFill)->read(0, 0).missing.empty());
-}
-
-TEST(NetcdfReader, NanIsLeftUnmarkedAlsoAsFillAndInValidRanges) {
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    const auto path = plane<float>("a.nc", {1, nan, 7, 3}, [&](auto& file, int v) {
-        file.number(v, "_FillValue", nan);
-        file.number(v, "valid_max", 5.0f);
-    });
-    const Field field = open(path)->read(0, 0);
-    EXPECT_TRUE(std::isnan(asValues<float>(field)[1]));
-    EXPECT_THAT(field.missing, ElementsAre(false, false, true, false));
 }
 
 TEST(NetcdfReader, MalformedAttributesAreOneSentence) {
@@ -404,7 +252,7 @@ TEST(NetcdfReader, MalformedAttributesAreOneSentence) {
     };
     for (const Case& c : cases) {
         const auto path = plane<std::int16_t>(c.name, {1, 2, 3, 4}, c.attributes);
-        const std::string what = failure([&] { open(path); });
+        const std::string what = refusalOf(path);
         EXPECT_THAT(what, HasSubstr(path.string() + ": variable 'v': " + c.expected)) << c.name;
     }
 }

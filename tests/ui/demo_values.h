@@ -48,13 +48,13 @@ inline std::pair<double, double> demoExtent() {
     return {lo, hi};
 }
 
-// The values between which the instrument stands, once all steps are seen; waits for that.
+// The values between which the histogram stands, once all steps are seen; waits for that.
 inline app::panels::ValueAxis axisOf(Driver& desk) {
     waitUntilSeen(desk, kDemoSteps);
     desk.settled();
     const auto [lo, hi] = demoExtent();
     const auto [bottom, top] = app::panels::withRoom(lo, hi);
-    const app::panels::Rect bars = placesOf(desk.size()).instrument.histogram;
+    const app::panels::Rect bars = placesOf(desk.size()).histogramPanel.histogram;
     return {bottom, top, bars.min.y, bars.max.y};
 }
 

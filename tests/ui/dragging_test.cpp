@@ -28,7 +28,7 @@ class DeskDrags : public DeskWithFire {
         EXPECT_NEAR(seconds(), times_[way.back()], 1e-3);
     }
     StepAxis acrossTheMap() const {
-        return {kDemoSteps, at_.instrument.map.min.x, at_.instrument.map.max.x};
+        return {kDemoSteps, at_.histogramPanel.map.min.x, at_.histogramPanel.map.max.x};
     }
     std::vector<double> times_ = demoTimes();
 };
@@ -77,7 +77,7 @@ class DeskDragsTheWindow : public DeskDrags {
 TEST_F(DeskDragsTheWindow, AlongTheAxis) {
     const ValueAxis values = axisOf(*desk_);
     const Shot before = picture();
-    const float x = at_.instrument.axis.centre().x;
+    const float x = at_.histogramPanel.axis.centre().x;
     // Within the window at its first tick, 300 to 500, and clear of the bracket's end at 400.
     desk_->drag({x, values.y(460)}, {x, values.y(1000)});
     const Shot after = picture();
@@ -89,7 +89,7 @@ TEST_F(DeskDragsTheWindow, AlongTheAxis) {
         inside += std::abs(static_cast<double>(value) - contour) <= 100 ? 1 : 0;
     EXPECT_EQ(points(), inside);
     EXPECT_GT(differing(after, before), 1000u);
-    EXPECT_EQ(e.sweep->animation.text(), "400:1400") << "where it goes stays";
+    EXPECT_EQ(app::sweepOf(e)->animation.text(), "400:1400") << "where it goes stays";
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST_F(DeskKeyboard, ReachesAndMovesTheEndOfARange) {
         return timeseries::toDouble(e.layers.at(0).ranges.ranges()[0].hi.value);
     };
     const std::uint64_t before = points();
-    tabTo(*desk_, app::panels::endHandle(at_.instrument, 1, axis.y(1000), true));
+    tabTo(*desk_, app::panels::endHandle(at_.histogramPanel, 1, axis.y(1000), true));
     desk_->press("Up");
     const app::Explorer once = saved(*desk_, newFile());
     EXPECT_GT(hi(once), 1000);

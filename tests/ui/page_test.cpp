@@ -1,4 +1,4 @@
-// The pages below the instrument, and the fields of numbers.
+// The pages below the histogram, and the fields of numbers.
 #include <set>
 
 #include "tests/ui/demo_values.h"

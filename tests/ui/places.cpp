@@ -9,8 +9,8 @@ using app::panels::Rect;
 Places placesOf(glm::ivec2 size, bool hasMap, float scale) {
     Places out;
     out.window = app::panels::layoutOf(glm::vec2(size), scale);
-    out.instrument = app::panels::instrumentLayout(
-        app::panels::sideLayout(out.window, 1).instrument, scale, hasMap);
+    out.histogramPanel = app::panels::histogramLayout(
+        app::panels::sideLayout(out.window, 1).histogramPanel, scale, hasMap);
     out.timeBar = app::panels::timeBarLayout(out.window.timeBar, scale);
     out.clear = out.messages = out.window.picture;
     out.clear.min.y += 130 * scale;

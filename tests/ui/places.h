@@ -9,7 +9,7 @@ namespace ui {
 
 struct Places {
     app::panels::Layout window;
-    app::panels::InstrumentLayout instrument;
+    app::panels::HistogramLayout histogramPanel;
     app::panels::TimeBarLayout timeBar;
     // Of the picture, what lies clear of labels, one short message and figures; where messages
     // appear, and what is left of them.

@@ -8,7 +8,7 @@ class DeskSelects : public DeskWithFire {
  protected:
     // Along the middle of the histogram's bars.
     void drag(const app::panels::ValueAxis& axis, double from, double to) {
-        const float x = at_.instrument.histogram.centre().x;
+        const float x = at_.histogramPanel.histogram.centre().x;
         desk_->drag({x, axis.y(from)}, {x, axis.y(to)});
     }
     static double lo(const app::Explorer& e, std::size_t layer, std::size_t range) {

@@ -38,9 +38,9 @@ class DeskSweeps : public DeskWithFire {
     }
     // The window's middle: between the ends of the animation on a cosine.
     static double middleOf(const app::Explorer& e) {
-        const auto range = e.sweep->animation.ranges()[0];
-        const double turn = static_cast<double>(e.play.tick * e.sweep->step) /
-                            static_cast<double>(e.sweep->timerSteps);
+        const auto range = app::sweepOf(e)->animation.ranges()[0];
+        const double turn = static_cast<double>(e.play.tick * app::sweepOf(e)->step) /
+                            static_cast<double>(app::sweepOf(e)->timerSteps);
         return glm::mix(toDouble(range.lo.value), toDouble(range.hi.value),
                         0.5 - 0.5 * std::cos(2 * std::numbers::pi * turn));
     }
@@ -48,10 +48,11 @@ class DeskSweeps : public DeskWithFire {
     static std::uint64_t countOf(const app::Explorer& e) {
         std::uint64_t count = 0;
         for (const float value : valuesAt(e.steps->first))
-            count += oracle::holds(e.layers.at(0).ranges.ranges(), value) ||
-                             std::abs(static_cast<double>(value) - middleOf(e)) <= e.sweep->delta
-                         ? 1
-                         : 0;
+            count +=
+                oracle::holds(e.layers.at(1).ranges.ranges(), value) ||
+                        std::abs(static_cast<double>(value) - middleOf(e)) <= app::sweepOf(e)->delta
+                    ? 1
+                    : 0;
         return count;
     }
 };
@@ -64,9 +65,9 @@ TEST_F(DeskSweeps, AllValuesSeenWhileTimeStands) {
     std::set<std::int64_t> ticks;
     for (int i = 0; i < 4; ++i) {
         const app::Explorer e = playOn();
-        ASSERT_TRUE(e.sweep);
-        ASSERT_EQ(e.sweep->path, timeseries::SweepPath::Swing);
-        const auto range = e.sweep->animation.ranges()[0];
+        ASSERT_TRUE(app::sweepOf(e));
+        ASSERT_EQ(app::sweepOf(e)->path, timeseries::SweepPath::Swing);
+        const auto range = app::sweepOf(e)->animation.ranges()[0];
         EXPECT_EQ(toDouble(range.lo.value), lo);
         EXPECT_EQ(toDouble(range.hi.value), hi);
         EXPECT_EQ(points(), countOf(e)) << e.play.tick;
@@ -84,9 +85,9 @@ TEST_F(DeskSweeps, OnlyTheValuesTyped) {
     double least = INFINITY, most = -INFINITY;
     for (int i = 0; i < 6; ++i) {
         const app::Explorer e = playOn();
-        ASSERT_EQ(e.sweep->animation.text(), "1100:1300");
-        ASSERT_EQ(e.sweep->delta, 20);
-        ASSERT_EQ(e.sweep->timerSteps, 16);
+        ASSERT_EQ(app::sweepOf(e)->animation.text(), "1100:1300");
+        ASSERT_EQ(app::sweepOf(e)->delta, 20);
+        ASSERT_EQ(app::sweepOf(e)->timerSteps, 16);
         EXPECT_EQ(points(), countOf(e)) << e.play.tick;
         least = std::min(least, middleOf(e));
         most = std::max(most, middleOf(e));

@@ -79,7 +79,7 @@ double Axis::width(std::size_t i) const {
     return 0.5 * coordinates[i + 1] - 0.5 * coordinates[i - 1];
 }
 
-Grid::Grid(std::array<Axis, 3> axes, Frame frame)
+Grid::Grid(std::array<Axis, 3> axes, CoordinateFrame frame)
     : axes_(std::move(axes)), frame_(std::move(frame)) {
     if (const std::string flaw = flawOf(frame_.directions); !flaw.empty())
         throw std::invalid_argument("directions: " + flaw);

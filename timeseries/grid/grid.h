@@ -34,14 +34,14 @@ struct Axis {
 
 // How the axes lie in the file's space: coordinates c along them are the place origin + directions
 // c.
-struct Frame {
+struct CoordinateFrame {
     glm::dmat3 directions{1.0};  // columns: of length 1, along increasing coordinates
     glm::dvec3 origin{0.0};
     std::array<std::string, 3> names{"x", "y", "z"};  // of the coordinates of space
 
     // Whether each axis runs along its own coordinate of space, which it then measures.
     bool aligned() const { return directions == glm::dmat3(1.0); }
-    friend bool operator==(const Frame&, const Frame&) = default;
+    friend bool operator==(const CoordinateFrame&, const CoordinateFrame&) = default;
 };
 
 // For each axis the coordinate of space that it runs along, forwards or backwards, but for
@@ -70,13 +70,13 @@ class Grid {
  public:
     // Throws std::invalid_argument when an axis is empty, not finite or not strictly monotonic, the
     // directions are flawed, or the point count passes 2^63.
-    explicit Grid(std::array<Axis, 3> axes, Frame frame = {});
+    explicit Grid(std::array<Axis, 3> axes, CoordinateFrame frame = {});
     // Axes without coordinates get the mesh's bounds. Of a mesh that moves, they are the series',
     // and each step has a grid, whose memory is its own.
     Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofOneStep = false);
 
     const std::array<Axis, 3>& axes() const { return axes_; }
-    const Frame& frame() const { return frame_; }
+    const CoordinateFrame& frame() const { return frame_; }
     // None: the axes tell where each point lies.
     const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
     bool ofOneStep() const { return ofOneStep_; }
@@ -99,7 +99,7 @@ class Grid {
 
  private:
     std::array<Axis, 3> axes_;
-    Frame frame_;
+    CoordinateFrame frame_;
     std::shared_ptr<const Mesh> mesh_;
     bool ofOneStep_ = false;
 };

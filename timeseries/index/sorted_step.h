@@ -71,7 +71,7 @@ class SortedStep {
     static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
                             unsigned threads = sharingThreads());
 
-    // The same of all values, for those who will ask for cells, or for the field: it is held until
+    // A step of all values, for those who will ask for cells, or for the field: it is held until
     // there are cells of it, where there can be.
     static SortedStep buildWithField(Field field, unsigned threads = sharingThreads());
 
@@ -87,18 +87,18 @@ class SortedStep {
     // StepFileError when the file is of another grid. Members may then throw what `again` throws.
     static SortedStep stored(std::shared_ptr<const StepFile> file, std::shared_ptr<const Grid> grid,
                              bool categories, Source source, unsigned threads = sharingThreads());
-    // The same where nothing else is known of the step: `again` throws what was wrong.
+    // A step of which nothing else is known than its file: `again` throws what was wrong.
     static SortedStep ofFile(std::shared_ptr<const StepFile> file, std::shared_ptr<const Grid> grid,
                              bool categories);
     // Null unless it is read from a file.
     const std::shared_ptr<const StepFile>& file() const { return file_; }
-    // The same step with no points in memory, for those who look at others by now. Cells stay.
+    // This step with no points in memory, for those who look at others by now. Cells stay.
     // REQUIRES: file().
     SortedStep reopened() const;
     // All values in the grid's order: of the source, which is soon read, where there is one.
     // Missing points are marked or NaN. REQUIRES: all values were kept.
     Field field() const;
-    // The same, without reading, where there are cells of it or it is held for them.
+    // The field without reading, where there are cells of it or it is held for them.
     std::shared_ptr<const Field> sharedField() const;
 
     // Disjoint, ascending, none empty. At most 2 (log2 n + 2) comparisons a range, and half a

@@ -34,7 +34,7 @@ ArrayLayout layoutOf(const ArrayHeader& header, const ArrayRoles& roles);
 
 struct ArrayPlacing {
     std::array<Axis, 3> axes;
-    Frame frame;
+    CoordinateFrame frame;
     ArrayLayout layout;
 };
 

@@ -39,7 +39,7 @@ std::vector<double> planeOf(const NetcdfFile& file, const NcVariable& coordinate
         coordinate, [&](const std::string& what) { file.failAttribute(coordinate, what); });
     const std::size_t rank = coordinate.dimensions.size();
     std::vector<std::size_t> start(rank), count(rank, 1);
-    Layout layout{{1, 1, 1}, {0, 0, 0}};
+    StridedLayout layout{{1, 1, 1}, {0, 0, 0}};
     std::size_t stride = 1;
     for (std::size_t i = rank; i-- > 0;) {
         const std::size_t d = coordinate.dimensions[i];

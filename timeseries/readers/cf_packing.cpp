@@ -290,30 +290,27 @@ void mark(Field& field, std::size_t point, std::size_t points) {
 }
 
 template <typename Stored, typename Value>
-void unpackInto(const Packing& packing, const Layout& layout, const std::vector<Stored>& stored,
-                Field& field, std::vector<Value>& values) {
+void unpackInto(const Packing& packing, const StridedLayout& layout,
+                const std::vector<Stored>& stored, Field& field, std::vector<Value>& values) {
     const MissingTest<Stored> missing(packing);
     const ValidInterval<Value> valid(packing.validUnpacked ? packing.validMin : std::nullopt,
                                      packing.validUnpacked ? packing.validMax : std::nullopt);
     const auto scale = static_cast<Value>(packing.scale);
     const auto offset = static_cast<Value>(packing.offset);
-    const auto [nx, ny, nz] = layout.size;
     std::size_t point = 0;
-    for (std::size_t z = 0; z < nz; ++z)
-        for (std::size_t y = 0; y < ny; ++y)
-            for (std::size_t x = 0; x < nx; ++x, ++point) {
-                const Stored number =
-                    stored[x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]];
-                Value value = static_cast<Value>(number);
-                if (packing.scaled) value = static_cast<Value>(value * scale + offset);
-                values[point] = value;
-                if (missing(number) || (value == value && !valid.holds(value)))
-                    mark(field, point, values.size());
-            }
+    forEachPlace(layout, [&](std::size_t place) {
+        const Stored number = stored[place];
+        Value value = static_cast<Value>(number);
+        if (packing.scaled) value = static_cast<Value>(value * scale + offset);
+        values[point] = value;
+        if (missing(number) || (value == value && !valid.holds(value)))
+            mark(field, point, values.size());
+        ++point;
+    });
 }
 
 // The stored numbers are in the field's own order; an axis of one point may have any stride.
-bool inOrder(const Layout& layout) {
+bool inOrder(const StridedLayout& layout) {
     std::size_t expected = 1;
     for (std::size_t i = 0; i < 3; ++i) {
         if (layout.size[i] != 1 && layout.stride[i] != expected) return false;
@@ -342,8 +339,8 @@ Packing packingOf(const NcVariable& variable, const Malformed& malformed) {
     return packing;
 }
 
-void unpack(const Packing& packing, const Layout& layout, const std::function<void(void*)>& read,
-            Field& field) {
+void unpack(const Packing& packing, const StridedLayout& layout,
+            const std::function<void(void*)>& read, Field& field) {
     const std::size_t points = layout.size[0] * layout.size[1] * layout.size[2];
     withType(packing.stored, [&](auto s) {
         using Stored = decltype(s);

@@ -11,6 +11,7 @@
 
 #include "timeseries/grid/field.h"
 #include "timeseries/readers/netcdf_header.h"
+#include "timeseries/readers/strided_layout.h"
 
 namespace timeseries {
 
@@ -35,15 +36,9 @@ struct Packing {
 Packing packingOf(const NcVariable& variable,
                   const std::function<void(const std::string&)>& malformed);
 
-// Where the stored numbers of a step lie: point (x, y, z) at x * stride[0] + ....
-struct Layout {
-    std::array<std::size_t, 3> size;    // nx, ny, nz
-    std::array<std::size_t, 3> stride;  // in stored numbers
-};
-
 // Fills `field`'s values and mask. `read` puts the stored numbers where it is told: straight into
 // the field's values when they need no unpacking nor turning.
-void unpack(const Packing& packing, const Layout& layout, const std::function<void(void*)>& read,
-            Field& field);
+void unpack(const Packing& packing, const StridedLayout& layout,
+            const std::function<void(void*)>& read, Field& field);
 
 }  // namespace timeseries

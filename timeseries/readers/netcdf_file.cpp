@@ -11,8 +11,8 @@
 #include <mutex>
 
 #include "timeseries/readers/classic_layout.h"
+#include "timeseries/readers/forked_call.h"
 #include "timeseries/readers/reader.h"
-#include "timeseries/readers/trial.h"
 
 namespace timeseries {
 namespace {
@@ -130,7 +130,7 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : path_
 
     const LibraryLock lock;
     if (first != 'C' && header == Header::New) {
-        const std::string end = trialOf([this] { open(); }, kMaxHeaderTime);
+        const std::string end = endOfForked([this] { open(); }, kMaxHeaderTime);
         if (!end.empty()) fail("header", "expected one that HDF5 can read, but HDF5 " + end);
     }
     open();

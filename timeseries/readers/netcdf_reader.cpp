@@ -258,7 +258,7 @@ void NetcdfReader::addVariable(std::size_t v) {
 // Which block of the file is a step, and where each axis runs in it.
 struct Block {
     std::vector<std::size_t> start, count;
-    Layout layout{{1, 1, 1}, {0, 0, 0}};
+    StridedLayout layout{{1, 1, 1}, {0, 0, 0}};
 };
 
 Block blockOf(const FileVariable& variable, std::size_t step, const Slab* slab) {

@@ -124,7 +124,7 @@ VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
     const std::string flaw = flawOf(directions.unit);
     VtkGrid result;
     if (!flaw.empty()) result.notes.push_back("drawn in index space: " + flaw);
-    Frame frame;
+    CoordinateFrame frame;
     if (!along && flaw.empty())
         frame = {directions.unit, {header.origin[0], header.origin[1], header.origin[2]}};
     const auto size = header.size(place);

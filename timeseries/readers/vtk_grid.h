@@ -12,7 +12,7 @@ namespace timeseries {
 
 struct VtkGrid {
     std::shared_ptr<const Grid> grid;
-    VtkLayout layout;
+    StridedLayout layout;
     std::vector<std::string> notes;
 };
 
@@ -20,7 +20,7 @@ struct VtkGrid {
 // axes; their coordinates are the file's before it is turned. REQUIRES: coordinates as many as
 // points when the header is that of a rectilinear grid, places when of a structured one.
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place);
-// The same of an unstructured grid. Throw FileError when its cells name points that are not there,
+// The grid of unstructured cells. Throw FileError when its cells name points that are not there,
 // or take no space.
 UnstructuredShapes vtkShapesOf(const VtkHeader& header);
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place, const UnstructuredShapes& shapes);

@@ -115,7 +115,7 @@ VtkHeader readVtkXmlHeader(const XmlFile& file);
 bool isVtkCollection(const XmlFile& file);
 // In the order of their times. Throws FileError.
 std::vector<VtkMember> readVtkCollection(const XmlFile& file);
-// The same of ParaView's JSON.
+// The members of ParaView's JSON.
 std::vector<VtkMember> readVtkSeries(const std::filesystem::path& path);
 // The members of a list, which has this name in the file. Throws FileError when there are none,
 // some have no time, or two have the same.
@@ -136,7 +136,7 @@ bool isVtkNumber(ValueType type, std::string_view text);
 bool isVtkGhostName(std::string_view name);
 // Throws FileError when there are too many points, none, or too many along an axis.
 void checkVtkExtent(const VtkHeader& header, std::string_view place);
-// The same of an unstructured grid's points and cells.
+// Throws FileError when an unstructured grid has too many points or cells.
 void checkVtkCount(const VtkHeader& header, std::string_view place);
 // Expects pieces to hold every point or cell: VTK leaves what none holds as it finds it in memory.
 // Costs a bit for each, and the pieces, whose values the file holds, declare as many.

@@ -236,7 +236,7 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
 
 template <typename T>
 void copyComponent(const T* from, std::size_t components, std::size_t component,
-                   const VtkLayout& layout, std::vector<T>& to) {
+                   const StridedLayout& layout, std::vector<T>& to) {
     to.resize(layout.size[0] * layout.size[1] * layout.size[2]);
     const bool asStored = components == 1 && layout.stride[0] == 1 &&
                           layout.stride[1] == layout.size[0] &&
@@ -246,16 +246,16 @@ void copyComponent(const T* from, std::size_t components, std::size_t component,
         return;
     }
     auto next = to.begin();
-    forEachTuple(layout,
+    forEachPlace(layout,
                  [&](std::size_t tuple) { *next++ = from[tuple * components + component]; });
 }
 
 template <typename T, typename Result>
-void magnitudes(const T* from, std::size_t components, const VtkLayout& layout,
+void magnitudes(const T* from, std::size_t components, const StridedLayout& layout,
                 std::vector<Result>& to) {
     to.resize(layout.size[0] * layout.size[1] * layout.size[2]);
     auto next = to.begin();
-    forEachTuple(layout, [&](std::size_t tuple) {
+    forEachPlace(layout, [&](std::size_t tuple) {
         double largest = 0, sum = 0;
         const T* vector = from + tuple * components;
         bool nan = false;
@@ -286,13 +286,13 @@ unsigned missingBits(VtkPlace place, bool levels) {
                      vtkDataSetAttributes::HIDDENCELL;
 }
 
-void mark(vtkDataArray& ghosts, VtkPlace place, const VtkLayout& layout,
+void mark(vtkDataArray& ghosts, VtkPlace place, const StridedLayout& layout,
           std::vector<bool>& missing) {
     const bool levels = std::string_view(ghosts.GetName()) == "vtkGhostLevels";
     const unsigned bits = missingBits(place, levels);
     missing.reserve(layout.size[0] * layout.size[1] * layout.size[2]);
     bool any = false;
-    forEachTuple(layout, [&](std::size_t tuple) {
+    forEachPlace(layout, [&](std::size_t tuple) {
         const auto flags = static_cast<unsigned>(
             std::clamp(ghosts.GetComponent(static_cast<vtkIdType>(tuple), 0), 0.0, 255.0));
         missing.push_back((flags & bits) != 0);
@@ -301,7 +301,7 @@ void mark(vtkDataArray& ghosts, VtkPlace place, const VtkLayout& layout,
     if (!any) missing = {};
 }
 
-void fill(vtkDataArray& stored, const VtkArray& array, VtkPart part, const VtkLayout& layout,
+void fill(vtkDataArray& stored, const VtkArray& array, VtkPart part, const StridedLayout& layout,
           Field& field) {
     withType(array.type, [&]<typename T>(T) {
         const T* from = static_cast<const T*>(stored.GetVoidPointer(0));
@@ -369,7 +369,7 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
 }
 
 void readVtkArray(const VtkHeader& header, const VtkArray& array, VtkPart part,
-                  const VtkLayout& layout, Field& field) {
+                  const StridedLayout& layout, Field& field) {
     const std::string place = fmt::format("'{}'", array.name);
     const Arrays arrays = withVtk(header, place, [&] { return readArrays(header, array); });
     const auto count = static_cast<vtkIdType>(header.count(array.place));

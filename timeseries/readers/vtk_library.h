@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "timeseries/readers/strided_layout.h"
 #include "timeseries/readers/vtk_header.h"
 
 namespace timeseries {
@@ -25,25 +26,10 @@ struct VtkPart {
     std::size_t component = 0;
 };
 
-// Where the tuples of the grid's points lie: point (x, y, z) at x * stride[0] + ... .
-struct VtkLayout {
-    std::array<std::size_t, 3> size{}, stride{};
-};
-
-// Calls visit(tuple) for each point of the grid, x fastest.
-template <typename Visit>
-void forEachTuple(const VtkLayout& layout, Visit visit) {
-    const auto& [nx, ny, nz] = layout.size;
-    for (std::size_t z = 0; z < nz; ++z)
-        for (std::size_t y = 0; y < ny; ++y)
-            for (std::size_t x = 0; x < nx; ++x)
-                visit(x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]);
-}
-
 // Reads this array, and no other where the file lets VTK choose, into field's values and mask.
 // The magnitude of float32 is computed in double and kept as float32; of all else it is float64.
 // Throws FileError.
 void readVtkArray(const VtkHeader& header, const VtkArray& array, VtkPart part,
-                  const VtkLayout& layout, Field& field);
+                  const StridedLayout& layout, Field& field);
 
 }  // namespace timeseries

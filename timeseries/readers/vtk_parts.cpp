@@ -276,10 +276,10 @@ struct Gathered {
 
 // From the file's order to the grid's.
 template <typename T>
-T arranged(const T& from, const VtkLayout& layout) {
+T arranged(const T& from, const StridedLayout& layout) {
     T to;
     to.reserve(from.size());
-    forEachTuple(layout, [&](std::size_t tuple) { to.push_back(from[tuple]); });
+    forEachPlace(layout, [&](std::size_t tuple) { to.push_back(from[tuple]); });
     return to;
 }
 
@@ -306,7 +306,7 @@ VtkContents vtkContentsOf(const XmlFile& file) {
 }
 
 void readVtkArray(const VtkContents& contents, const VtkArray& array, VtkPart part,
-                  const VtkLayout& layout, Field& field) {
+                  const StridedLayout& layout, Field& field) {
     const VtkHeader& whole = contents.whole;
     const VtkArray& its = *arrayIn(whole, array);
     if (contents.parts.empty()) return readVtkArray(whole, its, part, layout, field);

@@ -24,6 +24,6 @@ VtkContents vtkContentsOf(const XmlFile& file);
 // As readVtkArray of a header; `array` is the whole's. Of points that several parts have, the one
 // that is no ghost counts.
 void readVtkArray(const VtkContents& contents, const VtkArray& array, VtkPart part,
-                  const VtkLayout& layout, Field& field);
+                  const StridedLayout& layout, Field& field);
 
 }  // namespace timeseries

@@ -24,14 +24,14 @@ bool isVtkSeries(const Path& path) {
 }
 
 // One step, of which all is known but values.
-struct Frame {
+struct OpenedStep {
     VtkContents contents;
     std::array<std::optional<VtkGrid>, 2> grids;  // by VtkPlace, where there is an array
     const VtkHeader& header() const { return contents.whole; }
 };
 
-Frame frameOf(VtkContents contents) {
-    Frame frame{std::move(contents), {}};
+OpenedStep frameOf(VtkContents contents) {
+    OpenedStep frame{std::move(contents), {}};
     VtkHeader& header = frame.contents.whole;
     std::optional<UnstructuredShapes> shapes;
     if (isUnstructured(header.kind)) shapes = vtkShapesOf(header);
@@ -49,7 +49,7 @@ Frame frameOf(VtkContents contents) {
 class VtkReader final : public Reader {
  public:
     // `first` is of the first member.
-    VtkReader(const Path& path, std::vector<VtkMember> members, Frame first, bool collection)
+    VtkReader(const Path& path, std::vector<VtkMember> members, OpenedStep first, bool collection)
         : files_{path}, members_(std::move(members)), frame_(std::move(first)) {
         const VtkHeader& header = frame_.header();
         if (header.arrays.empty()) {
@@ -84,7 +84,7 @@ class VtkReader final : public Reader {
     std::vector<Path> files_;
     std::string format_;
     std::vector<VtkMember> members_;  // [step]
-    Frame frame_;                     // of openStep_
+    OpenedStep frame_;                // of openStep_
     std::size_t openStep_ = 0;
     std::shared_ptr<const TimeAxis> time_;
     std::vector<std::string> notes_;  // of all variables

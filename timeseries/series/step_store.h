@@ -55,7 +55,7 @@ class StepStore {
     // Null where there is none, or it was made of what the origin no longer is; what is damaged is
     // removed and told.
     std::shared_ptr<const StepFile> find(const StepOrigin& origin);
-    // The same, which does not count as use.
+    // As find(), but it does not count as use.
     std::shared_ptr<const StepFile> look(const StepOrigin& origin);
     // The file that a step is, or would be, in.
     std::filesystem::path pathOf(const StepOrigin& origin) const;
@@ -67,7 +67,7 @@ class StepStore {
     bool write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
                std::chrono::system_clock::time_point opened,
                const std::function<bool(double)>& goOn = {});
-    // The same by whoever knows the points: into(file) writes all but finish(), and says whether
+    // Written by whoever knows the points: into(file) writes all but finish(), and says whether
     // it did.
     bool write(const StepOrigin& origin, const OriginStamp& stamp,
                std::chrono::system_clock::time_point opened,

@@ -72,11 +72,12 @@ TEST(ClippedBox, LiesInThePointsBoxWhicheverWayItsAxesRun) {
 class HandAtABox : public testing::Test {
  protected:
     // Oblique, in metres: a box with sides of some 0.6.
-    render::PlacedPoints placed_{timeseries::Grid(
-        std::array{tests::axis(4), tests::axis(4), tests::axis(4)},
-        timeseries::Frame{.directions = tests::leaning({1, 0.2, 0}, {-0.1, 1, 0.1}, {0.2, 0, 1}),
-                          .origin = {},
-                          .names = {}})};
+    render::PlacedPoints placed_{
+        timeseries::Grid(std::array{tests::axis(4), tests::axis(4), tests::axis(4)},
+                         timeseries::CoordinateFrame{
+                             .directions = tests::leaning({1, 0.2, 0}, {-0.1, 1, 0.1}, {0.2, 0, 1}),
+                             .origin = {},
+                             .names = {}})};
     xr::Placement placement_{
         {glm::normalize(glm::dquat(0.8, 0.1, -0.5, 0.3)), glm::dvec3(0.2, 1.3, -0.9)}, 0.5};
     glm::dmat4 stageFromAxes_ = stageFromAxes(placement_, placed_);

@@ -21,7 +21,7 @@ class ClipByHand : public testing::Test {
  protected:
     static tests::World leaning() {
         tests::World world;
-        timeseries::Frame frame;
+        timeseries::CoordinateFrame frame;
         frame.directions = tests::leaning({1, 0.2, 0}, {-0.1, 1, 0.1}, {0.2, 0, 1});
         timeseries::Axis down = tests::axis(4);
         down.down = true;

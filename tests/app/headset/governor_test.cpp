@@ -56,9 +56,10 @@ struct Loop {
         period.predicted(static_cast<int>(predicted) * display);
         const double periods = predicted = std::max(1.0, std::ceil(took / ms(display)));
         const nanoseconds work(std::llround(1e6 * took));
-        governor.took({period.now(), work,
-                       Governor::Frame::Splats{static_cast<std::uint64_t>(drawn()),
-                                               static_cast<std::uint64_t>(points / 128), work}});
+        governor.took(
+            {period.now(), work,
+             Governor::FrameCost::Splats{static_cast<std::uint64_t>(drawn()),
+                                         static_cast<std::uint64_t>(points / 128), work}});
         ++frames;
         missed += static_cast<int>(periods) - 1;
         time += periods * ms(display) / 1000;
@@ -166,7 +167,7 @@ TEST(Governor, CellsAreLearntApart) {
     Governor governor;
     const std::uint64_t splats = governor.splats(), cells = governor.cells();
     for (int i = 0; i < 20; ++i)
-        governor.took({20ms, 30ms, Governor::Frame::Splats{governor.cells(), 100, 30ms, true}});
+        governor.took({20ms, 30ms, Governor::FrameCost::Splats{governor.cells(), 100, 30ms, true}});
     EXPECT_EQ(governor.splats(), splats);
     EXPECT_LT(governor.cells(), cells / 2);
 }
@@ -174,7 +175,8 @@ TEST(Governor, CellsAreLearntApart) {
 TEST(Governor, WithoutAPeriodNothingIsLearnt) {
     Governor governor;
     const std::uint64_t first = governor.splats();
-    for (int i = 0; i < 100; ++i) governor.took({0ns, 1s, Governor::Frame::Splats{1000, 0, 1s}});
+    for (int i = 0; i < 100; ++i)
+        governor.took({0ns, 1s, Governor::FrameCost::Splats{1000, 0, 1s}});
     EXPECT_EQ(governor.splats(), first);
     EXPECT_EQ(governor.scale(), 1);
 }

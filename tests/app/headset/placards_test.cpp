@@ -17,19 +17,19 @@ class PlacardsOfARoom : public testing::Test {
     tests::ScriptedExploration world_;
     Exploration& e_ = world_.exploration;
     render::PlacedPoints placed_{e_.shown()->sorted->grid()};
-    RoomInput input_{.hands = {},
+    HandInput input_{.hands = {},
                      .head = xr::Pose{{1, 0, 0, 0}, {0, 1.6, 0}},
                      .dt = {},
                      .drawn = Drawn{&placed_, e_.shown()->sorted, e_.shown()->step},
                      .asked = {}};
-    Room room_;
+    HandInteraction interaction_;
 
-    std::vector<render::Placard> placards(const RoomBoards& boards = {}) {
-        room_.update(e_, input_);
-        return placardsOf(room_, input_.hands, *input_.head, boards);
+    std::vector<render::Placard> placards(const Boards& boards = {}) {
+        interaction_.update(e_, input_);
+        return placardsOf(interaction_, input_.hands, *input_.head, boards);
     }
     glm::dvec3 inStage(const glm::dvec3& world) const {
-        return glm::dvec3(xr::stageFromWorld(room_.placement()) * glm::dvec4(world, 1));
+        return glm::dvec3(xr::stageFromWorld(interaction_.placement()) * glm::dvec4(world, 1));
     }
     static glm::dvec3 at(const render::Placard& placard, double x, double y) {
         return glm::dvec3(placard.worldFromPlacard * glm::dvec4(x, y, 0, 1));
@@ -44,14 +44,14 @@ TEST_F(PlacardsOfARoom, EveryEdgeOfTheClipBoxIsALineFromEndToEnd) {
     next.clip = ClipBox{{1, 0, 0}, {3, 2, 3}};
     e_.edit(next);
     EXPECT_TRUE(placards().empty());
-    input_.asked = RoomCommand::ClipByHand;
+    input_.asked = HandCommand::ClipByHand;
     // At the face x = 1, from the left.
     const glm::dvec3 face = placed_.axesFromGrid({1, 1, 1.5});
     input_.hands[0].aim = xr::Pose{{1, 0, 0, 0}, inStage(face - glm::dvec3(0.05, 0, 0))};
     const auto all = placards();
-    ASSERT_EQ(room_.clipEdges().size(), 12u);
+    ASSERT_EQ(interaction_.clipEdges().size(), 12u);
     std::vector<glm::vec3> lit, others;
-    for (const ClipHand::Edge& edge : room_.clipEdges()) {
+    for (const ClipHand::Edge& edge : interaction_.clipEdges()) {
         const auto line = std::ranges::find_if(all, [&](const render::Placard& p) {
             return glm::distance(at(p, 0, -1), edge.from) < 1e-9 &&
                    glm::distance(at(p, 0, 1), edge.to) < 1e-9;
@@ -75,7 +75,7 @@ TEST_F(PlacardsOfARoom, ThePointAtATipAndTheOneKeptAreMarked) {
     const glm::dvec3 tip = inStage(0.97 * point);
     input_.hands[1].aim =
         xr::Pose{glm::quatLookAt(glm::normalize(glm::dvec3(1, 0, 1)), glm::dvec3(0, 1, 0)), tip};
-    RoomBoards boards;
+    Boards boards;
     boards.kept = placed_.position(5);
     const auto all = placards(boards);
     const auto marks = [&](const glm::dvec3& place) {
@@ -92,7 +92,7 @@ TEST_F(PlacardsOfARoom, TheReadoutStandsAtTheHandWhoseTipIsInTheVolume) {
     placards();
     for (xr::Hand& hand : input_.hands) hand.grip = xr::Pose{{1, 0, 0, 0}, {0.4, 1, 0}};
     input_.hands[0].grip->position.x = -0.4;
-    RoomBoards boards;
+    Boards boards;
     // Only passed on: there is no GL here to make one.
     boards.readout = reinterpret_cast<const render::Board*>(&boards);
     boards.readoutHalf = {0.1, 0.05};

@@ -51,7 +51,7 @@ class SticksOfAnExploration : public testing::Test {
         e_.edit(next);
     }
     std::uint64_t bruteForceCount() const {
-        const Range window = ValueSweep(*e_.explorer().sweep).window(e_.explorer().play.tick);
+        const Range window = ValueSweep(*sweepOf(e_.explorer())).window(e_.explorer().play.tick);
         const double lo = timeseries::toDouble(window.lo.value),
                      hi = timeseries::toDouble(window.hi.value);
         std::uint64_t count = 0;
@@ -72,7 +72,7 @@ TEST_F(SticksOfAnExploration, TheWindowFollowsTheStickAndTheCountTheWindow) {
             hold(1, 0, 150ms);
             EXPECT_GT(contour(), before);
             before = contour();
-            EXPECT_EQ(e_.counts()->swept, bruteForceCount());
+            EXPECT_EQ(e_.counts()->layers.front(), bruteForceCount());
         }
         hold(-1, 0, 500ms);
         EXPECT_LT(contour(), before) << "the other way";
@@ -179,12 +179,12 @@ TEST_F(SticksOfAnExploration, SticksAtRestChangeNothing) {
 
 TEST_F(SticksOfAnExploration, ThePathOfTheSweepTurns) {
     toggleSwing(e_);
-    EXPECT_FALSE(e_.explorer().sweep) << "no sweep, nothing to turn";
+    EXPECT_FALSE(sweepOf(e_.explorer())) << "no sweep, nothing to turn";
     sweep(timeseries::SweepPath::Loop);
     toggleSwing(e_);
-    EXPECT_EQ(e_.explorer().sweep->path, timeseries::SweepPath::Swing);
+    EXPECT_EQ(sweepOf(e_.explorer())->path, timeseries::SweepPath::Swing);
     toggleSwing(e_);
-    EXPECT_EQ(e_.explorer().sweep->path, timeseries::SweepPath::Loop);
+    EXPECT_EQ(sweepOf(e_.explorer())->path, timeseries::SweepPath::Loop);
 }
 
 }  // namespace

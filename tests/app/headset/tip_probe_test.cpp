@@ -166,9 +166,10 @@ class ProbeOfTips : public testing::Test {
  protected:
     std::shared_ptr<const timeseries::Grid> grid_ = std::make_shared<timeseries::Grid>(
         std::array{tests::axis(4), tests::axis(4), tests::axis(4)},
-        timeseries::Frame{.directions = tests::leaning({1, 0.2, 0}, {-0.3, 1, 0.1}, {0.4, 0, 1}),
-                          .origin = {},
-                          .names = {}});
+        timeseries::CoordinateFrame{
+            .directions = tests::leaning({1, 0.2, 0}, {-0.3, 1, 0.1}, {0.4, 0, 1}),
+            .origin = {},
+            .names = {}});
     render::PlacedPoints placed_{*grid_};
     std::optional<Drawn> drawn_ = Drawn{&placed_, shared(tests::noise(grid_)), 7};
     xr::Placement placement_{

@@ -21,9 +21,9 @@ glm::vec2 values(tests::PanelsDesk& desk) {
 TEST(AnimationPage, ValuesOfOneStepAreSweptWhenTheyAreToPlay) {
     tests::PanelsDesk desk(tests::World{.steps = 1});
     desk.frames(2);
-    ASSERT_FALSE(desk.exploration.explorer().sweep);
+    ASSERT_FALSE(sweepOf(desk.exploration.explorer()));
     desk.click(values(desk));
-    EXPECT_TRUE(desk.exploration.explorer().sweep);
+    EXPECT_TRUE(sweepOf(desk.exploration.explorer()));
     desk.exploration.togglePlay();
     EXPECT_TRUE(desk.exploration.playback().playing);
 }
@@ -37,7 +37,7 @@ TEST(AnimationPage, WhatHasNothingToPlayIsToldOfTheSweep) {
     desk.exploration.forgetMessage(desk.exploration.messages().back().number);
     desk.sweep("0:64", 2);
     Explorer still = desk.exploration.explorer();
-    still.sweep->frequency = 0;
+    sweepOf(still)->frequency = 0;
     desk.exploration.edit(still);
     desk.exploration.togglePlay();
     ASSERT_FALSE(desk.exploration.messages().empty());

@@ -21,8 +21,7 @@ TEST(Figures, AreOfThePictureAlone) {
     r.drawn = 1000;
     r.selected = 4000;
     r.stride = 4;
-    r.counts =
-        PointCounts{.layers = {4000}, .swept = 0, .selected = 4000, .kept = 9000, .total = 10000};
+    r.counts = PointCounts{.layers = {4000}, .selected = 4000, .kept = 9000, .total = 10000};
     r.whole = false;
     const auto lines = figuresOf(p, desk.exploration.series());
     EXPECT_THAT(lines, ElementsAre("1,000 of 4,000 points drawn",
@@ -47,7 +46,7 @@ TEST(Figures, CountCellsWhereTheyAreDrawn) {
     r.whole = true;
     r.drawn = r.selected = 71;
     r.cells = 3321;
-    r.counts = PointCounts{.layers = {71}, .swept = 0, .selected = 71, .kept = 100, .total = 100};
+    r.counts = PointCounts{.layers = {71}, .selected = 71, .kept = 100, .total = 100};
     EXPECT_THAT(figuresOf(p, desk.exploration.series()),
                 ElementsAre("3,321 cells drawn", HasSubstr("71 selected"), testing::_));
     r.counts->inClipBox = true;
@@ -60,8 +59,7 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
     Performance p{.frame = 5ms, .budget = 33ms};
     p.report.whole = true;
     p.report.drawn = p.report.selected = 7;
-    p.report.counts =
-        PointCounts{.layers = {7}, .swept = 0, .selected = 7, .kept = 10, .total = 10};
+    p.report.counts = PointCounts{.layers = {7}, .selected = 7, .kept = 10, .total = 10};
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [error, text] : {std::pair(0.0004, "7 points drawn  ·  error below 0.1 %"),
                                       {0.0041, "7 points drawn  ·  error about 0.4 %"},

@@ -65,7 +65,7 @@ TEST_F(Depth, OfTheOpaqueSceneIsGivenWithTheNearAndFarThatItWasDrawnWith) {
     const std::size_t before = layer_.submitted().size();
     framesUntil([&] { return layer_.submitted().size() >= before + 4; });
     const auto all = layer_.submitted();
-    const Plate panel = *headset_->room().panel();
+    const Plate panel = *headset_->interaction().panel();
     for (std::size_t eye = all.size() - 2; eye < all.size(); ++eye) {
         const tests::SubmittedView& view = all[eye];
         ASSERT_TRUE(view.hasDepth);

@@ -30,7 +30,9 @@ class FrontEnd : public testing::Test {
             ASSERT_LT(std::chrono::steady_clock::now(), end);
         }
     }
-    glm::dvec3 volume() const { return headset_->room().placement().stageFromVolume.position; }
+    glm::dvec3 volume() const {
+        return headset_->interaction().placement().stageFromVolume.position;
+    }
 
     tests::ScriptedExploration world_;
     std::optional<ExportJob> exporting_;
@@ -45,7 +47,7 @@ class FrontEndWithHands : public FrontEnd {
             devices_.hand(h).place = tests::place({h == 0 ? -0.3 : 0.3, 1.1, -0.4});
         devices_.send();
         open();
-        framesUntil([&] { return headset_->room().panel().has_value() && volume().y > 1; });
+        framesUntil([&] { return headset_->interaction().panel().has_value() && volume().y > 1; });
     }
     void TearDown() override { headset_.reset(); }  // before its runtime goes
 

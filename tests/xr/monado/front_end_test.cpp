@@ -51,9 +51,9 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
     const tests::ShownSteps world(10);
     const Shown shown = world.shown();
     const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
-    render::GpuStep onGpu(*shown.sorted, placed);
+    render::GlStep onGpu(*shown.sorted, placed);
     const Picture picture =
-        makePicture(shown.explorer, shown.dataset.about, shown.step, *shown.sorted, placed);
+        makePicture(shown.explorer, shown.dataset.variable, shown.step, *shown.sorted, placed);
     render::FrameRenderer renderer;
     const auto nothingHidden = std::make_shared<const render::HiddenArea>();
     Eyes eyes;
@@ -100,7 +100,7 @@ TEST(HeadsetFrames, BothEyesGetWhatAFileWouldHave) {
 TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
     tests::MonadoService service(tests::Monado::Null);
     open();
-    framesUntil([&] { return headset_->room().panel().has_value(); });
+    framesUntil([&] { return headset_->interaction().panel().has_value(); });
     world_.exploration.seek(3);
     // A program that takes its time to export.
     const auto exporter = tests::testFolder() / "exporter.sh";
@@ -108,7 +108,8 @@ TEST_F(FrontEnd, GoesOnWithTheSameStateAfterTheRuntimeIsLost) {
     std::filesystem::permissions(exporter, std::filesystem::perms::owner_all);
     exporting_.emplace(
         world_.exploration.explorer(),
-        Frames(tests::testFolder() / "picture.png", world_.exploration.explorer(), {3}), exporter);
+        FrameFiles(tests::testFolder() / "picture.png", world_.exploration.explorer(), {3}),
+        exporter);
     const Explorer before = world_.exploration.explorer();
     service.kill();
     try {
@@ -139,7 +140,7 @@ TEST_F(FrontEnd, ErrorsThatTheRuntimeLeavesInGlAreNoWarning) {
 TEST_F(FrontEnd, ThePanelIsDrawnWhenItChanges) {
     const tests::MonadoService service(tests::Monado::Null);
     open();
-    framesUntil([&] { return headset_->room().panel().has_value(); });
+    framesUntil([&] { return headset_->interaction().panel().has_value(); });
     const auto until = [&](std::chrono::nanoseconds after) {
         const auto begin = headset_->timing().displayTime;
         int frames = 0;
@@ -183,7 +184,7 @@ TEST_F(FrontEndWithHands, AGrabMovesTheVolumeByExactlyTheHandsMotion) {
     auto& right = devices_.hand(1);
     right.squeeze = right.squeezeForce = 1;
     devices_.send();
-    framesUntil([&] { return headset_->room().holds(1); });
+    framesUntil([&] { return headset_->interaction().holds(1); });
     const glm::dvec3 before = volume(), by(0.12, 0.2, -0.3);
     right.place = tests::place(glm::dvec3(0.3, 1.1, -0.4) + by);
     devices_.send();
@@ -193,13 +194,15 @@ TEST_F(FrontEndWithHands, AGrabMovesTheVolumeByExactlyTheHandsMotion) {
 TEST_F(FrontEndWithHands, TwoHandsScaleByTheRatioOfTheirDistances) {
     for (int h = 0; h < 2; ++h) devices_.hand(h).squeeze = devices_.hand(h).squeezeForce = 1;
     devices_.send();
-    framesUntil([&] { return headset_->room().holds(0) && headset_->room().holds(1); });
-    const double before = headset_->room().placement().metresPerUnit;
+    framesUntil(
+        [&] { return headset_->interaction().holds(0) && headset_->interaction().holds(1); });
+    const double before = headset_->interaction().placement().metresPerUnit;
     for (int h = 0; h < 2; ++h)
         devices_.hand(h).place = tests::place({h == 0 ? -0.45 : 0.45, 1.1, -0.4});
     devices_.send();
-    framesUntil(
-        [&] { return std::abs(headset_->room().placement().metresPerUnit / before - 1.5) < 1e-4; });
+    framesUntil([&] {
+        return std::abs(headset_->interaction().placement().metresPerUnit / before - 1.5) < 1e-4;
+    });
 }
 
 TEST_F(FrontEndWithHands, TheTriggerPlaysAndTheStickMovesTime) {

@@ -33,7 +33,7 @@ constexpr int kFrames = 200, kSway = 400;
 void drawFrames(Headset& headset, app::Exploration& exploration, int count) {
     for (int frames = 0; frames < count;) {
         if (!headset.frame()) throw std::runtime_error("the runtime has ended the session");
-        if (exploration.shown() && headset.room().panel()) ++frames;
+        if (exploration.shown() && headset.interaction().panel()) ++frames;
     }
 }
 
