@@ -110,7 +110,7 @@ void BM_Subset(benchmark::State& state) {
                         .clip = {}};
     const render::gl::HeadlessContext context;
     render::FrameRenderer renderer;
-    render::GpuStep onGpu(step, placed);
+    render::GlStep onGpu(step, placed);
     const std::array views{tests::lookFrom({1, -5, 1}, kSize, 0.25)};
     const auto light = [&] {
         const auto drawn =
@@ -141,7 +141,7 @@ void BM_AxesAndLegend(benchmark::State& state) {
     const auto shown = world(100'000);
     const render::PlacedPoints placed(shown.steps[0]->grid());
     const auto picture =
-        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], placed);
+        app::makePicture(shown.explorer, shown.dataset.variable, 0, *shown.steps[0], placed);
     const render::Font font(std::array{render::labelStyle(kSize), render::titleStyle(kSize)});
     const auto view = tests::lookFrom({1, -3, 1}, kSize);
     const glm::dvec3 eye = render::pixelRays(view).eye;
@@ -157,7 +157,7 @@ void BM_Pick(benchmark::State& state) {
     const auto shown = world(static_cast<std::uint64_t>(state.range(0)));
     const render::PlacedPoints placed(shown.steps[0]->grid());
     const auto picture =
-        app::makePicture(shown.explorer, shown.dataset.about, 0, *shown.steps[0], placed);
+        app::makePicture(shown.explorer, shown.dataset.variable, 0, *shown.steps[0], placed);
     const auto view = tests::lookFrom({1, -3, 1}, kSize);
     for (auto _ : state)
         benchmark::DoNotOptimize(render::pick(picture.scene, view, {512.5, 512.5}));

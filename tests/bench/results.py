@@ -173,8 +173,15 @@ def stages_page(part):
                      f"{drawn['diameter']:.1f} px"])
     text = ("The same field, seen whole in 1024 x 1024, one range about the median; files in the system's cache. Upload is a selection's first\n"
             "picture: buffers for the step, its blocks reordered and sent. Draw is the splats alone.\n\n")
-    return text + table(["points", "read NRRD", "read NetCDF-4", "build", "upload, 1 %", "order, 1 %", "draw, 10 %",
-                         "draw, 1 %", "draw, 0.1 %", "splat"], rows)
+    text += table(["points", "read NRRD", "read NetCDF-4", "build", "upload, 1 %", "order, 1 %", "draw, 10 %",
+                   "draw, 1 %", "draw, 0.1 %", "splat"], rows)
+    series = part("stageSeries/points:128")
+    if series:
+        target("pictures a second of a series of 128³, by points", 1e3 / series["points_png_ms"], 25, at_least=True)
+        text += ("\n`render` of 40 steps of 128³ floats, 1 % of each, 1024 x 1024 pixels, milliseconds a picture:\n\n"
+                 + table(["drawn by", "PNG", "OpenEXR"], [[model, digits(series[f"{model}_png_ms"]), digits(series[f"{model}_exr_ms"])]
+                                                       for model in ("points", "cells")]))
+    return text
 
 
 def draw_page(part):
@@ -397,6 +404,12 @@ def vtk_page(part):
 
 def window_page(part):
     rows = re.findall(r"^(.+?) +(\d+) times +median +([\d.]+) ms +longest +([\d.]+) ms", part.figures, re.M)
+    asked = {"between frames, turning, the pool fire": 16.7, "between frames, turning, 1 % of 512^3": 33.3,
+             "between frames, turning, a million points": 33.3, "between steps, 256^3, read on the way": 100,
+             "between steps, 256^3, from memory": 66.7}
+    for what, _, middle, _ in rows:
+        if what.strip() in asked:
+            target(f"window: {what.strip().replace('^3', '³')}", float(middle) * 1e-3, asked[what.strip()] * 1e-3, shown=time)
     return ("`ui_bench`: the real program under Xvfb; a frame is told by the window's answer to a ping, asked for every 5 ms.\n\n"
             + table(["", "median", "longest"], [[what.strip(), f"{middle} ms", f"{longest} ms"] for what, _, middle, longest in rows]))
 

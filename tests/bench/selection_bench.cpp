@@ -47,7 +47,7 @@ struct Side {
     }
     PlacedPoints placed;
     Scene scene;
-    GpuStep onGpu;
+    GlStep onGpu;
     FrameRenderer renderer;
     void frame(const View& view) {
         const FrameContent content{scene, scene.step.grid(), {}, glm::dvec3(0)};

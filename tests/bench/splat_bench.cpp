@@ -23,7 +23,7 @@ void drawAndResolve(benchmark::State& state, Order order, bool byValue) {
     const gl::HeadlessContext context;
     world.scene.order = order;
     if (byValue) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
-    GpuStep onGpu(world.step, world.placed);
+    GlStep onGpu(world.step, world.placed);
     onGpu.upload(world.scene, neededScale(world.scene));
     FrameRenderer renderer;
     const std::array views{world.view};
@@ -68,7 +68,7 @@ void BM_ErrorAgainstTruth(benchmark::State& state) {
         for (int c = 0; c < 3; ++c) truth.push_back(over.planes[0][4 * i + c]);
 
     const gl::HeadlessContext context;
-    GpuStep onGpu(step, placed);
+    GlStep onGpu(step, placed);
     GlSplatter splatter;
     GlTargets targets(view.size);
     gl::begin({.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});

@@ -107,7 +107,7 @@ void stageUpload(benchmark::State& state) {
     const gl::HeadlessContext context;
     GlSplatter splatter;
     for (auto _ : state) {
-        GpuStep onGpu(v.step, v.placed);
+        GlStep onGpu(v.step, v.placed);
         onGpu.upload(scene, {});
         benchmark::DoNotOptimize(splatter.upload(scene, Runs{}, onGpu));
         glFinish();
@@ -128,7 +128,7 @@ void stageDraw(benchmark::State& state) {
     const Scene scene = v.scene(share(state));
     const gl::HeadlessContext context;
     GlSplatter splatter;
-    GpuStep onGpu(v.step, v.placed);
+    GlStep onGpu(v.step, v.placed);
     GlTargets targets(bench::kPicture);
     gl::begin(
         {.framebuffer = targets.lightFramebuffer(), .size = bench::kPicture, .clearDepth = 1.0f});
@@ -151,7 +151,7 @@ void stageResolve(benchmark::State& state) {
     Scene scene = v.scene(0.01);
     scene.layers[0].runs.clear();
     const gl::HeadlessContext context;
-    GpuStep onGpu(v.step, v.placed);
+    GlStep onGpu(v.step, v.placed);
     FrameRenderer renderer;
     const std::array views{bench::outside()};
     const FrameContent content{scene, v.step.grid(), {}, glm::dvec3(0)};

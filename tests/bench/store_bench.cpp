@@ -1,9 +1,5 @@
 // Sorted steps on disk, beside reading and sorting the file.
 #include <benchmark/benchmark.h>
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +9,7 @@
 #include <fstream>
 
 #include "tests/bench/alternate.h"
+#include "tests/bench/program_run.h"
 #include "tests/bench/turbulence.h"
 #include "tests/support/built_paths.h"
 #include "timeseries/readers/reader.h"
@@ -27,17 +24,6 @@ using timeseries::SortedStep;
 using timeseries::StepMaker;
 using timeseries::StepStore;
 
-template <typename T>
-void writeField(const fs::path& file, const char* type, std::size_t n,
-                const std::vector<T>& values) {
-    const std::string size = std::to_string(n);
-    std::ofstream out(file, std::ios::binary);
-    out << "NRRD0004\ntype: " << type << "\ndimension: 3\nsizes: " << size << ' ' << size << ' '
-        << size << "\nendian: little\nencoding: raw\n\n";
-    out.write(reinterpret_cast<const char*>(values.data()),
-              static_cast<std::streamsize>(values.size() * sizeof(T)));
-}
-
 // A file of n^3 floats and a store for it, removed when another is asked for.
 struct World {
     explicit World(std::size_t n)
@@ -45,8 +31,8 @@ struct World {
           file(folder / "field.nrrd"),
           points(n * n * n) {
         fs::create_directories(folder);
-        writeField(file, "float", n,
-                   std::get<std::vector<float>>(bench::turbulence<float>(n).values));
+        bench::writeField(file, "float", n,
+                          std::get<std::vector<float>>(bench::turbulence<float>(n).values));
     }
     World(const World&) = delete;
     World& operator=(const World&) = delete;
@@ -192,96 +178,6 @@ BENCHMARK(storeSeries)
     ->Arg(10'000)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(5);
-
-// The program, its output thrown away: its time, and the most memory it had.
-struct ProgramRun {
-    double ms = 0, megabytes = 0;
-};
-ProgramRun runProgram(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), tests::program().string());
-    std::vector<char*> raw;
-    for (std::string& argument : arguments) raw.push_back(argument.data());
-    raw.push_back(nullptr);
-    const auto start = std::chrono::steady_clock::now();
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const int nowhere = ::open("/dev/null", O_WRONLY);
-        ::dup2(nowhere, STDOUT_FILENO);
-        ::dup2(nowhere, STDERR_FILENO);
-        ::execv(raw[0], raw.data());
-        ::_exit(127);
-    }
-    int status = 0;
-    rusage used{};
-    if (::wait4(child, &status, 0, &used) != child || status != 0) std::abort();
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    return {took.count(), static_cast<double>(used.ru_maxrss) * 1024 / 1e6};
-}
-
-ProgramRun medianRun(const std::vector<std::string>& arguments) {
-    std::vector<double> ms, megabytes;
-    for (int i = 0; i < 5; ++i) {
-        const ProgramRun run = runProgram(arguments);
-        ms.push_back(run.ms);
-        megabytes.push_back(run.megabytes);
-    }
-    return {bench::median(ms), bench::median(megabytes)};
-}
-
-// The first picture of n^3 floats, 1 % of them about the median, by the program: without an index
-// and with one.
-void storePicture(benchmark::State& state) {
-    World world(static_cast<std::size_t>(state.range(0)));
-    const fs::path cache = world.folder / "cache", picture = world.folder / "picture.png";
-    const auto quantiles = world.index()->quantiles();
-    const auto at = [&](double share) {
-        return fmt::format(
-            "{}",
-            quantiles[static_cast<std::size_t>(share * static_cast<double>(quantiles.size() - 1))]);
-    };
-    const std::string range = at(0.495) + ":" + at(0.505);
-    runProgram({"index", world.file, "--cache", cache});
-    for (auto _ : state)
-        for (const std::string model : {"cells", "points"})
-            for (const std::string from : {"file", "index"}) {
-                const ProgramRun run =
-                    medianRun({"render", world.file, "--model", model, "--range", range, "--cache",
-                               from == "index" ? cache.string() : "off", "-o", picture});
-                state.counters[model + "_" + from + "_ms"] = run.ms;
-                state.counters[model + "_" + from + "_MB"] = run.megabytes;
-            }
-}
-BENCHMARK(storePicture)->ArgNames({"points"})->Arg(512)->Unit(benchmark::kSecond)->Iterations(1);
-
-// A step of 1024^3 bytes: sorted, counted and drawn by the program.
-void storeLarge(benchmark::State& state) {
-    const fs::path folder =
-        fs::temp_directory_path() / ("isochron-large-" + std::to_string(::getpid()));
-    fs::create_directories(folder);
-    const std::string file = folder / "field.nrrd", cache = folder / "cache";
-    {
-        const auto n = static_cast<std::size_t>(state.range(0));
-        const timeseries::Field field = bench::turbulence<std::uint8_t>(n);
-        const auto& values = std::get<std::vector<std::uint8_t>>(field.values);
-        state.counters["selected"] =
-            static_cast<double>(std::ranges::count(values, std::uint8_t{32}));
-        writeField(file, "uint8", n, values);
-    }
-    const auto tell = [&](const std::string& what, const ProgramRun& run) {
-        state.counters[what + "_ms"] = run.ms;
-        state.counters[what + "_MB"] = run.megabytes;
-    };
-    tell("alone",
-         runProgram({"render", file, "--cache", "off", "--range", "32", "-o", folder / "a.png"}));
-    tell("index", runProgram({"index", file, "--cache", cache}));
-    for (auto _ : state) {
-        tell("count", medianRun({"count", file, "--cache", cache, "--range", "32"}));
-        tell("render", medianRun({"render", file, "--cache", cache, "--range", "32", "-o",
-                                  folder / "b.png"}));
-    }
-    fs::remove_all(folder);
-}
-BENCHMARK(storeLarge)->ArgNames({"points"})->Arg(1024)->Unit(benchmark::kSecond)->Iterations(1);
 
 #ifdef MPIRUN
 // A file read, sorted and written by the program, as two processes and as one, each on one thread.

@@ -46,7 +46,7 @@ void tiles(benchmark::State& state) {
     const std::vector<float> far(std::size_t(world.view.size.x) * world.view.size.y, 1);
     const glm::dvec3 eye = pixelRays(world.view).eye;
     const gl::HeadlessContext context;
-    GpuStep onGpu(world.step, world.placed);
+    GlStep onGpu(world.step, world.placed);
     onGpu.upload(world.scene, neededScale(world.scene));
     GlSplatter splatter;
     GlTargets targets(world.view.size);

@@ -139,7 +139,7 @@ void vtkDraw(benchmark::State& state) {
         lit = theirs->litPixels();
     });
     const gl::HeadlessContext context;
-    GpuStep onGpu(world.step, world.placed);
+    GlStep onGpu(world.step, world.placed);
     onGpu.upload(world.scene, {});
     FrameRenderer renderer;
     const std::array views{world.view};

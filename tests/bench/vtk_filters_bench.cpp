@@ -65,7 +65,7 @@ void vtkSelect(benchmark::State& state) {
 // A selection until it can be drawn: found, and sent to the GPU in drawing order.
 void makeReady(const bench::Volume& v, double share, GlSplatter& splatter) {
     const Scene scene = v.scene(share);
-    GpuStep onGpu(v.step, v.placed);
+    GlStep onGpu(v.step, v.placed);
     onGpu.upload(scene, {});
     benchmark::DoNotOptimize(splatter.upload(scene, Runs{}, onGpu));
     glFinish();

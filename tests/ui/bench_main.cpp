@@ -2,11 +2,14 @@
 // named): from a drag to the changed picture, and between two frames, turning, while another file
 // loads, and while a million points come to rest.
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <random>
+#include <thread>
 #include <utility>
 
 #include "tests/support/built_paths.h"
@@ -63,15 +66,21 @@ std::vector<double> gaps(ui::Driver& desk, const ui::Places& at, const Condition
     return out;
 }
 
-// Noise on 128^3 points, of which 0.25 to 0.75 are a million.
-std::filesystem::path writeNoise(const std::filesystem::path& file) {
+// In [0, 1).
+std::vector<float> noise(std::size_t points) {
     std::mt19937 random(7);
-    std::vector<float> values(std::size_t{128} * 128 * 128);
+    std::vector<float> values(points);
     for (float& value : values) value = static_cast<float>(random() >> 8) / (1 << 24);
-    std::ofstream(file, std::ios::binary) << tests::nrrd(
-        "type: float\ndimension: 3\nsizes: 128 128 128\nendian: little\n"
-        "encoding: raw\n",
-        tests::bytesOf(values));
+    return values;
+}
+
+std::filesystem::path writeNoise(const std::filesystem::path& file, std::size_t n,
+                                 const std::vector<float>& values) {
+    std::ofstream(file, std::ios::binary)
+        << tests::nrrd(fmt::format("type: float\ndimension: 3\nsizes: {0} {0} {0}\nendian: little\n"
+                                   "encoding: raw\n",
+                                   n),
+                       tests::bytesOf(values));
     return file;
 }
 
@@ -102,9 +111,21 @@ Rests rests(ui::Driver& desk, const ui::Places& at) {
     return out;
 }
 
+void runTurning(const ui::Screen& screen, const std::filesystem::path& home, const char* what,
+                const std::vector<std::string>& arguments) {
+    ui::Driver desk(screen, home, arguments);
+    desk.waitForTitle(" points");
+    const ui::Places at = ui::placesOf(desk.size(), false);
+    desk.settled();
+    tell(what, gaps(desk, at, [](int i) { return i < 200; }));
+}
+
+// 0.25 to 0.75 of noise on 128^3 points are a million.
 void runResting(const ui::Screen& screen, const std::filesystem::path& home) {
-    ui::Driver desk(screen, home,
-                    {writeNoise(home / "noise.nrrd").string(), "--range", "0.25:0.75"});
+    const auto file = writeNoise(home / "noise.nrrd", 128, noise(std::size_t{128} * 128 * 128));
+    runTurning(screen, home, "between frames, turning, a million points",
+               {file.string(), "--range", "0.25:0.75", "--model", "points"});
+    ui::Driver desk(screen, home, {file.string(), "--range", "0.25:0.75"});
     desk.waitForTitle(" points");
     const ui::Places at = ui::placesOf(desk.size(), false);
     desk.settled();
@@ -113,11 +134,65 @@ void runResting(const ui::Screen& screen, const std::filesystem::path& home) {
     tell("from a drag's end to all of a million points", figures.times);
 }
 
+// As long as `seconds` of playing, the times between steps that the window's title names.
+std::vector<double> steps(ui::Driver& desk, double seconds) {
+    std::vector<double> out;
+    desk.press("space");
+    const Clock::time_point begin = Clock::now();
+    std::string last = desk.title();
+    for (Clock::time_point since = begin;
+         Clock::now() - begin < std::chrono::duration<double>(seconds);
+         std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+        const std::string now = desk.title();
+        if (now == last) continue;
+        out.push_back(Milliseconds(Clock::now() - since).count());
+        since = Clock::now();
+        last = now;
+    }
+    desk.press("space");
+    return out;
+}
+
+// A series that is to play faster than it can: while its steps are read and sorted, then again.
+void runPlaying(const ui::Screen& screen, const std::filesystem::path& home) {
+    constexpr std::size_t kEdge = 256;
+    constexpr int kSteps = 12;
+    std::vector<float> values = noise(kEdge * kEdge * kEdge);
+    std::vector<std::string> files;
+    for (int i = 0; i < kSteps; ++i) {
+        files.push_back(
+            writeNoise(home / fmt::format("step_{:02}.nrrd", i), kEdge, values).string());
+        std::ranges::rotate(values, values.begin() + 12345);
+    }
+    const auto session = home / "play.json";
+    std::ofstream(session) << nlohmann::json{
+        {"isochron", 1},
+        {"files", files},
+        {"steps", "0"},
+        {"model", "points"},
+        {"layers", {{{"range", "0.5:0.51"}}}},
+        {"play", {{"stepsPerSecond", 60}, {"ending", "loop"}}}};
+    ui::Driver desk(screen, home, {session.string(), "--cache", "off"});
+    desk.waitForTitle(" points");
+    tell("between steps, 256^3, read on the way", steps(desk, 0.35 * kSteps));
+    steps(desk, 10);  // until all are in memory
+    tell("between steps, 256^3, from memory", steps(desk, 6));
+}
+
 void run(const std::filesystem::path& file) {
     const ui::TemporaryFolder home;
     const auto slow = ui::writeSlowFile(home.path() / "slow.nrrd");
     const ui::Screen screen(home.path());
     runResting(screen, home.path());
+    runTurning(screen, home.path(), "between frames, turning, the pool fire",
+               {tests::demo().string(), "--range", "600:max", "--model", "points"});
+    {
+        const auto large = writeNoise(home.path() / "large.nrrd", 512, noise(std::size_t{1} << 27));
+        runTurning(screen, home.path(), "between frames, turning, 1 % of 512^3",
+                   {large.string(), "--range", "0.5:0.51", "--model", "points", "--cache", "off"});
+        std::filesystem::remove(large);
+    }
+    runPlaying(screen, home.path());
     ui::Driver desk(screen, home.path(), {file.string()});
     desk.waitForTitle(" points");
     const ui::Places at = ui::placesOf(desk.size());

@@ -1,0 +1,122 @@
+// The program itself on files: first pictures, a large step, a series of pictures.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "tests/bench/program_run.h"
+#include "tests/bench/turbulence.h"
+#include "timeseries/index/sorted_step.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using bench::medianRun;
+using bench::ProgramRun;
+using bench::runProgram;
+
+struct TemporaryFolder {
+    fs::path path = fs::temp_directory_path() / ("isochron-programs-" + std::to_string(::getpid()));
+    TemporaryFolder() { fs::create_directories(path); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code gone;
+        fs::remove_all(path, gone);
+    }
+};
+
+void tell(benchmark::State& state, const std::string& what, const ProgramRun& run) {
+    state.counters[what + "_ms"] = run.ms;
+    state.counters[what + "_MB"] = run.megabytes;
+}
+
+// The range of 1 % of the points about the median, as the command line has it.
+std::string onePercent(const timeseries::Field& field) {
+    const auto step = timeseries::SortedStep::build(field);
+    const auto at = [&](double fraction) {
+        return timeseries::toText(step.value(
+            static_cast<std::uint64_t>(fraction * static_cast<double>(step.size() - 1))));
+    };
+    return at(0.495) + ":" + at(0.505);
+}
+
+// The first picture of n^3 floats, 1 % of them about the median, by the program: without an index
+// and with one.
+void storePicture(benchmark::State& state) {
+    const TemporaryFolder folder;
+    const std::string file = folder.path / "field.nrrd", cache = folder.path / "cache",
+                      picture = folder.path / "picture.png";
+    std::string range;
+    {
+        const auto n = static_cast<std::size_t>(state.range(0));
+        const timeseries::Field field = bench::turbulence<float>(n);
+        bench::writeField(file, "float", n, std::get<std::vector<float>>(field.values));
+        range = onePercent(field);
+    }
+    runProgram({"index", file, "--cache", cache});
+    for (auto _ : state)
+        for (const std::string model : {"cells", "points"})
+            for (const std::string from : {"file", "index"})
+                tell(state, model + "_" + from,
+                     medianRun({"render", file, "--model", model, "--range", range, "--cache",
+                                from == "index" ? cache : "off", "-o", picture}));
+}
+BENCHMARK(storePicture)->ArgNames({"points"})->Arg(512)->Unit(benchmark::kSecond)->Iterations(1);
+
+// A step of 1024^3 bytes: sorted, counted and drawn by the program.
+void storeLarge(benchmark::State& state) {
+    const TemporaryFolder folder;
+    const std::string file = folder.path / "field.nrrd", cache = folder.path / "cache";
+    {
+        const auto n = static_cast<std::size_t>(state.range(0));
+        const timeseries::Field field = bench::turbulence<std::uint8_t>(n);
+        const auto& values = std::get<std::vector<std::uint8_t>>(field.values);
+        state.counters["selected"] =
+            static_cast<double>(std::ranges::count(values, std::uint8_t{32}));
+        bench::writeField(file, "uint8", n, values);
+    }
+    tell(state, "alone",
+         runProgram(
+             {"render", file, "--cache", "off", "--range", "32", "-o", folder.path / "a.png"}));
+    tell(state, "index", runProgram({"index", file, "--cache", cache}));
+    for (auto _ : state) {
+        tell(state, "count", medianRun({"count", file, "--cache", cache, "--range", "32"}));
+        tell(state, "render",
+             medianRun(
+                 {"render", file, "--cache", cache, "--range", "32", "-o", folder.path / "b.png"}));
+    }
+}
+BENCHMARK(storeLarge)->ArgNames({"points"})->Arg(1024)->Unit(benchmark::kSecond)->Iterations(1);
+
+// Pictures of 1024 x 1024 of a series of n^3 floats, 1 % of each step.
+void stageSeries(benchmark::State& state) {
+    constexpr std::size_t kSteps = 40;
+    const TemporaryFolder folder;
+    std::string range;
+    {
+        const auto n = static_cast<std::size_t>(state.range(0));
+        timeseries::Field field = bench::turbulence<float>(n);
+        range = onePercent(field);
+        auto& values = std::get<std::vector<float>>(field.values);
+        for (std::size_t i = 0; i < kSteps; ++i) {
+            bench::writeField(folder.path / fmt::format("step_{:02}.nrrd", i), "float", n, values);
+            std::ranges::rotate(values, values.begin() + 3 * n + 1);  // it drifts
+        }
+    }
+    for (auto _ : state)
+        for (const std::string model : {"cells", "points"})
+            for (const std::string kind : {"png", "exr"}) {
+                const ProgramRun run =
+                    medianRun({"render", folder.path / "step_00.nrrd", "--step", "all", "--cache",
+                               "off", "--model", model, "--range", range, "--size", "1024x1024",
+                               "-o", folder.path / ("picture." + kind)});
+                state.counters[model + "_" + kind + "_ms"] = run.ms / kSteps;
+            }
+}
+BENCHMARK(stageSeries)->ArgNames({"points"})->Arg(128)->Unit(benchmark::kSecond)->Iterations(1);
+
+}  // namespace
