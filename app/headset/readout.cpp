@@ -39,7 +39,7 @@ std::string tipText(const TipProbe::At& tip, const Shown& shown) {
 
 }  // namespace
 
-std::string readoutText(const Exploration& exploration, const Before& eyes,
+std::string readoutText(const Exploration& exploration, const SeenPicture& seen,
                         const std::optional<TipProbe::At>& tip, double renderScale) {
     const auto shown = exploration.shown();
     if (!shown) {
@@ -47,10 +47,10 @@ std::string readoutText(const Exploration& exploration, const Before& eyes,
         return opening ? "opening " + *opening : "no file is open";
     }
     std::string text = tip ? tipText(*tip, *shown) : "";
-    text += eyes.screen ? pictureText(*eyes.screen) : shown->dataset.variable.name + " \u2026";
-    if (eyes.counts)
-        text += fmt::format("\n{} points{}", withCommas(eyes.counts->selected),
-                            eyes.counts->inClipBox ? " in the clip box" : "");
+    text += seen.screen ? pictureText(*seen.screen) : shown->dataset.variable.name + " \u2026";
+    if (seen.counts)
+        text += fmt::format("\n{} points{}", withCommas(seen.counts->selected),
+                            seen.counts->inClipBox ? " in the clip box" : "");
     if (const std::string waiting = exploration.waiting(); !waiting.empty()) text += "\n" + waiting;
     if (exploration.playback().playing) text += "\nplaying";
     if (renderScale < 1) text += fmt::format("\nresolution {} %", std::lround(100 * renderScale));

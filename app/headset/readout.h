@@ -11,7 +11,7 @@
 namespace app::headset {
 
 // Of the picture before the eyes, which follows what is asked for: null before the first.
-struct Before {
+struct SeenPicture {
     const Screen* screen = nullptr;
     std::optional<PointCounts> counts = {};
 };
@@ -21,7 +21,7 @@ struct Before {
 // (with units), the time and the step, how many points. And, where it is so, what is shown instead
 // of what was asked for, that it plays, and the share of the headset's resolution that is drawn.
 // Before there are data, what is being opened.
-std::string readoutText(const Exploration& exploration, const Before& eyes,
+std::string readoutText(const Exploration& exploration, const SeenPicture& seen,
                         const std::optional<TipProbe::At>& tip, double renderScale);
 
 }  // namespace app::headset

@@ -238,7 +238,7 @@ TEST_F(FrontEndWithHands, TheStickMovesTheWindowAndTheCountFollows) {
                      : 0;
     }
     EXPECT_GT(count, 0u);
-    EXPECT_EQ(e.counts()->swept, count);
+    EXPECT_EQ(e.counts()->layers.front(), count);
 }
 
 }  // namespace
