@@ -9,25 +9,15 @@
 
 #include "tests/bench/program_run.h"
 #include "tests/bench/turbulence.h"
+#include "tests/ui/temporary_folder.h"
 #include "timeseries/index/sorted_step.h"
 
 namespace {
 
-namespace fs = std::filesystem;
 using bench::medianRun;
 using bench::ProgramRun;
 using bench::runProgram;
-
-struct TemporaryFolder {
-    fs::path path = fs::temp_directory_path() / ("isochron-programs-" + std::to_string(::getpid()));
-    TemporaryFolder() { fs::create_directories(path); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code gone;
-        fs::remove_all(path, gone);
-    }
-};
+using ui::TemporaryFolder;
 
 void tell(benchmark::State& state, const std::string& what, const ProgramRun& run) {
     state.counters[what + "_ms"] = run.ms;
@@ -48,8 +38,8 @@ std::string onePercent(const timeseries::Field& field) {
 // and with one.
 void storePicture(benchmark::State& state) {
     const TemporaryFolder folder;
-    const std::string file = folder.path / "field.nrrd", cache = folder.path / "cache",
-                      picture = folder.path / "picture.png";
+    const std::string file = folder.path() / "field.nrrd", cache = folder.path() / "cache",
+                      picture = folder.path() / "picture.png";
     std::string range;
     {
         const auto n = static_cast<std::size_t>(state.range(0));
@@ -70,7 +60,7 @@ BENCHMARK(storePicture)->ArgNames({"points"})->Arg(512)->Unit(benchmark::kSecond
 // A step of 1024^3 bytes: sorted, counted and drawn by the program.
 void storeLarge(benchmark::State& state) {
     const TemporaryFolder folder;
-    const std::string file = folder.path / "field.nrrd", cache = folder.path / "cache";
+    const std::string file = folder.path() / "field.nrrd", cache = folder.path() / "cache";
     {
         const auto n = static_cast<std::size_t>(state.range(0));
         const timeseries::Field field = bench::turbulence<std::uint8_t>(n);
@@ -81,13 +71,13 @@ void storeLarge(benchmark::State& state) {
     }
     tell(state, "alone",
          runProgram(
-             {"render", file, "--cache", "off", "--range", "32", "-o", folder.path / "a.png"}));
+             {"render", file, "--cache", "off", "--range", "32", "-o", folder.path() / "a.png"}));
     tell(state, "index", runProgram({"index", file, "--cache", cache}));
     for (auto _ : state) {
         tell(state, "count", medianRun({"count", file, "--cache", cache, "--range", "32"}));
         tell(state, "render",
-             medianRun(
-                 {"render", file, "--cache", cache, "--range", "32", "-o", folder.path / "b.png"}));
+             medianRun({"render", file, "--cache", cache, "--range", "32", "-o",
+                        folder.path() / "b.png"}));
     }
 }
 BENCHMARK(storeLarge)->ArgNames({"points"})->Arg(1024)->Unit(benchmark::kSecond)->Iterations(1);
@@ -103,7 +93,8 @@ void stageSeries(benchmark::State& state) {
         range = onePercent(field);
         auto& values = std::get<std::vector<float>>(field.values);
         for (std::size_t i = 0; i < kSteps; ++i) {
-            bench::writeField(folder.path / fmt::format("step_{:02}.nrrd", i), "float", n, values);
+            bench::writeField(folder.path() / fmt::format("step_{:02}.nrrd", i), "float", n,
+                              values);
             std::ranges::rotate(values, values.begin() + 3 * n + 1);  // it drifts
         }
     }
@@ -111,9 +102,9 @@ void stageSeries(benchmark::State& state) {
         for (const std::string model : {"cells", "points"})
             for (const std::string kind : {"png", "exr"}) {
                 const ProgramRun run =
-                    runProgram({"render", folder.path / "step_00.nrrd", "--step", "all", "--cache",
-                                "off", "--model", model, "--range", range, "--size", "1024x1024",
-                                "-o", folder.path / ("picture." + kind)});
+                    runProgram({"render", folder.path() / "step_00.nrrd", "--step", "all",
+                                "--cache", "off", "--model", model, "--range", range, "--size",
+                                "1024x1024", "-o", folder.path() / ("picture." + kind)});
                 state.counters[model + "_" + kind + "_ms"] = run.ms / kSteps;
             }
 }

@@ -4,15 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <limits>
-#include <numeric>
-#include <random>
 
 #include "render/model/cell_splat.h"
-#include "render/reference/interval_truth.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
@@ -25,7 +19,6 @@ using tests::axis;
 using tests::CellWorld;
 using tests::drawn;
 using timeseries::Grid;
-using timeseries::RangeSet;
 
 // Of a passage through all of a range that is thinner than a cell, a contour keeps W = 1; a range
 // that is so wide that its length says more has its length. Also of one value alone.

@@ -5,17 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <limits>
-#include <numeric>
 #include <random>
 
-#include "render/model/cell_splat.h"
 #include "render/reference/interval_truth.h"
 #include "tests/support/cell_rays.h"
-#include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -26,7 +20,6 @@ using tests::axis;
 using tests::CellWorld;
 using tests::drawn;
 using timeseries::Grid;
-using timeseries::RangeSet;
 
 TEST(CellSplatter, AFieldSelectedWholeIsAsDeepAsTheRaysWayThroughTheDomain) {
     const auto lean = tests::leaning({1, 0, 0.2}, {0.5, 1, 0}, {-0.3, 0.3, 1});

@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "tests/bench/program_run.h"
 #include "tests/support/built_paths.h"
 #include "tests/ui/places.h"
 #include "tests/ui/slow_file.h"
@@ -74,16 +75,6 @@ std::vector<float> noise(std::size_t points) {
     return values;
 }
 
-std::filesystem::path writeNoise(const std::filesystem::path& file, std::size_t n,
-                                 const std::vector<float>& values) {
-    std::ofstream(file, std::ios::binary)
-        << tests::nrrd(fmt::format("type: float\ndimension: 3\nsizes: {0} {0} {0}\nendian: little\n"
-                                   "encoding: raw\n",
-                                   n),
-                       tests::bytesOf(values));
-    return file;
-}
-
 // From the last movement of a drag until nothing in the window has changed for a while, that is,
 // until all points are seen.
 struct Rests {
@@ -122,7 +113,8 @@ void runTurning(const ui::Screen& screen, const std::filesystem::path& home, con
 
 // 0.25 to 0.75 of noise on 128^3 points are a million.
 void runResting(const ui::Screen& screen, const std::filesystem::path& home) {
-    const auto file = writeNoise(home / "noise.nrrd", 128, noise(std::size_t{128} * 128 * 128));
+    const auto file = home / "noise.nrrd";
+    bench::writeField(file, "float", 128, noise(std::size_t{128} * 128 * 128));
     runTurning(screen, home, "between frames, turning, a million points",
                {file.string(), "--range", "0.25:0.75", "--model", "points"});
     ui::Driver desk(screen, home, {file.string(), "--range", "0.25:0.75"});
@@ -160,8 +152,8 @@ void runPlaying(const ui::Screen& screen, const std::filesystem::path& home) {
     std::vector<float> values = noise(kEdge * kEdge * kEdge);
     std::vector<std::string> files;
     for (int i = 0; i < kSteps; ++i) {
-        files.push_back(
-            writeNoise(home / fmt::format("step_{:02}.nrrd", i), kEdge, values).string());
+        files.push_back((home / fmt::format("step_{:02}.nrrd", i)).string());
+        bench::writeField(files.back(), "float", kEdge, values);
         std::ranges::rotate(values, values.begin() + 12345);
     }
     const auto session = home / "play.json";
@@ -189,7 +181,8 @@ void run(const std::filesystem::path& file) {
     runTurning(screen, home.path(), "between frames, turning, the pool fire",
                {tests::demo().string(), "--range", "600:max", "--model", "points"});
     {
-        const auto large = writeNoise(home.path() / "large.nrrd", 512, noise(std::size_t{1} << 27));
+        const auto large = home.path() / "large.nrrd";
+        bench::writeField(large, "float", 512, noise(std::size_t{1} << 27));
         runTurning(screen, home.path(), "between frames, turning, 1 % of 512^3",
                    {large.string(), "--range", "0.5:0.51", "--model", "points", "--cache", "off"});
         std::filesystem::remove(large);
