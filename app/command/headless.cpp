@@ -1,6 +1,9 @@
 // `isochron render`: steps in, picture files out; no window.
 #include <fmt/format.h>
 
+#include <functional>
+#include <future>
+
 #include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
 #include "app/command/commands.h"
@@ -58,6 +61,28 @@ std::optional<double> errorOf(const Explorer& e, const FrameAt& frame, const Sor
         .of(drawn);
 }
 
+// Writes a picture while the next one is drawn.
+class WritingBeside {
+ public:
+    // `told`: when the picture is in its file. Throws what the one before threw.
+    void write(DrawnStill drawn, std::function<void()> told) {
+        wait();
+        told_ = std::move(told);
+        written_ = std::async(std::launch::async, [drawn = std::move(drawn)]() mutable {
+            app::write(std::move(drawn));
+        });
+    }
+    void wait() {
+        if (!written_.valid()) return;
+        written_.get();
+        told_();
+    }
+
+ private:
+    std::function<void()> told_;
+    std::future<void> written_;
+};
+
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
 // the GPU.
 Told drawFrames(const RenderOptions& options, const Explorer& e,
@@ -68,12 +93,14 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
     std::optional<render::GlStep> onGpu;
     Progress progress("picture", frames.size());
     Told told;
+    WritingBeside files;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         progress.at(i);
         const FrameAt frame = frames[i];
         const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
         if (step != shown) {
             shown = step;
+            if (i > 0) source.drop(frames[i - 1].step);
             placed.emplace(step->grid(), e.scale);
             onGpu.emplace(*step, *placed, onGpu ? onGpu->mesh() : nullptr);
         }
@@ -82,24 +109,27 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
             error = told.error = errorOf(e, frame, *step, *placed);
             told.of = frame.file;
         }
-        const bool isMixed = writeStill({.explorer = e,
-                                         .variable = variable,
-                                         .stepIndex = frame.step,
-                                         .step = *step,
-                                         .placed = *placed,
-                                         .tick = frame.tick,
-                                         .paths = options.portable ? Paths::Relative : Paths::Both,
-                                         .error = error},
-                                        renderer, *onGpu,
-                                        {.opticalDepth = options.opticalDepth,
-                                         .splatCount = options.splatCount,
-                                         .progress = [&](double share) { progress.drawn(share); }},
-                                        frame.file);
-        if (isMixed) ++told.mixed;
-        if (!options.progress) continue;
-        say("picture {} of {}\n", i + 1, frames.size());
-        std::fflush(stdout);  // a pipe is not flushed by itself
+        DrawnStill drawn = drawStill({.explorer = e,
+                                      .variable = variable,
+                                      .stepIndex = frame.step,
+                                      .step = *step,
+                                      .placed = *placed,
+                                      .tick = frame.tick,
+                                      .paths = options.portable ? Paths::Relative : Paths::Both,
+                                      .error = error},
+                                     renderer, *onGpu,
+                                     {.opticalDepth = options.opticalDepth,
+                                      .splatCount = options.splatCount,
+                                      .progress = [&](double share) { progress.drawn(share); }},
+                                     frame.file);
+        if (drawn.mixed) ++told.mixed;
+        files.write(std::move(drawn), [&options, i, count = frames.size()] {
+            if (!options.progress) return;
+            say("picture {} of {}\n", i + 1, count);
+            std::fflush(stdout);  // a pipe is not flushed by itself
+        });
     }
+    files.wait();
     return told;
 }
 

@@ -304,14 +304,14 @@ void Canvas::save(const Shown& shown, const std::filesystem::path& file,
                   const std::optional<double>& error) {
     state_->resting.reset();
     GlSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
-    writeStill({.explorer = shown.explorer,
-                .variable = shown.dataset.variable,
-                .stepIndex = shown.step,
-                .step = *shown.sorted,
-                .placed = held.placed,
-                .tick = shown.explorer.play.tick,
-                .error = error},
-               state_->renderer, held.onGpu, {}, file);
+    write(drawStill({.explorer = shown.explorer,
+                     .variable = shown.dataset.variable,
+                     .stepIndex = shown.step,
+                     .step = *shown.sorted,
+                     .placed = held.placed,
+                     .tick = shown.explorer.play.tick,
+                     .error = error},
+                    state_->renderer, held.onGpu, {}, file));
 }
 
 }  // namespace app

@@ -19,6 +19,8 @@ class StepSource {
     // Waits until the step is there. `next` is what will be asked for after it.
     // Throws FileError when the step cannot be read.
     std::shared_ptr<const timeseries::SortedStep> get(std::size_t step, std::size_t next);
+    // It will not be asked for again: its memory serves the next ones.
+    void drop(std::size_t step) { series_.drop(step); }
 
  private:
     timeseries::Series series_;

@@ -17,23 +17,25 @@ namespace app {
 
 const glm::dvec3 kBackground = render::linearFromSrgb8(13, 17, 23);
 
-bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GlStep& onGpu,
-                const render::Extras& extras, const std::filesystem::path& file) {
+DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render::GlStep& onGpu,
+                     const render::Extras& extras, const std::filesystem::path& file) {
     const Explorer& e = still.explorer;
     const auto views = eyes(e.view, e.stereo, still.placed.boxHalfEdges(), e.size);
     Picture picture =
         makePicture(e, still.variable, still.stepIndex, still.step, still.placed, still.tick);
-    const bool mixed = isMixed(e, picture.scene);
-    if (mixed) picture.legend.notes.emplace_back(kMixedColors);
-    render::Metadata metadata;
+    DrawnStill drawn{file, e.stereo.mode, {}, {}, isMixed(e, picture.scene)};
+    if (drawn.mixed) picture.legend.notes.emplace_back(kMixedColors);
+    drawn.eyes = renderer.render({picture.scene, still.step.grid(), picture.legend, kBackground},
+                                 onGpu, views, extras);
     if (still.error && std::isfinite(*still.error))
-        metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
+        drawn.metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
     const Explorer alone = onlyThis(e, still.stepIndex, still.tick);
-    auto eyePictures = renderer.render(
-        {picture.scene, still.step.grid(), picture.legend, kBackground}, onGpu, views, extras);
-    metadata[kSessionKey] = jsonText(toJson(alone, file.parent_path(), still.paths), -1);
-    write(file, e.stereo.mode, std::move(eyePictures), metadata);
-    return mixed;
+    drawn.metadata[kSessionKey] = jsonText(toJson(alone, file.parent_path(), still.paths), -1);
+    return drawn;
+}
+
+void write(DrawnStill drawn) {
+    write(drawn.file, drawn.stereo, std::move(drawn.eyes), drawn.metadata);
 }
 
 }  // namespace app

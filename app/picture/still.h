@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/choices/explorer.h"
 #include "app/choices/session.h"
@@ -29,10 +30,19 @@ struct Still {
     std::optional<double> error = {};
 };
 
-// Whether the picture says that its colours are mixed. By the file's ending; two files where the
-// stereo mode makes two. `onGpu` holds the step. Throws ImageError; std::runtime_error on a GL
-// error.
-bool writeStill(const Still& still, render::FrameRenderer& renderer, render::GlStep& onGpu,
-                const render::Extras& extras, const std::filesystem::path& file);
+// What goes into a file, or two where the stereo mode makes two.
+struct DrawnStill {
+    std::filesystem::path file;
+    Stereo stereo;
+    std::vector<render::EyePicture> eyes;
+    render::Metadata metadata;
+    bool mixed;  // whether the picture says that its colours are
+};
+
+// `onGpu` holds the step. Throws std::runtime_error on a GL error.
+DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render::GlStep& onGpu,
+                     const render::Extras& extras, const std::filesystem::path& file);
+// By the file's ending; needs nothing of what drew it. Throws ImageError.
+void write(DrawnStill drawn);
 
 }  // namespace app

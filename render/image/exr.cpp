@@ -11,6 +11,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <ImfVersion.h>
 
 #include <algorithm>
@@ -18,9 +19,11 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <system_error>
 
 #include "render/image/picture_file.h"
+#include "timeseries/together.h"
 
 namespace render {
 
@@ -257,6 +260,9 @@ ExrPicture readAll(std::span<const std::byte> bytes, const std::string& name) {
 void writeExr(const std::filesystem::path& path, std::span<const ExrView> views,
               const Metadata& metadata) {
     assert(isWritable(views));
+    static std::once_flag once;  // what is compressed, is so by the library's own threads
+    std::call_once(
+        once, [] { Imf::setGlobalThreadCount(static_cast<int>(timeseries::sharingThreads())); });
     PartialFile out(path);
     try {
         const Imf::Header header = headerFor(views, metadata);

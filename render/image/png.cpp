@@ -11,7 +11,9 @@
 #include <span>
 
 #include "render/image/color.h"
+#include "render/image/encode_srgb.h"
 #include "render/image/picture_file.h"
+#include "render/image/png_rows.h"
 
 namespace render {
 
@@ -72,15 +74,25 @@ struct Reader {
 
 std::uint8_t alpha8(float alpha) {
     if (!(alpha > 0)) return 0;  // NaN too
-    return static_cast<std::uint8_t>(std::lround(std::min(alpha, 1.0f) * 255.0));
+    return static_cast<std::uint8_t>(std::min(alpha, 1.0f) * 255.0 + 0.5);
 }
 
-// Straight alpha: the colour divided by the unrounded alpha. What 0 / 0 gives is black.
-std::array<std::uint8_t, 4> encode(glm::vec4 linear) {
-    const std::uint8_t alpha = alpha8(linear.a);
-    const double weight = std::min(static_cast<double>(linear.a), 1.0);
-    return {srgb8FromLinear(linear.r / weight), srgb8FromLinear(linear.g / weight),
-            srgb8FromLinear(linear.b / weight), alpha};
+// Pixels as bytes, alpha straight: the colour divided by the unrounded alpha. What 0 / 0 gives is
+// black.
+void encode(std::span<const glm::vec4> pixels, bool opaque, std::span<std::uint8_t> bytes) {
+    std::vector<float> straight;
+    straight.reserve(3 * pixels.size());
+    for (const glm::vec4& pixel : pixels) {
+        const float weight = std::min(pixel.a, 1.0f);
+        for (int c = 0; c < 3; ++c) straight.push_back(pixel[c] / weight);
+    }
+    if (opaque) return encodeSrgb8(straight, bytes);
+    std::vector<std::uint8_t> rgb(straight.size());
+    encodeSrgb8(straight, rgb);
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+        std::copy_n(&rgb[3 * x], 3, &bytes[4 * x]);
+        bytes[4 * x + 3] = alpha8(pixels[x].a);
+    }
 }
 
 std::vector<png_text> textChunks(const Metadata& metadata) {
@@ -182,8 +194,6 @@ void writePng(const std::filesystem::path& file, const Image& image, const Metad
                                     [](glm::vec4 pixel) { return alpha8(pixel.a) == 255; });
     const auto texts = textChunks(metadata);
     const auto width = static_cast<std::size_t>(image.size.x);
-    const std::size_t channels = opaque ? 3 : 4;
-    std::vector<png_byte> row(width * channels);
     PartialFile out(file);
     Writer writer;
     const auto check = [&](bool succeeded) {
@@ -193,14 +203,20 @@ void writePng(const std::filesystem::path& file, const Image& image, const Metad
     png_init_io(writer.png, out.stream());
     check(succeeds(writer.png,
                    [&] { writeHeader(writer.png, writer.info, image.size, opaque, texts); }));
-    for (int y = 0; y < image.size.y; ++y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            const auto rgba = encode(image.at(static_cast<int>(x), y));
-            std::copy_n(rgba.begin(), channels, &row[x * channels]);
-        }
-        check(succeeds(writer.png, [&] { png_write_row(writer.png, row.data()); }));
-    }
-    check(succeeds(writer.png, [&] { png_write_end(writer.png, nullptr); }));
+    const auto writeChunk = [&](const char* type, std::span<const std::uint8_t> bytes) {
+        check(succeeds(writer.png, [&] {
+            png_write_chunk(writer.png, reinterpret_cast<png_const_bytep>(type), bytes.data(),
+                            bytes.size());
+        }));
+    };
+    const std::span pixels(image.pixels);
+    const std::size_t pixelBytes = opaque ? 3 : 4;
+    deflateRows({static_cast<std::size_t>(image.size.y), pixelBytes * width, pixelBytes,
+                 [&](std::size_t y, std::span<std::uint8_t> row) {
+                     encode(pixels.subspan(y * width, width), opaque, row);
+                 }},
+                [&](std::span<const std::uint8_t> bytes) { writeChunk("IDAT", bytes); });
+    writeChunk("IEND", {});
     out.commit();
 }
 

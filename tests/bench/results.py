@@ -178,7 +178,7 @@ def stages_page(part):
     series = part("stageSeries/points:128")
     if series:
         target("pictures a second of a series of 128³, by points", 1e3 / series["points_png_ms"], 25, at_least=True)
-        text += ("\n`render` of 40 steps of 128³ floats, 1 % of each, 1024 x 1024 pixels, milliseconds a picture:\n\n"
+        text += ("\n`render` of 120 steps of 128³ floats, 1 % of each, 1024 x 1024 pixels, milliseconds a picture:\n\n"
                  + table(["drawn by", "PNG", "OpenEXR"], [[model, digits(series[f"{model}_png_ms"]), digits(series[f"{model}_exr_ms"])]
                                                        for model in ("points", "cells")]))
     return text

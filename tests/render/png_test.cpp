@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "render/image/color.h"
 #include "tests/support/files.h"
+#include "timeseries/together.h"
 
 namespace render {
 namespace {
@@ -115,6 +118,46 @@ TEST(Png, ValuesThatAreNoLightAreClamped) {
     EXPECT_EQ(read[1], glm::vec4(0, 1, 0, 1));
     EXPECT_EQ(read[2], glm::vec4(0));
     EXPECT_EQ(read[3], glm::vec4(0));
+}
+
+// Noise, which no filter predicts, in more rows than are deflated at once (256 KiB), and in strips
+// of which more are made than are kept until they are written (64).
+Image noise(glm::ivec2 size, bool opaque) {
+    Image image(size);
+    std::minstd_rand random(7);
+    const auto step = [&] { return static_cast<int>(random() % 256); };
+    for (glm::vec4& pixel : image.pixels) {
+        const float alpha = opaque ? 1.0f : static_cast<float>(step()) / 255;
+        pixel = glm::vec4(linear8(step()), linear8(step()), linear8(step()), 1) * alpha;
+    }
+    return image;
+}
+
+TEST(Png, EveryPixelOfALargePictureComesBack) {
+    const auto file = freshFolder() / "noise.png";
+    for (const glm::ivec2 size : {glm::ivec2(300, 700), {1, 70'000}, {70'000, 70}}) {
+        const Image image = noise(size, true);
+        writePng(file, image);
+        EXPECT_EQ(readPng(file).image, image) << size.x << " x " << size.y;
+    }
+    const Image image = noise({300, 700}, false);
+    writePng(file, image);
+    const Image read = readPng(file).image;
+    ASSERT_EQ(read.size, image.size);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        ASSERT_LT(glm::distance(read.pixels[i], image.pixels[i]), 1e-6f) << "pixel " << i;
+}
+
+TEST(Png, TheBytesAreTheSameForAnyNumberOfThreads) {
+    const auto folder = freshFolder();
+    const Image image = noise({500, 1000}, true);
+    const unsigned before = timeseries::threadLimit.exchange(1);
+    writePng(folder / "one.png", image);
+    timeseries::threadLimit = before;
+    for (int i = 0; i < 5; ++i) {
+        writePng(folder / "several.png", image);
+        EXPECT_EQ(readBytes(folder / "several.png"), readBytes(folder / "one.png"));
+    }
 }
 
 TEST(Png, MetadataComeBackAsWritten) {

@@ -32,8 +32,9 @@ class CanvasOfNoise : public testing::Test {
         render::FrameRenderer renderer(render::SplatterChoice::Gl);
         const render::PlacedPoints placed(shown.sorted->grid(), shown.explorer.scale);
         render::GlStep onGpu(*shown.sorted, placed);
-        writeStill({shown.explorer, shown.dataset.variable, shown.step, *shown.sorted, placed, 0},
-                   renderer, onGpu, {}, file);
+        write(drawStill(
+            {shown.explorer, shown.dataset.variable, shown.step, *shown.sorted, placed, 0},
+            renderer, onGpu, {}, file));
     }
 
     render::gl::HeadlessContext context_;

@@ -107,6 +107,20 @@ TEST(Series, TheLeastRecentlyUsedStepLeavesFirst) {
     EXPECT_EQ(series.bytes(), 3 * bytesOf(100));
 }
 
+TEST(Series, AStepThatIsDroppedLeavesItsRoomAndIsHandedOutAnew) {
+    Series series(9, 2 * bytesOf(100));
+    const auto first = stepOf(100);
+    series.loaded(0, first);
+    series.loaded(1, stepOf(100));
+    EXPECT_EQ(series.drop(0), first);
+    EXPECT_EQ(series.bytes(), bytesOf(100));
+    EXPECT_EQ(series.drop(0), nullptr);
+    EXPECT_EQ(series.summary(0)->points, 100u);
+    series.loaded(2, stepOf(100));
+    EXPECT_THAT(stepsIn(series, SlotState::Loaded), ElementsAre(1, 2));
+    EXPECT_THAT(series.want({0, 1}), ElementsAre(0));
+}
+
 TEST(Series, WantedStepsLeaveAfterTheOthersAndTheMostUrgentNever) {
     Series series(9, 3 * bytesOf(100));
     for (const std::size_t step : {0, 1, 2}) series.loaded(step, stepOf(100));

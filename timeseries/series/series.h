@@ -73,6 +73,8 @@ class Series {
     // Puts the same step, its points dropped, where it is (SortedStep::reopened), and returns what
     // left. REQUIRES: isStored(step).
     std::shared_ptr<const SortedStep> reopen(std::size_t step);
+    // Takes a step out that nobody will look at soon; returns what was there, or null.
+    std::shared_ptr<const SortedStep> drop(std::size_t step);
     // A step that failed is not handed out again before retry().
     void failed(std::size_t step, std::string why);
     void retry(std::size_t step);
@@ -89,7 +91,6 @@ class Series {
 
     std::vector<std::size_t> missingWishes() const;
     std::size_t urgency(std::size_t step) const;  // place among the wishes, or kUnwanted
-    std::shared_ptr<const SortedStep> drop(std::size_t step);  // what was there, or null
     void evict(Steps& left);
 
     std::vector<Slot> slots_;
