@@ -11,13 +11,24 @@ void put(std::string& file, std::size_t at, std::string_view magic) {
     file.replace(at, magic.size(), magic);
 }
 
+// For PLOT3D, whose places stand in a file beside: 2 x 2 x 2 of them.
+std::string cornersOfACube() {
+    std::string file("\2\0\0\0\2\0\0\0\2\0\0\0", 12);
+    for (int c = 0; c < 3; ++c)
+        for (int point = 0; point < 8; ++point) {
+            const auto at = static_cast<float>(point >> c & 1);
+            file.append(reinterpret_cast<const char*>(&at), 4);
+        }
+    return file;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace std::string_view_literals;
     std::string file(fuzz::text(data, size));
     const char kind = file.empty() ? '\0' : file[0];
-    if (kind >= '\1' && kind <= '\4') file.erase(0, 1);
+    if (kind >= '\1' && kind <= '\6') file.erase(0, 1);
     switch (kind) {
         case '\1':
             put(file, 344, "n+1\0"sv);
@@ -30,6 +41,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             break;
         case '\4':
             put(file, 0, "SIMPLE  =                    T"sv);
+            break;
+        case '\5': {
+            static const auto places = fuzz::write("places.xyz", cornersOfACube());
+            put(file, 0, "\2\0\0\0\2\0\0\0\2\0\0\0"sv);
+            break;
+        }
+        case '\6':
+            file.insert(0, "x,y,z,T\n0,0,0,1\n");
             break;
         default:
             file.insert(0, "NRRD0005\n");

@@ -102,10 +102,10 @@ TEST(CellSplatter, PerCrossingEachPieceOfTheWayCountsForItsLengthOrItsChange) {
                         {"0.3~" + std::to_string(half)});
         world.scene.opacityPer = OpacityPer::Crossing;
         for (const glm::dvec3& from : kFrom) {
-            const View view = tests::lookFrom(from, {24, 20}, 0.002);
+            const View view = tests::lookFrom(from, {12, 10}, 0.002);
             std::vector<double> wanted;
-            for (int pixel = 0; pixel < 480; ++pixel) {
-                const Ray ray = rayOf(world, view, {pixel % 24 + 0.5, pixel / 24 + 0.5});
+            for (int pixel = 0; pixel < 120; ++pixel) {
+                const Ray ray = rayOf(world, view, {pixel % 12 + 0.5, pixel / 12 + 0.5});
                 const auto [begin, end] = inside(ray, world.placed.domain());
                 const double step = (end - begin) / kSamples;
                 const auto at = [&, begin = begin](int i) {

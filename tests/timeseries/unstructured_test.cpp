@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/support/unstructured.h"
+#include "timeseries/grid/scattered.h"
 
 namespace timeseries {
 namespace {
@@ -108,7 +109,7 @@ TEST(Unstructured, CellsOfFewerDimensionsThanOthersTakeNoSpace) {
 }
 
 // Two rectangles of 3 x 2 each: as thick as the root of 6.
-TEST(Unstructured, SurfacesLinesAndPointsAreAsThickAsTheyAreWide) {
+TEST(Unstructured, SurfacesAndLinesAreAsThickAsTheyAreWide) {
     UnstructuredGrid surface;
     surface.points = {{0, 0, 0}, {3, 0, 0}, {0, 0, 2}, {3, 0, 2}, {0, 0, 4}, {3, 0, 4}};
     addCell(surface, 9, {0, 1, 3, 2});
@@ -126,11 +127,19 @@ TEST(Unstructured, SurfacesLinesAndPointsAreAsThickAsTheyAreWide) {
     addCell(lines, 4, {1, 2});
     for (const Mesh& mesh : {tests::atCells(lines), tests::atPoints(lines)})
         EXPECT_NEAR(volume(mesh), 6 * 3 * 3, 1e-5);
+}
+
+// One a cell, or all of them of one.
+TEST(Unstructured, PointsAloneAreScattered) {
     UnstructuredGrid points;
     points.points = {{0, 0, 0}, {2, 0, 0}, {2, 4, 0}, {0, 4, 1}};
+    UnstructuredGrid together = points;
     for (std::uint32_t i = 0; i < 4; ++i) addCell(points, 1, {i});
-    for (const Mesh& mesh : {tests::atCells(points), tests::atPoints(points)})
-        EXPECT_NEAR(volume(mesh), 2 * 4 * 1, 1e-6) << "the box, shared";
+    addCell(together, 2, {0, 1, 2, 3});
+    const Mesh expected = meshOfScattered(points.points);
+    EXPECT_EQ(tests::atPoints(points), expected);
+    EXPECT_EQ(tests::atCells(points), expected);
+    EXPECT_EQ(tests::atPoints(together), expected);
 }
 
 TEST(Unstructured, CurvedCellsAreTold) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/support/array_builder.h"
+#include "tests/support/hdf_file.h"
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
@@ -20,46 +21,6 @@ using namespace tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Numbers = std::vector<std::int64_t>;
-
-class HdfFile {
- public:
-    HdfFile() { file_.end(); }  // netCDF-4 goes back and forth by itself
-    // `name` may have slashes; each array has dimensions of its own.
-    template <typename T>
-    void put(const std::string& name, const std::vector<T>& values, std::size_t columns = 1) {
-        const auto slash = name.rfind('/');
-        const int group = groupOf(name.substr(0, slash));
-        const std::string own = name.substr(slash + 1);
-        int rows = 0, across = 0, variable = 0;
-        NetcdfBuilder::check(
-            nc_def_dim(group, (own + "_n").c_str(), values.size() / columns, &rows));
-        std::vector<int> dimensions{rows};
-        if (columns > 1) {
-            NetcdfBuilder::check(nc_def_dim(group, (own + "_c").c_str(), columns, &across));
-            dimensions.push_back(across);
-        }
-        NetcdfBuilder::check(nc_def_var(group, own.c_str(), ncType<T>(), int(dimensions.size()),
-                                        dimensions.data(), &variable));
-        NetcdfBuilder::check(nc_put_var(group, variable, values.data()));
-    }
-    std::filesystem::path close() { return file_.close(); }
-
- private:
-    int groupOf(const std::string& path) {
-        int id = file_.id();
-        std::string rest = path;
-        while (!rest.empty()) {
-            const std::string one = rest.substr(0, rest.find('/'));
-            rest = one.size() < rest.size() ? rest.substr(one.size() + 1) : "";
-            int next = 0;
-            if (nc_inq_grp_ncid(id, one.c_str(), &next) != NC_NOERR)
-                NetcdfBuilder::check(nc_def_grp(id, one.c_str(), &next));
-            id = next;
-        }
-        return id;
-    }
-    NetcdfBuilder file_{"file.vtkhdf"};
-};
 
 // A row of unit cubes from x on, of 4 (count + 1) points.
 struct Cubes {

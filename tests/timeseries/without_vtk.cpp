@@ -36,17 +36,17 @@ TEST(WithoutVtk, TypesThatAreNotReadAreToldBeforeTheWay) {
         }
         return "";
     };
-    const auto mesh = tests::testFolder() / "mesh.vtp", list = tests::testFolder() / "list.pvd",
+    const auto mesh = tests::testFolder() / "mesh.pvtp", list = tests::testFolder() / "list.pvd",
                old = tests::testFolder() / "old.vtk";
-    tests::writeBytes(mesh, "<VTKFile type=\"PolyData\" version=\"1.0\"></VTKFile>");
+    tests::writeBytes(mesh, "<VTKFile type=\"PPolyData\" version=\"1.0\"></VTKFile>");
     tests::writeBytes(list,
                       "<VTKFile type=\"Collection\"><Collection>"
-                      "<DataSet timestep=\"0\" file=\"mesh.vtp\"/></Collection></VTKFile>");
+                      "<DataSet timestep=\"0\" file=\"mesh.pvtp\"/></Collection></VTKFile>");
     tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\n");
     EXPECT_THAT(refusal(mesh),
-                testing::StartsWith(mesh.string() + " is a VTK file of type PolyData; "));
+                testing::StartsWith(mesh.string() + " is a VTK file of type PPolyData; "));
     EXPECT_THAT(refusal(list),
-                testing::StartsWith(mesh.string() + " is a VTK file of type PolyData; "));
+                testing::StartsWith(mesh.string() + " is a VTK file of type PPolyData; "));
     EXPECT_THAT(refusal(old),
                 testing::StartsWith(old.string() + " is a VTK file of type polydata; "));
     for (const auto& path : {mesh, list, old})

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "timeseries/grid/cell_types.h"
+#include "timeseries/grid/scattered.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -25,6 +26,13 @@ std::span<const std::uint32_t> listOf(const std::vector<std::uint32_t>& all,
     return {all.data() + first, all.data() + ends[cell]};
 }
 
+// Not finite where there are none.
+glm::dvec3 centreOf(std::span<const glm::dvec3> places) {
+    glm::dvec3 sum(places.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+    for (const glm::dvec3& place : places) sum += place / static_cast<double>(places.size());
+    return sum;
+}
+
 // How the cells of a grid measure: those of fewer dimensions than others take no space.
 class Measure {
  public:
@@ -32,7 +40,7 @@ class Measure {
         for (const std::uint8_t number : grid.types)
             if (const CellType* type = cellTypeOf(number))
                 dimension_ = std::max(dimension_, type->dimension);
-        if (dimension_ < 3) thickness_ = thickness();
+        if (dimension_ == 1 || dimension_ == 2) thickness_ = thickness();
     }
     int dimension() const { return dimension_; }
     CellMoments operator()(std::size_t cell) const;
@@ -79,34 +87,20 @@ CellMoments Measure::polyhedron(std::size_t cell) const {
 CellMoments Measure::plain(std::size_t cell) const {
     const CellType* type = cellTypeOf(grid_.types[cell]);
     if (!type || type->dimension < dimension_) {
-        CellMoments nothing;
-        const auto all = listOf(grid_.corners, grid_.ends, cell);
-        for (const std::uint32_t point : all)
-            nothing.centroid += grid_.points[point] / static_cast<double>(all.size());
-        if (all.empty()) nothing.centroid = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
-        return nothing;
+        std::vector<glm::dvec3> all;
+        for (const std::uint32_t point : listOf(grid_.corners, grid_.ends, cell))
+            all.push_back(grid_.points[point]);
+        return {0, centreOf(all), glm::dmat3(0.0)};
     }
     if (grid_.types[cell] == kPolyhedron) return polyhedron(cell);
     const auto& corners = cornersOf(cell, *type);
-    if (corners.empty())
-        return {0, glm::dvec3(std::numeric_limits<double>::quiet_NaN()), glm::dmat3(0.0)};
+    if (corners.empty()) return {0, centreOf(corners), glm::dmat3(0.0)};
     if (type->dimension == 3) return momentsOfSolid(corners, type->faceSizes, type->faces);
+    if (type->dimension == 0) return {0, centreOf(corners), glm::dmat3(0.0)};
     return type->dimension == 2 ? momentsOfPolygon(corners) : momentsOfLine(corners);
 }
 
 double Measure::thickness() const {
-    glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
-    if (dimension_ == 0) {
-        for (const glm::dvec3& at : grid_.points)
-            if (isPlace(at)) lo = glm::min(lo, at), hi = glm::max(hi, at);
-        double product = 1;
-        int extents = 0;
-        for (int c = 0; c < 3; ++c)
-            if (hi[c] > lo[c]) product *= hi[c] - lo[c], ++extents;
-        return extents > 0
-                   ? std::pow(product / static_cast<double>(grid_.points.size()), 1.0 / extents)
-                   : 1;
-    }
     const glm::dvec2 sum = sumOf(grid_.types.size(), [&](std::size_t cell) {
         const double size = plain(cell).volume;
         return glm::dvec2(size, size > 0 ? 1 : 0);
@@ -119,11 +113,6 @@ double Measure::thickness() const {
 void Measure::thicken(CellMoments& moments, std::size_t cell) const {
     const double reach = thickness_ * thickness_ / 12;
     const glm::dmat3 every(reach);
-    if (dimension_ == 0) {
-        moments.volume = thickness_ * thickness_ * thickness_;
-        moments.second = every;
-        return;
-    }
     const auto& corners = cornersOf(cell, *cellTypeOf(grid_.types[cell]));
     glm::dvec3 along = corners.back() - corners.front();  // of a surface its normal
     if (dimension_ == 2) {
@@ -142,8 +131,7 @@ void Measure::thicken(CellMoments& moments, std::size_t cell) const {
 
 CellMoments Measure::operator()(std::size_t cell) const {
     CellMoments moments = plain(cell);
-    const bool isPoint = dimension_ == 0 && cellTypeOf(grid_.types[cell]);
-    if (dimension_ < 3 && (moments.volume > 0 || isPoint)) thicken(moments, cell);
+    if (dimension_ < 3 && moments.volume > 0) thicken(moments, cell);
     return moments;
 }
 
@@ -256,6 +244,9 @@ std::string flawOf(const UnstructuredGrid& grid) {
 UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid)
     : cells(grid.types.size()), spread(spreadOf(grid)) {
     const Measure measure(grid);
+    areScattered =
+        measure.dimension() == 0 &&
+        std::ranges::any_of(grid.types, [](std::uint8_t type) { return cellTypeOf(type); });
     inParts(cells.size(), threadsFor(cells.size(), kCellsAThread),
             [&](std::size_t first, std::size_t last) {
                 for (std::size_t cell = first; cell < last; ++cell) cells[cell] = measure(cell);
@@ -264,6 +255,11 @@ UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid)
 
 Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
                  const std::vector<double>& levels, const std::vector<glm::dvec3>& places) {
+    if (shapes.areScattered) {
+        std::vector<glm::dvec3> at;
+        for (const CellMoments& cell : shapes.cells) at.push_back(cell.centroid);
+        return meshOfScattered(at);
+    }
     const auto point = [&](std::uint64_t cell) {
         const CellMoments& of = shapes.cells[cell];
         const bool hasPlace = !places.empty() && isPlace(places[cell]);
@@ -276,6 +272,9 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
 
 Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
                   const std::vector<double>& levels, std::uint64_t count) {
+    count = std::min<std::uint64_t>(count, grid.points.size());
+    if (shapes.areScattered)
+        return meshOfScattered({grid.points.begin(), grid.points.begin() + std::ptrdiff_t(count)});
     const Stars stars(grid);
     const auto pointOf = [&](std::uint64_t point) {
         const glm::dvec3& at = grid.points[point];
@@ -293,8 +292,7 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
         if (whole > 0) second /= whole;
         return prismOf({at, rowsOf(second, volume)}, second, volume, levels);
     };
-    return Mesh(std::min<std::uint64_t>(count, grid.points.size()), grid.points, shapes.spread,
-                pointOf, levels);
+    return Mesh(count, grid.points, shapes.spread, pointOf, levels);
 }
 
 std::vector<std::string> notesOf(const UnstructuredGrid& grid) {

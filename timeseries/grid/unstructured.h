@@ -33,8 +33,8 @@ struct UnstructuredGrid {
 std::string flawOf(const UnstructuredGrid& grid);
 
 // How the cells measure: those of fewer dimensions than others have no volume. Where all are
-// surfaces, they are as thick as their mean is wide; lines, as the mean is long; and where there
-// are but points, each stands for the same share of their box.
+// surfaces, they are as thick as their mean is wide; lines, as the mean is long. Where there are but
+// points, they have no volume here: see scattered.h.
 struct UnstructuredShapes {
     // REQUIRES: no flaw.
     explicit UnstructuredShapes(const UnstructuredGrid& grid);
@@ -42,6 +42,7 @@ struct UnstructuredShapes {
     // Irregular cells leave gaps unless their splats are wider than a lattice's (1.5: see
     // tests/render/mesh_splats_test.cpp).
     double spread = 1;
+    bool areScattered = false;  // points alone
 };
 
 // Throw std::invalid_argument when nothing has a volume.

@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include <array>
-#include <cstring>
 
 namespace timeseries {
 namespace {
@@ -67,46 +66,15 @@ std::string_view attributeOf(std::string_view text, std::string_view name, std::
 }
 
 std::string otherText(std::string_view start) {
-    if (beginsWithMarkup(start) && has(start, "<Xdmf")) return "an XDMF file";
     if (start.starts_with("file") && has(start, "grid =")) return "an OpenDX header";
     if (start.starts_with("FORMAT") && has(start, "ensight")) return "an EnSight file";
     return "";
 }
 
-// Three lengths, then so many numbers that they are these and hardly anything else (Walatka and
-// others, "PLOT3D User's Manual", NASA TM 101067, chapter 8): three coordinates a point, and
-// perhaps an integer, or four numbers of the flow and five a point. Of either byte order; before
-// the lengths the mark of a Fortran record or the count of grids.
-bool isPlot3d(std::string_view start, std::uint64_t bytes) {
-    const auto pointsAt = [&](std::size_t at, bool swapped) -> std::uint64_t {
-        std::uint64_t points = 1;
-        for (std::size_t i = 0; i < 3; ++i) {
-            std::uint32_t n = 0;
-            if (start.size() < at + 4 * i + 4) return 0;
-            std::memcpy(&n, start.data() + at + 4 * i, 4);
-            if (swapped) n = __builtin_bswap32(n);
-            if (n < 1 || n > 65536) return 0;
-            points *= n;
-        }
-        return points;
-    };
-    constexpr std::uint64_t kMore = 512;  // marks of records, and what some writers leave behind
-    for (const bool swapped : {false, true})
-        for (const std::size_t at : {0, 4}) {
-            const std::uint64_t points = pointsAt(at, swapped);
-            if (points < 8) continue;
-            for (const std::uint64_t real : {4, 8})
-                for (const std::uint64_t size :
-                     {3 * real * points, (3 * real + 4) * points, real * (4 + 5 * points)})
-                    if (bytes >= at + 12 + size && bytes <= at + 12 + size + kMore) return true;
-        }
-    return false;
-}
-
 bool isGzip(std::string_view start) { return start.starts_with("\x1f\x8b"); }
 
 std::string insideGzip(std::string_view start) {
-    const std::string inner = unpackedBeginning(start), other = otherFormat(inner, 0);
+    const std::string inner = unpackedBeginning(start), other = otherFormat(inner);
     if (!other.empty()) return other;
     return "compressed by gzip, and must be unpacked first";
 }
@@ -146,7 +114,7 @@ std::string otherVtkType(std::string_view type) {
     if (first == type.npos) return "";
     type = type.substr(first, type.find_last_not_of(kBlank) + 1 - first);
     for (const auto other :
-         {"PolyData"sv, "PPolyData"sv, "HyperTreeGrid"sv, "PHyperTreeGrid"sv, "Table"sv, "PTable"sv,
+         {"PPolyData"sv, "HyperTreeGrid"sv, "PHyperTreeGrid"sv, "Table"sv, "PTable"sv,
           "vtkMultiBlockDataSet"sv, "vtkMultiPieceDataSet"sv, "vtkPartitionedDataSet"sv,
           "vtkPartitionedDataSetCollection"sv, "vtkHierarchicalBoxDataSet"sv, "vtkOverlappingAMR"sv,
           "vtkNonOverlappingAMR"sv, "polydata"sv, "field"sv})
@@ -161,15 +129,14 @@ std::string otherVtk(std::string_view start) {
     return otherVtkType(attributeOf(start.substr(0, start.find('>', root)), "type", root));
 }
 
-std::string otherFormat(std::string_view start, std::uint64_t bytes) {
+std::string otherFormat(std::string_view start) {
     if (isGzip(start)) return insideGzip(start);
     for (const Magic& magic : kMagics)
         if (start.size() >= magic.at + magic.bytes.size() &&
             start.substr(magic.at, magic.bytes.size()) == magic.bytes)
             return std::string(magic.what);
     if (std::string vtk = otherVtk(start); !vtk.empty()) return vtk;
-    if (std::string text = otherText(start); !text.empty()) return text;
-    return isPlot3d(start, bytes) ? "a PLOT3D file" : "";
+    return otherText(start);
 }
 
 std::string otherFolder(const std::filesystem::path& folder) {
@@ -184,9 +151,9 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, Exodus II, VTKHDF, NRRD, NIfTI, MRC, FITS and, of VTK, image data, rectilinear, "
-        "structured and "
-        "unstructured grids (.vti, .vtr, .vts, .vtu, .pvti and so on, .vtk, .pvd, .series)";
+        "NetCDF, Exodus II, VTKHDF, XDMF, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of VTK, image "
+        "data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, .vtu, "
+        ".vtp, .pvti and so on, .vtk, .pvd, .series)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
 

@@ -2,7 +2,6 @@
 // is.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,9 +12,9 @@ namespace timeseries {
 constexpr std::size_t kBeginningBytes = 1024;
 
 // "a NIfTI file"; "" when it is not known. `start`: the file's first kBeginningBytes, of one that
-// is shorter all. `bytes`: its size. REQUIRES: it does not begin as one that is read. These may
-// hold the signs of others further on.
-std::string otherFormat(std::string_view start, std::uint64_t bytes);
+// is shorter all. REQUIRES: it does not begin as one that is read. These may hold the signs of others
+// further on.
+std::string otherFormat(std::string_view start);
 
 // What the first bytes of a gzip file unpack to, as far as they go; other files' as they are.
 std::string unpackedBeginning(std::string_view start);

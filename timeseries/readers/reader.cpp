@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "timeseries/readers/array_reader.h"
+#include "timeseries/readers/csv_reader.h"
 #include "timeseries/readers/fits_reader.h"
 #include "timeseries/readers/mrc_header.h"
 #include "timeseries/readers/netcdf_reader.h"
@@ -14,8 +15,10 @@
 #include "timeseries/readers/nrrd_header.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/other_formats.h"
+#include "timeseries/readers/plot3d_reader.h"
 #include "timeseries/readers/sequence_reader.h"
 #include "timeseries/readers/step_reader.h"
+#include "timeseries/readers/xdmf_reader.h"
 #ifdef ISOCHRON_VTK
 #include "timeseries/readers/vtk_reader.h"
 #else
@@ -77,6 +80,8 @@ const std::array kFormats = {
     Format{isMrc, openWith<readMrcHeader>},
     Format{[](std::string_view start) { return start.starts_with("SIMPLE  ="sv); }, openFits},
     Format{[](std::string_view start) { return start.starts_with("isostep\n"sv); }, openStep},
+    Format{isXdmf, openXdmf},
+    Format{isCsv, openCsv},
     Format{[](std::string_view start) {
                const auto first = start.find_first_not_of(" \t\r\n"sv);
                const bool vtk =
@@ -89,21 +94,20 @@ const std::array kFormats = {
            },
            openVtk},
 };
-
-std::string otherFormatOf(const std::filesystem::path& path, std::string_view start) {
-    std::error_code ignored;
-    return otherFormat(start, std::filesystem::file_size(path, ignored));
-}
+// Begins with nothing of its own: told by its size, when it is none of the others.
+const Format kPlot3d{nullptr, openPlot3d};
 
 const Format& recognise(const std::filesystem::path& path) {
     const std::string start = beginning(path);
     for (const Format& format : kFormats)
         if (format.begins(start)) return format;
-    const std::string other = otherFormatOf(path, start);
+    const std::string other = otherFormat(start);
     if (!other.empty()) throw FileError(notReadSentence(path, other));
-    throw FileError(
-        fmt::format("{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS or VTK file, {}", path.string(),
-                    start.empty() ? "but it is empty" : "found no format that is known"));
+    std::error_code ignored;
+    if (isPlot3d(start, std::filesystem::file_size(path, ignored))) return kPlot3d;
+    throw FileError(fmt::format(
+        "{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV or VTK file, {}", path.string(),
+        start.empty() ? "but it is empty" : "found no format that is known"));
 }
 
 // Those of the slab, of all in the order of a grid of this size.
@@ -165,7 +169,7 @@ bool isReadable(const std::filesystem::path& path) {
 
 std::string formatNotRead(const std::filesystem::path& path) {
     try {
-        return isReadable(path) ? "" : otherFormatOf(path, beginning(path));
+        return isReadable(path) ? "" : otherFormat(beginning(path));
     } catch (const FileError&) {
         return "";
     }

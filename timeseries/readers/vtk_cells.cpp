@@ -5,7 +5,7 @@
 #include <vtkSmartPointer.h>
 
 #include <limits>
-#include <stdexcept>
+#include <utility>
 
 namespace timeseries {
 namespace {
@@ -16,18 +16,15 @@ std::uint64_t endOf(std::int64_t end, std::uint64_t begin) {
                    : begin + static_cast<std::uint64_t>(end);
 }
 
-}  // namespace
-
-template <typename Use>
-void VtkCellReader::forEach(const char* name, const VtkIndices& expected, const Use& use) {
-    vtkXMLDataElement* element = FindDataArrayWithName(CellElements[Piece], name);
-    const auto array =
-        vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
+// use(i, number) for each of so many that `read` puts there; for none where it does not.
+template <typename Use, typename Read>
+void forEachOf(vtkAbstractArray* array, const VtkIndices& expected, const Use& use,
+               const Read& read) {
     auto* data = vtkDataArray::SafeDownCast(array);
     const auto count = static_cast<vtkIdType>(expected.count);
     if (!data || data->GetNumberOfComponents() != 1) return;
     data->SetNumberOfTuples(count);
-    if (count > 0 && !ReadArrayValues(element, 0, data, 0, count)) return;
+    if (count > 0 && !read(data, count)) return;
     const auto take = [&](auto* values) {
         for (std::uint64_t i = 0; i < expected.count; ++i)
             use(i, static_cast<std::int64_t>(values[i]));
@@ -39,21 +36,44 @@ void VtkCellReader::forEach(const char* name, const VtkIndices& expected, const 
     }
 }
 
-void VtkCellReader::addCells(const VtkPiece& piece) {
-    const std::uint64_t cells = grid_.types.size(), corners = grid_.corners.size();
-    grid_.ends.resize(cells + piece.cells);
-    grid_.types.resize(cells + piece.cells);
-    grid_.corners.resize(corners + piece.connectivity.count, kNoPoint);
-    forEach("offsets", piece.offsets, [&](std::uint64_t i, std::int64_t end) {
-        grid_.ends[cells + i] = endOf(end, corners);
+// Where they stand in a grid whose cells are of one list, behind those that are there.
+template <typename ForEach>
+void addList(UnstructuredGrid& grid, std::uint64_t count, const VtkIndices& connectivity,
+             const VtkIndices& offsets, std::uint64_t points, std::uint64_t firstPoint,
+             const ForEach& forEach) {
+    const std::uint64_t cells = grid.ends.size(), corners = grid.corners.size();
+    grid.ends.resize(cells + count);
+    grid.corners.resize(corners + connectivity.count, kNoPoint);
+    forEach("offsets", offsets,
+            [&](std::uint64_t i, std::int64_t end) { grid.ends[cells + i] = endOf(end, corners); });
+    forEach("connectivity", connectivity, [&](std::uint64_t i, std::int64_t point) {
+        if (point >= 0 && static_cast<std::uint64_t>(point) < points)
+            grid.corners[corners + i] = static_cast<std::uint32_t>(firstPoint + point);
     });
+}
+
+}  // namespace
+
+template <typename Use>
+void VtkCellReader::forEach(const char* name, const VtkIndices& expected, const Use& use) {
+    vtkXMLDataElement* element = FindDataArrayWithName(CellElements[Piece], name);
+    const auto array =
+        vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
+    forEachOf(array, expected, use, [&](vtkDataArray* data, vtkIdType count) {
+        return ReadArrayValues(element, 0, data, 0, count);
+    });
+}
+
+void VtkCellReader::addCells(const VtkPiece& piece) {
+    const std::uint64_t cells = grid_.types.size();
+    addList(grid_, piece.cells, piece.connectivity, piece.offsets, piece.points, firstPoint_,
+            [&](const char* name, const VtkIndices& expected, const auto& use) {
+                forEach(name, expected, use);
+            });
+    grid_.types.resize(cells + piece.cells);
     forEach("types", piece.types, [&](std::uint64_t i, std::int64_t type) {
         // Beyond a byte no shape has a number.
         grid_.types[cells + i] = type < 0 || type > 255 ? 0 : static_cast<std::uint8_t>(type);
-    });
-    forEach("connectivity", piece.connectivity, [&](std::uint64_t i, std::int64_t point) {
-        if (point >= 0 && static_cast<std::uint64_t>(point) < piece.points)
-            grid_.corners[corners + i] = static_cast<std::uint32_t>(firstPoint_ + point);
     });
 }
 
@@ -98,14 +118,57 @@ void VtkCellReader::addFaces(const VtkPiece& piece) {
 
 int VtkCellReader::ReadPieceData() {
     if (!vtkXMLUnstructuredDataReader::ReadPieceData()) return 0;
-    if (!pieces_ || next_ >= pieces_->size()) return 1;
-    const VtkPiece& piece = (*pieces_)[next_++];
-    if (piece.cells > 0) {
-        addCells(piece);
-        addFaces(piece);
+    const VtkPiece* const piece = next();
+    if (!piece) return 1;
+    if (piece->cells > 0) {
+        addCells(*piece);
+        addFaces(*piece);
     }
-    firstPoint_ += piece.points;
+    firstPoint_ += piece->points;
     return 1;
+}
+
+template <typename Use>
+void VtkPolygonReader::forEach(vtkXMLDataElement* lists, const char* name,
+                               const VtkIndices& expected, const Use& use) {
+    vtkXMLDataElement* element = lists ? FindDataArrayWithName(lists, name) : nullptr;
+    const auto array =
+        vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
+    forEachOf(array, expected, use, [&](vtkDataArray* data, vtkIdType count) {
+        return ReadArrayValues(element, 0, data, 0, count);
+    });
+}
+
+int VtkPolygonReader::ReadPieceData() {
+    constexpr std::array<std::uint8_t, 3> kShapes{2, 4, 7};  // cell_types.h
+    if (!vtkXMLUnstructuredDataReader::ReadPieceData()) return 0;
+    const VtkPiece* const piece = next();
+    if (!piece) return 1;
+    const std::array elements{VertElements[Piece], LineElements[Piece], PolyElements[Piece]};
+    for (std::size_t k = 0; k < kShapes.size(); ++k) {
+        const VtkList& list = piece->lists[k];
+        if (list.cells == 0) continue;
+        addList(grids_[k], list.cells, list.connectivity, list.offsets, piece->points, firstPoint_,
+                [&](const char* name, const VtkIndices& expected, const auto& use) {
+                    forEach(elements[k], name, expected, use);
+                });
+        grids_[k].types.resize(grids_[k].ends.size(), kShapes[k]);
+    }
+    firstPoint_ += piece->points;
+    return 1;
+}
+
+UnstructuredGrid VtkPolygonReader::takeCells() {
+    UnstructuredGrid all = std::move(grids_[0]);
+    for (const std::size_t k : {1u, 2u}) {
+        const std::uint64_t corners = all.corners.size();
+        const UnstructuredGrid more = std::move(grids_[k]);
+        all.types.insert(all.types.end(), more.types.begin(), more.types.end());
+        all.corners.insert(all.corners.end(), more.corners.begin(), more.corners.end());
+        for (const std::uint64_t end : more.ends)
+            all.ends.push_back(endOf(static_cast<std::int64_t>(end), corners));
+    }
+    return all;
 }
 
 }  // namespace timeseries

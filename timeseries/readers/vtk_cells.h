@@ -1,9 +1,11 @@
-// VTK's reader of XML unstructured grids, which decodes the lists of cells and does nothing with
-// them: VTK 9.1 takes what a damaged file says of its cells for granted.
+// VTK's readers of XML files of cells that are listed, which decode the lists of cells and do
+// nothing with them: VTK 9.1 takes what a damaged file says of its cells for granted.
 #pragma once
 
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,12 +13,29 @@
 
 namespace timeseries {
 
-class VtkCellReader : public vtkXMLUnstructuredGridReader {
+class VtkCells {
  public:
+    virtual ~VtkCells() = default;
     // Of which the pieces' cells are read, and none when it is null. To be called before it reads.
     void expect(const std::vector<VtkPiece>* pieces) { pieces_ = pieces; }
     // All pieces' one behind the other, but for the points.
-    UnstructuredGrid takeCells() { return std::move(grid_); }
+    virtual UnstructuredGrid takeCells() = 0;
+
+ protected:
+    // That which VTK reads now; null where its cells are not.
+    const VtkPiece* next() {
+        return pieces_ && next_ < pieces_->size() ? &(*pieces_)[next_++] : nullptr;
+    }
+    std::uint64_t firstPoint_ = 0;
+
+ private:
+    const std::vector<VtkPiece>* pieces_ = nullptr;
+    std::size_t next_ = 0;
+};
+
+class VtkCellReader : public vtkXMLUnstructuredGridReader, public VtkCells {
+ public:
+    UnstructuredGrid takeCells() override { return std::move(grid_); }
 
  protected:
     int ReadPieceData() override;
@@ -28,10 +47,23 @@ class VtkCellReader : public vtkXMLUnstructuredGridReader {
     void addCells(const VtkPiece& piece);
     void addFaces(const VtkPiece& piece);
 
-    const std::vector<VtkPiece>* pieces_ = nullptr;
-    std::size_t next_ = 0;
-    std::uint64_t firstPoint_ = 0;
     UnstructuredGrid grid_;
+};
+
+// Points, lines and surfaces, in this order, as the values of cells are.
+class VtkPolygonReader : public vtkXMLPolyDataReader, public VtkCells {
+ public:
+    UnstructuredGrid takeCells() override;
+
+ protected:
+    int ReadPieceData() override;
+
+ private:
+    template <typename Use>
+    void forEach(vtkXMLDataElement* lists, const char* name, const VtkIndices& expected,
+                 const Use& use);
+
+    std::array<UnstructuredGrid, 3> grids_;
 };
 
 }  // namespace timeseries

@@ -8,6 +8,8 @@
 #include <glm/vec3.hpp>
 #include <stdexcept>
 
+#include "timeseries/grid/middles.h"
+
 namespace timeseries {
 namespace {
 
@@ -30,14 +32,6 @@ Directions directionsOf(const VtkHeader& header) {
     return found;
 }
 
-std::vector<double> centres(const std::vector<double>& points) {
-    if (points.size() < 2) return points;
-    std::vector<double> between;
-    for (std::size_t i = 1; i < points.size(); ++i)
-        between.push_back(points[i - 1] + (points[i] - points[i - 1]) / 2);
-    return between;
-}
-
 // An image's, at first + spacing n of index n.
 std::vector<double> imageCoordinates(const VtkHeader& header, std::size_t axis, double first,
                                      double spacing) {
@@ -47,28 +41,6 @@ std::vector<double> imageCoordinates(const VtkHeader& header, std::size_t axis, 
     return coordinates;
 }
 
-// The middles of cells, of which an axis of one point has one layer.
-std::vector<glm::dvec3> middles(const VtkHeader& header) {
-    const auto points = header.size(VtkPlace::Points), cells = header.size(VtkPlace::Cells);
-    std::vector<glm::dvec3> at;
-    at.reserve(header.count(VtkPlace::Cells));
-    for (std::uint64_t k = 0; k < cells[2]; ++k)
-        for (std::uint64_t j = 0; j < cells[1]; ++j)
-            for (std::uint64_t i = 0; i < cells[0]; ++i) {
-                glm::dvec3 sum(0);
-                for (unsigned corner = 0; corner < 8; ++corner) {
-                    const auto of = [&](std::uint64_t cell, std::size_t axis) {
-                        const bool isFar = points[axis] > 1 && (corner >> axis & 1) != 0;
-                        return cell + (isFar ? 1 : 0);
-                    };
-                    sum += header.places[of(i, 0) + points[0] * (of(j, 1) + points[1] * of(k, 2))] /
-                           8.0;
-                }
-                at.push_back(sum);
-            }
-    return at;
-}
-
 VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     VtkGrid result;
     const auto size = header.size(place);
@@ -76,7 +48,9 @@ VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     try {
         const auto mesh = std::make_shared<const Mesh>(
             MeshPlaces{.size = result.layout.size,
-                       .at = place == VtkPlace::Points ? header.places : middles(header)});
+                       .at = place == VtkPlace::Points
+                                 ? header.places
+                                 : middlesOf(header.places, header.size(VtkPlace::Points))});
         result.notes = notesOf(*mesh);
         result.grid = std::make_shared<Grid>(spaceAxes(), mesh);
     } catch (const std::invalid_argument& flaw) {
@@ -139,7 +113,7 @@ VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
             : along ? imageCoordinates(header, i, header.origin[to],
                                        std::copysign(spacing, spacing * directions.unit[i][to]))
                     : imageCoordinates(header, i, 0, spacing);
-        if (place == VtkPlace::Cells) coordinates = centres(coordinates);
+        if (place == VtkPlace::Cells) coordinates = middlesOf(coordinates);
         std::string why = flaw.empty() ? flawOf(coordinates) : "";
         if (!why.empty()) {
             if (image && header.spacing[i] == 0) why = "its spacing is 0";

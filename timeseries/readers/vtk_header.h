@@ -24,6 +24,7 @@ enum class VtkKind {
     XmlRectilinear,
     XmlStructured,
     XmlUnstructured,
+    XmlPolygons,
     LegacyPoints,
     LegacyRectilinear,
     LegacyStructured,
@@ -34,7 +35,8 @@ inline bool isStructured(VtkKind kind) {
 }
 
 inline bool isUnstructured(VtkKind kind) {
-    return kind == VtkKind::XmlUnstructured || kind == VtkKind::LegacyUnstructured;
+    return kind == VtkKind::XmlUnstructured || kind == VtkKind::XmlPolygons ||
+           kind == VtkKind::LegacyUnstructured;
 }
 
 enum class VtkPlace { Points, Cells };
@@ -59,11 +61,19 @@ struct VtkIndices {
     std::uint64_t count = 0;
 };
 
-// A piece of an unstructured grid: "VTK File Formats", Kitware, "UnstructuredGrid".
+// Cells of one kind of a piece of polygons.
+struct VtkList {
+    std::uint64_t cells = 0;
+    VtkIndices connectivity, offsets;
+};
+
+// A piece of an unstructured grid, or of polygons: "VTK File Formats", Kitware, "UnstructuredGrid",
+// "PolyData".
 struct VtkPiece {
     std::uint64_t points = 0, cells = 0;
     VtkIndices connectivity, offsets, types;
     std::optional<VtkIndices> faces, faceOffsets;  // of polyhedra
+    std::array<VtkList, 3> lists;                  // of polygons: points, lines, surfaces
 };
 
 struct VtkTime {
@@ -75,7 +85,7 @@ struct VtkHeader {
     std::filesystem::path path;
     VtkKind kind{};
     std::string format;  // "VTK image data (XML)"
-    // The first and last index of the points along x, y and z; not of unstructured grids.
+    // The first and last index of the points along x, y and z; not of cells that are listed.
     std::array<std::array<std::int64_t, 2>, 3> extent{};
     std::array<double, 3> origin{0, 0, 0}, spacing{1, 1, 1};
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
@@ -85,7 +95,7 @@ struct VtkHeader {
     bool fieldOutside = false;  // a legacy file's FIELD that is neither of points nor of cells
     // Of rectilinear grids; of an XML file VTK reads them later.
     std::array<std::vector<double>, 3> coordinates;
-    std::vector<VtkPiece> pieces;  // of unstructured grids: those that hold points
+    std::vector<VtkPiece> pieces;  // of cells that are listed: those that hold points
     // Of structured grids, x fastest; VTK reads them later.
     std::vector<glm::dvec3> places;
     UnstructuredGrid unstructured;

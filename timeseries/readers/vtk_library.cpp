@@ -128,6 +128,8 @@ vtkSmartPointer<vtkXMLReader> readerOf(const VtkHeader& header) {
         reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLRectilinearGridReader>>::New();
     else if (header.kind == VtkKind::XmlStructured)
         reader = vtkSmartPointer<WithoutEmptyPieces<vtkXMLStructuredGridReader>>::New();
+    else if (header.kind == VtkKind::XmlPolygons)
+        reader = vtkSmartPointer<WithoutEmptyPieces<VtkPolygonReader>>::New();
     else
         reader = vtkSmartPointer<WithoutEmptyPieces<VtkCellReader>>::New();
     reader->SetFileName(header.path.c_str());
@@ -210,6 +212,7 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
         case VtkKind::XmlRectilinear:
         case VtkKind::XmlStructured:
         case VtkKind::XmlUnstructured:
+        case VtkKind::XmlPolygons:
             output = readBy(readerOf(header), &wanted);
             break;
         case VtkKind::LegacyPoints:
@@ -342,7 +345,7 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
         if (header.kind == VtkKind::LegacyStructured)
             return readLegacy<StructuredReader>(header, nullptr);
         const auto reader = readerOf(header);
-        auto* const cells = dynamic_cast<VtkCellReader*>(reader.Get());
+        auto* const cells = dynamic_cast<VtkCells*>(reader.Get());
         if (cells) cells->expect(&header.pieces);
         const auto found = readBy(reader, nullptr);
         if (cells) frame.unstructured = cells->takeCells();
@@ -354,7 +357,7 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
                              numbersOf(grid->GetZCoordinates())};
     if (auto* grid = vtkStructuredGrid::SafeDownCast(output))
         frame.places = placesOf(header, *grid);
-    if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
+    if (auto* grid = vtkPointSet::SafeDownCast(output); grid && isUnstructured(header.kind))
         frame.unstructured.points = placesOf(header, *grid);
     vtkFieldData* data = output->GetFieldData();
     for (int i = 0; data && i < data->GetNumberOfArrays(); ++i) {

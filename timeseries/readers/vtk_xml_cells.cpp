@@ -34,13 +34,45 @@ std::optional<VtkIndices> indicesOf(const XmlFile& file, const VtkEncoding& enco
 }  // namespace
 
 bool isEmptyVtkPiece(const XmlFile& file, const XmlElement& piece) {
-    return countOf(file, piece, "NumberOfPoints", 0) == 0 &&
-           countOf(file, piece, "NumberOfCells", 0) == 0;
+    for (const char* what : {"Points", "Cells", "Verts", "Lines", "Polys"})
+        if (countOf(file, piece, fmt::format("NumberOf{}", what), 0) > 0) return false;
+    return true;
+}
+
+VtkPiece readVtkPolygons(const XmlFile& file, const VtkEncoding& encoding,
+                         const XmlElement& piece) {
+    VtkPiece found;
+    found.points = countOf(file, piece, "NumberOfPoints", 0);
+    if (countOf(file, piece, "NumberOfStrips", 0) > 0)
+        failVtk(file.path, placeOf(piece),
+                "expected points, lines and polygons, found triangle strips, which are not read");
+    constexpr std::array kKinds{"Verts", "Lines", "Polys"};
+    for (std::size_t k = 0; k < kKinds.size(); ++k) {
+        VtkList& list = found.lists[k];
+        list.cells = countOf(file, piece, fmt::format("NumberOf{}", kKinds[k]), 0);
+        found.cells += list.cells;
+        const auto groups = named(piece, kKinds[k]);
+        if (groups.size() > 1 || (groups.empty() && list.cells > 0))
+            failVtk(file.path, placeOf(piece), fmt::format("expected one list of {}", kKinds[k]));
+        if (list.cells == 0) continue;
+        const auto connectivity =
+                       indicesOf(file, encoding, *groups[0], "connectivity", std::nullopt),
+                   offsets = indicesOf(file, encoding, *groups[0], "offsets", list.cells);
+        if (!connectivity || !offsets)
+            failVtk(file.path, placeOf(*groups[0]), "expected connectivity and offsets");
+        list.connectivity = *connectivity;
+        list.offsets = *offsets;
+    }
+    // VTK is not shown a piece without points.
+    if (found.points == 0 && found.cells > 0)
+        failVtk(file.path, placeOf(piece), "expected the points of its cells, found none");
+    return found;
 }
 
 VtkPiece readVtkPiece(const XmlFile& file, const VtkEncoding& encoding, const XmlElement& piece) {
     VtkPiece found{countOf(file, piece, "NumberOfPoints", 0),
                    countOf(file, piece, "NumberOfCells", 0),
+                   {},
                    {},
                    {},
                    {},

@@ -1,4 +1,5 @@
-// The cells that a piece of an XML unstructured grid declares, held against the file's size.
+// The cells that a piece of an XML unstructured grid, or of polygons, declares, held against the
+// file's size.
 #pragma once
 
 #include "timeseries/readers/vtk_blocks.h"
@@ -10,5 +11,6 @@ namespace timeseries {
 bool isEmptyVtkPiece(const XmlFile& file, const XmlElement& piece);
 // Throws FileError.
 VtkPiece readVtkPiece(const XmlFile& file, const VtkEncoding& encoding, const XmlElement& piece);
+VtkPiece readVtkPolygons(const XmlFile& file, const VtkEncoding& encoding, const XmlElement& piece);
 
 }  // namespace timeseries

@@ -167,9 +167,10 @@ void addPieces(const Context& context, const XmlElement& grid) {
         VtkHeader shape;
         shape.path = header.path;
         shape.kind = header.kind;
-        if (header.kind == VtkKind::XmlUnstructured) {
+        if (isUnstructured(header.kind)) {
             if (isEmptyVtkPiece(context.file, *piece)) continue;
-            shape.pieces = {readVtkPiece(context.file, context.encoding, *piece)};
+            const auto read = header.kind == VtkKind::XmlPolygons ? readVtkPolygons : readVtkPiece;
+            shape.pieces = {read(context.file, context.encoding, *piece)};
             checkPoints(context, *piece, shape);
         } else {
             shape.extent = vtkExtentOf(context.file, *piece, "Extent");
@@ -203,7 +204,7 @@ void addPieces(const Context& context, const XmlElement& grid) {
     if (shapes.empty())
         failVtk(header.path, placeOf(grid), "expected a Piece that holds points, found none");
     for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
-        if (header.kind == VtkKind::XmlUnstructured) break;  // its pieces are all that there is
+        if (isUnstructured(header.kind)) break;  // its pieces are all that there is
         const bool hasPlaces = isStructured(header.kind) && place == VtkPlace::Points;
         const auto isThere = [&](const VtkArray& array) { return array.place == place; };
         if (hasPlaces || std::ranges::any_of(header.arrays, isThere))
@@ -277,12 +278,13 @@ VtkHeader readVtkXmlHeader(const XmlFile& file) {
         Known{"ImageData", VtkKind::XmlImage, "VTK image data (XML)"},
         Known{"RectilinearGrid", VtkKind::XmlRectilinear, "VTK rectilinear grid (XML)"},
         Known{"StructuredGrid", VtkKind::XmlStructured, "VTK structured grid (XML)"},
-        Known{"UnstructuredGrid", VtkKind::XmlUnstructured, "VTK unstructured grid (XML)"}};
+        Known{"UnstructuredGrid", VtkKind::XmlUnstructured, "VTK unstructured grid (XML)"},
+        Known{"PolyData", VtkKind::XmlPolygons, "VTK polygons (XML)"}};
     const auto known = std::ranges::find(kKnown, type, &Known::type);
     if (known == kKnown.end())
         failVtk(file.path, "VTKFile",
                 fmt::format("expected the type ImageData, RectilinearGrid, StructuredGrid, "
-                            "UnstructuredGrid or Collection, found \"{}\"",
+                            "UnstructuredGrid, PolyData or Collection, found \"{}\"",
                             type));
     header.kind = known->kind;
     header.format = known->format;
@@ -290,7 +292,7 @@ VtkHeader readVtkXmlHeader(const XmlFile& file) {
     if (grids.size() != 1)
         failVtk(file.path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));
     const XmlElement& grid = *grids[0];
-    if (header.kind != VtkKind::XmlUnstructured) {
+    if (!isUnstructured(header.kind)) {
         header.extent = vtkExtentOf(file, grid, "WholeExtent");
         checkVtkExtent(header, placeOf(grid) + " WholeExtent");
     }

@@ -3,25 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "timeseries/readers/components.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/vtkhdf_mesh.h"
 
 namespace timeseries {
 namespace {
 
-constexpr std::uint64_t kMostComponents = 1024;
-
 // An array at points or cells, or a number of each of its rows.
 struct ArrayOf {
     const NcVariable* array;
     std::string name;  // in the file
     bool atPoints;
-    std::uint64_t components;
-    std::optional<std::uint64_t> component;  // nothing: the magnitude
+    Component component;
 };
 
 class VtkHdfReader final : public Reader {
@@ -44,7 +41,7 @@ class VtkHdfReader final : public Reader {
  private:
     void addTime();
     void addArrays(bool atPoints);
-    void add(ArrayOf source, const std::string& name, ValueType type, const std::string& storedAs);
+    void add(ArrayOf source, const ComponentVariable& component);
     void open(std::size_t step);
     std::shared_ptr<const Grid> gridAt(bool atPoints);
     const NcVariable* ghostsAt(bool atPoints) const;
@@ -105,12 +102,11 @@ const NcVariable* VtkHdfReader::ghostsAt(bool atPoints) const {
     return found && found->type ? found : nullptr;
 }
 
-void VtkHdfReader::add(ArrayOf source, const std::string& name, ValueType type,
-                       const std::string& storedAs) {
+void VtkHdfReader::add(ArrayOf source, const ComponentVariable& component) {
     Variable variable;
-    variable.name = name;
-    variable.type = type;
-    variable.storedAs = storedAs + (source.atPoints ? "" : ", at cells");
+    variable.name = component.name;
+    variable.type = component.type;
+    variable.storedAs = component.storedAs + (source.atPoints ? "" : ", at cells");
     if (ghostsAt(source.atPoints)) variable.missing = "ghost and blanked, by vtkGhostType";
     open(0);
     variable.grid = gridAt(source.atPoints);
@@ -130,22 +126,11 @@ void VtkHdfReader::addArrays(bool atPoints) {
         const std::string own = array.name.substr(group.size());
         const std::size_t rank = array.dimensions.size();
         if (own == "vtkGhostType" || own.find('/') != own.npos || rank < 1 || rank > 2) continue;
-        const std::uint64_t components = rank == 2 ? file_.header().dimension(array, 1).length : 1;
-        if (components < 1 || components > kMostComponents) continue;
+        const std::uint64_t count = rank == 2 ? file_.header().dimension(array, 1).length : 1;
         const bool both = file_.header().find(other + own, "") != nullptr;
         const std::string name = own + (!both ? "" : atPoints ? " (points)" : " (cells)");
-        const std::string type(typeName(*array.type));
-        if (components == 1) {
-            add({&array, own, atPoints, 1, 0}, name, *array.type, type);
-            continue;
-        }
-        const std::string stored = fmt::format("{}, {} components", type, components);
-        if (components <= 3)
-            add({&array, own, atPoints, components, std::nullopt}, name + " magnitude",
-                ValueType::F64, stored + "; magnitude in float64");
-        for (std::uint64_t i = 0; i < components; ++i)
-            add({&array, own, atPoints, components, i}, fmt::format("{}[{}]", name, i), *array.type,
-                stored);
+        for (const ComponentVariable& each : componentsOf(name, *array.type, count))
+            add({&array, own, atPoints, each.component}, each);
     }
 }
 
@@ -176,32 +161,10 @@ Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
     field.grid = gridOfStep(variables_[variable].grid, gridAt(source.atPoints));
     if (!field.grid) file_.fail("VTKHDF", "expected the steps of one series");
     const std::uint64_t count = field.grid->count();
-    Values rows =
+    field.values = componentOf(
         rowsOf(file_, *source.array, layout_.firstValue(step, source.atPoints, source.name), count,
-               source.components);
-    const std::uint64_t n = source.components;
-    std::visit(
-        [&](auto& all) {
-            if (n == 1) {
-                field.values = std::move(all);
-                return;
-            }
-            using Vector = std::decay_t<decltype(all)>;
-            if (source.component) {
-                auto& values = field.values.emplace<Vector>(count);
-                for (std::uint64_t i = 0; i < count; ++i)
-                    values[i] = all[n * i + *source.component];
-                return;
-            }
-            auto& values = field.values.emplace<std::vector<double>>(count);
-            for (std::uint64_t i = 0; i < count; ++i) {
-                const auto at = [&](std::uint64_t c) {
-                    return c < n ? static_cast<double>(all[n * i + c]) : 0.0;
-                };
-                values[i] = std::hypot(at(0), at(1), at(2));
-            }
-        },
-        rows);
+               source.component.of),
+        source.component);
     markGhosts(source, step, count, field);
     return field;
 }

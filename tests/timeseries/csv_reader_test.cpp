@@ -1,0 +1,104 @@
+// Tables of scattered points.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/files.h"
+#include "tests/support/read_variables.h"
+
+namespace timeseries::csv {
+namespace {
+
+using namespace tests;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::refusalOf;
+
+std::filesystem::path table(const std::string& text) {
+    writeBytes(testFolder() / "table.csv", text);
+    return testFolder() / "table.csv";
+}
+
+std::vector<std::string> namesOf(const Reader& reader) {
+    std::vector<std::string> names;
+    for (const Variable& variable : reader.variables()) names.push_back(variable.name);
+    return names;
+}
+
+TEST(Csv, ColumnsAreCoordinatesAndVariables) {
+    const auto reader =
+        open(table("# made by hand\nid,X [m],y [ m ],z,T (K),name\n"
+                   "1,0,0,0,300.5,a\n2,1,0,0,+1e3,b\n3,0,2,0,,c\n"
+                   "4,0,0,-3,-inf,\"d, e\"\n"));
+    EXPECT_EQ(reader->format(), "CSV");
+    EXPECT_THAT(namesOf(*reader), ElementsAre("id", "T"));
+    const Variable& heat = reader->variables()[1];
+    EXPECT_EQ(heat.units, "K");
+    EXPECT_EQ(heat.type, ValueType::F64);
+    EXPECT_EQ(heat.grid->axes()[0].units, "m");
+    const auto values = valuesOf<double>(*reader, "T");
+    ASSERT_EQ(values.size(), 4u);
+    EXPECT_EQ(values[0], 300.5);
+    EXPECT_EQ(values[1], 1000);
+    EXPECT_TRUE(std::isnan(values[2]));
+    EXPECT_EQ(values[3], -HUGE_VAL);
+    EXPECT_EQ(heat.grid->position(2), glm::dvec3(0, 2, 0));
+    EXPECT_EQ(heat.grid->position(3), glm::dvec3(0, 0, -3));
+}
+
+// As several programs write them.
+TEST(Csv, SeparatorsAndTitlesAreThoseOfManyPrograms) {
+    for (const std::string text : {
+             "T,Points:0,Points:1,Points:2\r\n1,5,6,7\r\n2,8,9,1\r\n",
+             "x;y;z;T\n5;6;7;1\n8;9;1;2",
+             "x\ty\tz\tT\n5\t6\t7\t1\n8\t9\t1\t2\n",
+             "  x   y  z T\n 5 6  7  1\n8 9 1 2  \n",
+             "\xEF\xBB\xBF\"x-coordinate\",    \"y-coordinate\", z-coordinate, T\n5, 6, 7, 1\n"
+             "8, 9, 1, 2\n",
+         }) {
+        const auto reader = open(table(text));
+        EXPECT_THAT(namesOf(*reader), ElementsAre("T")) << text;
+        EXPECT_THAT(valuesOf<double>(*reader, "T"), ElementsAre(1, 2)) << text;
+        EXPECT_LT(glm::distance(reader->variables()[0].grid->position(0), glm::dvec3(5, 6, 7)),
+                  1e-5)
+            << text;
+    }
+    // Without heights; an index without a title, as pandas writes it.
+    const auto flat = open(table(",x,y,T\n0,1,1,4\n1,2,1,5\n2,1,2,6\n"));
+    EXPECT_THAT(namesOf(*flat), ElementsAre("column 1", "T"));
+    EXPECT_EQ(flat->variables()[0].grid->position(1), glm::dvec3(2, 1, 0));
+}
+
+TEST(Csv, AFileIsASeriesOfOneStepAndSeveralAreOneOfMore) {
+    std::vector<std::filesystem::path> paths;
+    for (int i = 0; i < 3; ++i) {
+        paths.push_back(testFolder() / ("points_" + std::to_string(i) + ".csv"));
+        std::string text = "x,y,z,T\n";
+        for (int n = 0; n < 50; ++n)
+            text += std::to_string(n % 5 + i) + "," + std::to_string(n / 5) + ",0," +
+                    std::to_string(100 * i + n) + "\n";
+        writeBytes(paths.back(), text);
+    }
+    const auto reader = openReader(paths);
+    ASSERT_EQ(reader->variables()[0].time->points.size(), 3u);
+    EXPECT_EQ(valuesOf<double>(*reader, "T", 2)[7], 207);
+    EXPECT_LT(glm::distance(reader->read(0, 2).grid->position(0), glm::dvec3(2, 0, 0)), 1e-5);
+}
+
+TEST(Csv, WhatIsWrongIsToldWithItsRow) {
+    for (const auto& [text, told] : std::vector<std::pair<std::string, std::string>>{
+             {"x,y,z,T\n1,2,3,4\n1,2,3\n", "row 3: expected 4 numbers, found 3"},
+             {"x,y,z,T\n1,2,3,4\n1,2,3,hot\n", "row 3: expected a number in column T, found 'hot'"},
+             {"x,y,z,T\nnan,2,3,4\n", "expected points that take space"},
+             {"x,y,z\n1,2,3\n", "no format that is known"},
+             {"x,z,T\n1,2,3\n", "no format that is known"},
+             {"x,y,z,T\n", "no format that is known"},
+             {"x,y,z,T\none,2,3,4\n", "no format that is known"},
+             {"some words, and more\nx,y,z,T\n1,2,3,4\n", "no format that is known"},
+         })
+        EXPECT_THAT(refusalOf(table(text)), HasSubstr(told)) << text;
+}
+
+}  // namespace
+}  // namespace timeseries::csv

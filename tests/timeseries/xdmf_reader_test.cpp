@@ -1,0 +1,451 @@
+// XDMF files: their grids of every kind, arrays of every kind, and steps. netCDF writes the HDF5.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "tests/support/array_builder.h"
+#include "tests/support/hdf_file.h"
+#include "tests/support/read_variables.h"
+#include "tests/support/unstructured.h"
+
+namespace timeseries::xdmf {
+namespace {
+
+using namespace tests;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::refusalOf;
+
+std::filesystem::path written(const std::string& domain, const std::string& before = "") {
+    const auto path = testFolder() / "file.xdmf";
+    writeBytes(path, "<?xml version=\"1.0\"?>\n" + before +
+                         "<Xdmf Version=\"3.0\" "
+                         "xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n" +
+                         domain + "\n</Domain>\n</Xdmf>\n");
+    return path;
+}
+
+std::string item(const std::string& dimensions, const std::string& text,
+                 const std::string& attributes = "") {
+    return "<DataItem Dimensions=\"" + dimensions + "\" " + attributes + ">" + text +
+           "</DataItem>\n";
+}
+std::string inHdf(const std::string& dimensions, const std::string& array) {
+    return item(dimensions, "\n  data.h5:/" + array + "\n", "Format=\"HDF\"");
+}
+std::string attribute(const std::string& name, const std::string& centre, const std::string& of) {
+    return "<Attribute Name=\"" + name + "\" Center=\"" + centre + "\">" + of + "</Attribute>\n";
+}
+std::string grid(const std::string& inside, const std::string& attributes = "") {
+    return "<Grid " + attributes + ">\n" + inside + "</Grid>\n";
+}
+std::string inTime(const std::string& inside) {
+    return grid(inside, "GridType=\"Collection\" CollectionType=\"Temporal\"");
+}
+
+// Of 3 x 2 x 1 steps of 10, 20 and 30 from 1, 2 and 3 on, as ParaView writes it.
+const std::string kImage =
+    "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"2 3 4\"/>\n"
+    "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">" +
+    item("3", "3 2 1") + item("3", "30 20 10") + "</Geometry>\n";
+
+std::string numbersTo(int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += std::to_string(i) + " ";
+    return text;
+}
+
+TEST(Xdmf, AnImageLiesWhereItsOriginAndStepsSay) {
+    const auto reader =
+        open(written(grid(kImage + attribute("p", "Node", item("2 3 4", numbersTo(24))) +
+                          attribute("c", "Cell", item("1 2 3", numbersTo(6))))));
+    EXPECT_EQ(reader->format(), "XDMF");
+    EXPECT_EQ(valuesOf<float>(*reader, "p"), ramp<float>(24));
+    EXPECT_EQ(valuesOf<float>(*reader, "c"), ramp<float>(6));
+    const Grid& points = *reader->variables()[indexOf(*reader, "p")].grid;
+    const Grid& cells = *reader->variables()[indexOf(*reader, "c")].grid;
+    EXPECT_THAT(points.size(), ElementsAre(4, 3, 2));
+    EXPECT_THAT(cells.size(), ElementsAre(3, 2, 1));
+    EXPECT_EQ(points.position(3 + 4 * (2 + 3 * 1)), glm::dvec3(31, 42, 33));
+    EXPECT_EQ(cells.position(2 + 3 * 1), glm::dvec3(26, 32, 18));
+    EXPECT_TRUE(reader->variables()[0].time->counted);
+}
+
+TEST(Xdmf, ARectilinearGridHasTheCoordinatesOfItsAxes) {
+    const auto reader = open(
+        written(grid("<Topology TopologyType=\"3DRectMesh\" Dimensions=\"1 2 3\"/>"
+                     "<Geometry GeometryType=\"VXVYVZ\">" +
+                     item("3", "1 2 4") + item("2", "-1 +5.5e0") + item("1", "7") + "</Geometry>" +
+                     attribute("p", "Node", item("1 2 3", numbersTo(6), "NumberType=\"Int\"")))));
+    EXPECT_EQ(valuesOf<std::int32_t>(*reader, "p"), ramp<std::int32_t>(6));
+    EXPECT_EQ(reader->variables()[0].grid->position(5), glm::dvec3(4, 5.5, 7));
+}
+
+// Sheared; as one array of places, and as one of each coordinate.
+TEST(Xdmf, AStructuredGridLiesWhereItsPlacesSay) {
+    std::string together;
+    std::array<std::string, 3> apart;
+    for (int k = 0; k < 2; ++k)
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 4; ++i) {
+                const std::array<double, 3> at{i + 0.5 * j, 2.0 * j, 3.0 * k};
+                for (std::size_t c = 0; c < 3; ++c) {
+                    together += std::to_string(at[c]) + " ";
+                    apart[c] += std::to_string(at[c]) + " ";
+                }
+            }
+    for (const bool isApart : {false, true}) {
+        const std::string geometry =
+            isApart ? "<Geometry GeometryType=\"X_Y_Z\">" + item("24", apart[0]) +
+                          item("24", apart[1]) + item("24", apart[2])
+                    : "<Geometry GeometryType=\"XYZ\">" + item("2 3 4 3", together);
+        const auto reader = open(
+            written(grid("<Topology TopologyType=\"3DSMesh\" Dimensions=\"2 3 4\"/>" + geometry +
+                         "</Geometry>" + attribute("p", "Node", item("2 3 4", numbersTo(24))) +
+                         attribute("c", "Cell", item("6", numbersTo(6))))));
+        const Grid& points = *reader->variables()[indexOf(*reader, "p")].grid;
+        EXPECT_EQ(points.position(1 + 4 * 2), glm::dvec3(2, 4, 0));
+        const Grid& cells = *reader->variables()[indexOf(*reader, "c")].grid;
+        ASSERT_EQ(cells.count(), 6u);
+        EXPECT_EQ(cells.position(1), glm::dvec3(1.75, 1, 1.5));
+    }
+}
+
+// Numbered from 0 or from 1; joined with another grid's.
+constexpr const char* kTwoHexahedra =
+    "0 0 0  1 0 0  2 0 0  0 1 0  1 1 0  2 1 0  0 0 1  1 0 1  2 0 1  0 1 1  1 1 1  2 1 1";
+
+TEST(Xdmf, CellsOfOneShapeHaveTheirVolumes) {
+    for (const int base : {0, 1}) {
+        std::string corners;
+        for (const int n : {0, 1, 4, 3, 6, 7, 10, 9, 1, 2, 5, 4, 7, 8, 11, 10})
+            corners += std::to_string(n + base) + " ";
+        const auto reader = open(written(
+            grid("<Topology TopologyType=\"Hexahedron\" NumberOfElements=\"2\" BaseOffset=\"" +
+                 std::to_string(base) + "\">" + item("2 8", corners, "NumberType=\"Int\"") +
+                 "</Topology><Geometry>" + item("12 3", kTwoHexahedra) + "</Geometry>" +
+                 attribute("c", "Cell", item("2", "5 7")) +
+                 attribute("v", "Node", item("12 3", numbersTo(36))))));
+        EXPECT_THAT(valuesOf<float>(*reader, "c"), ElementsAre(5, 7));
+        EXPECT_EQ(valuesOf<float>(*reader, "v[2]")[3], 11);
+        EXPECT_DOUBLE_EQ(valuesOf<double>(*reader, "v magnitude")[1], std::hypot(3, 4, 5));
+        const Mesh& mesh = *reader->variables()[0].grid->mesh();
+        EXPECT_NEAR(mesh.position(1).x, 1.5, 1e-6);
+        EXPECT_NEAR(volume(mesh, 0), 1, 1e-6);
+    }
+}
+
+TEST(Xdmf, CellsOfMixedShapesFollowTheNumbersOfTheirShapes) {
+    // A hexahedron, the other one as two wedges, and a polyline of three points.
+    const auto reader = open(
+        written(grid("<Topology TopologyType=\"Mixed\" NumberOfElements=\"4\">" +
+                     item("28", "9 0 1 4 3 6 7 10 9  8 1 2 4 7 8 10  8 2 5 4 8 11 10  2 3 0 1 2",
+                          "NumberType=\"UInt\" Precision=\"8\"") +
+                     "</Topology><Geometry>" + item("12 3", kTwoHexahedra) + "</Geometry>" +
+                     attribute("c", "Cell", item("4", "1 2 3 4")))));
+    const Mesh& mesh = *reader->variables()[0].grid->mesh();
+    ASSERT_EQ(mesh.count(), 4u);
+    EXPECT_NEAR(volume(mesh, 0), 1, 1e-6);
+    EXPECT_NEAR(volume(mesh, 1), 0.5, 1e-6);
+    EXPECT_NEAR(volume(mesh, 2), 0.5, 1e-6);
+    EXPECT_EQ(mesh.flat(), 1u);
+}
+
+// Tetrahedra of FEniCS: one mesh, which each step includes from where it stands.
+TEST(Xdmf, StepsIncludeTheMeshOfAnotherGrid) {
+    HdfFile data("data.h5");
+    data.put("Mesh/topology", std::vector<std::int64_t>{0, 1, 2, 3}, 4);
+    data.put("Mesh/geometry", std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, 3);
+    std::string steps;
+    for (int i = 0; i < 3; ++i) {
+        const std::string name = "f/" + std::to_string(i);
+        data.put(name, std::vector<double>{i + 0.0, i + 0.1, i + 0.2, i + 0.3},
+                 std::vector<std::size_t>{4, 1});
+        steps += grid(
+            "<xi:include xpointer=\"xpointer(//Grid[@Name='mesh']/*[self::Topology or "
+            "self::Geometry])\"/><Time Value=\"" +
+            std::to_string(i * 0.25) + "\"/>" + attribute("f", "Node", inHdf("4 1", name)));
+    }
+    data.close();
+    const auto reader = open(
+        written(grid("<Topology TopologyType=\"Tetrahedron\">" + inHdf("1 4", "Mesh/topology") +
+                         "</Topology><Geometry GeometryType=\"XYZ\">" +
+                         inHdf("4 3", "Mesh/geometry") + "</Geometry>",
+                     "Name=\"mesh\"") +
+                inTime(steps)));
+    ASSERT_EQ(reader->variables().size(), 1u);
+    EXPECT_THAT(timesOf(*reader), ElementsAre(0, 0.25, 0.5));
+    EXPECT_THAT(valuesOf<double>(*reader, "f", 2), ElementsAre(2.0, 2.1, 2.2, 2.3));
+    EXPECT_EQ(reader->read(0, 2).grid, reader->variables()[0].grid);
+    EXPECT_NEAR(volume(*reader->variables()[0].grid->mesh()), 1.0 / 6, 1e-6);
+}
+
+TEST(Xdmf, StepsMayMoveAndHaveOtherCells) {
+    const auto step = [](double x, int cells) {
+        std::string points, corners;
+        for (int i = 0; i <= cells; ++i)
+            for (int n = 0; n < 4; ++n)
+                points += std::to_string(x + i) + " " + std::to_string(n & 1) + " " +
+                          std::to_string(n >> 1) + " ";
+        for (int i = 0; i < cells; ++i)
+            for (const int n : {0, 4, 5, 1, 2, 6, 7, 3}) corners += std::to_string(4 * i + n) + " ";
+        const std::string count = std::to_string(cells);
+        return grid("<Topology TopologyType=\"Hexahedron\">" +
+                    item(count + " 8", corners, "NumberType=\"Int\"") + "</Topology><Geometry>" +
+                    item(std::to_string(4 * (cells + 1)) + " 3", points) + "</Geometry>" +
+                    attribute("c", "Cell", item(count, numbersTo(cells))));
+    };
+    const auto reader = open(written(inTime(step(0, 2) + step(5, 3))));
+    const Field field = reader->read(0, 1);
+    ASSERT_EQ(field.grid->count(), 3u);
+    for (std::uint64_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(field.grid->position(i).x, 5.5 + double(i), 1e-5);
+}
+
+TEST(Xdmf, PartsOfACollectionInSpaceStandBehindEachOther) {
+    const auto part = [](const std::string& z, const std::string& values) {
+        return grid("<Topology TopologyType=\"Triangle\">" +
+                    item("1 3", "0 1 2", "NumberType=\"Int\"") + "</Topology><Geometry>" +
+                    item("3 3", "0 0 " + z + " 1 0 " + z + " 0 1 " + z) + "</Geometry>" +
+                    attribute("p", "Node", item("3", values)));
+    };
+    const auto reader =
+        open(written(inTime(grid("<Time Value=\"4\"/>" + part("0", "1 2 3") + part("1", "4 5 6"),
+                                 "GridType=\"Collection\" CollectionType=\"Spatial\""))));
+    EXPECT_THAT(valuesOf<float>(*reader, "p"), ElementsAre(1, 2, 3, 4, 5, 6));
+    EXPECT_THAT(timesOf(*reader), ElementsAre(4));
+    EXPECT_EQ(reader->variables()[0].grid->position(3).z, 1);
+}
+
+std::string slab(const std::string& which, const std::string& whole, const std::string& count) {
+    return "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" + count + "\">" +
+           item("3 4", which, "NumberType=\"Int\"") + whole + "</DataItem>";
+}
+
+// All steps in one array of four dimensions; and every second value of it.
+TEST(Xdmf, AHyperSlabIsAPartOfAnArray) {
+    HdfFile data("data.h5");
+    data.put("all", ramp<std::int32_t>(3 * 2 * 3 * 4), {3, 2, 3, 4});
+    data.close();
+    const std::string inFile = inHdf("3 2 3 4", "all"),
+                      asText = item("3 2 3 4", numbersTo(72), "NumberType=\"Int\"");
+    for (const std::string& whole : {inFile, asText}) {
+        std::string steps;
+        for (int i = 0; i < 3; ++i)
+            steps += grid(kImage + attribute("p", "Node",
+                                             slab(std::to_string(i) + " 0 0 0  1 1 1 1  1 2 3 4",
+                                                  whole, "2 3 4")));
+        const auto reader = open(written(
+            inTime("<Time TimeType=\"HyperSlab\">" + item("3", "10 0.5 3") + "</Time>" + steps)));
+        EXPECT_THAT(timesOf(*reader), ElementsAre(10, 10.5, 11));
+        const auto last = ramp<std::int32_t>(72);
+        EXPECT_THAT(valuesOf<std::int32_t>(*reader, "p", 2),
+                    testing::ElementsAreArray(last.begin() + 48, last.end()));
+        const auto thin = open(
+            written(grid("<Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"2 2\"/>"
+                         "<Geometry GeometryType=\"ORIGIN_DXDY\">" +
+                         item("2", "0 0") + item("2", "1 1") + "</Geometry>" +
+                         attribute("p", "Node", slab("1 1 0 1  1 1 2 2  1 1 2 2", whole, "2 2")))));
+        EXPECT_THAT(valuesOf<std::int32_t>(*thin, "p"), ElementsAre(37, 39, 45, 47));
+    }
+}
+
+TEST(Xdmf, BinaryFilesAreOfEitherByteOrder) {
+    std::string bytes = "head";
+    for (int i = 0; i < 24; ++i) bytes += {'\0', static_cast<char>(i)};
+    writeBytes(testFolder() / "data.bin", bytes);
+    const auto reader = open(written(grid(
+        kImage + attribute("p", "Node",
+                           item("2 3 4", "data.bin",
+                                "Format=\"Binary\" Endian=\"Big\" Seek=\"4\" NumberType=\"Int\" "
+                                "Precision=\"2\"")))));
+    EXPECT_EQ(valuesOf<std::int16_t>(*reader, "p"), ramp<std::int16_t>(24));
+}
+
+// Entities of the file, references to an element, times as a list.
+TEST(Xdmf, WhatStandsElsewhereInTheFileIsFound) {
+    const auto reader = open(written(
+        grid(kImage + attribute("p", "Node", item("&size;", numbersTo(24))), "Name=\"a\"") +
+            inTime("<Time TimeType=\"List\">" + item("2", "3 8") + "</Time>" +
+                   grid("<Topology Reference=\"//Grid[@Name='a']/Topology\"/>"
+                        "<Geometry Reference=\"XML\">/Xdmf/Domain/Grid[1]/Geometry</Geometry>" +
+                        attribute("q", "Node", item("24", numbersTo(24)))) +
+                   grid(kImage + attribute("q", "Node", item("24", numbersTo(24))))),
+        "<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" [ <!ENTITY size \"2 3 4\"> ]>\n"));
+    EXPECT_EQ(valuesOf<float>(*reader, "p"), ramp<float>(24));
+    EXPECT_EQ(valuesOf<float>(*reader, "q", 1), ramp<float>(24));
+    EXPECT_THAT(reader->variables()[indexOf(*reader, "q")].time->points[1].value, 8);
+    EXPECT_EQ(reader->variables()[indexOf(*reader, "p")].time->points.size(), 1u);
+}
+
+// One that is not read costs only itself.
+TEST(Xdmf, AnAttributeThatIsNotReadIsTold) {
+    const auto reader = open(written(grid(
+        kImage + attribute("p", "Node", item("24", numbersTo(24))) +
+        attribute("edges", "Edge", item("24", numbersTo(24))) +
+        attribute("few", "Node", item("7", numbersTo(7))) +
+        attribute("sum", "Node",
+                  "<DataItem ItemType=\"Function\" Function=\"$0 + 1\" Dimensions=\"24\"/>"))));
+    EXPECT_EQ(reader->variables().size(), 1u);
+    ASSERT_EQ(reader->damaged().size(), 3u);
+    EXPECT_THAT(reader->damaged()[0].why, HasSubstr("at edge, which is not read"));
+    EXPECT_THAT(reader->damaged()[1].why, HasSubstr("for each of 24 points, found 7"));
+    EXPECT_THAT(reader->damaged()[2].why, HasSubstr("ItemType Function, which is not read"));
+}
+
+TEST(Xdmf, WhatIsWrongIsToldWithItsLine) {
+    HdfFile data("data.h5");
+    data.put("a", ramp<float>(10));
+    data.close();
+    const std::string values = attribute("p", "Node", item("24", numbersTo(24)));
+    const auto with = [&](const std::string& of) {
+        return grid(kImage + attribute("p", "Node", of));
+    };
+    const auto cells = [&](const std::string& topology, const std::string& places) {
+        return grid(topology + "<Geometry>" + places + "</Geometry>" +
+                    attribute("p", "Node", item("3", "1 2 3")));
+    };
+    const std::string triangle = item("3 3", "0 0 0 1 0 0 0 1 0");
+    for (const auto& [domain, told] : std::vector<std::pair<std::string, std::string>>{
+             {"", "expected a Grid with an Attribute"},
+             {"<Grid>", "expected well-formed XML"},
+             {grid(kImage), "expected a Grid with an Attribute"},
+             {grid(values), "line 4: expected a Topology in a Grid"},
+             {with(item("24", "1 2 x " + numbersTo(21))),
+              "expected a number of float32, found 'x'"},
+             {with(item("24", "1 2")), "expected 24 numbers, found 2"},
+             {with(item("-4", "1 2")), "expected lengths, found '-4'"},
+             {with(item("9999999 9999999 9999999", "1")), "expected fewer than 2^40 values"},
+             {with(item("24", "1", "NumberType=\"Complex\"")), "numbers of a type that there is"},
+             {with(item("24", "1", "Format=\"GDAL\"")), "expected the Format HDF, Binary or XML"},
+             {with(inHdf("24", "b")), "expected the array 'b' of numbers in "},
+             {with(inHdf("24", "a")), "expected the Dimensions that a has in "},
+             {with(item("24", "none.h5:/a", "Format=\"HDF\"")), "none.h5: "},
+             {with(item("24", "nothing", "Format=\"HDF\"")), "expected an array as file.h5:/path"},
+             {with(item("24", "file.xdmf:/a", "Format=\"HDF\"")), "file.xdmf: "},
+             {with(item("24", "data.h5", "Format=\"Binary\" Seek=\"99999999\"")),
+              "expected 24 values of 4 bytes from byte 99999999 on"},
+             {with(item("24", "data.h5", "Format=\"Binary\" Compression=\"Zlib\"")),
+              "found Compression Zlib"},
+             {with(slab("0 0 0 0 1 1 1 1 1 2 3 5", item("1 2 3 4", numbersTo(24)), "24")),
+              "expected a part of 4 values along dimension 3"},
+             {with(slab("0 0 0 0 1 1 0 1 1 2 3 4", item("1 2 3 4", numbersTo(24)), "24")),
+              "stride 0"},
+             {grid("<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"2 3\"/><Geometry/>" +
+                   values),
+              "expected 3 Dimensions of a grid"},
+             {grid("<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"2048 2048 2048\"/>"
+                   "<Geometry/>" +
+                   values),
+              "expected 3 Dimensions of a grid"},
+             {grid("<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"2 3 4\"/>"
+                   "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">" +
+                   item("3", "0 0 0") + item("3", "1 0 1") + "</Geometry>" + values),
+              "expected cells that take space"},
+             {grid("<Topology TopologyType=\"4DMesh\" Dimensions=\"2\"/><Geometry/>" + values),
+              "expected a TopologyType that is read"},
+             {cells("<Topology TopologyType=\"Blob\"/>", triangle),
+              "expected a TopologyType that is read, found 'blob'"},
+             {cells("<Topology TopologyType=\"Triangle\">" + item("4", "0 1 2 0") + "</Topology>",
+                    triangle),
+              "expected 3 corners of each cell, found 4 in all"},
+             {cells("<Topology TopologyType=\"Triangle\">" + item("3", "0 1 3") + "</Topology>",
+                    triangle),
+              "expected cells of points that there are"},
+             {cells("<Topology TopologyType=\"Triangle\">" + item("3", "0 1 -2") + "</Topology>",
+                    triangle),
+              "expected cells of points that there are"},
+             {cells("<Topology TopologyType=\"Mixed\">" + item("3", "77 1 2") + "</Topology>",
+                    triangle),
+              "expected the number of a shape that is read, found 77"},
+             {cells("<Topology TopologyType=\"Mixed\">" + item("3", "3 9 2") + "</Topology>",
+                    triangle),
+              "expected 9 corners from number 2 on, found 1"},
+             {cells("<Topology TopologyType=\"Triangle\">" + item("3", "0 1 2") + "</Topology>",
+                    item("2", "0 0")),
+              "expected 3 numbers for each of as many points"},
+             {grid("<Topology Reference=\"/Xdmf/Domain/None\"/>" + values), "found none"},
+             {grid("<Topology Reference=\"count(//*)\"/>" + values),
+              "expected the path of an element"},
+             {grid("<Topology Reference=\"/Xdmf/Domain/Grid/Topology\"/>" + values),
+              "expected references that end"},
+             {grid("<xi:include href=\"other.xdmf\"/>" + values), "includes 'other.xdmf'"},
+             {inTime(grid("<Time Value=\"soon\"/>" + kImage + values)), "expected a time"},
+             {inTime(inTime(grid(kImage + values))), "collections in space, found Collection"},
+             {inTime(""), "expected a Grid with an Attribute"},
+             {grid(kImage + values) + grid(kImage + values), "expected one structured grid a step"},
+         }) {
+        std::string refusal;
+        try {
+            open(written(domain))->read(0, 0);
+        } catch (const FileError& error) {
+            refusal = error.what();
+        }
+        EXPECT_THAT(refusal, HasSubstr("file.xdmf: ")) << domain;
+        EXPECT_THAT(refusal, HasSubstr(told)) << domain;
+    }
+}
+
+// Steps are only read when they are asked for.
+TEST(Xdmf, AStepThatIsNotLikeTheFirstIsTold) {
+    const auto image = [](const std::string& of) {
+        return grid(kImage + attribute("p", "Node", of));
+    };
+    const std::string good = image(item("24", numbersTo(24)));
+    for (const auto& [second, told] : std::vector<std::pair<std::string, std::string>>{
+             {image(item("24", numbersTo(24), "Precision=\"8\"")),
+              "expected 24 numbers of float32, found 24 of float64"},
+             {grid(kImage), "expected the Attribute 'p' in each grid"},
+             {image(item("23", numbersTo(23))), "expected 24 numbers of float32, found 23"}}) {
+        const auto reader = open(written(inTime(good + second)));
+        EXPECT_EQ(valuesOf<float>(*reader, "p").size(), 24u);
+        try {
+            reader->read(0, 1);
+            ADD_FAILURE() << told;
+        } catch (const FileError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(told));
+        }
+    }
+}
+
+// Other files are opened only as arrays.
+TEST(Xdmf, EntitiesOfOtherFilesAreNotRead) {
+    writeBytes(testFolder() / "numbers.txt", numbersTo(24));
+    const auto path = written(grid(kImage + attribute("p", "Node", item("24", "&numbers;"))),
+                              "<!DOCTYPE Xdmf [ <!ENTITY numbers SYSTEM \"" +
+                                  (testFolder() / "numbers.txt").string() + "\"> ]>\n");
+    try {
+        open(path)->read(0, 0);
+        ADD_FAILURE();
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("expected 24 numbers, found 0"));
+    }
+}
+
+// Entities that grow tenfold each, paths that look at everything for everything.
+TEST(Xdmf, WhatWouldTakeForeverIsRefused) {
+    std::string entities = "<!DOCTYPE Xdmf [ <!ENTITY e0 \"0123456789\">";
+    for (int i = 1; i < 12; ++i) {
+        const std::string inner = "&e" + std::to_string(i - 1) + ";";
+        entities += "<!ENTITY e" + std::to_string(i) + " \"";
+        for (int n = 0; n < 10; ++n) entities += inner;
+        entities += "\">";
+    }
+    EXPECT_THAT(refusalOf(written(grid(kImage + attribute("p", "Node", item("24", "&e11;"))),
+                                  entities + "]>\n")),
+                HasSubstr("expected well-formed XML"));
+    std::string many;
+    for (int i = 0; i < 3000; ++i) many += "<Information/>";
+    EXPECT_THAT(
+        refusalOf(written(many + grid("<Topology Reference=\"//*[//*[//*[//*[//None]]]]\"/>"))),
+        HasSubstr("expected a Grid with an Attribute"));
+    EXPECT_THAT(
+        refusalOf(written(many + grid("<Topology Reference=\"//*[count(//*[count(//*[count(//*) = "
+                                      "7]) = 7]) = 7]\"/>" +
+                                      attribute("p", "Node", item("24", numbersTo(24)))))),
+        HasSubstr("expected the path of an element"));
+}
+
+}  // namespace
+}  // namespace timeseries::xdmf

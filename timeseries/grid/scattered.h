@@ -1,0 +1,18 @@
+// The space that points stand for which lie without cells or neighbours.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "timeseries/grid/mesh.h"
+
+namespace timeseries {
+
+// Each stands for as much as one of its 16 nearest does of the ball that just holds these. Splats
+// then sum up to 1 on average (0.98 to 1.02) where points lie more or less evenly; points that lie
+// by chance sum up unevenly whatever they stand for: tests/bench/NOTES.md. Those that are not
+// finite, or lie where as many others do, stand for none. Throws std::invalid_argument when nothing
+// has a volume.
+Mesh meshOfScattered(const std::vector<glm::dvec3>& at);
+
+}  // namespace timeseries

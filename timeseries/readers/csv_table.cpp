@@ -1,0 +1,213 @@
+#include "timeseries/readers/csv_table.h"
+
+#include <csv.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "timeseries/readers/limits.h"
+#include "timeseries/readers/reader.h"
+#include "timeseries/readers/words.h"
+
+namespace timeseries {
+namespace {
+
+using Row = std::vector<std::string>;
+
+// libcsv calls back through C: what goes on is told by the row's use, and nothing is thrown.
+class CsvRows {
+ public:
+    // `use` gets each row that is not empty, until it returns false.
+    CsvRows(char separator, std::function<bool(const Row&)> use)
+        : blanks_(separator == ' '), use_(std::move(use)) {
+        if (csv_init(&parser_, CSV_APPEND_NULL) != 0) throw std::bad_alloc();
+        csv_set_delim(&parser_, static_cast<unsigned char>(separator));
+    }
+    ~CsvRows() { csv_free(&parser_); }
+    CsvRows(const CsvRows&) = delete;
+    CsvRows& operator=(const CsvRows&) = delete;
+
+    // Whether more is wanted.
+    bool take(std::string_view text) {
+        if (csv_parse(&parser_, text.data(), text.size(), field, row, this) != text.size())
+            throw std::bad_alloc();
+        return more_;
+    }
+    bool end() {
+        csv_fini(&parser_, field, row, this);
+        return more_;
+    }
+
+ private:
+    static void field(void* text, std::size_t length, void* self) {
+        auto& rows = *static_cast<CsvRows*>(self);
+        // Between words that blanks part may be several.
+        if (rows.blanks_ && length == 0) return;
+        rows.row_.emplace_back(static_cast<const char*>(text), length);
+    }
+    static void row(int, void* self) {
+        auto& rows = *static_cast<CsvRows*>(self);
+        if (rows.more_ && !rows.row_.empty()) rows.more_ = rows.use_(rows.row_);
+        rows.row_.clear();
+    }
+
+    csv_parser parser_{};
+    bool blanks_, more_ = true;
+    std::function<bool(const Row&)> use_;
+    Row row_;
+};
+
+std::optional<double> numberIn(const std::string& text) {
+    if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const char* const begin = text.data() + (text[0] == '+' ? 1 : 0);
+    const char* const end = text.data() + text.size();
+    double value = 0;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
+    return value;
+}
+
+// "X [ m ]", "T (K)": what the last brackets hold is the unit.
+CsvColumn columnOf(const std::string& title) {
+    for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
+        const auto from = title.rfind(open);
+        if (from == title.npos || from == 0 || title.back() != close) continue;
+        const auto trimmed = [](std::string text) {
+            const auto first = text.find_first_not_of(' ');
+            return first == text.npos ? ""
+                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+        };
+        return {trimmed(title.substr(0, from)),
+                trimmed(title.substr(from + 1, title.size() - from - 2))};
+    }
+    return {title, ""};
+}
+
+// 0 to 2 for x to z, as the programs that write tables call them.
+std::optional<std::size_t> coordinateOf(const std::string& name) {
+    const std::string text = lower(name);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const char letter = "xyz"[c], number = "012"[c];
+        for (const std::string& each :
+             {fmt::format("{}", letter), fmt::format("{}-coordinate", letter),
+              fmt::format("{}_coordinate", letter), fmt::format("coord_{}", letter),
+              fmt::format("points:{}", number), fmt::format("points_{}", number)})
+            if (text == each) return c;
+    }
+    return std::nullopt;
+}
+
+// Where the titles begin: behind what is a comment.
+std::size_t beginOf(std::string_view start) {
+    std::size_t at = 0;
+    while (at < start.size() && (start[at] == '#' || start[at] == '\n' || start[at] == '\r')) {
+        const auto line = start.find('\n', at);
+        if (line == start.npos) return start.size();
+        at = line + 1;
+    }
+    return at;
+}
+
+bool isText(std::string_view start) {
+    return std::ranges::none_of(start, [](char c) {
+        return (c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r') || c == '\x7f';
+    });
+}
+
+std::string_view withoutMark(std::string_view start) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    return start.starts_with(kMark) ? start.substr(kMark.size()) : start;
+}
+
+}  // namespace
+
+std::optional<CsvHeader> csvHeaderOf(std::string_view whole) {
+    const std::string_view start = withoutMark(whole);
+    if (!isText(start)) return std::nullopt;
+    const std::string_view titles = start.substr(beginOf(start));
+    const auto line = titles.find('\n');
+    if (line == titles.npos) return std::nullopt;
+    for (const char separator : {',', ';', '\t', ' '}) {
+        CsvHeader header{.separator = separator, .columns = {}, .places = {}};
+        std::size_t rows = 0;
+        bool numbers = false;
+        CsvRows table(separator, [&](const Row& row) {
+            if (++rows > 1) {
+                numbers = row.size() == header.columns.size();
+                for (std::size_t i = 0; numbers && i < row.size(); ++i)
+                    header.columns[i].isText = !numberIn(row[i]);
+                return false;
+            }
+            for (const std::string& title : row)
+                header.columns.push_back(columnOf(
+                    title.empty() ? fmt::format("column {}", header.columns.size() + 1) : title));
+            return true;
+        });
+        // The second line may be cut where the beginning ends.
+        const auto second = titles.find('\n', line + 1);
+        table.take(titles.substr(0, second == titles.npos ? titles.size() : second + 1));
+        if (second == titles.npos) table.end();
+        std::ptrdiff_t others = 0;
+        for (std::size_t i = 0; i < header.columns.size(); ++i) {
+            if (header.columns[i].isText) continue;
+            const auto c = coordinateOf(header.columns[i].name);
+            if (c && !header.places[*c])
+                header.places[*c] = i;
+            else
+                ++others;
+        }
+        if (numbers && header.places[0] && header.places[1] && others > 0) return header;
+    }
+    return std::nullopt;
+}
+
+std::vector<std::vector<double>> readCsv(const std::filesystem::path& path,
+                                         const CsvHeader& header) {
+    std::ifstream file(path, std::ios::binary);
+    const auto fail = [&](std::string_view what) {
+        throw FileError(fmt::format("{}: {}", path.string(), what));
+    };
+    if (!file) fail("expected a file that can be read");
+    std::vector<std::vector<double>> columns(header.columns.size());
+    std::string wrong;
+    std::size_t rows = 0;
+    CsvRows table(header.separator, [&](const Row& row) {
+        if (rows++ == 0) return true;  // titles
+        if (row.size() != columns.size())
+            wrong = fmt::format("row {}: expected {} numbers, found {}", rows, columns.size(),
+                                row.size());
+        else if (rows > kMaxPoints)
+            wrong = "expected fewer than 2^32 rows";
+        for (std::size_t i = 0; i < columns.size() && wrong.empty(); ++i) {
+            if (header.columns[i].isText) continue;
+            if (const auto number = numberIn(row[i]))
+                columns[i].push_back(*number);
+            else
+                wrong = fmt::format("row {}: expected a number in column {}, found '{}'", rows,
+                                    header.columns[i].name, row[i].substr(0, 80));
+        }
+        return wrong.empty();
+    });
+    std::string buffer(std::size_t{1} << 16, '\0');
+    for (bool more = true, first = true; more && file; first = false) {
+        file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+        std::string_view piece(buffer.data(), static_cast<std::size_t>(file.gcount()));
+        if (first) {
+            piece = withoutMark(piece);
+            piece = piece.substr(beginOf(piece));
+        }
+        more = table.take(piece);
+    }
+    if (wrong.empty()) table.end();
+    for (char& c : wrong)
+        if (c >= '\0' && c < ' ') c = ' ';
+    if (!wrong.empty()) fail(wrong);
+    return columns;
+}
+
+}  // namespace timeseries

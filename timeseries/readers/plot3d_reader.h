@@ -1,0 +1,18 @@
+// PLOT3D files of a structured grid: the flow (Q), at the places (XYZ) that a file beside it has.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "timeseries/readers/reader.h"
+
+namespace timeseries {
+
+bool isPlot3d(std::string_view start, std::uint64_t bytes);
+// The first of the paths. Throws FileError.
+std::unique_ptr<Reader> openPlot3d(std::span<const std::filesystem::path> paths);
+
+}  // namespace timeseries
