@@ -2,69 +2,21 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <stdexcept>
 
-#include "timeseries/readers/cf_packing.h"
+#include "timeseries/readers/cf_terms.h"
 #include "timeseries/readers/cf_values.h"
-#include "timeseries/readers/units.h"
 
 namespace timeseries {
 namespace {
 
 constexpr std::size_t kShownCoordinates = 8;
 
-// Nothing but the two dimensions and, perhaps, the variable's time or what is as long as 1.
-bool spansNoMore(const NcHeader& header, const NcVariable& coordinate, const NcVariable& variable,
-                 const Roles& roles) {
-    for (std::size_t i = 0; i < coordinate.dimensions.size(); ++i) {
-        const std::size_t d = coordinate.dimensions[i];
-        const bool isTime = roles.t && d == variable.dimensions[*roles.t];
-        if (d != variable.dimensions[*roles.x] && d != variable.dimensions[*roles.y] && !isTime &&
-            header.dimension(coordinate, i).length != 1)
-            return false;
-    }
-    return coordinate.type.has_value();
-}
-
-bool hasTime(const NcVariable& coordinate, const NcVariable& variable, const Roles& roles) {
-    return roles.t && std::ranges::find(coordinate.dimensions, variable.dimensions[*roles.t]) !=
-                          coordinate.dimensions.end();
-}
-
-// [y][x], x fastest, of one step; not a number where the file has none.
-std::vector<double> planeOf(const NetcdfFile& file, const NcVariable& coordinate,
-                            const NcVariable& variable, const Roles& roles, std::size_t step) {
-    const Packing packing = packingOf(
-        coordinate, [&](const std::string& what) { file.failAttribute(coordinate, what); });
-    const std::size_t rank = coordinate.dimensions.size();
-    std::vector<std::size_t> start(rank), count(rank, 1);
-    StridedLayout layout{{1, 1, 1}, {0, 0, 0}};
-    std::size_t stride = 1;
-    for (std::size_t i = rank; i-- > 0;) {
-        const std::size_t d = coordinate.dimensions[i];
-        const std::size_t length = file.header().dimension(coordinate, i).length;
-        const bool isX = d == variable.dimensions[*roles.x],
-                   isY = d == variable.dimensions[*roles.y];
-        if (isX || isY) {
-            count[i] = length;
-            layout.size[isX ? 0 : 1] = length;
-            layout.stride[isX ? 0 : 1] = stride;
-            stride *= length;
-        } else if (roles.t && d == variable.dimensions[*roles.t]) {
-            start[i] = std::min(step, length - 1);
-        }
-    }
-    if (const std::string why = file.tooLarge(coordinate, stride); !why.empty())
-        throw std::invalid_argument(why);
-    Field plane;
-    unpack(
-        packing, layout, [&](void* values) { file.read(coordinate, start, count, values); }, plane);
-    std::vector<double> values;
-    std::visit([&](const auto& all) { values.assign(all.begin(), all.end()); }, plane.values);
-    for (std::size_t i = 0; i < plane.missing.size(); ++i)
-        if (plane.missing[i]) values[i] = std::nan("");
-    return values;
+// Not of the levels.
+bool spansColumns(const NcHeader& header, const NcVariable& coordinate, const NcVariable& variable,
+                  const Roles& roles) {
+    Roles flat = roles;
+    flat.z.reset();
+    return timeseries::spansNoMore(header, coordinate, variable, flat);
 }
 
 }  // namespace
@@ -82,7 +34,7 @@ FoundColumns columnsOf(const NcHeader& header, const NcVariable& variable, const
         if (!spans || d.size() > 3) continue;
         if (++told <= kShownCoordinates)
             found.told += (found.told.empty() ? "" : " and ") + header.declaration(*other);
-        if (!spansNoMore(header, *other, variable, roles)) continue;
+        if (!spansColumns(header, *other, variable, roles)) continue;
         const std::size_t which = kindByAttributes(*other) == AxisKind::X ? 0 : 1;
         all[which].push_back(other);
         const auto isIt = [&](const std::string& name) {
@@ -107,22 +59,26 @@ std::shared_ptr<const Mesh> meshOf(const NetcdfFile& file, const NcVariable& var
                                    std::size_t step) {
     const NcVariable* const lon = file.header().find(columns.x, "");
     const NcVariable* const lat = file.header().find(columns.y, "");
-    if (!lon || !lat || !spansNoMore(file.header(), *lon, variable, roles) ||
-        !spansNoMore(file.header(), *lat, variable, roles))
+    if (!lon || !lat || !spansColumns(file.header(), *lon, variable, roles) ||
+        !spansColumns(file.header(), *lat, variable, roles))
         file.fail("variable '" + variable.name + "'", "expected the places of its columns, " +
                                                           columns.x + " and " + columns.y +
                                                           ", as when the series was opened");
-    const auto xs = planeOf(file, *lon, variable, roles, step),
-               ys = planeOf(file, *lat, variable, roles, step);
+    const TermValues xs = termOf(file, *lon, variable, roles, step),
+                     ys = termOf(file, *lat, variable, roles, step);
     MeshPlaces places{
         .size = {file.header().dimension(variable, *roles.x).length,
                  file.header().dimension(variable, *roles.y).length, z.coordinates.size()},
         .at = {},
-        .levels = z.coordinates,
+        .levels = columns.heights ? std::vector<double>() : z.coordinates,
         .period = {turnIn(lon->text("units")), 0, 0}};
-    places.at.reserve(xs.size());
-    for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i)
-        places.at.emplace_back(xs[i], ys[i], 0);
+    std::vector<double> heights(places.size[0] * places.size[1], 0.0);
+    if (columns.heights) heights = heightsOf(file, variable, roles, *columns.heights, step);
+    places.at.reserve(heights.size());
+    for (std::size_t n = 0; n < heights.size(); ++n) {
+        const std::size_t i = n % places.size[0], j = n / places.size[0] % places.size[1];
+        places.at.emplace_back(xs.at(i, j, 0), ys.at(i, j, 0), heights[n]);
+    }
     return std::make_shared<const Mesh>(std::move(places));
 }
 

@@ -1,5 +1,5 @@
 // Longitudes and latitudes of two dimensions (CF 1.10, section 5.2): where each column of points
-// stands. They may change in time, as those of a nest that moves.
+// stands. They may change in time, as those of a nest that moves, and so may the columns' heights.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include "timeseries/grid/grid.h"
 #include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/cf_heights.h"
 #include "timeseries/readers/netcdf_file.h"
 
 namespace timeseries {
@@ -22,6 +23,9 @@ struct ColumnPlaces {
     enum class By { Neighbours, Bounds, Faces, Nodes } by = By::Neighbours;
     std::string faces = {};  // the mesh's connectivity
     bool turned = false;     // of which the faces are the second dimension
+    // Each column has heights of its own. `upright`: x and y are coordinates of one dimension.
+    std::optional<HeightFormula> heights = {};
+    bool upright = false;
     friend bool operator==(const ColumnPlaces&, const ColumnPlaces&) = default;
 };
 
@@ -36,8 +40,8 @@ struct FoundColumns {
 FoundColumns columnsOf(const NcHeader& header, const NcVariable& variable, const Roles& roles,
                        std::span<const NcVariable* const> geographic);
 
-// Of that step of the file, with the levels of `z` above each column. Throws FileError, and
-// std::invalid_argument when the places make no mesh.
+// Of that step of the file, with the levels of `z` above each column, or its own heights. Throws
+// FileError, and std::invalid_argument when the places make no mesh.
 std::shared_ptr<const Mesh> meshOf(const NetcdfFile& file, const NcVariable& variable,
                                    const Roles& roles, const ColumnPlaces& columns, const Axis& z,
                                    std::size_t step);

@@ -79,6 +79,33 @@ Axis listedAxis(const NcHeader& header, const std::string& name) {
     return {std::string(place.baseName()), degreesIn(units) == 1 ? units : "degrees", {0.0}, false};
 }
 
+// Where each column has heights of its own: unless there are too many of them.
+void takeHeights(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+                 const Roles& roles, bool upright, FoundColumns& found,
+                 std::vector<std::string>& notes) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 26;  // 36 bytes each, of every step
+    const NcHeader& header = file.header();
+    const auto formula = heightFormulaOf(header, variable, roles);
+    if (!formula) return;
+    std::uint64_t points = 1;
+    for (const auto& position : {roles.x, roles.y, roles.z}) {
+        const std::uint64_t length = header.dimension(variable, *position).length;
+        if (length == 0 || points > kMost / length) {
+            notes.push_back("its heights by formula are not worked out for more than 2^26 points");
+            return;
+        }
+        points *= length;
+    }
+    if (upright) {
+        const NcVariable* const x = fileAxes.coordinateOf(variable, *roles.x);
+        const NcVariable* const y = fileAxes.coordinateOf(variable, *roles.y);
+        if (!x || !y) return;
+        found.places = {.x = x->name, .y = y->name, .upright = true};
+    }
+    found.places->heights = formula;
+    found.places->inTime = found.places->inTime || formula->inTime;
+}
+
 }  // namespace
 
 VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
@@ -95,6 +122,9 @@ VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
     if (!found.told.empty() && !found.places)
         notes.push_back("drawn in index space: 2-D coordinates " + found.told);
 
+    const bool upright = !found.places && found.told.empty();
+    if (roles.x && roles.y && roles.z && !list && (found.places || upright))
+        takeHeights(file, fileAxes, variable, roles, upright, found, notes);
     VariableAxes result{{}, found.places};
     std::array<Axis, 3>& axes = result.axes;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -111,7 +141,7 @@ VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
             file.fail("dimension '" + dimension.name + "'",
                       fmt::format("expected at most 2^24 points along an axis, found {}",
                                   dimension.length));
-        if (i < 2 && found.places) {
+        if (i < 2 && found.places && !found.places->upright) {
             const NcVariable& place = *header.find(i == 0 ? found.places->x : found.places->y, "");
             axes[i] = {std::string(place.baseName()), place.text("units"),
                        indexCoordinates(dimension.length), false};
@@ -120,7 +150,8 @@ VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
         else
             axes[i] = axisOf(file, fileAxes, variable, *positions[i], notes);
     }
-    if (roles.z) noteLevels(header, fileAxes, variable, *roles.z, notes);
+    if (roles.z && !(found.places && found.places->heights))
+        noteLevels(header, fileAxes, variable, *roles.z, notes);
     return result;
 }
 

@@ -159,6 +159,8 @@ std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std:
     std::size_t file = 0;
     try {
         const auto mesh = meshAt(file, v, 0);
+        if (const auto& heights = first.axes.columns->heights)
+            axes[2] = {heights->name, heights->units, {}, heights->down};
         const bool isLong = first.axes.columns->inTime;
         file = contents_.size() - 1;
         const auto last = isLong || file > 0 ? meshAt(file, v, kLastStep) : mesh;
@@ -171,6 +173,17 @@ std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std:
         open(0);
         return std::make_shared<const Grid>(std::move(axes), mesh);
     } catch (const std::invalid_argument& flaw) {
+        if (first.axes.columns->heights) {
+            // By levels then, as if the file said no more of them.
+            notes.push_back(fmt::format("drawn by levels: of the {} that a formula gives, {}",
+                                        first.axes.columns->heights->name, flaw.what()));
+            for (auto& contents : contents_) {
+                auto& columns = contents[v].axes.columns;
+                columns->heights.reset();
+                if (columns->upright) columns.reset();
+            }
+            return gridOf(v, notes);
+        }
         if (first.axes.columns->by != ColumnPlaces::By::Neighbours)
             throw AttributeError(open(file).sentence(
                 "variable '" + first.name + "'",
