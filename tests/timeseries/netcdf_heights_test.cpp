@@ -291,6 +291,8 @@ TEST(NetcdfHeights, OfWrfAreItsGeopotentialWhereEachVariableStands) {
             const Field values = reader->read(tests::indexOf(*reader, name), s);
             EXPECT_EQ(values.grid->axes()[2].name, "height") << name;
             EXPECT_EQ(values.grid->axes()[2].units, "m") << name;
+            EXPECT_THAT(reader->variables()[tests::indexOf(*reader, name)].notes,
+                        testing::IsEmpty());
             ASSERT_EQ(values.grid->count(), std::uint64_t(size.x * size.y * size.z)) << name;
             for (int n = 0; n < size.x * size.y * size.z; ++n) {
                 const int i = n % size.x, j = n / size.x % size.y, k = n / size.x / size.y;

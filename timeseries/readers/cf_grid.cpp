@@ -125,6 +125,8 @@ VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
     const bool upright = !found.places && found.told.empty();
     if (roles.x && roles.y && roles.z && !list && (found.places || upright))
         takeHeights(file, fileAxes, variable, roles, upright, found, notes);
+    const bool hasHeights = found.places && found.places->heights;
+    std::vector<std::string> ofLevels;  // which place nothing then
     VariableAxes result{{}, found.places};
     std::array<Axis, 3>& axes = result.axes;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -148,10 +150,10 @@ VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
         } else if (i < 2 && !found.told.empty())
             axes[i] = {dimension.name, "index", indexCoordinates(dimension.length), false};
         else
-            axes[i] = axisOf(file, fileAxes, variable, *positions[i], notes);
+            axes[i] = axisOf(file, fileAxes, variable, *positions[i],
+                             i == 2 && hasHeights ? ofLevels : notes);
     }
-    if (roles.z && !(found.places && found.places->heights))
-        noteLevels(header, fileAxes, variable, *roles.z, notes);
+    if (roles.z && !hasHeights) noteLevels(header, fileAxes, variable, *roles.z, notes);
     return result;
 }
 
