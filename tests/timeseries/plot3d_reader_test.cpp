@@ -104,12 +104,13 @@ TEST(Plot3d, EveryWayOfWritingIsRead) {
         for (const auto& [name, array] :
              {std::pair{"Density", 0}, {"Momentum[1]", 2}, {"StagnationEnergy", 4}}) {
             const Field field = reader->read(indexOf(*reader, name), 0);
+            const int which = array;
             std::visit(
                 [&](const auto& values) {
                     ASSERT_EQ(values.size(), std::size_t{kPoints});
                     EXPECT_EQ(sizeof(values[0]), how.isDouble ? 8u : 4u);
                     for (int i = 0; i < kPoints; ++i)
-                        EXPECT_EQ(static_cast<double>(values[std::size_t(i)]), valueOf(array, i));
+                        EXPECT_EQ(static_cast<double>(values[std::size_t(i)]), valueOf(which, i));
                 },
                 field.values);
             EXPECT_EQ(field.missing.size(), how.blanks ? std::size_t{kPoints} : 0u);

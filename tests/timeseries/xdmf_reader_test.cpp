@@ -387,6 +387,17 @@ TEST(Xdmf, WhatIsWrongIsToldWithItsLine) {
     }
 }
 
+// Also where the library cites the file, in lines of its own.
+TEST(Xdmf, ASentenceIsOneLine) {
+    for (const std::string& domain :
+         {std::string("<Grid\xFF>"), "<Grid Name=\"a\nb\"><Topology Reference=\"&#10;\"/>" +
+                                         attribute("p", "Node", item("1", "1")) + "</Grid>"}) {
+        const std::string refusal = refusalOf(written(domain));
+        EXPECT_THAT(refusal, HasSubstr("expected"));
+        EXPECT_EQ(refusal.find('\n'), refusal.npos) << refusal;
+    }
+}
+
 // Steps are only read when they are asked for.
 TEST(Xdmf, AStepThatIsNotLikeTheFirstIsTold) {
     const auto image = [](const std::string& of) {

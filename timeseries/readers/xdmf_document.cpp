@@ -37,6 +37,16 @@ bool isNamed(const xmlNode* node, std::string_view name) {
     return node->type == XML_ELEMENT_NODE && reinterpret_cast<const char*>(node->name) == name;
 }
 
+// Texts come from the file, or from the library, which cites it: whatever they hold, one line that
+// can be read.
+std::string oneLine(std::string_view what) {
+    constexpr std::size_t kLongest = 500;
+    std::string line(what.substr(0, kLongest));
+    for (char& c : line)
+        if (c >= '\0' && c < ' ') c = ' ';
+    return line;
+}
+
 std::string textOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string text;
@@ -92,7 +102,8 @@ XdmfDocument::XdmfDocument(const std::filesystem::path& path) : path_(path) {
                  &xmlFreeDoc};
     if (!document_) {
         const xmlError* const error = xmlCtxtGetLastError(parser.get());
-        const std::string why = error && error->message ? trimmed(error->message) : "it is not";
+        const std::string why =
+            error && error->message ? oneLine(trimmed(error->message)) : "it is not";
         throw FileError(fmt::format("{}: line {}: expected well-formed XML, but: {}", path.string(),
                                     error ? error->line : 1, why));
     }
@@ -109,13 +120,8 @@ XdmfElement XdmfDocument::root() const {
 }
 
 void XdmfDocument::fail(const XdmfElement& at, std::string_view what) const {
-    // Texts come from the file: whatever they hold, it stays one line that can be read.
-    constexpr std::size_t kMost = 500;
-    std::string sentence(what.substr(0, kMost));
-    for (char& c : sentence)
-        if (c >= '\0' && c < ' ') c = ' ';
     throw FileError(
-        fmt::format("{}: line {}: {}", path_.string(), at.exists() ? at.line() : 1, sentence));
+        fmt::format("{}: line {}: {}", path_.string(), at.exists() ? at.line() : 1, oneLine(what)));
 }
 
 std::vector<_xmlNode*> XdmfDocument::found(const XdmfElement& by,

@@ -313,10 +313,10 @@ std::shared_ptr<const Grid> XdmfGrid::made(bool atPoints) {
             spaceAxes(), std::make_shared<const Mesh>(MeshPlaces{
                              .size = sizeAt(atPoints),
                              .at = atPoints ? places_ : middlesOf(places_, shape_.size)}));
-    constexpr std::array kNames{"x", "y", "z"};
+    constexpr std::array kAxes{"x", "y", "z"};
     std::array<Axis, 3> axes;
     for (std::size_t d = 0; d < 3; ++d)
-        axes[d] = {kNames[d], "", atPoints ? coordinates_[d] : middlesOf(coordinates_[d]), false};
+        axes[d] = {kAxes[d], "", atPoints ? coordinates_[d] : middlesOf(coordinates_[d]), false};
     return std::make_shared<const Grid>(std::move(axes));
 }
 

@@ -86,7 +86,7 @@ ValueType XdmfItems::declaredType(const XdmfElement& item) const {
         char bytes;
         ValueType type;
     };
-    constexpr std::array kTypes{
+    constexpr std::array kNumberTypes{
         Named{"float", '4', ValueType::F32},  Named{"float", '8', ValueType::F64},
         Named{"double", '8', ValueType::F64}, Named{"int", '4', ValueType::I32},
         Named{"int", '8', ValueType::I64},    Named{"int", '2', ValueType::I16},
@@ -96,7 +96,7 @@ ValueType XdmfItems::declaredType(const XdmfElement& item) const {
         Named{"ushort", '2', ValueType::U16}, Named{"char", '1', ValueType::I8},
         Named{"uchar", '1', ValueType::U8}};
     const std::string wanted = kind.empty() ? "float" : lower(kind);
-    for (const Named& each : kTypes)
+    for (const Named& each : kNumberTypes)
         if (each.kind == wanted && (bytes.empty() || bytes == std::string_view(&each.bytes, 1)))
             return each.type;
     document_.fail(item, fmt::format("expected numbers of a type that there is, found NumberType "
