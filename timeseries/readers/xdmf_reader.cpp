@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 
 #include "timeseries/readers/components.h"
 #include "timeseries/readers/words.h"
@@ -58,7 +58,7 @@ class XdmfReader final : public Reader {
     std::vector<XdmfSeries> series_;
     // Of the step that is open.
     std::string source_;
-    std::optional<XdmfGrid> grid_;
+    std::unique_ptr<XdmfGrid> grid_;
     std::vector<Variable> variables_;
     std::vector<AttributeOf> sources_;  // [variable]
     std::vector<DamagedVariable> damaged_;
@@ -78,7 +78,7 @@ XdmfGrid& XdmfReader::open(const XdmfStep& step) {
     const std::string source = XdmfGrid::sourceOf(document_, items_, step);
     if (grid_ && source == source_) return *grid_;
     grid_.reset();
-    grid_.emplace(document_, items_, step);
+    grid_ = std::make_unique<XdmfGrid>(document_, items_, step);
     source_ = source;
     return *grid_;
 }
