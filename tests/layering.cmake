@@ -5,39 +5,27 @@
 
 cmake_minimum_required(VERSION 3.22)
 
-if(NOT EXISTS ${ROOT}/timeseries)
-  message(FATAL_ERROR "layering: ${ROOT} is not the source tree")
-endif()
-
-# Every #include line once: the header, and behind an @ the file, with : for /.
-set(includes "")
-foreach(folder timeseries datasets render xr app)
-  file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp
-       ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.inl)
-  foreach(source ${sources})
-    file(STRINGS ${ROOT}/${source} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
-    string(REPLACE "/" ":" name ${source})
-    foreach(line IN LISTS lines)
-      string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]*).*" "\\1@${name}" include "${line}")
-      list(APPEND includes "${include}")
-    endforeach()
-  endforeach()
-endforeach()
-
 # rule(FOLDER WHY REGEX): no file below FOLDER includes what matches.
 set(violations "")
 function(rule folder why regex)
-  string(REPLACE "/" ":" place ${folder})
-  set(found ${includes})
-  list(FILTER found INCLUDE REGEX "@${place}:")
-  list(FILTER found INCLUDE REGEX "${regex}")
-  foreach(include IN LISTS found)
-    string(REGEX MATCH "^([^@]*)@(.*)" ignored "${include}")
-    string(REPLACE ":" "/" name ${CMAKE_MATCH_2})
-    list(APPEND violations "${name} includes ${CMAKE_MATCH_1}: ${why}")
+  file(GLOB_RECURSE sources ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp
+       ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.inl)
+  foreach(source ${sources})
+    file(STRINGS ${source} includes REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]*).*" "\\1" header "${line}")
+      if(header MATCHES "${regex}")
+        cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE name)
+        list(APPEND violations "${name} includes ${header}: ${why}")
+      endif()
+    endforeach()
   endforeach()
   set(violations "${violations}" PARENT_SCOPE)
 endfunction()
+
+if(NOT EXISTS ${ROOT}/timeseries)
+  message(FATAL_ERROR "layering: ${ROOT} is not the source tree")
+endif()
 
 set(gl "^(epoxy|GL|GLES|GLES2|GLES3|EGL|KHR|GLFW|openxr)/|(^|/)imgui")
 rule(timeseries "timeseries is below all others" "^(datasets|render|xr|app|tests)/|^\\.\\./")
