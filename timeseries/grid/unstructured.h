@@ -33,8 +33,8 @@ struct UnstructuredGrid {
 std::string flawOf(const UnstructuredGrid& grid);
 
 // How the cells measure: those of fewer dimensions than others have no volume. Where all are
-// surfaces, they are as thick as their mean is wide; lines, as the mean is long. Where there are but
-// points, they have no volume here: see scattered.h.
+// surfaces, they are as thick as their mean is wide; lines, as the mean is long. Where there are
+// but points, they have no volume here: see scattered.h.
 struct UnstructuredShapes {
     // REQUIRES: no flaw.
     explicit UnstructuredShapes(const UnstructuredGrid& grid);

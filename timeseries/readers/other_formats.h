@@ -12,8 +12,8 @@ namespace timeseries {
 constexpr std::size_t kBeginningBytes = 1024;
 
 // "a NIfTI file"; "" when it is not known. `start`: the file's first kBeginningBytes, of one that
-// is shorter all. REQUIRES: it does not begin as one that is read. These may hold the signs of others
-// further on.
+// is shorter all. REQUIRES: it does not begin as one that is read. These may hold the signs of
+// others further on.
 std::string otherFormat(std::string_view start);
 
 // What the first bytes of a gzip file unpack to, as far as they go; other files' as they are.

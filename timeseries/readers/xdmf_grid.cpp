@@ -101,8 +101,10 @@ std::string XdmfGrid::sourceOf(const XdmfDocument& document, XdmfItems& items,
     for (const XdmfElement& grid : step.parts)
         for (const char* name : {"Topology", "Geometry"}) {
             const XdmfElement of = expected(document, grid, name);
-            all += topologyOf(of) + of.attribute("Dimensions") + of.attribute("BaseOffset") + ' ' +
-                   geometryOf(of);
+            all += topologyOf(of) + ' ' + geometryOf(of);
+            for (const char* more :
+                 {"Dimensions", "NumberOfElements", "NodesPerElement", "BaseOffset"})
+                all += ' ' + of.attribute(more);
             for (const XdmfElement& item : document.children(of, "DataItem"))
                 all += '\n' + items.sourceOf(item);
         }

@@ -206,8 +206,10 @@ std::string XdmfItems::sourceOf(const XdmfElement& item) {
     const std::string format = lower(item.attribute("Format"));
     if (format.empty() || format == "xml")
         return fmt::format("line {} {}", item.line(), fmt::ptr(item.node()));
-    return fmt::format("{} {} {} {}", item.text(), item.attribute("Seek"),
-                       item.attribute("Dimensions"), item.attribute("NumberType"));
+    std::string source = item.text();
+    for (const char* name : {"Dimensions", "Seek", "Endian", "NumberType", "DataType", "Precision"})
+        source += fmt::format(" {}", item.attribute(name));
+    return source;
 }
 
 Values XdmfItems::fromHdf5(const XdmfElement& item, const XdmfPart* part) {
