@@ -123,7 +123,7 @@ class FrameRenderer {
     // Whether GL sums the scene; else the program does it itself.
     bool byGl(const Scene& scene) const {
         if (by_ != SplatterChoice::Gl) return false;
-        if (scene.cells) return GlCells::fit(scene, mostCellBytes_);
+        if (scene.cells) return !scene.placed.isMesh() && GlCells::fit(scene, mostCellBytes_);
         const auto& mesh = scene.placed.mesh();
         return !mesh || GlMesh::bytesOf(*mesh) <= mostMeshBytes_;
     }

@@ -77,6 +77,12 @@ struct CellSplat {
     Real perRange{};
 };
 
+template <typename Real>
+struct CellFragment {
+    Real weight{};  // W, no less than 0
+    Real value{};   // as f: of the field there, within the range
+};
+
 namespace cell {
 
 // Of the field at a place of the cell, from its corners.
@@ -110,18 +116,21 @@ Real meanRamp(Real a, Real b) {
     return ((xb - xa) * (xb + xa) / 2 + (std::max(b, Real(1)) - std::max(a, Real(1)))) / between;
 }
 
-// The range in a cell whose least and greatest corners are these; unitLength: l, in axis
-// coordinates.
-template <typename Real>
-void seeRange(CellSplat<Real>& s, const ValuedCell& cell, double least, double greatest,
-              double unitLength) {
+// One that only touches the range takes nothing of it.
+inline bool reaches(double least, double greatest, double lo, double hi) {
+    return least < greatest ? least < hi && greatest > lo : least <= hi && greatest >= lo;
+}
+
+// The range in a cell, or a tetrahedron, whose least and greatest corners are these, and of which f
+// changes over the unit length l by `mostPerUnit` at most.
+template <typename Real, template <typename> typename Splat, typename Valued>
+void seeRange(Splat<Real>& s, const Valued& cell, double least, double greatest,
+              double mostPerUnit) {
     const auto within = [&](double end) {  // in halves, the whole may overflow
         return 2 * ((0.5 * end - 0.5 * s.reference) / s.extent);
     };
-    // Of the change of f over a unit length: f changes by no more than 2 along an edge.
-    const auto mostPerLength = [&] { return 2 * glm::length(unitLength / (cell.to - cell.from)); };
     const bool isThin =
-        cell.per == OpacityPer::Crossing && s.extent / (cell.hi - cell.lo) * mostPerLength() > 1;
+        cell.per == OpacityPer::Crossing && s.extent / (cell.hi - cell.lo) * mostPerUnit > 1;
     s.crossesLeast = isThin || least < cell.lo;
     s.crossesMost = isThin || greatest > cell.hi;
     if (s.crossesLeast) s.least = static_cast<Real>(within(cell.lo));
@@ -141,9 +150,7 @@ void seeRange(CellSplat<Real>& s, const ValuedCell& cell, double least, double g
 template <typename Real>
 bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
     const auto [lo, hi] = std::minmax_element(cell.corners.begin(), cell.corners.end());
-    // One that only touches the range takes nothing of it.
-    const bool reaches = *lo < *hi ? *lo<cell.hi&& * hi> cell.lo : *lo <= cell.hi && *hi >= cell.lo;
-    if (!reaches) return false;
+    if (!reaches(*lo, *hi, cell.lo, cell.hi)) return false;
     s.reference = 0.5 * *lo + 0.5 * *hi;
     s.extent = 0.5 * *hi - 0.5 * *lo;
     if (!(s.extent > 0)) return true;
@@ -151,8 +158,30 @@ bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
     for (std::size_t c = 0; c < 8; ++c) f[c] = (cell.corners[c] - s.reference) / s.extent;
     f = cell::coefficients(f);
     for (std::size_t c = 0; c < 8; ++c) s.f[c] = static_cast<Real>(f[c]);
-    seeRange(s, cell, *lo, *hi, unitLength);
+    // f changes by no more than 2 along an edge.
+    seeRange(s, cell, *lo, *hi, 2 * glm::length(unitLength / (cell.to - cell.from)));
     return true;
+}
+
+// Of a linear piece that is worth so much W, from value to value, over a pixel in which the field
+// changes by `width`: what lies in the range, which has the mean of its ends there.
+template <typename Real, template <typename> typename Splat>
+CellFragment<Real> withinRange(const Splat<Real>& s, Real begin, Real end, Real width,
+                               Real length) {
+    const auto mean = [&](Real bound) {
+        const auto onRamp = [&](Real v) { return (v - bound) / width + Real(0.5); };
+        return meanRamp(onRamp(begin), onRamp(end));
+    };
+    const Real share =
+        (s.crossesLeast ? mean(s.least) : Real(1)) - (s.crossesMost ? mean(s.most) : Real(0));
+    const auto within = [&](Real v) {
+        v = std::clamp(v, Real(-1), Real(1));
+        if (s.crossesLeast) v = std::max(v, s.least);
+        return s.crossesMost ? std::min(v, s.most) : v;
+    };
+    return {
+        std::max(share, Real(0)) * length,
+        (within(std::min(begin, end) - width / 2) + within(std::max(begin, end) + width / 2)) / 2};
 }
 
 }  // namespace cell
@@ -204,12 +233,6 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
     return s;
 }
 
-template <typename Real>
-struct CellFragment {
-    Real weight{};  // W, no less than 0
-    Real value{};   // as f: of the field there, within the range
-};
-
 // On the ray of a pixel, `offset` pixels from the cell's centre, as far as view depth `opaque`.
 template <typename Real>
 CellFragment<Real> fragmentOn(const PointsView& view, const CellSplat<Real>& s,
@@ -250,31 +273,13 @@ CellFragment<Real> fragmentOn(const PointsView& view, const CellSplat<Real>& s,
     }
     const Vec2 across = (s.base + depth) * Vec2(glm::dot(gradient, x), glm::dot(gradient, y));
     const Real width = std::max(glm::length(across), Real(2 * kLeastChange));
-    const auto share = [&](Real begin, Real end) {
-        const auto mean = [&](Real bound) {
-            const auto onRamp = [&](Real v) { return (v - bound) / width + Real(0.5); };
-            return cell::meanRamp(onRamp(begin), onRamp(end));
-        };
-        const Real is =
-            (s.crossesLeast ? mean(s.least) : Real(1)) - (s.crossesMost ? mean(s.most) : Real(0));
-        return std::max(is, Real(0));
-    };
-    const auto within = [&](Real v) {
-        v = std::clamp(v, Real(-1), Real(1));
-        if (s.crossesLeast) v = std::max(v, s.least);
-        return s.crossesMost ? std::min(v, s.most) : v;
-    };
-    // What of a linear piece lies in the range, over the pixel, has the mean of its ends there.
     Real weight = 0, sum = 0;
     for (std::size_t k = 0; k < kPieces; ++k) {
         const Real begin = values[k], end = values[k + 1];
-        const Real is =
-            share(begin, end) * std::max(whole / kPieces, std::abs(end - begin) * s.perRange);
-        weight += is;
-        sum +=
-            is *
-            (within(std::min(begin, end) - width / 2) + within(std::max(begin, end) + width / 2)) /
-            2;
+        const CellFragment<Real> piece = cell::withinRange(
+            s, begin, end, width, std::max(whole / kPieces, std::abs(end - begin) * s.perRange));
+        weight += piece.weight;
+        sum += piece.weight * piece.value;
     }
     if (!(weight > 0)) return {};
     return {weight, sum / weight};

@@ -40,6 +40,19 @@ double reachOf(double widest, const Corners& centres, const PointsView& view) {
 
 }  // namespace
 
+namespace {
+
+// What a scene's cells fill: of a mesh the outermost reach half a cell beyond its points, at most
+// as far as its widest cell is wide.
+PlacedPoints::Box boxOfCells(const PointsView& seen) {
+    if (!seen.placed.isMesh()) return seen.domain;
+    PlacedPoints::Box box = seen.placed.pointsBox();
+    const glm::dvec3 more = seen.placed.mesh()->widest() * glm::abs(seen.placed.scale());
+    return {box.lo - more, box.hi + more};
+}
+
+}  // namespace
+
 double farthestReach(const Scene& scene, const PointsView& view) {
     if (scene.footprint.kernel == Kernel::Point) return pointSide(scene.footprint) / 2.0;
     return reachOf(scene.footprint.size * kQuarticRadius * scene.placed.widest(),
@@ -53,7 +66,9 @@ PixelBox coveredPixels(const Scene& scene, const View& view) {
     // beyond the points.
     const bool cut = scene.cells || (scene.placed.longCells() && !scene.placed.isMesh() &&
                                      scene.footprint.kernel != Kernel::Point);
-    const Corners at = corners(scene.placed, cut ? seen.domain : scene.placed.pointsBox());
+    const Corners at = corners(scene.placed, scene.cells ? boxOfCells(seen)
+                                             : cut       ? seen.domain
+                                                         : scene.placed.pointsBox());
     // What the rasteriser's rounding may add; a point splat is moved to whole pixels, too.
     const double reach = (cut ? reachOf(0, at, seen) : farthestReach(scene, seen)) + 2;
     if (!std::isfinite(reach)) return whole;

@@ -26,7 +26,8 @@ double cellCost(const Scene& scene, const View& view) {
     const double depth = std::max(-middle.z, seen.rays.near);
     const double pixels = across * across * seen.rays.focal.x * seen.rays.focal.y / (depth * depth);
     const auto most = static_cast<double>(view.size.x) * view.size.y;
-    return ordered * (kSetUp + kPixel * std::min(pixels, most));
+    const double tetrahedra = scene.placed.isMesh() ? 4 : 1;
+    return tetrahedra * ordered * (kSetUp + kPixel * std::min(pixels, most));
 }
 
 }  // namespace

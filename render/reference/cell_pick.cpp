@@ -9,6 +9,7 @@
 
 #include "render/reference/cell_walk.h"
 #include "render/reference/interval_cells.h"
+#include "render/reference/tets_on_pixels.h"
 
 namespace render {
 namespace {
@@ -99,18 +100,89 @@ std::uint32_t cornerAt(const Scene& scene, const glm::uvec3& cell, const glm::dv
     unsigned corner = 0;
     for (int a = 0; a < 3; ++a)
         if (place[a] > 0.5) corner |= 1u << a;
-    const glm::uvec3 at = scene.cells->pointAt(cell, corner), size = scene.placed.size();
+    const glm::uvec3 at = scene.cells->cornersOf().pointAt(cell, corner),
+                     size = scene.placed.size();
     return at.x + size.x * (at.y + size.y * at.z);
 }
 
-timeseries::Number valueOfPoint(const timeseries::Field& field, std::uint32_t index) {
+timeseries::Number valueOfPoint(const timeseries::Field& field, std::uint64_t index) {
     return std::visit([&](const auto& values) { return timeseries::numberOf(values[index]); },
                       field.values);
+}
+
+// A part of the ray's way in a tetrahedron: its depth and value are those of its middle.
+struct PassedTet {
+    Met met;
+    PartOnRay part;
+    std::uint64_t nearest;  // of the corners' points, to the middle
+};
+
+std::size_t nearestCorner(const PointsView& view, const TetSplat<double>& s,
+                          const glm::dvec2& window, double depth) {
+    const glm::dvec2 offset = window - view.rays.centre - s.centre;
+    const auto shareOf = [&](std::size_t i) {
+        const double shift = offset.x * s.x[i] + offset.y * s.y[i];
+        return s.at[i] + s.base * shift + (depth - s.base) * (s.ray[i] + shift);
+    };
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < 4; ++i)
+        if (shareOf(i) > shareOf(nearest)) nearest = i;
+    return nearest;
+}
+
+std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm::dvec2& window) {
+    const PointsView seen(scene.placed, view);
+    const timeseries::CellCorners& corners = scene.cells->cornersOf();
+    const glm::ivec2 pixel(glm::floor(window));
+    const double perDepth = lengthPerDepth(seen, window);
+    std::vector<std::vector<PassedTet>> parts(kCellParts);
+    forEachTetBefore(
+        scene, scene.cells->field(), seen, PixelBins(std::span(&pixel, 1), view.size),
+        sharingThreads(),
+        [&](std::size_t part, const glm::uvec3& cell, const MeshCells::Tetrahedron& tet,
+            std::size_t layer, std::size_t) {
+            const Layer& of = scene.layers[layer];
+            for (const auto& range : of.cells.ranges) {
+                const auto s = tetSplatAt<double>(
+                    seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
+                const auto in = s.visible ? partOnRay(seen, s, window) : std::nullopt;
+                if (!in) continue;
+                const double middle = std::midpoint(in->from, in->to);
+                const double weight =
+                    weightOf(scene, of, (in->to - in->from) * perDepth, in->begin, in->end);
+                const unsigned corner = tet.corners[nearestCorner(seen, s, window, middle)];
+                parts[part].push_back(
+                    {{layer, middle, opticalDepthPerWeight(of.style.opacity) * weight,
+                      std::midpoint(in->begin, in->end)},
+                     *in,
+                     corners.indexOf(corners.pointAt(cell, corner))});
+            }
+        });
+    std::vector<PassedTet> passed;
+    for (const auto& some : parts) passed.insert(passed.end(), some.begin(), some.end());
+    return passed;
+}
+
+std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::dvec2& window) {
+    std::vector<PassedTet> passed = tetsOnRay(scene, view, window);
+    std::ranges::stable_sort(passed, {}, [](const PassedTet& p) { return p.met.depth; });
+    std::vector<Met> met;
+    for (const PassedTet& p : passed) met.push_back(p.met);
+    const auto half = atHalfOfLight(scene, met);
+    if (!half) return std::nullopt;
+    const auto& [at, part, nearest] = passed[half->at];
+    return Picked{.layer = at.layer,
+                  .gridIndex = nearest,
+                  .value = valueOfPoint(scene.cells->field(), nearest),
+                  .world = scene.placed.position(nearest),
+                  .depth = std::lerp(part.from, part.to, half->share),
+                  .between = std::lerp(part.begin, part.end, half->share)};
 }
 
 }  // namespace
 
 std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::dvec2& window) {
+    if (scene.placed.isMesh()) return pickTet(scene, view, window);
     const Ray ray(scene, view, window);
     std::vector<Passed> passed = ray.passed();
     std::ranges::stable_sort(passed, {}, [](const Passed& p) { return p.met.depth; });

@@ -6,12 +6,43 @@
 #include "render/model/cell_splat.h"
 #include "render/reference/cell_walk.h"
 #include "render/reference/interval_cells.h"
+#include "render/reference/tets_on_pixels.h"
 #include "render/splat/cell_pieces.h"
 
 namespace render {
+namespace {
+
+std::vector<double> tetDepthAt(const Scene& scene, const View& view,
+                               std::span<const glm::ivec2> pixels, unsigned threads) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const PointsView seen(scene.placed, view);
+    const PixelBins bins(pixels, view.size);
+    std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
+    forEachTetBefore(
+        scene, scene.cells->field(), seen, bins, threads,
+        [&](std::size_t part, const glm::uvec3&, const MeshCells::Tetrahedron& tet,
+            std::size_t layer, std::size_t pixel) {
+            const Layer& of = scene.layers[layer];
+            for (const auto& range : of.cells.ranges) {
+                const auto s = tetSplatAt<double>(
+                    seen, {tet.at, tet.values, range.lo, range.hi, scene.opacityPer});
+                if (!s.visible) continue;
+                const glm::dvec2 offset = glm::dvec2(pixels[pixel]) + 0.5 - seen.rays.centre;
+                parts[part][pixel] += opticalDepthPerWeight(of.style.opacity) *
+                                      fragmentOn<double>(seen, s, offset - s.centre, kNever).weight;
+            }
+        });
+    std::vector<double> depths(pixels.size());
+    for (const std::vector<double>& some : parts)
+        for (std::size_t i = 0; i < depths.size(); ++i) depths[i] += some[i];
+    return depths;
+}
+
+}  // namespace
 
 std::vector<double> cellDepthAt(const Scene& scene, const View& view,
                                 std::span<const glm::ivec2> pixels, unsigned threads) {
+    if (scene.placed.isMesh()) return tetDepthAt(scene, view, pixels, threads);
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const PointsView seen(scene.placed, view);
     const CellWalk walk(scene.placed);

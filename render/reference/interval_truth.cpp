@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render/reference/tets_on_pixels.h"
+
 namespace render {
 namespace {
 
@@ -69,7 +71,9 @@ std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const g
 
 IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::Field& field, int raysAcross,
                              unsigned threads, IntervalCells::Look look)
-    : scene_(scene), raysAcross_(raysAcross), threads_(std::max(threads, 1u)), walk_(scene.placed) {
+    : scene_(scene), field_(field), raysAcross_(raysAcross), threads_(std::max(threads, 1u)) {
+    if (scene.placed.isMesh()) return;
+    walk_.emplace(scene.placed);
     for (const Layer& layer : scene.layers)
         layers_.emplace_back(field, scene.clip, layer.cells.ranges, threads_, look);
 }
@@ -78,13 +82,13 @@ double IntervalTruth::weight(const Ray& ray, std::size_t layer,
                              std::vector<LinePart>& parts) const {
     const IntervalCells& cells = layers_[layer];
     double length = 0;
-    walk_(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
+    (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
         const Kind kind = cells.kind(cell);
         if (kind == Kind::Whole) length += to - from;
         if (kind != Kind::Part) return;
         parts.clear();
-        cells.addParts(cell, walk_.inCell(cell, ray.eye + from * ray.along),
-                       walk_.inCell(cell, ray.eye + to * ray.along), parts);
+        cells.addParts(cell, walk_->inCell(cell, ray.eye + from * ray.along),
+                       walk_->inCell(cell, ray.eye + to * ray.along), parts);
         for (const LinePart& part : parts) length += (to - from) * (part.to - part.from);
     });
     return length * ray.weight;
@@ -96,6 +100,7 @@ std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer) c
 
 std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer,
                                           std::span<const glm::ivec2> pixels) const {
+    if (!walk_) return meshWeight(scene_, field_, view, layer, pixels, raysAcross_, threads_);
     return meanOfRays<double, std::vector<LinePart>>(
         view, pixels, [&](const Ray& ray, auto& parts) { return weight(ray, layer, parts); });
 }
@@ -146,20 +151,20 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
     return meanOfRays<glm::dvec4, LightWork>(
         view, allPixels(view.size), [&](const Ray& ray, LightWork& work) {
             Seen seen;
-            walk_(ray.eye, ray.along, ray.near,
-                  [&](const glm::uvec3& cell, double from, double to) {
-                      const auto isIn = [&](const IntervalCells& layer) {
-                          return layer.kind(cell) != Kind::Nothing;
-                      };
-                      if (seen.through < kNothing || std::ranges::none_of(layers_, isIn)) return;
-                      const glm::dvec3 a = walk_.inCell(cell, ray.eye + from * ray.along);
-                      const glm::dvec3 b = walk_.inCell(cell, ray.eye + to * ray.along);
-                      collect(cell, a, b, work);
-                      for (std::size_t i = 1; i < work.ends.size(); ++i)
-                          if (work.ends[i] > work.ends[i - 1])
-                              pass(cell, a, b, {work.ends[i - 1], work.ends[i]},
-                                   (to - from) * ray.weight, work, seen);
-                  });
+            (*walk_)(ray.eye, ray.along, ray.near,
+                     [&](const glm::uvec3& cell, double from, double to) {
+                         const auto isIn = [&](const IntervalCells& layer) {
+                             return layer.kind(cell) != Kind::Nothing;
+                         };
+                         if (seen.through < kNothing || std::ranges::none_of(layers_, isIn)) return;
+                         const glm::dvec3 a = walk_->inCell(cell, ray.eye + from * ray.along);
+                         const glm::dvec3 b = walk_->inCell(cell, ray.eye + to * ray.along);
+                         collect(cell, a, b, work);
+                         for (std::size_t i = 1; i < work.ends.size(); ++i)
+                             if (work.ends[i] > work.ends[i - 1])
+                                 pass(cell, a, b, {work.ends[i - 1], work.ends[i]},
+                                      (to - from) * ray.weight, work, seen);
+                     });
             return glm::dvec4(seen.rgb, 1 - seen.through);
         });
 }

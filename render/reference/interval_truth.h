@@ -1,10 +1,13 @@
 // The continuous truth: what each pixel sees of the interval volume of a scene's layers
 // (render/reference/interval_cells.h), in double, whatever the scene is drawn by. Of a ray, what
-// lies in a cell is exact; a pixel is the mean of n x n rays, regularly spaced in it.
+// lies in a cell is exact; a pixel is the mean of n x n rays, regularly spaced in it. Where points
+// lie one by one the field is linear in tetrahedra (render/splat/mesh_cells.h), of which what a ray
+// has is exact, too.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,7 +37,7 @@ class IntervalTruth {
                                std::span<const glm::ivec2> pixels) const;
     // The light of all layers, ordered: emission and absorption along each ray, of optical depth
     // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
-    // there. Premultiplied, linear. [y][x], row 0 at the bottom.
+    // there. Premultiplied, linear. [y][x], row 0 at the bottom. REQUIRES: no mesh.
     std::vector<glm::dvec4> light(const View& view) const;
 
  private:
@@ -49,9 +52,10 @@ class IntervalTruth {
     double weight(const Ray& ray, std::size_t layer, std::vector<LinePart>& parts) const;
 
     const Scene& scene_;
+    const timeseries::Field& field_;
     int raysAcross_;
     unsigned threads_;
-    CellWalk walk_;
+    std::optional<CellWalk> walk_;  // none of a mesh
     std::vector<IntervalCells> layers_;
 };
 

@@ -1,9 +1,12 @@
 #include "render/splat/cell_pieces.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 #include <tuple>
+
+#include "render/splat/mesh_cells.h"
 
 namespace render {
 namespace {
@@ -91,6 +94,38 @@ std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::siz
 }
 
 CellRank::CellRank(const Scene& scene, const View& view) : size_(scene.cells->size()) {
+    if (scene.placed.isMesh())
+        takeDistances(scene, view);
+    else
+        takeBricks(scene, view);
+}
+
+void CellRank::takeDistances(const Scene& scene, const View& view) {
+    constexpr std::size_t kRanks = 1 << 20;
+    count_ = kRanks;
+    mesh_ = &scene.placed;
+    corners_ = &scene.cells->cornersOf();
+    from_ = pixelRays(view).eye;
+    // Of points, which lie in the box; cells end half a cell beyond it.
+    const double around =
+        glm::length(scene.placed.pointsBox().hi - scene.placed.pointsBox().lo) / 2;
+    const glm::dvec3 middle = 0.5 * (scene.placed.pointsBox().hi + scene.placed.pointsBox().lo);
+    nearest_ = std::max(glm::distance(from_, middle) - around, 0.0);
+    perDistance_ =
+        (kRanks - 1) / std::max(glm::distance(from_, middle) + around - nearest_, 1e-300);
+}
+
+std::uint32_t CellRank::byDistance(std::uint32_t cell) const {
+    const glm::uvec3 at = timeseries::indicesOf(cell, size_);
+    const auto placeOf = [&](unsigned corner) {
+        return mesh_->alongAxes(corners_->indexOf(corners_->pointAt(at, corner)));
+    };
+    const double away = glm::distance(from_, 0.5 * (placeOf(0) + placeOf(7))) - nearest_;
+    const double rank = away * perDistance_;  // of a place that is none, nothing is drawn
+    return rank > 0 ? static_cast<std::uint32_t>(std::min(rank, double(count_ - 1))) : 0;
+}
+
+void CellRank::takeBricks(const Scene& scene, const View& view) {
     constexpr std::size_t kMostBricks = 1 << 16;
     const glm::dvec3 eye = pixelRays(scene.placed.inAxes(view)).eye;
     for (int a = 0; a < 3; ++a)
@@ -161,25 +196,16 @@ SeenOctants seenOctants(const Scene& scene, std::uint32_t number) {
     SeenOctants seen;
     ValuedCell& cell = seen.cell;
     const glm::uvec3 at = timeseries::indicesOf(number, scene.cells->size());
-    cell.corners = scene.cells->corners(at);
+    cell.corners = scene.cells->cornersOf().values(at);
     cell.per = scene.opacityPer;
     for (int a = 0; a < 3; ++a)
         std::tie(cell.from[a], cell.to[a]) =
             endsAlong(scene.placed, static_cast<std::size_t>(a), at[a]);
-    double sum = 0;
-    int valid = 0;
-    for (unsigned c = 0; c < 8; ++c) {
-        if (std::isnan(cell.corners[c])) continue;
-        sum += cell.corners[c] / 8;
-        ++valid;
-        seen.octants |= 1u << c;
-    }
-    for (double& v : cell.corners)
-        if (std::isnan(v)) v = sum * (8.0 / valid);
-    const bool isInside = scene.clip.holds(scene.cells->pointAt(at, 0)) &&
-                          scene.clip.holds(scene.cells->pointAt(at, 7));
+    seen.octants = fillMissing(cell.corners);
+    const bool isInside = scene.clip.holds(scene.cells->cornersOf().pointAt(at, 0)) &&
+                          scene.clip.holds(scene.cells->cornersOf().pointAt(at, 7));
     for (unsigned c = 0; c < 8 && !isInside; ++c)
-        if (!scene.clip.holds(scene.cells->pointAt(at, c))) seen.octants &= ~(1u << c);
+        if (!scene.clip.holds(scene.cells->cornersOf().pointAt(at, c))) seen.octants &= ~(1u << c);
     return seen;
 }
 

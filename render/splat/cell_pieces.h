@@ -1,11 +1,13 @@
 // What is drawn of a scene's cells: which of them, in which order, and of each what is to be seen.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <span>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "render/model/cell_splat.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/splat/mesh_cells.h"
 
 namespace render {
 
@@ -33,6 +36,10 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
 // order, in bricks of cells first, then in cells within a brick, of which each is passed in one go:
 // their values lie together in memory. Any such order draws the same picture, for a ray meets its
 // cells one by one.
+//
+// Where points lie one by one: by the distance of a cell's middle from the eye. Of neighbours of
+// one shape the one in front is nearer; where cells lean, or grow, a few are passed out of their
+// order. The scene must outlive it then.
 class CellRank {
  public:
     CellRank(const Scene& scene, const View& view);
@@ -46,12 +53,16 @@ class CellRank {
         return first_[brick] + within;
     }
     std::uint32_t operator()(std::uint32_t cell) const {
-        return (*this)(timeseries::indicesOf(cell, size_));
+        return mesh_ ? byDistance(cell) : (*this)(timeseries::indicesOf(cell, size_));
     }
     std::size_t count() const { return count_; }    // all less
     const glm::ivec3& eye() const { return eye_; }  // the cell that it is in, or beside
 
  private:
+    void takeDistances(const Scene& scene, const View& view);
+    void takeBricks(const Scene& scene, const View& view);
+    std::uint32_t byDistance(std::uint32_t cell) const;
+
     // Of a cell's place along an axis: its brick's, times what the axes before it have, and how far
     // it lies behind that one's first.
     struct Place {
@@ -63,6 +74,10 @@ class CellRank {
     std::array<std::vector<Place>, 3> places_;
     std::vector<std::uint32_t> first_;  // of a brick, its least rank
     std::size_t count_ = 0;
+    const PlacedPoints* mesh_ = nullptr;
+    const timeseries::CellCorners* corners_ = nullptr;
+    glm::dvec3 from_{0};
+    double nearest_ = 0, perDistance_ = 0;
 };
 
 // A counting sort by rank, whose two passes may be made a little at a time: every rank is counted,
@@ -133,6 +148,22 @@ void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
         if ((seen.octants >> o & 1) == 0) continue;
         ValuedCell piece = octantOf(seen.cell, o);
         use(piece, o);
+    }
+}
+
+// The tetrahedra of several cells of a mesh, with each range of their layers: use(tet, of); from an
+// eye that is given, those of a cell each before what it hides.
+template <typename Use>
+void forEachTet(const Scene& scene, std::span<const CellOfLayer> cells, const glm::dvec3* eye,
+                const Use& use) {
+    const MeshCells mesh(scene.placed, scene.cells->cornersOf(), scene.clip);
+    for (const CellOfLayer& of : cells) {
+        const auto cell = mesh(timeseries::indicesOf(of.cell, scene.cells->size()));
+        if (!cell) continue;
+        mesh.forEachTet(*cell, eye, [&](const MeshCells::Tetrahedron& tet) {
+            for (const auto& range : scene.layers[of.layer].cells.ranges)
+                use({tet.at, tet.values, range.lo, range.hi, scene.opacityPer}, of);
+        });
     }
 }
 

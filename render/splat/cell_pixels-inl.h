@@ -9,8 +9,8 @@
 
 #include <algorithm>
 
+#include "render/splat/cell_range-inl.h"
 #include "render/splat/cell_view.h"
-#include "render/splat/lanes-inl.h"
 #include "render/splat/tile_room.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -99,54 +99,6 @@ struct CellLanes {
     }
 };
 
-// How much of a piece of a ray lies in a cell's range, and what values are there.
-template <class Lanes>
-struct RangeLanes {
-    using V = hn::Vec<Lanes>;
-    Lanes lanes;
-    V end[2], least, most;
-    // Of a range with one end in the cell, its share is sign * mean + offset.
-    V sign, offset;
-    RangeLanes(Lanes l, const SeenCell& c) : lanes(l) {
-        const bool first = c.crossesLeast;
-        end[0] = hn::Set(l, first ? c.least : c.most);
-        end[1] = hn::Set(l, c.most);
-        sign = hn::Set(l, first ? 1.0f : -1.0f);
-        offset = hn::Set(l, first ? 0.0f : 1.0f);
-        least = hn::Set(l, first ? std::max(c.least, -1.0f) : -1.0f);
-        most = hn::Set(l, c.crossesMost ? std::min(c.most, 1.0f) : 1.0f);
-    }
-    HWY_INLINE V within(V value) const { return hn::Min(hn::Max(value, least), most); }
-    // Of the values in the range that a pixel sees of a piece, across which they change so much.
-    HWY_INLINE V twiceMean(V first, V last, V width) const {
-        const V reach = hn::Mul(hn::Set(lanes, 0.5f), width);
-        return hn::Add(within(hn::Sub(hn::Min(first, last), reach)),
-                       within(hn::Add(hn::Max(first, last), reach)));
-    }
-
-    // Of a piece between these values, with ramps of this width's reciprocal.
-    template <int kEnds>
-    HWY_INLINE V share(V first, V last, V perWidth) const {
-        const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f), zero = hn::Zero(lanes);
-        const V change = hn::Sub(last, first), between = hn::Mul(change, perWidth);
-        const auto differ =
-            hn::Ge(hn::Abs(change), hn::Set(lanes, static_cast<float>(kLeastDifference)));
-        const V per = reciprocal(lanes, hn::IfThenElse(differ, between, one));
-        const auto meanRamp = [&](V at) HWY_ATTR {
-            const V a = hn::MulAdd(hn::Sub(first, at), perWidth, half);
-            const V b = hn::MulAdd(hn::Sub(last, at), perWidth, half);
-            const V ca = hn::Min(hn::Max(a, zero), one), cb = hn::Min(hn::Max(b, zero), one);
-            const V both = hn::Mul(half, hn::Add(ca, cb));
-            const V sum =
-                hn::MulAdd(hn::Sub(cb, ca), both, hn::Sub(hn::Max(b, one), hn::Max(a, one)));
-            return hn::IfThenElse(differ, hn::Mul(sum, per), both);
-        };
-        const V mean = meanRamp(end[0]);
-        return hn::Max(
-            kEnds == 2 ? hn::Sub(mean, meanRamp(end[1])) : hn::MulAdd(sign, mean, offset), zero);
-    }
-};
-
 // What light makes of a colour. At the pixels that begin at `at`, whose rays are `factor` times as
 // long as the view axis'.
 template <class Lanes>
@@ -178,52 +130,7 @@ struct LightLanes {
         const V certainty = reciprocal(lanes, hn::MulAdd(steep, per, one));
         const V facing = hn::Min(one, hn::Mul(hn::Mul(hn::Abs(change), per),
                                               hn::Mul(perUnit, reciprocal(lanes, factor))));
-        const V ambient = hn::Set(lanes, static_cast<float>(kAmbient));
-        const V rest = hn::Set(lanes, static_cast<float>(1 - kAmbient));
-        const V even = hn::Set(lanes, static_cast<float>(kEven));
-        diffuse = hn::MulAdd(certainty, hn::Sub(hn::MulAdd(rest, facing, ambient), even), even);
-        specular = hn::Zero(lanes);
-        if (light == Light::Soft) return;
-        const V f2 = hn::Mul(facing, facing), f4 = hn::Mul(f2, f2), f8 = hn::Mul(f4, f4);
-        const V f30 = hn::Mul(hn::Mul(hn::Mul(f8, f8), f8), hn::Mul(f4, f2));
-        specular = hn::Mul(hn::Mul(certainty, hn::Set(lanes, static_cast<float>(kSpecular))), f30);
-    }
-};
-
-// Linear colours of a vector of values: of a layer's map, or one for all.
-template <bool kByValue, class Lanes>
-struct ColorLanes {
-    using V = hn::Vec<Lanes>;
-    Lanes lanes;
-    const float* table;
-    V place, perValue, first, last, lastWhole;
-    V color[3];
-    float weight;
-    ColorLanes(Lanes l, const CellView& view, const SeenCell& c)
-        : lanes(l),
-          table(view.tints[0].data()),
-          place(hn::Set(l, c.tint)),
-          perValue(hn::Set(l, c.tintPerValue)),
-          first(hn::Set(l, c.firstTint)),
-          last(hn::Set(l, c.lastTint)),
-          lastWhole(hn::Set(l, c.lastTint - 1)),
-          weight(view.tints[static_cast<std::size_t>(c.firstTint)][3]) {
-        const auto& one = view.tints[static_cast<std::size_t>(c.firstTint)];
-        for (std::size_t k = 0; k < 3; ++k) color[k] = hn::Set(l, one[k]);
-    }
-    HWY_INLINE void of(V value, V* is) const {
-        if constexpr (!kByValue) {
-            std::copy_n(color, 3, is);
-        } else {
-            const V at = hn::Min(hn::Max(hn::MulAdd(value, perValue, place), first), last);
-            const V below = hn::Min(hn::Floor(at), lastWhole), share = hn::Sub(at, below);
-            const auto entry = hn::ShiftLeft<2>(hn::ConvertTo(hn::RebindToSigned<Lanes>(), below));
-            for (int k = 0; k < 3; ++k) {
-                const V low = hn::GatherIndex(lanes, table + k, entry);
-                const V high = hn::GatherIndex(lanes, table + k + 4, entry);
-                is[k] = hn::MulAdd(share, hn::Sub(high, low), low);
-            }
-        }
+        lightOf(lanes, light, certainty, facing, diffuse, specular);
     }
 };
 
@@ -249,7 +156,7 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
     const V weight = hn::Set(lanes, scale), zero = hn::Zero(lanes);
     const V perRange = hn::Set(lanes, scale / view.weight * c.perRange);
     const float* const factors = room.factor.data();
-    const V one = hn::Set(lanes, 1.0f), far = hn::Set(lanes, 3e38f);
+    const V far = hn::Set(lanes, 3e38f);
     const bool hides = room.nearestOpaque < 1;
     const V depthA = hn::Set(lanes, static_cast<float>(view.depthA));
     const V depthB = hn::Set(lanes, static_cast<float>(view.depthB));
@@ -301,31 +208,15 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                 }
             }
             t = hn::IfThenElseZero(inside, t);
-            float* const sums = room.sums.data() + at;
-            if constexpr (kChannels == Channels::Weight) {
-                hn::StoreU(hn::Add(t, hn::LoadU(lanes, sums)), lanes, sums);
-            } else if constexpr (kChannels == Channels::Count) {
-                const V counted = hn::IfThenElseZero(hn::Gt(t, zero), one);
-                hn::StoreU(hn::Add(counted, hn::LoadU(lanes, sums)), lanes, sums);
-            } else {
-                V colors[3];
-                color.of(value, colors);
-                if constexpr (kChannels == Channels::WeightedColor) {
-                    for (std::size_t k = 0; k < 4; ++k) {
-                        float* const sum = sums + k * room.plane;
-                        const V share = k < 3 ? hn::Mul(t, colors[k]) : t;
-                        hn::StoreU(hn::Add(share, hn::LoadU(lanes, sum)), lanes, sum);
-                    }
-                } else {
-                    const V factor = hn::LoadU(lanes, factors + at);
-                    if constexpr (kLit) {
-                        V diffuse, specular;
-                        light.shade(r, change, factor, diffuse, specular);
-                        for (V& of : colors) of = hn::MulAdd(of, diffuse, specular);
-                    }
-                    layUnder<false>(lanes, hn::Mul(t, factor), colors, sums, room.plane);
+            addWeight<kChannels>(lanes, t, room, at, [&](V* colors) HWY_ATTR {
+                if constexpr (kColors) color.of(value, colors);
+                if constexpr (kLit) {
+                    V diffuse, specular;
+                    light.shade(r, change, hn::LoadU(lanes, factors + at), diffuse, specular);
+                    for (int k = 0; k < 3; ++k)
+                        colors[k] = hn::MulAdd(colors[k], diffuse, specular);
                 }
-            }
+            });
         }
     }
 }

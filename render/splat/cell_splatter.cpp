@@ -5,6 +5,7 @@
 
 #include "render/splat/cell_kernels.h"
 #include "render/splat/cell_pieces.h"
+#include "render/splat/tet_kernels.h"
 #include "render/splat/tile_bins.h"
 #include "render/splat/tile_plane.h"
 
@@ -19,7 +20,7 @@ constexpr std::uint64_t kListedForOne = 64;
 constexpr std::size_t kCellsWorthAThread = 1 << 9;
 
 // The tiles that a cell's pixels are in.
-TileSpan spanOf(const CellView& view, const SeenCell& c) {
+TileSpan spanOf(const CellView& view, const SeenPiece& c) {
     const glm::ivec2 first = glm::ivec2(c.x, c.y) / view.tile;
     const glm::ivec2 last = (glm::ivec2(c.x + c.columns, c.y + c.rows) - 1) / view.tile;
     return {static_cast<std::uint32_t>(first.y * view.tiles.x + first.x),
@@ -32,26 +33,45 @@ TileSpan spanOf(const CellView& view, const SeenCell& c) {
 // Pieces of cells that one thread has looked at, and which tiles they touch.
 struct CellMemory::Seen {
     std::vector<SeenCell> cells;
+    std::vector<SeenTet> tets;  // of a mesh, instead of these
     std::vector<TileSpan> spans;
     TileBins bins;
     std::vector<std::uint32_t> binned;
 
     void look(const Scene& scene, const CellView& view, std::span<const CellOfLayer> part);
     void sum(const CellView& view, std::size_t tile, TileRoom& room) const {
-        sumCells(view, cells, std::span(binned).subspan(bins.first(tile), bins.count(tile)), room);
+        const auto which = std::span(binned).subspan(bins.first(tile), bins.count(tile));
+        if (tets.empty())
+            sumCells(view, cells, which, room);
+        else
+            sumTets(view, tets, which, room);
     }
 };
 
 void CellMemory::Seen::look(const Scene& scene, const CellView& view,
                             std::span<const CellOfLayer> part) {
     cells.clear();
+    tets.clear();
     spans.clear();
-    forEachPiece(scene, part, [&](const ValuedCell& piece, const CellOfLayer& of, unsigned) {
-        const SeenCell seen = seenCell(view, piece, of.layer, scene.layers[of.layer].style);
+    const auto keep = [&](const auto& seen, auto& all) {
         if (seen.columns == 0) return;
-        cells.push_back(seen);
+        all.push_back(seen);
         spans.push_back(spanOf(view, seen));
-    });
+    };
+    const auto styleOf = [&](const CellOfLayer& of) -> const RangeStyle& {
+        return scene.layers[of.layer].style;
+    };
+    if (scene.placed.isMesh()) {
+        const bool isOrdered = view.channels == Channels::Over;
+        forEachTet(scene, part, isOrdered ? &view.seen.rays.eye : nullptr,
+                   [&](const ValuedTet& tet, const CellOfLayer& of) {
+                       keep(seenTet(view, tet, of.layer, styleOf(of)), tets);
+                   });
+    } else {
+        forEachPiece(scene, part, [&](const ValuedCell& piece, const CellOfLayer& of, unsigned) {
+            keep(seenCell(view, piece, of.layer, styleOf(of)), cells);
+        });
+    }
     bins.fill(
         view.count(), view.tiles.x, spans, 0, spans.size(),
         [&](std::size_t places) { binned.resize(places); },

@@ -24,15 +24,15 @@ double steepnessOf(const Scene& scene) {
     return kSteepnessShare * 2 * most / scene.placed.unitLength();
 }
 
-float steepnessIn(const CellSplat<float>& cell, double steep) {
+float steepnessIn(double extent, double steep) {
     constexpr double kFlat = 1e10;  // more would leave the floats
-    return static_cast<float>(cell.extent > 0 ? std::min(steep / cell.extent, kFlat) : kFlat);
+    return static_cast<float>(extent > 0 ? std::min(steep / extent, kFlat) : kFlat);
 }
 
-CellMapPlace mapPlaceOf(const ByValue& style, const CellSplat<float>& cell) {
+CellMapPlace mapPlaceOf(const ByValue& style, double reference, double extent) {
     const double half = style.halfWidth();
     if (!(half > 0)) return {0.5, 0};
-    return {placeOnScale(cell.reference, style.lo, half), 0.5 * cell.extent / half};
+    return {placeOnScale(reference, style.lo, half), 0.5 * extent / half};
 }
 
 float floatPlace(double at) { return static_cast<float>(std::clamp(at, -1e30, 1e30)); }
@@ -52,18 +52,19 @@ CellView::CellView(const PointsView& from, const Scene& scene, const View& view,
           [](const Layer& layer) { return std::holds_alternative<ByValue>(layer.style.color); })),
       metric(gradientMetric(scene.placed)) {}
 
-SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t layer,
-                  const RangeStyle& style) {
-    SeenCell c;
-    const CellSplat<float> s = cellSplatAt<float>(view.seen, cell);
-    if (!s.visible) return c;
+namespace {
+
+// Which pixels it has; false where it has none.
+template <typename Splat>
+bool takePixels(SeenPiece& c, const CellView& view, const Splat& s) {
+    if (!s.visible) return false;
     const auto span = [&](int a) {
         return pixelSpan(s.centre[a] + view.centre[static_cast<std::size_t>(a)],
                          static_cast<double>(s.lo[a]), static_cast<double>(s.hi[a]),
                          Kernel::Quartic, view.box.size[a]);
     };
     const PixelSpan x = span(0), y = span(1);
-    if (x.first >= x.last || y.first >= y.last) return c;
+    if (x.first >= x.last || y.first >= y.last) return false;
     c.x = x.first;
     c.y = y.first;
     c.columns = x.last - x.first;
@@ -71,6 +72,38 @@ SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t laye
     c.ox = static_cast<float>(x.first + 0.5 - view.centre[0] - s.centre.x);
     c.oy = static_cast<float>(y.first + 0.5 - view.centre[1] - s.centre.y);
     c.base = s.base;
+    return true;
+}
+
+template <typename Splat>
+void takeRange(SeenPiece& c, const CellView& view, const Splat& s, std::size_t layer,
+               const RangeStyle& style) {
+    c.least = s.least;
+    c.most = s.most;
+    c.crossesLeast = s.crossesLeast;
+    c.crossesMost = s.crossesMost;
+    c.perRange = s.perRange;
+    if (view.tintsOf.empty()) return;
+    const TileLayout::Tints& tints = view.tintsOf[layer];
+    c.firstTint = tints.first;
+    c.lastTint = tints.first + tints.span;
+    c.tint = tints.first;
+    const auto* of = std::get_if<ByValue>(&style.color);
+    if (of == nullptr) return;
+    const CellMapPlace place = mapPlaceOf(*of, s.reference, s.extent);
+    const auto whole = static_cast<double>(tints.span);
+    c.tint = floatPlace(static_cast<double>(tints.first) + whole * place.at);
+    c.tintPerValue = floatPlace(whole * place.perValue);
+}
+
+}  // namespace
+
+SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t layer,
+                  const RangeStyle& style) {
+    SeenCell c;
+    const CellSplat<float> s = cellSplatAt<float>(view.seen, cell);
+    if (!takePixels(c, view, s)) return c;
+    takeRange(c, view, s, layer, style);
     for (std::size_t a = 0; a < 3; ++a) {
         const auto at = static_cast<int>(a);
         c.at[a] = s.at[at];
@@ -78,23 +111,29 @@ SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t laye
         c.perSize[a] = s.perSize[at];
     }
     c.f = s.f;
-    c.least = s.least;
-    c.most = s.most;
-    c.crossesLeast = s.crossesLeast;
-    c.crossesMost = s.crossesMost;
-    c.perRange = s.perRange;
-    c.steep = steepnessIn(s, view.steep);
-    if (view.tintsOf.empty()) return c;
-    const TileLayout::Tints& tints = view.tintsOf[layer];
-    c.firstTint = tints.first;
-    c.lastTint = tints.first + tints.span;
-    c.tint = tints.first;
-    const auto* of = std::get_if<ByValue>(&style.color);
-    if (of == nullptr) return c;
-    const CellMapPlace place = mapPlaceOf(*of, s);
-    const auto whole = static_cast<double>(tints.span);
-    c.tint = floatPlace(static_cast<double>(tints.first) + whole * place.at);
-    c.tintPerValue = floatPlace(whole * place.perValue);
+    c.steep = steepnessIn(s.extent, view.steep);
+    return c;
+}
+
+SeenTet seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
+                const RangeStyle& style) {
+    SeenTet c;
+    const TetSplat<float> s = tetSplatAt<float>(view.seen, tet);
+    if (!takePixels(c, view, s)) return c;
+    takeRange(c, view, s, layer, style);
+    c.at = s.at;
+    c.ray = s.ray;
+    c.right = s.x;
+    c.up = s.y;
+    c.f = s.f;
+    c.fRay = s.fRay;
+    c.fRight = s.fX;
+    c.fUp = s.fY;
+    c.across = std::hypot(s.fX, s.fY);
+    const double steepness = std::max(s.steepness, 1e-30);
+    c.perSteepness = static_cast<float>(1 / steepness);
+    c.certainty = static_cast<float>(
+        1 / (1 + static_cast<double>(steepnessIn(s.extent, view.steep)) / steepness));
     return c;
 }
 

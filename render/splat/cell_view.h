@@ -1,5 +1,5 @@
-// A scene of cells in one view, and one of its cells there, as the kernels of cell_kernels.h take
-// them.
+// A scene of cells in one view, and one of its cells or tetrahedra there, as the kernels of
+// cell_kernels.h and tet_kernels.h take them.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 
 #include "render/model/cell_splat.h"
 #include "render/model/light.h"
+#include "render/model/tet_splat.h"
 #include "render/splat/tile_layout.h"
 
 namespace render {
@@ -32,34 +33,47 @@ struct CellView : TileLayout {
 std::array<float, 6> gradientMetric(const PlacedPoints& placed);
 // What gradients are measured against, of the field a length of the world (render/model/light.h).
 double steepnessOf(const Scene& scene);
-// What gradients of f in a cell are measured against: a plateau is lit evenly.
-float steepnessIn(const CellSplat<float>& cell, double steep);
+// What gradients of f are measured against, where the field is reference + extent f: a plateau is
+// lit evenly.
+float steepnessIn(double extent, double steep);
 
 // Where values of a cell are in a map, [0, 1] in it: that of f is at + f perValue.
 struct CellMapPlace {
     double at, perValue;
 };
-CellMapPlace mapPlaceOf(const ByValue& style, const CellSplat<float>& cell);
+CellMapPlace mapPlaceOf(const ByValue& style, double reference, double extent);
 // Such places as floats, and what is more than floats hold.
 float floatPlace(double at);
 
-// A CellSplat in a picture.
-struct SeenCell {
+// What a cell and a tetrahedron have alike in a picture.
+struct SeenPiece {
     float base = 0;
     float ox = 0, oy = 0;  // of its first pixel's centre from its own
-    std::array<float, 3> at{}, ray{}, perSize{};
-    std::array<float, 8> f{};
     float least = 0, most = 0;
     bool crossesLeast = false, crossesMost = false;
     float perRange = 0;
     float tint = 0, tintPerValue = 0;  // place among the tints where f = 0, and what f adds to it
     float firstTint = 0, lastTint = 0;
-    float steep = 0;  // CellView::steep as the gradient of f
     // In the layout's box; none where the view does not see it.
     std::int32_t x = 0, y = 0, columns = 0, rows = 0;
 };
 
+// A CellSplat in a picture.
+struct SeenCell : SeenPiece {
+    std::array<float, 3> at{}, ray{}, perSize{};
+    std::array<float, 8> f{};
+    float steep = 0;  // CellView::steep as the gradient of f
+};
 SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t layer,
                   const RangeStyle& style);
+
+// A TetSplat in a picture.
+struct SeenTet : SeenPiece {
+    std::array<float, 4> at{}, ray{}, right{}, up{};         // the corners' shares
+    float f = 0, fRay = 0, fRight = 0, fUp = 0, across = 0;  // of a pixel, a unit of depth away
+    float perSteepness = 0, certainty = 0;                   // of light
+};
+SeenTet seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
+                const RangeStyle& style);
 
 }  // namespace render

@@ -60,10 +60,10 @@ GlCell glCell(const CellSplat<float>& s, const CellOfLayer& of, unsigned octant,
     c.least = s.least;
     c.most = s.most;
     c.perRange = s.perRange;
-    c.steep = steepnessIn(s, steep);
+    c.steep = steepnessIn(s.extent, steep);
     std::ranges::copy(s.f, c.f);
     if (const auto* map = std::get_if<ByValue>(&style.color)) {
-        const CellMapPlace place = mapPlaceOf(*map, s);
+        const CellMapPlace place = mapPlaceOf(*map, s.reference, s.extent);
         c.mapPlace = floatPlace(place.at);
         c.mapPerValue = floatPlace(place.perValue);
     }

@@ -47,6 +47,12 @@ void TileLayout::takeTints(const Scene& scene) {
         }
         tintsOf.push_back(
             {static_cast<float>(first), static_cast<float>(tints.size() - 1 - first)});
+        tintSums.push_back({});
+        for (std::size_t i = first + 1; i < tints.size(); ++i) {
+            std::array<float, 4> sum = tintSums.back();
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += (tints[i - 1][c] + tints[i][c]) / 2;
+            tintSums.push_back(sum);
+        }
     }
 }
 

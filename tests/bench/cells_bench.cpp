@@ -12,6 +12,7 @@
 #include "render/splat/tile_splatter.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/turbulence.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "timeseries/index/cell_index.h"
 
@@ -49,8 +50,8 @@ void cellSelect(benchmark::State& state) {
     double looked = 0, needed = 0;
     for (const timeseries::Run& run : index.select(range))
         for (std::uint64_t i = 0; i < run.count; ++i) {
-            const auto corners =
-                index.corners(timeseries::indicesOf(index.cell(run.first + i), index.size()));
+            const auto corners = index.cornersOf().values(
+                timeseries::indicesOf(index.cell(run.first + i), index.size()));
             const auto [lo, hi] = std::ranges::minmax(corners);
             ++looked;
             needed += lo <= range[0].hi && hi >= range[0].lo ? 1 : 0;
@@ -60,24 +61,43 @@ void cellSelect(benchmark::State& state) {
 }
 BENCHMARK(cellSelect)->Arg(1000)->Arg(100)->Arg(10)->Unit(benchmark::kMicrosecond);
 
-void cellsBesidePoints(benchmark::State& state) {
-    const SortedStep step =
-        SortedStep::build(bench::turbulence<float>(static_cast<std::size_t>(state.range(0))));
-    const PlacedPoints placed(step.grid());
-    Scene scene{.step = step,
+// Layers by cells of a field, in a range of so many thousandths of its spread.
+struct CellsOfRange {
+    CellsOfRange(timeseries::Field field, std::int64_t thousandths, bool isOrdered)
+        : step(SortedStep::build(std::move(field))),
+          placed(step.grid()),
+          scene{.step = step,
                 .placed = placed,
                 .layers = {},
                 .footprint = {},
-                .order = state.range(2) ? Order::BackToFront : Order::None,
-                .clip = {}};
-    scene.cells = step.cells();
-    const double half = kSpread * static_cast<double>(state.range(1)) / 2000;
-    Layer layer{{}, {Constant{{1, 0.5, 0.1}}, 0.3}};
-    layer.cells.ranges = {{kMiddle - half, kMiddle + half}};
-    layer.cells.candidates = scene.cells->select(layer.cells.ranges);
-    scene.layers.push_back(layer);
-    const std::uint64_t count = cellCount(layer);
+                .order = isOrdered ? Order::BackToFront : Order::None,
+                .clip = {}} {
+        scene.cells = step.cells();
+        const double half = kSpread * static_cast<double>(thousandths) / 2000;
+        Layer layer{{}, {Constant{{1, 0.5, 0.1}}, 0.3}};
+        layer.cells.ranges = {{kMiddle - half, kMiddle + half}};
+        layer.cells.candidates = scene.cells->select(layer.cells.ranges);
+        scene.layers.push_back(layer);
+    }
+    void draw(Channels channels) {
+        CellSum sum(scene, view, channels, 0, {}, sharingThreads(), std::move(memory));
+        sum.add(std::numeric_limits<std::uint64_t>::max());
+        memory = sum.takeMemory();
+    }
     const View view = tests::lookFrom({1.2, -2.6, 0.9}, {1024, 1024}, 0.36);
+    SortedStep step;
+    PlacedPoints placed;
+    Scene scene;
+    CellMemory memory;
+};
+
+void cellsBesidePoints(benchmark::State& state) {
+    CellsOfRange cells(bench::turbulence<float>(static_cast<std::size_t>(state.range(0))),
+                       state.range(1), state.range(2) != 0);
+    const Scene& scene = cells.scene;
+    const SortedStep& step = cells.step;
+    const std::uint64_t count = cellCount(scene.layers[0]);
+    const View& view = cells.view;
     const Channels channels = channelsFor(scene)[0];
 
     Scene points = scene;
@@ -93,7 +113,6 @@ void cellsBesidePoints(benchmark::State& state) {
         list = std::move(sorted);
     }
     constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
-    CellMemory memory;
     TileMemory tiles;
     bench::alternate(
         state,
@@ -102,11 +121,7 @@ void cellsBesidePoints(benchmark::State& state) {
             sum.add(kAll);
             tiles = sum.takeMemory();
         },
-        [&] {
-            CellSum sum(scene, view, channels, 0, {}, sharingThreads(), std::move(memory));
-            sum.add(kAll);
-            memory = sum.takeMemory();
-        });
+        [&] { cells.draw(channels); });
     state.counters["cells"] = static_cast<double>(count);
 }
 BENCHMARK(cellsBesidePoints)
@@ -115,6 +130,28 @@ BENCHMARK(cellsBesidePoints)
     ->Args({96, 1000, 0})
     ->Args({96, 100, 1})
     ->Args({192, 100, 0})
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+// The same points placed one by one, whose cells are tetrahedra, beside the upright grid.
+void cellsOfMeshBesideUpright(benchmark::State& state) {
+    const auto n = static_cast<std::size_t>(state.range(0));
+    timeseries::Field field = bench::turbulence<float>(n);
+    timeseries::Field meshed = field;
+    meshed.grid = tests::curvilinear(
+        {n, n, n}, [](double i, double j, double k) { return glm::dvec3(i, j, k); });
+    CellsOfRange upright(std::move(field), state.range(1), state.range(2) != 0);
+    CellsOfRange mesh(std::move(meshed), state.range(1), state.range(2) != 0);
+    const Channels channels = channelsFor(upright.scene)[0];
+    bench::alternate(
+        state, [&] { upright.draw(channels); }, [&] { mesh.draw(channels); });
+    state.counters["cells"] = static_cast<double>(cellCount(mesh.scene.layers[0]));
+}
+BENCHMARK(cellsOfMeshBesideUpright)
+    ->ArgNames({"points", "thousandths", "ordered"})
+    ->Args({96, 100, 0})
+    ->Args({96, 1000, 0})
+    ->Args({96, 100, 1})
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 

@@ -280,8 +280,18 @@ def cells_page(part):
                      ms(f, "second_ms"), ms(f, "first_ms"), digits(f["second/first"])])
         if (n, ordered) == (96, 0):
             target(f"a cell / a splat, 96³, a range of {thousandths / 1000:g}", f["second/first"], 3)
-    return (text + "\nDrawn in 1024 x 1024, one colour, beside as many points of the same field by tiles, by turns.\n\n"
-            + table(["points", "range", "order", "cells", "cells drawn", "points drawn", "ratio"], rows))
+    text += ("\nDrawn in 1024 x 1024, one colour, beside as many points of the same field by tiles, by turns.\n\n"
+             + table(["points", "range", "order", "cells", "cells drawn", "points drawn", "ratio"], rows))
+    rows = []
+    for n, thousandths, ordered in [(96, 100, 0), (96, 1000, 0), (96, 100, 1)]:
+        f = part(f"cellsOfMeshBesideUpright/points:{n}/thousandths:{thousandths}/ordered:{ordered}")
+        if f:
+            rows.append([points(n), f"{thousandths / 1000:g}", "front to back" if ordered else "none",
+                         f"{int(f['cells']):,}", ms(f, "second_ms"), ms(f, "first_ms"), digits(f["second/first"])])
+    if rows:
+        text += ("\nThe same points placed one by one, whose cells are six tetrahedra each, beside those of the upright grid, by turns.\n\n"
+                 + table(["points", "range", "order", "cells", "tetrahedra drawn", "upright cells drawn", "ratio"], rows))
+    return text
 
 
 def meshes_page(part):

@@ -140,7 +140,7 @@ double redByDepth(const CellWorld& world, const View& view, int x, int y) {
     for (std::uint32_t c = 0; c < cells.size().x * cells.size().y * cells.size().z; ++c) {
         const glm::uvec3 index = timeseries::indicesOf(c, cells.size());
         ValuedCell cell{};
-        cell.corners = cells.corners(index);
+        cell.corners = cells.cornersOf().values(index);
         PlacedPoints::Box box{};
         for (int a = 0; a < 3; ++a) {
             const auto& p = world.placed.positions()[std::size_t(a)];

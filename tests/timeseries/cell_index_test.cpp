@@ -58,7 +58,7 @@ std::set<std::uint32_t> byLooking(const CellIndex& index,
     const glm::uvec3 n = index.size();
     for (std::uint32_t c = 0; c < n.x * n.y * n.z; ++c) {
         double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-        for (const double v : index.corners(indicesOf(c, n)))
+        for (const double v : index.cornersOf().values(indicesOf(c, n)))
             if (!std::isnan(v)) lo = std::min(lo, v), hi = std::max(hi, v);
         for (const Interval<double>& i : intervals)
             if (lo <= i.hi && hi >= i.lo) cells.insert(c);
@@ -79,7 +79,7 @@ TYPED_TEST(CellIndexOf, HoldsEveryCellThatRangesReachIntoAndFewOthers) {
         EXPECT_EQ(index.count(), all.size());
         std::vector<double> values;
         for (const std::uint32_t c : all)
-            for (const double v : index.corners(indicesOf(c, index.size())))
+            for (const double v : index.cornersOf().values(indicesOf(c, index.size())))
                 if (!std::isnan(v)) values.push_back(v);
         std::mt19937 random(4);
         std::size_t looked = 0, needed = 0;
@@ -195,9 +195,9 @@ TEST(CellIndex, HalfCellsRepeatTheOutermostValues) {
     field.values = std::vector<float>{3, 7};
     const CellIndex index(std::move(field));
     EXPECT_EQ(index.size(), glm::uvec3(3, 2, 2));
-    EXPECT_THAT(index.corners({0, 0, 0}), testing::Each(3.0));
-    EXPECT_THAT(index.corners({1, 1, 0}), testing::ElementsAre(3, 7, 3, 7, 3, 7, 3, 7));
-    EXPECT_THAT(index.corners({2, 0, 1}), testing::Each(7.0));
+    EXPECT_THAT(index.cornersOf().values({0, 0, 0}), testing::Each(3.0));
+    EXPECT_THAT(index.cornersOf().values({1, 1, 0}), testing::ElementsAre(3, 7, 3, 7, 3, 7, 3, 7));
+    EXPECT_THAT(index.cornersOf().values({2, 0, 1}), testing::Each(7.0));
     EXPECT_EQ(selected(index, {{4, 5}}).size(), 4u) << "the cells between the two";
     EXPECT_EQ(selected(index, {{3, 3}}).size(), 8u);
     EXPECT_EQ(selected(index, {{20, 21}}).size(), 0u);

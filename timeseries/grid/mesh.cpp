@@ -59,7 +59,7 @@ struct Mesh::Sums {
     }
 };
 
-Mesh::Mesh(const MeshPlaces& places) : size_(places.size) {
+Mesh::Mesh(const MeshPlaces& places) : size_(places.size), period_(places.period) {
     const auto [ni, nj, nk] = size_;
     const bool columns = !places.levels.empty();
     const std::uint64_t stored = columns ? std::uint64_t{ni} * nj : count();
@@ -229,7 +229,7 @@ bool operator==(const Mesh& a, const Mesh& b) {
         return one.at == other.at && one.height == other.height;
     };
     return a.size_ == b.size_ && a.hasNeighbours_ == b.hasNeighbours_ && a.spread_ == b.spread_ &&
-           a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
+           a.period_ == b.period_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
            std::ranges::equal(a.levels_, b.levels_, sameLevel) && a.stored_ == b.stored_ &&
            std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }

@@ -40,6 +40,8 @@ class Mesh {
     // there are neighbours.
     const std::array<std::size_t, 3>& size() const { return size_; }
     bool hasNeighbours() const { return hasNeighbours_; }
+    // As MeshPlaces has it.
+    const glm::dvec3& period() const { return period_; }
     std::uint64_t count() const;
     // In the file's space: to a 2^24th of the mesh's extent. Not finite where the point has none.
     glm::dvec3 position(std::uint64_t index) const;
@@ -107,6 +109,7 @@ class Mesh {
 
     std::array<std::size_t, 3> size_;
     bool hasNeighbours_ = true;
+    glm::dvec3 period_{0};
     double spread_ = 1;
     glm::dvec3 origin_{0}, unit_{1};
     std::uint64_t stored_ = 0;

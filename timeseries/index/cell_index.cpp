@@ -54,13 +54,6 @@ std::uint32_t neighbour(std::uint32_t cell, std::uint32_t side, std::uint32_t po
     return std::min(cell + side > 0 ? cell + side - 1 : 0, points - 1);
 }
 
-// NaN where the value is missing or not finite.
-template <typename T>
-double finiteOr(T value, bool isMissing) {
-    const auto x = static_cast<double>(value);
-    return isMissing || !std::isfinite(x) ? std::numeric_limits<double>::quiet_NaN() : x;
-}
-
 glm::uvec3 pointsOf(const Field& field) {
     const auto size = field.grid->size();
     return {size[0], size[1], size[2]};
@@ -193,7 +186,10 @@ bool CellIndex::canIndex(const Grid& grid, ValueType type) {
 
 CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
                      std::vector<Interval<double>> among)
-    : field_(std::move(field)), among_(joined(std::move(among))), size_(pointsOf(*field_) + 1u) {
+    : field_(std::move(field)),
+      among_(joined(std::move(among))),
+      corners_(*field_),
+      size_(corners_.size()) {
     const std::uint64_t rows = std::uint64_t{size_.y} * size_.z;
     threads = std::max(threads, 1u);
     const Wanted wanted(among_);
@@ -315,32 +311,15 @@ double CellIndex::halfRange(std::span<const Run> runs, double share) const {
 }
 
 void CellIndex::prefetch(std::uint32_t cell) const {
-    const glm::vec<3, std::uint64_t> points(size_ - 1u);
     const glm::uvec3 at = indicesOf(cell, size_);
     std::visit(
         [&](const auto& values) {
             for (const unsigned c : {0u, 2u, 4u, 6u}) {
                 asm volatile("");  // or compilers take this for a function without an effect
-                const glm::uvec3 p = pointAt(at, c);
-                __builtin_prefetch(&values[p.x + points.x * (p.y + points.y * p.z)]);
+                __builtin_prefetch(&values[corners_.indexOf(corners_.pointAt(at, c))]);
             }
         },
         field_->values);
-}
-
-std::array<double, 8> CellIndex::corners(const glm::uvec3& cell) const {
-    const glm::vec<3, std::uint64_t> points(size_ - 1u);
-    std::array<double, 8> out{};
-    std::visit(
-        [&](const auto& values) {
-            for (unsigned c = 0; c < 8; ++c) {
-                const glm::uvec3 p = pointAt(cell, c);
-                const std::uint64_t at = p.x + points.x * (p.y + points.y * p.z);
-                out[c] = finiteOr(values[at], !field_->missing.empty() && field_->missing[at]);
-            }
-        },
-        field_->values);
-    return out;
 }
 
 std::uint64_t CellIndex::bytes() const { return field_->bytes() + list_.size() * sizeof(list_[0]); }

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -12,20 +11,17 @@
 #include <vector>
 
 #include "timeseries/grid/field.h"
+#include "timeseries/index/cell_corners.h"
 #include "timeseries/index/range_set.h"
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
 
-// A cell is the box between eight neighbouring points. Beyond the outermost points lie half cells,
-// whose outer corners repeat the points' values, so that cells fill what the points stand for:
-// along each axis there is one more of them than of points, and cell i lies between points i - 1
-// and i. Cells are numbered x fastest.
-//
-// They are kept in classes of half their range of values, two an octave, each in order of the
-// middle of that range: in a class of ranges up to 2 H, the cells that reach into [a, b] have their
-// middles in [a - H, b + H]. Memory: 8 bytes a cell that is kept, and the field's values.
+// Cells as CellCorners has them, numbered x fastest, are kept in classes of half their range of
+// values, two an octave, each in order of the middle of that range: in a class of ranges up to 2 H,
+// the cells that reach into [a, b] have their middles in [a - H, b + H]. Memory: 8 bytes a cell
+// that is kept, and the field's values.
 class CellIndex {
  public:
     // Whether the cells of such a grid, and its values, take kMostBytes or less. They are few
@@ -45,7 +41,8 @@ class CellIndex {
     const std::shared_ptr<const Field>& sharedField() const { return field_; }
     // Whether each of these lies in one of those among which it has cells.
     bool holds(std::span<const Interval<double>> intervals) const;
-    glm::uvec3 size() const { return size_; }  // cells along the axes
+    const CellCorners& cornersOf() const { return corners_; }
+    glm::uvec3 size() const { return size_; }  // cells along the indices
     std::uint64_t count() const { return list_.size(); }
 
     // Places in the list: disjoint, ascending, none empty. They hold every cell that reaches into
@@ -59,15 +56,7 @@ class CellIndex {
     std::uint32_t cell(std::uint64_t place) const {
         return static_cast<std::uint32_t>(list_[place]);
     }
-    // Corners are numbered x fastest: the point, along the axes, whose value a corner has.
-    glm::uvec3 pointAt(const glm::uvec3& cell, unsigned corner) const {
-        const glm::uvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
-        const glm::uvec3 up = glm::max(cell + side, glm::uvec3(1)) - 1u;
-        return glm::min(up, size_ - 2u);
-    }
-    // Of a cell; NaN where a value is missing or not finite.
-    std::array<double, 8> corners(const glm::uvec3& cell) const;
-    // Begins to fetch what corners() of that cell will read: cells of like values lie all over the
+    // Begins to fetch what the corners of that cell have: cells of like values lie all over the
     // field.
     void prefetch(std::uint32_t cell) const;
     std::uint64_t bytes() const;
@@ -82,7 +71,8 @@ class CellIndex {
 
     std::shared_ptr<const Field> field_;
     std::vector<Interval<double>> among_;
-    glm::uvec3 size_{0};
+    CellCorners corners_;
+    glm::uvec3 size_;
     std::vector<Class> classes_;       // none empty
     std::vector<std::uint64_t> list_;  // ordered middle << 32 | number
 };

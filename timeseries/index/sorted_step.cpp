@@ -309,9 +309,11 @@ std::shared_ptr<const CellIndex> SortedStep::cellsIfMade(
 std::string_view SortedStep::whyNoCells() const {
     if (ofCategories_) return "nothing lies between categories";
     if (size_ != statistics_.points) return "cells need every value kept";
-    if (grid_->mesh())
-        return grid_->mesh()->hasNeighbours() ? "cells of curvilinear grids are not drawn yet"
-                                              : "cells of unstructured grids are not drawn yet";
+    if (const auto& mesh = grid_->mesh()) {
+        if (!mesh->hasNeighbours()) return "cells of unstructured grids are not drawn yet";
+        if (std::ranges::count(mesh->size(), 1u) > 1)
+            return "nothing lies between points of a line";
+    }
     return CellIndex::canIndex(*grid_, type()) ? "" : "so many cells would not fit the memory";
 }
 

@@ -1,0 +1,113 @@
+#include "render/reference/tets_on_pixels.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+namespace render {
+namespace {
+
+constexpr int kSquare = 32;
+
+}  // namespace
+
+PixelBins::PixelBins(std::span<const glm::ivec2> pixels, glm::ivec2 size)
+    : pixels_(pixels), size_(size), across_((size + kSquare - 1) / kSquare) {
+    const auto squares = static_cast<std::size_t>(across_.x) * static_cast<std::size_t>(across_.y);
+    const auto of = [&](const glm::ivec2& pixel) {
+        const glm::ivec2 square = squareOf(glm::dvec2(pixel) + 0.5);
+        return static_cast<std::size_t>(square.y * across_.x + square.x);
+    };
+    firsts_.resize(squares + 1);
+    for (const glm::ivec2& pixel : pixels) ++firsts_[of(pixel) + 1];
+    std::partial_sum(firsts_.begin(), firsts_.end(), firsts_.begin());
+    std::vector<std::size_t> next = firsts_;
+    order_.resize(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) order_[next[of(pixels[i])]++] = i;
+}
+
+glm::ivec2 PixelBins::squareOf(const glm::dvec2& at) const {
+    return glm::ivec2(glm::clamp(at, glm::dvec2(0), glm::dvec2(size_ - 1))) / kSquare;
+}
+
+WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    WindowBox box{glm::dvec2(kFar), glm::dvec2(-kFar)};
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 seen(view.viewFromAxes * glm::dvec4(corner, 1.0));
+        if (!(-seen.z > view.rays.near)) return {glm::dvec2(-kFar), glm::dvec2(kFar)};
+        const glm::dvec2 at = view.rays.centre + view.rays.focal * glm::dvec2(seen) / -seen.z;
+        box.lo = glm::min(box.lo, at);
+        box.hi = glm::max(box.hi, at);
+    }
+    return box;
+}
+
+std::optional<PartOnRay> partOnRay(const PointsView& view, const TetSplat<double>& seen,
+                                   const glm::dvec2& window) {
+    const glm::dvec2 offset = window - view.rays.centre - seen.centre;
+    const auto [from, to] = wayThrough(view, seen, offset, std::numeric_limits<double>::infinity());
+    if (!(to > from)) return std::nullopt;
+    const double shift = offset.x * seen.fX + offset.y * seen.fY;
+    const double change = seen.fRay + shift, first = seen.f + seen.base * shift + from * change;
+    double begin = 0, end = 1;  // of this way
+    const double along = (to - from) * change;
+    const auto cut = [&](double bound, bool above) {  // leaves what is above or below the bound
+        if (along == 0) {
+            if (above ? first < bound : first > bound) end = begin;
+            return;
+        }
+        const double at = (bound - first) / along;
+        if ((along > 0) == above)
+            begin = std::max(begin, at);
+        else
+            end = std::min(end, at);
+    };
+    if (seen.crossesLeast) cut(seen.least, true);
+    if (seen.crossesMost) cut(seen.most, false);
+    if (!(end > begin)) return std::nullopt;
+    const auto valueAt = [&](double way) {
+        return seen.reference + seen.extent * (first + way * along);
+    };
+    return PartOnRay{seen.base + std::lerp(from, to, begin), seen.base + std::lerp(from, to, end),
+                     valueAt(begin), valueAt(end)};
+}
+
+double lengthPerDepth(const PointsView& view, const glm::dvec2& window) {
+    const glm::dvec2 slope = (window - view.rays.centre) / view.rays.focal;
+    return view.rayLength / view.unitLength * std::sqrt(1 + glm::dot(slope, slope));
+}
+
+std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,
+                               std::size_t layer, std::span<const glm::ivec2> pixels,
+                               int raysAcross, unsigned threads) {
+    const PointsView seen(scene.placed, view);
+    const PixelBins bins(pixels, view.size);
+    std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
+    forEachTetBefore(
+        scene, field, seen, bins, threads,
+        [&](std::size_t part, const glm::uvec3&, const MeshCells::Tetrahedron& tet, std::size_t of,
+            std::size_t pixel) {
+            if (of != layer) return;
+            double sum = 0;
+            for (const auto& range : scene.layers[layer].cells.ranges) {
+                const auto s = tetSplatAt<double>(
+                    seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
+                if (!s.visible) continue;
+                for (int j = 0; j < raysAcross; ++j)
+                    for (int i = 0; i < raysAcross; ++i) {
+                        const glm::dvec2 window = glm::dvec2(pixels[pixel]) +
+                                                  (glm::dvec2(i, j) + 0.5) / double(raysAcross);
+                        if (const auto in = partOnRay(seen, s, window))
+                            sum += (in->to - in->from) * lengthPerDepth(seen, window);
+                    }
+            }
+            parts[part][pixel] += sum / (raysAcross * raysAcross);
+        });
+    std::vector<double> weight(pixels.size());
+    for (const std::vector<double>& some : parts)
+        for (std::size_t i = 0; i < weight.size(); ++i) weight[i] += some[i];
+    return weight;
+}
+
+}  // namespace render

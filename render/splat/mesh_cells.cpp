@@ -1,0 +1,159 @@
+#include "render/splat/mesh_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace render {
+namespace {
+
+// Of a step to the next point: nearer to each other the ends of a grid are one place.
+constexpr double kOnePlace = 1e-3;
+
+}  // namespace
+
+unsigned fillMissing(std::array<double, 8>& corners) {
+    double sum = 0;
+    int valid = 0;
+    unsigned there = 0;
+    for (unsigned c = 0; c < 8; ++c) {
+        if (std::isnan(corners[c])) continue;
+        sum += corners[c] / 8;
+        ++valid;
+        there |= 1u << c;
+    }
+    for (double& v : corners)
+        if (std::isnan(v)) v = sum * (8.0 / valid);
+    return there;
+}
+
+MeshCells::MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& corners,
+                     const IndexBox& clip)
+    : placed_(placed), corners_(corners), clip_(clip), points_(placed.size()) {
+    const glm::dvec3 scale = placed.scale();
+    period_ = placed.mesh()->period() * glm::abs(scale);
+    clips_ = !clip.holdsAll();
+    isLeft_ = (placed.mesh()->stored().sign < 0) != (scale.x * scale.y * scale.z < 0);
+}
+
+glm::dvec3 MeshCells::placeOf(const glm::uvec3& point) const {
+    return placed_.alongAxes(corners_.indexOf(point));
+}
+
+glm::dvec3 MeshCells::way(const glm::dvec3& from, const glm::dvec3& to) const {
+    glm::dvec3 along = to - from;
+    for (int c = 0; c < 3; ++c)
+        if (period_[c] > 0) along[c] -= period_[c] * std::round(along[c] / period_[c]);
+    return along;
+}
+
+// Along the third direction of the point's cell, of which the other two and the volume are known.
+glm::dvec3 MeshCells::acrossLayer(const glm::uvec3& point, int axis) const {
+    const auto stepAlong = [&](int a) {
+        glm::uvec3 before = point, after = point;
+        if (point[a] > 0) --before[a];
+        if (point[a] + 1 < points_[a]) ++after[a];
+        return way(placeOf(before), placeOf(after)) / std::max(1.0, double(after[a] - before[a]));
+    };
+    const glm::dvec3 normal = glm::cross(stepAlong((axis + 1) % 3), stepAlong((axis + 2) % 3));
+    const double area2 = glm::dot(normal, normal);
+    const auto diagonal = placed_.meshCell(corners_.indexOf(point)).diagonal;
+    const double volume =
+        std::abs(diagonal.x * diagonal.y * diagonal.z) * placed_.volumePerDeterminant();
+    // In a mirrored space the third direction is the other one.
+    return area2 > 0 ? normal * ((isLeft_ ? -volume : volume) / area2) : glm::dvec3(0);
+}
+
+glm::dvec3 MeshCells::beyond(const glm::uvec3& point, int axis, bool before) const {
+    if (points_[axis] == 1) return (before ? -0.5 : 0.5) * acrossLayer(point, axis);
+    glm::uvec3 inward = point, other = point;
+    inward[axis] = before ? 1 : points_[axis] - 2;
+    other[axis] = before ? points_[axis] - 1 : 0;
+    const glm::dvec3 place = placeOf(point), step = way(placeOf(inward), place);
+    const glm::dvec3 round = way(place, placeOf(other));
+    const bool comesRound =
+        points_[axis] > 2 && glm::dot(round, round) < kOnePlace * kOnePlace * glm::dot(step, step);
+    return comesRound ? glm::dvec3(0) : 0.5 * step;
+}
+
+glm::dvec3 MeshCells::cornerAt(const glm::uvec3& cell, unsigned corner) const {
+    const glm::uvec3 point = corners_.pointAt(cell, corner);
+    glm::dvec3 place = placeOf(point);
+    for (int a = 0; a < 3; ++a) {
+        const unsigned side = corner >> a & 1;
+        if (cell[a] + side == 0) place += beyond(point, a, true);
+        if (cell[a] + side > points_[a]) place += beyond(point, a, false);
+    }
+    return place;
+}
+
+std::optional<MeshCells::Hexahedron> MeshCells::operator()(const glm::uvec3& cell) const {
+    Hexahedron out{};
+    out.values = corners_.values(cell);
+    out.octants = fillMissing(out.values);
+    if (clips_)
+        for (unsigned c = 0; c < 8; ++c)
+            if (!placed_.inside(corners_.indexOf(corners_.pointAt(cell, c)), clip_))
+                out.octants &= ~(1u << c);
+    if (out.octants == 0) return std::nullopt;
+    for (unsigned c = 0; c < 8; ++c) {
+        out.at[c] = cornerAt(cell, c);
+        if (!timeseries::isPlace(out.at[c])) return std::nullopt;
+        out.at[c] = out.at[0] + way(out.at[0], out.at[c]);
+    }
+    return out;
+}
+
+// Of two beside each other the one on the eye's side of the face between them is in front.
+MeshCells::Order MeshCells::ringFrom(const glm::dvec3& eye, const std::array<glm::dvec3, 8>& at) {
+    constexpr std::size_t n = kRing.size();
+    std::array<bool, n> beforeNext{};
+    for (std::size_t k = 0; k < n; ++k) {
+        const glm::dvec3& shared = at[kRing[(k + 1) % n]];
+        const auto side = [&](const glm::dvec3& place) {
+            return turnOf({at[0], shared, at[7], place}) > 0;
+        };
+        beforeNext[k] = side(eye) == side(at[kRing[k]]);
+    }
+    Order order = kAsTheyAre;
+    std::array<bool, n> taken{};
+    for (std::size_t count = 0; count < n; ++count) {
+        const auto isFree = [&](std::size_t k) {
+            const std::size_t before = (k + n - 1) % n, next = (k + 1) % n;
+            return !taken[k] && (taken[before] || !beforeNext[before]) &&
+                   (taken[next] || beforeNext[k]);
+        };
+        std::size_t next = 0;
+        while (next < n && !isFree(next)) ++next;
+        if (next == n)  // bent so far that each is before another
+            next = static_cast<std::size_t>(std::ranges::find(taken, false) - taken.begin());
+        taken[next] = true;
+        order[count] = static_cast<std::uint8_t>(next);
+    }
+    return order;
+}
+
+MeshCells::Order MeshCells::octantsFrom(const glm::dvec3& eye,
+                                        const std::array<glm::dvec3, 8>& at) {
+    Order order = kAsTheyAre;
+    std::ranges::sort(order, {}, [&](std::uint8_t o) { return glm::distance(eye, at[o]); });
+    return order;
+}
+
+MeshCells::Hexahedron MeshCells::octantOf(const Hexahedron& cell, unsigned octant) const {
+    const glm::dvec3 first(octant & 1 ? 0.5 : 0, octant & 2 ? 0.5 : 0, octant & 4 ? 0.5 : 0);
+    Hexahedron part = cell;
+    for (unsigned c = 0; c < 8; ++c) {
+        const glm::dvec3 u = first + 0.5 * glm::dvec3(c & 1, c >> 1 & 1, c >> 2);
+        part.values[c] = render::cell::valueAt(cell.values, u);
+        for (int a = 0; a < 3; ++a) {
+            std::array<double, 8> along{};
+            for (std::size_t k = 0; k < 8; ++k) along[k] = cell.at[k][a];
+            part.at[c][a] = render::cell::valueAt(along, u);
+        }
+    }
+    return part;
+}
+
+}  // namespace render

@@ -1,0 +1,97 @@
+// The cells of a grid whose points lie one by one, as tetrahedra: six about the diagonal from the
+// first corner to the last (Kuhn 1960), along which neighbours' faces are divided alike, so that
+// they fill what lies between the points without gaps, however it is bent.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "render/model/tet_splat.h"
+#include "render/points/placed_points.h"
+#include "timeseries/index/cell_corners.h"
+
+namespace render {
+
+// Corners that have no value get the mean of those that have; a bit for each of the latter.
+unsigned fillMissing(std::array<double, 8>& corners);
+
+// What it is made of must outlive it.
+class MeshCells {
+ public:
+    // REQUIRES: placed.isMesh() and hasNeighbours().
+    MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& corners,
+              const IndexBox& clip);
+
+    struct Hexahedron {
+        std::array<glm::dvec3, 8> at;  // in axis coordinates
+        std::array<double, 8> values;
+        unsigned octants = 0;  // that are seen, as of SeenOctants
+    };
+    // None where nothing is seen: a corner has no place, or none a value within the clip box. Half
+    // cells beyond the outermost points reach as far as half the way to the points before these,
+    // and nowhere where a grid comes round to where it began. A layer of points is as thick as its
+    // points' cells.
+    std::optional<Hexahedron> operator()(const glm::uvec3& cell) const;
+
+    struct Tetrahedron {
+        std::array<glm::dvec3, 4> at;
+        std::array<double, 4> values;
+        std::array<unsigned, 4> corners;  // of the hexahedron; those of an octant, its own
+    };
+    // use(Tetrahedron) for those that fill what is seen of it; from an eye that is given, each
+    // before what it hides. Those that are turned inside out beside most of the grid's are left
+    // out, as points' cells are.
+    template <typename Use>
+    void forEachTet(const Hexahedron& cell, const glm::dvec3* eye, const Use& use) const;
+
+ private:
+    // About the diagonal: the tetrahedra 0, ring[i], ring[i + 1], 7, right-handed in a right-handed
+    // cell.
+    static constexpr std::array<unsigned, 6> kRing{1, 3, 2, 6, 4, 5};
+    using Order = std::array<std::uint8_t, 8>;
+    static constexpr Order kAsTheyAre{0, 1, 2, 3, 4, 5, 6, 7};
+    static Order ringFrom(const glm::dvec3& eye, const std::array<glm::dvec3, 8>& at);
+    static Order octantsFrom(const glm::dvec3& eye, const std::array<glm::dvec3, 8>& at);
+
+    glm::dvec3 placeOf(const glm::uvec3& point) const;
+    // From a point, or from where another is, the shorter way round.
+    glm::dvec3 way(const glm::dvec3& from, const glm::dvec3& to) const;
+    glm::dvec3 cornerAt(const glm::uvec3& cell, unsigned corner) const;
+    // From an outermost point half a cell on along an index.
+    glm::dvec3 beyond(const glm::uvec3& point, int axis, bool before) const;
+    glm::dvec3 acrossLayer(const glm::uvec3& point, int axis) const;
+    Hexahedron octantOf(const Hexahedron& cell, unsigned octant) const;
+
+    const PlacedPoints& placed_;
+    timeseries::CellCorners corners_;
+    const IndexBox& clip_;
+    glm::uvec3 points_;
+    glm::dvec3 period_;
+    bool clips_, isLeft_;  // most cells of the grid are left-handed
+};
+
+template <typename Use>
+void MeshCells::forEachTet(const Hexahedron& cell, const glm::dvec3* eye, const Use& use) const {
+    const auto fill = [&](const Hexahedron& part, std::optional<unsigned> octant) {
+        const Order order = eye ? ringFrom(*eye, part.at) : kAsTheyAre;
+        for (std::size_t n = 0; n < kRing.size(); ++n) {
+            const std::size_t k = order[n], next = (k + 1) % kRing.size();
+            const std::array<unsigned, 4> corners{0, kRing[k], kRing[next], 7};
+            Tetrahedron tet{};
+            for (std::size_t i = 0; i < 4; ++i) {
+                tet.at[i] = part.at[corners[i]];
+                tet.values[i] = part.values[corners[i]];
+                tet.corners[i] = octant.value_or(corners[i]);
+            }
+            if ((turnOf(tet.at) < 0) == isLeft_) use(tet);
+        }
+    };
+    if (cell.octants == 255) return fill(cell, std::nullopt);
+    for (const std::uint8_t o : eye ? octantsFrom(*eye, cell.at) : kAsTheyAre)
+        if (cell.octants >> o & 1) fill(octantOf(cell, o), o);
+}
+
+}  // namespace render

@@ -1,0 +1,181 @@
+#include "render/splat/tet_kernels.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/splat/tet_kernels.cpp"
+#include <hwy/foreach_target.h>  // the first of these
+//
+#include <hwy/highway.h>
+//
+#include "render/splat/cell_range-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Most are narrow: eight pixels at once are enough.
+using Lanes = FewFloats;
+using V = hn::Vec<Lanes>;
+
+HWY_INLINE V set(float x) { return hn::Set(Lanes(), x); }
+
+// What rays of a vector of pixels have in a tetrahedron. Names as in fragmentOn().
+struct Way {
+    V from, to;
+};
+HWY_INLINE Way wayThrough(const SeenTet& c, V ox, V oy, V near, V opaque) {
+    Way way{near, opaque};
+    const V far = set(3e38f), least = set(static_cast<float>(kLeastStep)), zero = set(0);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const V shift = hn::MulAdd(ox, set(c.right[i]), hn::Mul(oy, set(c.up[i])));
+        const V at = hn::MulAdd(set(c.base), shift, set(c.at[i]));
+        const V along = hn::Add(set(c.ray[i]), shift);
+        const V step = hn::CopySign(hn::Max(hn::Abs(along), least), along);
+        const V where = hn::Neg(hn::Mul(at, reciprocal(Lanes(), step)));
+        const auto enters = hn::Gt(step, zero);
+        way.from = hn::Max(way.from, hn::IfThenElse(enters, where, hn::Neg(far)));
+        way.to = hn::Min(way.to, hn::IfThenElse(enters, far, where));
+    }
+    return way;
+}
+
+HWY_INLINE V shareFromFront(V x) {
+    const V twelfth = set(1 / 12.0f);
+    const V below = hn::MulAdd(x, hn::MulAdd(x, twelfth, set(0.5f)), set(2));
+    return hn::Mul(hn::MulAdd(x, twelfth, set(1)), reciprocal(Lanes(), below));
+}
+
+template <Channels kChannels, bool kByValue, int kEnds>
+HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
+    constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
+    constexpr int kStep = static_cast<int>(hn::MaxLanes(Lanes()));
+    const Lanes lanes;
+    const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
+    const glm::ivec2 most =
+        glm::min(glm::ivec2(c.x + c.columns, c.y + c.rows), room.at + room.size);
+    const RangeLanes<Lanes> range(lanes, c);
+    [[maybe_unused]] const auto color = [&] {
+        if constexpr (kColors)
+            return ColorLanes<kByValue, Lanes>(lanes, view, c);
+        else
+            return 0;
+    }();
+    float scale = view.weight;
+    if constexpr (kColors) scale *= color.weight;
+    const V weight = set(scale), perRange = set(scale / view.weight * c.perRange);
+    const bool hides = room.nearestOpaque < 1, isLit = view.light != Light::Off;
+    const V depthA = set(static_cast<float>(view.depthA));
+    const V depthB = set(static_cast<float>(view.depthB));
+    const V base = set(c.base), near = set(view.near - c.base), half = set(0.5f);
+    const V steps = hn::ConvertTo(lanes, hn::Iota(hn::RebindToSigned<Lanes>(), 0));
+    for (int y = least.y; y < most.y; ++y) {
+        const V oy = set(c.oy + static_cast<float>(y - c.y));
+        for (int x = least.x; x < most.x; x += kStep) {
+            const V ox = hn::Add(set(c.ox + static_cast<float>(x - c.x)), steps);
+            const auto at = static_cast<std::size_t>((y - room.at.y) * kTileStride + x - room.at.x);
+            V opaque = set(3e38f);
+            if (hides) {
+                const V depth = hn::LoadU(lanes, room.opaque.data() + at);
+                opaque = hn::Sub(hn::Div(depthA, hn::Sub(depth, depthB)), base);
+            }
+            const Way way = wayThrough(c, ox, oy, near, opaque);
+            const auto inside = hn::Gt(way.to, way.from);
+            if (hn::AllFalse(lanes, inside)) continue;
+            const V length = hn::Sub(way.to, way.from);
+            V t = hn::Mul(weight, length);
+            const V shift = hn::MulAdd(ox, set(c.fRight), hn::Mul(oy, set(c.fUp)));
+            const V change = hn::Add(set(c.fRay), shift);
+            const V middle = hn::Mul(half, hn::Add(way.from, way.to));
+            const V value =
+                hn::MulAdd(middle, change, hn::MulAdd(base, shift, set(c.f)));  // half way through
+            const V reach = hn::Mul(half, hn::Mul(length, change));
+            V front = hn::Sub(value, reach), back = hn::Add(value, reach), hiding = set(1);
+            const V factor = hn::LoadU(lanes, room.factor.data() + at);
+            if constexpr (kEnds > 0) {
+                const V first = front, last = back;
+                const V width = hn::Max(hn::Mul(hn::Add(base, middle), set(c.across)),
+                                        set(static_cast<float>(2 * kLeastChange)));
+                // As if along the view axis: the ray's own length is a factor later.
+                if (c.perRange > 0)
+                    t = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),
+                                           hn::Abs(hn::Sub(last, first))));
+                t = hn::Mul(t, range.template share<kEnds>(first, last, reciprocal(lanes, width)));
+                // What a pixel sees of the field beside its ray belongs to the ends; of it nothing
+                // hides anything.
+                const V beside = hn::CopySign(hn::Mul(half, width), change);
+                front = range.within(hn::Sub(first, beside));
+                back = range.within(hn::Add(last, beside));
+                const V along = hn::Abs(hn::Sub(last, first));
+                hiding = hn::Mul(along, reciprocal(lanes, hn::Add(along, width)));
+            }
+            // Twice as far from the front as what is seen of it in the mean.
+            if constexpr (kByValue && kChannels == Channels::Over) {
+                const V twice = hn::Mul(set(2), shareFromFront(hn::Mul(t, factor)));
+                const V seen = hn::MulAdd(hiding, hn::Sub(twice, set(1)), set(1));
+                back = hn::MulAdd(seen, hn::Sub(back, front), front);
+            }
+            t = hn::IfThenElseZero(inside, t);
+            addWeight<kChannels>(lanes, t, room, at, [&](V* colors) HWY_ATTR {
+                if constexpr (kColors) color.between(front, back, colors);
+                if (!isLit) return;
+                const V perLength = hn::Mul(set(1 / view.rayLength), reciprocal(lanes, factor));
+                const V facing = hn::Min(
+                    set(1), hn::Mul(hn::Mul(hn::Abs(change), set(c.perSteepness)), perLength));
+                V diffuse, specular;
+                lightOf(lanes, view.light, set(c.certainty), facing, diffuse, specular);
+                for (int k = 0; k < 3; ++k) colors[k] = hn::MulAdd(colors[k], diffuse, specular);
+            });
+        }
+    }
+}
+
+template <Channels kChannels, bool kByValue>
+HWY_INLINE void addTets(const CellView& view, std::span<const SeenTet> tets,
+                        std::span<const std::uint32_t> which, TileRoom& room) {
+    for (const std::uint32_t k : which) {
+        const SeenTet& c = tets[k];
+        switch (int{c.crossesLeast} + int{c.crossesMost}) {
+            case 0:
+                addTet<kChannels, kByValue, 0>(view, c, room);
+                break;
+            case 1:
+                addTet<kChannels, kByValue, 1>(view, c, room);
+                break;
+            default:
+                addTet<kChannels, kByValue, 2>(view, c, room);
+        }
+    }
+}
+
+HWY_ATTR void SumTets(const CellView& view, std::span<const SeenTet> tets,
+                      std::span<const std::uint32_t> which, TileRoom& room) {
+    switch (view.channels) {
+        case Channels::Weight:
+            return addTets<Channels::Weight, false>(view, tets, which, room);
+        case Channels::Count:
+            return addTets<Channels::Count, false>(view, tets, which, room);
+        case Channels::WeightedColor:
+            return view.byValue ? addTets<Channels::WeightedColor, true>(view, tets, which, room)
+                                : addTets<Channels::WeightedColor, false>(view, tets, which, room);
+        case Channels::Over:
+            return view.byValue ? addTets<Channels::Over, true>(view, tets, which, room)
+                                : addTets<Channels::Over, false>(view, tets, which, room);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace render {
+HWY_EXPORT(SumTets);
+
+void sumTets(const CellView& view, std::span<const SeenTet> tets,
+             std::span<const std::uint32_t> which, TileRoom& room) {
+    HWY_DYNAMIC_DISPATCH(SumTets)(view, tets, which, room);
+}
+}  // namespace render
+#endif

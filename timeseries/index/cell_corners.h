@@ -1,0 +1,62 @@
+// The cells between the points of a field, and the values at their corners.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+#include "timeseries/grid/field.h"
+
+namespace timeseries {
+
+// As a double; NaN where the value is missing or not finite.
+template <typename T>
+double finiteOr(T value, bool isMissing) {
+    const auto x = static_cast<double>(value);
+    return isMissing || !std::isfinite(x) ? std::numeric_limits<double>::quiet_NaN() : x;
+}
+
+// A cell lies between eight neighbouring points. Beyond the outermost points lie half cells,
+// whose outer corners repeat the points' values, so that cells fill what the points stand for:
+// along each index there is one more of them than of points, and cell i lies between points i - 1
+// and i. Corners are numbered x fastest. The field must outlive it.
+class CellCorners {
+ public:
+    explicit CellCorners(const Field& field)
+        : field_(&field),
+          points_(field.grid->size()[0], field.grid->size()[1], field.grid->size()[2]) {}
+
+    glm::uvec3 size() const { return points_ + 1u; }  // cells along the indices
+    // The point, along the indices, whose value a corner has.
+    glm::uvec3 pointAt(const glm::uvec3& cell, unsigned corner) const {
+        const glm::uvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::uvec3 up = glm::max(cell + side, glm::uvec3(1)) - 1u;
+        return glm::min(up, points_ - 1u);
+    }
+    std::uint64_t indexOf(const glm::uvec3& point) const {
+        const glm::vec<3, std::uint64_t> n(points_);
+        return point.x + n.x * (point.y + n.y * point.z);
+    }
+    // Of a cell; NaN where a value is missing or not finite.
+    std::array<double, 8> values(const glm::uvec3& cell) const {
+        std::array<double, 8> out{};
+        std::visit(
+            [&](const auto& values) {
+                for (unsigned c = 0; c < 8; ++c) {
+                    const std::uint64_t at = indexOf(pointAt(cell, c));
+                    out[c] = finiteOr(values[at], !field_->missing.empty() && field_->missing[at]);
+                }
+            },
+            field_->values);
+        return out;
+    }
+
+ private:
+    const Field* field_;
+    glm::uvec3 points_;
+};
+
+}  // namespace timeseries
