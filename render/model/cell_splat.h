@@ -10,6 +10,10 @@
 // and of a range the difference of the means of two ramps. An end that the cell does not cross is
 // left out, or a plateau at the end's value would count half.
 //
+// A colour by value is the mean of the map over the values that a pixel sees of a cell, or where it
+// hides what is behind, over those of its front (shareFromFront): the colour of their mean would be
+// another where a shell of many colours lies in two cells on one ray, and cells would show.
+//
 // W is that length in units of l, as of splats (render/model/footprint.h), or, where opacity is of
 // a crossing, of each piece what it changes of the range's width, if that is more. Cells do not
 // overlap.
@@ -76,6 +80,17 @@ struct CellSplat {
     // length.
     Real perRange{};
 };
+
+// Of what absorbs evenly along a way, to an optical depth x in all, where the light that leaves it
+// comes from in the mean: this share of the way from the front,
+//   1 / x - 1 / (e^x - 1) = 1/2 - x / 12 + x^3 / 720 - ...
+// as a quotient that has these terms and the limit 1 / x; to 0.025. A thin shell of many colours
+// that lies in two tetrahedra on one ray would else have another colour there than where it lies in
+// one.
+template <typename Real>
+Real shareFromFront(Real x) {
+    return (1 + x / 12) / (2 + x / 2 + x * x / 12);
+}
 
 template <typename Real>
 struct CellFragment {

@@ -112,6 +112,16 @@ ColorMap::ColorMap() : table_(&tables().front()) {}
 
 std::string_view ColorMap::name() const { return table_->name; }
 
+std::vector<glm::vec3> sumsOf(std::span<const glm::vec3> entries) {
+    std::vector<glm::vec3> sums;
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (i > 0) sum += 0.5 * (glm::dvec3(entries[i - 1]) + glm::dvec3(entries[i]));
+        sums.emplace_back(sum);
+    }
+    return sums;
+}
+
 std::span<const glm::vec3> ColorMap::entries() const { return table_->entries; }
 
 glm::vec3 ColorMap::at(double t) const {

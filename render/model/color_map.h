@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace render {
 
@@ -34,6 +35,10 @@ class ColorMap {
 
     const ColorMapTable* table_;
 };
+
+// The colours from the first entry to each, added up (trapezoids), so that of places among entries
+// the mean colour between two is the difference of their sums over the places'.
+std::vector<glm::vec3> sumsOf(std::span<const glm::vec3> entries);
 
 std::span<const std::string_view> colorMapNames();  // the first is the default
 std::optional<ColorMap> colorMapNamed(std::string_view);

@@ -22,7 +22,7 @@ layout(std140, binding = 1) uniform Layers {
     vec4 map[8];    // z: by value: the map's entries, else 0
 } layers;
 
-layout(binding = 1) uniform sampler2D colorMaps;    // a row a layer, linear colour
+layout(binding = 1) uniform sampler2D colorMaps;    // a row a layer, linear colour; then their sums
 layout(binding = 2) uniform sampler2D opaqueDepth;  // what hides cells
 
 layout(location = 0) flat in vec4 centreAndBase;
@@ -40,7 +40,7 @@ layout(location = 0) out float sum;
 layout(location = 0) out vec4 sum;
 #endif
 
-const int kPieces = 3;
+const int kPieces = 3, kMaxLayers = 8;
 const float kLeastChange = 1e-5, kLeastStep = 1e-12;
 const float kAmbient = 0.25, kEven = 0.625, kSpecular = 0.35;
 
@@ -58,18 +58,31 @@ float meanRamp(float a, float b) {
 }
 
 #if defined(WEIGHTED_COLOR) || defined(OVER)
-// Of this value of f, linear.
-vec3 colorOf(float value) {
-    const int entries = int(layers.map[kind.y].z), row = int(kind.y);
-    if (entries == 0) return layers.style[kind.y].rgb;
-    const float at = clamp(mapAndSteep.x + value * mapAndSteep.y, 0.0, 1.0) * float(entries - 1);
-    const int below = min(int(at), entries - 2);
+// Of a place among a row's entries: a layer's map, linear, or from kMaxLayers on its sums.
+vec3 entryAt(float place, int row) {
+    const int below = min(int(place), int(layers.map[kind.y].z) - 2);
     return mix(texelFetch(colorMaps, ivec2(below, row), 0).rgb,
-               texelFetch(colorMaps, ivec2(below + 1, row), 0).rgb, at - float(below));
+               texelFetch(colorMaps, ivec2(below + 1, row), 0).rgb, place - float(below));
+}
+// The mean of the colours of all values of f between these.
+vec3 colorBetween(float a, float b) {
+    const int row = int(kind.y);
+    if (layers.map[row].z == 0.0) return layers.style[row].rgb;
+    const vec2 places = clamp(mapAndSteep.x + vec2(a, b) * mapAndSteep.y, 0.0, 1.0) * (layers.map[row].z - 1.0);
+    const float way = places.y - places.x;
+    if (abs(way) <= 2.0) return entryAt(0.5 * (places.x + places.y), row);
+    return (entryAt(places.y, kMaxLayers + row) - entryAt(places.x, kMaxLayers + row)) / way;
 }
 #endif
 
 #ifdef OVER
+// As in render/splat/cell_range-inl.h.
+float seenTo(float front, float back, float x, float along, float width) {
+    const float hiding = along / max(along + width, 1e-30);
+    const float share = (1.0 + x / 12.0) / (2.0 + x / 2.0 + x * x / 12.0);
+    return front + (1.0 + hiding * (2.0 * share - 1.0)) * (back - front);
+}
+
 // What light makes of a colour, where the field has this gradient per length in axis coordinates
 // and changes so along the ray, which is so long.
 vec3 lit(vec3 color, vec3 g, float change, float rayLength) {
@@ -113,23 +126,28 @@ void main() {
     const vec3 gradient = vec3(low.y + high.y * m.z + mixed.z * m.y,
                                low.z + high.z * m.z + mixed.z * m.x,
                                low.w + high.z * m.y + mixed.y * m.x);
-    float value = low.x + low.y * m.x + m.y * (low.z + high.x * m.x) + m.z * gradient.z;
+    const float value = low.x + low.y * m.x + m.y * (low.z + high.x * m.x) + m.z * gradient.z;
     const float change = dot(gradient, d);
-    float w = whole;
+    const float second = d.x * d.y * mixed.z + d.z * (d.x * mixed.y + d.y * mixed.x);
+    const float third = d.x * d.y * d.z * high.w;
+    const float first = value - halfWay * (change - halfWay * (second - halfWay * third));
+    const float last = value + halfWay * (change + halfWay * (second + halfWay * third));
+    float w = whole, width = 0.0;
+    float mean = value, lowest = min(first, last), highest = max(first, last);
     const bool crossesLeast = (kind.x & 1u) != 0u, crossesMost = (kind.x & 2u) != 0u;
     if (crossesLeast || crossesMost) {
-        const float second = d.x * d.y * mixed.z + d.z * (d.x * mixed.y + d.y * mixed.x);
-        const float third = d.x * d.y * d.z * high.w;
         const vec2 across = (base + depth) * vec2(dot(gradient, x), dot(gradient, y));
-        const float width = max(length(across), 2.0 * kLeastChange), perWidth = 1.0 / width;
+        width = max(length(across), 2.0 * kLeastChange);
+        const float perWidth = 1.0 / width;
         const float leastIn = crossesLeast ? max(atAndLeast.w, -1.0) : -1.0;
         const float mostIn = crossesMost ? min(rayAndMost.w, 1.0) : 1.0;
-        float weighted = 0.0, end = value - halfWay * (change - halfWay * (second - halfWay * third));
-        const float middleValue = value;
+        float weighted = 0.0, end = first;
         w = 0.0;
+        lowest = 2.0;  // more than f can be
+        highest = -2.0;
         for (int k = 1; k <= kPieces; ++k) {
             const float begin = end, way = halfWay * (float(2 * k) / float(kPieces) - 1.0);
-            end = middleValue + way * (change + way * (second + way * third));
+            end = value + way * (change + way * (second + way * third));
             float share = 1.0;
             if (crossesLeast)
                 share = meanRamp((begin - atAndLeast.w) * perWidth + 0.5,
@@ -140,21 +158,28 @@ void main() {
             const float is = max(share, 0.0) *
                              max(whole / float(kPieces), abs(end - begin) * perSizeAndRange.w);
             w += is;
-            weighted += 0.5 * is * (clamp(min(begin, end) - 0.5 * width, leastIn, mostIn) +
-                                    clamp(max(begin, end) + 0.5 * width, leastIn, mostIn));
+            const float lower = clamp(min(begin, end) - 0.5 * width, leastIn, mostIn);
+            const float upper = clamp(max(begin, end) + 0.5 * width, leastIn, mostIn);
+            weighted += 0.5 * is * (lower + upper);
+            if (is > 0.0) lowest = min(lowest, lower);
+            if (is > 0.0) highest = max(highest, upper);
         }
         if (!(w > 0.0)) discard;
-        value = weighted / w;
+        mean = weighted / w;
     }
+    // Values that are seen, from the front.
+    const float spread = max(min(mean - lowest, highest - mean), 0.0), toBack = last < first ? -spread : spread;
+    const float front = mean - toBack, back = mean + toBack;
 #if defined(WEIGHT)
     sum = w;
 #elif defined(COUNT)
     sum = 1.0;
 #elif defined(WEIGHTED_COLOR)
-    sum = vec4(colorOf(value) * w, w);
+    sum = vec4(colorBetween(front, back) * w, w);
 #else
-    const float alpha = opacity(layers.style[kind.y].w * w);
-    sum = vec4(lit(colorOf(value), gradient * perSizeAndRange.xyz, change, view.depths.z * longer) *
+    const float depthOfLight = layers.style[kind.y].w * w, alpha = opacity(depthOfLight);
+    const float seen = seenTo(front, back, depthOfLight, abs(last - first), width);
+    sum = vec4(lit(colorBetween(front, seen), gradient * perSizeAndRange.xyz, change, view.depths.z * longer) *
                    alpha, alpha);
 #endif
 }

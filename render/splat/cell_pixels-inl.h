@@ -175,41 +175,42 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
             cell.meet(ox, oy, to, r);
             const auto inside = hn::Gt(r.to, r.from);
             if (hn::AllFalse(lanes, inside)) continue;
-            V t = hn::Mul(weight, hn::Sub(r.to, r.from)), value = zero;
-            V change = zero;  // of the field along the ray
+            V t = hn::Mul(weight, hn::Sub(r.to, r.from));
+            V change = zero;              // of the field along the ray
+            V front = zero, back = zero;  // values that are seen
             if constexpr (kEnds > 0 || kByValue || kLit) {
                 cell.lookHalfWay(r);
-                value = r.value;
                 change = cell.dot(r.gradient, r.along);
             }
-            if constexpr (kEnds > 0) {
-                V values[kPieces + 1], sum = zero;
+            if constexpr (kEnds > 0 || kByValue) {
+                V values[kPieces + 1], width = zero;
                 cell.follow(r, change, values);
-                const V width = cell.acrossPixel(r), perWidth = reciprocal(lanes, width);
-                const V length = hn::Mul(t, hn::Set(lanes, 1.0f / kPieces));
-                // As if along the view axis: the ray's own length is a factor later.
-                const V crossing =
-                    c.perRange > 0
-                        ? hn::Mul(perRange, reciprocal(lanes, hn::LoadU(lanes, factors + at)))
-                        : zero;
-                t = zero;
-                for (std::size_t k = 0; k < kPieces; ++k) {
-                    const V first = values[k], last = values[k + 1];
-                    const V whole =
-                        hn::Max(length, hn::Mul(crossing, hn::Abs(hn::Sub(last, first))));
-                    const V is = hn::Mul(range.template share<kEnds>(first, last, perWidth), whole);
-                    t = hn::Add(t, is);
-                    if constexpr (kByValue)
-                        sum = hn::MulAdd(is, range.twiceMean(first, last, width), sum);
+                V mean = r.value, low = hn::Min(values[0], values[kPieces]),
+                  high = hn::Max(values[0], values[kPieces]);
+                if constexpr (kEnds > 0) {
+                    width = cell.acrossPixel(r);
+                    // As if along the view axis: the ray's own length is a factor later.
+                    const V crossing =
+                        c.perRange > 0
+                            ? hn::Mul(perRange, reciprocal(lanes, hn::LoadU(lanes, factors + at)))
+                            : zero;
+                    t = range.template sum<kEnds, kByValue>(values, width, t, crossing, mean, low,
+                                                            high);
                 }
                 if constexpr (kByValue) {
-                    const V twice = hn::Max(hn::Add(t, t), hn::Set(lanes, 1e-30f));
-                    value = hn::Mul(sum, reciprocal(lanes, twice));
+                    const V half = hn::Min(hn::Sub(mean, low), hn::Sub(high, mean));
+                    const V along = hn::Sub(values[kPieces], values[0]);
+                    const V toBack = hn::CopySign(hn::Max(half, zero), along);
+                    front = hn::Sub(mean, toBack);
+                    back = hn::Add(mean, toBack);
+                    if constexpr (kChannels == Channels::Over)
+                        back = seenTo(lanes, front, back,
+                                      hn::Mul(t, hn::LoadU(lanes, factors + at)), along, width);
                 }
             }
             t = hn::IfThenElseZero(inside, t);
             addWeight<kChannels>(lanes, t, room, at, [&](V* colors) HWY_ATTR {
-                if constexpr (kColors) color.of(value, colors);
+                if constexpr (kColors) color.between(front, back, colors);
                 if constexpr (kLit) {
                     V diffuse, specular;
                     light.shade(r, change, hn::LoadU(lanes, factors + at), diffuse, specular);

@@ -37,11 +37,11 @@ struct RangeLanes {
         most = hn::Set(l, c.crossesMost ? std::min(c.most, 1.0f) : 1.0f);
     }
     HWY_INLINE V within(V value) const { return hn::Min(hn::Max(value, least), most); }
-    // Of the values in the range that a pixel sees of a piece, across which they change so much.
-    HWY_INLINE V twiceMean(V first, V last, V width) const {
+    // The ends of the values in the range that a pixel sees of a piece.
+    HWY_INLINE void ends(V first, V last, V width, V& low, V& high) const {
         const V reach = hn::Mul(hn::Set(lanes, 0.5f), width);
-        return hn::Add(within(hn::Sub(hn::Min(first, last), reach)),
-                       within(hn::Add(hn::Max(first, last), reach)));
+        low = within(hn::Sub(hn::Min(first, last), reach));
+        high = within(hn::Add(hn::Max(first, last), reach));
     }
 
     // Of a piece between these values, with ramps of this width's reciprocal.
@@ -64,6 +64,37 @@ struct RangeLanes {
         const V mean = meanRamp(end[0]);
         return hn::Max(
             kEnds == 2 ? hn::Sub(mean, meanRamp(end[1])) : hn::MulAdd(sign, mean, offset), zero);
+    }
+
+    // What the pieces between these values weigh, of a way that weighs so much, or `perChange` for
+    // what it changes, if that is more; of the values in the range the weighted mean and the ends.
+    template <int kEnds, bool kByValue>
+    HWY_INLINE V sum(const V* values, V width, V way, V perChange, V& mean, V& lowest,
+                     V& highest) const {
+        const V zero = hn::Zero(lanes), perWidth = reciprocal(lanes, width);
+        const V length = hn::Mul(way, hn::Set(lanes, 1.0f / kPieces));
+        V weight = zero, twice = zero;
+        lowest = hn::Set(lanes, 2.0f);  // more than f can be
+        highest = hn::Neg(lowest);
+        for (std::size_t k = 0; k < kPieces; ++k) {
+            const V first = values[k], last = values[k + 1];
+            const V whole = hn::Max(length, hn::Mul(perChange, hn::Abs(hn::Sub(last, first))));
+            const V is = hn::Mul(share<kEnds>(first, last, perWidth), whole);
+            weight = hn::Add(weight, is);
+            if constexpr (kByValue) {
+                V low, high;
+                ends(first, last, width, low, high);
+                twice = hn::MulAdd(is, hn::Add(low, high), twice);
+                const auto counts = hn::Gt(is, zero);
+                lowest = hn::IfThenElse(counts, hn::Min(lowest, low), lowest);
+                highest = hn::IfThenElse(counts, hn::Max(highest, high), highest);
+            }
+        }
+        if constexpr (kByValue) {
+            const V all = hn::Max(hn::Add(weight, weight), hn::Set(lanes, 1e-30f));
+            mean = hn::Mul(twice, reciprocal(lanes, all));
+        }
+        return weight;
     }
 };
 
@@ -102,10 +133,11 @@ struct ColorLanes {
         } else {
             const V from = placeOf(a), to = placeOf(b), way = hn::Sub(to, from);
             const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f);
-            entry(table, hn::Mul(half, hn::Add(from, to)), is);
             const auto isFar = hn::Gt(hn::Abs(way), hn::Set(lanes, 2.0f));
+            if (!hn::AllTrue(lanes, isFar)) entry(table, hn::Mul(half, hn::Add(from, to)), is);
             if (hn::AllFalse(lanes, isFar)) return;
             const V per = reciprocal(lanes, hn::IfThenElse(isFar, way, one));
+            if (hn::AllTrue(lanes, isFar)) std::fill_n(is, 3, one);
             V sumFrom[3], sumTo[3];
             entry(sums, from, sumFrom);
             entry(sums, to, sumTo);
@@ -128,6 +160,25 @@ struct ColorLanes {
         }
     }
 };
+
+template <class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V shareFromFront(Lanes lanes, V x) {
+    const V twelfth = hn::Set(lanes, 1 / 12.0f), half = hn::Set(lanes, 0.5f);
+    const V below = hn::MulAdd(x, hn::MulAdd(x, twelfth, half), hn::Set(lanes, 2.0f));
+    return hn::Mul(hn::MulAdd(x, twelfth, hn::Set(lanes, 1.0f)), reciprocal(lanes, below));
+}
+
+// Of values from the front to the back of a way of optical depth x, how far back they are seen:
+// twice as far as the light comes from in the mean. What a pixel sees beside its ray, where values
+// change by `width` as they do by `along` on it, hides nothing of itself.
+template <class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V seenTo(Lanes lanes, V front, V back, V x, V along, V width) {
+    const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f), size = hn::Abs(along);
+    const V hiding = hn::Mul(size, reciprocal(lanes, hn::Max(hn::Add(size, width), tiny)));
+    const V share = shareFromFront(lanes, x);
+    const V seen = hn::MulAdd(hiding, hn::Sub(hn::Add(share, share), one), one);
+    return hn::MulAdd(seen, hn::Sub(back, front), front);
+}
 
 // Of a surface that faces the eye so much, as far as there is one.
 template <class Lanes, class V = hn::Vec<Lanes>>

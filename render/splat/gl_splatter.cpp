@@ -158,7 +158,7 @@ const char* defineOf(Channels channels) {
 GlSplatter::GlSplatter()
     : view_(sizeof(SplatViewBlock)),
       layers_(sizeof(LayerBlock)),
-      colorMaps_(GL_RGBA32F, {kMapEntries, static_cast<int>(kMaxLayers)}) {
+      colorMaps_(GL_RGBA32F, {kMapEntries, 2 * static_cast<int>(kMaxLayers)}) {
     std::array<GLfloat, 2> range{};
     glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
     largestPoint_ = range[1];
@@ -196,10 +196,15 @@ void GlSplatter::setLayers(const Scene& scene, const ValueScale& scale) {
         block.style[k] = glm::vec4(0, 0, 0, tau);
         block.map[k] = glm::vec4(positionOnScale(map, scale), entries.size(),
                                  pointsPerSplat(scene.layers[k], scene.stride));
-        std::vector<glm::vec4> row;
-        for (const glm::vec3& color : entries) row.emplace_back(color, 1.0f);
-        glTextureSubImage2D(colorMaps_.id(), 0, 0, static_cast<GLint>(k),
-                            static_cast<GLsizei>(row.size()), 1, GL_RGBA, GL_FLOAT, row.data());
+        const auto write = [&](std::size_t row, std::span<const glm::vec3> colors) {
+            std::vector<glm::vec4> texels;
+            for (const glm::vec3& color : colors) texels.emplace_back(color, 1.0f);
+            glTextureSubImage2D(colorMaps_.id(), 0, 0, static_cast<GLint>(row),
+                                static_cast<GLsizei>(texels.size()), 1, GL_RGBA, GL_FLOAT,
+                                texels.data());
+        };
+        write(k, entries);
+        write(kMaxLayers + k, sumsOf(entries));
     }
     layers_.write(0, sizeof block, &block);
 }

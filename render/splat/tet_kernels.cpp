@@ -41,12 +41,6 @@ HWY_INLINE Way wayThrough(const SeenTet& c, V ox, V oy, V near, V opaque) {
     return way;
 }
 
-HWY_INLINE V shareFromFront(V x) {
-    const V twelfth = set(1 / 12.0f);
-    const V below = hn::MulAdd(x, hn::MulAdd(x, twelfth, set(0.5f)), set(2));
-    return hn::Mul(hn::MulAdd(x, twelfth, set(1)), reciprocal(Lanes(), below));
-}
-
 template <Channels kChannels, bool kByValue, int kEnds>
 HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
@@ -91,7 +85,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
             const V value =
                 hn::MulAdd(middle, change, hn::MulAdd(base, shift, set(c.f)));  // half way through
             const V reach = hn::Mul(half, hn::Mul(length, change));
-            V front = hn::Sub(value, reach), back = hn::Add(value, reach), hiding = set(1);
+            V front = hn::Sub(value, reach), back = hn::Add(value, reach), beside = set(0);
             const V factor = hn::LoadU(lanes, room.factor.data() + at);
             if constexpr (kEnds > 0) {
                 const V first = front, last = back;
@@ -102,20 +96,16 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                     t = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),
                                            hn::Abs(hn::Sub(last, first))));
                 t = hn::Mul(t, range.template share<kEnds>(first, last, reciprocal(lanes, width)));
-                // What a pixel sees of the field beside its ray belongs to the ends; of it nothing
-                // hides anything.
-                const V beside = hn::CopySign(hn::Mul(half, width), change);
-                front = range.within(hn::Sub(first, beside));
-                back = range.within(hn::Add(last, beside));
-                const V along = hn::Abs(hn::Sub(last, first));
-                hiding = hn::Mul(along, reciprocal(lanes, hn::Add(along, width)));
+                beside = width;
+                V low, high;
+                range.ends(first, last, width, low, high);
+                const auto rises = hn::Gt(change, set(0));
+                front = hn::IfThenElse(rises, low, high);
+                back = hn::IfThenElse(rises, high, low);
             }
-            // Twice as far from the front as what is seen of it in the mean.
-            if constexpr (kByValue && kChannels == Channels::Over) {
-                const V twice = hn::Mul(set(2), shareFromFront(hn::Mul(t, factor)));
-                const V seen = hn::MulAdd(hiding, hn::Sub(twice, set(1)), set(1));
-                back = hn::MulAdd(seen, hn::Sub(back, front), front);
-            }
+            if constexpr (kByValue && kChannels == Channels::Over)
+                back =
+                    seenTo(lanes, front, back, hn::Mul(t, factor), hn::Add(reach, reach), beside);
             t = hn::IfThenElseZero(inside, t);
             addWeight<kChannels>(lanes, t, room, at, [&](V* colors) HWY_ATTR {
                 if constexpr (kColors) color.between(front, back, colors);

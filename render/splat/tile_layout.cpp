@@ -47,12 +47,10 @@ void TileLayout::takeTints(const Scene& scene) {
         }
         tintsOf.push_back(
             {static_cast<float>(first), static_cast<float>(tints.size() - 1 - first)});
-        tintSums.push_back({});
-        for (std::size_t i = first + 1; i < tints.size(); ++i) {
-            std::array<float, 4> sum = tintSums.back();
-            for (std::size_t c = 0; c < 3; ++c) sum[c] += (tints[i - 1][c] + tints[i][c]) / 2;
-            tintSums.push_back(sum);
-        }
+        std::vector<glm::vec3> colors;
+        for (std::size_t i = first; i < tints.size(); ++i)
+            colors.emplace_back(tints[i][0], tints[i][1], tints[i][2]);
+        for (const glm::vec3& sum : sumsOf(colors)) tintSums.push_back({sum.x, sum.y, sum.z, 0});
     }
 }
 

@@ -42,9 +42,7 @@ struct TileLayout {
         float first, span;
     };
     std::vector<Tints> tintsOf;
-    // The colours of a layer's tints from its first to there, added up (trapezoids): of values in
-    // between they are means.
-    std::vector<std::array<float, 4>> tintSums;
+    std::vector<std::array<float, 4>> tintSums;  // sumsOf() a layer's
 
     std::size_t count() const {
         return static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);

@@ -62,26 +62,33 @@ TEST(CellSplatter, PerCrossingAViewsScaleChangesNothing) {
 }
 
 // Of a shell that is thinner than what a pixel sees of the field, a pixel sees all values,
-// whichever cells its rays have of it.
-TEST(CellSplatter, AThinShellHasTheColorOfItsMiddleEverywhere) {
+// whichever cells its rays have of it: its colour is the map's mean, not that of the mean value.
+TEST(CellSplatter, AThinShellHasTheMeanOfItsColorsEverywhere) {
     const auto grid = tests::cube(9);
     CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
-                    {"4.29:4.31"});
-    world.scene.layers[0].style.color = ByValue{ColorMap(), 4.29, 4.31};
-    world.scene.order = Order::BackToFront;
+                    {"4.29:4.31"}, 0.02);
+    RangeStyle& style = world.scene.layers[0].style;
+    style.color = ByValue{ColorMap(), 4.29, 4.31};
     world.scene.opacityPer = OpacityPer::Crossing;
+    constexpr int kSamples = 1000;
+    glm::dvec3 mean(0);
+    for (int i = 0; i < kSamples; ++i)
+        mean += colorOf(style, 4.29 + 0.02 * (i + 0.5) / kSamples) / double(kSamples);
+    ASSERT_GT(glm::distance(mean, colorOf(style, 4.3)), 0.1) << "or nothing is told apart";
     const View view = tests::lookFrom({0.9, -3, 1.1}, {64, 64});
-    const std::vector<float> pixels = drawn(world.scene, view, Channels::Over);
-    const glm::dvec3 middle = colorOf(world.scene.layers[0].style, 4.3);
-    int seen = 0;
-    for (std::size_t i = 0; i < pixels.size(); i += 4) {
-        if (pixels[i + 3] < 0.05f) continue;
-        ++seen;
-        for (int c = 0; c < 3; ++c)
-            ASSERT_NEAR(pixels[i + std::size_t(c)] / pixels[i + 3], middle[c], 0.05)
-                << "pixel " << i / 4;
+    for (const Channels channels : {Channels::Over, Channels::WeightedColor}) {
+        world.scene.order = channels == Channels::Over ? Order::BackToFront : Order::None;
+        const std::vector<float> pixels = drawn(world.scene, view, channels);
+        int seen = 0;
+        for (std::size_t i = 0; i < pixels.size(); i += 4) {
+            if (pixels[i + 3] < (channels == Channels::Over ? 0.002f : 0.1f)) continue;
+            ++seen;
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(pixels[i + std::size_t(c)] / pixels[i + 3], mean[c], 0.02)
+                    << "pixel " << i / 4;
+        }
+        EXPECT_GT(seen, 100);
     }
-    EXPECT_GT(seen, 100);
 }
 
 // Against samples of dW = max(ds / l, |df| / (hi - lo)).
