@@ -22,8 +22,8 @@ namespace app::desktop {
 
 class Desktop {
  public:
-    // Both must outlive this; `exporting` as Errands has it, Settings::wake is Window::wake. Throws
-    // std::runtime_error when there is no window to be had.
+    // Both must outlive this; `exporting` as FileActions has it, Settings::wake is Window::wake.
+    // Throws std::runtime_error when there is no window to be had.
     Desktop(Exploration& exploration, std::optional<ExportJob>& exporting);
     // Until the window is closed or a signal ends it; or until a headset is asked for that answers.
     enum class End { Closed, ToHeadset };

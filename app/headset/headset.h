@@ -22,8 +22,8 @@ namespace app::headset {
 
 class Headset {
  public:
-    // Both must outlive it; `exporting` as Errands has it. Throws std::runtime_error when there is
-    // no GL to draw with.
+    // Both must outlive it; `exporting` as FileActions has it. Throws std::runtime_error when there
+    // is no GL to draw with.
     static std::variant<std::unique_ptr<Headset>, xr::NoHeadset> open(
         Exploration& exploration, std::optional<ExportJob>& exporting);
 

@@ -9,6 +9,7 @@
 
 #include "render/gl/debug_output.h"
 #include "render/model/splat_cost.h"
+#include "render/reference/exact_order.h"
 
 namespace render {
 namespace {

@@ -31,8 +31,9 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
 template <Channels kChannels, bool kByValue, bool kLit>
 HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
                          std::span<const std::uint32_t> which, TileRoom& room) {
-    for (const std::uint32_t k : which) {
-        const SeenCell& c = cells[k];
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
+        const SeenCell& c = cells[which[i]];
         if (c.columns <= 8)
             addCell<kChannels, kByValue, kLit>(FewFloats(), view, c, room);
         else

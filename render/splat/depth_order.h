@@ -60,7 +60,5 @@ class DepthOrder {
 
 // One frame's alone.
 DrawList order(const Scene& scene, const glm::dvec3& midEye);
-// Ordered by the distance in double, compared: the truth's order.
-DrawList orderExactly(const Scene& scene, const glm::dvec3& midEye);
 
 }  // namespace render

@@ -46,7 +46,9 @@ class GlSplatter final : public Splatter {
     };
     const Counts& counts() const { return counts_; }
     const gl::Buffer& layerBlock() const { return layers_; }
-    const gl::Texture& colorMaps() const { return colorMaps_; }  // a row a layer, then sumsOf() them
+    const gl::Texture& colorMaps() const {
+        return colorMaps_;
+    }  // a row a layer, then sumsOf() them
 
  private:
     struct Variant {

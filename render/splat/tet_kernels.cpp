@@ -124,8 +124,9 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
 template <Channels kChannels, bool kByValue>
 HWY_INLINE void addTets(const CellView& view, std::span<const SeenTet> tets,
                         std::span<const std::uint32_t> which, TileRoom& room) {
-    for (const std::uint32_t k : which) {
-        const SeenTet& c = tets[k];
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
+        const SeenTet& c = tets[which[i]];
         switch (int{c.crossesLeast} + int{c.crossesMost}) {
             case 0:
                 addTet<kChannels, kByValue, 0>(view, c, room);

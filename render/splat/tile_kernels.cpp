@@ -69,6 +69,7 @@ HWY_ATTR void SumTile(const TileView& view, std::span<const std::uint32_t> index
     alignas(64) std::uint32_t lastIndex[kLanes];
     alignas(64) float lastTints[kLanes];
     for (std::size_t i = 0; i < index.size(); i += kLanes) {
+        if (view.channels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
         const std::size_t count = std::min(kLanes, index.size() - i);
         if (!view.meshSplats.empty())  // the next ones, which lie anywhere
             for (std::size_t k = i + kLanes; k < std::min(i + 2 * kLanes, index.size()); ++k) {

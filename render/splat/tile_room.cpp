@@ -81,5 +81,14 @@ void TileRoom::enter(const TileLayout& layout, std::size_t tile, std::span<const
     HWY_DYNAMIC_DISPATCH(FillRays)(layout, *this);
 }
 
+bool TileRoom::isClosed() const {
+    for (int row = 0; row < size.y; ++row) {
+        const auto first = sums.begin() + std::ptrdiff_t(3 * plane) + row * kTileStride;
+        if (std::any_of(first, first + size.x, [](float opacity) { return opacity < 1; }))
+            return false;
+    }
+    return true;
+}
+
 }  // namespace render
 #endif

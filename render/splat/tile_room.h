@@ -1,12 +1,16 @@
 // Where a tile of a picture is summed.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "render/splat/tile_layout.h"
 
 namespace render {
+
+// So many splats or cells are summed between two looks whether their tile is closed.
+constexpr std::size_t kBetweenLooks = 512;
 
 // A tile's pixels while they are summed, and the tables of its rays: rows of kTileStride floats, of
 // which those beside the tile mean nothing. One a thread.
@@ -17,6 +21,9 @@ struct TileRoom {
     // each, or none.
     void enter(const TileLayout& layout, std::size_t tile, std::span<const float> opaqueDepth,
                int pictureWidth);
+
+    // Of Over: nothing that comes later is seen anywhere in the tile.
+    bool isClosed() const;
 
     glm::ivec2 at{0}, size{0};  // in the box
     // Channels one after another, `plane` floats each.

@@ -1,5 +1,6 @@
 // Whole frames: two eyes are one list drawn twice, and pictures are what the truth resolves to.
 #include "render/frame/frame.h"
+#include "render/reference/exact_order.h"
 #include "render/splat/depth_order.h"
 
 #include <gtest/gtest.h>

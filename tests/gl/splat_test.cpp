@@ -12,6 +12,7 @@
 
 #include "render/gl/pass.h"
 #include "render/reference/cpu_splatter.h"
+#include "render/reference/exact_order.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/depth_order.h"
 #include "render/splat/row_splatter.h"

@@ -11,6 +11,7 @@
 
 #include "render/model/footprint.h"
 #include "render/reference/cpu_splatter.h"
+#include "render/reference/exact_order.h"
 #include "render/splat/depth_order.h"
 #include "tests/support/scenes.h"
 #include "tests/support/splat_world.h"

@@ -6,6 +6,7 @@
 
 #include "render/model/scene.h"
 #include "render/reference/cpu_splatter.h"
+#include "render/reference/exact_order.h"
 #include "render/splat/depth_order.h"
 #include "tests/support/scenes.h"
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/model/pick.h"
+#include "render/reference/exact_order.h"
 #include "render/splat/row_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/support/meshes.h"

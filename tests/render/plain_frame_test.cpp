@@ -7,6 +7,7 @@
 
 #include "render/reference/accumulator.h"
 #include "render/reference/cpu_splatter.h"
+#include "render/reference/exact_order.h"
 #include "tests/support/scenes.h"
 
 namespace render {

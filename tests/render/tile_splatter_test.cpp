@@ -6,6 +6,7 @@
 #include <hwy/targets.h>
 
 #include "render/reference/cpu_splatter.h"
+#include "render/reference/exact_order.h"
 #include "render/reference/image_compare.h"
 #include "tests/support/noise_plane.h"
 #include "tests/support/vector_targets.h"

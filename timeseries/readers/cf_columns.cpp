@@ -76,8 +76,8 @@ std::shared_ptr<const Mesh> meshOf(const NetcdfFile& file, const NcVariable& var
     if (columns.heights) heights = heightsOf(file, variable, roles, *columns.heights, step);
     places.at.reserve(heights.size());
     for (std::size_t n = 0; n < heights.size(); ++n) {
-        const std::size_t i = n % places.size[0], j = n / places.size[0] % places.size[1];
-        places.at.emplace_back(xs.at(i, j, 0), ys.at(i, j, 0), heights[n]);
+        const auto at = indicesOf<std::uint64_t>(n, {places.size[0], places.size[1], 1});
+        places.at.emplace_back(xs.at(at.x, at.y, 0), ys.at(at.x, at.y, 0), heights[n]);
     }
     return std::make_shared<const Mesh>(std::move(places));
 }
