@@ -84,9 +84,7 @@ struct CellSplat {
 // Of what absorbs evenly along a way, to an optical depth x in all, where the light that leaves it
 // comes from in the mean: this share of the way from the front,
 //   1 / x - 1 / (e^x - 1) = 1/2 - x / 12 + x^3 / 720 - ...
-// as a quotient that has these terms and the limit 1 / x; to 0.025. A thin shell of many colours
-// that lies in two tetrahedra on one ray would else have another colour there than where it lies in
-// one.
+// as a quotient that has these terms and the limit 1 / x; to 0.025.
 template <typename Real>
 Real shareFromFront(Real x) {
     return (1 + x / 12) / (2 + x / 2 + x * x / 12);

@@ -61,6 +61,15 @@ TEST(CellSplatter, PerCrossingAViewsScaleChangesNothing) {
     }
 }
 
+// The light of what absorbs evenly comes from the mean of s e^(-x s) over e^(-x s).
+TEST(CellSplatter, LightComesFromTheFrontOfWhatHidesItsBack) {
+    for (const double x : {1e-3, 0.1, 1.0, 3.0, 7.0, 16.0, 1e3}) {
+        const double wanted = 1 / x - 1 / std::expm1(x);
+        EXPECT_NEAR(shareFromFront(x), wanted, 0.025) << x;
+    }
+    EXPECT_DOUBLE_EQ(shareFromFront(0.0), 0.5);
+}
+
 // Of a shell that is thinner than what a pixel sees of the field, a pixel sees all values,
 // whichever cells its rays have of it: its colour is the map's mean, not that of the mean value.
 TEST(CellSplatter, AThinShellHasTheMeanOfItsColorsEverywhere) {

@@ -47,6 +47,11 @@ TEST(Csv, ColumnsAreCoordinatesAndVariables) {
     EXPECT_EQ(heat.grid->position(3), glm::dvec3(0, 0, -3));
 }
 
+TEST(Csv, NumbersBeyondDoubleAreInfiniteOrZero) {
+    const auto reader = open(table("x,y,z,T\n0,0,0,1e400\n1,0,0,-1e400\n0,1,0,1e-400\n0,0,1,5\n"));
+    EXPECT_THAT(valuesOf<double>(*reader, "T"), ElementsAre(HUGE_VAL, -HUGE_VAL, 0, 5));
+}
+
 // As several programs write them.
 TEST(Csv, SeparatorsAndTitlesAreThoseOfManyPrograms) {
     for (const std::string text : {

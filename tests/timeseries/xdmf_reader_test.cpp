@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 
 #include "tests/support/array_builder.h"
 #include "tests/support/hdf_file.h"
@@ -33,6 +34,16 @@ TEST(Xdmf, AnImageLiesWhereItsOriginAndStepsSay) {
     EXPECT_EQ(points.position(3 + 4 * (2 + 3 * 1)), glm::dvec3(31, 42, 33));
     EXPECT_EQ(cells.position(2 + 3 * 1), glm::dvec3(26, 32, 18));
     EXPECT_TRUE(reader->variables()[0].time->counted);
+}
+
+// What programs print of numbers that a type does not hold.
+TEST(Xdmf, TextBeyondATypesRangeIsInfiniteOrZero) {
+    const auto reader =
+        open(written(grid("<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"1 2 2\"/>"
+                          "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">" +
+                          item("3", "0 0 0") + item("3", "1 1 1") + "</Geometry>" +
+                          attribute("p", "Node", item("1 2 2", "1e-60 1e60 -1e60 +2")))));
+    EXPECT_THAT(valuesOf<float>(*reader, "p"), ElementsAre(0, HUGE_VALF, -HUGE_VALF, 2));
 }
 
 TEST(Xdmf, ARectilinearGridHasTheCoordinatesOfItsAxes) {

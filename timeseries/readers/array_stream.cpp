@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <cstring>
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/readers/array_piece.h"
+#include "timeseries/readers/number_text.h"
 
 namespace timeseries {
 namespace {
@@ -30,22 +29,6 @@ void toNative(char* values, std::uint64_t count, std::size_t valueBytes) {
 
 bool separates(char c) {
     return c == ' ' || c == ',' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-template <typename T>
-bool parseNumber(const std::string& word, T& number) {
-    const char* begin = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-');
-    const char* const end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(begin, end, number);
-    if constexpr (std::is_floating_point_v<T>) {
-        // Beyond the type's range: infinite or zero, as in C.
-        if (error == std::errc::result_out_of_range && stop == end) {
-            number = std::is_same_v<T, float> ? static_cast<T>(std::strtof(begin, nullptr))
-                                              : static_cast<T>(std::strtod(begin, nullptr));
-            return true;
-        }
-    }
-    return error == std::errc() && stop == end;
 }
 
 }  // namespace
@@ -136,15 +119,16 @@ bool ArrayStream::nextWord() {
 }
 
 void ArrayStream::parseWord(void* out, std::uint64_t index) const {
-    withType(header_.type, [&](auto number) {
-        if (word_.size() > kMaxDigits || !parseNumber(word_, number)) {
+    withType(header_.type, [&]<typename T>(T) {
+        const auto read = word_.size() > kMaxDigits ? std::nullopt : numberOfText<T>(word_);
+        if (!read) {
             std::string shown = word_.substr(0, 40);
             for (char& c : shown)
                 if (c < ' ' || c > '~') c = '?';
             piece_->fail(fmt::format("value {}: expected a number of type {}, found '{}'",
                                      index + 1, typeName(header_.type), shown));
         }
-        std::memcpy(out, &number, sizeof number);
+        std::memcpy(out, &*read, sizeof *read);
     });
 }
 

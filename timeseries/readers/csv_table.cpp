@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <functional>
 #include <limits>
 #include <memory>
 
 #include "timeseries/readers/limits.h"
+#include "timeseries/readers/number_text.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/words.h"
 
@@ -64,12 +64,7 @@ class CsvRows {
 
 std::optional<double> numberIn(const std::string& text) {
     if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
-    const char* const begin = text.data() + (text[0] == '+' ? 1 : 0);
-    const char* const end = text.data() + text.size();
-    double value = 0;
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
-    return value;
+    return numberOfText<double>(text);
 }
 
 // "X [ m ]", "T (K)": what the last brackets hold is the unit.

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/number_text.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/words.h"
 
@@ -254,14 +255,11 @@ Values XdmfItems::fromText(const XdmfElement& item) {
         std::vector<T> values;
         values.reserve(all.size());
         for (const std::string& word : all) {
-            const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
-            const char* const end = word.data() + word.size();
-            T value{};
-            const auto [stop, error] = std::from_chars(begin, end, value);
-            if (error != std::errc() || stop != end)
+            const auto value = numberOfText<T>(word);
+            if (!value)
                 document_.fail(item, fmt::format("expected a number of {}, found '{}'",
                                                  typeName(declaredType(item)), word));
-            values.push_back(value);
+            values.push_back(*value);
         }
         return values;
     });
