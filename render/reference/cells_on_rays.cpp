@@ -32,10 +32,7 @@ std::vector<double> tetDepthAt(const Scene& scene, const View& view,
                                       fragmentOn<double>(seen, s, offset - s.centre, kNever).weight;
             }
         });
-    std::vector<double> depths(pixels.size());
-    for (const std::vector<double>& some : parts)
-        for (std::size_t i = 0; i < depths.size(); ++i) depths[i] += some[i];
-    return depths;
+    return addedUp(parts);
 }
 
 }  // namespace

@@ -78,6 +78,13 @@ double lengthPerDepth(const PointsView& view, const glm::dvec2& window) {
     return view.rayLength / view.unitLength * std::sqrt(1 + glm::dot(slope, slope));
 }
 
+std::vector<double> addedUp(std::span<const std::vector<double>> parts) {
+    std::vector<double> sums(parts.front().size());
+    for (const std::vector<double>& some : parts)
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += some[i];
+    return sums;
+}
+
 std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,
                                std::size_t layer, std::span<const glm::ivec2> pixels,
                                int raysAcross, unsigned threads) {
@@ -104,10 +111,7 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
             }
             parts[part][pixel] += sum / (raysAcross * raysAcross);
         });
-    std::vector<double> weight(pixels.size());
-    for (const std::vector<double>& some : parts)
-        for (std::size_t i = 0; i < weight.size(); ++i) weight[i] += some[i];
-    return weight;
+    return addedUp(parts);
 }
 
 }  // namespace render

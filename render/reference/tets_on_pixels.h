@@ -70,14 +70,8 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
     constexpr double kBeside = 1;  // pixels: their rays are not all at their centres
     const timeseries::CellCorners corners(field);
     const MeshCells mesh(scene.placed, corners, scene.clip);
-    const auto reaches = [&](const auto& values, const Layer& layer) {
-        const auto [lo, hi] = std::ranges::minmax(values);
-        return std::ranges::any_of(layer.cells.ranges, [lo = lo, hi = hi](const auto& range) {
-            return cell::reaches(lo, hi, range.lo, range.hi);
-        });
-    };
     // Of a cell with corners that have no values, what the others have is all that there is.
-    const auto mayReach = [&](const std::array<double, 8>& values, const Layer& layer) {
+    const auto reaches = [](const auto& values, const Layer& layer) {
         double lo = std::numeric_limits<double>::infinity(), hi = -lo;
         for (const double v : values) {
             lo = std::isnan(v) ? lo : std::min(lo, v);
@@ -121,8 +115,8 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
             for (unsigned x = 0; x < size.x; ++x) {
                 const glm::uvec3 at(x, row % size.y, row / size.y);
                 const auto values = corners.values(at);
-                if (std::ranges::any_of(
-                        scene.layers, [&](const Layer& layer) { return mayReach(values, layer); }))
+                if (std::ranges::any_of(scene.layers,
+                                        [&](const Layer& layer) { return reaches(values, layer); }))
                     look(part, at, 0, scene.layers.size());
             }
     };
@@ -143,6 +137,9 @@ std::optional<PartOnRay> partOnRay(const PointsView& view, const TetSplat<double
                                    const glm::dvec2& window);
 // How long the ray there is for a unit of view depth, in units of l.
 double lengthPerDepth(const PointsView& view, const glm::dvec2& window);
+
+// Of each pixel the sum of what all parts have, in their order.
+std::vector<double> addedUp(std::span<const std::vector<double>> parts);
 
 // The plane W of a layer of a mesh at these pixels, as IntervalTruth has it.
 std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,

@@ -120,12 +120,6 @@ struct ColorLanes {
         const auto& one = view.tints[static_cast<std::size_t>(c.firstTint)];
         for (std::size_t k = 0; k < 3; ++k) color[k] = hn::Set(l, one[k]);
     }
-    HWY_INLINE void of(V value, V* is) const {
-        if constexpr (!kByValue)
-            std::copy_n(color, 3, is);
-        else
-            entry(table, placeOf(value), is);
-    }
     // The mean of the colours of all values between these.
     HWY_INLINE void between(V a, V b, V* is) const {
         if constexpr (!kByValue) {
