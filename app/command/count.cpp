@@ -111,7 +111,8 @@ int count(const CountOptions& options) {
     const auto steps = stepsOf(dataset, options.steps);
     std::vector<Row> rows;
     const auto stores = storesFor(dataset.reader->files());
-    timeseries::StepMaker maker(std::move(dataset.reader), dataset.variableIndex, kept, stores);
+    timeseries::StepMaker maker(std::move(dataset.reader), dataset.variableIndex, kept, stores,
+                                timeseries::StepMaker::Holds::Points, ranges);
     if (!options.json) printHead(dataset, ranges);
     {
         // The table shows by itself how far it is.

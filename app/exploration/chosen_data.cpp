@@ -30,8 +30,8 @@ ChosenData openChosen(const Explorer& choices) {
             throw ChoiceError(flaw);
     if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);
-    auto source =
-        std::make_unique<StepSource>(dataset, e.keep.value_or(timeseries::RangeSet::everything()));
+    auto source = std::make_unique<StepSource>(
+        dataset, e.keep.value_or(timeseries::RangeSet::everything()), rangesNeeded(e));
     if (needsSamples(e)) e = resolved(e, sample(*source, steps));
     return {std::move(dataset), std::move(e), std::move(steps), std::move(source)};
 }

@@ -9,12 +9,12 @@ constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
 
 }  // namespace
 
-StepSource::StepSource(OpenDataset& dataset, timeseries::RangeSet kept)
+StepSource::StepSource(OpenDataset& dataset, timeseries::RangeSet kept, timeseries::RangeSet asked)
     : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
       stores_(storesFor(dataset.reader->files())),
       loader_(
           std::move(dataset.reader), dataset.variableIndex, std::move(kept), [] {},
-          timeseries::Ready::WithField, stores_) {}
+          timeseries::Ready::WithField, stores_, std::move(asked)) {}
 
 StepSource::~StepSource() { tellNotes(stores_); }
 

@@ -12,8 +12,8 @@ namespace app {
 
 class StepSource {
  public:
-    // Takes the dataset's reader.
-    StepSource(OpenDataset& dataset, timeseries::RangeSet kept);
+    // Takes the dataset's reader. Values beside the ranges that are `asked` for need not be there.
+    StepSource(OpenDataset& dataset, timeseries::RangeSet kept, timeseries::RangeSet asked);
     ~StepSource();  // tells what the steps on disk have to tell
 
     // Waits until the step is there. `next` is what will be asked for after it.

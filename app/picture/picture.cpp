@@ -35,6 +35,22 @@ Quantiles quantilesOf(const Steps& sampled) {
     return rows;
 }
 
+// The finite values that may be shown; {0, 0} where there are none.
+Extent extentOf(const Explorer& e, const Steps& sampled) {
+    Extent all{kInfinity, -kInfinity};
+    for (const auto& [index, step] : sampled) {
+        const auto& whole = step->statistics();
+        Quantiles ends{
+            {timeseries::toDouble(whole.finiteMin), timeseries::toDouble(whole.finiteMax)}};
+        if (e.keep) ends = {step->quantiles(2)};
+        for (const double end : ends.front()) {
+            if (std::isnan(end)) continue;
+            all = {std::min(all.lo, end), std::max(all.hi, end)};
+        }
+    }
+    return all.lo <= all.hi ? all : Extent{};
+}
+
 // Ends of a layer in doubles, in order; infinite ones are those of `data`, or, where the layer lies
 // beyond these, its other end.
 Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
@@ -155,8 +171,8 @@ RangeSet finitePart(const RangeSet& animation, const Extent& data) {
 }
 
 // What of the data it shows, and its style where a map alone was asked for.
-void chooseFirst(LayerChoice& layer, const Quantiles& quantiles, const Steps& sampled) {
-    const LayerChoice first = firstChoice(quantiles);
+void chooseFirst(LayerChoice& layer, const Steps& sampled) {
+    const LayerChoice first = firstChoice(quantilesOf(sampled));
     layer.ranges = first.ranges;
     auto* map = layer.color ? std::get_if<MapChoice>(&*layer.color) : nullptr;
     const auto* chosen = first.color ? std::get_if<MapChoice>(&*first.color) : nullptr;
@@ -169,17 +185,27 @@ void chooseFirst(LayerChoice& layer, const Quantiles& quantiles, const Steps& sa
 
 }  // namespace
 
+RangeSet rangesNeeded(const Explorer& e) {
+    const auto mayBeAny = [](const LayerChoice& layer) {
+        return layer.motion || layer.ranges.empty();
+    };
+    if (std::ranges::any_of(e.layers, mayBeAny) || (e.layers.empty() && !e.noLayers))
+        return RangeSet::everything();
+    std::vector<RangeSet> all;
+    for (const LayerChoice& layer : e.layers) all.push_back(layer.ranges);
+    return timeseries::unionOf(all);
+}
+
 Explorer resolved(const Explorer& explorer, const Steps& sampled) {
     Explorer e = explorer;
-    const Quantiles quantiles = quantilesOf(sampled);
-    const Extent data = extentOf(quantiles);
+    const Extent data = extentOf(e, sampled);
     if (e.layers.empty() && !e.noLayers) e.layers.push_back({});
     for (std::size_t place = 0; place < e.layers.size(); ++place) {
         LayerChoice& layer = e.layers[place];
         if (layer.motion)
             layer.motion->animation = finitePart(layer.motion->animation, data);
         else if (layer.ranges.empty())
-            chooseFirst(layer, quantiles, sampled);
+            chooseFirst(layer, sampled);
         const RangeSet& all = layer.motion ? layer.motion->animation : layer.ranges;
         style(layer, finiteEnds(all, data), place, e.layers.size());
         // A swept window holds about its share of the animation's points.

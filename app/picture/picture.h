@@ -18,6 +18,9 @@ using Steps = std::map<std::size_t, std::shared_ptr<const timeseries::SortedStep
 // Whether something is left to choose from the data: a range, a colour map's ends, an opacity, an
 // unbounded sweep.
 bool needsSamples(const Explorer& explorer);
+// All that these choices, resolved or not, ask of a step's points: the ranges of all layers, hidden
+// ones' too; everything where some are left to choose, or move.
+timeseries::RangeSet rangesNeeded(const Explorer& explorer);
 // The choices with nothing left open, hidden layers' too (showing one later changes no other's
 // colour), from a few steps of the series. A resolved Explorer draws the
 // same picture again whatever is sampled. Throws ChoiceError when an unbounded sweep does not reach

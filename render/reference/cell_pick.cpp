@@ -114,7 +114,8 @@ timeseries::Number valueOfPoint(const timeseries::Field& field, std::uint64_t in
 struct PassedTet {
     Met met;
     PartOnRay part;
-    std::uint64_t nearest;  // of the corners' points, to the middle
+    std::uint32_t cell;
+    unsigned nearest;  // of its corners, to the middle
 };
 
 std::size_t nearestCorner(const PointsView& view, const TetSplat<double>& s,
@@ -132,14 +133,13 @@ std::size_t nearestCorner(const PointsView& view, const TetSplat<double>& s,
 
 std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm::dvec2& window) {
     const PointsView seen(scene.placed, view);
-    const timeseries::CellCorners& corners = scene.cells->cornersOf();
     const glm::ivec2 pixel(glm::floor(window));
     const double perDepth = lengthPerDepth(seen, window);
     std::vector<std::vector<PassedTet>> parts(kCellParts);
     forEachTetBefore(
         scene, scene.cells->field(), seen, PixelBins(std::span(&pixel, 1), view.size),
         sharingThreads(),
-        [&](std::size_t part, const glm::uvec3& cell, const MeshCells::Tetrahedron& tet,
+        [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron& tet,
             std::size_t layer, std::size_t) {
             const Layer& of = scene.layers[layer];
             for (const auto& range : of.cells.ranges) {
@@ -150,12 +150,12 @@ std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm
                 const double middle = std::midpoint(in->from, in->to);
                 const double weight =
                     weightOf(scene, of, (in->to - in->from) * perDepth, in->begin, in->end);
-                const unsigned corner = tet.corners[nearestCorner(seen, s, window, middle)];
                 parts[part].push_back(
                     {{layer, middle, opticalDepthPerWeight(of.style.opacity) * weight,
                       std::midpoint(in->begin, in->end)},
                      *in,
-                     corners.indexOf(corners.pointAt(cell, corner))});
+                     cell,
+                     tet.corners[nearestCorner(seen, s, window, middle)]});
             }
         });
     std::vector<PassedTet> passed;
@@ -170,7 +170,10 @@ std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::d
     for (const PassedTet& p : passed) met.push_back(p.met);
     const auto half = atHalfOfLight(scene, met);
     if (!half) return std::nullopt;
-    const auto& [at, part, nearest] = passed[half->at];
+    const auto& [at, part, cell, corner] = passed[half->at];
+    std::uint64_t nearest = 0;
+    withTets(scene.placed, scene.cells->field(), scene.clip,
+             [&](const auto& tets) { nearest = tets.pointOf(cell, corner); });
     return Picked{.layer = at.layer,
                   .gridIndex = nearest,
                   .value = valueOfPoint(scene.cells->field(), nearest),

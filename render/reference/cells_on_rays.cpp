@@ -20,8 +20,8 @@ std::vector<double> tetDepthAt(const Scene& scene, const View& view,
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
     forEachTetBefore(
         scene, scene.cells->field(), seen, bins, threads,
-        [&](std::size_t part, const glm::uvec3&, const MeshCells::Tetrahedron& tet,
-            std::size_t layer, std::size_t pixel) {
+        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet, std::size_t layer,
+            std::size_t pixel) {
             const Layer& of = scene.layers[layer];
             for (const auto& range : of.cells.ranges) {
                 const auto s = tetSplatAt<double>(

@@ -43,6 +43,25 @@ WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners)
     return box;
 }
 
+ReachBox::ReachBox(const PointsView& view, const glm::dvec3& reach) : view_(view) {
+    const glm::dmat3 turned(view.viewFromAxes);
+    for (int a = 0; a < 3; ++a) reach_ += glm::abs(turned[a]) * reach[a];
+}
+
+WindowBox ReachBox::operator()(const glm::dvec3& place) const {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    const glm::dvec3 seen(view_.viewFromAxes * glm::dvec4(place, 1.0));
+    const double nearest = -seen.z - reach_.z, farthest = -seen.z + reach_.z;
+    if (!(nearest > view_.rays.near)) return {glm::dvec2(-kFar), glm::dvec2(kFar)};
+    WindowBox box{};
+    for (int a = 0; a < 2; ++a) {
+        const double lo = seen[a] - reach_[a], hi = seen[a] + reach_[a];
+        box.lo[a] = view_.rays.centre[a] + view_.rays.focal[a] * lo / (lo < 0 ? nearest : farthest);
+        box.hi[a] = view_.rays.centre[a] + view_.rays.focal[a] * hi / (hi < 0 ? farthest : nearest);
+    }
+    return box;
+}
+
 std::optional<PartOnRay> partOnRay(const PointsView& view, const TetSplat<double>& seen,
                                    const glm::dvec2& window) {
     const glm::dvec2 offset = window - view.rays.centre - seen.centre;
@@ -93,7 +112,7 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
     forEachTetBefore(
         scene, field, seen, bins, threads,
-        [&](std::size_t part, const glm::uvec3&, const MeshCells::Tetrahedron& tet, std::size_t of,
+        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet, std::size_t of,
             std::size_t pixel) {
             if (of != layer) return;
             double sum = 0;

@@ -15,31 +15,39 @@
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
-#include "render/splat/mesh_cells.h"
+#include "render/splat/solid_tets.h"
 #include "render/together.h"
 
 namespace render {
+
+// Where something is seen, in window positions.
+struct WindowBox {
+    glm::dvec2 lo, hi;
+};
 
 // Pixels by squares of the picture, to find those in a rectangle.
 class PixelBins {
  public:
     PixelBins(std::span<const glm::ivec2> pixels, glm::ivec2 size);
-    // use(index) for those whose centres lie between these window positions; false where none of
-    // the squares there has any.
+    // use(index) for those whose centres lie in the box, or a pixel beside it: their rays are not
+    // all at their centres.
     template <typename Use>
-    bool forEachIn(const glm::dvec2& lo, const glm::dvec2& hi, const Use& use) const {
+    void forEachIn(const WindowBox& box, const Use& use) const {
+        const glm::dvec2 lo = box.lo - 1.0, hi = box.hi + 1.0;
         const glm::ivec2 first = squareOf(lo), last = squareOf(hi);
-        bool any = false;
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
                 const auto square = static_cast<std::size_t>(y * across_.x + x);
                 for (std::size_t i = firsts_[square]; i < firsts_[square + 1]; ++i) {
                     const glm::dvec2 at = glm::dvec2(pixels_[order_[i]]) + 0.5;
-                    any = true;
                     if (at.x >= lo.x && at.y >= lo.y && at.x <= hi.x && at.y <= hi.y)
                         use(order_[i]);
                 }
             }
+    }
+    bool hasAnyIn(const WindowBox& box) const {
+        bool any = false;
+        forEachIn(box, [&](std::size_t) { any = true; });
         return any;
     }
 
@@ -51,12 +59,18 @@ class PixelBins {
     std::vector<std::size_t> firsts_, order_;
 };
 
-// Where a cell or a tetrahedron is seen, in window positions; all of the picture where a corner is
-// behind the near plane.
-struct WindowBox {
-    glm::dvec2 lo, hi;
-};
+// All of the picture where a corner is behind the near plane.
 WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners);
+// Of all that is no farther along each axis from places than so much.
+class ReachBox {
+ public:
+    ReachBox(const PointsView& view, const glm::dvec3& reach);
+    WindowBox operator()(const glm::dvec3& place) const;
+
+ private:
+    const PointsView& view_;
+    glm::dvec3 reach_{0};  // in view space
+};
 
 // The parts that all cells are gone through in, each by one thread: what is summed part by part and
 // then added up in their order is the same for any number of threads.
@@ -67,62 +81,58 @@ inline constexpr std::size_t kCellParts = 16;
 template <typename Use>
 void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const PointsView& view,
                       const PixelBins& pixels, unsigned threads, const Use& use) {
-    constexpr double kBeside = 1;  // pixels: their rays are not all at their centres
-    const timeseries::CellCorners corners(field);
-    const MeshCells mesh(scene.placed, corners, scene.clip);
-    // Of a cell with corners that have no values, what the others have is all that there is.
-    const auto reaches = [](const auto& values, const Layer& layer) {
-        double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-        for (const double v : values) {
-            lo = std::isnan(v) ? lo : std::min(lo, v);
-            hi = std::isnan(v) ? hi : std::max(hi, v);
-        }
-        return std::ranges::any_of(layer.cells.ranges, [&](const auto& range) {
-            return cell::reaches(lo, hi, range.lo, range.hi);
-        });
-    };
-    const auto look = [&](std::size_t part, const glm::uvec3& at, std::size_t first,
-                          std::size_t last) {
-        const auto cell = mesh(at);
-        if (!cell) return;
-        const WindowBox box = windowBox(view, cell->at);
-        if (!pixels.forEachIn(box.lo - kBeside, box.hi + kBeside, [](std::size_t) {})) return;
-        mesh.forEachTet(*cell, nullptr, [&](const MeshCells::Tetrahedron& tet) {
-            for (std::size_t k = first; k < last; ++k) {
-                if (!reaches(tet.values, scene.layers[k])) continue;
-                const WindowBox of = windowBox(view, tet.at);
-                pixels.forEachIn(of.lo - kBeside, of.hi + kBeside,
-                                 [&](std::size_t pixel) { use(part, at, tet, k, pixel); });
+    withTets(scene.placed, field, scene.clip, [&](const auto& tets) {
+        const ReachBox reachBox(view, tets.reach());
+        const auto reaches = [](double lo, double hi, const Layer& layer) {
+            return std::ranges::any_of(layer.cells.ranges, [&](const auto& range) {
+                return cell::reaches(lo, hi, range.lo, range.hi);
+            });
+        };
+        // Of the layers [first, last). Cells that are asked for by value lie anywhere: one place
+        // tells of most that they are not seen by these pixels, all are waited for of few.
+        const auto look = [&](std::size_t part, std::uint32_t at, std::size_t first,
+                              std::size_t last) {
+            if (!pixels.hasAnyIn(reachBox(tets.about(at)))) return;
+            const auto mayBeSeen = [&](const auto& places) {
+                return pixels.hasAnyIn(windowBox(view, places));
+            };
+            tets.forEachTet(at, nullptr, mayBeSeen, [&](const MeshCells::Tetrahedron& tet) {
+                const auto [lo, hi] = std::ranges::minmax(tet.values);
+                for (std::size_t k = first; k < last; ++k)
+                    if (reaches(lo, hi, scene.layers[k]))
+                        pixels.forEachIn(windowBox(view, tet.at),
+                                         [&](std::size_t pixel) { use(part, at, tet, k, pixel); });
+            });
+        };
+        const auto inRun = [&](std::size_t part, const timeseries::Run& run, std::size_t layer) {
+            constexpr std::uint64_t kAhead = 16;
+            const std::uint64_t end = run.count * (part + 1) / kCellParts;
+            for (std::uint64_t i = run.count * part / kCellParts; i < end; ++i) {
+                if (i + kAhead < end) tets.prefetch(scene.cells->cell(run.first + i + kAhead));
+                look(part, scene.cells->cell(run.first + i), layer, layer + 1);
             }
-        });
-    };
-    const auto inPart = [&](std::size_t part) {
-        if (scene.cells) {
-            for (std::size_t k = 0; k < scene.layers.size(); ++k)
-                for (const timeseries::Run& run : scene.layers[k].cells.candidates)
-                    for (std::uint64_t i = run.count * part / kCellParts;
-                         i < run.count * (part + 1) / kCellParts; ++i)
-                        look(part,
-                             timeseries::indicesOf(scene.cells->cell(run.first + i),
-                                                   scene.cells->size()),
-                             k, k + 1);
-            return;
-        }
-        const glm::uvec3 size = corners.size();
-        const std::uint64_t rows = std::uint64_t{size.y} * size.z;
-        for (std::uint64_t row = rows * part / kCellParts; row < rows * (part + 1) / kCellParts;
-             ++row)
-            for (unsigned x = 0; x < size.x; ++x) {
-                const glm::uvec3 at(x, row % size.y, row / size.y);
-                const auto values = corners.values(at);
-                if (std::ranges::any_of(scene.layers,
-                                        [&](const Layer& layer) { return reaches(values, layer); }))
+        };
+        const auto inPart = [&](std::size_t part) {
+            if (scene.cells) {
+                for (std::size_t k = 0; k < scene.layers.size(); ++k)
+                    for (const timeseries::Run& run : scene.layers[k].cells.candidates)
+                        inRun(part, run, k);
+                return;
+            }
+            for (std::uint64_t i = tets.count() * part / kCellParts;
+                 i < tets.count() * (part + 1) / kCellParts; ++i) {
+                const auto at = static_cast<std::uint32_t>(i);
+                const std::pair extent = tets.extentOf(at);
+                if (std::ranges::any_of(scene.layers, [&](const Layer& of) {
+                        return reaches(extent.first, extent.second, of);
+                    }))
                     look(part, at, 0, scene.layers.size());
             }
-    };
-    std::atomic<std::size_t> next{0};
-    together(threads, [&](unsigned) {
-        for (std::size_t part; (part = next++) < kCellParts;) inPart(part);
+        };
+        std::atomic<std::size_t> next{0};
+        together(threads, [&](unsigned) {
+            for (std::size_t part; (part = next++) < kCellParts;) inPart(part);
+        });
     });
 }
 

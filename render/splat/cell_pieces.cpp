@@ -115,12 +115,22 @@ void CellRank::takeDistances(const Scene& scene, const View& view) {
         (kRanks - 1) / std::max(glm::distance(from_, middle) + around - nearest_, 1e-300);
 }
 
-std::uint32_t CellRank::byDistance(std::uint32_t cell) const {
+glm::dvec3 CellRank::middleOf(std::uint32_t cell) const {
+    if (const auto& solids = mesh_->mesh()->solids()) {
+        const auto corners = solids->corners(cell);
+        glm::dvec3 sum(0);
+        for (const std::uint32_t corner : corners) sum += mesh_->alongAxes(corner);
+        return sum / static_cast<double>(corners.size());
+    }
     const glm::uvec3 at = timeseries::indicesOf(cell, size_);
     const auto placeOf = [&](unsigned corner) {
         return mesh_->alongAxes(corners_->indexOf(corners_->pointAt(at, corner)));
     };
-    const double away = glm::distance(from_, 0.5 * (placeOf(0) + placeOf(7))) - nearest_;
+    return 0.5 * (placeOf(0) + placeOf(7));
+}
+
+std::uint32_t CellRank::byDistance(std::uint32_t cell) const {
+    const double away = glm::distance(from_, middleOf(cell)) - nearest_;
     const double rank = away * perDistance_;  // of a place that is none, nothing is drawn
     return rank > 0 ? static_cast<std::uint32_t>(std::min(rank, double(count_ - 1))) : 0;
 }

@@ -16,7 +16,7 @@
 #include "render/model/cell_splat.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
-#include "render/splat/mesh_cells.h"
+#include "render/splat/solid_tets.h"
 
 namespace render {
 
@@ -62,6 +62,7 @@ class CellRank {
     void takeDistances(const Scene& scene, const View& view);
     void takeBricks(const Scene& scene, const View& view);
     std::uint32_t byDistance(std::uint32_t cell) const;
+    glm::dvec3 middleOf(std::uint32_t cell) const;  // of a mesh
 
     // Of a cell's place along an axis: its brick's, times what the axes before it have, and how far
     // it lies behind that one's first.
@@ -156,15 +157,14 @@ void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
 template <typename Use>
 void forEachTet(const Scene& scene, std::span<const CellOfLayer> cells, const glm::dvec3* eye,
                 const Use& use) {
-    const MeshCells mesh(scene.placed, scene.cells->cornersOf(), scene.clip);
-    for (const CellOfLayer& of : cells) {
-        const auto cell = mesh(timeseries::indicesOf(of.cell, scene.cells->size()));
-        if (!cell) continue;
-        mesh.forEachTet(*cell, eye, [&](const MeshCells::Tetrahedron& tet) {
-            for (const auto& range : scene.layers[of.layer].cells.ranges)
-                use({tet.at, tet.values, range.lo, range.hi, scene.opacityPer}, of);
-        });
-    }
+    const auto anywhere = [](const auto&) { return true; };
+    withTets(scene.placed, scene.cells->field(), scene.clip, [&](const auto& tets) {
+        for (const CellOfLayer& of : cells)
+            tets.forEachTet(of.cell, eye, anywhere, [&](const MeshCells::Tetrahedron& tet) {
+                for (const auto& range : scene.layers[of.layer].cells.ranges)
+                    use({tet.at, tet.values, range.lo, range.hi, scene.opacityPer}, of);
+            });
+    });
 }
 
 // The octants of several cells, with each range of their layers: use(piece, of, octant).

@@ -4,12 +4,17 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace render {
 namespace {
 
 // Of a step to the next point: nearer to each other the ends of a grid are one place.
 constexpr double kOnePlace = 1e-3;
+// Steps between neighbours from a cell's first corner to any other, one along each index, and half
+// a one more for each that is beyond the outermost points.
+constexpr double kSteps = 4.5;
+constexpr double kRounded = 1e-6;  // of the mesh's extent, more than its places are (Mesh)
 
 }  // namespace
 
@@ -32,9 +37,27 @@ MeshCells::MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& 
                      const IndexBox& clip)
     : placed_(placed), corners_(corners), clip_(clip), points_(placed.size()) {
     const glm::dvec3 scale = placed.scale();
-    period_ = placed.mesh()->period() * glm::abs(scale);
+    const timeseries::Mesh& mesh = *placed.mesh();
+    period_ = mesh.period() * glm::abs(scale);
+    reach_ = reachOf(placed, kSteps * mesh.longestWay());
+    if (points_.x == 1 || points_.y == 1 || points_.z == 1)
+        reach_ = glm::dvec3(std::numeric_limits<double>::infinity());
     clips_ = !clip.holdsAll();
     isLeft_ = (placed.mesh()->stored().sign < 0) != (scale.x * scale.y * scale.z < 0);
+}
+
+glm::dvec3 MeshCells::reachOf(const PlacedPoints& placed, const glm::dvec3& length) {
+    const timeseries::Mesh& mesh = *placed.mesh();
+    return glm::abs(placed.scale()) * (length + kRounded * (mesh.hi() - mesh.lo()));
+}
+
+std::pair<double, double> MeshCells::extentOf(std::uint32_t cell) const {
+    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+    for (const double v : corners_.values(at(cell))) {
+        lo = std::isnan(v) ? lo : std::min(lo, v);
+        hi = std::isnan(v) ? hi : std::max(hi, v);
+    }
+    return {lo, hi};
 }
 
 glm::dvec3 MeshCells::placeOf(const glm::uvec3& point) const {

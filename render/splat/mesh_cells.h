@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <utility>
 
 #include "render/model/tet_splat.h"
 #include "render/points/placed_points.h"
@@ -35,17 +36,47 @@ class MeshCells {
     // and nowhere where a grid comes round to where it began. A layer of points is as thick as its
     // points' cells.
     std::optional<Hexahedron> operator()(const glm::uvec3& cell) const;
-
     struct Tetrahedron {
         std::array<glm::dvec3, 4> at;
         std::array<double, 4> values;
-        std::array<unsigned, 4> corners;  // of the hexahedron; those of an octant, its own
+        std::array<unsigned, 4> corners;  // of the cell; of an octant, its own
     };
     // use(Tetrahedron) for those that fill what is seen of it; from an eye that is given, each
     // before what it hides. Those that are turned inside out beside most of the grid's are left
     // out, as points' cells are.
     template <typename Use>
     void forEachTet(const Hexahedron& cell, const glm::dvec3* eye, const Use& use) const;
+    // The six, right-handed where it is.
+    template <typename Use>
+    static void forEachTetIn(const Hexahedron& part, const glm::dvec3* eye, const Use& use);
+
+    // What SolidTets (render/splat/solid_tets.h) has, too. Cells by their numbers:
+    std::uint64_t count() const {
+        return std::uint64_t{corners_.size().x} * corners_.size().y * corners_.size().z;
+    }
+    // The least and the greatest of the values at its corners; inf and -inf without any.
+    std::pair<double, double> extentOf(std::uint32_t cell) const;
+    // Where one of its corners is, in axis coordinates, about which the cell goes as far as reach()
+    // says, and no farther.
+    glm::dvec3 about(std::uint32_t cell) const { return placeOf(corners_.pointAt(at(cell), 0)); }
+    void prefetch(std::uint32_t cell) const {
+        placed_.prefetch(corners_.indexOf(corners_.pointAt(at(cell), 0)));
+    }
+    const glm::dvec3& reach() const { return reach_; }  // infinite for a layer of points
+    // The point at a corner of one of its tetrahedra.
+    std::uint64_t pointOf(std::uint32_t cell, unsigned corner) const {
+        return corners_.indexOf(corners_.pointAt(at(cell), corner));
+    }
+    // use(Tetrahedron) for what is seen of it, if mayBeSeen(places of corners that it lies
+    // between).
+    template <typename MayBeSeen, typename Use>
+    void forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
+                    const Use& use) const {
+        const auto whole = (*this)(at(cell));
+        if (whole && mayBeSeen(whole->at)) forEachTet(*whole, eye, use);
+    }
+    // What goes as far along the coordinates of the file's space goes in axis coordinates.
+    static glm::dvec3 reachOf(const PlacedPoints& placed, const glm::dvec3& length);
 
  private:
     // About the diagonal: the tetrahedra 0, ring[i], ring[i + 1], 7, right-handed in a right-handed
@@ -56,6 +87,7 @@ class MeshCells {
     static Order ringFrom(const glm::dvec3& eye, const std::array<glm::dvec3, 8>& at);
     static Order octantsFrom(const glm::dvec3& eye, const std::array<glm::dvec3, 8>& at);
 
+    glm::uvec3 at(std::uint32_t cell) const { return timeseries::indicesOf(cell, corners_.size()); }
     glm::dvec3 placeOf(const glm::uvec3& point) const;
     // From a point, or from where another is, the shorter way round.
     glm::dvec3 way(const glm::dvec3& from, const glm::dvec3& to) const;
@@ -69,25 +101,31 @@ class MeshCells {
     timeseries::CellCorners corners_;
     const IndexBox& clip_;
     glm::uvec3 points_;
-    glm::dvec3 period_;
+    glm::dvec3 period_, reach_;
     bool clips_, isLeft_;  // most cells of the grid are left-handed
 };
 
 template <typename Use>
+void MeshCells::forEachTetIn(const Hexahedron& part, const glm::dvec3* eye, const Use& use) {
+    const Order order = eye ? ringFrom(*eye, part.at) : kAsTheyAre;
+    for (std::size_t n = 0; n < kRing.size(); ++n) {
+        const std::size_t k = order[n], next = (k + 1) % kRing.size();
+        Tetrahedron tet{.at = {}, .values = {}, .corners = {0, kRing[k], kRing[next], 7}};
+        for (std::size_t i = 0; i < 4; ++i) {
+            tet.at[i] = part.at[tet.corners[i]];
+            tet.values[i] = part.values[tet.corners[i]];
+        }
+        use(tet);
+    }
+}
+
+template <typename Use>
 void MeshCells::forEachTet(const Hexahedron& cell, const glm::dvec3* eye, const Use& use) const {
     const auto fill = [&](const Hexahedron& part, std::optional<unsigned> octant) {
-        const Order order = eye ? ringFrom(*eye, part.at) : kAsTheyAre;
-        for (std::size_t n = 0; n < kRing.size(); ++n) {
-            const std::size_t k = order[n], next = (k + 1) % kRing.size();
-            const std::array<unsigned, 4> corners{0, kRing[k], kRing[next], 7};
-            Tetrahedron tet{};
-            for (std::size_t i = 0; i < 4; ++i) {
-                tet.at[i] = part.at[corners[i]];
-                tet.values[i] = part.values[corners[i]];
-                tet.corners[i] = octant.value_or(corners[i]);
-            }
+        forEachTetIn(part, eye, [&](Tetrahedron& tet) {
+            if (octant) tet.corners.fill(*octant);
             if ((turnOf(tet.at) < 0) == isLeft_) use(tet);
-        }
+        });
     };
     if (cell.octants == 255) return fill(cell, std::nullopt);
     for (const std::uint8_t o : eye ? octantsFrom(*eye, cell.at) : kAsTheyAre)

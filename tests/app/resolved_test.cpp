@@ -71,6 +71,45 @@ TEST_F(PictureOfARamp, ResolvedLeavesNothingOpenAndIsIdempotent) {
     }
 }
 
+// A step that has what is asked for, and no more, leads to the same choices, and shows it.
+TEST_F(PictureOfARamp, WhatIsNeededOfAStepIsEnoughToChooseBy) {
+    std::mt19937_64 random(12);
+    const std::array ranges{"min:100", "0:10", "5:20", "(3:8)", "2000:max", "995:max", "400:600"};
+    int fewer = 0;
+    for (int i = 0; i < 500; ++i) {
+        Explorer e;
+        for (std::size_t n = random() % 4; n > 0; --n) {
+            LayerChoice layer{RangeSet::parse(ranges[random() % ranges.size()]), {}, {}};
+            if (random() % 3 == 0) layer.opacity = 0.25;
+            if (random() % 3 == 0) layer.color = MapChoice{};
+            layer.visible = random() % 3 != 0;
+            e.layers.push_back(layer);
+        }
+        e.noLayers = e.layers.empty();
+        const auto some = ramp(0, rangesNeeded(e));
+        fewer += some->size() < steps_.begin()->second->size();
+        const Explorer chosen = resolved(e, steps_);
+        EXPECT_TRUE(resolved(e, {{0, some}}) == chosen) << "case " << i;
+        EXPECT_EQ(rangesNeeded(chosen), rangesNeeded(e)) << "case " << i;
+        for (const LayerChoice& layer : chosen.layers)
+            EXPECT_EQ(some->count(layer.ranges), steps_.begin()->second->count(layer.ranges));
+    }
+    EXPECT_GT(fewer, 400);
+}
+
+TEST_F(PictureOfARamp, WhatIsLeftToChooseOrMovesMayNeedAnyValue) {
+    EXPECT_EQ(rangesNeeded({}), RangeSet::everything());
+    Explorer two = withRanges({"0:10", "20:30"});
+    EXPECT_EQ(rangesNeeded(two), RangeSet::parse("0:10,20:30"));
+    two.layers[1].visible = false;
+    EXPECT_EQ(rangesNeeded(two), RangeSet::parse("0:10,20:30"));
+    two.layers[1].motion.emplace().animation = RangeSet::parse("20:30");
+    EXPECT_EQ(rangesNeeded(two), RangeSet::everything());
+    Explorer open = withRanges({"0:10"});
+    open.layers.push_back({});
+    EXPECT_EQ(rangesNeeded(open), RangeSet::everything());
+}
+
 TEST_F(PictureOfARamp, WhatWasChosenIsNotResolvedAway) {
     Explorer e = withRanges({"0:10"});
     e.layers[0].color = MapChoice{*render::colorMapNamed("cividis"), 3.0, {}};

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -128,6 +129,45 @@ TEST(MeshCells, CrossTheEndOfAPeriodTheShortWay) {
         ASSERT_TRUE(cell);
         for (const glm::dvec3& at : cell->at)
             EXPECT_LT(std::abs(at.x - cell->at[0].x), 10.5 * world.placed.scale().x) << i;
+    }
+}
+
+// Columns, folds that random places make, a period, and a hole: no corner is farther, and no pixel
+// sees one beside where it is looked for.
+TEST(MeshCells, ReachAsFarAsTheySayAndNoFarther) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> any(-1, 1);
+    auto period = tests::placesOf({36, 5, 3}, [](double i, double j, double k) {
+        return glm::dvec3(std::fmod(10 * i + 100, 360), 10 * j + 0.1 * i, k);
+    });
+    period.period = {360, 0, 0};
+    const auto wild = tests::curvilinear({6, 5, 4}, [&](double i, double j, double k) {
+        return glm::dvec3(i, j, k) + 0.9 * glm::dvec3(any(random), any(random), any(random));
+    });
+    for (const auto& grid :
+         {tests::columns({0, 1, 5, 6}), tests::twisted(), wild, tests::gridOf(std::move(period))}) {
+        const CellWorld world(stepOf(grid, [](const auto& p) { return p.x; }), {"min:max"});
+        const timeseries::CellCorners& corners = world.scene.cells->cornersOf();
+        const MeshCells mesh(world.placed, corners, world.scene.clip);
+        ASSERT_TRUE(timeseries::isPlace(mesh.reach()));
+        const View view = tests::lookFrom({0.3, -1.8, 0.9}, {64, 64});
+        const PointsView seen(world.placed, view);
+        const ReachBox reachBox(seen, mesh.reach());
+        const glm::uvec3 size = corners.size();
+        int cells = 0;
+        for (unsigned c = 0; c < size.x * size.y * size.z; ++c) {
+            const glm::uvec3 at = timeseries::indicesOf(c, size);
+            const auto cell = mesh(at);
+            if (!cell) continue;
+            ++cells;
+            for (const glm::dvec3& corner : cell->at)
+                EXPECT_TRUE(
+                    glm::all(glm::lessThanEqual(glm::abs(corner - mesh.about(c)), mesh.reach())));
+            const WindowBox exact = windowBox(seen, cell->at), reached = reachBox(mesh.about(c));
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(reached.lo, exact.lo)));
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(reached.hi, exact.hi)));
+        }
+        EXPECT_GT(cells, 100);
     }
 }
 
@@ -254,8 +294,8 @@ glm::dvec4 lightOf(const Scene& scene, const View& view, const glm::ivec2& pixel
     };
     forEachTetBefore(scene, scene.cells->field(), seen, PixelBins(std::span(&pixel, 1), view.size),
                      1,
-                     [&](std::size_t, const glm::uvec3&, const MeshCells::Tetrahedron& tet,
-                         std::size_t, std::size_t) {
+                     [&](std::size_t, std::uint32_t, const MeshCells::Tetrahedron& tet, std::size_t,
+                         std::size_t) {
                          const auto s = tetSplatAt<double>(
                              seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
                          for (std::size_t ray = 0; s.visible && ray < passed.size(); ++ray)

@@ -171,6 +171,27 @@ TEST(CellIndex, OfAStepIsMadeOfWhatIsAskedFor) {
     }
 }
 
+// Of points there are those that were asked for; between them lies the whole field.
+TEST(CellIndex, OfAStepThatKeepsAFewPointsAndItsFieldIsTheWholeFields) {
+    const Field field = waves<float>({17, 9, 8}, 9, true);
+    const RangeSet kept = RangeSet::parse("0.1:0.2");
+    const SortedStep whole = SortedStep::build(field),
+                     step = SortedStep::buildWithField(field, kept);
+    EXPECT_EQ(step.size(), whole.count(kept));
+    EXPECT_LT(step.size(), whole.size());
+    EXPECT_EQ(step.statistics().points, whole.statistics().points);
+    EXPECT_THROW(step.count(RangeSet::everything()), OutsideKeptError);
+    ASSERT_TRUE(step.canHaveCells()) << step.whyNoCells();
+    EXPECT_EQ(step.sharedField()->missing, field.missing);
+    const std::vector<Interval<double>> little = {{0.1, 0.2}};
+    EXPECT_EQ(selected(*step.cells(little), little), selected(*whole.cells(), little));
+    EXPECT_TRUE(step.canHaveCells());
+    EXPECT_EQ(SortedStep::build(field, kept).whyNoCells(), "cells need every value kept");
+    const SortedStep line = SortedStep::buildWithField(waves<float>({17, 1, 1}, 9, false), kept);
+    EXPECT_EQ(line.whyNoCells(),
+              SortedStep::build(waves<float>({17, 1, 1}, 9, false)).whyNoCells());
+}
+
 TEST(CellIndex, IsTheSameForAnyNumberOfThreads) {
     const Field field = waves<float>({17, 9, 8}, 5, true);
     const CellIndex one(field, 1), five(field, 5);

@@ -116,6 +116,23 @@ TEST(StepLoader, HoldsTheFieldWhereItIsAskedTo) {
     }
 }
 
+// What is kept is told of, and nothing else; what is asked for is a matter of room.
+TEST(StepLoader, PutsInOrderWhatIsAskedForAndKept) {
+    const RangeSet everything = RangeSet::everything(), upTo4 = RangeSet::parse("min:4");
+    const auto points = [&](const RangeSet& kept, const RangeSet& asked, std::size_t step) {
+        Script script;
+        StepLoader loader(
+            std::make_unique<ScriptedReader>(script, 10), 0, kept, [] {}, Ready::WithField, {},
+            asked);
+        loader.want({step});
+        return std::get<Loaded>(*loader.waitAndPoll()).sorted->size();
+    };
+    EXPECT_EQ(points(everything, upTo4, 4), 1u);
+    EXPECT_EQ(points(everything, upTo4, 5), 0u);
+    EXPECT_EQ(points(upTo4, everything, 5), 0u);
+    EXPECT_EQ(points(everything, everything, 5), 1u);
+}
+
 TEST(StepLoader, HasNothingWhenNothingIsWanted) {
     Script script;
     StepLoader loader = loaderOf(script);

@@ -11,6 +11,7 @@
 
 #include "tests/support/unstructured.h"
 #include "timeseries/grid/scattered.h"
+#include "timeseries/grid/solid_cells.h"
 
 namespace timeseries {
 namespace {
@@ -191,6 +192,11 @@ TEST(Unstructured, WhateverHasNoFlawIsMeasured) {
             if (random() % 2) change(grid.ends), change(grid.faces), change(grid.faceEnds);
         }
         if (!flawOf(grid).empty()) continue;
+        if (const auto solids = SolidCells::of(grid, 10))  // two points have no values
+            for (std::uint64_t cell = 0; cell < solids->count(); ++cell)
+                solids->forEachTet(cell, [&](const auto& tet) {
+                    for (const std::uint32_t point : tet) ASSERT_LT(point, 10u);
+                });
         for (const auto& meshOf : {tests::atCells, tests::atPoints}) {
             try {
                 EXPECT_TRUE(std::isfinite(volume(meshOf(grid))));

@@ -65,17 +65,40 @@ double CurvilinearCells::meanWidth() const {
     return sumOf(places_.at.size(), widthOf) / static_cast<double>(placed);
 }
 
+glm::dvec3 CurvilinearCells::way(std::uint64_t from, std::uint64_t to) const {
+    glm::dvec3 along = places_.at[to] - places_.at[from];
+    for (int c = 0; c < 3; ++c)
+        if (const double period = places_.period[c]; period > 0)
+            along[c] -= period * std::round(along[c] / period);
+    return along;
+}
+
+glm::dvec3 CurvilinearCells::longestWay() const {
+    const glm::vec<3, std::uint64_t> size(places_.size[0], places_.size[1], places_.size[2]);
+    const unsigned threads = threadsFor(places_.at.size(), 1 << 14);
+    std::vector<glm::dvec3> longest(threads, glm::dvec3(0));
+    together(threads, [&](unsigned k) {
+        for (std::uint64_t row = places_.at.size() * k / threads;
+             row < places_.at.size() * (k + 1) / threads; ++row) {
+            const auto at = indicesOf(row, size);
+            for (int a = 0; a < (places_.levels.empty() ? 3 : 2); ++a) {
+                if (at[a] + 1 == size[a]) continue;
+                const glm::dvec3 along = way(row, row + stride_[static_cast<std::size_t>(a)]);
+                if (isPlace(along)) longest[k] = glm::max(longest[k], glm::abs(along));
+            }
+        }
+    });
+    glm::dvec3 most(0);
+    for (const glm::dvec3& each : longest) most = glm::max(most, each);
+    for (std::size_t k = 1; k < places_.levels.size(); ++k)
+        most.z = std::max(most.z, std::abs(places_.levels[k] - places_.levels[k - 1]));
+    return most;
+}
+
 // The mean of the ways from the point before and to the one after, or the only one of these that
 // leads anywhere.
 glm::dvec3 CurvilinearCells::stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore,
                                        bool hasAfter) const {
-    const auto way = [&](std::uint64_t from, std::uint64_t to) {
-        glm::dvec3 along = places_.at[to] - places_.at[from];
-        for (int c = 0; c < 3; ++c)  // the shorter way round
-            if (const double period = places_.period[c]; period > 0)
-                along[c] -= period * std::round(along[c] / period);
-        return along;
-    };
     glm::dvec3 before(0), after(0);
     if (hasBefore) hasBefore = isPlace(before = way(row - stride_[axis], row));
     if (hasAfter) hasAfter = isPlace(after = way(row, row + stride_[axis]));

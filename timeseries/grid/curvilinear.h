@@ -31,8 +31,12 @@ class CurvilinearCells {
     // its neighbours, or the whole way to the only one that has a place; of columns, on the first
     // level. An index of one point is as thick as the mean of the cells is wide.
     glm::dmat3 operator()(std::uint64_t row) const;
+    // How far neighbours are apart along each coordinate, at most.
+    glm::dvec3 longestWay() const;
 
  private:
+    // The shorter way round.
+    glm::dvec3 way(std::uint64_t from, std::uint64_t to) const;
     glm::dmat3 stepsAt(std::uint64_t row) const;
     glm::dvec3 stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore, bool hasAfter) const;
     double meanWidth() const;

@@ -11,8 +11,10 @@
 #include <limits>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "timeseries/grid/grid.h"
+#include "timeseries/grid/solid_cells.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -66,6 +68,7 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size), period_(places.period
     if (count() == 0 || places.at.size() != stored || (columns && places.levels.size() != nk))
         throw std::invalid_argument("a mesh with places of another number of points");
     const CurvilinearCells cells(places);
+    longestWay_ = cells.longestWay();
     takeColumns(stored, places.at, places.levels, [&](std::uint64_t i) {
         if (!isPlace(places.at[i])) return MeshPoint{places.at[i], {}};
         const glm::dmat3 rows = glm::transpose(cells(i));
@@ -74,9 +77,11 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size), period_(places.period
 }
 
 Mesh::Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
-           const std::function<MeshPoint(std::uint64_t)>& point, const std::vector<double>& levels)
+           const std::function<MeshPoint(std::uint64_t)>& point, const std::vector<double>& levels,
+           std::shared_ptr<const SolidCells> solids)
     : size_{count, 1, std::max<std::size_t>(levels.size(), 1)},
       hasNeighbours_(false),
+      solids_(std::move(solids)),
       spread_(spread) {
     takeColumns(count, between, levels, point);
 }
@@ -221,16 +226,20 @@ std::vector<std::string> notesOf(const Mesh& mesh) {
 }
 
 std::uint64_t Mesh::bytes() const {
-    return stored_ * sizeof(Point) + levels_.size() * sizeof(Level);
+    return stored_ * sizeof(Point) + levels_.size() * sizeof(Level) +
+           (solids_ ? solids_->bytes() : 0);
 }
 
 bool operator==(const Mesh& a, const Mesh& b) {
     const auto sameLevel = [](const Mesh::Level& one, const Mesh::Level& other) {
         return one.at == other.at && one.height == other.height;
     };
-    return a.size_ == b.size_ && a.hasNeighbours_ == b.hasNeighbours_ && a.spread_ == b.spread_ &&
-           a.period_ == b.period_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
-           std::ranges::equal(a.levels_, b.levels_, sameLevel) && a.stored_ == b.stored_ &&
+    const bool sameSolids =
+        a.solids_ == b.solids_ || (a.solids_ && b.solids_ && *a.solids_ == *b.solids_);
+    return sameSolids && a.size_ == b.size_ && a.hasNeighbours_ == b.hasNeighbours_ &&
+           a.spread_ == b.spread_ && a.period_ == b.period_ && a.origin_ == b.origin_ &&
+           a.unit_ == b.unit_ && std::ranges::equal(a.levels_, b.levels_, sameLevel) &&
+           a.stored_ == b.stored_ &&
            std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@
 #include "timeseries/grid/pages.h"
 
 namespace timeseries {
+
+class SolidCells;  // timeseries/grid/solid_cells.h
 
 // Where a point lies, and the rows of any J whose columns are the sides of its cell: one along each
 // coordinate of the file's space.
@@ -34,12 +37,15 @@ class Mesh {
     // the levels are apart; those of `point` are as high as the first.
     Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
          const std::function<MeshPoint(std::uint64_t index)>& point,
-         const std::vector<double>& levels = {});
+         const std::vector<double>& levels = {},
+         std::shared_ptr<const SolidCells> solids = nullptr);
 
     // Points along the indices i, j and k: those before and after a point are its neighbours, if
     // there are neighbours.
     const std::array<std::size_t, 3>& size() const { return size_; }
     bool hasNeighbours() const { return hasNeighbours_; }
+    // Between points without neighbours, where the file says so; null: nothing is known.
+    const std::shared_ptr<const SolidCells>& solids() const { return solids_; }
     // As MeshPlaces has it.
     const glm::dvec3& period() const { return period_; }
     std::uint64_t count() const;
@@ -69,6 +75,9 @@ class Mesh {
     // Lengths of the rows of cell(), at most: a cell's splat reaches no farther along a coordinate
     // than this, times its radius.
     const glm::dvec3& widest() const { return widest_; }
+    // How far neighbours are apart along each coordinate, at most, the shorter way round; of points
+    // without neighbours 0.
+    const glm::dvec3& longestWay() const { return longestWay_; }
     std::uint64_t folded() const { return folded_; }  // points whose cells are
     std::uint64_t flat() const { return flat_; }      // whose cells have no volume
     std::uint64_t absent() const { return absent_; }  // that have no place
@@ -109,13 +118,14 @@ class Mesh {
 
     std::array<std::size_t, 3> size_;
     bool hasNeighbours_ = true;
+    std::shared_ptr<const SolidCells> solids_;
     glm::dvec3 period_{0};
     double spread_ = 1;
     glm::dvec3 origin_{0}, unit_{1};
     std::uint64_t stored_ = 0;
     Pages<Point> points_;  // [stored_]
     std::vector<Level> levels_;
-    glm::dvec3 lo_{0}, hi_{0}, widest_{0};
+    glm::dvec3 lo_{0}, hi_{0}, widest_{0}, longestWay_{0};
     long double meanVolume_ = 0;
     double sign_ = 1;  // of the determinants of most cells
     std::uint64_t folded_ = 0, flat_ = 0, absent_ = 0;

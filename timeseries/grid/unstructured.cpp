@@ -12,6 +12,7 @@
 
 #include "timeseries/grid/cell_types.h"
 #include "timeseries/grid/scattered.h"
+#include "timeseries/grid/solid_cells.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -292,7 +293,8 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
         if (whole > 0) second /= whole;
         return prismOf({at, rowsOf(second, volume)}, second, volume, levels);
     };
-    return Mesh(count, grid.points, shapes.spread, pointOf, levels);
+    return Mesh(count, grid.points, shapes.spread, pointOf, levels,
+                levels.empty() ? SolidCells::of(grid, count) : nullptr);
 }
 
 std::vector<std::string> notesOf(const UnstructuredGrid& grid) {

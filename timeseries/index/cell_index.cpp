@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "timeseries/grid/solid_cells.h"
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/value_sort.h"
@@ -69,6 +70,11 @@ std::vector<Interval<double>> joined(std::vector<Interval<double>> all) {
         else
             out.push_back(each);
     return out;
+}
+
+// Null where the cells are those of points that have neighbours.
+const SolidCells* solidsOf(const Grid& grid) {
+    return grid.mesh() ? grid.mesh()->solids().get() : nullptr;
 }
 
 // Keys of the middles of a class's cells that reach into an interval, and of few others.
@@ -146,6 +152,33 @@ class CellIndex::Rows {
     std::vector<double> least_, greatest_;
 };
 
+// What solid cells take from their corners.
+class CellIndex::Solids {
+ public:
+    Solids(const Field& field, const SolidCells& cells) : field_(field), cells_(cells) {}
+    // As Rows::at().
+    bool at(std::uint64_t cell, double& half, double& middle) const {
+        double lo = kInfinite, hi = -kInfinite;
+        std::visit(
+            [&](const auto& values) {
+                for (const std::uint32_t point : cells_.corners(cell)) {
+                    const double v =
+                        finiteOr(values[point], !field_.missing.empty() && field_.missing[point]);
+                    lo = v < lo ? v : lo;  // NaN is neither
+                    hi = v > hi ? v : hi;
+                }
+            },
+            field_.values);
+        half = 0.5 * hi - 0.5 * lo;
+        middle = 0.5 * hi + 0.5 * lo;
+        return lo <= hi;
+    }
+
+ private:
+    const Field& field_;
+    const SolidCells& cells_;
+};
+
 // What of each class is kept.
 class CellIndex::Wanted {
  public:
@@ -180,6 +213,7 @@ class CellIndex::Wanted {
 bool CellIndex::canIndex(const Grid& grid, ValueType type) {
     double cells = 1;
     for (const std::size_t points : grid.size()) cells *= static_cast<double>(points) + 1;
+    if (const SolidCells* solids = solidsOf(grid)) cells = static_cast<double>(solids->count());
     const auto size = withType(type, [](auto value) { return sizeof value; });
     return cells * sizeof(list_[0]) + static_cast<double>(grid.count() * size) <= kMostBytes;
 }
@@ -190,21 +224,32 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
       among_(joined(std::move(among))),
       corners_(*field_),
       size_(corners_.size()) {
+    const SolidCells* const solids = solidsOf(*field_->grid);
+    if (solids) size_ = {solids->count(), 1, 1};
     const std::uint64_t rows = std::uint64_t{size_.y} * size_.z;
     threads = std::max(threads, 1u);
     const Wanted wanted(among_);
+    const auto take = [&](const auto& cells, std::uint64_t place, std::uint64_t number,
+                          const auto& use) {
+        double half = 0, middle = 0;
+        if (!cells.at(place, half, middle) || !wanted.near(half, middle)) return;
+        const std::size_t ofClass = classOf(half);
+        const std::uint32_t key = keyOf(middle);
+        if (wanted(ofClass, key)) use(number, ofClass, key);
+    };
     const auto look = [&](unsigned k, const auto& use) {
+        if (solids) {
+            const Solids cells(*field_, *solids);
+            for (std::uint64_t i = solids->count() * k / threads;
+                 i < solids->count() * (k + 1) / threads; ++i)
+                take(cells, i, i, use);
+            return;
+        }
         Rows cells(*field_);
         for (std::uint64_t r = rows * k / threads; r < rows * (k + 1) / threads; ++r) {
             cells.look(static_cast<std::uint32_t>(r % size_.y),
                        static_cast<std::uint32_t>(r / size_.y));
-            double half = 0, middle = 0;
-            for (std::uint32_t i = 0; i < size_.x; ++i) {
-                if (!cells.at(i, half, middle) || !wanted.near(half, middle)) continue;
-                const std::size_t ofClass = classOf(half);
-                const std::uint32_t key = keyOf(middle);
-                if (wanted(ofClass, key)) use(r * size_.x + i, ofClass, key);
-            }
+            for (std::uint32_t i = 0; i < size_.x; ++i) take(cells, i, r * size_.x + i, use);
         }
     };
     // All of them are looked at twice; of some it is kept which they are, or it would take as long.

@@ -18,7 +18,8 @@
 
 namespace timeseries {
 
-// Cells as CellCorners has them, numbered x fastest, are kept in classes of half their range of
+// Cells as CellCorners has them, numbered x fastest, or solid ones (timeseries/grid/solid_cells.h)
+// as their grid lists them, are kept in classes of half their range of
 // values, two an octave, each in order of the middle of that range: in a class of ranges up to 2 H,
 // the cells that reach into [a, b] have their middles in [a - H, b + H]. Memory: 8 bytes a cell
 // that is kept, and the field's values.
@@ -41,8 +42,10 @@ class CellIndex {
     const std::shared_ptr<const Field>& sharedField() const { return field_; }
     // Whether each of these lies in one of those among which it has cells.
     bool holds(std::span<const Interval<double>> intervals) const;
+    // Of points that have neighbours.
     const CellCorners& cornersOf() const { return corners_; }
-    glm::uvec3 size() const { return size_; }  // cells along the indices
+    // Cells along the indices; of solid ones all are along the first.
+    glm::uvec3 size() const { return size_; }
     std::uint64_t count() const { return list_.size(); }
 
     // Places in the list: disjoint, ascending, none empty. They hold every cell that reaches into
@@ -67,6 +70,7 @@ class CellIndex {
         std::uint64_t first, count;
     };
     class Rows;
+    class Solids;
     class Wanted;
 
     std::shared_ptr<const Field> field_;

@@ -177,9 +177,10 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned 
     return step;
 }
 
-SortedStep SortedStep::buildWithField(Field field, unsigned threads) {
-    SortedStep step = build(field, RangeSet::everything(), threads);
-    if (step.canHaveCells()) step.cells_ = std::make_shared<LazyCells>(std::move(field));
+SortedStep SortedStep::buildWithField(Field field, const RangeSet& kept, unsigned threads) {
+    SortedStep step = build(field, kept, threads);
+    if (step.whyNothingBetween().empty())
+        step.cells_ = std::make_shared<LazyCells>(std::move(field));
     return step;
 }
 
@@ -307,11 +308,17 @@ std::shared_ptr<const CellIndex> SortedStep::cellsIfMade(
 }
 
 std::string_view SortedStep::whyNoCells() const {
+    if (const std::string_view why = whyNothingBetween(); !why.empty()) return why;
+    const bool isAllThere = size_ == statistics_.points || cells_->fieldIfThere();
+    return isAllThere ? "" : "cells need every value kept";
+}
+
+std::string_view SortedStep::whyNothingBetween() const {
     if (ofCategories_) return "nothing lies between categories";
-    if (size_ != statistics_.points) return "cells need every value kept";
     if (const auto& mesh = grid_->mesh()) {
-        if (!mesh->hasNeighbours()) return "cells of unstructured grids are not drawn yet";
-        if (std::ranges::count(mesh->size(), 1u) > 1)
+        if (!mesh->hasNeighbours() && !mesh->solids())
+            return "the values are not those of the corners of solid cells";
+        if (mesh->hasNeighbours() && std::ranges::count(mesh->size(), 1u) > 1)
             return "nothing lies between points of a line";
     }
     return CellIndex::canIndex(*grid_, type()) ? "" : "so many cells would not fit the memory";

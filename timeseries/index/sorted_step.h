@@ -71,9 +71,10 @@ class SortedStep {
     static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
                             unsigned threads = sharingThreads());
 
-    // A step of all values, for those who will ask for cells, or for the field: it is held until
-    // there are cells of it, where there can be.
-    static SortedStep buildWithField(Field field, unsigned threads = sharingThreads());
+    // For those who will ask for cells, or for the field, of all values, and for points in `kept`
+    // alone: the field is held until there are cells of it, where there can be.
+    static SortedStep buildWithField(Field field, const RangeSet& kept = RangeSet::everything(),
+                                     unsigned threads = sharingThreads());
 
     // What a step on disk was made of. Called from any thread.
     struct Source {
@@ -96,7 +97,7 @@ class SortedStep {
     // REQUIRES: file().
     SortedStep reopened() const;
     // All values in the grid's order: of the source, which is soon read, where there is one.
-    // Missing points are marked or NaN. REQUIRES: all values were kept.
+    // Missing points are marked or NaN. REQUIRES: all values were kept, or a source.
     Field field() const;
     // The field without reading, where there are cells of it or it is held for them.
     std::shared_ptr<const Field> sharedField() const;
@@ -156,6 +157,7 @@ class SortedStep {
 
  private:
     SortedStep() = default;
+    std::string_view whyNothingBetween() const;  // points, whatever was kept
     std::shared_ptr<const Grid> grid_;
     // In the order of Values' alternatives.
     template <typename... T>

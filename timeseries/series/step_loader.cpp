@@ -24,9 +24,10 @@ std::size_t stepOf(const LoadResult& result) {
 }  // namespace
 
 StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-                       std::function<void()> wake, Ready ready, StepStores stores)
+                       std::function<void()> wake, Ready ready, StepStores stores, RangeSet asked)
     : maker_(std::move(reader), variable, std::move(kept), std::move(stores),
-             ready == Ready::WithField ? StepMaker::Holds::Field : StepMaker::Holds::Points),
+             ready == Ready::WithField ? StepMaker::Holds::Field : StepMaker::Holds::Points,
+             std::move(asked)),
       stepCount_(maker_.variable().time->points.size()),
       wake_(std::move(wake)),
       ready_(ready),

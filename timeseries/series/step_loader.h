@@ -47,11 +47,13 @@ enum class Ready {
 // its result.
 class StepLoader {
  public:
-    // REQUIRES: variable < reader->variables().size(). `wake` is called from the loader's thread
-    // after each result is there to be polled; it must not throw, nor call the loader.
+    // REQUIRES: variable < reader->variables().size(). `asked` is StepMaker's. `wake` is called
+    // from the loader's thread after each result is there to be polled; it must not throw, nor call
+    // the loader.
     StepLoader(
         std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-        std::function<void()> wake = [] {}, Ready ready = Ready::Asked, StepStores stores = {});
+        std::function<void()> wake = [] {}, Ready ready = Ready::Asked, StepStores stores = {},
+        RangeSet asked = RangeSet::everything());
     ~StepLoader();
     StepLoader(const StepLoader&) = delete;
     StepLoader& operator=(const StepLoader&) = delete;

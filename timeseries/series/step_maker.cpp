@@ -38,17 +38,18 @@ struct Reopened {
 }  // namespace
 
 StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-                     StepStores stores, Holds holds)
+                     StepStores stores, Holds holds, RangeSet asked)
     : reader_(std::move(reader)),
       variable_(variable),
       kept_(std::move(kept)),
+      asked_(std::move(asked)),
       holds_(holds),
       stores_(std::move(stores)) {}
 
 SortedStep StepMaker::sorted(Field field) const {
-    if (holds_ == Holds::Field && kept_ == RangeSet::everything())
-        return SortedStep::buildWithField(std::move(field));
-    return SortedStep::build(field, kept_);
+    if (kept_ != RangeSet::everything()) return SortedStep::build(field, kept_);
+    if (holds_ == Holds::Field) return SortedStep::buildWithField(std::move(field), asked_);
+    return SortedStep::build(field, asked_);
 }
 
 std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step) {
@@ -99,7 +100,8 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
     auto made = std::make_shared<const SortedStep>(sorted(reader_->read(variable_, step)));
     // Where a step has places of its own, the file would not have them.
-    if (stamp && made->size() >= std::max<std::uint64_t>(stores_.worthWriting, 1) &&
+    if (stamp && made->kept() == RangeSet::everything() &&
+        made->size() >= std::max<std::uint64_t>(stores_.worthWriting, 1) &&
         made->sharedGrid() == variable().grid)
         unwritten_.push_back({*origin, *stamp, made});
     return made;

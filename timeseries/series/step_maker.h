@@ -30,9 +30,12 @@ class StepMaker {
  public:
     // What steps that are sorted have in memory (SortedStep::buildWithField).
     enum class Holds { Points, Field };
+    // Steps that are sorted have the values in `kept`, outside of which nothing is told, or fewer:
+    // those in the ranges that are `asked` for, and no others are put in order or written.
     // REQUIRES: variable < reader->variables().size().
     StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
-              StepStores stores = {}, Holds holds = Holds::Points);
+              StepStores stores = {}, Holds holds = Holds::Points,
+              RangeSet asked = RangeSet::everything());
 
     const Variable& variable() const { return reader_->variables()[variable_]; }
     // Throws FileError, std::length_error, std::bad_alloc.
@@ -59,7 +62,7 @@ class StepMaker {
 
     const std::unique_ptr<Reader> reader_;
     const std::size_t variable_;
-    const RangeSet kept_;
+    const RangeSet kept_, asked_;
     const Holds holds_;
     StepStores stores_;
     std::deque<Unwritten> unwritten_;  // the first built first

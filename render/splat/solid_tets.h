@@ -1,0 +1,128 @@
+// The tetrahedra of an unstructured grid's solid cells (timeseries/grid/solid_cells.h), in the
+// place of MeshCells (render/splat/mesh_cells.h).
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "render/splat/mesh_cells.h"
+#include "timeseries/grid/solid_cells.h"
+
+namespace render {
+
+// A tetrahedron of which a corner has no value, or is beside the clip box, is drawn where the
+// others are the nearest in shares: of each of these the hexahedron between it and the middles of
+// the edges, faces and tetrahedron that it is of, in which the field goes on as it was. What it is
+// made of must outlive it.
+class SolidTets {
+ public:
+    // REQUIRES: the placed points' mesh, and the field's grid's, has solids().
+    SolidTets(const PlacedPoints& placed, const timeseries::Field& field, const IndexBox& clip)
+        : placed_(placed),
+          cells_(*placed.mesh()->solids()),
+          field_(field),
+          clip_(clip),
+          clips_(!clip.holdsAll()),
+          reach_(MeshCells::reachOf(placed, cells_.longest())) {}
+
+    std::uint64_t count() const { return cells_.count(); }
+    // As MeshCells has them.
+    glm::dvec3 about(std::uint32_t cell) const {
+        return placed_.alongAxes(cells_.corners(cell).front());
+    }
+    const glm::dvec3& reach() const { return reach_; }
+    void prefetch(std::uint32_t cell) const { placed_.prefetch(cells_.corners(cell).front()); }
+    std::pair<double, double> extentOf(std::uint32_t cell) const;
+    std::uint64_t pointOf(std::uint32_t, unsigned corner) const { return corner; }
+    template <typename MayBeSeen, typename Use>
+    void forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
+                    const Use& use) const;
+
+ private:
+    using Tetrahedron = MeshCells::Tetrahedron;
+    // use(tet) for what is seen of it; a bit of `seen` for each corner.
+    template <typename Use>
+    static void forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dvec3* eye,
+                            const Use& use);
+    // NaN where there is none.
+    double valueOf(std::uint32_t point) const {
+        return std::visit(
+            [&](const auto& values) {
+                return timeseries::finiteOr(values[point],
+                                            !field_.missing.empty() && field_.missing[point]);
+            },
+            field_.values);
+    }
+    // All that a tetrahedron is, and which of its corners are seen.
+    unsigned take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const;
+
+    const PlacedPoints& placed_;
+    const timeseries::SolidCells& cells_;
+    const timeseries::Field& field_;
+    const IndexBox& clip_;
+    bool clips_;
+    glm::dvec3 reach_;
+};
+
+// use(cells): as MeshCells or as SolidTets, whichever the mesh has. REQUIRES: one of them.
+template <typename Use>
+void withTets(const PlacedPoints& placed, const timeseries::Field& field, const IndexBox& clip,
+              const Use& use) {
+    if (!placed.hasNeighbours()) return use(SolidTets(placed, field, clip));
+    use(MeshCells(placed, timeseries::CellCorners(field), clip));
+}
+
+template <typename Use>
+void SolidTets::forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dvec3* eye,
+                            const Use& use) {
+    if (seen == 15) return use(tet);
+    for (unsigned corner = 0; corner < 4; ++corner) {
+        if ((seen >> corner & 1) == 0) continue;
+        MeshCells::Hexahedron part{};
+        for (unsigned c = 0; c < 8; ++c) {
+            unsigned of = 1u << corner;  // whose middle this is
+            for (unsigned side = 0, i = 0; i < 4; ++i)
+                if (i != corner && (c >> side++ & 1)) of |= 1u << i;
+            const double share = 1.0 / std::popcount(of);
+            for (unsigned i = 0; i < 4; ++i) {
+                if ((of >> i & 1) == 0) continue;
+                part.at[c] += share * tet.at[i];
+                part.values[c] += share * tet.values[i];
+            }
+        }
+        MeshCells::forEachTetIn(part, eye, [&](Tetrahedron some) {
+            some.corners.fill(tet.corners[corner]);
+            use(some);
+        });
+    }
+}
+
+template <typename MayBeSeen, typename Use>
+void SolidTets::forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
+                           const Use& use) const {
+    struct Drawn {
+        Tetrahedron tet;
+        unsigned seen;
+        double away;
+    };
+    thread_local std::vector<Drawn> parts;
+    parts.clear();
+    cells_.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
+        Drawn part{};
+        part.seen = take(points, part.tet);
+        if (part.seen == 0 || !mayBeSeen(part.tet.at)) return;
+        if (!eye) return forEachSeen(part.tet, part.seen, eye, use);
+        const auto& at = part.tet.at;
+        part.away = glm::distance(*eye, 0.25 * (at[0] + at[1] + at[2] + at[3]));
+        parts.push_back(part);
+    });
+    std::ranges::stable_sort(parts, {}, &Drawn::away);
+    for (const Drawn& part : parts) forEachSeen(part.tet, part.seen, eye, use);
+}
+
+}  // namespace render

@@ -1,0 +1,245 @@
+// Cells of unstructured grids whose points have the values: what is drawn of them, against closed
+// forms and against what each ray passes.
+#include "render/splat/solid_tets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/vector_relational.hpp>
+#include <random>
+
+#include "render/reference/cell_pick.h"
+#include "render/reference/cells_on_rays.h"
+#include "render/reference/interval_truth.h"
+#include "render/reference/tets_on_pixels.h"
+#include "tests/support/cell_rays.h"
+#include "tests/support/unstructured.h"
+
+namespace render {
+namespace solid_tets {
+namespace {
+
+using tests::CellWorld;
+using tests::Cut;
+using tests::drawn;
+using tests::cells::inside;
+using tests::cells::kFrom;
+using tests::cells::kNan;
+using tests::cells::Ray;
+using tests::cells::rayOf;
+using timeseries::Grid;
+
+constexpr std::array kCuts{Cut::Hexahedra, Cut::Tetrahedra, Cut::Wedges, Cut::Polyhedra};
+
+// Bent inside a box of 4 x 3 x 5, whose sides stay flat.
+std::shared_ptr<const Grid> bentBricks(Cut cut) {
+    const auto bent = [](double i, double j, double k) {
+        const double inside = i * (4 - i) * j * (3 - j) * k * (5 - k) / 100;
+        return glm::dvec3(i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside);
+    };
+    return std::make_shared<const Grid>(timeseries::spaceAxes(),
+                                        std::make_shared<const timeseries::Mesh>(
+                                            tests::atPoints(tests::bricks({5, 4, 6}, cut, bent))));
+}
+
+template <typename Field>
+timeseries::SortedStep stepOf(const std::shared_ptr<const Grid>& grid, const Field& field) {
+    return tests::stepOf(grid, [&](std::size_t i) { return field(grid->position(i)); });
+}
+
+// use(cell, tet) for all that is seen.
+template <typename Use>
+void forEachTetOf(const CellWorld& world, const Use& use) {
+    const SolidTets solids(world.placed, world.scene.cells->field(), world.scene.clip);
+    const auto always = [](const auto&) { return true; };
+    for (std::uint32_t cell = 0; cell < solids.count(); ++cell)
+        solids.forEachTet(cell, nullptr, always, [&](const auto& tet) { use(cell, tet); });
+}
+
+// In the grid's units.
+double volumeOf(const CellWorld& world) {
+    double volume = 0;
+    forEachTetOf(world, [&](std::uint32_t, const MeshCells::Tetrahedron& tet) {
+        volume += std::abs(turnOf(tet.at)) / 6;
+    });
+    const glm::dvec3 scale = glm::abs(world.placed.scale());
+    return volume / (scale.x * scale.y * scale.z);
+}
+
+// Of a tetrahedron each corner has a quarter.
+TEST(SolidTets, OfCornersThatAreMissingOrClippedAQuarterIsNotThere) {
+    for (const Cut cut : kCuts) {
+        const auto grid = bentBricks(cut);
+        const auto x = [](const auto& p) { return p.x; };
+        EXPECT_NEAR(volumeOf(CellWorld(stepOf(grid, x), {"min:max"})), 60, 1e-4);
+        for (const bool byClip : {false, true}) {
+            const auto isThere = [&](std::uint64_t i) {
+                return byClip ? grid->position(i).y <= 1.6 : i % 3 != 1;
+            };
+            CellWorld world(
+                tests::stepOf(
+                    grid, [&](std::size_t i) { return byClip || isThere(i) ? float(i) : kNan; }),
+                {"min:max"});
+            if (byClip) world.scene.clip.to.y = 1.6;
+            double expected = 0;
+            const auto& solids = *grid->mesh()->solids();
+            for (std::uint64_t cell = 0; cell < solids.count(); ++cell)
+                solids.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
+                    std::array<glm::dvec3, 4> at;
+                    int there = 0;
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        at[k] = grid->position(points[k]);
+                        there += isThere(points[k]) ? 1 : 0;
+                    }
+                    expected += there / 4.0 * std::abs(turnOf(at)) / 6;
+                });
+            EXPECT_LT(expected, 50);
+            EXPECT_NEAR(volumeOf(world), expected, 1e-4);
+        }
+    }
+}
+
+TEST(SolidTets, AreFoundByTheirValues) {
+    for (const Cut cut : kCuts) {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<float> any(0, 1);
+        const auto grid = bentBricks(cut);
+        const auto step =
+            tests::stepOf(grid, [&](std::size_t i) { return i % 7 == 0 ? kNan : any(random); });
+        const auto index = step.cells();
+        ASSERT_TRUE(index) << step.whyNoCells();
+        const SolidTets solids(PlacedPoints(*grid), index->field(), {});
+        const std::vector<timeseries::Interval<double>> wanted{{0.1, 0.12}, {0.5, 0.51}};
+        std::vector<bool> listed(solids.count());
+        std::uint64_t count = 0;
+        for (const timeseries::Run& run : index->select(wanted))
+            for (std::uint64_t i = 0; i < run.count; ++i) {
+                const std::uint32_t cell = index->cell(run.first + i);
+                ASSERT_FALSE(listed.at(cell)) << "listed twice";
+                listed[cell] = true;
+                ++count;
+            }
+        std::uint64_t needed = 0;
+        for (std::uint32_t cell = 0; cell < solids.count(); ++cell) {
+            double lo = INFINITY, hi = -INFINITY;
+            for (const std::uint32_t point : grid->mesh()->solids()->corners(cell)) {
+                const float v = std::get<std::vector<float>>(index->field().values)[point];
+                if (std::isnan(v)) continue;
+                lo = std::min(lo, double(v));
+                hi = std::max(hi, double(v));
+            }
+            const bool reaches = std::ranges::any_of(
+                wanted, [&](const auto& each) { return lo <= each.hi && hi >= each.lo; });
+            EXPECT_EQ(solids.extentOf(cell), std::pair(lo, hi));
+            EXPECT_TRUE(listed[cell] || !reaches);
+            needed += reaches ? 1 : 0;
+        }
+        EXPECT_GT(needed, 10u);
+        EXPECT_LT(count, 2 * needed + 20);
+    }
+}
+
+// A linear field is so between the corners of any cell: a range of it is a slab of the box, as deep
+// as a ray's way through that.
+TEST(SolidTets, ARangeOfALinearFieldIsASlab) {
+    for (const Cut cut : kCuts)
+        for (const auto& [lo, hi] :
+             {std::pair(-1.0, 9.0), std::pair(1.1, 2.7), std::pair(1.9, 2.0)}) {
+            const CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+                                  {std::to_string(lo) + ":" + std::to_string(hi)});
+            PlacedPoints::Box box = world.placed.pointsBox();
+            box.lo.x = world.placed.axesFromGrid({std::max(lo, 0.0), 0, 0}).x;
+            box.hi.x = world.placed.axesFromGrid({std::min(hi, 4.0), 0, 0}).x;
+            for (const glm::dvec3& from : kFrom) {
+                const View view = tests::lookFrom(from, {80, 60}, 0.1);
+                const std::vector<float> w = drawn(world.scene, view);
+                double off = 0, all = 0;
+                for (int y = 0; y < 60; ++y)
+                    for (int x = 0; x < 80; ++x) {
+                        const Ray ray = rayOf(world, view, {x + 0.5, y + 0.5});
+                        const auto [enters, leaves] = inside(ray, box);
+                        const double way =
+                            std::max(leaves - enters, 0.0) * ray.length / world.placed.unitLength();
+                        const double d = double(w[std::size_t(y) * 80 + std::size_t(x)]) - way;
+                        off += d * d;
+                        all += way * way;
+                    }
+                // Ends of a range are ramps, a pixel wide.
+                EXPECT_LE(std::sqrt(off / all), 2e-2)
+                    << lo << " to " << hi << " from " << from.x << " by " << int(cut);
+            }
+        }
+}
+
+// Of any field the picture, its rays one by one and the truth by many rays a pixel are the same, to
+// what a pixel's width is; missing points among them.
+TEST(SolidTets, AreTheIntervalVolumeOfTheFieldInThem) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> any(0, 1);
+    const auto step = tests::stepOf(
+        bentBricks(Cut::Wedges), [&](std::size_t i) { return i % 11 == 0 ? kNan : any(random); });
+    const CellWorld world(step, {"0.3:0.6"});
+    for (const glm::dvec3& from : kFrom) {
+        const View view = tests::lookFrom(from, {24, 20}, 0.1);
+        std::vector<glm::ivec2> pixels;
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 24; ++x) pixels.emplace_back(x, y);
+        const std::vector<float> w = drawn(world.scene, view);
+        const std::vector<double> depth = cellDepthAt(world.scene, view, pixels);
+        const std::vector<double> truth =
+            meshWeight(world.scene, world.scene.cells->field(), view, 0, pixels, 4, 2);
+        Scene whole = world.scene;  // without an index all cells are looked at
+        whole.cells = nullptr;
+        const std::vector<double> again =
+            meshWeight(whole, world.scene.cells->field(), view, 0, pixels, 4, 2);
+        const double perWeight = opticalDepthPerWeight(world.scene.layers[0].style.opacity);
+        double off = 0, all = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            EXPECT_NEAR(double(w[i]), depth[i] / perWeight, 2e-3);
+            EXPECT_NEAR(again[i], truth[i], 1e-12 * (1 + truth[i]));
+            off += (w[i] - truth[i]) * (w[i] - truth[i]);
+            all += truth[i] * truth[i];
+        }
+        EXPECT_GT(all, 1);
+        EXPECT_LE(std::sqrt(off / all), 0.03) << from.x;
+    }
+}
+
+// In front of each other as they stand, whatever the shapes.
+TEST(SolidTets, HideWhatIsBehindThem) {
+    for (const Cut cut : kCuts) {
+        // Of two opaque slabs the nearer one is seen, from either side.
+        CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+                        {"0.5:1.5", "2.5:3.5"}, 1.0);
+        world.scene.order = Order::BackToFront;
+        for (const double side : {-1.0, 1.0}) {
+            const View view = tests::lookFrom({3 * side, 0, 0.05}, {9, 9}, 0.02);
+            const std::vector<float> light = drawn(world.scene, view, Channels::Over);
+            const glm::dvec3 nearer =
+                std::get<Constant>(world.scene.layers[side < 0 ? 0 : 1].style.color).linearRgb;
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(light[4 * 40 + c]), nearer[c], 1e-3);
+        }
+    }
+}
+
+TEST(SolidTets, APlaceBetweenPointsIsSeenUnderTheCursor) {
+    for (const Cut cut : kCuts) {
+        const CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+                              {"1.3~0.001"}, 1.0);
+        const View view = tests::lookFrom({3, 0.1, 0.2}, {21, 21}, 0.05);
+        const auto picked = pickCell(world.scene, view, {10.5, 10.5});
+        ASSERT_TRUE(picked);
+        EXPECT_NEAR(*picked->between, 1.3, 2e-3);
+        const PixelRays rays = pixelRays(view);
+        EXPECT_NEAR(rays.eye.x + picked->depth * rays.axis.x,
+                    world.placed.axesFromGrid({1.3, 0, 0}).x, 1e-3);
+        // The corner with the largest share is one of the cell's.
+        EXPECT_EQ(timeseries::toDouble(picked->value),
+                  double(float(world.step.grid().position(picked->gridIndex).x)));
+        EXPECT_NEAR(timeseries::toDouble(picked->value), 1.3, 1.01);
+    }
+}
+
+}  // namespace
+}  // namespace solid_tets
+}  // namespace render

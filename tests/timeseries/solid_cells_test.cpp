@@ -1,0 +1,178 @@
+// Solid cells of unstructured grids, parted into tetrahedra.
+#include "timeseries/grid/solid_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "tests/support/unstructured.h"
+
+namespace timeseries {
+namespace {
+
+using tests::addCell;
+using tests::bricks;
+using tests::Cut;
+
+constexpr std::array kCuts{Cut::Hexahedra, Cut::Voxels, Cut::Tetrahedra, Cut::Wedges,
+                           Cut::Polyhedra};
+
+glm::dvec3 plain(double i, double j, double k) { return {i, j, k}; }
+// Bent inside a box of 4 x 3 x 5, whose sides stay flat.
+glm::dvec3 bent(double i, double j, double k) {
+    const double inside = i * (4 - i) * j * (3 - j) * k * (5 - k) / 100;
+    return {i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside};
+}
+
+// The same cells of points that are numbered otherwise.
+UnstructuredGrid renumbered(const UnstructuredGrid& grid, std::mt19937& random) {
+    std::vector<std::uint32_t> to(grid.points.size());
+    std::iota(to.begin(), to.end(), 0u);
+    std::ranges::shuffle(to, random);
+    UnstructuredGrid out = grid;
+    for (std::size_t i = 0; i < to.size(); ++i) out.points[to[i]] = grid.points[i];
+    for (std::uint32_t& corner : out.corners) corner = to[corner];
+    for (std::size_t cell = 0; cell < grid.faceEnds.size(); ++cell)
+        for (std::size_t at = (cell == 0 ? 0 : grid.faceEnds[cell - 1]) + 1;
+             at < grid.faceEnds[cell]; at += 1 + grid.faces[at])
+            for (std::size_t i = 1; i <= grid.faces[at]; ++i)
+                out.faces[at + i] = to[grid.faces[at + i]];
+    return out;
+}
+
+double volumeOf(const UnstructuredGrid& grid, const std::array<std::uint32_t, 4>& tet) {
+    const glm::dvec3& at = grid.points[tet[0]];
+    return std::abs(glm::dot(grid.points[tet[1]] - at,
+                             glm::cross(grid.points[tet[2]] - at, grid.points[tet[3]] - at))) /
+           6;
+}
+
+// Where every face within is of two tetrahedra, and every other one on the box's sides, they fill
+// the box: once, if that is their volume.
+TEST(SolidCells, PartsOfEveryShapeFillTheirGridAndMeetFaceToFace) {
+    std::mt19937 random(4);
+    for (const Cut cut : kCuts)
+        for (int turn = 0; turn < 5; ++turn) {
+            const UnstructuredGrid grid = renumbered(bricks({5, 4, 6}, cut, bent), random);
+            const auto solids = SolidCells::of(grid, grid.points.size());
+            ASSERT_TRUE(solids);
+            ASSERT_EQ(solids->count(), grid.types.size());
+            double volume = 0;
+            std::map<std::array<std::uint32_t, 3>, int> faces;
+            for (std::uint64_t cell = 0; cell < solids->count(); ++cell)
+                solids->forEachTet(cell, [&](const std::array<std::uint32_t, 4>& tet) {
+                    volume += volumeOf(grid, tet);
+                    for (std::size_t out = 0; out < 4; ++out) {
+                        std::array face{tet[(out + 1) % 4], tet[(out + 2) % 4], tet[(out + 3) % 4]};
+                        std::ranges::sort(face);
+                        ++faces[face];
+                    }
+                });
+            EXPECT_NEAR(volume, 60, 1e-9);
+            for (const auto& [face, times] : faces) {
+                const auto onSide = [&](int a, double side) {
+                    return std::ranges::all_of(
+                        face, [&](std::uint32_t point) { return grid.points[point][a] == side; });
+                };
+                const bool isOutside = onSide(0, 0) || onSide(0, 4) || onSide(1, 0) ||
+                                       onSide(1, 3) || onSide(2, 0) || onSide(2, 5);
+                ASSERT_EQ(times, isOutside ? 1 : 2);
+            }
+        }
+}
+
+// Each shape by itself, in every numbering of its corners: as large as its moments say.
+TEST(SolidCells, PartsOfAShapeAreAsLargeAsTheShape) {
+    const auto ring = [](int corners, double z) {
+        std::vector<glm::dvec3> at;
+        for (int i = 0; i < corners; ++i)
+            at.emplace_back(std::cos(2 * M_PI * i / corners), std::sin(2 * M_PI * i / corners), z);
+        return at;
+    };
+    const auto prism = [&](int corners) {
+        auto at = ring(corners, 0);
+        std::ranges::copy(ring(corners, 1.5), std::back_inserter(at));
+        return at;
+    };
+    auto pyramid = ring(4, 0);
+    pyramid.emplace_back(0.2, 0.1, 2);
+    auto tetrahedron = ring(3, 0);
+    tetrahedron.emplace_back(0.1, 0, 1);
+    std::mt19937 random(9);
+    for (const auto& [type, corners] :
+         std::map<std::uint8_t, std::vector<glm::dvec3>>{{10, tetrahedron},
+                                                         {12, prism(4)},
+                                                         {13, prism(3)},
+                                                         {14, pyramid},
+                                                         {15, prism(5)},
+                                                         {16, prism(6)}}) {
+        UnstructuredGrid one;
+        one.points = corners;
+        one.types = {type};
+        one.corners.resize(corners.size());
+        std::iota(one.corners.begin(), one.corners.end(), 0u);
+        one.ends = {corners.size()};
+        for (int turn = 0; turn < 20; ++turn) {
+            const UnstructuredGrid grid = renumbered(one, random);
+            const UnstructuredShapes shapes(grid);
+            double volume = 0;
+            SolidCells::of(grid, grid.points.size())->forEachTet(0, [&](const auto& tet) {
+                volume += volumeOf(grid, tet);
+            });
+            EXPECT_NEAR(volume, shapes.cells[0].volume, 1e-12) << int(type);
+        }
+    }
+}
+
+TEST(SolidCells, SurfacesAndPointsBesideThemAreLeftOut) {
+    UnstructuredGrid grid;
+    grid.points.resize(8);
+    addCell(grid, 5, {0, 1, 2});
+    addCell(grid, 1, {4});
+    EXPECT_EQ(SolidCells::of(grid, 8), nullptr);
+    addCell(grid, 10, {4, 5, 6, 7});
+    addCell(grid, 200, {1});
+    addCell(grid, 10, {0, 1, 2, 3});
+    const auto solids = SolidCells::of(grid, 8);
+    ASSERT_TRUE(solids);
+    ASSERT_EQ(solids->count(), 2u);
+    EXPECT_EQ(solids->corners(0).front(), 4u);
+    // One that has no values at all of its corners is no cell.
+    EXPECT_EQ(SolidCells::of(grid, 7)->count(), 1u);
+}
+
+// What lies between the corners is not a lattice's, and is not looked at.
+TEST(SolidCells, OfCurvedCellsTheCornersCount) {
+    UnstructuredGrid grid;
+    grid.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {9, 9, 9}};
+    addCell(grid, 24, {0, 1, 2, 3, 4, 4, 4, 4, 4, 4});
+    const auto solids = SolidCells::of(grid, 5);
+    ASSERT_TRUE(solids);
+    int tets = 0;
+    solids->forEachTet(0, [&](const auto& tet) {
+        ++tets;
+        EXPECT_NEAR(volumeOf(grid, tet), 1.0 / 6, 1e-15);
+    });
+    EXPECT_EQ(tets, 1);
+    EXPECT_EQ(solids->longest(), glm::dvec3(1));
+}
+
+TEST(SolidCells, MeshesOfPointsHaveThemAndMeshesOfCellsDoNot) {
+    const UnstructuredGrid grid = bricks({3, 3, 3}, Cut::Wedges, plain);
+    ASSERT_TRUE(tests::atPoints(grid).solids());
+    EXPECT_EQ(tests::atPoints(grid).solids()->count(), 16u);
+    EXPECT_FALSE(tests::atCells(grid).solids());
+    // Their points alike, cells that are not make another mesh.
+    EXPECT_EQ(tests::atPoints(grid), tests::atPoints(grid));
+    UnstructuredGrid other = grid;
+    std::swap(other.corners[1], other.corners[2]);
+    EXPECT_FALSE(tests::atPoints(grid) == tests::atPoints(other));
+}
+
+}  // namespace
+}  // namespace timeseries

@@ -1,0 +1,62 @@
+#include "timeseries/grid/solid_cells.h"
+
+#include <glm/common.hpp>
+#include <limits>
+
+namespace timeseries {
+
+std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
+                                                 std::uint64_t points) {
+    auto solids = std::make_shared<SolidCells>();
+    for (std::uint64_t cell = 0; cell < grid.types.size(); ++cell) {
+        const CellType* type = cellTypeOf(grid.types[cell]);
+        if (type && type->dimension == 3) solids->add(grid, cell, points);
+    }
+    if (solids->types_.empty()) return nullptr;
+    solids->measure(grid.points);
+    return solids;
+}
+
+void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points) {
+    const bool isPolyhedron = grid.types[cell] == kPolyhedron;
+    const std::size_t facesBefore = faces_.size();
+    bool isThere = true;  // all of its corners
+    if (isPolyhedron) {
+        const auto list = listOf(grid.faces, grid.faceEnds, cell);
+        std::size_t at = 1;
+        for (std::uint32_t left = list.empty() ? 0 : list[0]; left > 0; --left) {
+            const auto face = list.subspan(at, 1 + list[at]);
+            for (const std::uint32_t point : face.subspan(1)) isThere = isThere && point < points;
+            faces_.insert(faces_.end(), face.begin(), face.end());
+            at += face.size();
+        }
+    }
+    auto corners = listOf(grid.corners, grid.ends, cell);
+    if (!isPolyhedron) corners = corners.first(cellTypeOf(grid.types[cell])->corners);
+    for (const std::uint32_t point : corners) isThere = isThere && point < points;
+    if (!isThere || corners.empty()) return faces_.resize(facesBefore);
+    types_.push_back(grid.types[cell]);
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    ends_.push_back(corners_.size());
+    // Only where there are any.
+    if (isPolyhedron || !faces_.empty()) faceEnds_.resize(types_.size(), facesBefore);
+    if (isPolyhedron) faceEnds_.back() = faces_.size();
+}
+
+void SolidCells::measure(const std::vector<glm::dvec3>& points) {
+    for (std::uint64_t cell = 0; cell < count(); ++cell) {
+        glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
+        for (const std::uint32_t corner : corners(cell)) {
+            lo = glm::min(lo, points[corner]);
+            hi = glm::max(hi, points[corner]);
+        }
+        longest_ = glm::max(longest_, hi - lo);
+    }
+}
+
+std::uint64_t SolidCells::bytes() const {
+    return types_.size() + (ends_.size() + faceEnds_.size()) * sizeof(std::uint64_t) +
+           (corners_.size() + faces_.size()) * sizeof(std::uint32_t);
+}
+
+}  // namespace timeseries
