@@ -27,13 +27,10 @@ glm::dvec3 direction(std::mt19937_64& random) {
 
 template <typename T>
 std::vector<T> samples(const Function& function, const timeseries::Grid& grid, double t) {
-    const auto& [x, y, z] = grid.axes();
     std::vector<T> values;
     values.reserve(grid.count());
-    for (const double pz : z.coordinates)
-        for (const double py : y.coordinates)
-            for (const double px : x.coordinates)
-                values.push_back(static_cast<T>(function({px, py, pz}, t)));
+    for (std::uint64_t i = 0; i < grid.count(); ++i)
+        values.push_back(static_cast<T>(function(grid.position(i), t)));
     return values;
 }
 

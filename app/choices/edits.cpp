@@ -83,9 +83,6 @@ std::optional<double> valuePassed(const SortedStep& step, double from, End end, 
                             : fmt::format("{}", *next));
 }
 
-std::pair<double, double> endsOf(const timeseries::Axis& axis) {
-    return std::minmax(axis.coordinates.front(), axis.coordinates.back());
-}
 // Short enough for a field; floats that were stored as such read as they were written.
 std::string sideText(double coordinate) { return fmt::format("{:.7g}", coordinate); }
 
@@ -153,8 +150,7 @@ RangeSet with(const RangeSet& ranges, const Range& added) {
 
 std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
                                    std::size_t axis, End end, double coordinate) {
-    const auto& along = grid.axes()[axis].coordinates;
-    const auto [least, most] = std::minmax(along.front(), along.back());
+    const auto [least, most] = grid.ends(axis);
     const ClipBox open{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
     ClipBox box = clip.value_or(open);
     double &lo = box.lo[static_cast<int>(axis)], &hi = box.hi[static_cast<int>(axis)];
@@ -168,8 +164,7 @@ std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const tim
 std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
                                     const timeseries::Grid& grid, std::size_t axis,
                                     std::string_view text) {
-    const timeseries::Axis& along = grid.axes()[axis];
-    const auto [least, most] = endsOf(along);
+    const auto [least, most] = grid.ends(axis);
     const auto isBlank = [](char c) { return c == ' '; };
     Range range{{-kInfinity}, {kInfinity}};
     if (!std::ranges::all_of(text, isBlank)) {
@@ -190,8 +185,7 @@ std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
         throw ChoiceError(fmt::format(
             "clip '{}': the points of this grid lie in no plane: give a range, from:to", text));
     } else if (lo == hi && std::isfinite(lo)) {
-        lo = hi = *std::ranges::min_element(along.coordinates, {},
-                                            [&](double plane) { return std::abs(plane - lo); });
+        lo = hi = grid.nearestPlane(axis, lo);
     } else {
         if (sideText(lo) == sideText(least)) lo = -kInfinity;
         if (sideText(hi) == sideText(most)) hi = kInfinity;
@@ -206,7 +200,7 @@ std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
 
 std::string clipSideText(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
                          std::size_t axis) {
-    const auto [least, most] = endsOf(grid.axes()[axis]);
+    const auto [least, most] = grid.ends(axis);
     const int i = static_cast<int>(axis);
     const double lo = clip ? std::max(clip->lo[i], least) : least,
                  hi = clip ? std::min(clip->hi[i], most) : most;

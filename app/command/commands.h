@@ -16,7 +16,8 @@ int measureModes(const MeasureOptions& options);
 int index(const IndexOptions& options);
 // Lists the files of sorted steps, or removes them.
 int cache(const CacheOptions& options);
-// Opens a window; returns when it is closed.
-int view(const ViewOptions& options);
+// A headset session where there is a headset, else a window. When both are over the program ends
+// here, without what else would be destroyed: a read that nobody waits for may still run.
+[[noreturn]] int view(const ViewOptions& options);
 
 }  // namespace app

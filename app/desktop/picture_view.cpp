@@ -45,7 +45,8 @@ glm::ivec2 PictureView::eyeSize(const panels::Rect& place, Stereo mode) {
 }
 
 bool PictureView::isCurrent(const Shown& shown) const {
-    return drawn_ && drawn_->sorted == shown.sorted && drawn_->explorer == drawnOf(shown.explorer);
+    return content_ && content_->sorted == shown.sorted &&
+           content_->explorer == drawnOf(shown.explorer);
 }
 
 void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place,
@@ -92,20 +93,21 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
         (report_.gpuCells ? cellPace_ : points).took(report_.gpuSplats, *report_.gpuTime);
     if (timed_) performance_.frame = *report_.gpuTime;
     performance_ = {performance_.frame, frameBudget, report_, performance_.picture + 1};
-    drawn_ = Drawn{drawnOf(e), shown.sorted};
+    content_ = Content{drawnOf(e), shown.sorted};
     predictError();
     if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->placed->boxHalfEdges();
 }
 
 bool PictureView::waitsForError() const {
-    return drawn_ && isDone() && !measured_ && eyes_.size() == 1 && hasDepthError(*drawn_->sorted);
+    return content_ && isDone() && !measured_ && eyes_.size() == 1 &&
+           hasDepthError(*content_->sorted);
 }
 
 void PictureView::tellError() {
-    auto errors = error_.of({drawn_->sorted, drawn_->explorer, eyes_.front()});
+    auto errors = error_.of({content_->sorted, content_->explorer, eyes_.front()});
     if (!errors) return;
     errors_ = std::move(errors);
-    errorsOf_ = selectionOf(drawn_->explorer);
+    errorsOf_ = selectionOf(content_->explorer);
     predictError();
     measured_ = true;
 }
@@ -114,7 +116,7 @@ void PictureView::tellError() {
 void PictureView::predictError() {
     measured_ = false;
     performance_.errors =
-        errorsOf_ == selectionOf(drawn_->explorer) ? errors_ : std::optional<DepthErrors>();
+        errorsOf_ == selectionOf(content_->explorer) ? errors_ : std::optional<DepthErrors>();
 }
 
 void PictureView::took(std::chrono::nanoseconds frame) {
@@ -122,7 +124,7 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 }
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
-    if (!drawn_ || (isDone() && (playing_ || !waitsForError()))) return std::nullopt;
+    if (!content_ || (isDone() && (playing_ || !waitsForError()))) return std::nullopt;
     const bool goesOn = !isDone() && (report_.uploaded < 1 || (report_.refined > 0 && !playing_));
     return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
 }

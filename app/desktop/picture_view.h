@@ -54,7 +54,7 @@ class PictureView {
  private:
     using Clock = std::chrono::steady_clock;
     // What the kept picture shows.
-    struct Drawn {
+    struct Content {
         Explorer explorer;
         std::shared_ptr<const timeseries::SortedStep> sorted;
     };
@@ -73,7 +73,7 @@ class PictureView {
     // While points are refined: a slice of them has no axes to draw, and its splats are others.
     std::optional<render::FramePace> slices_;
     std::optional<render::KeptPicture> kept_;
-    std::optional<Drawn> drawn_;
+    std::optional<Content> content_;
     CanvasReport report_;
     panels::Performance performance_;
     PictureError error_;

@@ -101,7 +101,7 @@ struct Canvas::State {
     // The step on the screen takes other choices, if all that they select is there to be drawn.
     void choose(const Explorer& choices);
     bool isThere(const GlSteps::Held& held, const render::Scene& scene) const {
-        return !renderer.takesPointsFromGpu(scene) || held.onGpu.ready(scene);
+        return !renderer.splatters().takesPointsFromGpu(scene) || held.onGpu.ready(scene);
     }
     // What stands there in what was shown last.
     std::optional<render::Picked> pick(const render::View& eye, const glm::dvec2& window) const;
@@ -139,7 +139,7 @@ GlSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limi
     const bool onScreen = screen && screen->held == &held;
     // While the picture moves, points may stand for cells.
     const render::Scene points = byPoints(scene);
-    if (renderer.takesPointsFromGpu(points)) {
+    if (renderer.splatters().takesPointsFromGpu(points)) {
         std::optional<render::ValueScale> scale = render::neededScale(points);
         if (scale) scale = held.onGpu.serving(*scale);
         constexpr std::uint64_t kOnScreen = 8;
@@ -169,7 +169,7 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
     CanvasReport report;
     const GlSteps::Held& coming = bring(shown, limits, moving, report);
     steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
-    report.gpuBytes = steps.bytes() + renderer.cellBytes();
+    report.gpuBytes = steps.bytes() + renderer.splatters().cellBytes();
     if (const auto timed = of.poll()) {
         report.gpuTime = timed->took;
         report.gpuSplats = timed->label >> 1;

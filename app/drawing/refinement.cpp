@@ -22,15 +22,14 @@ Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
       eyes_(eyes.begin(), eyes.end()),
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
       onGpu_(onGpu) {
-    if (!picture_.scene.cells) order_.begin(picture_.scene, render::midEye(eyes_));
+    order_.begin(picture_.scene, render::midEye(eyes_));
+    if (!order_.done()) ordering_ = kOrdering;
 }
 
 bool Refinement::order() {
     if (frame_) return true;
-    const bool byCells = picture_.scene.cells != nullptr;  // which come in an order of their own
-    if (!byCells && !orderPoints()) return false;
-    frame_.emplace(
-        renderer_.prepare(content_, onGpu_, eyes_, byCells ? render::DrawList() : order_.take()));
+    if (!orderPoints()) return false;
+    frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_, order_.take()));
     for (const render::View& eye : eyes_) cost_ += renderer_.cost(*frame_, eye);
     return true;
 }
@@ -61,11 +60,9 @@ double Refinement::goOn(double cost,
 }
 
 double Refinement::share() const {
-    const bool isListed = !picture_.scene.cells && picture_.scene.order != render::Order::None;
-    const double ordering = isListed ? kOrdering : 0;
-    if (!frame_) return isListed ? ordering * order_.share() : 0;
+    if (!frame_) return ordering_ * order_.share();
     const double drawn = cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1;
-    return ordering + (1 - ordering) * drawn;
+    return ordering_ + (1 - ordering_) * drawn;
 }
 
 }  // namespace app

@@ -43,6 +43,7 @@ class Refinement {
     const render::FrameContent content_;
     const render::GlStep& onGpu_;
     render::DepthOrder order_;
+    double ordering_ = 0;  // its share of all that is to be done
     std::optional<const render::FrameRenderer::Prepared> frame_;  // once it is ordered
     double cost_ = 0, drawn_ = 0;  // of all eyes, and of what is drawn
     std::size_t eye_ = 0;          // to go on with

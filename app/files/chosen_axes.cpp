@@ -28,14 +28,9 @@ class Grids {
         const auto known = made_.find(file);
         std::shared_ptr<const Grid> grid = known == made_.end() ? nullptr : known->second;
         if (!grid) {
-            std::array<timeseries::Axis, 3> axes = file->axes();
-            for (std::size_t a = 0; a < 3; ++a) {
-                axes[a].down = axes[a].down != chosen_[a].flip;
-                if (!chosen_[a].name.empty()) axes[a].name = chosen_[a].name;
-            }
-            grid = file->mesh() ? std::make_shared<const Grid>(std::move(axes), file->mesh(),
-                                                               file->ofOneStep())
-                                : std::make_shared<const Grid>(std::move(axes), file->frame());
+            grid = std::make_shared<const Grid>(
+                file->relabelled({chosen_[0].name, chosen_[1].name, chosen_[2].name},
+                                 {chosen_[0].flip, chosen_[1].flip, chosen_[2].flip}));
         }
         return grid;
     }

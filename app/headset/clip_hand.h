@@ -1,4 +1,4 @@
-// Moving the faces of the clip box by hand. Pure: poses in, edits out.
+// Moving the faces of the clip box by hand: from poses edits of the exploration; knows no runtime.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// The value and the time, played by hand: thumbsticks move the window of values and the step. Pure.
+// The value and the time, played by hand: thumbsticks move the window of values and the step.
+// Edits the exploration; knows no runtime.
 #pragma once
 
 #include <chrono>

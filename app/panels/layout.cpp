@@ -154,7 +154,7 @@ HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::
     return {{glm::floor(picture.centre() - half), glm::floor(picture.centre() + half)}, s};
 }
 
-LeftOfferLayout leftOfferLayout(const Rect& picture, float scale) {
+RecoveryOfferLayout recoveryOfferLayout(const Rect& picture, float scale) {
     const float s = scale, half = std::min(170 * s, 0.5f * picture.size().x - 8 * s);
     const float x = picture.centre().x, y = picture.min.y + 14 * s, right = x + half;
     return {.whole = crisp(box(x - half, y, right, y + 32 * s)),

@@ -102,10 +102,10 @@ constexpr float kHelpLine = 23, kHelpGroup = 14;
 HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups);
 
 // Over the picture: a session that broke off, while other data are shown.
-struct LeftOfferLayout {
+struct RecoveryOfferLayout {
     Rect whole, goOn, discard;
 };
-LeftOfferLayout leftOfferLayout(const Rect& picture, float scale);
+RecoveryOfferLayout recoveryOfferLayout(const Rect& picture, float scale);
 
 // The ends of an axis that shows all from lo to hi, with a little room; both finite, lo <= hi.
 std::pair<double, double> withRoom(double lo, double hi);

@@ -7,7 +7,7 @@ namespace app::panels {
 void drawRecoveryOffer(PanelContext& context, const std::filesystem::path& session) {
     const Theme& theme = context.theme;
     const float s = theme.scale;
-    const LeftOfferLayout at = leftOfferLayout(context.layout.picture, s);
+    const RecoveryOfferLayout at = recoveryOfferLayout(context.layout.picture, s);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.whole.min), im(at.whole.max), faded(kField, 0.95f), 16 * s);
     list.AddRect(im(at.whole.min), im(at.whole.max), kLine, 16 * s);

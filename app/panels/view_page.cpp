@@ -69,10 +69,9 @@ void ViewPage::clip(PanelContext& context, Form& form) {
     const float s = context.theme.scale;
     for (int i = 0; i < 3; ++i) {
         const auto place = static_cast<std::size_t>(i);
+        const double least = grid.ends(place).least, most = grid.ends(place).most;
+        if (least == most) continue;
         const timeseries::Axis& axis = grid.axes()[place];
-        if (axis.coordinates.size() < 2) continue;
-        const double least = std::min(axis.coordinates.front(), axis.coordinates.back());
-        const double most = std::max(axis.coordinates.front(), axis.coordinates.back());
         const ClipBox now = context.exploration.explorer().clip.value_or(
             ClipBox{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)});
         const double width = most - least;

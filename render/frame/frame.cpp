@@ -4,12 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "render/gl/debug_output.h"
 #include "render/model/splat_cost.h"
-#include "render/reference/exact_order.h"
 
 namespace render {
 namespace {
@@ -27,27 +25,17 @@ glm::dvec3 midEye(std::span<const View> eyes) {
     return sum / static_cast<double>(eyes.size());
 }
 
-// A driver that draws on the processor takes several times longer for point sprites than the
-// program does for their pixels (tests/bench/NOTES.md).
 FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
-    : styles_(stylesFor({64, 64})),
-      font_(styles_),
-      by_(splatter == SplatterChoice::ByDevice
-              ? (gl::drawsOnProcessor() ? SplatterChoice::Cpu : SplatterChoice::Gl)
-              : splatter),
-      as_(as) {
+    : styles_(stylesFor({64, 64})), font_(styles_), splatters_(splatter), as_(as) {
     inMemory_.setFont(font_);
-    if (by_ != SplatterChoice::Gl) return;
-    mostCellBytes_ = GlCellSplatter::mostBytes();
-    mostMeshBytes_ = GlMesh::mostBytes();
 }
 
-FrameRenderer::Gl& FrameRenderer::needGl() {
-    if (!gl_) {
-        gl_ = std::make_unique<Gl>();
-        gl_->light.setFont(font_);
+GlLight& FrameRenderer::glLight() {
+    if (!onGl_) {
+        onGl_ = std::make_unique<GlLight>(splatters_.gl().layerBlock());
+        onGl_->setFont(font_);
     }
-    return *gl_;
+    return *onGl_;
 }
 
 void FrameRenderer::makeRoom(std::span<const View> eyes, const LightPass& light) {
@@ -64,7 +52,7 @@ void FrameRenderer::makeRoom(std::span<const View> eyes, const LightPass& light)
     const auto styles = stylesFor(eyes.front().size);
     if (styles == styles_) return;
     font_ = Font(styles);
-    if (gl_) gl_->light.setFont(font_);
+    if (onGl_) onGl_->setFont(font_);
     styles_ = styles;
 }
 
@@ -79,7 +67,7 @@ Targets& FrameRenderer::use(glm::ivec2 size, const LightPass& light) {
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GlStep& step,
                                                std::span<const View> eyes) {
-    return prepare(content, step, eyes, listFor(content.scene, eyes));
+    return prepare(content, step, eyes, splatters_.order(content.scene, midEye(eyes)));
 }
 
 FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, const GlStep& step,
@@ -95,38 +83,15 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     ++orders_;
     const Scene& scene = content.scene;
     // The upload of points does it.
-    if (&light != &inMemory_ && !takesPointsFromGpu(scene))
-        needGl().splatter.setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatsOf(scene, std::move(list), step), midEye(eyes), light, as};
-}
-
-std::unique_ptr<SplatFrame> FrameRenderer::splatsOf(const Scene& scene, DrawList list,
-                                                    const GlStep& step) {
-    if (!scene.cells || !byGl(scene)) return splatter(scene).prepare(scene, std::move(list), step);
-    try {
-        return needGl().cells.prepare(scene, list, step);
-    } catch (const std::runtime_error&) {  // the GPU has no room: the program draws them
-        mostCellBytes_ = 0;
-        return processor_.prepare(scene, std::move(list), step);
-    }
+    if (&light != &inMemory_ && !splatters_.takesPointsFromGpu(scene))
+        splatters_.gl().setLayers(scene, ValueScale::of(scene.layers));
+    return {content, splatters_.prepare(scene, std::move(list), step), midEye(eyes), light, as};
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
-    if (byGl(content.scene) || !MemoryLight::canDraw(content.placards, eyes)) return needGl().light;
+    if (splatters_.sumsByGl(content.scene) || !MemoryLight::canDraw(content.placards, eyes))
+        return glLight();
     return inMemory_;
-}
-
-Splatter& FrameRenderer::splatter(const Scene& scene) {
-    if (takesPointsFromGpu(scene)) return needGl().splatter;
-    if (byGl(scene)) return needGl().cells;
-    if (!scene.cells && by_ == SplatterChoice::Exact) return exact_;
-    return processor_;
-}
-
-DrawList FrameRenderer::listFor(const Scene& scene, std::span<const View> eyes) {
-    if (scene.cells) return Runs{};  // cells come in an order of their own
-    return by_ == SplatterChoice::Exact ? orderExactly(scene, midEye(eyes))
-                                        : order_(scene, midEye(eyes));
 }
 
 void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
@@ -188,9 +153,10 @@ double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GlStep& step,
                                               std::span<const View> eyes, const Extras& extras) {
-    if (takesPointsFromGpu(content.scene)) step.upload(content.scene, neededScale(content.scene));
+    const Scene& scene = content.scene;
+    if (splatters_.takesPointsFromGpu(scene)) step.upload(scene, neededScale(scene));
     const Prepared frame =
-        prepare(content, step, eyes, listFor(content.scene, eyes), LightAs::Linear);
+        prepare(content, step, eyes, splatters_.order(scene, midEye(eyes)), LightAs::Linear);
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
         drawWhole(frame, eye, extras.progress);
@@ -198,14 +164,14 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GlSte
     }
     if (extras.opticalDepth || extras.splatCount)
         addData(content, step, eyes, frame.light, extras, pictures);
-    if (gl_) gl::throwOnError();
+    if (splatters_.hasGl()) gl::throwOnError();
     return pictures;
 }
 
 void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                                  std::span<const View> eyes,
                                  const std::function<void(std::size_t eye, Targets&)>& show) {
-    GlLight& light = needGl().light;
+    GlLight& light = glLight();
     makeRoom(eyes, light);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         light.drawPlacards(placards, background, eyes[i], use(eyes[i].size, light));
@@ -244,8 +210,8 @@ void FrameRenderer::addData(const FrameContent& content, GlStep& step, std::span
                             std::vector<EyePicture>& pictures) {
     Scene scene = content.scene;
     scene.order = Order::None;
-    if (takesPointsFromGpu(scene)) step.upload(scene, neededScale(scene));
-    const auto splats = splatsOf(scene, Runs{}, step);
+    if (splatters_.takesPointsFromGpu(scene)) step.upload(scene, neededScale(scene));
+    const auto splats = splatters_.prepare(scene, Runs{}, step);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         EyePicture& picture = pictures[i];
         if (extras.splatCount)

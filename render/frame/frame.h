@@ -11,12 +11,7 @@
 
 #include "render/frame/gl_light.h"
 #include "render/frame/memory_light.h"
-#include "render/gl/driver.h"
-#include "render/reference/exact_splatter.h"
-#include "render/splat/depth_order.h"
-#include "render/splat/gl_cell_splatter.h"
-#include "render/splat/gl_list.h"
-#include "render/splat/processor_splatter.h"
+#include "render/frame/splatters.h"
 
 namespace render {
 
@@ -45,8 +40,8 @@ struct Extras {
 // Where all eyes' draw list is made for.
 glm::dvec3 midEye(std::span<const View> eyes);
 
-// Needs a current GL context, from construction to destruction, unless it is Cpu or Exact and what
-// it draws has neither placards nor hidden areas.
+// Needs a current GL context, from construction to destruction, unless its splatter needs none
+// (render/frame/splatters.h) and what it draws has neither placards nor hidden areas.
 class FrameRenderer {
  public:
     // `as`: what front ends want of light that the program makes in memory.
@@ -59,8 +54,7 @@ class FrameRenderer {
     std::vector<EyePicture> render(const FrameContent& content, GlStep& step,
                                    std::span<const View> eyes, const Extras& extras = {});
 
-    // Whether drawing takes the scene's points from the GPU: GL sums them, and no cells.
-    bool takesPointsFromGpu(const Scene& scene) const { return byGl(scene) && !scene.cells; }
+    const Splatters& splatters() const { return splatters_; }
     // render() in its parts, for front ends that show the light instead of reading it. REQUIRES: a
     // step that is ready for the scene, if its points are taken from it.
     struct Prepared {
@@ -99,9 +93,6 @@ class FrameRenderer {
                       const std::function<void(std::size_t eye, Targets&)>& show);
     Targets& targets() { return *targets_[current_].targets; }  // of the eye drawn last
 
-    // That cells take on the GPU; points: GlStep::bytes.
-    std::uint64_t cellBytes() const { return gl_ ? gl_->cells.bytes() : 0; }
-
     struct Counts {
         std::uint64_t orders = 0, eyes = 0;
     };
@@ -113,23 +104,8 @@ class FrameRenderer {
     Targets& use(glm::ivec2 size, const LightPass& light);  // which targets() then are
     Prepared prepare(const FrameContent& content, const GlStep& step, std::span<const View> eyes,
                      DrawList list, LightAs as);
-    struct Gl {
-        GlSplatter splatter;
-        GlCellSplatter cells{splatter};
-        GlLight light{splatter.layerBlock()};
-    };
-    Gl& needGl();  // made when it is first needed
+    GlLight& glLight();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
-    // Whether GL sums the scene; else the program does it itself.
-    bool byGl(const Scene& scene) const {
-        if (by_ != SplatterChoice::Gl) return false;
-        if (scene.cells) return !scene.placed.isMesh() && GlCells::fit(scene, mostCellBytes_);
-        const auto& mesh = scene.placed.mesh();
-        return !mesh || GlMesh::bytesOf(*mesh) <= mostMeshBytes_;
-    }
-    Splatter& splatter(const Scene& scene);
-    std::unique_ptr<SplatFrame> splatsOf(const Scene& scene, DrawList list, const GlStep& step);
-    DrawList listFor(const Scene& scene, std::span<const View> eyes);
     std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
     bool drawSplats(EyeInWork& work, double cost);
     void drawWhole(const Prepared& frame, const View& eye,
@@ -143,19 +119,15 @@ class FrameRenderer {
 
     std::array<FontStyle, 2> styles_;  // that font_ holds
     Font font_;
-    DepthOrder order_;
-    ProcessorSplatter processor_;
-    ExactSplatter exact_;
+    Splatters splatters_;
     MemoryLight inMemory_;
-    std::unique_ptr<Gl> gl_;
+    std::unique_ptr<GlLight> onGl_;
     struct Held {
         const LightPass* of;
         std::unique_ptr<Targets> targets;
     };
     std::vector<Held> targets_;  // all of different sizes
     std::size_t current_ = 0;
-    SplatterChoice by_;                                    // never ByDevice
-    std::uint64_t mostCellBytes_ = 0, mostMeshBytes_ = 0;  // on the GPU, where that draws
     LightAs as_;
     std::uint64_t orders_ = 0, eyes_ = 0;
 };

@@ -25,9 +25,8 @@ PlainFrame::PlainFrame(glm::ivec2 size, const glm::dvec3& background)
 }
 
 void PlainFrame::draw(const Scene& scene, const View& view) {
-    // Cells come in an order of their own.
-    DrawList list = scene.cells ? DrawList(Runs{}) : order_(scene, pixelRays(view).eye);
-    const auto splats = splatter_.prepare(scene, std::move(list), GlStep(scene.step, scene.placed));
+    const auto splats = splatter_.prepare(scene, splatter_.order(scene, pixelRays(view).eye),
+                                          GlStep(scene.step, scene.placed));
     light_.drawDepth({}, {}, view, targets_);
     const std::vector<Channels> channels = channelsFor(scene);
     for (std::size_t i = 0; i < channels.size(); ++i) sum(*splats, view, channels[i], i, targets_);

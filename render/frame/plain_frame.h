@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "render/frame/memory_light.h"
-#include "render/splat/depth_order.h"
 #include "render/splat/memory_targets.h"
 #include "render/splat/processor_splatter.h"
 
@@ -29,7 +28,6 @@ class PlainFrame {
     MemoryTargets targets_;
     MemoryLight light_;
     ProcessorSplatter splatter_;
-    DepthOrder order_;
 };
 
 // Of all layers together, whatever the scene's order. [y][x], row 0 at the bottom. On any thread;

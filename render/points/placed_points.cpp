@@ -253,13 +253,10 @@ IndexBox indexBox(const Grid& grid, const glm::dvec3& lo, const glm::dvec3& hi) 
     if (grid.mesh()) return {.from = lo, .to = hi};
     IndexBox box{glm::uvec3(1), glm::uvec3(0)};
     for (int a = 0; a < 3; ++a) {
-        const auto& c = grid.axes()[a].coordinates;
-        const auto inside = [&](double x) { return lo[a] <= x && x <= hi[a]; };
-        const auto first = std::find_if(c.begin(), c.end(), inside);
-        if (first == c.end()) return {glm::uvec3(1), glm::uvec3(0)};
-        const auto past = std::find_if_not(first, c.end(), inside);  // monotonic: one stretch
-        box.lo[a] = static_cast<std::uint32_t>(first - c.begin());
-        box.hi[a] = static_cast<std::uint32_t>(past - c.begin() - 1);
+        const auto places = grid.placesWithin(static_cast<std::size_t>(a), lo[a], hi[a]);
+        if (!places) return {glm::uvec3(1), glm::uvec3(0)};
+        box.lo[a] = static_cast<std::uint32_t>(places->first);
+        box.hi[a] = static_cast<std::uint32_t>(places->last);
     }
     return box;
 }

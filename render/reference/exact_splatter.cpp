@@ -80,9 +80,9 @@ class Plane final : public PlaneSum {
     std::uint64_t passed_ = 0;  // of the sorted list, the farthest first
 };
 
-class Frame final : public SplatFrame {
+class ExactFrame final : public SplatFrame {
  public:
-    Frame(const Scene& scene, DrawList list) : scene_(scene), list_(std::move(list)) {}
+    ExactFrame(const Scene& scene, DrawList list) : scene_(scene), list_(std::move(list)) {}
 
     std::uint64_t splats(Channels, std::size_t layer) const override {
         if (const auto* sorted = std::get_if<Sorted>(&list_)) return sorted->point.size();
@@ -102,7 +102,7 @@ class Frame final : public SplatFrame {
 
 std::unique_ptr<SplatFrame> ExactSplatter::prepare(const Scene& scene, DrawList list,
                                                    const GlStep&) {
-    return std::make_unique<Frame>(scene, std::move(list));
+    return std::make_unique<ExactFrame>(scene, std::move(list));
 }
 
 }  // namespace render

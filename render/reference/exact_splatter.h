@@ -4,12 +4,16 @@
 
 #include <vector>
 
+#include "render/reference/exact_order.h"
 #include "render/splat/splatter.h"
 
 namespace render {
 
 class ExactSplatter final : public Splatter {
  public:
+    DrawList order(const Scene& scene, const glm::dvec3& midEye) override {
+        return orderExactly(scene, midEye);
+    }
     // Asks nothing of the step on the GPU.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GlStep& step) override;

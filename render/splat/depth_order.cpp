@@ -43,7 +43,7 @@ using Counts = std::array<std::uint32_t, kHalf>;
 }  // namespace
 
 void DepthOrder::begin(const Scene& scene, const glm::dvec3& midEye) {
-    ordered_ = scene.order == Order::BackToFront;
+    ordered_ = scene.order == Order::BackToFront && !scene.cells;
     phase_ = ordered_ ? Phase::List : Phase::Done;
     if (!ordered_) return;
     scene_ = &scene;

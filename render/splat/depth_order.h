@@ -16,8 +16,9 @@ namespace render {
 
 // Made once for both eyes: distance from the point midway between them, so that turning the head
 // changes nothing. Keys are the distance in 2^22 steps over the sphere about the grid's box; ties
-// keep the order of value. Serves one frame after another, and keeps what it makes them in: pages
-// that are new cost as much as what is done with them.
+// keep the order of value. Cells come in an order of their own, and have no list. Serves one frame
+// after another, and keeps what it makes them in: pages that are new cost as much as what is done
+// with them.
 class DepthOrder {
  public:
     // All at once.

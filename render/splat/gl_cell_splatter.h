@@ -21,6 +21,7 @@ class GlCellSplatter final : public Splatter {
     static std::uint64_t mostBytes();
     std::uint64_t bytes() const { return cells_ ? cells_->bytes() : 0; }  // that they take now
 
+    DrawList order(const Scene&, const glm::dvec3&) override { return Runs{}; }
     // Asks nothing of the step on the GPU. REQUIRES: GlCells::fit(scene, mostBytes()). Throws
     // std::runtime_error where there is no room.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,

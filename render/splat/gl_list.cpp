@@ -59,8 +59,8 @@ bool drawnAlike(const Piece& a, const Piece& b) {
 
 }  // namespace
 
-GpuList::GpuList(const Scene& scene, const DrawList& list, const GlStep& step,
-                 const ValueScale& scale)
+GlList::GlList(const Scene& scene, const DrawList& list, const GlStep& step,
+               const ValueScale& scale)
     : scene_(scene), step_(step), cubes_(scene.placed.cubes()), pieces_(piecesOf(scene, list)) {
     if (const auto* sorted = std::get_if<Sorted>(&list)) {
         const std::vector<SortedPoint> points = gathered(scene, *sorted, scale);
@@ -84,14 +84,14 @@ GpuList::GpuList(const Scene& scene, const DrawList& list, const GlStep& step,
     }
 }
 
-std::span<const Piece> GpuList::pieces(Channels channels, std::size_t layer) const {
+std::span<const Piece> GlList::pieces(Channels channels, std::size_t layer) const {
     const bool alone = channels == Channels::Over || channels == Channels::Count;
     if (alone || sorted_) return pieces_;
     return {std::ranges::lower_bound(pieces_, layer, {}, &Piece::layer),
             std::ranges::upper_bound(pieces_, layer, {}, &Piece::layer)};
 }
 
-void GpuList::draw(bool quads, std::span<const Piece> pieces) const {
+void GlList::draw(bool quads, std::span<const Piece> pieces) const {
     glBindVertexArray((quads ? quads_ : points_).id());
     // Where there are no arrays of them.
     glVertexAttrib1f(1, 0);

@@ -9,10 +9,10 @@
 
 namespace render {
 
-class GpuList {
+class GlList {
  public:
     // Both must outlive the list. REQUIRES: a step that is ready for the scene.
-    GpuList(const Scene& scene, const DrawList& list, const GlStep& step, const ValueScale& scale);
+    GlList(const Scene& scene, const DrawList& list, const GlStep& step, const ValueScale& scale);
 
     const Scene& scene() const { return scene_; }
     const GlStep& step() const { return step_; }

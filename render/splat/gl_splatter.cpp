@@ -89,7 +89,7 @@ constexpr int kMapEntries = 257;  // the most that a ColorMap has
 
 class GlPlane final : public PlaneSum {
  public:
-    GlPlane(GlSplatter& splatter, const GpuList& list, const View& view, Channels channels,
+    GlPlane(GlSplatter& splatter, const GlList& list, const View& view, Channels channels,
             std::size_t layer, GLuint framebuffer)
         : splatter_(splatter),
           list_(list),
@@ -111,7 +111,7 @@ class GlPlane final : public PlaneSum {
 
  private:
     GlSplatter& splatter_;
-    const GpuList& list_;
+    const GlList& list_;
     const View& view_;
     Channels channels_;
     GLuint framebuffer_;
@@ -120,7 +120,7 @@ class GlPlane final : public PlaneSum {
 
 class GlFrame final : public SplatFrame {
  public:
-    GlFrame(GlSplatter& splatter, std::unique_ptr<GpuList> list)
+    GlFrame(GlSplatter& splatter, std::unique_ptr<GlList> list)
         : splatter_(splatter), list_(std::move(list)) {}
 
     std::uint64_t splats(Channels channels, std::size_t layer) const override {
@@ -136,7 +136,7 @@ class GlFrame final : public SplatFrame {
 
  private:
     GlSplatter& splatter_;
-    std::unique_ptr<GpuList> list_;
+    std::unique_ptr<GlList> list_;
 };
 
 }  // namespace
@@ -209,14 +209,14 @@ void GlSplatter::setLayers(const Scene& scene, const ValueScale& scale) {
     layers_.write(0, sizeof block, &block);
 }
 
-std::unique_ptr<GpuList> GlSplatter::upload(const Scene& scene, const DrawList& list,
-                                            const GlStep& step) {
+std::unique_ptr<GlList> GlSplatter::upload(const Scene& scene, const DrawList& list,
+                                           const GlStep& step) {
     ++counts_.uploads;
     // A sorted list brings its own values.
     const bool own = std::holds_alternative<Sorted>(list) || step.values() == nullptr;
     const ValueScale scale = own ? ValueScale::of(scene.layers) : step.valueScale();
     setLayers(scene, scale);
-    return std::make_unique<GpuList>(scene, list, step, scale);
+    return std::make_unique<GlList>(scene, list, step, scale);
 }
 
 std::unique_ptr<SplatFrame> GlSplatter::prepare(const Scene& scene, DrawList list,
@@ -224,12 +224,12 @@ std::unique_ptr<SplatFrame> GlSplatter::prepare(const Scene& scene, DrawList lis
     return std::make_unique<GlFrame>(*this, upload(scene, list, step));
 }
 
-void GlSplatter::draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
+void GlSplatter::draw(const GlList& list, const View& view, Channels channels, std::size_t layer,
                       GLuint framebuffer) {
     draw(list, view, channels, list.pieces(channels, layer), framebuffer);
 }
 
-void GlSplatter::draw(const GpuList& list, const View& view, Channels channels,
+void GlSplatter::draw(const GlList& list, const View& view, Channels channels,
                       std::span<const Piece> pieces, GLuint framebuffer) {
     ++counts_.draws;
     const PointsView seen(list.scene().placed, view);

@@ -7,13 +7,14 @@
 #include <span>
 
 #include "render/gl/object.h"
+#include "render/splat/depth_order.h"
 #include "render/splat/pieces.h"
 #include "render/splat/splatter.h"
 
 namespace render {
 
 // One frame's list, ready to draw for any number of eyes.
-class GpuList;
+class GlList;
 
 // What tells a fragment shader which channels it accumulates.
 const char* defineOf(Channels channels);
@@ -23,21 +24,24 @@ class GlSplatter final : public Splatter {
     GlSplatter();
     ~GlSplatter() override;
 
+    DrawList order(const Scene& scene, const glm::dvec3& midEye) override {
+        return order_(scene, midEye);
+    }
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GlStep& step) override;
     // What resolving a frame's planes needs, whoever sums them; upload() does it.
     void setLayers(const Scene& scene, const ValueScale& scale);
 
     // Once a frame. `step` holds the scene's step and is ready for it. The list refers to both.
-    std::unique_ptr<GpuList> upload(const Scene& scene, const DrawList& list, const GlStep& step);
+    std::unique_ptr<GlList> upload(const Scene& scene, const DrawList& list, const GlStep& step);
 
     // Once an eye: adds one plane into a framebuffer whose one colour attachment is of that kind
     // (R32F or RGBA32F) and whose depth attachment is the opaque scene's, tested, not written.
     // `layer` is the plane's layer for Weight and WeightedColor. Clears nothing.
-    void draw(const GpuList& list, const View& view, Channels channels, std::size_t layer,
+    void draw(const GlList& list, const View& view, Channels channels, std::size_t layer,
               GLuint framebuffer);
     // Adds some of the plane's pieces, list.pieces(channels, layer).
-    void draw(const GpuList& list, const View& view, Channels channels,
+    void draw(const GlList& list, const View& view, Channels channels,
               std::span<const Piece> pieces, GLuint framebuffer);
 
     // How often each was called: two eyes are one list drawn twice.
@@ -65,6 +69,7 @@ class GlSplatter final : public Splatter {
     float largestPoint_ = 1;         // side in pixels
     glm::ivec2 largestViewport_{0};  // a larger one is cut without a word
     Counts counts_;
+    DepthOrder order_;
 };
 
 }  // namespace render

@@ -41,9 +41,9 @@ class Plane final : public PlaneSum {
     Memory& memory_;
 };
 
-class Frame final : public SplatFrame {
+class ProcessorFrame final : public SplatFrame {
  public:
-    Frame(const Scene& scene, DrawList list, ProcessorSplatter::Memory& memory)
+    ProcessorFrame(const Scene& scene, DrawList list, ProcessorSplatter::Memory& memory)
         : scene_(scene), list_(std::move(list)), memory_(memory) {}
 
     std::uint64_t splats(Channels channels, std::size_t layer) const override {
@@ -82,7 +82,7 @@ class Frame final : public SplatFrame {
 
 std::unique_ptr<SplatFrame> ProcessorSplatter::prepare(const Scene& scene, DrawList list,
                                                        const GlStep&) {
-    return std::make_unique<Frame>(scene, std::move(list), memory_);
+    return std::make_unique<ProcessorFrame>(scene, std::move(list), memory_);
 }
 
 }  // namespace render

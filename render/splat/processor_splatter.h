@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/splat/cell_splatter.h"
+#include "render/splat/depth_order.h"
 #include "render/splat/splatter.h"
 #include "render/splat/tile_splatter.h"
 
@@ -11,6 +12,9 @@ namespace render {
 
 class ProcessorSplatter final : public Splatter {
  public:
+    DrawList order(const Scene& scene, const glm::dvec3& midEye) override {
+        return order_(scene, midEye);
+    }
     // Asks nothing of the step on the GPU.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GlStep& step) override;
@@ -24,6 +28,7 @@ class ProcessorSplatter final : public Splatter {
 
  private:
     Memory memory_;
+    DepthOrder order_;
 };
 
 }  // namespace render

@@ -41,6 +41,9 @@ enum class SplatterChoice { ByDevice, Gl, Cpu, Exact };
 class Splatter {
  public:
     virtual ~Splatter() = default;
+    // The scene's list as this splatter takes it; of cells none, for they come in an order of their
+    // own.
+    virtual DrawList order(const Scene& scene, const glm::dvec3& midEye) = 0;
     // `step` holds the scene's step and is ready for it.
     virtual std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                                 const GlStep& step) = 0;

@@ -10,14 +10,15 @@ namespace bench {
 // volume, each of the wanted diameter in the middle of the picture.
 struct ScatteredSplats {
     ScatteredSplats(std::uint64_t count, double diameterPixels,
-                    std::shared_ptr<const timeseries::Grid> grid = tests::cube(256))
+                    std::shared_ptr<const timeseries::Grid> grid = tests::cube(256),
+                    glm::ivec2 size = kSize)
         : step(tests::noise(std::move(grid))), placed(step.grid()) {
         const double share = static_cast<double>(count) / static_cast<double>(step.size());
         const timeseries::RangeSet range(std::vector{timeseries::Range{{0.4}, {0.4 + share}}});
         scene.layers.push_back({step.select(range), {render::Constant{{1, 0.5, 0.1}}, 0.3}});
-        const double focal = kSize.y / 2 / kTangent;
+        const double focal = size.y / 2 / kTangent;
         const double cellPixels = diameterPixels / 2 / render::kQuarticRadius;
-        view = tests::lookFrom({0, -focal * placed.unitLength() / cellPixels, 0}, kSize, kTangent);
+        view = tests::lookFrom({0, -focal * placed.unitLength() / cellPixels, 0}, size, kTangent);
     }
     // Refers to itself.
     ScatteredSplats(const ScatteredSplats&) = delete;

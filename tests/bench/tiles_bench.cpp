@@ -17,6 +17,8 @@ namespace {
 
 using namespace render;
 
+// A picture, and an eye of a headset.
+constexpr std::array<glm::ivec2, 2> kSizes{bench::ScatteredSplats::kSize, {1440, 1600}};
 enum What { OneColor, ByTheirValues, Ordered };
 
 void colorAndOrder(Scene& scene, What what) {
@@ -39,7 +41,8 @@ struct ByTiles {
 
 void tiles(benchmark::State& state) {
     bench::ScatteredSplats world(static_cast<std::uint64_t>(state.range(0)),
-                                 static_cast<double>(state.range(1)));
+                                 static_cast<double>(state.range(1)), tests::cube(256),
+                                 kSizes[static_cast<std::size_t>(state.range(3))]);
     const auto what = static_cast<What>(state.range(2));
     colorAndOrder(world.scene, what);
     const Channels channels = channelsFor(world.scene)[0];
@@ -69,13 +72,14 @@ void tiles(benchmark::State& state) {
         state, [&] { byTiles(world, far); }, before, 3);
 }
 BENCHMARK(tiles)
-    ->ArgNames({"splats", "pixels", "what"})
-    ->Args({1'000'000, 8, OneColor})
-    ->Args({1'000'000, 8, ByTheirValues})
-    ->Args({1'000'000, 8, Ordered})
-    ->Args({100'000, 8, OneColor})
-    ->Args({100'000, 8, Ordered})
-    ->Args({1'000'000, 1, OneColor})
+    ->ArgNames({"splats", "pixels", "what", "eye"})
+    ->Args({1'000'000, 8, OneColor, 0})
+    ->Args({1'000'000, 8, ByTheirValues, 0})
+    ->Args({1'000'000, 8, Ordered, 0})
+    ->Args({100'000, 8, OneColor, 0})
+    ->Args({100'000, 8, Ordered, 0})
+    ->Args({1'000'000, 1, OneColor, 0})
+    ->Args({1'000'000, 8, Ordered, 1})
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "render/model/footprint.h"
 #include "render/reference/cpu_splatter.h"
@@ -77,6 +79,46 @@ TEST_F(SplatsAroundTheEye, AreTheTruthsWhereverTheirCentresLie) {
             EXPECT_LE(summed(scene, view, Channels::Over), 1e-5) << eye.x;
         }
         EXPECT_GT(farOff, 0) << "or nothing was tested";
+    }
+}
+
+// How far the ray goes, from inside the box to where it leaves it, in units of l.
+double wayOut(const PlacedPoints& placed, const glm::dvec3& eye, const glm::dvec3& along) {
+    const auto [lo, hi] = placed.domain();
+    double least = std::numeric_limits<double>::infinity();
+    for (int a = 0; a < 3; ++a)
+        least = std::min(least, ((along[a] > 0 ? hi[a] : lo[a]) - eye[a]) / along[a]);
+    return least * glm::length(along) / placed.unitLength();
+}
+
+// Their whole lines stand for those whose centres lie behind the eye, which are not drawn; the
+// light that this takes from a medium all around it is what ARCHITECTURE.md says.
+TEST_F(SplatsAroundTheEye, LeaveAMediumAsManyPercentTooFaintAsIsSaid) {
+    const auto step = tests::noise(tests::cube(24));
+    const PlacedPoints placed(step.grid());
+    for (const auto& [size, said] : {std::pair(1.0, -0.017), std::pair(4.0, -0.032)}) {
+        const Scene scene{.step = step,
+                          .placed = placed,
+                          .layers = {{step.select(RangeSet::everything()), {Constant{}, 0.3}}},
+                          .footprint = {Kernel::Quartic, size},
+                          .order = Order::None,
+                          .clip = {}};
+        double drawn = 0, exact = 0;
+        for (const glm::dvec3 eye : {glm::dvec3(0.01, 0.02, 0.03), glm::dvec3(-0.1, 0.02, 0.15),
+                                     glm::dvec3(0.11, -0.2, -0.1)}) {
+            const View view = lookFrom(eye, {32, 24});
+            const PixelRays rays = pixelRays(view);
+            const std::vector<float> depth = sumTiles(scene, Runs{}, view, Channels::Weight, 0, {});
+            for (int y = 0; y < view.size.y; ++y)
+                for (int x = 0; x < view.size.x; ++x) {
+                    const glm::dvec2 offset = glm::dvec2(x, y) + 0.5 - rays.centre;
+                    drawn += depth[static_cast<std::size_t>(y * view.size.x + x)];
+                    exact +=
+                        wayOut(placed, rays.eye,
+                               rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY);
+                }
+        }
+        EXPECT_NEAR(drawn / exact - 1, said, 0.5 * std::abs(said)) << size;
     }
 }
 

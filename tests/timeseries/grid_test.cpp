@@ -157,6 +157,55 @@ TEST(Grid, ComparesByAxes) {
                  Grid({counted(2), counted(3), counted(1)}));
 }
 
+TEST(Grid, TellsWhichPlacesLieWithinClosedEnds) {
+    for (const std::vector<double>& along :
+         {std::vector<double>{-2, -1, 0, 1, 5}, {5, 1, 0, -1, -2}}) {
+        const Grid grid({axis({0, 1}), axis(along), axis({7})});
+        EXPECT_EQ(grid.ends(1).least, -2);
+        EXPECT_EQ(grid.ends(1).most, 5);
+        for (double lo = -3; lo <= 6; lo += 0.5)
+            for (double hi = -3; hi <= 6; hi += 0.5) {
+                std::vector<std::size_t> within;
+                for (std::size_t i = 0; i < along.size(); ++i)
+                    if (lo <= along[i] && along[i] <= hi) within.push_back(i);
+                const auto places = grid.placesWithin(1, lo, hi);
+                ASSERT_EQ(places.has_value(), !within.empty()) << lo << " to " << hi;
+                if (!places) continue;
+                EXPECT_EQ(places->first, within.front()) << lo << " to " << hi;
+                EXPECT_EQ(places->last, within.back()) << lo << " to " << hi;
+            }
+    }
+}
+
+TEST(Grid, TheNearestPlaneIsOneOfPoints) {
+    const Grid grid({axis({10, 4, 1}), axis({2}), axis({0, 1})});
+    EXPECT_EQ(grid.nearestPlane(0, 7.1), 10);
+    EXPECT_EQ(grid.nearestPlane(0, 6.9), 4);
+    EXPECT_EQ(grid.nearestPlane(0, -100), 1);
+    EXPECT_EQ(grid.nearestPlane(1, 100), 2);
+}
+
+TEST(Grid, RelabelledItHasItsPointsUnderOtherNames) {
+    Axis down = axis({1, 2});
+    down.down = true;
+    CoordinateFrame frame;
+    frame.origin = {1, 2, 3};
+    const Grid grid({axis({0, 1, 3}), axis({5, 4}), down}, frame);
+    const Grid same = grid.relabelled({"lon", "", "depth"}, {true, false, true});
+    EXPECT_EQ(same.frame(), grid.frame());
+    for (std::size_t a = 0; a < 3; ++a) {
+        EXPECT_EQ(same.axes()[a].coordinates, grid.axes()[a].coordinates);
+        EXPECT_EQ(same.axes()[a].units, grid.axes()[a].units);
+    }
+    EXPECT_EQ(same.axes()[0].name, "lon");
+    EXPECT_EQ(same.axes()[1].name, grid.axes()[1].name);
+    EXPECT_EQ(same.axes()[2].name, "depth");
+    EXPECT_TRUE(same.axes()[0].down);
+    EXPECT_FALSE(same.axes()[1].down);
+    EXPECT_FALSE(same.axes()[2].down);
+    EXPECT_EQ(grid.relabelled({}, {}), grid);
+}
+
 TEST(Grid, ObliqueAxesPlaceEveryPointAndCell) {
     // Sheared and mirrored; the coordinates along the axes are uneven, descending, and not from 0.
     const glm::dvec3 i(0.6, 0, 0.8), j(0, -1, 0), k(-0.48, 0.6, 0.64), origin(100, -20, 3);

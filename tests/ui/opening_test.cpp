@@ -217,7 +217,7 @@ TEST_F(DeskGoesOn, AlsoWhereAnotherFileWasOpened) {
     const std::string title = leave(writeRamp(folder() / "ramp.nrrd"));
     Driver desk(screen(), folder(), {demo().string()});
     desk.waitForTitle("pool_fire_T.nc · T");
-    const auto offer = app::panels::leftOfferLayout(placesOf(desk.size()).window.picture, 1);
+    const auto offer = app::panels::recoveryOfferLayout(placesOf(desk.size()).window.picture, 1);
     const Shot offered = desk.settled(offer.whole);
     desk.click(offer.goOn.centre());
     desk.waitFor("the session goes on", [&] { return desk.title() == title; });
@@ -229,7 +229,7 @@ TEST_F(DeskGoesOn, UnlessItIsDiscarded) {
     leave(writeRamp(folder() / "ramp.nrrd"));
     Driver desk(screen(), folder(), {demo().string()});
     desk.waitForTitle("pool_fire_T.nc · T");
-    const auto offer = app::panels::leftOfferLayout(placesOf(desk.size()).window.picture, 1);
+    const auto offer = app::panels::recoveryOfferLayout(placesOf(desk.size()).window.picture, 1);
     desk.click(offer.discard.centre());
     desk.waitFor("it is not offered again", [&] { return kept().size() == 1; });
     EXPECT_THAT(desk.title(), testing::HasSubstr("pool_fire_T.nc"));

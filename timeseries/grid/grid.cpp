@@ -137,6 +137,36 @@ bool Grid::uniform() const {
     return !mesh_ && axes_[0].uniform() && axes_[1].uniform() && axes_[2].uniform();
 }
 
+Grid::Ends Grid::ends(std::size_t axis) const {
+    const auto& c = axes_[axis].coordinates;
+    return {std::min(c.front(), c.back()), std::max(c.front(), c.back())};
+}
+
+std::optional<Grid::Places> Grid::placesWithin(std::size_t axis, double lo, double hi) const {
+    const auto& c = axes_[axis].coordinates;
+    const auto isWithin = [&](double x) { return lo <= x && x <= hi; };
+    const auto first = std::find_if(c.begin(), c.end(), isWithin);
+    if (first == c.end()) return std::nullopt;
+    const auto past = std::find_if_not(first, c.end(), isWithin);  // monotonic: one stretch
+    return Places{static_cast<std::size_t>(first - c.begin()),
+                  static_cast<std::size_t>(past - c.begin() - 1)};
+}
+
+double Grid::nearestPlane(std::size_t axis, double coordinate) const {
+    return *std::ranges::min_element(axes_[axis].coordinates, {},
+                                     [&](double plane) { return std::abs(plane - coordinate); });
+}
+
+Grid Grid::relabelled(const std::array<std::string, 3>& names,
+                      const std::array<bool, 3>& flip) const {
+    Grid same = *this;
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (flip[a]) same.axes_[a].down = !same.axes_[a].down;
+        if (!names[a].empty()) same.axes_[a].name = names[a];
+    }
+    return same;
+}
+
 glm::vec<3, std::uint64_t> Grid::indices(std::uint64_t index) const {
     const auto n = size();
     return indicesOf(index, glm::vec<3, std::uint64_t>(n[0], n[1], n[2]));

@@ -84,6 +84,22 @@ class Grid {
     std::uint64_t count() const;
     bool uniform() const;
 
+    // The least and the greatest coordinate along an axis.
+    struct Ends {
+        double least, most;
+    };
+    Ends ends(std::size_t axis) const;
+    // REQUIRES of both: no mesh. The places along an index whose coordinates are in [lo, hi], the
+    // first and the last; nothing where there are none.
+    struct Places {
+        std::size_t first, last;
+    };
+    std::optional<Places> placesWithin(std::size_t axis, double lo, double hi) const;
+    // The coordinate of the points nearest to this one.
+    double nearestPlane(std::size_t axis, double coordinate) const;
+    // The same points, where axes have these names ("" leaves one) and count the other way.
+    Grid relabelled(const std::array<std::string, 3>& names, const std::array<bool, 3>& flip) const;
+
     glm::vec<3, std::uint64_t> indices(std::uint64_t index) const;
     // In the file's space, in the units of the axes.
     glm::dvec3 position(std::uint64_t index) const;

@@ -1,0 +1,62 @@
+#include "render/frame/splatters.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "render/gl/driver.h"
+
+namespace render {
+namespace {
+
+// A driver that draws on the processor takes several times longer for point sprites than the
+// program does for their pixels (tests/bench/NOTES.md).
+bool isByGl(SplatterChoice choice) {
+    return choice == SplatterChoice::Gl ||
+           (choice == SplatterChoice::ByDevice && !gl::drawsOnProcessor());
+}
+
+}  // namespace
+
+Splatters::Splatters(SplatterChoice choice)
+    : pointsInProgram_(choice == SplatterChoice::Exact ? static_cast<Splatter&>(exact_)
+                                                       : processor_),
+      byGl_(isByGl(choice)) {
+    if (!byGl_) return;
+    mostCellBytes_ = GlCellSplatter::mostBytes();
+    mostMeshBytes_ = GlMesh::mostBytes();
+}
+
+Splatters::Gl& Splatters::needGl() {
+    if (!gl_) gl_ = std::make_unique<Gl>();
+    return *gl_;
+}
+
+bool Splatters::sumsByGl(const Scene& scene) const {
+    if (!byGl_) return false;
+    if (scene.cells) return !scene.placed.isMesh() && GlCells::fit(scene, mostCellBytes_);
+    const auto& mesh = scene.placed.mesh();
+    return !mesh || GlMesh::bytesOf(*mesh) <= mostMeshBytes_;
+}
+
+Splatter& Splatters::of(const Scene& scene) {
+    if (!sumsByGl(scene)) return scene.cells ? processor_ : pointsInProgram_;
+    if (scene.cells) return needGl().cells;
+    return needGl().points;
+}
+
+DrawList Splatters::order(const Scene& scene, const glm::dvec3& midEye) {
+    return of(scene).order(scene, midEye);
+}
+
+std::unique_ptr<SplatFrame> Splatters::prepare(const Scene& scene, DrawList list,
+                                               const GlStep& step) {
+    if (!scene.cells || !sumsByGl(scene)) return of(scene).prepare(scene, std::move(list), step);
+    try {
+        return needGl().cells.prepare(scene, list, step);
+    } catch (const std::runtime_error&) {  // the GPU has no room: the program draws them
+        mostCellBytes_ = 0;
+        return processor_.prepare(scene, std::move(list), step);
+    }
+}
+
+}  // namespace render

@@ -1,0 +1,49 @@
+// The splatters that there are, and who of them sums a scene.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "render/reference/exact_splatter.h"
+#include "render/splat/gl_cell_splatter.h"
+#include "render/splat/gl_splatter.h"
+#include "render/splat/processor_splatter.h"
+
+namespace render {
+
+class Splatters {
+ public:
+    // Needs a current GL context, from construction to destruction, unless it is Cpu or Exact.
+    explicit Splatters(SplatterChoice choice);
+
+    // Whether GL sums the scene; else the program does it itself.
+    bool sumsByGl(const Scene& scene) const;
+    // Whether the scene's points are taken from the step on the GPU.
+    bool takesPointsFromGpu(const Scene& scene) const { return sumsByGl(scene) && !scene.cells; }
+
+    // As the scene's splatter wants its list.
+    DrawList order(const Scene& scene, const glm::dvec3& midEye);
+    // By another where the scene's splatter has no room.
+    std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list, const GlStep& step);
+
+    GlSplatter& gl() { return needGl().points; }  // made when it is first needed
+    bool hasGl() const { return gl_ != nullptr; }
+    std::uint64_t cellBytes() const { return gl_ ? gl_->cells.bytes() : 0; }  // on the GPU
+
+ private:
+    struct Gl {
+        GlSplatter points;
+        GlCellSplatter cells{points};
+    };
+    Gl& needGl();
+    Splatter& of(const Scene& scene);
+
+    ProcessorSplatter processor_;
+    ExactSplatter exact_;
+    std::unique_ptr<Gl> gl_;
+    Splatter& pointsInProgram_;  // who sums them where GL does not
+    bool byGl_;
+    std::uint64_t mostCellBytes_ = 0, mostMeshBytes_ = 0;  // on the GPU, where that draws
+};
+
+}  // namespace render
