@@ -99,9 +99,6 @@ int measureModes(const MeasureOptions& options) {
                                       data.steps.size(), data.steps.front()));
     const std::size_t index = data.steps.front();
     const auto step = data.source->get(index, index);
-    if (step->grid().mesh())
-        throw ChoiceError(
-            "measure does not know the truth of grids whose points lie one by one yet");
     if (!step->canHaveCells())
         throw ChoiceError(
             fmt::format("measure needs the cells between the points: {}", step->whyNoCells()));

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render/reference/light_on_ray.h"
+#include "render/reference/tets_light.h"
 #include "render/reference/tets_on_pixels.h"
 
 namespace render {
@@ -30,12 +32,8 @@ struct LightWork {
     std::vector<LinePart> parts;
     std::vector<LayerPart> ofLayers;
     std::vector<double> ends;
-};
-
-// What is seen of a ray so far.
-struct Seen {
-    glm::dvec3 rgb{0};
-    double through = 1;
+    std::vector<std::size_t> in;  // layers, of a piece
+    std::optional<LightOnRay> seen;
 };
 
 }  // namespace
@@ -106,12 +104,7 @@ std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer,
 }
 
 std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
-    std::vector<double> depthPerWeight;
-    for (const Layer& layer : scene_.layers)
-        depthPerWeight.push_back(opticalDepthPerWeight(layer.style.opacity));
-    // Along what lies in a range of one cell a colour by value is taken in so many steps.
-    constexpr int kSteps = 4;
-    constexpr double kNothing = 1e-7;  // what comes through is not seen
+    if (!walk_) return meshLight(scene_, field_, view, raysAcross_, threads_);
     const auto collect = [&](const glm::uvec3& cell, const glm::dvec3& a, const glm::dvec3& b,
                              LightWork& work) {
         work.ofLayers.clear();
@@ -130,42 +123,37 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
     };
     // All of a piece of the way, in which no layer begins or ends: of W a unit, in the cell.
     const auto pass = [&](const glm::uvec3& cell, const glm::dvec3& a, const glm::dvec3& b,
-                          LinePart piece, double weight, const LightWork& work, Seen& seen) {
+                          LinePart piece, double weight, LightWork& work) {
         const double middle = 0.5 * (piece.from + piece.to);
-        for (int i = 0; i < kSteps; ++i) {
-            const double t = piece.from + (piece.to - piece.from) * (i + 0.5) / kSteps;
-            glm::dvec3 colors(0);
-            double depth = 0;
-            for (const auto& [part, k] : work.ofLayers) {
-                if (middle < part.from || middle > part.to) continue;
-                const double value = layers_[k].valueAt(cell, glm::mix(a, b, t));
-                colors += depthPerWeight[k] * colorOf(scene_.layers[k].style, value);
-                depth += depthPerWeight[k];
-            }
-            if (!(depth > 0)) return;
-            const double taken = -std::expm1(-depth * weight * (piece.to - piece.from) / kSteps);
-            seen.rgb += seen.through * taken / depth * colors;
-            seen.through *= 1 - taken;
-        }
+        work.in.clear();
+        for (const auto& [part, k] : work.ofLayers)
+            if (middle >= part.from && middle <= part.to) work.in.push_back(k);
+        work.seen->pass(work.in, weight * (piece.to - piece.from),
+                        [&](std::size_t i, double share) {
+                            const double t = piece.from + (piece.to - piece.from) * share;
+                            return layers_[work.in[i]].valueAt(cell, glm::mix(a, b, t));
+                        });
     };
     return meanOfRays<glm::dvec4, LightWork>(
         view, allPixels(view.size), [&](const Ray& ray, LightWork& work) {
-            Seen seen;
+            if (!work.seen) work.seen.emplace(scene_.layers);
+            LightOnRay& seen = *work.seen;
+            seen.begin();
             (*walk_)(ray.eye, ray.along, ray.near,
                      [&](const glm::uvec3& cell, double from, double to) {
                          const auto isIn = [&](const IntervalCells& layer) {
                              return layer.kind(cell) != Kind::Nothing;
                          };
-                         if (seen.through < kNothing || std::ranges::none_of(layers_, isIn)) return;
+                         if (seen.isOpaque() || std::ranges::none_of(layers_, isIn)) return;
                          const glm::dvec3 a = walk_->inCell(cell, ray.eye + from * ray.along);
                          const glm::dvec3 b = walk_->inCell(cell, ray.eye + to * ray.along);
                          collect(cell, a, b, work);
                          for (std::size_t i = 1; i < work.ends.size(); ++i)
                              if (work.ends[i] > work.ends[i - 1])
                                  pass(cell, a, b, {work.ends[i - 1], work.ends[i]},
-                                      (to - from) * ray.weight, work, seen);
+                                      (to - from) * ray.weight, work);
                      });
-            return glm::dvec4(seen.rgb, 1 - seen.through);
+            return seen.light();
         });
 }
 

@@ -8,12 +8,14 @@
 #include <memory>
 #include <vector>
 
+#include "render/reference/cell_pick.h"
 #include "render/splat/cell_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/turbulence.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/unstructured.h"
 #include "timeseries/index/cell_index.h"
 
 namespace {
@@ -133,13 +135,20 @@ BENCHMARK(cellsBesidePoints)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
-// The same points placed one by one, whose cells are tetrahedra, beside the upright grid.
+// The points of a lattice placed one by one, neighbours by their indices or corners of hexahedra.
+std::shared_ptr<const timeseries::Grid> latticeOneByOne(std::size_t n, bool ofSolids) {
+    const auto place = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
+    if (!ofSolids) return tests::curvilinear({n, n, n}, place);
+    const auto m = static_cast<std::uint32_t>(n);
+    return tests::gridOf(tests::atPoints(tests::bricks({m, m, m}, tests::Cut::Hexahedra, place)));
+}
+
+// Cells that are tetrahedra, beside those of the upright grid.
 void cellsOfMeshBesideUpright(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
     timeseries::Field field = bench::turbulence<float>(n);
     timeseries::Field meshed = field;
-    meshed.grid = tests::curvilinear(
-        {n, n, n}, [](double i, double j, double k) { return glm::dvec3(i, j, k); });
+    meshed.grid = latticeOneByOne(n, state.range(3) != 0);
     CellsOfRange upright(std::move(field), state.range(1), state.range(2) != 0);
     CellsOfRange mesh(std::move(meshed), state.range(1), state.range(2) != 0);
     const Channels channels = channelsFor(upright.scene)[0];
@@ -148,11 +157,25 @@ void cellsOfMeshBesideUpright(benchmark::State& state) {
     state.counters["cells"] = static_cast<double>(cellCount(mesh.scene.layers[0]));
 }
 BENCHMARK(cellsOfMeshBesideUpright)
-    ->ArgNames({"points", "thousandths", "ordered"})
-    ->Args({96, 100, 0})
-    ->Args({96, 1000, 0})
-    ->Args({96, 100, 1})
+    ->ArgNames({"points", "thousandths", "ordered", "solids"})
+    ->ArgsProduct({{96}, {100}, {0, 1}, {0, 1}})
+    ->ArgsProduct({{96}, {1000}, {0}, {0, 1}})
     ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+// What is under the cursor, in the middle of the picture.
+void cellUnderCursorOfMesh(benchmark::State& state) {
+    const auto n = static_cast<std::size_t>(state.range(0));
+    timeseries::Field field = bench::turbulence<float>(n);
+    field.grid = latticeOneByOne(n, state.range(2) != 0);
+    const CellsOfRange mesh(std::move(field), state.range(1), true);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(pickCell(mesh.scene, mesh.view, glm::dvec2(mesh.view.size) / 2.0));
+    state.counters["cells"] = static_cast<double>(cellCount(mesh.scene.layers[0]));
+}
+BENCHMARK(cellUnderCursorOfMesh)
+    ->ArgNames({"points", "thousandths", "solids"})
+    ->ArgsProduct({{96}, {1000}, {0, 1}})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

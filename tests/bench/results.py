@@ -286,14 +286,20 @@ def cells_page(part):
     text += ("\nDrawn in 1024 x 1024, one colour, beside as many points of the same field by tiles, by turns.\n\n"
              + table(["points", "range", "order", "cells", "cells drawn", "points drawn", "ratio"], rows))
     rows = []
+    kinds = ["curvilinear", "hexahedra"]
     for n, thousandths, ordered in [(96, 100, 0), (96, 1000, 0), (96, 100, 1)]:
-        f = part(f"cellsOfMeshBesideUpright/points:{n}/thousandths:{thousandths}/ordered:{ordered}")
-        if f:
-            rows.append([points(n), f"{thousandths / 1000:g}", "front to back" if ordered else "none",
-                         f"{int(f['cells']):,}", ms(f, "second_ms"), ms(f, "first_ms"), digits(f["second/first"])])
+        for solids, kind in enumerate(kinds):
+            f = part(f"cellsOfMeshBesideUpright/points:{n}/thousandths:{thousandths}/ordered:{ordered}/solids:{solids}")
+            if f:
+                rows.append([points(n), kind, f"{thousandths / 1000:g}", "front to back" if ordered else "none",
+                             f"{int(f['cells']):,}", ms(f, "second_ms"), ms(f, "first_ms"), digits(f["second/first"])])
     if rows:
         text += ("\nThe same points placed one by one, whose cells are six tetrahedra each, beside those of the upright grid, by turns.\n\n"
-                 + table(["points", "range", "order", "cells", "tetrahedra drawn", "upright cells drawn", "ratio"], rows))
+                 + table(["points", "cells", "range", "order", "cells", "tetrahedra drawn", "upright cells drawn", "ratio"], rows))
+    under = [(kind, part(f"cellUnderCursorOfMesh/points:96/thousandths:1000/solids:{solids}")) for solids, kind in enumerate(kinds)]
+    if all(f for _, f in under):
+        text += "\nUnder the cursor, of " + " and of ".join(
+            f"{int(f['cells']):,} cells ({kind}) {time(seconds(f))}" for kind, f in under) + ".\n"
     return text
 
 

@@ -337,6 +337,44 @@ TEST(MeshCells, HideWhatIsBehindThem) {
     }
 }
 
+// A linear field is the same between the points of an upright grid and in the tetrahedra of one
+// whose points lie there one by one: so is the light of layers that overlap, and of colours by
+// value but for how often along its way a ray takes them.
+TEST(MeshCells, LightIsThatOfAnUprightGridWhereTheFieldIs) {
+    const std::array<timeseries::Axis, 3> axes{tests::axis(6), tests::axis(5, 0, 1.3),
+                                               tests::axis(7, 2, 0.8)};
+    const auto upright = std::make_shared<const Grid>(axes);
+    const auto oneByOne = tests::curvilinear({6, 5, 7}, [&](double i, double j, double k) {
+        return glm::dvec3(i, 1.3 * j, 2 + 0.8 * k);
+    });
+    const auto field = [](const glm::dvec3& p) { return p.x + 2 * p.y - 0.5 * p.z; };
+    for (const bool byValue : {false, true}) {
+        const std::vector<std::string> layers{"1:5", "3:3.5", "6:9"};
+        CellWorld one(stepOf(upright, field), layers), other(stepOf(oneByOne, field), layers);
+        for (CellWorld* world : {&one, &other}) {
+            world->scene.layers[1].style.opacity = 0.9;
+            world->scene.layers[2].style.opacity = 1;
+            if (byValue) world->scene.layers[0].style.color = ByValue{{}, 1, 5};
+        }
+        for (const glm::dvec3& from : kFrom) {
+            const View view = tests::lookFrom(from, {40, 34}, 0.3);
+            const auto lightOf = [&](const CellWorld& world, unsigned threads) {
+                return IntervalTruth(world.scene, world.scene.cells->field(), 2, threads)
+                    .light(view);
+            };
+            const auto expected = lightOf(one, 2), light = lightOf(other, 2);
+            EXPECT_EQ(light, lightOf(other, 1));
+            double brightest = 0;
+            for (std::size_t i = 0; i < light.size(); ++i)
+                for (int c = 0; c < 4; ++c) {
+                    ASSERT_NEAR(light[i][c], expected[i][c], byValue ? 5e-3 : 1e-4) << i;
+                    brightest = std::max(brightest, light[i][c]);
+                }
+            EXPECT_GT(brightest, 0.5);
+        }
+    }
+}
+
 TEST(MeshCells, APlaceBetweenPointsIsSeenUnderTheCursor) {
     const auto grid = affine({9, 9, 9}, glm::dmat3(1, 0.1, 0, 0, 1, 0.1, 0.1, 0, 1));
     CellWorld world(stepOf(grid, [](const auto& p) { return p.x; }), {"5.2:5.6"}, 0.01);

@@ -3,11 +3,16 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "timeseries/together.h"
+
 namespace timeseries {
 
 std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
                                                  std::uint64_t points) {
     auto solids = std::make_shared<SolidCells>();
+    solids->types_.reserve(grid.types.size());
+    solids->ends_.reserve(grid.types.size());
+    solids->corners_.reserve(grid.corners.size());
     for (std::uint64_t cell = 0; cell < grid.types.size(); ++cell) {
         const CellType* type = cellTypeOf(grid.types[cell]);
         if (type && type->dimension == 3) solids->add(grid, cell, points);
@@ -44,14 +49,21 @@ void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint
 }
 
 void SolidCells::measure(const std::vector<glm::dvec3>& points) {
-    for (std::uint64_t cell = 0; cell < count(); ++cell) {
+    const auto extentOf = [&](std::uint64_t cell) {
         glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
         for (const std::uint32_t corner : corners(cell)) {
             lo = glm::min(lo, points[corner]);
             hi = glm::max(hi, points[corner]);
         }
-        longest_ = glm::max(longest_, hi - lo);
-    }
+        return hi - lo;
+    };
+    const unsigned threads = threadsFor(count(), 1 << 14);
+    std::vector<glm::dvec3> longest(threads, glm::dvec3(0));
+    together(threads, [&](unsigned k) {
+        for (std::uint64_t cell = count() * k / threads; cell < count() * (k + 1) / threads; ++cell)
+            longest[k] = glm::max(longest[k], extentOf(cell));
+    });
+    for (const glm::dvec3& of : longest) longest_ = glm::max(longest_, of);
 }
 
 std::uint64_t SolidCells::bytes() const {

@@ -102,8 +102,8 @@ class SortedStep {
     // The field without reading, where there are cells of it or it is held for them.
     std::shared_ptr<const Field> sharedField() const;
 
-    // Disjoint, ascending, none empty. At most 2 (log2 n + 2) comparisons a range, and half a
-    // millisecond where an end of a range falls among points of which none was asked for yet.
+    // Disjoint, ascending, none empty. Two binary searches a range, and half a millisecond where an
+    // end of a range falls among points of which none was asked for yet.
     // Throws OutsideKeptError when `ranges`, in the field's type, is not inside what was kept.
     std::vector<Run> select(const RangeSet& ranges) const;
     // The sum of select()'s counts; touches no point.

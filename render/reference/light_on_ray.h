@@ -1,0 +1,57 @@
+// What a ray sees of layers that it passes, from the eye on: emission and absorption, of optical
+// depth opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has.
+#pragma once
+
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "render/model/scene.h"
+
+namespace render {
+
+class LightOnRay {
+ public:
+    // The layers outlive this.
+    explicit LightOnRay(std::span<const Layer> layers) : layers_(layers) {
+        for (const Layer& layer : layers)
+            depthPerWeight_.push_back(opticalDepthPerWeight(layer.style.opacity));
+    }
+
+    void begin() {
+        rgb_ = glm::dvec3(0);
+        through_ = 1;
+    }
+    // The next piece of the way, so long in W, on all of which it is in these layers:
+    // valueAt(i, share) is the field's value for the i-th of them at a share of the piece.
+    template <typename ValueAt>
+    void pass(std::span<const std::size_t> in, double weight, const ValueAt& valueAt) {
+        // Along a piece a colour by value is taken in so many steps.
+        constexpr int kSteps = 4;
+        double depth = 0;
+        for (const std::size_t layer : in) depth += depthPerWeight_[layer];
+        if (!(depth > 0)) return;
+        const double taken = -std::expm1(-depth * weight / kSteps);
+        for (int step = 0; step < kSteps; ++step) {
+            glm::dvec3 colors(0);
+            for (std::size_t i = 0; i < in.size(); ++i)
+                colors += depthPerWeight_[in[i]] *
+                          colorOf(layers_[in[i]].style, valueAt(i, (step + 0.5) / kSteps));
+            rgb_ += through_ * taken / depth * colors;
+            through_ *= 1 - taken;
+        }
+    }
+    // What would come from behind is not seen.
+    bool isOpaque() const { return through_ < 1e-7; }
+    glm::dvec4 light() const { return {rgb_, 1 - through_}; }  // premultiplied, linear
+
+ private:
+    std::span<const Layer> layers_;
+    std::vector<double> depthPerWeight_;
+    glm::dvec3 rgb_{0};
+    double through_ = 1;
+};
+
+}  // namespace render
