@@ -105,10 +105,12 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
             });
         };
         const auto inRun = [&](std::size_t part, const timeseries::Run& run, std::size_t layer) {
-            constexpr std::uint64_t kAhead = 16;
             const std::uint64_t end = run.count * (part + 1) / kCellParts;
             for (std::uint64_t i = run.count * part / kCellParts; i < end; ++i) {
-                if (i + kAhead < end) tets.prefetch(scene.cells->cell(run.first + i + kAhead));
+                tets.prefetch([&](std::uint64_t ahead) -> std::optional<std::uint32_t> {
+                    if (i + ahead >= end) return std::nullopt;
+                    return scene.cells->cell(run.first + i + ahead);
+                });
                 look(part, scene.cells->cell(run.first + i), layer, layer + 1);
             }
         };

@@ -59,8 +59,13 @@ class MeshCells {
     // Where one of its corners is, in axis coordinates, about which the cell goes as far as reach()
     // says, and no farther.
     glm::dvec3 about(std::uint32_t cell) const { return placeOf(corners_.pointAt(at(cell), 0)); }
-    void prefetch(std::uint32_t cell) const {
-        placed_.prefetch(corners_.indexOf(corners_.pointAt(at(cell), 0)));
+    // Begins to load what about() takes of cells to come: cellAhead(n) is the cell n places on in a
+    // list, if there is one.
+    template <typename CellAhead>
+    void prefetch(const CellAhead& cellAhead) const {
+        constexpr std::uint64_t kAhead = 16;
+        if (const auto cell = cellAhead(kAhead))
+            placed_.prefetch(corners_.indexOf(corners_.pointAt(at(*cell), 0)));
     }
     const glm::dvec3& reach() const { return reach_; }  // infinite for a layer of points
     // The point at a corner of one of its tetrahedra.

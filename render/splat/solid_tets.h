@@ -36,7 +36,13 @@ class SolidTets {
         return placed_.alongAxes(cells_.corners(cell).front());
     }
     const glm::dvec3& reach() const { return reach_; }
-    void prefetch(std::uint32_t cell) const { placed_.prefetch(cells_.corners(cell).front()); }
+    template <typename CellAhead>
+    void prefetch(const CellAhead& cellAhead) const {
+        constexpr std::uint64_t kAhead = 16;
+        if (const auto cell = cellAhead(3 * kAhead)) cells_.prefetchEnds(*cell);
+        if (const auto cell = cellAhead(2 * kAhead)) cells_.prefetchCorners(*cell);
+        if (const auto cell = cellAhead(kAhead)) placed_.prefetch(cells_.corners(*cell).front());
+    }
     std::pair<double, double> extentOf(std::uint32_t cell) const;
     std::uint64_t pointOf(std::uint32_t, unsigned corner) const { return corner; }
     template <typename MayBeSeen, typename Use>

@@ -99,6 +99,22 @@ TEST(SolidTets, OfCornersThatAreMissingOrClippedAQuarterIsNotThere) {
     }
 }
 
+TEST(SolidTets, ReachAsFarAsTheySayAndNoFarther) {
+    for (const Cut cut : kCuts) {
+        const CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+                              {"min:max"});
+        const SolidTets solids(world.placed, world.scene.cells->field(), world.scene.clip);
+        forEachTetOf(world, [&](std::uint32_t cell, const MeshCells::Tetrahedron& tet) {
+            for (const glm::dvec3& corner : tet.at)
+                EXPECT_TRUE(glm::all(
+                    glm::lessThanEqual(glm::abs(corner - solids.about(cell)), solids.reach())));
+        });
+        // Of bricks that are bent by less than a half.
+        const glm::dvec3 step = glm::abs(world.placed.scale());
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(solids.reach(), 2.5 * step)));
+    }
+}
+
 TEST(SolidTets, AreFoundByTheirValues) {
     for (const Cut cut : kCuts) {
         std::mt19937 random(3);

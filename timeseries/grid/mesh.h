@@ -62,6 +62,7 @@ class Mesh {
     }
     // Begins to load what these are made of: points that are asked for by value lie anywhere.
     void prefetch(std::uint64_t index) const {
+        asm volatile("");  // or compilers take this for a function without an effect
         const Point* const at = points_.data() + (levels_.empty() ? index : index % stored_);
         __builtin_prefetch(at);
         __builtin_prefetch(reinterpret_cast<const char*>(at + 1) - 1);

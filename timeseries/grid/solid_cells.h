@@ -30,6 +30,16 @@ class SolidCells {
     std::span<const std::uint32_t> corners(std::uint64_t cell) const {
         return listOf(corners_, ends_, cell);
     }
+    // Begin to load where its corners stand, and then these: cells that are asked for by value lie
+    // anywhere.
+    void prefetchEnds(std::uint64_t cell) const {
+        asm volatile("");  // or compilers take this for a function without an effect
+        __builtin_prefetch(ends_.data() + (cell == 0 ? 0 : cell - 1));
+    }
+    void prefetchCorners(std::uint64_t cell) const {
+        asm volatile("");
+        __builtin_prefetch(corners(cell).data());
+    }
     // use(std::array<std::uint32_t, 4>): the points at a tetrahedron's corners, the cell's least
     // first.
     template <typename Use>
