@@ -39,6 +39,8 @@ picture "$data/bluntfin/bluntfin.vts" bluntfin.png --size 1000x750 --view 25,22 
 picture "$data/grids/wrf_mercator_moving_nest.nc" moving_nest.png --variable QRAIN --size 1000x750 --view 20,25 --step 2
 picture "$data/dambreak_amr/dambreak.pvd" dam_break.png --size 1000x750 --step 4 --view 25,22 --range 0.5:1 --color '#3aa0ff' --opacity 0.22
 picture "$data/can.vtu" crushed_can.png --variable EQPS --size 1000x750 --view 15,28 --range 0.1:max --colormap inferno --opacity 0.5
+picture "$data/disk_out_ref.ex2" hot_disk.png --size 1000x750 --view 30,18 --range 400~2,500~2,600~2,700~2,800~2 --colormap inferno=250:900 --opacity 0.35
+picture "$data/mug_transient.e" mug.png --variable convected --step 10 --size 1000x750 --view 30,25 --range min:0.2 --colormap viridis --opacity 0.5
 picture "$data/grids/icon_ocean_triangles.nc" ocean_of_triangles.png --variable S --size 1000x750 --view 10,50 --range 33:37.5 --colormap viridis --opacity 0.5 --scale 1,1,0.4
 picture "$data/grids/warping_spheres.vtkhdf" warping_spheres.png --size 1000x750 --step 20 --view 25,20 --range min:max --colormap cool-warm --opacity 0.8
 picture "$data/fmri_filtered_func_64t.nii.gz" brain.png --size 1000x750 --step 32 --view 25,25 --range 5000:max --colormap inferno --opacity 0.2

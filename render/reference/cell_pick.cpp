@@ -170,11 +170,12 @@ std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::d
     for (const PassedTet& p : passed) met.push_back(p.met);
     const auto half = atHalfOfLight(scene, met);
     if (!half) return std::nullopt;
-    const auto& [at, part, cell, corner] = passed[half->at];
+    const PassedTet& seen = passed[half->at];
+    const PartOnRay& part = seen.part;
     std::uint64_t nearest = 0;
     withTets(scene.placed, scene.cells->field(), scene.clip,
-             [&](const auto& tets) { nearest = tets.pointOf(cell, corner); });
-    return Picked{.layer = at.layer,
+             [&](const auto& tets) { nearest = tets.pointOf(seen.cell, seen.nearest); });
+    return Picked{.layer = seen.met.layer,
                   .gridIndex = nearest,
                   .value = valueOfPoint(scene.cells->field(), nearest),
                   .world = scene.placed.position(nearest),

@@ -1,19 +1,8 @@
 #include "render/splat/solid_tets.h"
 
 #include <cmath>
-#include <limits>
 
 namespace render {
-
-std::pair<double, double> SolidTets::extentOf(std::uint32_t cell) const {
-    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-    for (const std::uint32_t point : cells_.corners(cell)) {
-        const double v = valueOf(point);
-        lo = std::isnan(v) ? lo : std::min(lo, v);
-        hi = std::isnan(v) ? hi : std::max(hi, v);
-    }
-    return {lo, hi};
-}
 
 unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const {
     unsigned seen = 0, there = 0;
@@ -22,7 +11,7 @@ unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron
         tet.at[i] = placed_.alongAxes(points[i]);
         if (!timeseries::isPlace(tet.at[i])) return 0;
         tet.corners[i] = points[i];
-        tet.values[i] = valueOf(points[i]);
+        tet.values[i] = timeseries::finiteValue(field_, points[i]);
         if (std::isnan(tet.values[i])) continue;
         ++there;
         sum += tet.values[i] / 4;  // no sum of four overflows

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "render/splat/mesh_cells.h"
@@ -43,7 +43,9 @@ class SolidTets {
         if (const auto cell = cellAhead(2 * kAhead)) cells_.prefetchCorners(*cell);
         if (const auto cell = cellAhead(kAhead)) placed_.prefetch(cells_.corners(*cell).front());
     }
-    std::pair<double, double> extentOf(std::uint32_t cell) const;
+    std::pair<double, double> extentOf(std::uint32_t cell) const {
+        return timeseries::finiteExtent(field_, cells_.corners(cell));
+    }
     std::uint64_t pointOf(std::uint32_t, unsigned corner) const { return corner; }
     template <typename MayBeSeen, typename Use>
     void forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
@@ -55,15 +57,6 @@ class SolidTets {
     template <typename Use>
     static void forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dvec3* eye,
                             const Use& use);
-    // NaN where there is none.
-    double valueOf(std::uint32_t point) const {
-        return std::visit(
-            [&](const auto& values) {
-                return timeseries::finiteOr(values[point],
-                                            !field_.missing.empty() && field_.missing[point]);
-            },
-            field_.values);
-    }
     // All that a tetrahedron is, and which of its corners are seen.
     unsigned take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const;
 
@@ -87,7 +80,10 @@ template <typename Use>
 void SolidTets::forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dvec3* eye,
                             const Use& use) {
     if (seen == 15) return use(tet);
-    for (unsigned corner = 0; corner < 4; ++corner) {
+    std::array<unsigned, 4> order{0, 1, 2, 3};
+    if (eye)
+        std::ranges::sort(order, {}, [&](unsigned i) { return glm::distance(*eye, tet.at[i]); });
+    for (const unsigned corner : order) {
         if ((seen >> corner & 1) == 0) continue;
         MeshCells::Hexahedron part{};
         for (unsigned c = 0; c < 8; ++c) {

@@ -75,9 +75,11 @@ TEST(SolidCells, PartsOfEveryShapeFillTheirGridAndMeetFaceToFace) {
                 });
             EXPECT_NEAR(volume, 60, 1e-9);
             for (const auto& [face, times] : faces) {
+                const auto& corners = face;
                 const auto onSide = [&](int a, double side) {
-                    return std::ranges::all_of(
-                        face, [&](std::uint32_t point) { return grid.points[point][a] == side; });
+                    return std::ranges::all_of(corners, [&](std::uint32_t point) {
+                        return grid.points[point][a] == side;
+                    });
                 };
                 const bool isOutside = onSide(0, 0) || onSide(0, 4) || onSide(1, 0) ||
                                        onSide(1, 3) || onSide(2, 0) || onSide(2, 5);

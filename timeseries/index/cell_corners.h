@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "timeseries/grid/field.h"
 
@@ -17,6 +19,26 @@ template <typename T>
 double finiteOr(T value, bool isMissing) {
     const auto x = static_cast<double>(value);
     return isMissing || !std::isfinite(x) ? std::numeric_limits<double>::quiet_NaN() : x;
+}
+
+// Of a point of the field, as finiteOr() has it.
+inline double finiteValue(const Field& field, std::uint64_t point) {
+    return std::visit(
+        [&](const auto& values) {
+            return finiteOr(values[point], !field.missing.empty() && field.missing[point]);
+        },
+        field.values);
+}
+// The least and the greatest of these points' values; inf and -inf where none has any.
+inline std::pair<double, double> finiteExtent(const Field& field,
+                                              std::span<const std::uint32_t> points) {
+    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+    for (const std::uint32_t point : points) {
+        const double v = finiteValue(field, point);
+        lo = v < lo ? v : lo;  // NaN is neither
+        hi = v > hi ? v : hi;
+    }
+    return {lo, hi};
 }
 
 // A cell lies between eight neighbouring points. Beyond the outermost points lie half cells,

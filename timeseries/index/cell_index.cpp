@@ -158,17 +158,7 @@ class CellIndex::Solids {
     Solids(const Field& field, const SolidCells& cells) : field_(field), cells_(cells) {}
     // As Rows::at().
     bool at(std::uint64_t cell, double& half, double& middle) const {
-        double lo = kInfinite, hi = -kInfinite;
-        std::visit(
-            [&](const auto& values) {
-                for (const std::uint32_t point : cells_.corners(cell)) {
-                    const double v =
-                        finiteOr(values[point], !field_.missing.empty() && field_.missing[point]);
-                    lo = v < lo ? v : lo;  // NaN is neither
-                    hi = v > hi ? v : hi;
-                }
-            },
-            field_.values);
+        const auto [lo, hi] = finiteExtent(field_, cells_.corners(cell));
         half = 0.5 * hi - 0.5 * lo;
         middle = 0.5 * hi + 0.5 * lo;
         return lo <= hi;

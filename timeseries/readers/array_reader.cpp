@@ -89,14 +89,14 @@ void ArrayReader::scatter(std::uint64_t first, std::span<const T> from,
                           std::vector<T>& values) const {
     const auto& [nx, ny, nz] = layout_.size;
     const auto& [sx, sy, sz] = layout_.stride;
-    std::uint64_t x = first % nx, y = first / nx % ny, z = first / nx / ny;
+    auto at = indicesOf(first, glm::vec<3, std::uint64_t>(nx, ny, nz));
     for (const T value : from) {
-        values[x * sx + y * sy + z * sz] = value;
-        if (++x < nx) continue;
-        x = 0;
-        if (++y < ny) continue;
-        y = 0;
-        ++z;
+        values[at.x * sx + at.y * sy + at.z * sz] = value;
+        if (++at.x < nx) continue;
+        at.x = 0;
+        if (++at.y < ny) continue;
+        at.y = 0;
+        ++at.z;
     }
 }
 
