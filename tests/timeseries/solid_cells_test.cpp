@@ -131,6 +131,25 @@ TEST(SolidCells, PartsOfAShapeAreAsLargeAsTheShape) {
     }
 }
 
+// A file may list fewer points of a polyhedron than its faces have, or others.
+TEST(SolidCells, CornersOfAPolyhedronAreThoseOfItsFaces) {
+    UnstructuredGrid grid = bricks({2, 2, 2}, Cut::Polyhedra, plain);
+    grid.points.emplace_back(9, 9, 9);
+    grid.corners = {8, 3, 3};
+    grid.ends = {3};
+    ASSERT_EQ(flawOf(grid), "");
+    const auto solids = SolidCells::of(grid, grid.points.size());
+    ASSERT_TRUE(solids);
+    const auto corners = solids->corners(0);
+    EXPECT_EQ(std::vector(corners.begin(), corners.end()),
+              (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+    double volume = 0;
+    solids->forEachTet(0, [&](const auto& tet) { volume += volumeOf(grid, tet); });
+    EXPECT_NEAR(volume, 1, 1e-12);
+    EXPECT_EQ(solids->longest(), glm::dvec3(1));
+    EXPECT_EQ(SolidCells::of(grid, 7), nullptr);
+}
+
 TEST(SolidCells, SurfacesAndPointsBesideThemAreLeftOut) {
     UnstructuredGrid grid;
     grid.points.resize(8);

@@ -24,24 +24,31 @@ std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
 
 void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points) {
     const bool isPolyhedron = grid.types[cell] == kPolyhedron;
-    const std::size_t facesBefore = faces_.size();
-    bool isThere = true;  // all of its corners
-    if (isPolyhedron) {
+    const std::size_t facesBefore = faces_.size(), cornersBefore = corners_.size();
+    if (isPolyhedron) {  // its corners are those of its faces, whatever else the file lists
         const auto list = listOf(grid.faces, grid.faceEnds, cell);
         std::size_t at = 1;
         for (std::uint32_t left = list.empty() ? 0 : list[0]; left > 0; --left) {
             const auto face = list.subspan(at, 1 + list[at]);
-            for (const std::uint32_t point : face.subspan(1)) isThere = isThere && point < points;
             faces_.insert(faces_.end(), face.begin(), face.end());
+            corners_.insert(corners_.end(), face.begin() + 1, face.end());
             at += face.size();
         }
+        const auto begin = corners_.begin() + static_cast<std::ptrdiff_t>(cornersBefore);
+        std::sort(begin, corners_.end());
+        corners_.erase(std::unique(begin, corners_.end()), corners_.end());
+    } else {
+        const auto corners =
+            listOf(grid.corners, grid.ends, cell).first(cellTypeOf(grid.types[cell])->corners);
+        corners_.insert(corners_.end(), corners.begin(), corners.end());
     }
-    auto corners = listOf(grid.corners, grid.ends, cell);
-    if (!isPolyhedron) corners = corners.first(cellTypeOf(grid.types[cell])->corners);
-    for (const std::uint32_t point : corners) isThere = isThere && point < points;
-    if (!isThere || corners.empty()) return faces_.resize(facesBefore);
+    const auto own = std::span(corners_).subspan(cornersBefore);
+    if (own.empty() || std::ranges::any_of(own, [&](std::uint32_t p) { return p >= points; })) {
+        corners_.resize(cornersBefore);
+        faces_.resize(facesBefore);
+        return;
+    }
     types_.push_back(grid.types[cell]);
-    corners_.insert(corners_.end(), corners.begin(), corners.end());
     ends_.push_back(corners_.size());
     // Only where there are any.
     if (isPolyhedron || !faces_.empty()) faceEnds_.resize(types_.size(), facesBefore);

@@ -26,7 +26,7 @@ class SolidCells {
     static std::shared_ptr<const SolidCells> of(const UnstructuredGrid& grid, std::uint64_t points);
 
     std::uint64_t count() const { return types_.size(); }
-    // Of a cell, the points at its corners, each once.
+    // Of a cell, the points at its corners: those of all of its tetrahedra.
     std::span<const std::uint32_t> corners(std::uint64_t cell) const {
         return listOf(corners_, ends_, cell);
     }
