@@ -7,6 +7,7 @@
 #include "app/choices/clip_flaw.h"
 #include "app/files/chosen_axes.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 
 namespace app {
 namespace {

@@ -9,6 +9,7 @@
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 #include "timeseries/index/byte_source.h"
 
 namespace app {

@@ -9,6 +9,7 @@
 #include "app/exploration/followed_playback.h"
 #include "app/files/chosen_axes.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 
 namespace app {
 namespace {

@@ -11,9 +11,8 @@
 #include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
 #include "app/choices/decimals.h"
-#include "app/choices/first_choice.h"
-#include "app/choices/layer_colors.h"
 #include "app/picture/clip_counts.h"
+#include "app/picture/resolved.h"
 #include "render/annotate/stretch_text.h"
 #include "render/annotate/ticks.h"
 #include "render/frame/mean_depth.h"
@@ -27,82 +26,6 @@ using timeseries::RangeSet;
 using timeseries::SortedStep;
 
 constexpr double kLeastResolution = std::numeric_limits<double>::min();
-
-Quantiles quantilesOf(const Steps& sampled) {
-    Quantiles rows;
-    for (const auto& [index, step] : sampled)
-        rows.push_back(step->quantiles(timeseries::kStepQuantiles));
-    return rows;
-}
-
-// The finite values that may be shown; {0, 0} where there are none.
-Extent extentOf(const Explorer& e, const Steps& sampled) {
-    Extent all{kInfinity, -kInfinity};
-    for (const auto& [index, step] : sampled) {
-        const auto& whole = step->statistics();
-        Quantiles ends{
-            {timeseries::toDouble(whole.finiteMin), timeseries::toDouble(whole.finiteMax)}};
-        if (e.keep) ends = {step->quantiles(2)};
-        for (const double end : ends.front()) {
-            if (std::isnan(end)) continue;
-            all = {std::min(all.lo, end), std::max(all.hi, end)};
-        }
-    }
-    return all.lo <= all.hi ? all : Extent{};
-}
-
-// Ends of a layer in doubles, in order; infinite ones are those of `data`, or, where the layer lies
-// beyond these, its other end.
-Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
-    if (ranges.empty()) return data;
-    const double lo = timeseries::toDouble(ranges.ranges().front().lo.value);
-    double hi = -kInfinity;
-    for (const Range& range : ranges.ranges())
-        hi = std::max(hi, timeseries::toDouble(range.hi.value));
-    const bool low = std::isfinite(lo), high = std::isfinite(hi);
-    if (low && high) return {lo, hi};
-    if (low) return {lo, std::max(data.hi, lo)};
-    if (high) return {std::min(data.lo, hi), hi};
-    return data;
-}
-
-std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
-    std::uint64_t most = 0;
-    for (const auto& [index, step] : sampled)
-        most = std::max(most, step->count(step->keptPart(ranges)));
-    return most;
-}
-
-bool openStyle(const LayerChoice& layer) {
-    if (!layer.color || !layer.opacity) return true;
-    const auto* map = std::get_if<MapChoice>(&*layer.color);
-    return map != nullptr && !(map->lo && map->hi);
-}
-
-bool infinite(const RangeSet& ranges) {
-    for (const Range& range : ranges.ranges())
-        if (!std::isfinite(timeseries::toDouble(range.lo.value)) ||
-            !std::isfinite(timeseries::toDouble(range.hi.value)))
-            return true;
-    return false;
-}
-
-// A style for layer `place` of `count`; a lone layer is coloured by value.
-void style(LayerChoice& layer, const Extent& ends, std::size_t place, std::size_t count) {
-    if (!layer.color) {
-        if (count == 1) {
-            // Nobody asked for exact ends: the map's dark end lies below the range, where it would
-            // not be seen on the dark ground.
-            layer.color = MapChoice{{}, ends.lo - kDarkEnd * (ends.hi - ends.lo), ends.hi};
-        } else {
-            layer.color = kLayerColors[place];
-        }
-    }
-    if (auto* map = std::get_if<MapChoice>(&*layer.color)) {
-        map->lo = map->lo.value_or(ends.lo);
-        map->hi = map->hi.value_or(ends.hi);
-    }
-}
 
 render::RangeStyle rangeStyle(const LayerChoice& layer) {
     render::RangeStyle out{render::Constant{}, layer.opacity.value()};
@@ -144,76 +67,6 @@ int digitsOf(const RangeSet& ranges) {
 }
 
 }  // namespace
-
-bool needsSamples(const Explorer& e) {
-    const auto open = [](const LayerChoice& layer) {
-        return openStyle(layer) ||
-               (layer.motion ? infinite(layer.motion->animation) : layer.ranges.empty());
-    };
-    return std::ranges::any_of(e.layers, open) || (e.layers.empty() && !e.noLayers);
-}
-
-namespace {
-
-// Through finite values alone. Throws ChoiceError where that leaves none.
-RangeSet finitePart(const RangeSet& animation, const Extent& data) {
-    std::vector<Range> finite;
-    for (Range range : animation.ranges()) {
-        if (!std::isfinite(timeseries::toDouble(range.lo.value))) range.lo = {data.lo};
-        if (!std::isfinite(timeseries::toDouble(range.hi.value))) range.hi = {data.hi};
-        finite.push_back(range);
-    }
-    RangeSet within(std::move(finite));
-    if (within.empty())
-        throw ChoiceError(fmt::format("sweep {} reaches none of the data's values, {} to {}",
-                                      animation.text(), data.lo, data.hi));
-    return within;
-}
-
-// What of the data it shows, and its style where a map alone was asked for.
-void chooseFirst(LayerChoice& layer, const Steps& sampled) {
-    const LayerChoice first = firstChoice(quantilesOf(sampled));
-    layer.ranges = first.ranges;
-    auto* map = layer.color ? std::get_if<MapChoice>(&*layer.color) : nullptr;
-    const auto* chosen = first.color ? std::get_if<MapChoice>(&*first.color) : nullptr;
-    if (!layer.color)
-        layer.color = first.color;
-    else if (map && chosen)  // where it says nothing else, it spans what was chosen
-        *map = {map->map, map->lo ? map->lo : chosen->lo, map->hi ? map->hi : chosen->hi};
-    if (!sampled.empty()) layer.ranges = sampled.begin()->second->keptPart(layer.ranges);
-}
-
-}  // namespace
-
-RangeSet rangesNeeded(const Explorer& e) {
-    const auto mayBeAny = [](const LayerChoice& layer) {
-        return layer.motion || layer.ranges.empty();
-    };
-    if (std::ranges::any_of(e.layers, mayBeAny) || (e.layers.empty() && !e.noLayers))
-        return RangeSet::everything();
-    std::vector<RangeSet> all;
-    for (const LayerChoice& layer : e.layers) all.push_back(layer.ranges);
-    return timeseries::unionOf(all);
-}
-
-Explorer resolved(const Explorer& explorer, const Steps& sampled) {
-    Explorer e = explorer;
-    const Extent data = extentOf(e, sampled);
-    if (e.layers.empty() && !e.noLayers) e.layers.push_back({});
-    for (std::size_t place = 0; place < e.layers.size(); ++place) {
-        LayerChoice& layer = e.layers[place];
-        if (layer.motion)
-            layer.motion->animation = finitePart(layer.motion->animation, data);
-        else if (layer.ranges.empty())
-            chooseFirst(layer, sampled);
-        const RangeSet& all = layer.motion ? layer.motion->animation : layer.ranges;
-        style(layer, finiteEnds(all, data), place, e.layers.size());
-        // A swept window holds about its share of the animation's points.
-        if (!layer.opacity)
-            layer.opacity = opacityFor(mostSelected(all, sampled) / (layer.motion ? 8 : 1));
-    }
-    return e;
-}
 
 RangeSet rangesAt(const LayerChoice& layer, const SortedStep& step, std::int64_t tick) {
     if (!layer.motion) return layer.ranges;

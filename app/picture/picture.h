@@ -1,8 +1,6 @@
 // From a user's choices and the data of one step to what is drawn. No GL.
 #pragma once
 
-#include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,20 +10,6 @@
 #include "render/model/scene.h"
 
 namespace app {
-
-using Steps = std::map<std::size_t, std::shared_ptr<const timeseries::SortedStep>>;
-
-// Whether something is left to choose from the data: a range, a colour map's ends, an opacity, an
-// unbounded sweep.
-bool needsSamples(const Explorer& explorer);
-// All that these choices, resolved or not, ask of a step's points: the ranges of all layers, hidden
-// ones' too; everything where some are left to choose, or move.
-timeseries::RangeSet rangesNeeded(const Explorer& explorer);
-// The choices with nothing left open, hidden layers' too (showing one later changes no other's
-// colour), from a few steps of the series. A resolved Explorer draws the
-// same picture again whatever is sampled. Throws ChoiceError when an unbounded sweep does not reach
-// the data.
-Explorer resolved(const Explorer& explorer, const Steps& sampled);
 
 // What a layer selects: its ranges, or where its window stands at `tick`. That reaches beyond the
 // animation's ends, and only what was kept can be shown of it. REQUIRES: a resolved layer.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 #include "tests/support/built_paths.h"
 #include "tests/support/exploration_desk.h"
 #include "tests/support/files.h"

@@ -10,6 +10,7 @@
 #include "app/choices/edits.h"
 #include "app/choices/sweep_edits.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 #include "tests/support/exploration_desk.h"
 
 namespace app {

@@ -1,4 +1,5 @@
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

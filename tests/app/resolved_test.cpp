@@ -1,4 +1,5 @@
 // What is chosen where the user left it open.
+#include "app/picture/resolved.h"
 #include "app/choices/sweep_edits.h"
 #include "app/picture/picture.h"
 

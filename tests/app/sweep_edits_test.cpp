@@ -9,6 +9,7 @@
 #include "app/choices/edits.h"
 #include "app/choices/session.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 #include "tests/support/scenes.h"
 
 namespace app {

@@ -2,6 +2,7 @@
 #include "app/choices/edits.h"
 #include "app/choices/sweep_edits.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

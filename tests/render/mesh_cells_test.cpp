@@ -26,6 +26,7 @@ namespace {
 
 using tests::CellWorld;
 using tests::drawn;
+using tests::stepOfPlaces;
 using tests::cells::inside;
 using tests::cells::kFrom;
 using tests::cells::kNan;
@@ -39,12 +40,6 @@ const glm::dmat3 kLeaning{2, 0.3, 0, -0.4, 1.5, 0.2, 0.3, 0, 1};
 std::shared_ptr<const Grid> affine(std::array<std::size_t, 3> size, const glm::dmat3& steps) {
     return tests::curvilinear(
         size, [&](double i, double j, double k) { return steps * glm::dvec3(i, j, k); });
-}
-
-// A field of a grid's places.
-template <typename Field>
-timeseries::SortedStep stepOf(const std::shared_ptr<const Grid>& grid, const Field& field) {
-    return tests::stepOf(grid, [&](std::size_t i) { return field(grid->position(i)); });
 }
 
 // The volume of all tetrahedra, in the grid's units.
@@ -66,21 +61,22 @@ double volumeOf(const CellWorld& world) {
 TEST(MeshCells, FillWhatThePointsOfAStraightGridStandFor) {
     const double volume = std::abs(glm::determinant(kLeaning));
     for (const glm::dmat3& steps : {kLeaning, glm::dmat3(kLeaning[1], kLeaning[0], kLeaning[2])}) {
-        const CellWorld world(stepOf(affine({4, 5, 6}, steps), [](const auto& p) { return p.x; }),
-                              {"min:max"});
+        const CellWorld world(
+            stepOfPlaces(affine({4, 5, 6}, steps), [](const auto& p) { return p.x; }), {"min:max"});
         EXPECT_NEAR(volumeOf(world), 4 * 5 * 6 * volume, 1e-5 * volume);
     }
     auto axes = affine({4, 5, 6}, kLeaning)->axes();
     axes[2].down = true;
     const auto down = std::make_shared<const Grid>(axes, affine({4, 5, 6}, kLeaning)->mesh());
-    EXPECT_NEAR(volumeOf(CellWorld(stepOf(down, [](const auto& p) { return p.x; }), {"min:max"})),
-                120 * volume, 1e-5 * volume);
+    EXPECT_NEAR(
+        volumeOf(CellWorld(stepOfPlaces(down, [](const auto& p) { return p.x; }), {"min:max"})),
+        120 * volume, 1e-5 * volume);
 }
 
 TEST(MeshCells, OfALayerAreAsThickAsItsPointsCells) {
     const double area = glm::length(glm::cross(kLeaning[0], kLeaning[1]));
-    const CellWorld world(stepOf(affine({5, 4, 1}, kLeaning), [](const auto& p) { return p.x; }),
-                          {"min:max"});
+    const CellWorld world(
+        stepOfPlaces(affine({5, 4, 1}, kLeaning), [](const auto& p) { return p.x; }), {"min:max"});
     EXPECT_NEAR(volumeOf(world), 20 * area * std::sqrt(area), 1e-4 * area);
 }
 
@@ -94,7 +90,7 @@ TEST(MeshCells, FillARingOnce) {
                 const double a = 2 * std::numbers::pi * std::fmod(i, kSectors) / kSectors;
                 return (3 + j) * glm::dvec3(std::cos(a), std::sin(a), 0) + glm::dvec3(0, 0, k);
             });
-        const CellWorld world(stepOf(ring, [](const auto& p) { return p.z; }), {"min:max"});
+        const CellWorld world(stepOfPlaces(ring, [](const auto& p) { return p.z; }), {"min:max"});
         const double wedge = std::sin(2 * std::numbers::pi / kSectors) / 2;
         const double whole = kSectors * wedge * (7.5 * 7.5 - 2.5 * 2.5) * 4;
         // The two half cells of an open ring go straight on where the ring bends.
@@ -109,7 +105,7 @@ TEST(MeshCells, LackWhatAPointThatIsMissingStandsFor) {
     const CellWorld holed(tests::stepOf(grid, [](std::size_t i) { return i == 50 ? kNan : 1.0f; }),
                           {"min:max"});
     EXPECT_NEAR(volumeOf(holed), 119 * volume, 1e-4 * volume);
-    CellWorld clipped(stepOf(grid, [](const auto& p) { return p.x; }), {"min:max"});
+    CellWorld clipped(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"min:max"});
     int inside = 0;
     for (std::size_t i = 0; i < 120; ++i) inside += grid->position(i).y < 3.1 ? 1 : 0;
     clipped.scene.clip.to.y = 3.1;
@@ -121,7 +117,7 @@ TEST(MeshCells, CrossTheEndOfAPeriodTheShortWay) {
         return glm::dvec3(std::fmod(10 * i + 100, 360), 10 * j + 0.1 * i, k);
     });
     places.period = {360, 0, 0};
-    const CellWorld world(stepOf(tests::gridOf(places), [](const auto& p) { return p.y; }),
+    const CellWorld world(stepOfPlaces(tests::gridOf(places), [](const auto& p) { return p.y; }),
                           {"min:max"});
     const MeshCells mesh(world.placed, world.scene.cells->cornersOf(), world.scene.clip);
     for (unsigned i = 0; i < 37; ++i) {
@@ -146,7 +142,7 @@ TEST(MeshCells, ReachAsFarAsTheySayAndNoFarther) {
     });
     for (const auto& grid :
          {tests::columns({0, 1, 5, 6}), tests::twisted(), wild, tests::gridOf(std::move(period))}) {
-        const CellWorld world(stepOf(grid, [](const auto& p) { return p.x; }), {"min:max"});
+        const CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"min:max"});
         const timeseries::CellCorners& corners = world.scene.cells->cornersOf();
         const MeshCells mesh(world.placed, corners, world.scene.clip);
         ASSERT_TRUE(timeseries::isPlace(mesh.reach()));
@@ -174,7 +170,8 @@ TEST(MeshCells, ReachAsFarAsTheySayAndNoFarther) {
 // The way through the parallelepiped that the points' cells fill.
 TEST(MeshCells, AFieldSelectedWholeIsAsDeepAsTheRaysWayThroughTheGrid) {
     const CellWorld world(
-        stepOf(affine({4, 5, 6}, kLeaning), [](const auto& p) { return p.x + p.z; }), {"min:max"});
+        stepOfPlaces(affine({4, 5, 6}, kLeaning), [](const auto& p) { return p.x + p.z; }),
+        {"min:max"});
     const glm::dvec3 scale = world.placed.scale();
     const glm::dmat3 toIndices = glm::inverse(kLeaning);
     for (const glm::dvec3& from : kFrom) {
@@ -206,7 +203,7 @@ TEST(MeshCells, AThinRangeOfALinearFieldIsAClosedShellOfItsThickness) {
         return p + 0.3 * glm::dvec3(std::sin(0.7 * j), std::sin(0.5 * k + 1), std::sin(0.6 * i));
     });
     for (const double width : {2.0, 0.1, 0.001}) {
-        const CellWorld world(stepOf(grid, [](const auto& p) { return p.x; }),
+        const CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }),
                               {"5.37~" + std::to_string(width / 2)});
         const View view = tests::lookFrom({3, -0.4, 0.3}, {64, 64}, 0.05);
         const std::vector<float> w = drawn(world.scene, view);
@@ -315,10 +312,11 @@ glm::dvec4 lightOf(const Scene& scene, const View& view, const glm::ivec2& pixel
 // From outside, pixels that see an edge are what is off; from within, cells that lean and grow are
 // passed a little out of their order.
 TEST(MeshCells, HideWhatIsBehindThem) {
-    CellWorld world(stepOf(tests::twisted(),
-                           [](const glm::dvec3& p) {
-                               return 0.5 + 0.5 * std::sin(p.x + 0.4) * std::cos(0.9 * p.y - p.z);
-                           }),
+    CellWorld world(stepOfPlaces(tests::twisted(),
+                                 [](const glm::dvec3& p) {
+                                     return 0.5 +
+                                            0.5 * std::sin(p.x + 0.4) * std::cos(0.9 * p.y - p.z);
+                                 }),
                     {"0.3:0.9"}, 0.9);
     world.scene.layers[0].style.color = ByValue{ColorMap(), 0.2, 0.8};
     world.scene.order = Order::BackToFront;
@@ -350,7 +348,8 @@ TEST(MeshCells, LightIsThatOfAnUprightGridWhereTheFieldIs) {
     const auto field = [](const glm::dvec3& p) { return p.x + 2 * p.y - 0.5 * p.z; };
     for (const bool byValue : {false, true}) {
         const std::vector<std::string> layers{"1:5", "3:3.5", "6:9"};
-        CellWorld one(stepOf(upright, field), layers), other(stepOf(oneByOne, field), layers);
+        CellWorld one(stepOfPlaces(upright, field), layers),
+            other(stepOfPlaces(oneByOne, field), layers);
         for (CellWorld* world : {&one, &other}) {
             world->scene.layers[1].style.opacity = 0.9;
             world->scene.layers[2].style.opacity = 1;
@@ -377,7 +376,7 @@ TEST(MeshCells, LightIsThatOfAnUprightGridWhereTheFieldIs) {
 
 TEST(MeshCells, APlaceBetweenPointsIsSeenUnderTheCursor) {
     const auto grid = affine({9, 9, 9}, glm::dmat3(1, 0.1, 0, 0, 1, 0.1, 0.1, 0, 1));
-    CellWorld world(stepOf(grid, [](const auto& p) { return p.x; }), {"5.2:5.6"}, 0.01);
+    CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"5.2:5.6"}, 0.01);
     world.scene.order = Order::BackToFront;
     const View view = tests::lookFrom({3, 0, 0}, {21, 21});
     const auto seen = pickCell(world.scene, view, {10.5, 10.5});

@@ -22,6 +22,8 @@ namespace {
 using tests::CellWorld;
 using tests::Cut;
 using tests::drawn;
+using tests::kCuts;
+using tests::stepOfPlaces;
 using tests::cells::inside;
 using tests::cells::kFrom;
 using tests::cells::kNan;
@@ -29,22 +31,8 @@ using tests::cells::Ray;
 using tests::cells::rayOf;
 using timeseries::Grid;
 
-constexpr std::array kCuts{Cut::Hexahedra, Cut::Tetrahedra, Cut::Wedges, Cut::Polyhedra};
-
-// Bent inside a box of 4 x 3 x 5, whose sides stay flat.
-std::shared_ptr<const Grid> bentBricks(Cut cut) {
-    const auto bent = [](double i, double j, double k) {
-        const double inside = i * (4 - i) * j * (3 - j) * k * (5 - k) / 100;
-        return glm::dvec3(i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside);
-    };
-    return std::make_shared<const Grid>(timeseries::spaceAxes(),
-                                        std::make_shared<const timeseries::Mesh>(
-                                            tests::atPoints(tests::bricks({5, 4, 6}, cut, bent))));
-}
-
-template <typename Field>
-timeseries::SortedStep stepOf(const std::shared_ptr<const Grid>& grid, const Field& field) {
-    return tests::stepOf(grid, [&](std::size_t i) { return field(grid->position(i)); });
+std::shared_ptr<const Grid> bentGrid(Cut cut) {
+    return tests::gridOf(tests::atPoints(tests::bentBricks(cut)));
 }
 
 // use(cell, tet) for all that is seen.
@@ -69,9 +57,9 @@ double volumeOf(const CellWorld& world) {
 // Of a tetrahedron each corner has a quarter.
 TEST(SolidTets, OfCornersThatAreMissingOrClippedAQuarterIsNotThere) {
     for (const Cut cut : kCuts) {
-        const auto grid = bentBricks(cut);
+        const auto grid = bentGrid(cut);
         const auto x = [](const auto& p) { return p.x; };
-        EXPECT_NEAR(volumeOf(CellWorld(stepOf(grid, x), {"min:max"})), 60, 1e-4);
+        EXPECT_NEAR(volumeOf(CellWorld(stepOfPlaces(grid, x), {"min:max"})), 60, 1e-4);
         for (const bool byClip : {false, true}) {
             const auto isThere = [&](std::uint64_t i) {
                 return byClip ? grid->position(i).y <= 1.6 : i % 3 != 1;
@@ -101,7 +89,7 @@ TEST(SolidTets, OfCornersThatAreMissingOrClippedAQuarterIsNotThere) {
 
 TEST(SolidTets, ReachAsFarAsTheySayAndNoFarther) {
     for (const Cut cut : kCuts) {
-        const CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+        const CellWorld world(stepOfPlaces(bentGrid(cut), [](const auto& p) { return p.x; }),
                               {"min:max"});
         const SolidTets solids(world.placed, world.scene.cells->field(), world.scene.clip);
         forEachTetOf(world, [&](std::uint32_t cell, const MeshCells::Tetrahedron& tet) {
@@ -119,7 +107,7 @@ TEST(SolidTets, AreFoundByTheirValues) {
     for (const Cut cut : kCuts) {
         std::mt19937 random(3);
         std::uniform_real_distribution<float> any(0, 1);
-        const auto grid = bentBricks(cut);
+        const auto grid = bentGrid(cut);
         const auto step =
             tests::stepOf(grid, [&](std::size_t i) { return i % 7 == 0 ? kNan : any(random); });
         const auto index = step.cells();
@@ -161,7 +149,7 @@ TEST(SolidTets, ARangeOfALinearFieldIsASlab) {
     for (const Cut cut : kCuts)
         for (const auto& [lo, hi] :
              {std::pair(-1.0, 9.0), std::pair(1.1, 2.7), std::pair(1.9, 2.0)}) {
-            const CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+            const CellWorld world(stepOfPlaces(bentGrid(cut), [](const auto& p) { return p.x; }),
                                   {std::to_string(lo) + ":" + std::to_string(hi)});
             PlacedPoints::Box box = world.placed.pointsBox();
             box.lo.x = world.placed.axesFromGrid({std::max(lo, 0.0), 0, 0}).x;
@@ -193,7 +181,7 @@ TEST(SolidTets, AreTheIntervalVolumeOfTheFieldInThem) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> any(0, 1);
     const auto step = tests::stepOf(
-        bentBricks(Cut::Wedges), [&](std::size_t i) { return i % 11 == 0 ? kNan : any(random); });
+        bentGrid(Cut::Wedges), [&](std::size_t i) { return i % 11 == 0 ? kNan : any(random); });
     const CellWorld world(step, {"0.3:0.6"});
     for (const glm::dvec3& from : kFrom) {
         const View view = tests::lookFrom(from, {24, 20}, 0.1);
@@ -225,7 +213,7 @@ TEST(SolidTets, AreTheIntervalVolumeOfTheFieldInThem) {
 TEST(SolidTets, HideWhatIsBehindThem) {
     for (const Cut cut : kCuts) {
         // Of two opaque slabs the nearer one is seen, from either side.
-        CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+        CellWorld world(stepOfPlaces(bentGrid(cut), [](const auto& p) { return p.x; }),
                         {"0.5:1.5", "2.5:3.5"}, 1.0);
         world.scene.order = Order::BackToFront;
         for (const double side : {-1.0, 1.0}) {
@@ -240,7 +228,7 @@ TEST(SolidTets, HideWhatIsBehindThem) {
 
 TEST(SolidTets, APlaceBetweenPointsIsSeenUnderTheCursor) {
     for (const Cut cut : kCuts) {
-        const CellWorld world(stepOf(bentBricks(cut), [](const auto& p) { return p.x; }),
+        const CellWorld world(stepOfPlaces(bentGrid(cut), [](const auto& p) { return p.x; }),
                               {"1.3~0.001"}, 1.0);
         const View view = tests::lookFrom({3, 0.1, 0.2}, {21, 21}, 0.05);
         const auto picked = pickCell(world.scene, view, {10.5, 10.5});

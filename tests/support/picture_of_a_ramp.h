@@ -6,6 +6,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 #include "tests/support/scenes.h"
 
 namespace app::ramp {

@@ -41,6 +41,13 @@ timeseries::SortedStep stepOf(std::shared_ptr<const timeseries::Grid> grid, cons
     return timeseries::SortedStep::build({std::move(grid), std::move(values), {}});
 }
 
+// A field of a grid's places.
+template <typename F>
+timeseries::SortedStep stepOfPlaces(const std::shared_ptr<const timeseries::Grid>& grid,
+                                    const F& f) {
+    return stepOf(grid, [&](std::size_t i) { return f(grid->position(i)); });
+}
+
 // Uniform noise in [0, 1).
 inline timeseries::SortedStep noise(std::shared_ptr<const timeseries::Grid> grid,
                                     unsigned seed = 7) {

@@ -20,6 +20,8 @@ inline void addCell(timeseries::UnstructuredGrid& grid, std::uint8_t type,
 }
 
 enum class Cut { Hexahedra, Voxels, Tetrahedra, Wedges, Polyhedra };
+inline constexpr std::array kCuts{Cut::Hexahedra, Cut::Voxels, Cut::Tetrahedra, Cut::Wedges,
+                                  Cut::Polyhedra};
 
 // size[a] points along each index, at place(i, j, k) of doubles. A brick is five tetrahedra, turned
 // from one to the next, or two wedges.
@@ -75,6 +77,13 @@ timeseries::UnstructuredGrid bricks(std::array<std::uint32_t, 3> size, Cut cut,
             }
     return grid;
 }
+
+// Bent inside a box of 4 x 3 x 5, whose sides stay flat.
+inline glm::dvec3 bent(double i, double j, double k) {
+    const double inside = i * (4 - i) * j * (3 - j) * k * (5 - k) / 100;
+    return {i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside};
+}
+inline timeseries::UnstructuredGrid bentBricks(Cut cut) { return bricks({5, 4, 6}, cut, bent); }
 
 inline timeseries::Mesh atCells(const timeseries::UnstructuredGrid& grid) {
     return meshOfCells(grid, timeseries::UnstructuredShapes(grid));

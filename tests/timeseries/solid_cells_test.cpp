@@ -18,16 +18,9 @@ namespace {
 using tests::addCell;
 using tests::bricks;
 using tests::Cut;
-
-constexpr std::array kCuts{Cut::Hexahedra, Cut::Voxels, Cut::Tetrahedra, Cut::Wedges,
-                           Cut::Polyhedra};
+using tests::kCuts;
 
 glm::dvec3 plain(double i, double j, double k) { return {i, j, k}; }
-// Bent inside a box of 4 x 3 x 5, whose sides stay flat.
-glm::dvec3 bent(double i, double j, double k) {
-    const double inside = i * (4 - i) * j * (3 - j) * k * (5 - k) / 100;
-    return {i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside};
-}
 
 // The same cells of points that are numbered otherwise.
 UnstructuredGrid renumbered(const UnstructuredGrid& grid, std::mt19937& random) {
@@ -58,7 +51,7 @@ TEST(SolidCells, PartsOfEveryShapeFillTheirGridAndMeetFaceToFace) {
     std::mt19937 random(4);
     for (const Cut cut : kCuts)
         for (int turn = 0; turn < 5; ++turn) {
-            const UnstructuredGrid grid = renumbered(bricks({5, 4, 6}, cut, bent), random);
+            const UnstructuredGrid grid = renumbered(tests::bentBricks(cut), random);
             const auto solids = SolidCells::of(grid, grid.points.size());
             ASSERT_TRUE(solids);
             ASSERT_EQ(solids->count(), grid.types.size());

@@ -17,19 +17,12 @@ namespace timeseries {
 namespace {
 
 using tests::addCell;
+using tests::bent;
+using tests::bentBricks;
 using tests::bricks;
 using tests::Cut;
+using tests::kCuts;
 using tests::volume;
-
-constexpr std::array kCuts{Cut::Hexahedra, Cut::Voxels, Cut::Tetrahedra, Cut::Wedges,
-                           Cut::Polyhedra};
-
-// Bent inside a box of 4 x 3 x 5, whose sides stay flat.
-glm::dvec3 bent(double i, double j, double k) {
-    const double inside = i * (4 - i) * j * (3 - j) * k * (5 - k) / 100;
-    return {i + 0.3 * inside, j - 0.2 * inside, k + 0.25 * inside};
-}
-UnstructuredGrid bentBricks(Cut cut) { return bricks({5, 4, 6}, cut, bent); }
 
 TEST(Unstructured, CellsAndPointsTakeTheSpaceThatThereIs) {
     for (const Cut cut : kCuts) {

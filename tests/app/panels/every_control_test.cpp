@@ -12,6 +12,7 @@
 
 #include "app/panels/focus.h"
 #include "app/picture/picture.h"
+#include "app/picture/resolved.h"
 #include "tests/support/files.h"
 #include "tests/support/panels_desk.h"
 

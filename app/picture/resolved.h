@@ -1,0 +1,32 @@
+// What a user left open, chosen from the data: from an explorer's choices to choices that draw the
+// same picture again.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "app/choices/explorer.h"
+#include "app/choices/first_choice.h"
+#include "timeseries/index/sorted_step.h"
+
+namespace app {
+
+using Steps = std::map<std::size_t, std::shared_ptr<const timeseries::SortedStep>>;
+
+// Whether something is left to choose from the data: a range, a colour map's ends, an opacity, an
+// unbounded sweep.
+bool needsSamples(const Explorer& explorer);
+// All that these choices, resolved or not, ask of a step's points: the ranges of all layers, hidden
+// ones' too; everything where some are left to choose, or move.
+timeseries::RangeSet rangesNeeded(const Explorer& explorer);
+// The choices with nothing left open, hidden layers' too (showing one later changes no other's
+// colour), from a few steps of the series. A resolved Explorer draws the
+// same picture again whatever is sampled. Throws ChoiceError when an unbounded sweep does not reach
+// the data.
+Explorer resolved(const Explorer& explorer, const Steps& sampled);
+
+// Ends of a layer in doubles, in order; infinite ones are those of `data`, or, where the layer lies
+// beyond these, its other end.
+Extent finiteEnds(const timeseries::RangeSet& ranges, const Extent& data);
+
+}  // namespace app
