@@ -62,9 +62,9 @@ struct Resting {
     Screen of;
     Refinement refinement;
 
-    Resting(render::FrameRenderer& renderer, const Screen& screen, Picture picture,
-            std::span<const render::View> eyes)
-        : of(screen), refinement(renderer, std::move(picture), screen.held->onGpu, eyes) {}
+    Resting(render::FrameRenderer& renderer, render::DepthOrder& order, const Screen& screen,
+            Picture picture, std::span<const render::View> eyes)
+        : of(screen), refinement(renderer, order, std::move(picture), screen.held->onGpu, eyes) {}
     bool is(const Screen& screen, std::span<const render::View> eyes) const {
         return of.sorted == screen.sorted && of.explorer == screen.explorer &&
                std::ranges::equal(refinement.eyes(), eyes);
@@ -83,6 +83,7 @@ struct Canvas::State {
     std::optional<Screen> screen;
     std::uint32_t stride = 1;        // of what was shown last
     bool byCells = false;            // it was, not by points
+    render::DepthOrder order;        // of pictures at rest
     std::optional<Resting> resting;  // uses the renderer alone
     Telling telling;
 
@@ -234,8 +235,8 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     if (!resting || !resting->is(*screen, eyes)) {
         render::Scene scene = sceneOf(*screen);
         render::Legend legend = state_->telling.legend(*screen, scene, true);
-        resting.emplace(state_->renderer, *screen, Picture{std::move(scene), std::move(legend)},
-                        eyes);
+        resting.emplace(state_->renderer, state_->order, *screen,
+                        Picture{std::move(scene), std::move(legend)}, eyes);
     }
     Refinement& refinement = resting->refinement;
     if (refinement.order()) {

@@ -12,16 +12,19 @@ using namespace std::chrono_literals;
 
 // Of what is to be done: the list's share, where there is one.
 constexpr double kOrdering = 0.2;
+// Between two frames of the window, each of which takes about as long.
+constexpr auto kOrderingSlice = 16ms;
 
 }  // namespace
 
-Refinement::Refinement(render::FrameRenderer& renderer, Picture picture,
+Refinement::Refinement(render::FrameRenderer& renderer, render::DepthOrder& order, Picture picture,
                        const render::GlStep& onGpu, std::span<const render::View> eyes)
     : renderer_(renderer),
       picture_(std::move(picture)),
       eyes_(eyes.begin(), eyes.end()),
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
-      onGpu_(onGpu) {
+      onGpu_(onGpu),
+      order_(order) {
     order_.begin(picture_.scene, render::midEye(eyes_));
     if (!order_.done()) ordering_ = kOrdering;
 }
@@ -36,7 +39,7 @@ bool Refinement::order() {
 
 bool Refinement::orderPoints() {
     constexpr std::uint64_t kAtOnce = 1 << 17;
-    const auto until = std::chrono::steady_clock::now() + 4ms;
+    const auto until = std::chrono::steady_clock::now() + kOrderingSlice;
     while (!order_.done()) {
         order_.goOn(kAtOnce);
         if (std::chrono::steady_clock::now() >= until) break;

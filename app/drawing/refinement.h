@@ -16,14 +16,14 @@ namespace app {
 
 class Refinement {
  public:
-    // The renderer, `onGpu`, ready for the picture, and what the picture refers to must outlive
-    // this. REQUIRES: at least one eye, all of one size.
-    Refinement(render::FrameRenderer& renderer, Picture picture, const render::GlStep& onGpu,
-               std::span<const render::View> eyes);
+    // The renderer, `order`, which has no other user meanwhile, `onGpu`, ready for the picture, and
+    // what the picture refers to must outlive this. REQUIRES: at least one eye, all of one size.
+    Refinement(render::FrameRenderer& renderer, render::DepthOrder& order, Picture picture,
+               const render::GlStep& onGpu, std::span<const render::View> eyes);
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
 
-    // Goes on with the draw list for a few milliseconds. True when it is there.
+    // Goes on with the draw list for about as long as a frame takes. True when it is there.
     bool order();
     // Draws until `cost` is reached (render/model/splat_cost.h), a little more than that, and hands
     // each eye's light to `show` once it is whole. Returns what it cost. REQUIRES: order(), and not
@@ -42,7 +42,7 @@ class Refinement {
     const std::vector<render::View> eyes_;
     const render::FrameContent content_;
     const render::GlStep& onGpu_;
-    render::DepthOrder order_;
+    render::DepthOrder& order_;
     double ordering_ = 0;  // its share of all that is to be done
     std::optional<const render::FrameRenderer::Prepared> frame_;  // once it is ordered
     double cost_ = 0, drawn_ = 0;  // of all eyes, and of what is drawn

@@ -4,11 +4,13 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 namespace render {
 namespace {
 
-constexpr std::size_t kAtOnce = 512;
+// Pixels of three channels and of four repeat after so many.
+constexpr std::size_t kPeriod = 12, kAtOnce = 20 * kPeriod;
 
 // 255 (1.055 x^(1/2.4) - 0.055) + 0.5 as a polynomial in x^(1/4), interpolated at Chebyshev's
 // points: to 2.2e-6 of the whole. shaders/present.frag has the same. Compiled for wider vectors,
@@ -40,9 +42,17 @@ void encodeSrgb8(std::span<const float> linear, std::span<std::uint8_t> bytes) {
     std::array<float, kAtOnce> steps;
     for (std::size_t first = 0; first < linear.size(); first += kAtOnce) {
         const std::size_t count = std::min(kAtOnce, linear.size() - first);
-        encode(&linear[first], steps.data(), count);
-        for (std::size_t i = 0; i < count; ++i)
-            bytes[first + i] = static_cast<std::uint8_t>(static_cast<int>(steps[i]));
+        const float* const light = &linear[first];
+        std::uint8_t* const to = &bytes[first];
+        // Ground, mostly: one colour again and again.
+        const bool repeats = count > kPeriod && std::memcmp(light, light + kPeriod,
+                                                            (count - kPeriod) * sizeof(float)) == 0;
+        std::size_t done = repeats ? kPeriod : count;
+        encode(light, steps.data(), done);
+        for (std::size_t i = 0; i < done; ++i)
+            to[i] = static_cast<std::uint8_t>(static_cast<int>(steps[i]));
+        for (; done < count; done += std::min(done, count - done))
+            std::memcpy(to + done, to, std::min(done, count - done));
     }
 }
 

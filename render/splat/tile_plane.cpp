@@ -4,6 +4,19 @@
 #include <utility>
 
 namespace render {
+namespace {
+
+// Sums channel by channel, `plane` floats apart, times a pixel's factor if there are any, into
+// pixels.
+template <std::size_t kFloats>
+void storeRow(const float* sums, std::size_t plane, const float* factor, std::size_t width,
+              float* to) {
+    for (std::size_t x = 0; x < width; ++x)
+        for (std::size_t c = 0; c < kFloats; ++c)
+            to[kFloats * x + c] = factor ? factor[x] * sums[c * plane + x] : sums[c * plane + x];
+}
+
+}  // namespace
 
 TilePlane::TilePlane(const TileLayout& layout, std::span<const float> opaqueDepth, int pictureWidth,
                      unsigned threads, std::vector<float>& plane)
@@ -52,15 +65,15 @@ void TilePlane::load(std::size_t tile, TileRoom& room) {
 void TilePlane::store(const TileRoom& room, bool lastOfAll) {
     const bool isPerRay =
         layout_.channels == Channels::Weight || layout_.channels == Channels::WeightedColor;
+    const auto width = static_cast<std::size_t>(room.size.x);
     for (int row = 0; row < room.size.y; ++row) {
-        float* to = rowOf(room.at, row);
-        for (int x = 0; x < room.size.x; ++x) {
-            const auto at = static_cast<std::size_t>(row * kTileStride + x);
-            const float factor = lastOfAll && isPerRay ? room.factor[at] : 1;
-            for (std::size_t c = 0; c < floats_; ++c)
-                to[c] = factor * room.sums[c * room.plane + at];
-            to += floats_;
-        }
+        const std::size_t at = static_cast<std::size_t>(row) * kTileStride;
+        const float* const factor = lastOfAll && isPerRay ? room.factor.data() + at : nullptr;
+        const float* const sums = room.sums.data() + at;
+        if (floats_ == 1)
+            storeRow<1>(sums, room.plane, factor, width, rowOf(room.at, row));
+        else
+            storeRow<4>(sums, room.plane, factor, width, rowOf(room.at, row));
     }
 }
 

@@ -48,6 +48,21 @@ HWY_ATTR void FillRays(const TileLayout& layout, TileRoom& room) {
     room.largestFactor = hn::GetLane(hn::MaxOfLanes(lanes, most));
 }
 
+// Copies depths and returns the nearest of them, or 1.
+HWY_ATTR float TakeDepths(const float* from, std::size_t count, float* to) {
+    const Floats lanes;
+    F nearest = f(1);
+    std::size_t i = 0;
+    for (; i + kLanes <= count; i += kLanes) {
+        const F depths = hn::LoadU(lanes, from + i);
+        hn::StoreU(depths, lanes, to + i);
+        nearest = hn::Min(nearest, depths);
+    }
+    float least = hn::GetLane(hn::MinOfLanes(lanes, nearest));
+    for (; i < count; ++i) least = std::min(least, to[i] = from[i]);
+    return least;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace render
 HWY_AFTER_NAMESPACE();
@@ -55,6 +70,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace render {
 HWY_EXPORT(FillRays);
+HWY_EXPORT(TakeDepths);
 
 TileRoom::TileRoom(const TileLayout& layout) {
     plane = static_cast<std::size_t>(kTileStride * layout.tile.y) + 16;
@@ -71,12 +87,13 @@ void TileRoom::enter(const TileLayout& layout, std::size_t tile, std::span<const
     nearestOpaque = 1;
     if (!opaqueDepth.empty())
         for (int row = 0; row < size.y; ++row) {
-            const auto from = opaqueDepth.begin() +
-                              std::ptrdiff_t(layout.box.at.y + at.y + row) * pictureWidth +
-                              layout.box.at.x + at.x;
-            const auto to = opaque.begin() + row * kTileStride;
-            std::copy_n(from, size.x, to);
-            nearestOpaque = std::min(nearestOpaque, *std::min_element(to, to + size.x));
+            const std::ptrdiff_t from =
+                std::ptrdiff_t(layout.box.at.y + at.y + row) * pictureWidth + layout.box.at.x +
+                at.x;
+            const float nearest = HWY_DYNAMIC_DISPATCH(TakeDepths)(
+                opaqueDepth.data() + from, static_cast<std::size_t>(size.x),
+                opaque.data() + std::ptrdiff_t(row) * kTileStride);
+            nearestOpaque = std::min(nearestOpaque, nearest);
         }
     HWY_DYNAMIC_DISPATCH(FillRays)(layout, *this);
 }

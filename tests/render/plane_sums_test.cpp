@@ -101,6 +101,19 @@ TYPED_TEST(PlaneSummed, WhatIsOpaqueHidesPixelByPixel) {
     }
 }
 
+// Whichever vector of pixels, or rest of one, it lies in.
+TYPED_TEST(PlaneSummed, AColumnThatIsHiddenIsAllThatIsHidden) {
+    const auto width = static_cast<std::size_t>(this->view_.size.x);
+    const auto open = this->sum(Channels::Weight, 2);
+    for (std::size_t hidden = 0; hidden < width; hidden += hidden < width - 20 ? 7 : 1) {
+        auto expected = open;
+        for (std::size_t i = hidden; i < expected.size(); i += width)
+            expected[i] = this->opaque_[i] = 0;
+        EXPECT_EQ(this->sum(Channels::Weight, 2), expected) << hidden;
+        std::ranges::fill(this->opaque_, 1.0f);
+    }
+}
+
 TYPED_TEST(PlaneSummed, WhereThereIsNothingOpaqueItNeedNotBeSaid) {
     std::ranges::fill(this->opaque_, 1.0f);
     const auto said = this->sum(Channels::WeightedColor, 2);

@@ -75,8 +75,8 @@ std::vector<float> noise(std::size_t points) {
     return values;
 }
 
-// From the last movement of a drag until nothing in the window has changed for a while, that is,
-// until all points are seen.
+// From the last movement of a drag to the last change of the picture before the window is quiet for
+// a while, that is, until all points are seen. Their error is told beside it, and later.
 struct Rests {
     std::vector<double> gaps, times;
 };
@@ -88,15 +88,19 @@ Rests rests(ui::Driver& desk, const ui::Places& at) {
     desk.down();
     for (int i = 1; i <= kRests; ++i) {
         const Clock::time_point begin = Clock::now();
-        Clock::time_point changed = begin;
+        Clock::time_point changed = begin, pictured = begin;
         desk.moveOnly(at.clear.centre() + glm::vec2(20 * i, 0));
-        for (ui::Shot last; Clock::now() - changed < kQuiet;) {
+        ui::Shot window, picture;
+        while (Clock::now() - changed < kQuiet) {
             out.gaps.push_back(Milliseconds(desk.ping()).count());
-            ui::Shot now = desk.shot();
-            if (now != last) changed = Clock::now();
-            last = std::move(now);
+            const auto look = [&](ui::Shot& last, ui::Shot now, Clock::time_point& when) {
+                if (now != last) when = Clock::now();
+                last = std::move(now);
+            };
+            look(window, desk.shot(), changed);
+            look(picture, desk.shot(at.clear), pictured);
         }
-        out.times.push_back(Milliseconds(changed - begin).count());
+        out.times.push_back(Milliseconds(pictured - begin).count());
     }
     desk.up();
     return out;
@@ -117,13 +121,19 @@ void runResting(const ui::Screen& screen, const std::filesystem::path& home) {
     bench::writeField(file, "float", 128, noise(std::size_t{128} * 128 * 128));
     runTurning(screen, home, "between frames, turning, a million points",
                {file.string(), "--range", "0.25:0.75", "--model", "points"});
-    ui::Driver desk(screen, home, {file.string(), "--range", "0.25:0.75"});
-    desk.waitForTitle(" points");
-    const ui::Places at = ui::placesOf(desk.size(), false);
-    desk.settled();
-    const Rests figures = rests(desk, at);
-    tell("between frames, a million points come to rest", figures.gaps);
-    tell("from a drag's end to all of a million points", figures.times);
+    const auto restBy = [&](const char* model, const char* gaps, const char* times) {
+        ui::Driver desk(screen, home, {file.string(), "--range", "0.25:0.75", "--model", model});
+        desk.waitForTitle(" points");
+        const ui::Places at = ui::placesOf(desk.size(), false);
+        desk.settled();
+        const Rests figures = rests(desk, at);
+        tell(gaps, figures.gaps);
+        tell(times, figures.times);
+    };
+    restBy("points", "between frames, a million points come to rest",
+           "from a drag's end to all of a million points");
+    restBy("cells", "between frames, their cells come to rest",
+           "from a drag's end to all of their cells");
 }
 
 // As long as `seconds` of playing, the times between steps that the window's title names.
