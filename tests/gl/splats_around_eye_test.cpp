@@ -92,7 +92,7 @@ double wayOut(const PlacedPoints& placed, const glm::dvec3& eye, const glm::dvec
 }
 
 // Their whole lines stand for those whose centres lie behind the eye, which are not drawn; the
-// light that this takes from a medium all around it is what ARCHITECTURE.md says.
+// light that this takes from a medium all around it is what render/README.md says.
 TEST_F(SplatsAroundTheEye, LeaveAMediumAsManyPercentTooFaintAsIsSaid) {
     const auto step = tests::noise(tests::cube(24));
     const PlacedPoints placed(step.grid());

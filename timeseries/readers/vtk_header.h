@@ -1,6 +1,6 @@
 // What a VTK file declares, checked against its own size before VTK is asked for a value: plain
-// data, told by our own look at the XML header or at the lines of a legacy file. ARCHITECTURE.md
-// ("One load") says why VTK is not asked.
+// data, told by our own look at the XML header or at the lines of a legacy file.
+// timeseries/README.md ("One load") says why VTK is not asked.
 #pragma once
 
 #include <array>
