@@ -20,6 +20,7 @@ class Refinement {
     // what the picture refers to must outlive this. REQUIRES: at least one eye, all of one size.
     Refinement(render::FrameRenderer& renderer, render::DepthOrder& order, Picture picture,
                const render::GlStep& onGpu, std::span<const render::View> eyes);
+    ~Refinement() { order_.shrink(); }
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
 

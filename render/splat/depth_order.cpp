@@ -171,11 +171,16 @@ void DepthOrder::sortBy(unsigned half, std::span<const Keyed> slice, const Put& 
 
 DrawList DepthOrder::take() {
     if (!ordered_) return Runs{};
-    // More than pictures have that move.
-    constexpr std::size_t kKept = 1 << 21;
     Sorted list = std::exchange(list_, {});
-    if (splats_.capacity() > kKept) splats_ = byLower_ = std::vector<Keyed>();
+    shrink();
     return list;
+}
+
+void DepthOrder::shrink() {
+    constexpr std::size_t kKept = 1 << 21;
+    if (splats_.capacity() <= kKept) return;
+    splats_ = byLower_ = std::vector<Keyed>();
+    list_ = {};
 }
 
 DrawList DepthOrder::operator()(const Scene& scene, const glm::dvec3& midEye) {

@@ -32,6 +32,8 @@ class DepthOrder {
     bool done() const { return phase_ == Phase::Done; }
     double share() const;  // of what is to be done, [0, 1]
     DrawList take();       // REQUIRES: done
+    // Gives back what is kept of a list that was larger than pictures that move have.
+    void shrink();
 
  private:
     using Keyed = std::uint64_t;
