@@ -18,7 +18,7 @@ using Path = std::filesystem::path;
 const std::string kTail =
     "; isochron reads NetCDF, Exodus II, VTKHDF, XDMF, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of "
     "VTK, image data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, "
-    ".vtu, .vtp, .pvti and so on, .vtk, .pvd, .series)";
+    ".vtu, .vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series)";
 
 // What opening a file or folder says it is.
 std::string told(const Path& path) {
@@ -77,10 +77,9 @@ TEST(OtherFormats, AreNamed) {
              {at(0, " BDV\0\0\0\0"s), "an OpenVDB file"},
              {at(257, "ustar"), "a tar archive"},
              {at(0, "PK\3\4"), "a zip archive"},
-             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\"/>",
-              "a VTK file of type PPolyData"},
-             {"# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\n",
-              "a VTK file of type polydata"},
+             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"HyperTreeGrid\"/>",
+              "a VTK file of type HyperTreeGrid"},
+             {"# vtk DataFile Version 3.0\nt\nBINARY\nDATASET FIELD\n", "a VTK file of type field"},
              {gzipped("CDF\1"s), "compressed by gzip, and must be unpacked first"},
              {"BZh91AY&SY", "compressed by bzip2, and must be unpacked first"},
              {"just words", "unknown"},
@@ -117,7 +116,6 @@ TEST(OtherFormats, RealFilesAreNamed) {
         GTEST_SKIP() << "no real data at " << tests::sharedData("grids");
     for (const auto& [file, name] : std::vector<std::pair<std::string, std::string>>{
              {"pool_fire_vdb/fire_080.vdb", "an OpenVDB file"},
-             {"grids/chombo3d/chombo3d.vtm", "a VTK file of type vtkHierarchicalBoxDataSet"},
              {"grids/no_checkpoint.h5",
               "an HDF5 file that no NetCDF wrote, without an array of three dimensions"},
              {"dx_mri/mri.general", "an OpenDX header"},

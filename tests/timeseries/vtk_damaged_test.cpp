@@ -482,10 +482,10 @@ TEST(DamagedVtk, ArraysThatAreNotThereAreToldOf) {
     EXPECT_THAT(whyRefused(imageText({.points = v + v})), HasSubstr("found 'v' again"));
     EXPECT_THAT(whyRefused(imageText({.points = dataArray("Float64", "v", twelve(), 0)})),
                 HasSubstr("expected 1 to 1024 components, found 0"));
-    EXPECT_THAT(whyRefused("<VTKFile type=\"PPolyData\"><PPolyData/></VTKFile>"),
-                HasSubstr(" is a VTK file of type PPolyData; isochron reads "));
-    EXPECT_THAT(whyRefused("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
-                HasSubstr(" is a VTK file of type polydata; isochron reads "));
+    EXPECT_THAT(whyRefused("<VTKFile type=\"Table\"><Table/></VTKFile>"),
+                HasSubstr(" is a VTK file of type Table; isochron reads "));
+    EXPECT_THAT(whyRefused("# vtk DataFile Version 3.0\nt\nASCII\nDATASET FIELD\n"),
+                HasSubstr(" is a VTK file of type field; isochron reads "));
     EXPECT_THAT(whyRefused("# vtk DataFile Version 9.0\nt\nASCII\n"),
                 HasSubstr("expected a version"));
 }

@@ -36,19 +36,19 @@ TEST(WithoutVtk, TypesThatAreNotReadAreToldBeforeTheWay) {
         }
         return "";
     };
-    const auto mesh = tests::testFolder() / "mesh.pvtp", list = tests::testFolder() / "list.pvd",
+    const auto mesh = tests::testFolder() / "mesh.htg", list = tests::testFolder() / "list.pvd",
                old = tests::testFolder() / "old.vtk";
-    tests::writeBytes(mesh, "<VTKFile type=\"PPolyData\" version=\"1.0\"></VTKFile>");
+    tests::writeBytes(mesh, "<VTKFile type=\"HyperTreeGrid\" version=\"1.0\"></VTKFile>");
     tests::writeBytes(list,
                       "<VTKFile type=\"Collection\"><Collection>"
-                      "<DataSet timestep=\"0\" file=\"mesh.pvtp\"/></Collection></VTKFile>");
-    tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\n");
+                      "<DataSet timestep=\"0\" file=\"mesh.htg\"/></Collection></VTKFile>");
+    tests::writeBytes(old, "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET FIELD\n");
     EXPECT_THAT(refusal(mesh),
-                testing::StartsWith(mesh.string() + " is a VTK file of type PPolyData; "));
+                testing::StartsWith(mesh.string() + " is a VTK file of type HyperTreeGrid; "));
     EXPECT_THAT(refusal(list),
-                testing::StartsWith(mesh.string() + " is a VTK file of type PPolyData; "));
+                testing::StartsWith(mesh.string() + " is a VTK file of type HyperTreeGrid; "));
     EXPECT_THAT(refusal(old),
-                testing::StartsWith(old.string() + " is a VTK file of type polydata; "));
+                testing::StartsWith(old.string() + " is a VTK file of type field; "));
     for (const auto& path : {mesh, list, old})
         EXPECT_THAT(refusal(path), testing::Not(testing::HasSubstr("--with-vtk")));
 }

@@ -114,10 +114,7 @@ std::string otherVtkType(std::string_view type) {
     if (first == type.npos) return "";
     type = type.substr(first, type.find_last_not_of(kBlank) + 1 - first);
     for (const auto other :
-         {"PPolyData"sv, "HyperTreeGrid"sv, "PHyperTreeGrid"sv, "Table"sv, "PTable"sv,
-          "vtkMultiBlockDataSet"sv, "vtkMultiPieceDataSet"sv, "vtkPartitionedDataSet"sv,
-          "vtkPartitionedDataSetCollection"sv, "vtkHierarchicalBoxDataSet"sv, "vtkOverlappingAMR"sv,
-          "vtkNonOverlappingAMR"sv, "polydata"sv, "field"sv})
+         {"HyperTreeGrid"sv, "PHyperTreeGrid"sv, "Table"sv, "PTable"sv, "field"sv})
         if (type == other) return fmt::format("a VTK file of type {}", type);
     return "";
 }
@@ -153,7 +150,7 @@ std::string notReadSentence(const std::filesystem::path& path, std::string_view 
     constexpr std::string_view kRead =
         "NetCDF, Exodus II, VTKHDF, XDMF, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of VTK, image "
         "data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, .vtu, "
-        ".vtp, .pvti and so on, .vtk, .pvd, .series)";
+        ".vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
 

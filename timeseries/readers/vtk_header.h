@@ -25,10 +25,12 @@ enum class VtkKind {
     XmlStructured,
     XmlUnstructured,
     XmlPolygons,
+    XmlBlocks,
     LegacyPoints,
     LegacyRectilinear,
     LegacyStructured,
-    LegacyUnstructured
+    LegacyUnstructured,
+    LegacyPolygons
 };
 inline bool isStructured(VtkKind kind) {
     return kind == VtkKind::XmlStructured || kind == VtkKind::LegacyStructured;
@@ -36,7 +38,8 @@ inline bool isStructured(VtkKind kind) {
 
 inline bool isUnstructured(VtkKind kind) {
     return kind == VtkKind::XmlUnstructured || kind == VtkKind::XmlPolygons ||
-           kind == VtkKind::LegacyUnstructured;
+           kind == VtkKind::XmlBlocks || kind == VtkKind::LegacyUnstructured ||
+           kind == VtkKind::LegacyPolygons;
 }
 
 enum class VtkPlace { Points, Cells };
@@ -53,6 +56,7 @@ struct VtkArray {
     // A word of its text that is no number of its type, for which it cannot be read.
     std::string notNumber = {};
     std::uint64_t fileBytes = 0;  // of an XML file: what all its pieces take of the file
+    bool isEverywhere = true;     // not so when a block has it not
 };
 
 // An array of whole numbers that tells of cells: of this type, so many.
@@ -155,6 +159,8 @@ void checkVtkCover(const VtkHeader& header, std::span<const VtkHeader> pieces, V
 std::array<std::array<std::int64_t, 2>, 3> vtkExtentOf(const XmlFile& file,
                                                        const XmlElement& element,
                                                        std::string_view attribute);
+// What parallel writers leave for a process that has nothing of the grid. VTK is not shown it.
+bool isEmptyVtkExtent(const std::array<std::array<std::int64_t, 2>, 3>& extent);
 // The name under which a field data array of one number tells the time; nothing when it does not.
 std::optional<std::string> vtkTimeName(std::string_view arrayName);
 

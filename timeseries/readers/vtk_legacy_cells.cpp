@@ -32,6 +32,13 @@ std::string typeOf(VtkText& text, std::string_view section) {
     return type;
 }
 
+// Of polygons, and which cell each has (cell_types.h).
+struct Section {
+    std::string_view word;
+    std::uint8_t type;
+};
+constexpr std::array kSections{Section{"vertices", 2}, Section{"lines", 4}, Section{"polygons", 7}};
+
 }  // namespace
 
 bool VtkLegacyCells::read(VtkText& text, const std::string& word) {
@@ -39,15 +46,24 @@ bool VtkLegacyCells::read(VtkText& text, const std::string& word) {
         if (has) text.fail(fmt::format("expected {} once, found another", word));
         has = true;
     };
+    const auto section = std::ranges::find(kSections, word, &Section::word);
     if (word == "points") {
         once(hasPoints_);
         readPoints(text);
-    } else if (word == "cells") {
-        once(hasCells_);
-        readCells(text);
-    } else if (word == "cell_types") {
+    } else if (kind_ == Kind::Unstructured && word == "cells") {
+        once(lists_[0].isThere);
+        readCells(text, lists_[0]);
+    } else if (kind_ == Kind::Unstructured && word == "cell_types") {
         once(hasTypes_);
         readTypes(text);
+    } else if (kind_ == Kind::Polygons && section != kSections.end()) {
+        Lists& lists = lists_[static_cast<std::size_t>(section - kSections.begin())];
+        once(lists.isThere);
+        readCells(text, lists);
+    } else if (kind_ == Kind::Polygons && word == "triangle_strips") {
+        text.fail(
+            "expected VERTICES, LINES and POLYGONS, found triangle strips, which are not "
+            "read");
     } else {
         return false;
     }
@@ -55,7 +71,9 @@ bool VtkLegacyCells::read(VtkText& text, const std::string& word) {
 }
 
 std::string VtkLegacyCells::missing() const {
-    return !hasPoints_ ? "POINTS" : !hasCells_ ? "CELLS" : !hasTypes_ ? "CELL_TYPES" : "";
+    if (!hasPoints_) return "POINTS";
+    if (kind_ == Kind::Polygons) return "";
+    return !lists_[0].isThere ? "CELLS" : !hasTypes_ ? "CELL_TYPES" : "";
 }
 
 void VtkLegacyCells::readPoints(VtkText& text) {
@@ -69,16 +87,16 @@ void VtkLegacyCells::readPoints(VtkText& text) {
         grid_.points[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
 }
 
-void VtkLegacyCells::readCells(VtkText& text) {
+void VtkLegacyCells::readCells(VtkText& text, Lists& lists) {
     const std::uint64_t count = text.count("a number of cells"),
                         entries = text.count("a number of entries");
     if (endsApart_) {
         // The first stands for where the first list begins.
         const std::string endType = typeOf(text, "offsets");
         const auto offsets = indices(text, endType, count);
-        if (!offsets.empty()) ends_.assign(offsets.begin() + 1, offsets.end());
+        if (!offsets.empty()) lists.ends.assign(offsets.begin() + 1, offsets.end());
         const std::string type = typeOf(text, "connectivity");
-        lists_ = indices(text, type, entries);
+        lists.numbers = indices(text, type, entries);
         return;
     }
     const auto all = indices(text, "int", entries);
@@ -87,9 +105,10 @@ void VtkLegacyCells::readCells(VtkText& text) {
         const std::size_t length = next < all.size() ? all[next] : all.size();
         if (next >= all.size() || length > all.size() - next - 1)
             text.fail(fmt::format("expected the points of cell {}, but its list ends early", cell));
-        lists_.insert(lists_.end(), all.begin() + static_cast<std::ptrdiff_t>(next + 1),
-                      all.begin() + static_cast<std::ptrdiff_t>(next + 1 + length));
-        ends_.push_back(lists_.size());
+        lists.numbers.insert(lists.numbers.end(),
+                             all.begin() + static_cast<std::ptrdiff_t>(next + 1),
+                             all.begin() + static_cast<std::ptrdiff_t>(next + 1 + length));
+        lists.ends.push_back(lists.numbers.size());
         next += 1 + length;
     }
     if (next != all.size())
@@ -102,47 +121,57 @@ void VtkLegacyCells::readTypes(VtkText& text) {
         grid_.types.push_back(static_cast<std::uint8_t>(std::min(type, 255u)));
 }
 
-void VtkLegacyCells::addPolyhedron(const VtkText& text, std::size_t first, std::size_t last) {
+void VtkLegacyCells::addPolyhedron(const VtkText& text, std::span<const std::uint32_t> list) {
     const std::size_t cell = grid_.ends.size(), corners = grid_.corners.size();
-    std::size_t next = first + 1;
-    for (std::uint32_t left = first < last ? lists_[first] : 0; left > 0; --left) {
-        const std::size_t count = next < last ? lists_[next] : last;
-        if (next >= last || count > last - next - 1)
+    std::size_t next = 1;
+    for (std::uint32_t left = list.empty() ? 0 : list[0]; left > 0; --left) {
+        const std::size_t count = next < list.size() ? list[next] : list.size();
+        if (next >= list.size() || count > list.size() - next - 1)
             text.fail(fmt::format("expected the faces of cell {}, but its list ends early", cell));
-        const auto points = std::span(lists_).subspan(next + 1, count);
+        const auto points = list.subspan(next + 1, count);
         grid_.corners.insert(grid_.corners.end(), points.begin(), points.end());
         next += 1 + count;
     }
-    if (next != last)
+    if (next != std::max<std::size_t>(list.size(), 1))
         text.fail(fmt::format("expected the faces of cell {}, found more than these", cell));
-    grid_.faces.insert(grid_.faces.end(), lists_.begin() + static_cast<std::ptrdiff_t>(first),
-                       lists_.begin() + static_cast<std::ptrdiff_t>(last));
+    grid_.faces.insert(grid_.faces.end(), list.begin(), list.end());
     // Each of its points once.
     const auto begin = grid_.corners.begin() + static_cast<std::ptrdiff_t>(corners);
     std::sort(begin, grid_.corners.end());
     grid_.corners.erase(std::unique(begin, grid_.corners.end()), grid_.corners.end());
 }
 
-UnstructuredGrid VtkLegacyCells::take(const VtkText& text) {
-    if (grid_.types.size() != ends_.size())
-        text.fail(fmt::format("expected as many CELL_TYPES as CELLS, found {} and {}",
-                              grid_.types.size(), ends_.size()));
+void VtkLegacyCells::add(const VtkText& text, const Lists& lists, std::size_t firstType) {
     const bool hasFaces = std::ranges::find(grid_.types, kPolyhedron) != grid_.types.end();
     std::uint64_t first = 0;
-    for (std::size_t cell = 0; cell < ends_.size(); ++cell) {
-        const std::uint64_t last = ends_[cell];
-        if (last < first || last > lists_.size())
+    for (std::size_t cell = 0; cell < lists.ends.size(); ++cell) {
+        const std::uint64_t last = lists.ends[cell];
+        if (last < first || last > lists.numbers.size())
             text.fail(fmt::format("expected the points of cell {}, but its list ends at {} of {}",
-                                  cell, last, lists_.size()));
-        if (grid_.types[cell] == kPolyhedron)
-            addPolyhedron(text, first, last);
+                                  cell, last, lists.numbers.size()));
+        const auto list = std::span(lists.numbers).subspan(first, last - first);
+        if (grid_.types[firstType + cell] == kPolyhedron)
+            addPolyhedron(text, list);
         else
-            grid_.corners.insert(grid_.corners.end(),
-                                 lists_.begin() + static_cast<std::ptrdiff_t>(first),
-                                 lists_.begin() + static_cast<std::ptrdiff_t>(last));
+            grid_.corners.insert(grid_.corners.end(), list.begin(), list.end());
         grid_.ends.push_back(grid_.corners.size());
         if (hasFaces) grid_.faceEnds.push_back(grid_.faces.size());
         first = last;
+    }
+}
+
+UnstructuredGrid VtkLegacyCells::take(const VtkText& text) {
+    if (kind_ == Kind::Polygons) {
+        for (std::size_t k = 0; k < kSections.size(); ++k) {
+            const std::size_t before = grid_.types.size();
+            grid_.types.resize(before + lists_[k].ends.size(), kSections[k].type);
+            add(text, lists_[k], before);
+        }
+    } else {
+        if (grid_.types.size() != lists_[0].ends.size())
+            text.fail(fmt::format("expected as many CELL_TYPES as CELLS, found {} and {}",
+                                  grid_.types.size(), lists_[0].ends.size()));
+        add(text, lists_[0], 0);
     }
     if (const std::string flaw = flawOf(grid_); !flaw.empty())
         text.fail("expected cells of points that there are, found that " + flaw);

@@ -39,6 +39,7 @@ class LegacyHeader {
         readStart();
         for (std::string word = text_.lowerWord(); !word.empty(); word = text_.lowerWord())
             readSection(word);
+        finishPolygons();
         if (!sized_) text_.fail(fmt::format("expected {}, but the file ends", wanted()));
         if (header_.kind == VtkKind::LegacyStructured && !placed_)
             text_.fail("expected POINTS, but the file ends");
@@ -54,7 +55,13 @@ class LegacyHeader {
     void readSection(const std::string& word);
     void readDataset();
     void readCells(const std::string& word);
-    std::string wanted() const { return cells_ ? cells_->missing() : "DIMENSIONS"; }
+    void finishPolygons();
+    void takeCells();
+    std::string wanted() const {
+        if (!cells_) return "DIMENSIONS";
+        const std::string missing = cells_->missing();
+        return missing.empty() ? "VERTICES, LINES or POLYGONS" : missing;
+    }
     void readDimensions();
     void readCoordinates(std::size_t axis);
     void skipPoints();
@@ -102,6 +109,7 @@ void LegacyHeader::readSection(const std::string& word) {
     if (word == "field") return readField();
     if (word == "metadata") return text_.skipParagraph();
     if (header_.format.empty()) text_.fail(fmt::format("expected DATASET, found \"{}\"", word));
+    if (word == "point_data" || word == "cell_data") finishPolygons();
     if (cells_ && !place_ && !sized_) return readCells(word);
     if (word == "dimensions" && !cells_) return readDimensions();
     if (!place_ && header_.kind == VtkKind::LegacyPoints) {
@@ -136,12 +144,15 @@ void LegacyHeader::readDataset() {
     } else if (kind == "unstructured_grid") {
         header_.kind = VtkKind::LegacyUnstructured;
         header_.format = "VTK unstructured grid (legacy)";
-        cells_.emplace(endsApart_);
+        cells_.emplace(VtkLegacyCells::Kind::Unstructured, endsApart_);
+    } else if (kind == "polydata") {
+        header_.kind = VtkKind::LegacyPolygons;
+        header_.format = "VTK polygons (legacy)";
+        cells_.emplace(VtkLegacyCells::Kind::Polygons, endsApart_);
     } else {
         text_.fail(
-            fmt::format("expected DATASET STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID or "
-                        "UNSTRUCTURED_GRID, "
-                        "found \"{}\"",
+            fmt::format("expected DATASET STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID, "
+                        "UNSTRUCTURED_GRID or POLYDATA, found \"{}\"",
                         kind));
     }
 }
@@ -149,7 +160,16 @@ void LegacyHeader::readDataset() {
 void LegacyHeader::readCells(const std::string& word) {
     if (!cells_->read(text_, word))
         text_.fail(fmt::format("expected {}, found \"{}\"", wanted(), word));
-    if (!cells_->missing().empty()) return;
+    if (header_.kind == VtkKind::LegacyUnstructured && cells_->missing().empty()) takeCells();
+}
+
+// Which of their lists there are, no word before tells.
+void LegacyHeader::finishPolygons() {
+    if (header_.kind == VtkKind::LegacyPolygons && !sized_ && cells_->missing().empty())
+        takeCells();
+}
+
+void LegacyHeader::takeCells() {
     header_.unstructured = cells_->take(text_);
     VtkPiece whole;
     whole.points = header_.unstructured.points.size();

@@ -11,6 +11,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkRectilinearGridReader.h>
 #include <vtkSmartPointer.h>
@@ -226,6 +228,11 @@ Arrays readArrays(const VtkHeader& header, const VtkArray& wanted) {
             break;
         case VtkKind::LegacyUnstructured:
             output = readLegacy<vtkUnstructuredGridReader>(header, &wanted);
+            break;
+        case VtkKind::LegacyPolygons:
+            output = readLegacy<vtkPolyDataReader>(header, &wanted);
+            break;
+        case VtkKind::XmlBlocks:  // has no values of its own
             break;
     }
     if (!output) return {};

@@ -4,42 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "timeseries/readers/ordinary_file.h"
-#include "timeseries/readers/vtk_xml_cells.h"
+#include "timeseries/readers/vtk_file.h"
+#include "timeseries/readers/vtk_joined_cells.h"
+#include "timeseries/readers/vtk_multiblock.h"
 #include "timeseries/readers/vtk_xml_numbers.h"
 
 namespace timeseries {
 namespace {
 
 using Path = std::filesystem::path;
-
-VtkHeader headerOf(const XmlFile& file) {
-    VtkHeader header = readVtkXmlHeader(file);
-    VtkFrame frame = readVtkFrame(header);
-    header.coordinates = std::move(frame.coordinates);
-    header.places = std::move(frame.places);
-    header.unstructured = std::move(frame.unstructured);
-    header.time = frame.time;
-    if (header.kind == VtkKind::XmlRectilinear)
-        for (std::size_t i = 0; i < 3; ++i)
-            if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])
-                failVtk(
-                    file.path, "Coordinates",
-                    fmt::format("expected {} along {}, found {}", header.size(VtkPlace::Points)[i],
-                                "xyz"[i], header.coordinates[i].size()));
-    return header;
-}
-
-VtkHeader legacyHeaderOf(const Path& path) {
-    VtkHeader header = readVtkLegacyHeader(path);
-    if (isStructured(header.kind)) header.places = readVtkFrame(header).places;
-    return header;
-}
 
 // By how much what parts share may differ, of a length beside it: writers work it out each for
 // itself.
@@ -64,13 +43,7 @@ std::vector<VtkHeader> partsOf(const XmlFile& file, const XmlElement& grid, std:
             failVtk(path, "VTKFile",
                     fmt::format("expected the type {}, as a part of {}, found \"{}\"", type,
                                 file.path.filename().string(), found));
-        const auto grids = named(part.root, type);
-        const bool hasPoints =
-            type != "UnstructuredGrid" || grids.size() != 1 ||
-            !std::ranges::all_of(named(*grids[0], "Piece"), [&](const XmlElement* each) {
-                return isEmptyVtkPiece(part, *each);
-            });
-        if (hasPoints) parts.push_back(headerOf(part));
+        if (!isEmptyVtkFile(part)) parts.push_back(openVtkXml(part));
     }
     if (parts.empty()) failVtk(file.path, placeOf(grid), "expected a Piece that holds points");
     return parts;
@@ -160,49 +133,20 @@ void joinStructured(VtkHeader& whole, std::span<const VtkHeader> parts) {
     }
 }
 
-void append(UnstructuredGrid& whole, UnstructuredGrid part, bool hasFaces) {
-    const auto point = static_cast<std::uint32_t>(whole.points.size());
-    const std::uint64_t corner = whole.corners.size(), face = whole.faces.size();
-    // What names no point of its part names none of the whole.
-    const std::uint64_t points = part.points.size();
-    const auto moved = [&](std::uint32_t i) { return i < points ? i + point : kNoPoint; };
-    for (const std::uint32_t i : part.corners) whole.corners.push_back(moved(i));
-    for (const std::uint64_t end : part.ends) whole.ends.push_back(corner + end);
-    std::ranges::copy(part.points, std::back_inserter(whole.points));
-    std::ranges::copy(part.types, std::back_inserter(whole.types));
-    if (!hasFaces) return;
-    // A count of faces, then of each how many points, and which.
-    std::uint64_t begin = 0;
-    for (std::size_t cell = 0; cell < part.types.size(); ++cell) {
-        const std::uint64_t end = part.faceEnds.empty() ? 0 : part.faceEnds[cell];
-        std::uint32_t left = 0;
-        for (std::uint64_t i = begin; i < std::min<std::uint64_t>(end, part.faces.size()); ++i) {
-            const bool isPoint = left > 0;
-            if (isPoint)
-                --left;
-            else if (i > begin)
-                left = part.faces[i];
-            if (isPoint) part.faces[i] = moved(part.faces[i]);
-        }
-        begin = std::max(begin, end);
-        whole.faceEnds.push_back(face + end);
-    }
-    std::ranges::copy(part.faces, std::back_inserter(whole.faces));
-}
-
-void joinUnstructured(VtkHeader& whole, std::span<VtkHeader> parts) {
-    const bool hasFaces = std::ranges::any_of(
-        parts, [](const VtkHeader& part) { return !part.unstructured.faceEnds.empty(); });
-    for (const VtkHeader& part : parts)
-        std::ranges::copy(part.pieces, std::back_inserter(whole.pieces));
-    checkVtkCount(whole, "pieces");
+// What parts say of themselves, in a whole of which the path and, of images, what it says itself
+// are known.
+VtkContents joined(VtkHeader whole, std::vector<VtkHeader> parts) {
+    joinArrays(whole, parts);
+    if (isUnstructured(whole.kind))
+        joinVtkCells(whole, parts);
+    else
+        joinStructured(whole, parts);
     for (VtkHeader& part : parts) {
-        // Before its numbers are those of all.
-        if (const std::string flaw = flawOf(part.unstructured); !flaw.empty())
-            failVtk(part.path, "Cells",
-                    "expected cells of points that there are, found that " + flaw);
-        append(whole.unstructured, std::move(part.unstructured), hasFaces);
+        part.places = {};
+        part.coordinates = {};
+        part.unstructured = {};
     }
+    return {std::move(whole), std::move(parts), {}};
 }
 
 VtkContents joined(const XmlFile& file, std::string_view type) {
@@ -211,18 +155,17 @@ VtkContents joined(const XmlFile& file, std::string_view type) {
         failVtk(file.path, "VTKFile",
                 fmt::format("expected one P{}, found {}", type, grids.size()));
     const XmlElement& grid = *grids[0];
-    VtkContents contents;
-    VtkHeader& whole = contents.whole;
+    VtkHeader whole;
     whole.path = file.path;
-    if (type != "UnstructuredGrid") {
+    std::vector<VtkHeader> parts = partsOf(file, grid, type);
+    const VtkHeader& first = parts[0];
+    whole.kind = first.kind;
+    if (!isUnstructured(whole.kind)) {
         whole.extent = vtkExtentOf(file, grid, "WholeExtent");
         checkVtkExtent(whole, placeOf(grid) + " WholeExtent");
     }
-    contents.parts = partsOf(file, grid, type);
-    const VtkHeader& first = contents.parts[0];
-    whole.kind = first.kind;
-    whole.format = fmt::format("{}, {} part{}", first.format, contents.parts.size(),
-                               contents.parts.size() == 1 ? "" : "s");
+    whole.format =
+        fmt::format("{}, {} part{}", first.format, parts.size(), parts.size() == 1 ? "" : "s");
     whole.origin = first.origin;
     whole.spacing = first.spacing;
     whole.direction = first.direction;
@@ -232,7 +175,7 @@ VtkContents joined(const XmlFile& file, std::string_view type) {
     };
     const double unit =
         std::abs(first.spacing[0]) + std::abs(first.spacing[1]) + std::abs(first.spacing[2]);
-    for (const VtkHeader& part : contents.parts)
+    for (const VtkHeader& part : parts)
         if (!same(part.origin, first.origin, unit) || !same(part.spacing, first.spacing, unit) ||
             !same(part.direction, first.direction, 1))
             failVtk(
@@ -245,17 +188,61 @@ VtkContents joined(const XmlFile& file, std::string_view type) {
     take("Origin", whole.origin);
     take("Spacing", whole.spacing);
     take("Direction", whole.direction);
-    joinArrays(whole, contents.parts);
-    if (isUnstructured(whole.kind))
-        joinUnstructured(whole, contents.parts);
-    else
-        joinStructured(whole, contents.parts);
-    for (VtkHeader& part : contents.parts) {
-        part.places = {};
-        part.coordinates = {};
-        part.unstructured = {};
+    return joined(std::move(whole), std::move(parts));
+}
+
+// All arrays that some block has; where others have one of that name that is different, none.
+void gatherArrays(VtkHeader& whole, std::span<const VtkHeader> blocks) {
+    for (const VtkHeader& block : blocks) {
+        for (const VtkArray& array : block.arrays) {
+            const auto same = std::ranges::find_if(whole.arrays, [&](const VtkArray& other) {
+                return other.name == array.name && other.place == array.place;
+            });
+            if (same == whole.arrays.end())
+                whole.arrays.push_back(array);
+            else if (same->type != array.type || same->components != array.components)
+                failVtk(block.path, fmt::format("'{}'", array.name),
+                        fmt::format("expected {} of {} components, as in another block",
+                                    typeName(same->type), same->components));
+            else if (same->notNumber.empty())
+                same->notNumber = array.notNumber;
+        }
+        std::ranges::copy(block.passedOver, std::back_inserter(whole.passedOver));
+        for (std::size_t place = 0; place < 2; ++place)
+            whole.ghosts[place] = whole.ghosts[place] || block.ghosts[place];
+        if (!whole.time) whole.time = block.time;
     }
-    return contents;
+    for (VtkArray& array : whole.arrays)
+        array.isEverywhere = std::ranges::all_of(
+            blocks, [&](const VtkHeader& block) { return arrayIn(block, array) != nullptr; });
+}
+
+VtkContents ofBlocks(const XmlFile& file) {
+    VtkBlocks found = readVtkBlocks(file);
+    const std::size_t count = found.blocks.size();
+    VtkHeader whole;
+    whole.path = file.path;
+    if (count == 1) {  // a grid like any other
+        const VtkHeader& only = found.blocks[0];
+        whole.kind = only.kind;
+        whole.extent = only.extent;
+        whole.origin = only.origin;
+        whole.spacing = only.spacing;
+        whole.direction = only.direction;
+        whole.format = only.format;
+        return joined(std::move(whole), std::move(found.blocks));
+    }
+    whole.kind = VtkKind::XmlBlocks;
+    whole.format = fmt::format("{}, {} blocks", found.format, count);
+    gatherArrays(whole, found.blocks);
+    for (std::size_t i = 0; i < count; ++i)
+        listVtkCells(found.blocks[i], found.covered[i][static_cast<std::size_t>(VtkPlace::Cells)]);
+    joinVtkCells(whole, found.blocks);
+    for (VtkHeader& block : found.blocks) {
+        block.coordinates = {};
+        block.unstructured = {};
+    }
+    return {std::move(whole), std::move(found.blocks), std::move(found.covered)};
 }
 
 // Values of parts, put where the whole has them.
@@ -274,6 +261,16 @@ struct Gathered {
     }
 };
 
+// Cells that are covered are none of the whole, points are missing there.
+template <typename Put>
+void putUncovered(const std::vector<bool>& covered, VtkPlace place, std::uint64_t to,
+                  const Put& put) {
+    for (std::uint64_t i = 0; i < covered.size(); ++i) {
+        if (!covered[i]) put(i, to, 1);
+        if (!covered[i] || place == VtkPlace::Points) ++to;
+    }
+}
+
 // From the file's order to the grid's.
 template <typename T>
 T arranged(const T& from, const StridedLayout& layout) {
@@ -285,24 +282,19 @@ T arranged(const T& from, const StridedLayout& layout) {
 
 }  // namespace
 
-bool isVtkLegacy(const Path& path) {
-    std::string start(5, '\0');
-    std::ifstream(path, std::ios::binary).read(start.data(), 5);
-    return start == "# vtk";
-}
-
 VtkContents vtkContentsOf(const Path& path) {
     if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
-    if (isVtkLegacy(path)) return {legacyHeaderOf(path), {}};
+    if (isVtkLegacy(path)) return {openVtkLegacy(path), {}, {}};
     return vtkContentsOf(readXml(path));
 }
 
 VtkContents vtkContentsOf(const XmlFile& file) {
     const std::string_view type = rootOf(file).attribute("type");
     for (const std::string_view each :
-         {"ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"})
+         {"ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid", "PolyData"})
         if (type.starts_with('P') && type.substr(1) == each) return joined(file, each);
-    return {headerOf(file), {}};
+    if (isVtkMultiBlock(type)) return ofBlocks(file);
+    return {openVtkXml(file), {}, {}};
 }
 
 void readVtkArray(const VtkContents& contents, const VtkArray& array, VtkPart part,
@@ -313,27 +305,38 @@ void readVtkArray(const VtkContents& contents, const VtkArray& array, VtkPart pa
     const std::uint64_t count = whole.count(array.place);
     Gathered all{{.grid = nullptr, .values = {}, .missing = std::vector<bool>(count, true)}};
     std::uint64_t begin = 0;
-    for (const VtkHeader& each : contents.parts) {
-        const auto size = each.size(array.place);
+    bool isFirst = true;
+    for (std::size_t i = 0; i < contents.parts.size(); ++i) {
+        const VtkHeader& each = contents.parts[i];
+        const std::vector<bool> none,
+            &covered = contents.covered.empty()
+                           ? none
+                           : contents.covered[i][static_cast<std::size_t>(array.place)];
+        const VtkArray* const held = arrayIn(each, array);
         Field some;
-        readVtkArray(each, *arrayIn(each, array), part,
-                     {{size[0], size[1], size[2]}, {1, size[0], size[0] * size[1]}}, some);
+        const auto size = each.size(array.place);
+        if (held)
+            readVtkArray(each, *held, part,
+                         {{size[0], size[1], size[2]}, {1, size[0], size[0] * size[1]}}, some);
         std::visit(
             [&](const auto& from) {
+                if (!held) return;
                 using Vector = std::decay_t<decltype(from)>;
-                if (begin == 0 && all.field.values.index() != some.values.index())
-                    all.field.values = Vector();
-                std::get<Vector>(all.field.values).resize(count);
+                if (std::exchange(isFirst, false)) all.field.values = Vector(count);
                 const auto put = [&](std::uint64_t first, std::uint64_t to, std::uint64_t n) {
                     all.put(from, some.missing, first, to, n);
                 };
-                if (isUnstructured(whole.kind))
+                if (!isUnstructured(whole.kind))
+                    forEachRow(whole, each, array.place, put);
+                else if (covered.empty())
                     put(0, begin, from.size());
                 else
-                    forEachRow(whole, each, array.place, put);
-                begin += from.size();
+                    putUncovered(covered, array.place, begin, put);
             },
             some.values);
+        const auto left = std::ranges::count(covered, true);
+        begin += each.count(array.place);
+        if (array.place == VtkPlace::Cells) begin -= static_cast<std::uint64_t>(left);
     }
     std::visit([&](const auto& values) { field.values = arranged(values, layout); },
                all.field.values);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "timeseries/readers/ordinary_file.h"
+#include "timeseries/readers/vtk_file.h"
 #include "timeseries/readers/vtk_grid.h"
 #include "timeseries/readers/vtk_parts.h"
 
@@ -148,6 +149,8 @@ void VtkReader::add(const VtkArray& array, const std::string& name, ValueType ty
     variable.type = type;
     variable.storedAs = storedAs;
     if (frame_.header().ghosts[place]) variable.missing = "ghost and blanked, by vtkGhostType";
+    if (!array.isEverywhere)
+        variable.missing += std::string(variable.missing.empty() ? "" : "; ") + "blocks without it";
     variable.grid = frame_.grids[place]->grid;
     variable.time = time_;
     variable.notes = frame_.grids[place]->notes;

@@ -149,11 +149,6 @@ void checkFieldData(const Context& context, const XmlElement& grid) {
     }
 }
 
-// What parallel writers leave for a process that has nothing of the grid. VTK is not shown it.
-bool isEmpty(const std::array<std::array<std::int64_t, 2>, 3>& extent) {
-    return std::ranges::any_of(extent, [](const auto& axis) { return axis[1] < axis[0]; });
-}
-
 void checkInside(const VtkHeader& header, const XmlElement& piece, const VtkHeader& shape) {
     for (std::size_t i = 0; i < 3; ++i)
         if (shape.extent[i][0] < header.extent[i][0] || shape.extent[i][1] > header.extent[i][1])
@@ -174,7 +169,7 @@ void addPieces(const Context& context, const XmlElement& grid) {
             checkPoints(context, *piece, shape);
         } else {
             shape.extent = vtkExtentOf(context.file, *piece, "Extent");
-            if (isEmpty(shape.extent)) continue;
+            if (isEmptyVtkExtent(shape.extent)) continue;
             checkInside(header, *piece, shape);
         }
         if (header.kind == VtkKind::XmlRectilinear) checkCoordinates(context, *piece, shape);
@@ -221,6 +216,10 @@ void addPieces(const Context& context, const XmlElement& grid) {
 }
 
 }  // namespace
+
+bool isEmptyVtkExtent(const std::array<std::array<std::int64_t, 2>, 3>& extent) {
+    return std::ranges::any_of(extent, [](const auto& axis) { return axis[1] < axis[0]; });
+}
 
 std::array<std::array<std::int64_t, 2>, 3> vtkExtentOf(const XmlFile& file,
                                                        const XmlElement& element,
