@@ -47,8 +47,7 @@ TEST(WithoutVtk, TypesThatAreNotReadAreToldBeforeTheWay) {
                 testing::StartsWith(mesh.string() + " is a VTK file of type HyperTreeGrid; "));
     EXPECT_THAT(refusal(list),
                 testing::StartsWith(mesh.string() + " is a VTK file of type HyperTreeGrid; "));
-    EXPECT_THAT(refusal(old),
-                testing::StartsWith(old.string() + " is a VTK file of type field; "));
+    EXPECT_THAT(refusal(old), testing::StartsWith(old.string() + " is a VTK file of type field; "));
     for (const auto& path : {mesh, list, old})
         EXPECT_THAT(refusal(path), testing::Not(testing::HasSubstr("--with-vtk")));
 }
