@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 
 #include "render/annotate/axis_labels.h"
 #include "render/annotate/box_edges.h"
+#include "render/annotate/map_lines.h"
 #include "render/image/color.h"
 
 namespace render {
@@ -27,12 +30,15 @@ const glm::vec3 kAxisEdge(linearFromSrgb8(134, 145, 162)), kNearEdge(linearFromS
     kFarEdge(linearFromSrgb8(52, 59, 71)), kNumber(linearFromSrgb8(170, 179, 193)),
     kTitle(linearFromSrgb8(230, 233, 239));
 
+// Of maps: premultiplied, so that data show through where they lie below.
+const glm::vec4 kCoast(0.8f * glm::vec3(linearFromSrgb8(160, 170, 184)), 0.8f),
+    kGraticule(0.06f * glm::vec3(linearFromSrgb8(160, 170, 184)), 0.06f);
+
 // A line where no text stands.
 void lineAround(FlatMesh& mesh, std::span<const PixelRect> texts, const glm::dvec3& from,
-                const glm::dvec3& to, float width, const glm::vec3& color) {
+                const glm::dvec3& to, float width, const glm::vec4& color) {
     for (const glm::dvec2& piece : piecesOutside(glm::dvec2(from), glm::dvec2(to), texts))
-        mesh.line(glm::mix(from, to, piece[0]), glm::mix(from, to, piece[1]), width,
-                  glm::vec4(color, 1));
+        mesh.line(glm::mix(from, to, piece[0]), glm::mix(from, to, piece[1]), width, color);
 }
 
 // What labels and their grounds are drawn with.
@@ -51,6 +57,55 @@ void drawLabel(AxesMeshes& meshes, const Pen& pen, const Label& label, const glm
     if (!meshes.labels.covers().empty())
         meshes.grounds.plate(meshes.labels.covers().back(),
                              0.2f * static_cast<float>(pen.style.linePixels), pen.ground, depth);
+}
+
+// Where lines of a picture go.
+struct Lines {
+    FlatMesh& mesh;
+    std::span<const PixelRect> texts;  // where none are
+    float width;
+    glm::vec4 color;
+};
+
+// Lines of a map, from one place that can be told from that before to the next.
+void drawMapLines(const Lines& into, const Screen& screen, const PlacedPoints& placed,
+                  double height, const std::vector<MapLine>& lines) {
+    constexpr double kApart = 1.5;  // pixels
+    for (const MapLine& line : lines) {
+        std::optional<glm::dvec3> last;
+        glm::dvec3 from = placed.axesFromGrid({line[0], height});
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            const glm::dvec3 to = placed.axesFromGrid({line[i], height});
+            const auto part = screen.visible(from, to, Screen::Cut::NearPlane);
+            if (part) {
+                const glm::dvec3 end = screen.pixel(glm::mix(from, to, part->y));
+                if (!last || part->x > 0) last = screen.pixel(glm::mix(from, to, part->x));
+                const bool isLast = i + 1 == line.size() || part->y < 1;
+                if (isLast || glm::distance(glm::dvec2(*last), glm::dvec2(end)) >= kApart) {
+                    lineAround(into.mesh, into.texts, *last, end, into.width, into.color);
+                    last = end;
+                }
+            }
+            if (!part || part->y < 1) last.reset();
+            from = to;
+        }
+    }
+}
+
+// The map below a grid of longitudes and latitudes, or above it: behind the volume where the eye
+// sees the volume before it.
+void drawMap(AxesMeshes& meshes, std::span<const PixelRect> texts, float width,
+             const timeseries::Grid& grid, const PlacedPoints& placed, const Screen& screen,
+             const glm::dvec3& midEye) {
+    const auto plane = mapPlaneOf(grid);
+    if (!plane) return;
+    const double half = placed.boxHalf().z;
+    const bool isBefore = half == 0 || midEye.z * plane->side > half;
+    FlatMesh& mesh = isBefore ? meshes.mapBefore : meshes.mapBehind;
+    drawMapLines({mesh, texts, width, kGraticule}, screen, placed, plane->height,
+                 graticuleOf(*plane));
+    drawMapLines({mesh, texts, width, kCoast}, screen, placed, plane->height,
+                 linesWithin(*plane, coastlines()));
 }
 
 }  // namespace
@@ -92,14 +147,16 @@ AxesMeshes axesMeshes(const timeseries::Grid& grid, const PlacedPoints& placed,
         const glm::vec3 color = labelled ? kAxisEdge : behind ? kFarEdge : kNearEdge;
         lineAround(behind ? meshes.behind : meshes.before, texts,
                    screen.pixel(glm::mix(a, b, part->x)), screen.pixel(glm::mix(a, b, part->y)),
-                   width, color);
+                   width, glm::vec4(color, 1));
     }
+    drawMap(meshes, texts, width, grid, placed, screen, midEye);
     for (const AxisLabels& axis : axes) {
         for (const glm::dvec3& at : axis.places) {
             if (!screen.visible(at, at, Screen::Cut::NearPlane)) continue;
             const glm::dvec3 from = screen.pixel(at);
             lineAround(meshes.before, texts, from,
-                       from + glm::dvec3(axis.outward * tickLength(style), 0), width, kAxisEdge);
+                       from + glm::dvec3(axis.outward * tickLength(style), 0), width,
+                       glm::vec4(kAxisEdge, 1));
         }
     }
     return meshes;

@@ -15,6 +15,9 @@ FontStyle titleStyle(glm::ivec2 pictureSize);
 // All carry the window depth of what they show or stand beside. Edges are cut at the near plane and
 // stand before ticks, six vertices a line; where a text stands, lines are left out.
 struct AxesMeshes {
+    // Coastlines and lines of longitude and latitude (render/annotate/map_lines.h), which let
+    // through what lies behind them: one of both, the other is empty.
+    FlatMesh mapBehind, mapBefore;
     FlatMesh behind;   // edges behind all that the box holds: drawn before the volume
     FlatMesh before;   // edges before it or on its outline, and ticks: drawn over it
     FlatMesh grounds;  // of the labels

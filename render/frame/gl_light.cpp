@@ -28,7 +28,8 @@ void GlLight::drawLight(const EyeContent& content, LightAs, Targets& targets) {
     gl::begin({.framebuffer = light,
                .size = size,
                .clearColor = glm::vec4(glm::vec3(content.background), 1)});
-    flat_->draw(content.axes.behind, light, size);
+    for (const FlatMesh* mesh : {&content.axes.mapBehind, &content.axes.behind})
+        flat_->draw(*mesh, light, size);
     for (const Placard& placard : content.placards) placards_.draw(placard, content.view, light);
     resolve(content.scene, content.view, targets.onGl());
     // Lines before the volume have soft edges: blended over it, not under with a depth of their
@@ -36,7 +37,7 @@ void GlLight::drawLight(const EyeContent& content, LightAs, Targets& targets) {
     const gl::DepthTest behindPlacards =
         content.placards.empty() ? gl::DepthTest::None : gl::DepthTest::Test;
     const AxesMeshes& axes = content.axes;
-    for (const FlatMesh* mesh : {&axes.before, &axes.grounds, &axes.labels})
+    for (const FlatMesh* mesh : {&axes.mapBefore, &axes.before, &axes.grounds, &axes.labels})
         flat_->draw(*mesh, light, size, behindPlacards);
     flat_->draw(legendGround(content.legend, size, content.background), light, size);
     flat_->draw(content.legend, light, size);

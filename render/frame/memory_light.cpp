@@ -21,10 +21,12 @@ class Composition {
     Composition(const EyeContent& content, const Font& font, const MemoryTargets& targets)
         : background_(glm::vec3(content.background), 1), size_(targets.size()) {
         const auto raster = [&](const FlatMesh& mesh) { return FlatRaster(mesh, font, size_); };
-        under_.push_back(raster(content.axes.behind));
+        for (const FlatMesh* mesh : {&content.axes.mapBehind, &content.axes.behind})
+            under_.push_back(raster(*mesh));
         const FlatMesh ground = legendGround(content.legend, size_, content.background);
-        for (const FlatMesh* mesh : {&content.axes.before, &content.axes.grounds,
-                                     &content.axes.labels, &ground, &content.legend})
+        for (const FlatMesh* mesh :
+             {&content.axes.mapBefore, &content.axes.before, &content.axes.grounds,
+              &content.axes.labels, &ground, &content.legend})
             over_.push_back(raster(*mesh));
         const std::vector<Channels> channels = channelsFor(content.scene);
         for (std::size_t i = 0; i < channels.size(); ++i) {

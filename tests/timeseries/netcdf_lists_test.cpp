@@ -184,7 +184,9 @@ TEST(NetcdfLists, BoundsAreTheCellsOfTheirPlaces) {
         const auto reader = open(path);
         const auto& axes = reader->variables()[0].grid->axes();
         EXPECT_EQ(axes[0].name, "clon");
-        EXPECT_EQ(axes[0].units, units == "radian" ? "degrees" : units);
+        // As they are read.
+        EXPECT_EQ(axes[0].units, "degrees_east");
+        EXPECT_EQ(axes[1].units, units == "radian" ? "degrees_north" : units);
         EXPECT_EQ(axes[2].name, "depth");
     }
 }

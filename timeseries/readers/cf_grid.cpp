@@ -75,8 +75,14 @@ void noteLevels(const NcHeader& header, const FileAxes& fileAxes, const NcVariab
 // Of the space that listed places lie in.
 Axis listedAxis(const NcHeader& header, const std::string& name) {
     const NcVariable& place = *header.find(name, "");
-    const std::string units = place.text("units");
-    return {std::string(place.baseName()), degreesIn(units) == 1 ? units : "degrees", {0.0}, false};
+    std::string units = place.text("units");
+    if (degreesIn(units) != 1) {  // as they are read
+        const auto kind = kindByAttributes(place);
+        units = kind == AxisKind::X   ? "degrees_east"
+                : kind == AxisKind::Y ? "degrees_north"
+                                      : "degrees";
+    }
+    return {std::string(place.baseName()), units, {0.0}, false};
 }
 
 // Where each column has heights of its own: unless there are too many of them.
