@@ -46,7 +46,7 @@ TEST(NetcdfAxes, ValuesOnAMeshWithoutPolygonsAreToldAndRefused) {
         const Path path = written(along == std::string("c"), along, nothing);
         EXPECT_EQ(refusalOf(path),
                   path.string() + told + along +
-                      ") of which the file tells neither bounds (CF) nor faces (UGRID)");
+                      ") of which the file tells neither bounds (CF) nor faces (UGRID, MPAS)");
     }
     const auto ugrid = [](NetcdfBuilder& file, int v) {
         file.text(v, "mesh", "m");

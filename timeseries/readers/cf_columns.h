@@ -23,6 +23,12 @@ struct ColumnPlaces {
     enum class By { Neighbours, Bounds, Faces, Nodes } by = By::Neighbours;
     std::string faces = {};  // the mesh's connectivity
     bool turned = false;     // of which the faces are the second dimension
+    // How many nodes each face has; "": all that there are. What the first one counts as, where the
+    // connectivity does not say. The units of a longitude x and a latitude y that do not say what
+    // they are; "": they do.
+    std::string faceSizes = {};
+    int firstNode = 0;
+    std::string units = {};
     // Each column has heights of its own. `upright`: x and y are coordinates of one dimension.
     std::optional<HeightFormula> heights = {};
     bool upright = false;

@@ -73,14 +73,14 @@ void noteLevels(const NcHeader& header, const FileAxes& fileAxes, const NcVariab
 }
 
 // Of the space that listed places lie in.
-Axis listedAxis(const NcHeader& header, const std::string& name) {
+Axis listedAxis(const NcHeader& header, const ColumnPlaces& list, bool isX) {
+    const std::string& name = isX ? list.x : list.y;
     const NcVariable& place = *header.find(name, "");
-    std::string units = place.text("units");
+    std::string units = list.units.empty() ? place.text("units") : list.units;
     if (degreesIn(units) != 1) {  // as they are read
         const auto kind = kindByAttributes(place);
-        units = kind == AxisKind::X   ? "degrees_east"
-                : kind == AxisKind::Y ? "degrees_north"
-                                      : "degrees";
+        const bool isOnEarth = !list.units.empty() || kind == (isX ? AxisKind::X : AxisKind::Y);
+        units = !isOnEarth ? "degrees" : isX ? "degrees_east" : "degrees_north";
     }
     return {std::string(place.baseName()), units, {0.0}, false};
 }
@@ -137,7 +137,7 @@ VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVa
     std::array<Axis, 3>& axes = result.axes;
     for (std::size_t i = 0; i < 3; ++i) {
         if (i < 2 && list) {
-            axes[i] = listedAxis(header, i == 0 ? list->x : list->y);
+            axes[i] = listedAxis(header, *list, i == 0);
             continue;
         }
         if (!positions[i]) {

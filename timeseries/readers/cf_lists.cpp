@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "timeseries/grid/unstructured.h"
+#include "timeseries/readers/cf_mpas.h"
 #include "timeseries/readers/cf_values.h"
 
 namespace timeseries {
@@ -216,7 +217,7 @@ Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t no
         file.fail("variable '" + faces.name + "'", "expected faces, but the file has changed");
     const std::vector<double> all = allOf(file, faces);
     const NcAttribute* const start = faces.find("start_index");
-    double first = 0;
+    double first = places.firstNode;
     if (start)
         if (const auto* numbers = std::get_if<std::vector<Number>>(&start->value);
             numbers && !numbers->empty())
@@ -225,11 +226,18 @@ Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t no
                       columns = file.header().dimension(faces, 1).length;
     const std::size_t count = places.turned ? columns : rows;
     if (count > all.size()) throw std::invalid_argument("its faces have no nodes");
+    const std::vector<double> sizes = places.faceSizes.empty()
+                                          ? std::vector<double>()
+                                          : allOf(file, found(file, places.faceSizes));
+    if (!sizes.empty() && sizes.size() != count)
+        throw std::invalid_argument(places.faceSizes + " is of other faces");
     Faces result(count);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double node = all[i] - first;
         if (!(node >= 0)) continue;  // none
         const std::size_t face = places.turned ? i % columns : i / columns;
+        const std::size_t corner = places.turned ? i / columns : i % columns;
+        if (!sizes.empty() && !(static_cast<double>(corner) < sizes[face])) continue;
         if (!(node < static_cast<double>(nodes)))
             throw std::invalid_argument(
                 fmt::format("face {} has node {} of {}", face, all[i], nodes));
@@ -289,18 +297,26 @@ UnstructuredGrid polygonsAboutNodes(const Coordinates& nodes, const Faces& faces
 
 }  // namespace
 
-bool saysMesh(const NcVariable& variable) {
+bool saysMesh(const NcHeader& header, const NcVariable& variable) {
     const auto says = [&](const char* attribute) {
         return lower(variable.text(attribute)) == "unstructured";
     };
     return (variable.find("mesh") &&
             (variable.find("location") || variable.find("location_index_set"))) ||
-           says("grid_type") || says("CDI_grid_type");
+           says("grid_type") || says("CDI_grid_type") || isOnMpas(header, variable);
 }
 
 std::optional<FoundList> listOf(const NcHeader& header, const NcVariable& variable,
                                 const Roles& roles, std::span<const NcVariable* const> geographic) {
     if (auto found = byMesh(header, variable, roles)) return found;
+    if (auto mpas = mpasPlacesOf(header, variable)) {
+        Roles on = rolesOn(header, variable, roles, mpas->list);
+        if (mpas->levels && !on.z) {
+            std::erase(on.extra, *mpas->levels);
+            on.z = mpas->levels;
+        }
+        return FoundList{std::move(mpas->places), std::move(on)};
+    }
     return byBounds(header, variable, roles, geographic);
 }
 
@@ -312,7 +328,8 @@ std::shared_ptr<const Mesh> meshOfList(const NetcdfFile& file, const ColumnPlace
             meshOfCells(grid, UnstructuredShapes(grid), levels, at));
     }
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
-    const Coordinates nodes = coordinatesOf(file, x, y, x.text("units"));
+    const Coordinates nodes =
+        coordinatesOf(file, x, y, places.units.empty() ? x.text("units") : places.units);
     if (nodes.x.size() != nodes.y.size())
         throw std::invalid_argument("its nodes have other numbers of coordinates");
     const Faces faces = facesOf(file, places, nodes.x.size());

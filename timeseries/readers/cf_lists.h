@@ -15,8 +15,8 @@
 namespace timeseries {
 
 // By what writers of meshes say: UGRID 1.0, section "data defined on unstructured grids"; CDI
-// (ICON).
-bool saysMesh(const NcVariable& variable);
+// (ICON); MPAS (cf_mpas.h).
+bool saysMesh(const NcHeader& header, const NcVariable& variable);
 
 // A variable that lies on one: x is the list's dimension, z of the levels above each place.
 struct FoundList {

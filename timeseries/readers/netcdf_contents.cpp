@@ -6,6 +6,7 @@
 #include <set>
 
 #include "timeseries/readers/cf_lists.h"
+#include "timeseries/readers/cf_mpas.h"
 #include "timeseries/readers/exodus_mesh.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/vtkhdf_mesh.h"
@@ -36,7 +37,7 @@ std::string meshNotRead(const NcHeader& header, const NcVariable& variable, cons
     }
     return fmt::format(
         "expected values on a grid, found them on an unstructured mesh{} of which the file tells "
-        "neither bounds (CF) nor faces (UGRID)",
+        "neither bounds (CF) nor faces (UGRID, MPAS)",
         places);
 }
 
@@ -63,7 +64,7 @@ std::vector<const NcVariable*> fieldsOf(const NcHeader& header,
     std::vector<const NcVariable*> fields;
     for (const NcVariable& variable : header.variables)
         if (variable.type && !named.contains(variable.name) && !isConnectivity(variable) &&
-            !std::ranges::binary_search(geographic, &variable))
+            !isOfMpasMesh(header, variable) && !std::ranges::binary_search(geographic, &variable))
             fields.push_back(&variable);
     return fields;
 }
@@ -134,7 +135,7 @@ FileContents contentsOf(const NetcdfFile& file) {
         const NcVariable& variable = *field;
         Roles roles = fileAxes.rolesOf(variable);
         std::optional<ColumnPlaces> list;
-        if (roles.list || saysMesh(variable)) {
+        if (roles.list || saysMesh(header, variable)) {
             const auto found = listOf(header, variable, roles, geographic);
             if (!found) {
                 contents.damaged.push_back(
