@@ -156,12 +156,12 @@ TEST(MapLines, AreDrawnOnTheSurface) {
     const Grid grid = mapOf(east(-180, 178), north(-88, 88), depth());
     const PlacedPoints placed(grid);
     const glm::ivec2 size(900, 700);
-    for (const double z : {2.0, -2.0}) {
+    for (const double z : {2.0, 0.05, -2.0}) {
         const glm::dvec3 eye(0.3, -2.5, z);
         const View view = tests::lookFrom(eye, size, 0.4);
         const AxesMeshes meshes = axesMeshes(grid, placed, view, eye, tests::fontFor(size));
-        const FlatMesh &drawn = z > 0 ? meshes.mapBefore : meshes.mapBehind,
-                       &other = z > 0 ? meshes.mapBehind : meshes.mapBefore;
+        const FlatMesh &drawn = z > 1 ? meshes.mapBefore : meshes.mapBehind,
+                       &other = z > 1 ? meshes.mapBehind : meshes.mapBefore;
         EXPECT_TRUE(other.triangles().empty());
         ASSERT_FALSE(drawn.triangles().empty());
         std::vector<MapLine> all = coastlines();
