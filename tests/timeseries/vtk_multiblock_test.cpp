@@ -215,14 +215,15 @@ TEST(VtkMultiBlock, TheChomboMeshIsItsLeaves) {
     }
     std::map<std::array<double, 3>, double> leaves;
     for (const Block& block : blocks)
-        for (const auto& [place, value] : block.values)
+        for (const auto& [place, value] : block.values) {
+            const glm::dvec3 at = 1e-4 * glm::dvec3(place[0], place[1], place[2]);
             if (std::ranges::none_of(blocks, [&](const Block& finer) {
-                    const glm::dvec3 at(place[0] * 1e-4, place[1] * 1e-4, place[2] * 1e-4);
                     return finer.spacing < block.spacing &&
                            glm::all(glm::greaterThan(at, finer.lo)) &&
                            glm::all(glm::lessThan(at, finer.hi));
                 }))
                 leaves[place] = value;
+        }
     EXPECT_EQ(leaves.size(), 8968u);  // of 10,176, as numpy counts them, too
     EXPECT_EQ(byPlace(folder / "chombo3d.vtm", "phi"), leaves);
     const auto reader = open(folder / "chombo3d.vtm");
