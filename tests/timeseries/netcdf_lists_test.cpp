@@ -278,6 +278,22 @@ TEST(NetcdfLists, FacesWithoutNodesLieNowhereAndThoseOfNodesThatThereAreNotAreRe
                 HasSubstr("face 0 has node 700 of 3"));
 }
 
+// Found by the fuzzer: they had places, on one level.
+TEST(NetcdfLists, NodesOfAMeshWithoutAnyFaceLieNowhere) {
+    const auto path = smallMesh(
+        {{10, 80}, {11, 80}, {11, 81}}, {-1, -1, -1},
+        [](NetcdfBuilder& file, int) {
+            const auto depth = file.coordinate("depth", 2, "m");
+            const int node = 0;  // the first dimension
+            const int v = file.variable("V", NC_FLOAT, {depth.dimension, node});
+            file.text(v, "mesh", "mesh");
+            file.text(v, "location", "node");
+            file.write(depth.variable, std::vector<double>{0, 10});
+        },
+        "node");
+    EXPECT_THAT(refusalOf(path), HasSubstr("expected cells that take space"));
+}
+
 TEST(NetcdfLists, WhatIsNoCoordinateOfSpaceIsNoLevel) {
     const auto path =
         smallMesh({{10, 80}, {11, 80}, {11, 81}}, {0, 1, 2}, [](NetcdfBuilder& file, int f) {

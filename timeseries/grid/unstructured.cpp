@@ -245,10 +245,9 @@ std::string flawOf(const UnstructuredGrid& grid) {
 UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid)
     : cells(grid.types.size()), spread(spreadOf(grid)) {
     const Measure measure(grid);
-    areScattered = measure.dimension() == 0 &&
-                   (grid.types.empty() || std::ranges::any_of(grid.types, [](std::uint8_t type) {
-                        return cellTypeOf(type);
-                    }));
+    areScattered =
+        measure.dimension() == 0 &&
+        std::ranges::any_of(grid.types, [](std::uint8_t type) { return cellTypeOf(type); });
     inParts(cells.size(), threadsFor(cells.size(), kCellsAThread),
             [&](std::size_t first, std::size_t last) {
                 for (std::size_t cell = first; cell < last; ++cell) cells[cell] = measure(cell);

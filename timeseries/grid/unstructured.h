@@ -42,7 +42,7 @@ struct UnstructuredShapes {
     // Irregular cells leave gaps unless their splats are wider than a lattice's (1.5: see
     // tests/render/mesh_splats_test.cpp).
     double spread = 1;
-    bool areScattered = false;  // points alone, or no cells at all
+    bool areScattered = false;  // points alone
 };
 
 // Throw std::invalid_argument when nothing has a volume.

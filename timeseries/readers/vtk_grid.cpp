@@ -69,7 +69,10 @@ UnstructuredShapes vtkShapesOf(const VtkHeader& header) {
     if (const std::string flaw = flawOf(header.unstructured); !flaw.empty())
         failVtk(header.path, "Cells",
                 "expected cells of points that there are, found that " + flaw);
-    return UnstructuredShapes(header.unstructured);
+    UnstructuredShapes shapes(header.unstructured);
+    // Points without any cell are as good as points that are one each.
+    if (shapes.cells.empty()) shapes.areScattered = true;
+    return shapes;
 }
 
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place, const UnstructuredShapes& shapes) {
