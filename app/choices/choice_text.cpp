@@ -207,16 +207,21 @@ glm::dvec3 parseScale(std::string_view text) {
     return {(*n)[0], (*n)[1], (*n)[2]};
 }
 
-ViewChoice parseView(std::string_view text) {
+void takeView(ViewChoice& view, std::string_view text) {
     const auto n = numbers(text);
     if (!n || n->size() < 2 || n->size() > 3 ||
         (n->size() == 3 && !((*n)[2] >= kNearest && (*n)[2] <= kFarthest)))
         throw ChoiceError(fmt::format(
             "view '{}' is not azimuth,elevation in degrees, with a distance of {} to {} if wanted",
             text, kNearest, kFarthest));
-    ViewChoice view{(*n)[0], (*n)[1], {}};
-    if (n->size() == 3) view.distance = (*n)[2];
-    return view;
+    view.azimuthDegrees = (*n)[0];
+    view.elevationDegrees = (*n)[1];
+    view.distance = n->size() == 3 ? std::optional((*n)[2]) : std::nullopt;
+}
+std::string viewText(const ViewChoice& view) {
+    std::string text = fmt::format("{},{}", view.azimuthDegrees, view.elevationDegrees);
+    if (view.distance) text += fmt::format(",{}", *view.distance);
+    return text;
 }
 
 glm::dvec3 parseTarget(std::string_view text) {

@@ -36,7 +36,9 @@ std::string flipsText(const std::array<AxisChoice, 3>& axes);
 std::pair<std::size_t, std::string> parseAxisName(std::string_view text);
 
 glm::dvec3 parseScale(std::string_view text);  // "1,1,20", each within these
-ViewChoice parseView(std::string_view text);   // "30,20" or "30,20,4.5"
+// "30,20" or "30,20,4.5": from where, and how far away; what is looked at stays.
+void takeView(ViewChoice& view, std::string_view text);
+std::string viewText(const ViewChoice& view);
 // What an eye's distance may be, to the centre and to zero parallax, in half diagonals: beyond, the
 // box has no depth left.
 inline constexpr double kNearest = 1e-6, kFarthest = 1e6;

@@ -63,6 +63,24 @@ Text ofSweep(const Explorer& e, const Of& text) {
 const CursorSettings kTime;
 const PlayChoice kPlay;
 
+// A session says of each axis what the command line says of several at once.
+template <std::size_t axis>
+Text flipOf(const Explorer& e) {
+    return unless(!e.axes[axis].flip, flag(true));
+}
+template <std::size_t axis>
+void takeFlip(Explorer& e, std::string_view t) {
+    e.axes[axis].flip = isOn(t);
+}
+template <std::size_t axis>
+Text nameOf(const Explorer& e) {
+    return unless(e.axes[axis].name.empty(), e.axes[axis].name);
+}
+template <std::size_t axis>
+void takeName(Explorer& e, std::string_view t) {
+    e.axes[axis].name = t;
+}
+
 constexpr std::array kChoices = {
     Choice{"--variable", "variable", Form::Text,
            [](const Explorer& e) { return unless(e.variable.empty(), e.variable); },
@@ -76,6 +94,24 @@ constexpr std::array kChoices = {
            [](const Explorer& e) { return e.keep ? e.keep->text() : Text(); },
            [](Explorer& e, std::string_view t) { e.keep = RangeSet::parse(t); }, "Data",
            "Values to keep when the sorted list is built"},
+    Choice{"--flip", "", Form::Text,
+           [](const Explorer& e) {
+               const std::string flips = flipsText(e.axes);
+               return unless(flips == "none", flips);
+           },
+           [](Explorer& e, std::string_view t) {
+               const auto flips = parseFlips(t);
+               for (std::size_t a = 0; a < 3; ++a) e.axes[a].flip = flips[a];
+           },
+           "Data",
+           "Axes drawn the other way round, for files that do not say which way is down: "
+           "x, y, z, several with commas, or none"},
+    Choice{"", "axes.x.flip", Form::Flag, flipOf<0>, takeFlip<0>},
+    Choice{"", "axes.y.flip", Form::Flag, flipOf<1>, takeFlip<1>},
+    Choice{"", "axes.z.flip", Form::Flag, flipOf<2>, takeFlip<2>},
+    Choice{"", "axes.x.name", Form::Text, nameOf<0>, takeName<0>},
+    Choice{"", "axes.y.name", Form::Text, nameOf<1>, takeName<1>},
+    Choice{"", "axes.z.name", Form::Text, nameOf<2>, takeName<2>},
 
     Choice{"--sweep", "sweep.animation", Form::Text,
            [](const Explorer& e) {
@@ -165,6 +201,9 @@ constexpr std::array kChoices = {
            [](const Explorer& e) { return e.scale ? triple(*e.scale) : Text(); },
            [](Explorer& e, std::string_view t) { e.scale = parseScale(t); }, "View",
            "x,y,z: stretch of the axes"},
+    Choice{"--view", "", Form::Text, [](const Explorer& e) { return Text(viewText(e.view)); },
+           [](Explorer& e, std::string_view t) { takeView(e.view, t); }, "View",
+           "AZIMUTH,ELEVATION[,DISTANCE]: degrees, and half diagonals"},
     Choice{"", "view.azimuth", Form::Number,
            [](const Explorer& e) { return numberText(e.view.azimuthDegrees); },
            [](Explorer& e, std::string_view t) { e.view.azimuthDegrees = number(t); }},

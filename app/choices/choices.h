@@ -1,6 +1,6 @@
 // Every choice of a picture that is one value, declared once: how the command line, its copy and
-// session files spell it. Layers, files and names of axes are lists and spelled where they are
-// read.
+// session files spell it. Files and layers are lists, spelled where they are read; so are, on the
+// command line, names of axes.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,8 @@ namespace app {
 struct Choice {
     // "--splat-size"; "" where only sessions have it.
     const char* option;
-    // In a session; of an object in it where there is a dot: "view.target".
+    // In a session; of an object in it where there is a dot: "view.target". "" where a session has
+    // its parts instead.
     const char* key;
     enum class Form { Text, Number, Whole, Numbers, Flag } form;  // there
     // None where nothing was chosen, and nothing is written.

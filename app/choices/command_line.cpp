@@ -42,9 +42,7 @@ class Arguments {
     std::vector<std::string> all_;
 };
 
-void addAxes(const Explorer& e, Arguments& arguments) {
-    if (const std::string flips = flipsText(e.axes); flips != "none")
-        arguments.option("--flip", flips);
+void addAxisNames(const Explorer& e, Arguments& arguments) {
     for (std::size_t a = 0; a < 3; ++a)
         if (!e.axes[a].name.empty())
             arguments.option("--name-axis", fmt::format("{}={}", "xyz"[a], e.axes[a].name));
@@ -85,9 +83,6 @@ void addChoices(const Explorer& e, Arguments& arguments) {
         else
             arguments.option(choice.option, *text);
     }
-    std::string view = fmt::format("{},{}", e.view.azimuthDegrees, e.view.elevationDegrees);
-    if (e.view.distance) view += fmt::format(",{}", *e.view.distance);
-    arguments.option("--view", view);
 }
 
 }  // namespace
@@ -98,7 +93,7 @@ std::vector<std::string> renderArguments(const Explorer& e, const fs::path& outp
     Arguments arguments({"render"});
     for (const fs::path& file : e.files) arguments.file(relativeTo(folder, file));
     addChoices(e, arguments);
-    addAxes(e, arguments);
+    addAxisNames(e, arguments);
     addLayers(e, arguments);
     arguments.option("--output", relativeTo(folder, output).generic_string());
     return arguments.take();

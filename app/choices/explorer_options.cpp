@@ -39,15 +39,9 @@ void ExplorerOptions::addTo(CLI::App& app) {
         ->allow_extra_args(false)
         ->check(CLI::Range(std::size_t{1}, render::kMaxLayers))
         ->group("Layers");
-    app.add_option("--flip", flips_,
-                   "Axes drawn the other way round, for files that do not say which way is down: "
-                   "x, y, z, several with commas, or none")
-        ->group("Data");
     app.add_option("--name-axis", axisNames_, "x=NAME, y=NAME or z=NAME: what an axis is called")
         ->allow_extra_args(false)
         ->group("Data");
-    app.add_option("--view", view_, "AZIMUTH,ELEVATION[,DISTANCE]: degrees, and half diagonals")
-        ->group("View");
     texts_.resize(choices().size());
     for (std::size_t i = 0; i < choices().size(); ++i) {
         const Choice& choice = choices()[i];
@@ -101,17 +95,6 @@ void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
     }
 }
 
-void ExplorerOptions::applyAxes(const CLI::App& app, Explorer& e) const {
-    if (given(app, "--flip")) {
-        const auto flips = parseFlips(flips_);
-        for (std::size_t a = 0; a < 3; ++a) e.axes[a].flip = flips[a];
-    }
-    for (const std::string& each : axisNames_) {
-        auto [a, name] = parseAxisName(each);
-        e.axes[a].name = std::move(name);
-    }
-}
-
 namespace {
 
 // What is read as a number does not say of what; other texts do.
@@ -144,12 +127,9 @@ Explorer ExplorerOptions::explorer(const CLI::App& app) const {
         throw timeseries::FileError(fmt::format(
             "{0}: its data are not there any more: expected {1}; name them beside --session {0}",
             inPlace ? files_.front() : session_, missing->string()));
-    applyAxes(app, e);
-    if (given(app, "--view")) {
-        const ViewChoice view = parseView(view_);
-        e.view.azimuthDegrees = view.azimuthDegrees;
-        e.view.elevationDegrees = view.elevationDegrees;
-        e.view.distance = view.distance;
+    for (const std::string& each : axisNames_) {
+        auto [a, name] = parseAxisName(each);
+        e.axes[a].name = std::move(name);
     }
     for (std::size_t i = 0; i < choices().size(); ++i) {
         const Choice& choice = choices()[i];

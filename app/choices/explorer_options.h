@@ -24,13 +24,12 @@ class ExplorerOptions {
 
  private:
     std::vector<std::variant<glm::dvec3, MapChoice>> colorsInOrder(const CLI::App& command) const;
-    void applyAxes(const CLI::App& command, Explorer& explorer) const;
     void applyLayers(const CLI::App& command, Explorer& explorer) const;
 
     std::vector<std::string> texts_;  // of each of choices(), where its option takes one
     std::vector<std::string> files_, ranges_, colors_, colormaps_, opacities_, axisNames_;
     std::vector<std::size_t> hidden_;
-    std::string session_, flips_, view_;
+    std::string session_;
 };
 
 }  // namespace app

@@ -4,10 +4,11 @@
 
 #include <fmt/ranges.h>
 
-#include <array>
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/choices/choice_text.h"
 #include "app/choices/choices.h"
@@ -25,7 +26,6 @@ using timeseries::FileError;
 using timeseries::RangeSet;
 
 constexpr int kVersion = 1;
-constexpr std::array kAxisKeys = {"x", "y", "z"};
 
 void writeStyle(json& out, const LayerChoice& layer) {
     if (!layer.visible) out["visible"] = false;
@@ -64,19 +64,6 @@ LayerChoice readStyle(JsonObject& object) {
     return layer;
 }
 
-void readAxes(const json& value, const std::string& where, Explorer& explorer) {
-    JsonObject object(value, where);
-    for (std::size_t a = 0; a < 3; ++a)
-        object.read<json>(kAxisKeys[a], [&](const json& axis) {
-            JsonObject each(axis, object.place(kAxisKeys[a]));
-            each.read<bool>("flip", [&](bool b) { explorer.axes[a].flip = b; });
-            each.read<std::string>("name",
-                                   [&](const std::string& n) { explorer.axes[a].name = n; });
-            each.refuseOthers();
-        });
-    object.refuseOthers();
-}
-
 // The value that a session has for a choice's text.
 json valueOf(Choice::Form form, const std::string& text) {
     switch (form) {
@@ -111,10 +98,10 @@ void readValue(JsonObject& object, Choice::Form form, const char* key, const Tak
     }
 }
 
-// "view" and "target" of "view.target"; "" and all of it where there is no dot.
+// "axes.x" and "flip" of "axes.x.flip"; "" and all of it where there is no dot.
 std::pair<std::string, const char*> splitKey(const char* key) {
     const std::string_view text = key;
-    const std::size_t dot = text.find('.');
+    const std::size_t dot = text.rfind('.');
     if (dot == std::string_view::npos) return {"", key};
     return {std::string(text.substr(0, dot)), key + dot + 1};
 }
@@ -122,34 +109,58 @@ std::pair<std::string, const char*> splitKey(const char* key) {
 void writeChoices(const Explorer& e, json& out) {
     for (const Choice& choice : choices()) {
         const auto text = choice.text(e);
-        if (!text) continue;
-        const auto [object, key] = splitKey(choice.key);
-        (object.empty() ? out : out[object])[key] = valueOf(choice.form, *text);
+        if (!text || *choice.key == '\0') continue;
+        std::string path = fmt::format("/{}", choice.key);
+        std::ranges::replace(path, '.', '/');
+        out[json::json_pointer(path)] = valueOf(choice.form, *text);
     }
     if (sweepOf(e) != nullptr) writeStyle(out["sweep"], e.layers.front());
 }
 
-void readChoices(JsonObject& session, Explorer& e) {
-    std::map<std::string, JsonObject> objects;
-    for (const char* name : {"view", "stereo", "sweep", "play"})
-        session.read<json>(name, [&](const json& value) {
-            objects.emplace(name, JsonObject(value, session.place(name)));
-        });
-    for (const Choice& choice : choices()) {
-        const auto [name, key] = splitKey(choice.key);
-        const auto found = objects.find(name);
-        if (!name.empty() && found == objects.end()) continue;
-        readValue(name.empty() ? session : found->second, choice.form, key,
-                  [&](const std::string& text) { choice.take(e, text); });
+// The objects in a session that choices are in, by their keys.
+class Objects {
+ public:
+    explicit Objects(JsonObject& session) : session_(session) {}
+    // Null where there is none.
+    JsonObject* of(const std::string& key) {
+        if (key.empty()) return &session_;
+        const auto [known, isNew] = objects_.try_emplace(key);
+        if (isNew) {
+            const auto [outer, last] = splitKey(key.c_str());
+            if (JsonObject* const in = of(outer))
+                in->read<json>(last, [&, name = last](const json& value) {
+                    known->second.emplace(value, in->place(name));
+                });
+        }
+        return known->second ? &*known->second : nullptr;
     }
-    if (const auto sweep = objects.find("sweep"); sweep != objects.end()) {
+    void refuseOthers() const {
+        for (const auto& [key, object] : objects_)
+            if (object) object->refuseOthers();
+    }
+
+ private:
+    JsonObject& session_;
+    std::map<std::string, std::optional<JsonObject>> objects_;
+};
+
+void readChoices(JsonObject& session, Explorer& e) {
+    Objects objects(session);
+    for (const Choice& choice : choices()) {
+        if (*choice.key == '\0') continue;
+        const auto [in, key] = splitKey(choice.key);
+        if (JsonObject* const object = objects.of(in))
+            readValue(*object, choice.form, key,
+                      [&](const std::string& text) { choice.take(e, text); });
+    }
+    if (JsonObject* const sweep = objects.of("sweep")) {
         const auto* const settings = sweepOf(e);
         if (settings == nullptr) throw ChoiceError("session.sweep has no animation");
-        LayerChoice swept = readStyle(sweep->second);
+        LayerChoice swept = readStyle(*sweep);
         swept.motion = *settings;
         e.layers.front() = std::move(swept);
     }
-    for (const auto& [name, object] : objects) object.refuseOthers();
+    objects.refuseOthers();
 }
 
 }  // namespace
@@ -163,10 +174,6 @@ json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths)
                 std::filesystem::absolute(file).lexically_normal().generic_string());
     }
     writeChoices(e, out);
-    for (std::size_t a = 0; a < 3; ++a) {
-        if (e.axes[a].flip) out["axes"][kAxisKeys[a]]["flip"] = true;
-        if (!e.axes[a].name.empty()) out["axes"][kAxisKeys[a]]["name"] = e.axes[a].name;
-    }
     for (const LayerChoice& layer : e.layers) {
         if (layer.motion) continue;  // in "sweep"
         json each = json::object();
@@ -196,7 +203,6 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
         for (std::size_t i = 0; i < were.size(); ++i)
             if (isThere(were[i]) || !isThere(e.files[i])) e.files[i] = were[i];
     });
-    object.read<json>("axes", [&](const json& a) { readAxes(a, object.place("axes"), e); });
     object.read<json>("layers", [&](const json& layers) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
         e.noLayers = layers.empty();

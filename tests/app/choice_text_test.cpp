@@ -151,11 +151,26 @@ TEST(ChoiceText, ScalesArePositiveAndSuchAsAPictureHasRoomFor) {
 }
 
 TEST(ChoiceText, AViewHasTwoAnglesAndPerhapsADistance) {
-    EXPECT_EQ(parseView("30,20"), (ViewChoice{30, 20, {}}));
-    EXPECT_EQ(parseView("-400,90,0.1"), (ViewChoice{-400, 90, 0.1}));
+    const glm::dvec3 target(1, 2, 3);
+    for (const char* text : {"-400,90,0.1", "30,20", "0.125,-7"}) {
+        ViewChoice view{1, 2, 3, target};
+        takeView(view, text);
+        EXPECT_EQ(viewText(view), text);
+        EXPECT_EQ(view.target, target);
+    }
+    ViewChoice near{1, 2, 3};
+    takeView(near, "-400,90,0.1");
+    EXPECT_EQ(near, (ViewChoice{-400, 90, 0.1}));
+    takeView(near, "30,20");
+    EXPECT_EQ(near, (ViewChoice{30, 20, {}}));
     for (const char* text : {"", "30", "30,20,0", "30,20,-1", "30,20,4,5", "nan,0", "inf,0",
                              "30,20,inf", "30,20,nan", "x,y", "30,", ",20", "30 20"})
-        expectRefused([](std::string_view t) { parseView(t); }, text);
+        expectRefused(
+            [](std::string_view t) {
+                ViewChoice view;
+                takeView(view, t);
+            },
+            text);
 }
 
 TEST(ChoiceText, SizesAreWholePixelsWithinLimits) {
