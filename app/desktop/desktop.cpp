@@ -130,7 +130,7 @@ void Desktop::drawPicture() {
     if (size != e.size) exploration_.resize(size);
     const auto shown = exploration_.shown();
     picture_.draw(shown ? &*shown : nullptr, window, place, exploration_.playback().playing,
-                  interface_.choices().frameBudget);
+                  ImGui::IsAnyMouseDown(), interface_.choices().frameBudget);
     panels::drawFigures(gui_.theme(), layout, picture_.performance(), exploration_.series());
 }
 

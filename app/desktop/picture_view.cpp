@@ -9,11 +9,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A subset is refined when the picture has been at rest for so long: a hand that hesitates is not
-// made to wait.
-constexpr auto kRest = 150ms;
 // A slice of a picture at rest, of frames: the window around it is drawn once for twice as much.
 constexpr int kSlice = 2;
+// What is expected to take no longer is drawn in one slice: one frame's wait seems none.
+constexpr auto kAtOnce = 100ms;
 const glm::vec3 kGroundColor = glm::vec3(13, 17, 23) / 255.0f;
 
 // What a picture depends on.
@@ -50,12 +49,12 @@ bool PictureView::isCurrent(const Shown& shown) const {
 }
 
 void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place,
-                       bool playing, std::chrono::nanoseconds frameBudget) {
+                       bool playing, bool held, std::chrono::nanoseconds frameBudget) {
     if (shown == nullptr) return render::showGround(window, kGroundColor);
     playing_ = playing;
     const bool current = isCurrent(*shown);
-    if (!current) changed_ = Clock::now();
-    const bool resting = !playing && Clock::now() - changed_ >= kRest;
+    rest_.frame(!current, held, Clock::now());
+    const bool resting = !playing && rest_.is(Clock::now());
     const bool arriving = current && report_.uploaded < 1;
     if (!current || arriving || (!isDone() && resting))
         redraw(*shown, resting && !arriving, frameBudget);
@@ -72,7 +71,7 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     if (!resting)
         slices_.reset();
     else if (!slices_)
-        slices_.emplace(kSlice * frameBudget, std::min(pace_.budget(), render::FramePace::kFirst));
+        slices_.emplace(kSlice * frameBudget, firstSlice(kSlice * frameBudget));
     render::FramePace& points = slices_ ? *slices_ : pace_;
     for (render::FramePace* pace : {&points, &cellPace_})
         pace->setTarget(slices_ ? kSlice * frameBudget : frameBudget);
@@ -96,6 +95,11 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     content_ = Content{drawnOf(e), shown.sorted};
     predictError();
     if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->placed->boxHalfEdges();
+}
+
+std::uint64_t PictureView::firstSlice(std::chrono::nanoseconds slice) const {
+    const std::uint64_t atOnce = pace_.fitting(kAtOnce);
+    return report_.selected * eyes_.size() <= atOnce ? atOnce : pace_.fitting(slice);
 }
 
 bool PictureView::waitsForError() const {
@@ -126,7 +130,7 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
     if (!content_ || (isDone() && (playing_ || !waitsForError()))) return std::nullopt;
     const bool goesOn = !isDone() && (report_.uploaded < 1 || (report_.refined > 0 && !playing_));
-    return goesOn ? 0ns : std::chrono::nanoseconds(kRest);
+    return goesOn ? 0ns : std::chrono::nanoseconds(Rest::kHesitation);
 }
 
 std::optional<Reading> PictureView::readSoon(glm::vec2 at, const Explorer& shown) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/desktop/rest.h"
 #include "app/drawing/canvas.h"
 #include "app/drawing/picture_error.h"
 #include "app/panels/panel_context.h"
@@ -23,9 +24,10 @@ class PictureView {
     static glm::ivec2 eyeSize(const panels::Rect& place, Stereo mode);
 
     // Puts the picture into the window's framebuffer, with ground around it. `shown`: null while
-    // there is nothing. `playing`: it will change again at once.
+    // there is nothing. `playing`: it will change again at once. `held`: a mouse button is, with
+    // which a hand may go on to change it.
     void draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place, bool playing,
-              std::chrono::nanoseconds frameBudget);
+              bool held, std::chrono::nanoseconds frameBudget);
     // When it is to be drawn again although nothing changes; none when it is whole.
     std::optional<std::chrono::nanoseconds> untilNextDraw() const;
 
@@ -65,6 +67,8 @@ class PictureView {
     void tellError();     // of a picture that is whole and rests
     void predictError();  // of one that was just drawn, from what was told of its selection
     void redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget);
+    // How many splats a picture that comes to rest begins with.
+    std::uint64_t firstSlice(std::chrono::nanoseconds slice) const;
 
     Canvas canvas_{render::SplatterChoice::ByDevice, render::LightAs::Srgb8};
     render::Present present_;
@@ -83,7 +87,7 @@ class PictureView {
     glm::dmat3 boxHalfEdges_{0.5};
     std::vector<render::View> eyes_;
     glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other
-    Clock::time_point changed_ = Clock::now();
+    Rest rest_;
     bool playing_ = false;  // at the last draw(): a refinement stands still
     double readNs_ = 10;    // of a read, a splat drawn, as the last one took
     bool timed_ = true;     // what was drawn last has its time

@@ -44,6 +44,12 @@ std::chrono::nanoseconds FramePace::costOf(std::uint64_t splats) const {
     return std::chrono::nanoseconds(std::llround(perSplatNs_ * static_cast<double>(splats)));
 }
 
+std::uint64_t FramePace::fitting(std::chrono::nanoseconds time) const {
+    if (recent_.empty()) return first_;
+    return static_cast<std::uint64_t>(
+        std::clamp(ns(time) / perSplatNs_, double{kFewest}, static_cast<double>(kMost)));
+}
+
 void FramePace::fit() {
     std::vector<double> slopes, fixed, shares;
     for (std::size_t i = 1; i < recent_.size(); ++i)

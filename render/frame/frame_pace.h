@@ -25,6 +25,9 @@ class FramePace {
 
     // What so many splats take, as is known so far.
     std::chrono::nanoseconds costOf(std::uint64_t splats) const;
+    // How many splats that time has room for, if it holds nothing but splats; the first budget
+    // where nothing is known.
+    std::uint64_t fitting(std::chrono::nanoseconds time) const;
 
     static constexpr std::uint64_t kFewest = 20'000, kFirst = 100'000,
                                    kMost = std::uint64_t{1} << 31;

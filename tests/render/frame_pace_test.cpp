@@ -48,6 +48,17 @@ TEST(FramePace, FramesTakeTheirTargetWithinTenFramesOnAnyMachine) {
             }
 }
 
+TEST(FramePace, WhatFitsIntoATimeIsOfSplatsAlone) {
+    FramePace pace(kTarget);
+    EXPECT_EQ(pace.fitting(100ms), FramePace::kFirst);
+    for (const double perSplat : {5.0, 50.0, 500.0}) {
+        Machine machine{4e6, perSplat};
+        for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+        EXPECT_NEAR(static_cast<double>(pace.fitting(100ms)), 100e6 / perSplat, 1e6 / perSplat);
+        EXPECT_EQ(pace.fitting(0ms), FramePace::kFewest);
+    }
+}
+
 TEST(FramePace, AMachineThatCannotKeepTheTargetDrawsTheFewest) {
     for (Machine machine : {Machine{0, 5000}, Machine{30e6, 1}, Machine{1e10, 1e6}}) {
         FramePace pace(kTarget);

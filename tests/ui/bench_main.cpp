@@ -75,21 +75,28 @@ std::vector<float> noise(std::size_t points) {
     return values;
 }
 
-// From the last movement of a drag to the last change of the picture before the window is quiet for
+// From where the button is let go to the last change of the picture before the window is quiet for
 // a while, that is, until all points are seen. Their error is told beside it, and later.
 struct Rests {
     std::vector<double> gaps, times;
 };
 Rests rests(ui::Driver& desk, const ui::Places& at) {
-    constexpr int kRests = 5;
+    constexpr int kRests = 5, kMoves = 10;
     constexpr std::chrono::milliseconds kQuiet{500};
+    // What is said of a point stands to the right of the pointer, and comes later.
+    app::panels::Rect left = at.clear;
+    left.max.x = at.clear.centre().x - 50;
     Rests out;
-    desk.move(at.clear.centre());
-    desk.down();
-    for (int i = 1; i <= kRests; ++i) {
+    for (int i = 0; i < kRests; ++i) {
+        desk.move(at.clear.centre());
+        desk.down();
+        for (int moved = 1; moved <= kMoves; ++moved) {
+            desk.moveOnly(at.clear.centre() + glm::vec2(4 * moved, 0));
+            desk.ping();
+        }
         const Clock::time_point begin = Clock::now();
         Clock::time_point changed = begin, pictured = begin;
-        desk.moveOnly(at.clear.centre() + glm::vec2(20 * i, 0));
+        desk.up();
         ui::Shot window, picture;
         while (Clock::now() - changed < kQuiet) {
             out.gaps.push_back(Milliseconds(desk.ping()).count());
@@ -98,11 +105,10 @@ Rests rests(ui::Driver& desk, const ui::Places& at) {
                 last = std::move(now);
             };
             look(window, desk.shot(), changed);
-            look(picture, desk.shot(at.clear), pictured);
+            look(picture, desk.shot(left), pictured);
         }
         out.times.push_back(Milliseconds(pictured - begin).count());
     }
-    desk.up();
     return out;
 }
 
