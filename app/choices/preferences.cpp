@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -50,6 +51,15 @@ std::vector<Named> recentIn(const json& list) {
     return recent;
 }
 
+constexpr std::array kMoving = {"pace", "error", "all"};  // as Moving
+
+Moving movingIn(const json& name) {
+    const auto found = std::ranges::find(kMoving, name);
+    if (found == kMoving.end())
+        throw std::invalid_argument("moving is none of pace, error and all");
+    return static_cast<Moving>(found - kMoving.begin());
+}
+
 // Unknown keys may be a later version's.
 Preferences fromJson(const json& object) {
     if (!object.is_object()) throw std::invalid_argument("it is not a JSON object");
@@ -58,6 +68,9 @@ Preferences fromJson(const json& object) {
     if (object.contains("uiScale")) preferences.uiScale = number(object, "uiScale", 0.5, 4);
     if (object.contains("frameMilliseconds"))
         preferences.frameMilliseconds = number(object, "frameMilliseconds", 1, 1000);
+    if (object.contains("moving")) preferences.moving = movingIn(object["moving"]);
+    if (object.contains("movingError"))
+        preferences.movingError = number(object, "movingError", 1e-4, 1);
     return preferences;
 }
 
@@ -98,7 +111,10 @@ ReadPreferences readPreferences(const fs::path& file) {
 }
 
 void writePreferences(const Preferences& preferences, const fs::path& file) {
-    json out{{"recentFiles", json::array()}, {"frameMilliseconds", preferences.frameMilliseconds}};
+    json out{{"recentFiles", json::array()},
+             {"frameMilliseconds", preferences.frameMilliseconds},
+             {"moving", kMoving[static_cast<std::size_t>(preferences.moving)]},
+             {"movingError", preferences.movingError}};
     for (const Named& named : preferences.recent) {
         json entry = json::array();
         for (const fs::path& path : named) entry.push_back(path.string());

@@ -13,12 +13,18 @@ using Named = std::vector<std::filesystem::path>;
 // For a list of such: "run_*.nc", "a.nc and 3 more".
 std::string shortName(const Named& named);
 
+// What a picture keeps while it moves: the pace of frames, and leaves out what does not fit; what
+// an error allows; or all that it has at rest.
+enum class Moving { Pace, Error, All };
+
 struct Preferences {
     static constexpr std::size_t kRecent = 10;
 
     std::vector<Named> recent;               // absolute, newest first, at most kRecent
     std::optional<double> uiScale;           // in 0.5 .. 4; absent: the monitor's
     double frameMilliseconds = 1000.0 / 60;  // to draw a frame in; 1 .. 1000
+    Moving moving = Moving::Pace;
+    double movingError = 0.03;  // of optical depth, relative; 1e-4 .. 1
     friend bool operator==(const Preferences&, const Preferences&) = default;
 };
 

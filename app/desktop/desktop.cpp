@@ -33,6 +33,8 @@ Desktop::Desktop(Exploration& exploration, std::optional<ExportJob>& exporting)
     interface_.choices().scale = fileActions_.preferences().uiScale;
     interface_.choices().frameBudget =
         std::chrono::nanoseconds(std::llround(1e6 * fileActions_.preferences().frameMilliseconds));
+    interface_.choices().moving = fileActions_.preferences().moving;
+    interface_.choices().movingError = fileActions_.preferences().movingError;
 }
 
 Desktop::End Desktop::run() {
@@ -130,7 +132,7 @@ void Desktop::drawPicture() {
     if (size != e.size) exploration_.resize(size);
     const auto shown = exploration_.shown();
     picture_.draw(shown ? &*shown : nullptr, window, place, exploration_.playback().playing,
-                  ImGui::IsAnyMouseDown(), interface_.choices().frameBudget);
+                  ImGui::IsAnyMouseDown(), interface_.choices());
     panels::drawFigures(gui_.theme(), layout, picture_.performance(), exploration_.series());
 }
 

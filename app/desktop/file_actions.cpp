@@ -184,6 +184,8 @@ void FileActions::prefer(const panels::Choices& choices) {
     preferences_.uiScale = choices.scale;
     preferences_.frameMilliseconds =
         std::chrono::duration<double, std::milli>(choices.frameBudget).count();
+    preferences_.moving = choices.moving;
+    preferences_.movingError = choices.movingError;
 }
 
 void FileActions::goOn() {

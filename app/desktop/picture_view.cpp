@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <limits>
 #include <utility>
 
 namespace app::desktop {
@@ -49,7 +50,7 @@ bool PictureView::isCurrent(const Shown& shown) const {
 }
 
 void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place,
-                       bool playing, bool held, std::chrono::nanoseconds frameBudget) {
+                       bool playing, bool held, const panels::Choices& choices) {
     if (shown == nullptr) return render::showGround(window, kGroundColor);
     playing_ = playing;
     const bool current = isCurrent(*shown);
@@ -57,15 +58,16 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
     const bool resting = !playing && rest_.is(Clock::now());
     const bool arriving = current && report_.uploaded < 1;
     if (!current || arriving || (!isDone() && resting))
-        redraw(*shown, resting && !arriving, frameBudget);
+        redraw(*shown, resting && !arriving, choices);
     else if (resting && waitsForError())
         tellError();
     kept_->show(window, {0, window.y - static_cast<int>(place.max.y)}, kGroundColor);
 }
 
-void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget) {
+void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices& choices) {
     error_.forget();
     const Explorer& e = shown.explorer;
+    const std::chrono::nanoseconds frameBudget = choices.frameBudget;
     const glm::ivec2 grid = tiles(e.stereo.mode), whole = e.size * grid;
     if (!kept_ || kept_->size() != whole) kept_.emplace(whole);
     if (!resting)
@@ -75,7 +77,9 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
     render::FramePace& points = slices_ ? *slices_ : pace_;
     for (render::FramePace* pace : {&points, &cellPace_})
         pace->setTarget(slices_ ? kSlice * frameBudget : frameBudget);
-    const CanvasLimits limits{.splats = points.budget(), .cells = cellPace_.budget()};
+    const CanvasLimits limits =
+        resting ? CanvasLimits{.splats = points.budget(), .cells = cellPace_.budget()}
+                : moving(e, choices);
     eyes_ = canvas_.eyesOf(shown);
     grid_ = grid;
     const auto show = [&](std::size_t eye, render::Targets& light) {
@@ -100,6 +104,15 @@ void PictureView::redraw(const Shown& shown, bool resting, std::chrono::nanoseco
 std::uint64_t PictureView::firstSlice(std::chrono::nanoseconds slice) const {
     const std::uint64_t atOnce = pace_.fitting(kAtOnce);
     return report_.selected * eyes_.size() <= atOnce ? atOnce : pace_.fitting(slice);
+}
+
+CanvasLimits PictureView::moving(const Explorer& explorer, const panels::Choices& choices) const {
+    const bool isKnown = errorsOf_ == selectionOf(drawnOf(explorer)) && errors_;
+    if (choices.moving == Moving::Pace || (choices.moving == Moving::Error && !isKnown))
+        return {.splats = pace_.budget(), .cells = cellPace_.budget()};
+    CanvasLimits limits{.splats = std::numeric_limits<std::uint64_t>::max()};
+    if (choices.moving == Moving::Error) limits.rung = errors_->cheapest(choices.movingError);
+    return limits;
 }
 
 bool PictureView::waitsForError() const {

@@ -27,7 +27,7 @@ class PictureView {
     // there is nothing. `playing`: it will change again at once. `held`: a mouse button is, with
     // which a hand may go on to change it.
     void draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place, bool playing,
-              bool held, std::chrono::nanoseconds frameBudget);
+              bool held, const panels::Choices& choices);
     // When it is to be drawn again although nothing changes; none when it is whole.
     std::optional<std::chrono::nanoseconds> untilNextDraw() const;
 
@@ -66,9 +66,11 @@ class PictureView {
     bool waitsForError() const;
     void tellError();     // of a picture that is whole and rests
     void predictError();  // of one that was just drawn, from what was told of its selection
-    void redraw(const Shown& shown, bool resting, std::chrono::nanoseconds frameBudget);
+    void redraw(const Shown& shown, bool resting, const panels::Choices& choices);
     // How many splats a picture that comes to rest begins with.
     std::uint64_t firstSlice(std::chrono::nanoseconds slice) const;
+    // What a picture may hold that moves.
+    CanvasLimits moving(const Explorer& explorer, const panels::Choices& choices) const;
 
     Canvas canvas_{render::SplatterChoice::ByDevice, render::LightAs::Srgb8};
     render::Present present_;

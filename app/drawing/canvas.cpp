@@ -117,10 +117,17 @@ struct Canvas::State {
 
 render::Scene Canvas::State::thinned(render::Scene scene, std::span<const render::View> eyes,
                                      const CanvasLimits& limits) const {
-    if (keepsTo(limits, scene, eyes)) return scene;
+    const bool isWhole = limits.rung ? *limits.rung == (scene.cells ? Rung{} : Rung{Model::Points})
+                                     : keepsTo(limits, scene, eyes);
+    if (isWhole) return scene;
     render::Scene points = byPoints(scene);
     if (scene.cells && !isThere(*screen->held, points)) return scene;
-    thinOut(points, eyes, limits);
+    if (!limits.rung) {
+        thinOut(points, eyes, limits);
+    } else if (limits.rung->model == Model::Points) {
+        points.stride = limits.rung->stride;
+        points.footprint = standingFor(points.footprint, points.stride);
+    }
     return points;
 }
 

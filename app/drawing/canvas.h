@@ -16,6 +16,7 @@
 #include "app/drawing/canvas_report.h"
 #include "app/drawing/drawn.h"
 #include "app/exploration/exploration.h"
+#include "app/picture/depth_error.h"
 #include "app/picture/picture.h"
 #include "render/frame/frame.h"
 #include "render/model/pick.h"
@@ -30,6 +31,8 @@ struct CanvasLimits {
     std::uint64_t splats = 1'000'000;
     // In one frame of cells, whose cost is told less well and learnt apart; absent: as many.
     std::optional<std::uint64_t> cells = {};
+    // Of a picture that moves, instead of these: drawn so, whatever it takes.
+    std::optional<Rung> rung = {};
     std::uint64_t of(const render::Scene& scene) const {
         return scene.cells ? cells.value_or(splats) : splats;
     }

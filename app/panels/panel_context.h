@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/choices/preferences.h"
 #include "app/drawing/canvas_report.h"
 #include "app/exploration/exploration.h"
 #include "app/exploration/reading.h"
@@ -38,6 +39,8 @@ struct Choices {
     std::size_t layer = 0;  // the selected one; as many as there are where none stands
     Page page = Page::Animation;
     std::chrono::nanoseconds frameBudget{33'333'333};
+    Moving moving = Moving::Pace;
+    double movingError = 0.03;
     std::optional<double> scale;  // of the interface; absent: the monitor's
     float sideWidth = kSideWidth;
 };

@@ -51,7 +51,32 @@ void budget(PanelContext& context, Form& form) {
             now = i;
     if (const auto rate = segmented(context.theme, "rate", form.row("Frames / s"), kRates, now))
         context.choices.frameBudget = std::chrono::nanoseconds(1'000'000'000 / kPerSecond[*rate]);
-    form.note("While the picture moves, so many points are drawn as fit this pace; at rest, all.");
+}
+
+void errorAllowed(PanelContext& context, Form& form) {
+    constexpr std::array kNames = {"1 %", "3 %", "10 %", "30 %"};
+    constexpr std::array kErrors = {0.01, 0.03, 0.1, 0.3};
+    std::size_t now = 0;
+    for (std::size_t i = 0; i < kErrors.size(); ++i)
+        if (context.choices.movingError >= kErrors[i]) now = i;
+    if (const auto error = segmented(context.theme, "error", form.row("Error up to"), kNames, now))
+        context.choices.movingError = kErrors[*error];
+}
+
+// What a moving picture leaves out.
+void movingRows(PanelContext& context, Form& form) {
+    constexpr std::array kKept = {"Pace", "Error", "All"};
+    if (const auto kept = segmented(context.theme, "moving", form.row("Moving, keep"), kKept,
+                                    static_cast<std::size_t>(context.choices.moving)))
+        context.choices.moving = static_cast<Moving>(*kept);
+    if (context.choices.moving == Moving::Pace) budget(context, form);
+    if (context.choices.moving == Moving::Error) errorAllowed(context, form);
+    constexpr std::array kNotes = {
+        "While the picture moves, so many points are drawn as fit this pace; at rest, all.",
+        "While the picture moves, as little is drawn as keeps this error, once it is known, "
+        "whatever a frame takes.",
+        "A picture that moves is drawn whole, whatever a frame takes."};
+    form.note(kNotes[static_cast<std::size_t>(context.choices.moving)]);
 }
 
 void interfaceScale(PanelContext& context, Form& form) {
@@ -103,7 +128,7 @@ void drawQualityPage(PanelContext& context, const Rect& at) {
                                              : "What is in front hides what is behind.");
     if (context.inHeadset) return;  // the display's rate, and a panel as large as it is
     form.space(6);
-    budget(context, form);
+    movingRows(context, form);
     interfaceScale(context, form);
 }
 

@@ -37,6 +37,22 @@ std::optional<double> DepthErrors::of(const Rung& rung) const {
     return error;
 }
 
+std::optional<Rung> DepthErrors::cheapest(double error) const {
+    const std::pair<Rung, double>* best = nullptr;
+    const auto draws = [](const Rung& rung) {
+        return rung.model == Model::Cells ? 2.0 : 1.0 / rung.stride;
+    };
+    for (const auto& each : rungs) {
+        const bool fits = each.second <= error;
+        const bool isBetter =
+            best == nullptr ||
+            (best->second <= error ? fits && draws(each.first) < draws(best->first)
+                                   : each.second < best->second);
+        if (isBetter) best = &each;
+    }
+    return best != nullptr ? std::optional(best->first) : std::nullopt;
+}
+
 DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
                           const render::View& view, std::span<const Rung> rungs, unsigned threads,
                           const std::atomic<bool>& wanted) {

@@ -34,6 +34,9 @@ struct DepthErrors {
     std::vector<std::pair<Rung, double>> rungs;
     // Of a coarser subset than was looked at, the coarsest's. None of cells where none were.
     std::optional<double> of(const Rung& rung) const;
+    // The one that draws least of those within this error: the coarsest points, then cells. Where
+    // none is, the truest. None where nothing is known.
+    std::optional<Rung> cheapest(double error) const;
 };
 // Of each of these, the first of which chooses the pixels. None where nothing is visible, and once
 // they are not wanted any more. On any thread. REQUIRES: a resolved explorer;

@@ -13,7 +13,8 @@ namespace {
 TEST(Choices, AreSpelledOnceEach) {
     std::set<std::string> options, keys;
     for (const Choice& choice : choices()) {
-        if (*choice.key != '\0') EXPECT_TRUE(keys.insert(choice.key).second) << choice.key;
+        const bool isNew = *choice.key == '\0' || keys.insert(choice.key).second;
+        EXPECT_TRUE(isNew) << choice.key;
         if (*choice.option == '\0') {
             EXPECT_STRNE(choice.key, "");
             continue;

@@ -87,6 +87,20 @@ TEST(PictureError, OfEveryWayToDrawIsWhatEachWouldHave) {
     EXPECT_NEAR(*all.of({Model::Points}) / worked(cells), 1, 0.3);
 }
 
+TEST(PictureError, TheCheapestWayWithinAnErrorDrawsLeast) {
+    constexpr Rung kCells{Model::Cells};
+    const auto points = [](std::uint32_t stride) { return Rung{Model::Points, stride}; };
+    const DepthErrors errors{
+        {{kCells, 0.01}, {points(1), 0.1}, {points(2), 0.2}, {points(4), 0.5}}};
+    for (const auto& [error, rung] :
+         {std::pair(0.9, points(4)), std::pair(0.5, points(4)), std::pair(0.3, points(2)),
+          std::pair(0.15, points(1)), std::pair(0.05, kCells), std::pair(0.001, kCells)})
+        EXPECT_EQ(errors.cheapest(error), rung) << error;
+    // Points are truer of what is below a pixel.
+    EXPECT_EQ((DepthErrors{{{kCells, 0.2}, {points(1), 0.1}}}.cheapest(0.01)), points(1));
+    EXPECT_FALSE(DepthErrors().cheapest(1));
+}
+
 TEST(PictureError, OfCategoriesIsNotTold) {
     const auto grid = tests::cube(3);
     timeseries::Field field{grid, std::vector<float>(27, 1.0f), {}};

@@ -18,7 +18,11 @@ TEST(Preferences, ReadAsTheyWereWritten) {
     const auto folder = tests::freshFolder();
     const auto file = folder / "made" / "preferences.json";
     for (const char* name : {"a.nc", "b.nc"}) tests::writeBytes(folder / name, "");
-    Preferences preferences{.recent = {}, .uiScale = 1.5, .frameMilliseconds = 25};
+    Preferences preferences{.recent = {},
+                            .uiScale = 1.5,
+                            .frameMilliseconds = 25,
+                            .moving = Moving::Error,
+                            .movingError = 0.25};
     remember(preferences, {folder / "a.nc"});
     remember(preferences, {folder});
     remember(preferences, {folder / "*.n[co]"});
@@ -77,6 +81,9 @@ TEST(Preferences, ADamagedFileIsToldAndTheUsualOnesHold) {
              {R"({"uiScale": 100})", "uiScale"},
              {R"({"frameMilliseconds": 0})", "frameMilliseconds"},
              {R"({"frameMilliseconds": 1e999})", "beyond all doubles"},
+             {R"({"moving": "fast"})", "moving is none of pace, error and all"},
+             {R"({"moving": 1})", "moving is none of"},
+             {R"({"movingError": 2})", "movingError is not a number from 0.0001 to 1"},
              {R"({"recentFiles": "a.nc"})", "recentFiles is not a list of texts"},
              {R"({"recentFiles": [[]]})", "recentFiles"},
              {R"({"recentFiles": [["a.nc", ["b.nc"]]]})", "recentFiles"},

@@ -43,6 +43,25 @@ TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLo
     }
 }
 
+TEST_F(CanvasOfNoise, AMovingPictureMayBeToldHowItIsDrawn) {
+    world_.explorer.model = Model::Cells;
+    const Image cells = draw(world_.shown())[0];
+    // Whatever the limits are.
+    for (const std::uint64_t splats : {1'000u, 100'000'000u}) {
+        EXPECT_EQ(draw(world_.shown(), {.splats = splats, .rung = Rung{Model::Cells}}, true)[0],
+                  cells);
+        EXPECT_TRUE(report_.whole);
+        for (const std::uint32_t stride : {1u, 4u}) {
+            draw(world_.shown(), {.splats = splats, .rung = Rung{Model::Points, stride}}, true);
+            EXPECT_FALSE(report_.cells);
+            EXPECT_EQ(report_.stride, stride);
+        }
+    }
+    world_.explorer.model = Model::Points;
+    draw(world_.shown(), {.splats = 1'000, .rung = Rung{Model::Points, 1}}, true);
+    EXPECT_TRUE(report_.whole);
+}
+
 // Of a step of which no points were drawn before.
 TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
     world_.explorer.model = Model::Cells;

@@ -16,10 +16,12 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
     const render::gl::HeadlessContext context;
     tests::ShownSteps world(100);
     PictureView view;
+    panels::Choices choices;
+    choices.frameBudget = 1ms;
     const auto draw = [&](bool playing) {
         const Shown shown = world.shown();
         const glm::ivec2 size = world.explorer.size;
-        view.draw(&shown, size, {glm::vec2(0), glm::vec2(size)}, playing, 1ms);
+        view.draw(&shown, size, {glm::vec2(0), glm::vec2(size)}, playing, false, choices);
         render::gl::takeRecordedError();  // there is no window to show it in
     };
     draw(false);
@@ -50,7 +52,23 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
               told.of({Model::Points, view.performance().report.stride}));
     EXPECT_GT(view.performance().error(), measured);
     EXPECT_FALSE(view.errorOf(world.shown())) << "it was not measured";
+    // As little as an error allows, or all.
+    const auto turned = [&](Moving moving, double error) {
+        choices.moving = moving;
+        choices.movingError = error;
+        world.explorer.view.azimuthDegrees += 5;
+        draw(true);
+        return view.performance().report.stride;
+    };
+    for (const std::uint32_t stride : {2u, 8u}) {
+        const double error = *told.of({Model::Points, stride});
+        EXPECT_EQ(turned(Moving::Error, 1.001 * error), stride);
+        EXPECT_LT(turned(Moving::Error, 0.999 * error), stride);
+    }
+    EXPECT_EQ(turned(Moving::All, 1), 1u);
+    EXPECT_GT(turned(Moving::Pace, 0), 1u);
     // Of another selection nothing is known.
+    choices.moving = Moving::Error;
     world.explorer.layers[0].ranges = timeseries::RangeSet::parse("0.2:0.3");
     draw(true);
     EXPECT_FALSE(view.performance().error());
