@@ -53,11 +53,13 @@ struct Told {
 };
 
 std::optional<double> errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-                              const render::PlacedPoints& placed) {
+                              const render::PlacedPoints& placed,
+                              const render::Splatters& splatters) {
     const Rung drawn{e.model};
+    const bool isGl = splatters.sumsByGl(makeScene(e, step, placed, frame.tick));
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
                          eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front(),
-                         std::span(&drawn, 1))
+                         std::span(&drawn, 1), isGl ? CellsBy::Gl : CellsBy::Program)
         .of(drawn);
 }
 
@@ -106,7 +108,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
         }
         std::optional<double> error;
         if (i == frames.size() / 2 && hasDepthError(*step)) {
-            error = told.error = errorOf(e, frame, *step, *placed);
+            error = told.error = errorOf(e, frame, *step, *placed, renderer.splatters());
             told.of = frame.file;
         }
         DrawnStill drawn = drawStill({.explorer = e,

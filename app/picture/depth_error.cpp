@@ -7,6 +7,7 @@
 
 #include "app/picture/picture.h"
 #include "render/frame/plain_frame.h"
+#include "render/model/rays_across.h"
 #include "render/reference/cells_on_rays.h"
 #include "render/reference/sampled_error.h"
 #include "render/splat/cell_pieces.h"
@@ -54,8 +55,8 @@ std::optional<Rung> DepthErrors::cheapest(double error) const {
 }
 
 DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
-                          const render::View& view, std::span<const Rung> rungs, unsigned threads,
-                          const std::atomic<bool>& wanted) {
+                          const render::View& view, std::span<const Rung> rungs, CellsBy by,
+                          unsigned threads, const std::atomic<bool>& wanted) {
     const render::PlacedPoints placed(step.grid(), explorer.scale);
     Explorer e = explorer;
     e.opacityPer = render::OpacityPer::Length;
@@ -67,15 +68,21 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         scene.footprint = standingFor(scene.footprint, rung.stride);
         return scene;
     };
-    const auto isByRays = [](const render::Scene& scene) {
-        return scene.cells && render::cellCount(scene, render::Channels::Over, 0) > kFewCells;
+    const auto raysOf = [&](const render::Scene& scene) {
+        return by == CellsBy::Gl ? 1 : render::raysAcross(scene, view);
+    };
+    const auto isByRays = [&](const render::Scene& scene) {
+        return scene.cells && (raysOf(scene) != render::raysAcross(scene, view) ||
+                               render::cellCount(scene, render::Channels::Over, 0) > kFewCells);
     };
     const auto depthOf = [&](render::Scene scene) -> render::DepthAt {
         if (!isByRays(scene))
             return render::depthFrom(opticalDepthOf(scene, view, wanted), view.size);
-        return [scene = std::move(scene), &view, threads](std::span<const glm::ivec2> pixels) {
-            return render::cellDepthAt(scene, view, pixels, threads);
-        };
+        const int rays = raysOf(scene);
+        return
+            [scene = std::move(scene), &view, rays, threads](std::span<const glm::ivec2> pixels) {
+                return render::cellDepthAt(scene, view, pixels, rays, threads);
+            };
     };
     const render::Scene first = sceneOf(rungs.front());
     if (first.layers.empty()) return {};

@@ -1,8 +1,10 @@
 #include "render/model/splat_cost.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/model/footprint.h"
+#include "render/model/rays_across.h"
 
 namespace render {
 namespace {
@@ -15,19 +17,16 @@ double pixelsOf(const Splat<double>& s, const PointsView& seen, glm::ivec2 size)
     return sides.x * sides.y;
 }
 
-// Of a cell, in the mean: what setting it up and one of its pixels take, of an ordinary splat,
+// Of a cell, in the mean: what setting it up and one of its rays take, of an ordinary splat,
 // which takes twice as long in order, while a cell does not (tests/bench/NOTES.md).
 double cellCost(const Scene& scene, const View& view) {
     const double ordered = scene.order == Order::None ? 1 : 0.5;
     constexpr double kSetUp = 5, kPixel = 0.1;
-    const PointsView seen(scene.placed, view);
-    const double across = scene.placed.unitLength() / seen.rayLength;
-    const glm::dvec3 middle(view.viewFromWorld * glm::dvec4(0, 0, 0, 1));
-    const double depth = std::max(-middle.z, seen.rays.near);
-    const double pixels = across * across * seen.rays.focal.x * seen.rays.focal.y / (depth * depth);
     const auto most = static_cast<double>(view.size.x) * view.size.y;
+    const double rays = std::pow(raysAcross(scene, view), 2);
     const double tetrahedra = scene.placed.isMesh() ? 4 : 1;
-    return tetrahedra * ordered * (kSetUp + kPixel * std::min(pixels, most));
+    return tetrahedra * ordered *
+           (kSetUp + kPixel * rays * std::min(cellPixels(scene, view), most));
 }
 
 }  // namespace

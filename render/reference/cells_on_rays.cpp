@@ -8,6 +8,7 @@
 #include "render/reference/interval_cells.h"
 #include "render/reference/tets_on_pixels.h"
 #include "render/splat/cell_pieces.h"
+#include "render/splat/tile_layout.h"
 
 namespace render {
 namespace {
@@ -35,10 +36,9 @@ std::vector<double> tetDepthAt(const Scene& scene, const View& view,
     return addedUp(parts);
 }
 
-}  // namespace
-
-std::vector<double> cellDepthAt(const Scene& scene, const View& view,
-                                std::span<const glm::ivec2> pixels, unsigned threads) {
+// Of each pixel of this view, by its own ray.
+std::vector<double> depthAt(const Scene& scene, const View& view,
+                            std::span<const glm::ivec2> pixels, unsigned threads) {
     if (scene.placed.isMesh()) return tetDepthAt(scene, view, pixels, threads);
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const PointsView seen(scene.placed, view);
@@ -76,6 +76,24 @@ std::vector<double> cellDepthAt(const Scene& scene, const View& view,
             depths[i] = depthOf(glm::dvec2(pixels[i]) + 0.5 - seen.rays.centre);
     });
     return depths;
+}
+
+}  // namespace
+
+std::vector<double> cellDepthAt(const Scene& scene, const View& view,
+                                std::span<const glm::ivec2> pixels, int raysAcross,
+                                unsigned threads) {
+    std::vector<glm::ivec2> rays;
+    for (const glm::ivec2& pixel : pixels)
+        for (int y = 0; y < raysAcross; ++y)
+            for (int x = 0; x < raysAcross; ++x)
+                rays.push_back(raysAcross * pixel + glm::ivec2(x, y));
+    const std::vector<double> depths = depthAt(scene, finer(view, raysAcross), rays, threads);
+    const auto each = static_cast<std::size_t>(raysAcross * raysAcross);
+    std::vector<double> means(pixels.size());
+    for (std::size_t i = 0; i < depths.size(); ++i)
+        means[i / each] += depths[i] / static_cast<double>(each);
+    return means;
 }
 
 }  // namespace render

@@ -12,10 +12,11 @@
 
 namespace render {
 
-// The optical depth of all layers, of W as path length, at each of these pixels; row 0 is at the
-// bottom. Takes as long as walking through the cells of so many rays. REQUIRES: scene.cells.
+// The optical depth of all layers, of W as path length, at each of these pixels, the mean of so
+// many rays across each; row 0 is at the bottom. Takes as long as walking through the cells of so
+// many rays. REQUIRES: scene.cells.
 std::vector<double> cellDepthAt(const Scene& scene, const View& view,
-                                std::span<const glm::ivec2> pixels,
+                                std::span<const glm::ivec2> pixels, int raysAcross = 1,
                                 unsigned threads = sharingThreads());
 
 }  // namespace render

@@ -79,7 +79,7 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view,
 }
 
 struct CellMemory::Kept {
-    std::vector<float> plane;
+    std::vector<float> plane, rays;
     std::vector<Seen> seen;  // one a thread
 };
 
@@ -98,12 +98,13 @@ struct CellSum::Work {
     std::size_t passed = 0;  // of its cells
 
     Work(const Scene& drawn, const View& of, Channels channels, std::size_t layer,
-         std::span<const float> opaqueDepth, unsigned shared, CellMemory kept)
+         std::span<const float> opaqueDepth, int raysAcross, unsigned shared, CellMemory kept)
         : scene(drawn),
-          view(drawn, of, channels),
+          view(drawn, of, channels, raysAcross),
           threads(std::max(shared, 1u)),
           memory(kept.kept ? std::move(kept) : CellMemory()),
-          plane(view, opaqueDepth, of.size.x, threads, memory.kept->plane),
+          plane(view, opaqueDepth, of.size.x, threads, memory.kept->plane,
+                raysAcross > 1 ? memory.kept->rays : memory.kept->plane),
           list(listOf(drawn, of, channels, layer)) {
         memory.kept->seen.resize(threads);
     }
@@ -136,8 +137,10 @@ void CellSum::Work::sum(std::span<const CellOfLayer> part, bool lastOfAll) {
 }
 
 CellSum::CellSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-                 std::span<const float> opaqueDepth, unsigned threads, CellMemory memory)
-    : work_(new Work(scene, view, channels, layer, opaqueDepth, threads, std::move(memory))) {
+                 std::span<const float> opaqueDepth, int raysAcross, unsigned threads,
+                 CellMemory memory)
+    : work_(new Work(scene, view, channels, layer, opaqueDepth, raysAcross, threads,
+                     std::move(memory))) {
     if (done()) work_->sum({}, true);  // nothing, which also is to be written
 }
 
@@ -166,8 +169,14 @@ std::uint64_t CellSum::add(std::uint64_t cells) {
 }
 
 bool CellSum::done() const { return work_->done(); }
-const PixelBox& CellSum::box() const { return work_->view.box; }
+const PixelBox& CellSum::box() const { return work_->view.pixels; }
 std::vector<float>& CellSum::plane() { return work_->memory.kept->plane; }
-CellMemory CellSum::takeMemory() { return std::move(work_->memory); }
+
+CellMemory CellSum::takeMemory() {
+    constexpr std::size_t kMostKept = std::size_t{64} << 20;
+    std::vector<float>& rays = work_->memory.kept->rays;
+    if (rays.size() * sizeof(float) > kMostKept) std::vector<float>().swap(rays);
+    return std::move(work_->memory);
+}
 
 }  // namespace render

@@ -31,12 +31,13 @@ class CellMemory {
 
 // As TileSum (render/splat/tile_splatter.h): what one plane of a scene that is drawn by cells adds
 // up to in a view; not a bit depends on calls or threads. Over takes cells in their exact order,
-// the nearest first. What lies behind `opaqueDepth` is left out of each ray.
+// the nearest first. What lies behind `opaqueDepth` is left out of each ray. A pixel shows the mean
+// of so many rays across it, and as many above each other (render/model/rays_across.h).
 class CellSum {
  public:
     CellSum(const Scene& scene, const View& view, Channels channels, std::size_t layer,
-            std::span<const float> opaqueDepth, unsigned threads = sharingThreads(),
-            CellMemory memory = {});
+            std::span<const float> opaqueDepth, int raysAcross = 1,
+            unsigned threads = sharingThreads(), CellMemory memory = {});
     CellSum(CellSum&&) noexcept;
     ~CellSum();
 

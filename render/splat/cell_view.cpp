@@ -37,11 +37,12 @@ CellMapPlace mapPlaceOf(const ByValue& style, double reference, double extent) {
 
 float floatPlace(double at) { return static_cast<float>(std::clamp(at, -1e30, 1e30)); }
 
-CellView::CellView(const Scene& scene, const View& view, Channels of)
-    : CellView(PointsView(scene.placed, view), scene, view, of) {}
+CellView::CellView(const Scene& scene, const View& view, Channels of, int rays)
+    : CellView(PointsView(scene.placed, finer(view, rays)), scene, view, of, rays) {}
 
-CellView::CellView(const PointsView& from, const Scene& scene, const View& view, Channels of)
-    : TileLayout(scene, view, from, of),
+CellView::CellView(const PointsView& from, const Scene& scene, const View& view, Channels of,
+                   int rays)
+    : TileLayout(scene, view, from, of, rays),
       seen(from),
       weight(static_cast<float>(seen.rayLength / seen.unitLength)),
       rayLength(static_cast<float>(seen.rayLength)),

@@ -14,7 +14,7 @@ namespace render {
 
 // The placed points must outlive it.
 struct CellView : TileLayout {
-    CellView(const Scene& scene, const View& view, Channels channels);
+    CellView(const Scene& scene, const View& view, Channels channels, int raysAcross);
 
     PointsView seen;
     float weight;     // W of a unit of depth along the view axis
@@ -25,7 +25,8 @@ struct CellView : TileLayout {
     std::array<float, 6> metric;  // gradientMetric()
 
  private:
-    CellView(const PointsView& seen, const Scene& scene, const View& view, Channels channels);
+    CellView(const PointsView& seen, const Scene& scene, const View& view, Channels channels,
+             int raysAcross);
 };
 
 // A gradient's square in the world is the first three times the squares of what it is along the

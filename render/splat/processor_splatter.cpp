@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "render/model/rays_across.h"
 #include "render/splat/cell_pieces.h"
 #include "render/splat/cell_splatter.h"
 #include "render/splat/row_splatter.h"
@@ -59,9 +60,10 @@ class ProcessorFrame final : public SplatFrame {
                 std::move(sum), channels, layer, targets, memory);
         };
         if (scene_.cells)
-            return plane(CellSum(scene_, view, channels, layer, opaqueDepth_, sharingThreads(),
-                                 std::move(memory_.cells)),
-                         memory_.cells);
+            return plane(
+                CellSum(scene_, view, channels, layer, opaqueDepth_, raysAcross(scene_, view),
+                        sharingThreads(), std::move(memory_.cells)),
+                memory_.cells);
         if (TileSum::canSum(scene_, channels))
             return plane(TileSum(scene_, list_, view, channels, layer, opaqueDepth_,
                                  sharingThreads(), std::move(memory_.tiles)),

@@ -9,8 +9,17 @@ std::array<float, 3> floats(const glm::dvec3& v) {
 
 }  // namespace
 
-TileLayout::TileLayout(const Scene& scene, const View& view, const PointsView& seen, Channels of)
-    : channels(of), box(coveredPixels(scene, view)) {
+View finer(View view, int raysAcross) {
+    view.size *= raysAcross;
+    return view;
+}
+
+TileLayout::TileLayout(const Scene& scene, const View& view, const PointsView& seen, Channels of,
+                       int across)
+    : channels(of),
+      raysAcross(across),
+      pixels(coveredPixels(scene, view)),
+      box{pixels.at * across, pixels.size * across} {
     // Sums and tables of a tile stay in the first-level cache.
     tile = {kTileWidth, floatsPerPixel(channels) == 1 ? 48 : 32};
     tiles = (box.size + tile - 1) / tile;

@@ -15,12 +15,20 @@ namespace render {
 
 constexpr int kTileWidth = 64;
 
-// Tiles are numbered row by row from the lower left corner of `box`.
+// The same picture with so many rays across each of its pixels as pixels of their own.
+View finer(View view, int raysAcross);
+
+// Tiles are numbered row by row from the lower left corner of `box`. What is called a pixel here is
+// a ray's share of one.
 struct TileLayout {
-    TileLayout(const Scene& scene, const View& view, const PointsView& seen, Channels channels);
+    // `seen`: the finer view.
+    TileLayout(const Scene& scene, const View& view, const PointsView& seen, Channels channels,
+               int raysAcross = 1);
 
     Channels channels;
-    PixelBox box;
+    int raysAcross;
+    PixelBox pixels;         // of the picture
+    PixelBox box;            // the same, in rays
     glm::ivec2 tile, tiles;  // size of one, and how many along each side
     // The projection. Window positions are counted from the box's corner; the depth in the depth
     // buffer is depthA / z + depthB.

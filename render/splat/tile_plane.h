@@ -15,16 +15,18 @@ namespace render {
 
 class TilePlane {
  public:
-    // `opaqueDepth` is the picture's, a pixel each, or none. `plane` is where sums stand between
-    // goes, and when all is done the result: [y][x][channel] of the layout's box. The layout and
-    // both of these must outlive this.
+    // `opaqueDepth` is the picture's, a pixel each, or none. `plane` is the result when all is
+    // done: [y][x][channel] of the layout's pixels. `rays` is where sums stand between goes: of its
+    // box; the same vector where a pixel has one ray. The layout and all of these must outlive
+    // this.
     TilePlane(const TileLayout& layout, std::span<const float> opaqueDepth, int pictureWidth,
-              unsigned threads, std::vector<float>& plane);
+              unsigned threads, std::vector<float>& plane, std::vector<float>& rays);
 
     // Calls add(tile, room) for every tile that holds(tile), on so many threads, a tile on one. The
     // last go of all also writes those that nothing has touched.
     template <typename Holds, typename Add>
     void sum(unsigned threads, bool lastOfAll, const Holds& holds, const Add& add) {
+        if (!lastOfAll) rays_.resize(floatsOf(layout_.box));
         std::atomic<std::size_t> next{0};
         together(threads, [&](unsigned k) {
             for (std::size_t tile; (tile = next++) < begun_.size();) {
@@ -42,15 +44,20 @@ class TilePlane {
     }
 
  private:
+    std::size_t floatsOf(const PixelBox& box) const;
     void clear(std::size_t tile);
     void load(std::size_t tile, TileRoom& room);
     void store(const TileRoom& room, bool lastOfAll);
-    float* rowOf(glm::ivec2 tileAt, int row);
+    void storeMeans(const TileRoom& room);
+    bool isPerRay() const;
+    // Of one of a tile's rows, its rays and, of as many rows as a pixel has, its pixels.
+    float* raysOf(glm::ivec2 tileAt, int row);
+    float* pixelsOf(glm::ivec2 tileAt, int row);
 
     const TileLayout& layout_;
     std::span<const float> opaqueDepth_;
     int pictureWidth_;
-    std::vector<float>& plane_;
+    std::vector<float>&plane_, &rays_;
     std::size_t floats_;
     std::vector<TileRoom> rooms_;
     std::vector<std::uint8_t> begun_;  // tiles

@@ -87,13 +87,16 @@ void TileRoom::enter(const TileLayout& layout, std::size_t tile, std::span<const
     nearestOpaque = 1;
     if (!opaqueDepth.empty())
         for (int row = 0; row < size.y; ++row) {
-            const std::ptrdiff_t from =
-                std::ptrdiff_t(layout.box.at.y + at.y + row) * pictureWidth + layout.box.at.x +
-                at.x;
-            const float nearest = HWY_DYNAMIC_DISPATCH(TakeDepths)(
-                opaqueDepth.data() + from, static_cast<std::size_t>(size.x),
-                opaque.data() + std::ptrdiff_t(row) * kTileStride);
+            const glm::ivec2 pixel =
+                (layout.box.at + glm::ivec2(at.x, at.y + row)) / layout.raysAcross;
+            const float* const from =
+                opaqueDepth.data() + std::ptrdiff_t(pixel.y) * pictureWidth + pixel.x;
+            float* const to = opaque.data() + std::ptrdiff_t(row) * kTileStride;
+            const auto count = static_cast<std::size_t>(size.x / layout.raysAcross);
+            const float nearest = HWY_DYNAMIC_DISPATCH(TakeDepths)(from, count, to);
             nearestOpaque = std::min(nearestOpaque, nearest);
+            if (layout.raysAcross > 1)
+                for (int x = 0; x < size.x; ++x) to[x] = from[x / layout.raysAcross];
         }
     HWY_DYNAMIC_DISPATCH(FillRays)(layout, *this);
 }

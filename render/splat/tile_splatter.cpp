@@ -90,7 +90,7 @@ struct TileSum::Work {
           threads(std::max(shared, 1u)),
           pairsAtOnce(most),
           memory(kept.kept ? std::move(kept) : TileMemory()),
-          plane(view, depth, of.size.x, threads, memory.kept->plane) {
+          plane(view, depth, of.size.x, threads, memory.kept->plane, memory.kept->plane) {
         if (scene.placed.isMesh()) {
             ofMesh.emplace(scene.placed, of);
             perSplat = ofMesh->rayLength;

@@ -82,7 +82,7 @@ struct CellsOfRange {
         scene.layers.push_back(layer);
     }
     void draw(Channels channels) {
-        CellSum sum(scene, view, channels, 0, {}, sharingThreads(), std::move(memory));
+        CellSum sum(scene, view, channels, 0, {}, 1, sharingThreads(), std::move(memory));
         sum.add(std::numeric_limits<std::uint64_t>::max());
         memory = sum.takeMemory();
     }

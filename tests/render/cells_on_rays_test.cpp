@@ -30,7 +30,7 @@ TEST(CellsOnRays, HaveWhatIsSummedForAllPixels) {
         std::vector<glm::ivec2> pixels;
         for (int y = 0; y < view.size.y; ++y)
             for (int x = 0; x < view.size.x; ++x) pixels.emplace_back(x, y);
-        const std::vector<double> depth = cellDepthAt(world.scene, view, pixels, 3);
+        const std::vector<double> depth = cellDepthAt(world.scene, view, pixels, 1, 3);
         std::vector<double> sums(pixels.size());
         for (std::size_t k = 0; k < world.scene.layers.size(); ++k) {
             const std::vector<float> weight = tests::drawn(world.scene, view, Channels::Weight, k);

@@ -249,7 +249,7 @@ TEST(MeshCells, AreTheIntervalVolumeOfTheFieldInTheirTetrahedra) {
             for (std::size_t i = 0; i < depth.size(); ++i)
                 depth[i] += opticalDepthPerWeight(0.5) * double(w[i]);
         }
-        const auto asked = cellDepthAt(world.scene, view, pixels, 3);
+        const auto asked = cellDepthAt(world.scene, view, pixels, 1, 3);
         for (std::size_t i = 0; i < depth.size(); ++i)
             ASSERT_NEAR(asked[i], depth[i], 2e-4 * (1 + depth[i])) << i;
     }

@@ -82,7 +82,7 @@ TEST(SampledError, OfCellsThatAreAskedPixelByPixelIsThatOfThePicture) {
     for (const char* range : {"0.2:0.5", "1.7:1.8"}) {
         const CellWorld world(waves(), {range, "1.85:1.86"}, 0.3);
         const DepthAt asked = [&](std::span<const glm::ivec2> pixels) {
-            return cellDepthAt(world.scene, kView, pixels, 2);
+            return cellDepthAt(world.scene, kView, pixels, 1, 2);
         };
         const double all = errorOfAll(world, depthOf(world));
         const SampledError some =

@@ -48,9 +48,9 @@ struct CellWorld {
 inline std::vector<float> drawn(const render::Scene& scene, const render::View& view,
                                 render::Channels channels = render::Channels::Weight,
                                 std::size_t layer = 0, unsigned threads = 2,
-                                std::uint64_t slice = kAllCells,
-                                std::span<const float> opaque = {}) {
-    render::CellSum sum(scene, view, channels, layer, opaque, threads);
+                                std::uint64_t slice = kAllCells, std::span<const float> opaque = {},
+                                int raysAcross = 1) {
+    render::CellSum sum(scene, view, channels, layer, opaque, raysAcross, threads);
     while (!sum.done()) sum.add(slice);
     const std::size_t floats = render::floatsPerPixel(channels);
     std::vector<float> whole(static_cast<std::size_t>(view.size.x) * view.size.y * floats);

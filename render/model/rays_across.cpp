@@ -1,0 +1,25 @@
+#include "render/model/rays_across.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/model/footprint.h"
+
+namespace render {
+
+double cellPixels(const Scene& scene, const View& view) {
+    const PointsView seen(scene.placed, view);
+    const double across = scene.placed.unitLength() / seen.rayLength;
+    const glm::dvec3 middle(view.viewFromWorld * glm::dvec4(0, 0, 0, 1));
+    const double depth = std::max(-middle.z, seen.rays.near);
+    return across * across * seen.rays.focal.x * seen.rays.focal.y / (depth * depth);
+}
+
+int raysAcross(const Scene& scene, const View& view) {
+    const double side = std::sqrt(cellPixels(scene, view));
+    int rays = 1;
+    while (rays < kMostRaysAcross && rays * side < kRaysACell) rays *= 2;
+    return rays;
+}
+
+}  // namespace render
