@@ -10,6 +10,7 @@
 #include "app/files/progress.h"
 #include "app/json_text.h"
 #include "app/measure/measurement.h"
+#include "app/measure/plot_svg.h"
 #include "app/measure/report.h"
 #include "app/measure/trade_plot.h"
 #include "app/picture/picture.h"
@@ -117,7 +118,7 @@ int measureModes(const MeasureOptions& options) {
     else
         print(subject, modes);
     if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
-    if (!options.svg.empty()) writeWhole(options.svg, tradePlot(modes, subject.title()));
+    if (!options.svg.empty()) writeWhole(options.svg, plotSvg(tradePlot(modes, subject.title())));
     return 0;
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <regex>
 
+#include "app/measure/plot_svg.h"
+
 namespace app {
 namespace {
 
@@ -20,6 +22,10 @@ Measured at(double frame, double error, Mode mode = {}, double mass = 1) {
     m.depthError = error;
     m.mass = mass;
     return m;
+}
+
+std::string svgOfModes(std::span<const Measured> modes, const std::string& title) {
+    return plotSvg(tradePlot(modes, title));
 }
 
 struct Mark {
@@ -43,7 +49,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 // Ten times the time is as far to the right wherever it is, and ten times the error as far up.
 TEST(TradePlot, IsLogarithmicInBoth) {
     const std::vector modes = {at(0.001, 0.1), at(0.01, 0.01), at(0.1, 0.001)};
-    const auto marks = marksOf(tradePlot(modes, ""));
+    const auto marks = marksOf(svgOfModes(modes, ""));
     ASSERT_EQ(marks.size(), 3u);
     EXPECT_NEAR(marks[1].x - marks[0].x, marks[2].x - marks[1].x, 0.11);
     EXPECT_NEAR(marks[1].y - marks[0].y, marks[2].y - marks[1].y, 0.11);
@@ -52,7 +58,7 @@ TEST(TradePlot, IsLogarithmicInBoth) {
 }
 
 TEST(TradePlot, EscapesText) {
-    const std::string svg = tradePlot(std::vector{at(1, 1)}, "a<b> & \"c\"\x01 \xb0");
+    const std::string svg = svgOfModes(std::vector{at(1, 1)}, "a<b> & \"c\"\x01 \xb0");
     EXPECT_THAT(svg, HasSubstr("a&lt;b&gt; &amp; &quot;c&quot;  \ufffd<"));  // a Latin-1 degree
     EXPECT_EQ(count(svg, "<svg"), count(svg, "</svg>"));
     EXPECT_EQ(count(svg, "<text"), count(svg, "</text>"));
@@ -61,19 +67,19 @@ TEST(TradePlot, EscapesText) {
 
 TEST(TradePlot, AModeWhoseMassIsOffIsHollow) {
     const std::string svg =
-        tradePlot(std::vector{at(0.01, 0.1, {}, 1.2), at(0.1, 0.01, {Model::Cells})}, "");
+        svgOfModes(std::vector{at(0.01, 0.1, {}, 1.2), at(0.1, 0.01, {Model::Cells})}, "");
     const auto marks = marksOf(svg);
     EXPECT_EQ(marks[0].fill, "#ffffff");
     EXPECT_NE(marks[1].fill, "#ffffff");
     EXPECT_THAT(svg, HasSubstr("points (mass +20 %)"));
     EXPECT_THAT(svg, HasSubstr("hollow: its mass is more than 5 % off"));
-    EXPECT_THAT(tradePlot(std::vector{at(0.01, 0.1)}, ""), Not(HasSubstr("hollow")));
+    EXPECT_THAT(svgOfModes(std::vector{at(0.01, 0.1)}, ""), Not(HasSubstr("hollow")));
 }
 
 // No error, or none that is a number, stands at the end of its axis.
 TEST(TradePlot, WhatHasNoLogarithmStaysInThePicture) {
     for (const double error : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-        const std::string svg = tradePlot(std::vector{at(0.01, error), at(0.1, 0.3)}, "");
+        const std::string svg = svgOfModes(std::vector{at(0.01, error), at(0.1, 0.3)}, "");
         for (const Mark& mark : marksOf(svg)) {
             EXPECT_GE(mark.x, 0);
             EXPECT_LE(mark.x, 720);
@@ -83,14 +89,14 @@ TEST(TradePlot, WhatHasNoLogarithmStaysInThePicture) {
         EXPECT_THAT(svg, Not(HasSubstr("\"nan\"")));
         EXPECT_THAT(svg, Not(HasSubstr("\"inf\"")));
     }
-    EXPECT_EQ(marksOf(tradePlot(std::vector{at(0, 0)}, "")).size(), 1u);
+    EXPECT_EQ(marksOf(svgOfModes(std::vector{at(0, 0)}, "")).size(), 1u);
 }
 
 TEST(TradePlot, JoinsTheSubsetsOfOneOrder) {
     const std::vector modes = {at(0.01, 0.3, {Model::Points, 2}), at(0.02, 0.2, {Model::Points}),
                                at(0.02, 0.2, {Model::Points, 1, render::Order::BackToFront}),
                                at(0.1, 0.01, {Model::Cells})};
-    EXPECT_EQ(count(tradePlot(modes, ""), "stroke-width=\"1.5\""), 1u);
+    EXPECT_EQ(count(svgOfModes(modes, ""), "stroke-width=\"1.5\""), 1u);
 }
 
 }  // namespace
