@@ -33,6 +33,8 @@ struct PlotCircle {
 struct Lettering {
     double size = 12;  // of the em, as CSS has font-size
     render::FontWeight weight = render::FontWeight::Regular;
+
+    bool operator==(const Lettering&) const = default;
 };
 
 enum class Anchor { Start, Middle, End };

@@ -1,6 +1,7 @@
 // Texts of a plot: what is drawn of them, and how wide they are.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,5 +11,26 @@ namespace app {
 
 // As text of one line: well-formed UTF-8, a space for each control character.
 std::string printable(std::string_view text);
+
+// Pixels of a picture to one of the plot, across and down: a screen may have so many.
+inline constexpr int kPlotScale = 2;
+
+// The font inside the program, as large as pictures of plots have it. Immutable.
+class PlotFont {
+ public:
+    // Rasterises the letterings, which takes milliseconds.
+    explicit PlotFont(std::span<const Lettering> letterings);
+
+    // REQUIRES of all: a lettering given to the constructor, printable text.
+    double width(std::string_view text, const Lettering& lettering) const;  // pixels of the plot
+    // In pixels of the picture: where the text begins, above left of its first letter.
+    glm::dvec2 topLeft(const PlotText& text) const;
+
+    const render::Font& font() const { return font_; }
+    static render::FontStyle style(const Lettering& lettering);
+
+ private:
+    render::Font font_;
+};
 
 }  // namespace app
