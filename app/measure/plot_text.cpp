@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "render/annotate/fitted_text.h"
 #include "render/annotate/flat_mesh.h"
 #include "render/annotate/utf8.h"
 
@@ -46,6 +47,11 @@ render::FontStyle PlotFont::style(const Lettering& lettering) {
 
 double PlotFont::width(std::string_view text, const Lettering& lettering) const {
     return static_cast<double>(font_.measure(text, style(lettering)).x) / kPlotScale;
+}
+
+std::string PlotFont::shortened(const std::string& text, const Lettering& lettering,
+                                double width) const {
+    return render::shortened(font_, style(lettering), text, static_cast<float>(kPlotScale * width));
 }
 
 glm::dvec2 PlotFont::topLeft(const PlotText& text) const {

@@ -23,6 +23,8 @@ class PlotFont {
 
     // REQUIRES of all: a lettering given to the constructor, printable text.
     double width(std::string_view text, const Lettering& lettering) const;  // pixels of the plot
+    // All of it where it is at most so wide, else its beginning and an ellipsis.
+    std::string shortened(const std::string& text, const Lettering& lettering, double width) const;
     // In pixels of the picture: where the text begins, above left of its first letter.
     glm::dvec2 topLeft(const PlotText& text) const;
 

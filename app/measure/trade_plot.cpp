@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "app/measure/plot_text.h"
 #include "app/measure/report.h"
 
 namespace app {
@@ -178,15 +180,14 @@ Box freePlace(const glm::dvec2& mark, double width, std::span<const Box> taken) 
 
 // Where they meet neither another name nor a mark.
 void addNames(std::span<const Measured> modes, std::span<const glm::dvec2> places,
-              bool severalOrders, Plot& into) {
-    constexpr double kLetter = 6.6, kBelow = 4;
+              bool severalOrders, const PlotFont& font, Plot& into) {
+    constexpr double kBelow = 4;
     std::vector<Box> taken;
     for (const glm::dvec2& p : places)
         taken.push_back({p.x - kMark, p.y - kMark, 2 * kMark, 2 * kMark});
     for (std::size_t i = 0; i < modes.size(); ++i) {
         std::string name = nameOf(modes[i], severalOrders);
-        const double width = kLetter * static_cast<double>(name.size());
-        const Box box = freePlace(places[i], width, taken);
+        const Box box = freePlace(places[i], font.width(name, kSmall), taken);
         taken.push_back(box);
         into.shapes.push_back(PlotText{{box.x, box.y + kLine / 2 + kBelow},
                                        Anchor::Start,
@@ -209,12 +210,17 @@ Plot tradePlot(std::span<const Measured> modes, const std::string& title) {
     const Scale x(times, kLeft, kRight), y(errors, kBottom, kTop);
     std::vector<glm::dvec2> places;
     for (const Measured& m : modes) places.emplace_back(x.at(m.frame), y.at(m.depthError));
+    const PlotFont font(std::array{kSmall, kTitle});
     Plot plot{kSize, {}};
-    plot.shapes.push_back(PlotText{{kLeft, 32}, Anchor::Start, kTitle, kInk, title});
+    plot.shapes.push_back(PlotText{{kLeft, 32},
+                                   Anchor::Start,
+                                   kTitle,
+                                   kInk,
+                                   font.shortened(printable(title), kTitle, kRight - kLeft)});
     addAxes(x, y, plot);
     addJoined(modes, places, plot);
     addMarks(modes, places, plot);
-    addNames(modes, places, severalOrders, plot);
+    addNames(modes, places, severalOrders, font, plot);
     if (std::ranges::any_of(modes, &Measured::massIsOff))
         plot.shapes.push_back(PlotText{{kRight, kSize.y - 10},
                                        Anchor::End,

@@ -10,7 +10,8 @@
 namespace app {
 
 // The relative L2 of optical depth by the time of a frame, both logarithmic; the points' subsets
-// joined. A mode whose mass is off is hollow. `title`: any text.
+// joined. A mode whose mass is off is hollow. `title`: any text, cut where
+// the plot ends.
 Plot tradePlot(std::span<const Measured> modes, const std::string& title);
 
 }  // namespace app

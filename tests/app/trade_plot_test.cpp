@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <stdexcept>
 
 #include "app/measure/plot_svg.h"
+#include "app/measure/plot_text.h"
 
 namespace app {
 namespace {
@@ -97,6 +100,36 @@ TEST(TradePlot, JoinsTheSubsetsOfOneOrder) {
                                at(0.02, 0.2, {Model::Points, 1, render::Order::BackToFront}),
                                at(0.1, 0.01, {Model::Cells})};
     EXPECT_EQ(count(svgOfModes(modes, ""), "stroke-width=\"1.5\""), 1u);
+}
+
+const PlotText& textOf(const Plot& plot, const std::string& begin) {
+    for (const PlotShape& shape : plot.shapes)
+        if (const auto* text = std::get_if<PlotText>(&shape))
+            if (text->text.starts_with(begin)) return *text;
+    throw std::runtime_error("no such text: " + begin);
+}
+
+// There is no room to the right of a mark at the right end, 696.
+TEST(TradePlot, ANameLeftOfItsMarkEndsTwoRadiiBesideIt) {
+    const Plot plot =
+        tradePlot(std::vector{at(0.001, 0.1), at(0.1, 0.03, {Model::Cells}, 1.2)}, "");
+    const PlotText& name = textOf(plot, "cells (mass +20 %)");
+    const PlotFont font(std::array{name.lettering});
+    EXPECT_NEAR(name.at.x + font.width(name.text, name.lettering), 696 - 2 * 5, 1e-6);
+}
+
+TEST(TradePlot, ATitleEndsWithinThePlot) {
+    const std::vector modes = {at(0.01, 0.1)};
+    for (const bool isLong : {false, true}) {
+        const std::string title = "fire.nc: T, " + std::string(isLong ? 200 : 20, 'm');
+        const PlotText shown = textOf(tradePlot(modes, title), "fire.nc: T, mmm");
+        const PlotFont font(std::array{shown.lettering});
+        EXPECT_LE(font.width(shown.text, shown.lettering), 696 - 84);
+        if (isLong)
+            EXPECT_GT(font.width(shown.text + "mm", shown.lettering), 696 - 84) << "cut too soon";
+        else
+            EXPECT_EQ(shown.text, title);
+    }
 }
 
 }  // namespace
