@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "app/measure/plot_text.h"
@@ -95,8 +96,9 @@ PlotColor colorOf(const Mode& mode) {
     return mode.model == Model::Cells ? kCellsMark : kPointsMark;
 }
 
-// Joins a model's modes of one order.
-void addJoined(std::span<const Measured> modes, std::span<const glm::dvec2> places, Plot& into) {
+// They join a model's modes of one order.
+std::vector<PlotLine> joining(std::span<const Measured> modes, std::span<const glm::dvec2> places) {
+    std::vector<PlotLine> lines;
     for (std::size_t i = 1; i < modes.size(); ++i) {
         const Mode &mode = modes[i].mode, &before = modes[i - 1].mode;
         if (mode.model != before.model || mode.order != before.order) continue;
@@ -105,8 +107,9 @@ void addJoined(std::span<const Measured> modes, std::span<const glm::dvec2> plac
             line.dash = 4;
             line.gap = 3;
         }
-        into.shapes.push_back(line);
+        lines.push_back(line);
     }
+    return lines;
 }
 
 std::string tipOf(const Measured& m) {
@@ -178,13 +181,27 @@ Box freePlace(const glm::dvec2& mark, double width, std::span<const Box> taken) 
     return besideMark(mark, width, {1, 0});
 }
 
-// Where they meet neither another name nor a mark.
+Box around(const glm::dvec2& middle, double half) {
+    return {middle.x - half, middle.y - half, 2 * half, 2 * half};
+}
+
+// What marks and lines cover; a line is boxes so close that no name stands between them.
+std::vector<Box> covered(std::span<const glm::dvec2> marks, std::span<const PlotLine> lines) {
+    std::vector<Box> boxes;
+    for (const glm::dvec2& mark : marks) boxes.push_back(around(mark, kMark));
+    for (const PlotLine& line : lines) {
+        const glm::dvec2 along = line.to - line.from;
+        const double steps = std::ceil(glm::length(along) / (kLine / 4));
+        for (double i = 1; i < steps; ++i)
+            boxes.push_back(around(line.from + i / steps * along, line.width / 2));
+    }
+    return boxes;
+}
+
+// Where they meet nothing in `taken` nor each other.
 void addNames(std::span<const Measured> modes, std::span<const glm::dvec2> places,
-              bool severalOrders, const PlotFont& font, Plot& into) {
+              bool severalOrders, const PlotFont& font, std::vector<Box> taken, Plot& into) {
     constexpr double kBelow = 4;
-    std::vector<Box> taken;
-    for (const glm::dvec2& p : places)
-        taken.push_back({p.x - kMark, p.y - kMark, 2 * kMark, 2 * kMark});
     for (std::size_t i = 0; i < modes.size(); ++i) {
         std::string name = nameOf(modes[i], severalOrders);
         const Box box = freePlace(places[i], font.width(name, kSmall), taken);
@@ -218,9 +235,10 @@ Plot tradePlot(std::span<const Measured> modes, const std::string& title) {
                                    kInk,
                                    font.shortened(printable(title), kTitle, kRight - kLeft)});
     addAxes(x, y, plot);
-    addJoined(modes, places, plot);
+    const std::vector<PlotLine> lines = joining(modes, places);
+    plot.shapes.insert(plot.shapes.end(), lines.begin(), lines.end());
     addMarks(modes, places, plot);
-    addNames(modes, places, severalOrders, font, plot);
+    addNames(modes, places, severalOrders, font, covered(places, lines), plot);
     if (std::ranges::any_of(modes, &Measured::massIsOff))
         plot.shapes.push_back(PlotText{{kRight, kSize.y - 10},
                                        Anchor::End,

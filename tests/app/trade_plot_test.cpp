@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -116,6 +117,25 @@ TEST(TradePlot, ANameLeftOfItsMarkEndsTwoRadiiBesideIt) {
     const PlotText& name = textOf(plot, "cells (mass +20 %)");
     const PlotFont font(std::array{name.lettering});
     EXPECT_NEAR(name.at.x + font.width(name.text, name.lettering), 696 - 2 * 5, 1e-6);
+}
+
+// The line to the other mark leaves to the right, where a name would stand first.
+TEST(TradePlot, ANameStandsOnNoLine) {
+    for (const double error : {0.03, 0.02}) {
+        const Plot plot =
+            tradePlot(std::vector{at(0.001, 0.03, {Model::Points, 2}), at(0.1, error)}, "");
+        const PlotText& name = textOf(plot, "1/2");
+        const auto joining = std::ranges::find_if(plot.shapes, [](const PlotShape& shape) {
+            const auto* line = std::get_if<PlotLine>(&shape);
+            return line != nullptr && line->dash > 0;
+        });
+        ASSERT_NE(joining, plot.shapes.end());
+        const auto& line = std::get<PlotLine>(*joining);
+        const double share = (name.at.x - line.from.x) / (line.to.x - line.from.x);
+        const double there = std::lerp(line.from.y, line.to.y, share);
+        EXPECT_TRUE(there > name.at.y + 1 || there < name.at.y - 9)
+            << "a line at " << there << " through letters that stand on " << name.at.y;
+    }
 }
 
 TEST(TradePlot, ATitleEndsWithinThePlot) {
