@@ -157,7 +157,7 @@ IndexOptions indexOptions(const IndexText& text) {
 struct MeasureText {
     unsigned views = 3, frames = 5, rays = 3;
     bool json = false;
-    std::string csv, svg;
+    std::string csv, svg, png;
 };
 
 void addMeasure(CLI::App& app, MeasureText& into) {
@@ -172,6 +172,7 @@ void addMeasure(CLI::App& app, MeasureText& into) {
     app.add_flag("--json", into.json, "Machine-readable");
     app.add_option("--csv", into.csv, "Writes the table into a file");
     app.add_option("--svg", into.svg, "Writes a plot of error against time into a file");
+    app.add_option("--png", into.png, "Writes the same plot as a picture");
 }
 
 MeasureOptions measureOptions(Explorer explorer, const MeasureText& text) {
@@ -188,6 +189,7 @@ MeasureOptions measureOptions(Explorer explorer, const MeasureText& text) {
     options.json = text.json;
     options.csv = text.csv;
     options.svg = text.svg;
+    options.png = text.png;
     return options;
 }
 

@@ -51,7 +51,7 @@ struct MeasureOptions : CommonOptions {
     unsigned frames = 5;  // timed, of each view
     unsigned rays = 3;    // of the truth, across a pixel
     bool json = false;
-    std::filesystem::path csv, svg;  // empty: not wanted
+    std::filesystem::path csv, svg, png;  // empty: not wanted
 };
 
 // Where a file is explored. Auto: in a headset where one answers, else in a window. From a headset

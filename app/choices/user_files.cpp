@@ -28,9 +28,13 @@ fs::path configFolder() { return folder("XDG_CONFIG_HOME", ".config"); }
 fs::path stateFolder() { return folder("XDG_STATE_HOME", ".local/state"); }
 fs::path cacheFolder() { return folder("XDG_CACHE_HOME", ".cache"); }
 
-void writeWhole(const fs::path& file, const std::string& text) {
-    std::error_code ignored;  // what fails here fails below, with a better sentence
+void makeFoldersOf(const fs::path& file) {
+    std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
+}
+
+void writeWhole(const fs::path& file, const std::string& text) {
+    makeFoldersOf(file);
     render::PartialFile partial(file);
     std::fwrite(text.data(), 1, text.size(), partial.stream());
     partial.commit();  // tells of a write that failed

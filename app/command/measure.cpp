@@ -10,10 +10,13 @@
 #include "app/files/progress.h"
 #include "app/json_text.h"
 #include "app/measure/measurement.h"
+#include "app/measure/plot_picture.h"
+#include "app/measure/plot_svg.h"
 #include "app/measure/report.h"
 #include "app/measure/trade_plot.h"
 #include "app/picture/picture.h"
 #include "app/say.h"
+#include "render/image/png.h"
 #include "render/together.h"
 
 namespace app {
@@ -90,6 +93,17 @@ void print(const Subject& subject, const std::vector<Measured>& modes) {
         bestTable(modes));
 }
 
+void writeFiles(const MeasureOptions& options, const std::vector<Measured>& modes,
+                const std::string& title) {
+    if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
+    if (options.svg.empty() && options.png.empty()) return;
+    const Plot plot = tradePlot(modes, title);
+    if (!options.svg.empty()) writeWhole(options.svg, plotSvg(plot));
+    if (options.png.empty()) return;
+    makeFoldersOf(options.png);
+    render::writePng(options.png, plotPicture(plot));
+}
+
 }  // namespace
 
 int measureModes(const MeasureOptions& options) {
@@ -116,8 +130,7 @@ int measureModes(const MeasureOptions& options) {
         say("{}\n", jsonText(json(subject, modes), 2));
     else
         print(subject, modes);
-    if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
-    if (!options.svg.empty()) writeWhole(options.svg, tradePlot(modes, subject.title()));
+    writeFiles(options, modes, subject.title());
     return 0;
 }
 

@@ -3,53 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string_view>
+#include <glm/geometric.hpp>
 #include <vector>
 
+#include "app/measure/plot_text.h"
 #include "app/measure/report.h"
-#include "render/annotate/utf8.h"
 
 namespace app {
 namespace {
 
-constexpr double kWidth = 720, kHeight = 480;
+constexpr glm::ivec2 kSize{720, 480};
 constexpr double kLeft = 84, kRight = 696, kTop = 84, kBottom = 412;
 constexpr double kMark = 5;
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : render::wellFormed(text)) switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                // No SVG may have other control characters.
-                out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-        }
-    return out;
-}
-
-std::string element(std::string_view name, std::string_view attributes,
-                    std::string_view text = "") {
-    return fmt::format("<{} {}>{}</{}>\n", name, attributes, escaped(text), name);
-}
-
-std::string label(double x, double y, std::string_view anchor, std::string_view style,
-                  std::string_view text) {
-    return element("text",
-                   fmt::format(R"(x="{:.1f}" y="{:.1f}" text-anchor="{}" {})", x, y, anchor, style),
-                   text);
-}
+constexpr PlotColor kInk = 0x24292f, kQuietInk = 0x57606a, kDecadeLine = 0xd0d7de,
+                    kFineLine = 0xf0f2f4, kCellsMark = 0xc2410c, kPointsMark = 0x0969da;
+constexpr Lettering kSmall{12}, kAxisName{13}, kTitle{16, render::FontWeight::SemiBold};
 
 // A logarithmic axis from `from` to `to` in the picture, whole decades.
 class Scale {
@@ -86,79 +56,77 @@ std::string timeText(int decade) {
                         : fmt::format("{:g} \u00b5s", 1e6 * seconds);
 }
 
-constexpr const char* kSmall = R"(font-size="12" fill="#57606a")";
-
-std::string axes(const Scale& x, const Scale& y) {
-    std::string out;
-    const auto line = [&](double x1, double y1, double x2, double y2, const char* color) {
-        out += element("line",
-                       fmt::format(R"(x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" stroke="{}")",
-                                   x1, y1, x2, y2, color));
-    };
-    const auto both = [&](const Scale& scale, const auto& draw) {
+void addAxes(const Scale& x, const Scale& y, Plot& into) {
+    const auto gridOf = [](const Scale& scale, const auto& draw) {
         for (int decade = scale.first(); decade <= scale.last(); ++decade) {
             for (int i = 2; i < 10 && decade < scale.last(); ++i)
-                draw(scale.at(i * std::pow(10, decade)), "#f0f2f4");
-            draw(scale.at(std::pow(10, decade)), "#d0d7de");
+                draw(scale.at(i * std::pow(10, decade)), kFineLine);
+            draw(scale.at(std::pow(10, decade)), kDecadeLine);
         }
     };
-    both(x, [&](double at, const char* color) { line(at, kTop, at, kBottom, color); });
-    both(y, [&](double at, const char* color) { line(kLeft, at, kRight, at, color); });
+    auto& shapes = into.shapes;
+    gridOf(x, [&](double at, PlotColor color) {
+        shapes.push_back(PlotLine{{at, kTop}, {at, kBottom}, color});
+    });
+    gridOf(y, [&](double at, PlotColor color) {
+        shapes.push_back(PlotLine{{kLeft, at}, {kRight, at}, color});
+    });
     for (int decade = x.first(); decade <= x.last(); ++decade)
-        out += label(x.at(std::pow(10, decade)), kBottom + 20, "middle", kSmall, timeText(decade));
+        shapes.push_back(PlotText{{x.at(std::pow(10, decade)), kBottom + 20},
+                                  Anchor::Middle,
+                                  kSmall,
+                                  kQuietInk,
+                                  timeText(decade)});
     for (int decade = y.first(); decade <= y.last(); ++decade)
-        out += label(kLeft - 8, y.at(std::pow(10, decade)) + 4, "end", kSmall,
-                     fmt::format("{:g} %", 100 * std::pow(10, decade)));
-    constexpr const char* kName = R"(font-size="13" fill="#24292f")";
-    out += label((kLeft + kRight) / 2, kBottom + 46, "middle", kName, "time of a frame");
-    out += label(kLeft, kTop - 12, "start", kName, "error of optical depth (relative L2)");
-    return out;
+        shapes.push_back(PlotText{{kLeft - 8, y.at(std::pow(10, decade)) + 4},
+                                  Anchor::End,
+                                  kSmall,
+                                  kQuietInk,
+                                  fmt::format("{:g} %", 100 * std::pow(10, decade))});
+    shapes.push_back(PlotText{
+        {(kLeft + kRight) / 2, kBottom + 46}, Anchor::Middle, kAxisName, kInk, "time of a frame"});
+    shapes.push_back(PlotText{{kLeft, kTop - 12},
+                              Anchor::Start,
+                              kAxisName,
+                              kInk,
+                              "error of optical depth (relative L2)"});
 }
 
-const char* colorOf(const Mode& mode) {
-    if (mode.model == Model::Cells) return "#c2410c";
-    return "#0969da";
+PlotColor colorOf(const Mode& mode) {
+    return mode.model == Model::Cells ? kCellsMark : kPointsMark;
 }
 
-struct Place {
-    double x, y;
-};
-
-// Joins a model's modes of one order.
-std::string joined(std::span<const Measured> modes, std::span<const Place> places) {
-    std::string out;
-    for (std::size_t i = 1; i < modes.size(); ++i)
-        if (modes[i].mode.model == modes[i - 1].mode.model &&
-            modes[i].mode.order == modes[i - 1].mode.order)
-            out += element(
-                "line",
-                fmt::format(
-                    R"(x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" stroke="{}" stroke-width="1.5"{})",
-                    places[i - 1].x, places[i - 1].y, places[i].x, places[i].y,
-                    colorOf(modes[i].mode),
-                    modes[i].mode.order == render::Order::None ? R"( stroke-dasharray="4 3")"
-                                                               : ""));
-    return out;
-}
-
-std::string marks(std::span<const Measured> modes, std::span<const Place> places) {
-    std::string out;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-        const char* color = colorOf(modes[i].mode);
-        const std::string tip =
-            fmt::format("{}, {}: {:.3g} ms, error {:.2g}, mass {:+.1f} %", modes[i].mode.name(),
-                        orderText(modes[i].mode.order), 1e3 * modes[i].frame, modes[i].depthError,
-                        100 * (modes[i].mass - 1));
-        out +=
-            "<g>" + element("title", "", tip) +
-            element("circle",
-                    fmt::format(
-                        R"(cx="{:.1f}" cy="{:.1f}" r="{}" fill="{}" stroke="{}" stroke-width="2")",
-                        places[i].x, places[i].y, kMark, modes[i].massIsOff() ? "#ffffff" : color,
-                        color)) +
-            "</g>\n";
+// They join a model's modes of one order.
+std::vector<PlotLine> joining(std::span<const Measured> modes, std::span<const glm::dvec2> places) {
+    std::vector<PlotLine> lines;
+    for (std::size_t i = 1; i < modes.size(); ++i) {
+        const Mode &mode = modes[i].mode, &before = modes[i - 1].mode;
+        if (mode.model != before.model || mode.order != before.order) continue;
+        PlotLine line{places[i - 1], places[i], colorOf(mode), 1.5};
+        if (mode.order == render::Order::None) {
+            line.dash = 4;
+            line.gap = 3;
+        }
+        lines.push_back(line);
     }
-    return out;
+    return lines;
+}
+
+std::string tipOf(const Measured& m) {
+    return fmt::format("{}, {}: {:.3g} ms, error {:.2g}, mass {:+.1f} %", m.mode.name(),
+                       orderText(m.mode.order), 1e3 * m.frame, m.depthError, 100 * (m.mass - 1));
+}
+
+void addMarks(std::span<const Measured> modes, std::span<const glm::dvec2> places, Plot& into) {
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        const PlotColor color = colorOf(modes[i].mode);
+        into.shapes.push_back(PlotCircle{.middle = places[i],
+                                         .radius = kMark,
+                                         .fill = modes[i].massIsOff() ? kPaper : color,
+                                         .rim = color,
+                                         .rimWidth = 2,
+                                         .tip = tipOf(modes[i])});
+    }
 }
 
 struct Box {
@@ -177,46 +145,78 @@ std::string nameOf(const Measured& m, bool severalOrders) {
     return name;
 }
 
-// Beside their marks, where they meet neither another name nor a mark: right, left, above or below,
-// then farther away.
-std::string names(std::span<const Measured> modes, std::span<const Place> places,
-                  bool severalOrders) {
-    constexpr double kLine = 15, kLetter = 6.6, kBeside = 2 * kMark, kBelow = 4;
-    std::vector<Box> taken;
-    for (const Place& p : places) taken.push_back({p.x - kMark, p.y - kMark, 2 * kMark, 2 * kMark});
-    std::string out;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-        const std::string name = nameOf(modes[i], severalOrders);
-        const double width = kLetter * static_cast<double>(name.size());
-        const auto boxAt = [&](double right, double down) {
-            const double x = places[i].x + right * kBeside -
-                             (right > 0   ? 0
-                              : right < 0 ? width
-                                          : width / 2);
-            return Box{x, places[i].y - kLine / 2 + down * kLine, width, kLine};
-        };
-        const auto isFree = [&](const Box& box) {
-            return box.x > kLeft && box.x + width < kRight + kLine && box.y > kTop &&
-                   box.y + kLine < kBottom &&
-                   std::ranges::none_of(taken, [&](const Box& b) { return b.meets(box); });
-        };
-        Box box = boxAt(1, 0);
-        for (const double away : {1.1, 2.0, 3.0, 4.0, 5.0})
-            for (const auto& [right, down] :
-                 {Place{1, 0}, Place{-1, 0}, Place{0, -away}, Place{0, away}, Place{1, -away},
-                  Place{1, away}, Place{-1, -away}, Place{-1, away}})
-                if (!isFree(box)) box = boxAt(right, down);
-        if (!isFree(box)) box = boxAt(1, 0);
-        taken.push_back(box);
-        out += label(box.x, box.y + kLine / 2 + kBelow, "start",
-                     fmt::format(R"(font-size="12" fill="{}")", colorOf(modes[i].mode)), name);
+// Where a name stands beside its mark, or farther away.
+struct Offset {
+    double right, down;  // which side, 0 for its middle; lines
+};
+
+// Right, left, above or below, then farther away.
+std::vector<Offset> offsets() {
+    std::vector<Offset> all{{1, 0}, {-1, 0}};
+    for (const double away : {1.1, 2.0, 3.0, 4.0, 5.0})
+        for (const double right : {0.0, 1.0, -1.0})
+            for (const double down : {-away, away}) all.push_back({right, down});
+    return all;
+}
+
+constexpr double kLine = 15;  // of names, from one to the next
+
+Box besideMark(const glm::dvec2& mark, double width, const Offset& offset) {
+    const double x = mark.x + offset.right * 2 * kMark + (offset.right - 1) / 2 * width;
+    return {x, mark.y - kLine / 2 + offset.down * kLine, width, kLine};
+}
+
+// Where a name of such a width meets nothing in the plot that is taken; right of its mark where it
+// does everywhere.
+Box freePlace(const glm::dvec2& mark, double width, std::span<const Box> taken) {
+    const auto isFree = [&](const Box& box) {
+        return box.x > kLeft && box.x + box.width < kRight + kLine && box.y > kTop &&
+               box.y + box.height < kBottom &&
+               std::ranges::none_of(taken, [&](const Box& b) { return b.meets(box); });
+    };
+    for (const Offset& offset : offsets()) {
+        const Box box = besideMark(mark, width, offset);
+        if (isFree(box)) return box;
     }
-    return out;
+    return besideMark(mark, width, {1, 0});
+}
+
+Box around(const glm::dvec2& middle, double half) {
+    return {middle.x - half, middle.y - half, 2 * half, 2 * half};
+}
+
+// What marks and lines cover; a line is boxes so close that no name stands between them.
+std::vector<Box> covered(std::span<const glm::dvec2> marks, std::span<const PlotLine> lines) {
+    std::vector<Box> boxes;
+    for (const glm::dvec2& mark : marks) boxes.push_back(around(mark, kMark));
+    for (const PlotLine& line : lines) {
+        const glm::dvec2 along = line.to - line.from;
+        const double steps = std::ceil(glm::length(along) / (kLine / 4));
+        for (double i = 1; i < steps; ++i)
+            boxes.push_back(around(line.from + i / steps * along, line.width / 2));
+    }
+    return boxes;
+}
+
+// Where they meet nothing in `taken` nor each other.
+void addNames(std::span<const Measured> modes, std::span<const glm::dvec2> places,
+              bool severalOrders, const PlotFont& font, std::vector<Box> taken, Plot& into) {
+    constexpr double kBelow = 4;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        std::string name = nameOf(modes[i], severalOrders);
+        const Box box = freePlace(places[i], font.width(name, kSmall), taken);
+        taken.push_back(box);
+        into.shapes.push_back(PlotText{{box.x, box.y + kLine / 2 + kBelow},
+                                       Anchor::Start,
+                                       kSmall,
+                                       colorOf(modes[i].mode),
+                                       std::move(name)});
+    }
 }
 
 }  // namespace
 
-std::string tradePlot(std::span<const Measured> modes, const std::string& title) {
+Plot tradePlot(std::span<const Measured> modes, const std::string& title) {
     std::vector<double> times, errors;
     bool severalOrders = false;
     for (const Measured& m : modes) {
@@ -225,21 +225,27 @@ std::string tradePlot(std::span<const Measured> modes, const std::string& title)
         severalOrders = severalOrders || m.mode.order != modes.front().mode.order;
     }
     const Scale x(times, kLeft, kRight), y(errors, kBottom, kTop);
-    std::vector<Place> places;
-    for (const Measured& m : modes) places.push_back({x.at(m.frame), y.at(m.depthError)});
-    const bool isOff = std::ranges::any_of(modes, &Measured::massIsOff);
-    return fmt::format(
-               R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="Inter, Helvetica, Arial, sans-serif">
-<rect width="{0}" height="{1}" fill="#ffffff"/>
-)",
-               kWidth, kHeight) +
-           label(kLeft, 32, "start", R"(font-size="16" font-weight="600" fill="#24292f")", title) +
-           axes(x, y) + joined(modes, places) + marks(modes, places) +
-           names(modes, places, severalOrders) +
-           (isOff ? label(kRight, kHeight - 10, "end", kSmall,
-                          "hollow: its mass is more than 5 % off")
-                  : std::string()) +
-           "</svg>\n";
+    std::vector<glm::dvec2> places;
+    for (const Measured& m : modes) places.emplace_back(x.at(m.frame), y.at(m.depthError));
+    const PlotFont font(std::array{kSmall, kTitle});
+    Plot plot{kSize, {}};
+    plot.shapes.push_back(PlotText{{kLeft, 32},
+                                   Anchor::Start,
+                                   kTitle,
+                                   kInk,
+                                   font.shortened(printable(title), kTitle, kRight - kLeft)});
+    addAxes(x, y, plot);
+    const std::vector<PlotLine> lines = joining(modes, places);
+    plot.shapes.insert(plot.shapes.end(), lines.begin(), lines.end());
+    addMarks(modes, places, plot);
+    addNames(modes, places, severalOrders, font, covered(places, lines), plot);
+    if (std::ranges::any_of(modes, &Measured::massIsOff))
+        plot.shapes.push_back(PlotText{{kRight, kSize.y - 10},
+                                       Anchor::End,
+                                       kSmall,
+                                       kQuietInk,
+                                       "hollow: its mass is more than 5 % off"});
+    return plot;
 }
 
 }  // namespace app

@@ -1,8 +1,10 @@
 #include "render/annotate/flat_mesh.h"
 
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 
 namespace render {
@@ -50,6 +52,21 @@ void FlatMesh::line(glm::vec3 a, glm::vec3 b, float width, glm::vec4 color) {
     const glm::vec3 side(glm::vec2(-along.y, along.x) / length * reach, 0);
     quad({a + side, color, kNoGlyph, {reach, half}}, {b + side, color, kNoGlyph, {reach, half}},
          {b - side, color, kNoGlyph, {-reach, half}}, {a - side, color, kNoGlyph, {-reach, half}});
+}
+
+void FlatMesh::disc(glm::vec2 middle, float radius, glm::vec4 color) {
+    const float reach = radius + 1;  // one pixel for the soft edge
+    // Between two of n corners the distance is told too large by reach (1 - cos(pi / n)), about
+    // reach pi^2 / (2 n^2) and at most 1 / 32 of a pixel with n = 4 pi sqrt(reach).
+    const int quads = static_cast<int>(std::ceil(2 * std::numbers::pi_v<float> * std::sqrt(reach)));
+    const auto corner = [&](int i) {
+        const float angle = std::numbers::pi_v<float> * static_cast<float>(i % (2 * quads)) /
+                            static_cast<float>(quads);
+        const glm::vec2 at = middle + reach * glm::vec2(std::cos(angle), std::sin(angle));
+        return FlatVertex{{at, 0}, color, kNoGlyph, {reach, radius}};
+    };
+    const FlatVertex inmost{{middle, 0}, color, kNoGlyph, {0, radius}};
+    for (int i = 0; i < 2 * quads; i += 2) quad(inmost, corner(i), corner(i + 1), corner(i + 2));
 }
 
 void FlatMesh::rect(glm::vec2 topLeft, glm::vec2 bottomRight, glm::vec4 color) {

@@ -18,7 +18,7 @@ struct FlatVertex {
     glm::vec3 at;     // picture pixels, (0, 0) the TOP left corner, y down; z: window depth [0, 1]
     glm::vec4 color;  // linear, premultiplied
     glm::vec2 texel;  // of the font atlas; negative where there is no glyph
-    glm::vec2 edge;   // distance from a line's middle and half its width, in pixels
+    glm::vec2 edge;   // distance from a line's or disc's middle, half its width; in pixels
 };
 
 // Picture pixels, y down.
@@ -44,6 +44,9 @@ class FlatMesh {
     // Smooth-edged. `a` and `b`: pixels and window depth, linear between (as a projected straight
     // line is). Colour is linear, premultiplied; width in pixels.
     void line(glm::vec3 a, glm::vec3 b, float width, glm::vec4 color);
+    // Smooth-edged, round to a thirtieth of a pixel. Colour is linear, premultiplied; in pixels.
+    // REQUIRES: a radius > 0.
+    void disc(glm::vec2 middle, float radius, glm::vec4 color);
     void rect(glm::vec2 topLeft, glm::vec2 bottomRight, glm::vec4 color);
     // Colours change linearly from left to right between `stops`, evenly spaced.
     void gradient(glm::vec2 topLeft, glm::vec2 bottomRight, std::span<const glm::vec3> stops);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "tests/support/flat_text.h"
@@ -84,6 +85,39 @@ TEST(FlatRaster, ALinesLightIsItsDistance) {
             EXPECT_NEAR(at(light, x, y).b, 0.25 * covered, 1e-5);
         }
     EXPECT_NEAR(sum, width * glm::length(b - a), 2 * width);
+}
+
+// As a line's; its sides are straight, which takes a 32nd of a pixel at most.
+TEST(FlatRaster, ADiscsLightIsItsDistance) {
+    for (const double radius : {0.75, 3.0, 7.5, 12.0, 20.0}) {
+        FlatMesh mesh;
+        const glm::dvec2 middle(30.3, 23.9);
+        mesh.disc(glm::vec2(middle), static_cast<float>(radius), {1, 0.5f, 0.25f, 1});
+        const auto light = drawn(mesh);
+        double sum = 0;
+        for (int y = 0; y < kPicture.y; ++y)
+            for (int x = 0; x < kPicture.x; ++x) {
+                const double off = glm::length(glm::dvec2(x + 0.5, y + 0.5) - middle);
+                const double covered = std::clamp(radius + 0.5 - off, 0.0, 1.0);
+                EXPECT_NEAR(at(light, x, y).r, covered, 1.0 / 32 + 1e-4) << x << ' ' << y;
+                EXPECT_NEAR(at(light, x, y).b, 0.25f * at(light, x, y).r, 1e-6f);
+                sum += static_cast<double>(at(light, x, y).r);
+            }
+        const double area = std::numbers::pi * radius * radius;
+        EXPECT_NEAR(sum, area, 0.03 * area + 0.3) << radius;
+    }
+}
+
+TEST(FlatRaster, ADiscsTrianglesMeetWithoutGapOrOverlap) {
+    FlatMesh mesh;
+    mesh.disc({31.2f, 24.5f}, 18, glm::vec4(0.5f));
+    const auto light = drawn(mesh);
+    for (int y = 0; y < kPicture.y; ++y)
+        for (int x = 0; x < kPicture.x; ++x) {
+            const float off = glm::length(glm::vec2(x + 0.5f, y + 0.5f) - glm::vec2(31.2f, 24.5f));
+            if (off < 17.4f) EXPECT_EQ(at(light, x, y).r, 0.5f) << x << ' ' << y;
+            if (off > 18.6f) EXPECT_EQ(at(light, x, y).r, 0.0f) << x << ' ' << y;
+        }
 }
 
 TEST(FlatRaster, TextIsItsGlyphsAsPicturesHaveThem) {
