@@ -5,6 +5,8 @@
 
 #include "timeseries/readers/exodus_mesh.h"
 #include "timeseries/readers/exodus_reader.h"
+#include "timeseries/readers/openpmd_reader.h"
+#include "timeseries/readers/openpmd_records.h"
 #include "timeseries/readers/vtkhdf_mesh.h"
 #include "timeseries/readers/vtkhdf_reader.h"
 
@@ -13,7 +15,8 @@ namespace timeseries {
 const OtherNetcdf* otherNetcdf(const NcHeader& header) {
     static constexpr std::array kOthers{
         OtherNetcdf{"an Exodus II mesh", isExodus, openExodus},
-        OtherNetcdf{"a VTKHDF file", isVtkHdf, openVtkHdf}};
+        OtherNetcdf{"a VTKHDF file", isVtkHdf, openVtkHdf},
+        OtherNetcdf{"an openPMD file", isOpenPmd, openOpenPmd}};
     const auto found =
         std::ranges::find_if(kOthers, [&](const OtherNetcdf& each) { return each.holds(header); });
     return found == kOthers.end() ? nullptr : &*found;
