@@ -58,6 +58,7 @@ TEST(OpenPmdParticles, LieAtPositionsBesideOffsets) {
     for (const Variable& variable : reader->variables()) names.push_back(variable.name);
     EXPECT_THAT(names, testing::UnorderedElementsAre("e/momentum/x", "e/momentum/y", "e/momentum/z",
                                                      "e/id", "e/charge"));
+    EXPECT_TRUE(reader->damaged().empty());
     EXPECT_THAT(timesOf(*reader), ElementsAre(1.5));
     const Variable& momentum = reader->variables()[indexOf(*reader, "e/momentum/y")];
     EXPECT_EQ(momentum.units, "m kg s-1");
@@ -155,6 +156,13 @@ TEST(OpenPmdParticles, NumbersThatDoNotFitAreRefused) {
                     f.say(p + "position/x", "unitSI", 0.0);
                 }),
                 HasSubstr("expected particles that take space"));
+    EXPECT_THAT(told([&](File f) {
+                    weigh(f);
+                    f.put("data/4/particles/p/position/x", std::vector<double>{1, 2, 3});
+                    f.put("data/4/particles/p/weighting", std::vector<double>{1, 2, 3});
+                }),
+                HasSubstr("iteration 4: record component 'p/weighting': expected 3 numbers of "
+                          "type float32"));
     // All of them in one place that a few bytes state.
     const auto constant = [](std::uint64_t count) {
         OpenPmdFile file;

@@ -122,7 +122,7 @@ TEST(Snapshot, MassesMayStandInTheHeaderAlone) {
 // A tenth of them, which another floor held; then all.
 TEST(Snapshot, LengthsBesideTheOthersAreTold) {
     Gas gas(2);
-    for (std::size_t i = 0; i < 12; ++i) gas.lengths[10 * i] *= 1.2f;
+    for (std::size_t i = 0; i < 12; ++i) gas.lengths[10 * i] *= i < 6 ? 0.8f : 1.2f;
     SnapshotFile file;
     file.gas(gas);
     const auto reader = open(file.close());

@@ -146,14 +146,11 @@ void OpenPmdReader::add(const std::string& name, std::shared_ptr<const Grid> gri
 
 void OpenPmdReader::addMeshes() {
     StepsByName meshes;
-    for (const bool constant : {false, true})
-        for (const OpenPmdIteration& iteration : iterations_)
-            for (const OpenPmdComponent& component : iteration.meshes)
-                if (constant == !component.array) meshes.add({&iteration, &component});
-    for (auto& mesh : meshes.all) {
-        std::ranges::sort(mesh.second, {}, &OpenPmdStep::iteration);
+    for (const OpenPmdIteration& iteration : iterations_)
+        for (const OpenPmdComponent& component : iteration.meshes)
+            meshes.add({&iteration, &component});
+    for (auto& mesh : meshes.all)
         unlessDamaged(mesh.first, [&] { addMesh(mesh.first, std::move(mesh.second)); });
-    }
 }
 
 // A window that moves with what it shows is drawn where it began.
