@@ -235,6 +235,18 @@ TEST(OpenPmd, FilesOfOneIterationMakeASeries) {
     EXPECT_EQ(valuesOf<double>(*reader, "a", 1), ramp<double>(8));
 }
 
+TEST(OpenPmd, BesideAGridIsNoStepOfIt) {
+    NetcdfBuilder grid("run_1.nc");
+    const std::vector<int> dimensions{grid.dimension("z", 2), grid.dimension("y", 2),
+                                      grid.dimension("x", 2)};
+    grid.write(grid.variable("a", NC_DOUBLE, dimensions), ramp<double>(8));
+    OpenPmdFile file("run_2.nc");
+    file.mesh("data/2/fields/a");
+    const std::vector paths{grid.close(), file.close()};
+    EXPECT_THAT(refusalOf(paths),
+                HasSubstr("expected a grid as in the files beside it, found an openPMD file"));
+}
+
 // Each a whole file but for one thing.
 TEST(OpenPmd, WhatIsNotOfTheStandardIsRefused) {
     const auto told = [](const auto& change) {
