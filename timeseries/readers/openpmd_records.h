@@ -35,18 +35,20 @@ struct OpenPmdIteration {
 // FileError, also of other versions of the standard than 1.
 std::vector<OpenPmdIteration> openPmdIterationsOf(const NetcdfFile& file);
 
-// All three throw AttributeError where the component is not what it must be: numbers, at least one,
-// as many as the file can hold.
+// What a component is made of.
 struct OpenPmdNumbers {
     ValueType type{};
     std::vector<std::uint64_t> lengths;  // of its dimensions, as stored: the slowest first
-    std::uint64_t count = 0;
+    std::uint64_t count = 0;             // in all; of a scalar 0, for it lies nowhere
 };
+// Throws AttributeError where they are no numbers, or more than the file can hold.
 OpenPmdNumbers openPmdNumbersOf(const NetcdfFile& file, const OpenPmdComponent& component);
-// A number of the component, or of its record, that stands alone; `otherwise` where there is none.
+// An attribute, of the component or its record, that is one number; `otherwise` where there is
+// none. Throws AttributeError where it is not finite, or something else.
 double openPmdNumber(const NetcdfFile& file, const OpenPmdComponent& component,
                      const NcAttributes& attributes, const char* name, double otherwise);
-// What its values count, for which unitSI and unitDimension stand: "1e+09 kg s-2 A-1".
+// What its values count, for which unitSI and unitDimension stand: "0.001 kg s-2 A-1".
+// Throws AttributeError.
 std::string openPmdUnitsOf(const NetcdfFile& file, const OpenPmdComponent& component);
 
 // All of a constant component's. REQUIRES: it is one, and has these numbers.
