@@ -38,9 +38,43 @@ class HdfFile {
         else
             put(name, values, std::vector{values.size()});
     }
+    // What a group says, "" being the root, or an array that stands there already.
+    template <typename T>
+    void say(const std::string& of, const std::string& attribute, const std::vector<T>& values) {
+        const Place at = placeOf(of);
+        NetcdfBuilder::check(nc_put_att(at.group, at.variable, attribute.c_str(), ncType<T>(),
+                                        values.size(), values.data()));
+    }
+    void say(const std::string& of, const std::string& attribute, double value) {
+        say(of, attribute, std::vector{value});
+    }
+    void say(const std::string& of, const std::string& attribute, const std::string& text) {
+        const Place at = placeOf(of);
+        NetcdfBuilder::check(
+            nc_put_att_text(at.group, at.variable, attribute.c_str(), text.size(), text.data()));
+    }
+    void say(const std::string& of, const std::string& attribute,
+             const std::vector<std::string>& texts) {
+        const Place at = placeOf(of);
+        std::vector<const char*> all;
+        for (const std::string& text : texts) all.push_back(text.c_str());
+        NetcdfBuilder::check(
+            nc_put_att_string(at.group, at.variable, attribute.c_str(), all.size(), all.data()));
+    }
     std::filesystem::path close() { return file_.close(); }
 
  private:
+    struct Place {
+        int group, variable;
+    };
+    Place placeOf(const std::string& name) {
+        const auto slash = name.rfind('/');
+        const int around = groupOf(slash == name.npos ? "" : name.substr(0, slash));
+        int variable = 0;
+        if (nc_inq_varid(around, name.substr(slash + 1).c_str(), &variable) == NC_NOERR)
+            return {around, variable};
+        return {groupOf(name), NC_GLOBAL};
+    }
     int groupOf(const std::string& path) {
         int id = file_.id();
         std::string rest = path;

@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::size_t kNearest = 16;
 constexpr std::size_t kPointsAThread = 1 << 10;
-// Wider than a lattice's splats: points lie closer in one place than in another.
-constexpr double kSpread = 1.5;
 
 // The points that are somewhere, as the tree asks for them.
 struct Places {
@@ -58,15 +56,21 @@ Mesh meshOfScattered(const std::vector<glm::dvec3>& at) {
     Places places;
     for (const glm::dvec3& place : at)
         if (isPlace(place)) places.at.push_back(place);
-    std::vector<double> widths(at.size());
+    std::vector<double> volumes(at.size());
     if (!places.at.empty()) {
-        const std::vector<double> volumes = volumesOf(places);
-        auto next = volumes.begin();
+        const std::vector<double> own = volumesOf(places);
+        auto next = own.begin();
         for (std::size_t i = 0; i < at.size(); ++i)
-            if (isPlace(at[i])) widths[i] = std::cbrt(*next++);
+            if (isPlace(at[i])) volumes[i] = *next++;
     }
-    return Mesh(at.size(), at, kSpread, [&](std::uint64_t i) {
-        const double width = widths[i];
+    return meshOfVolumes(at, volumes);
+}
+
+Mesh meshOfVolumes(const std::vector<glm::dvec3>& at, const std::vector<double>& volumes,
+                   double spread) {
+    return Mesh(at.size(), at, spread, [&](std::uint64_t i) {
+        const bool stands = volumes[i] > 0 && std::isfinite(volumes[i]);
+        const double width = stands ? std::cbrt(volumes[i]) : 0;
         return MeshPoint{at[i], {glm::dvec3(width, 0, 0), {0, width, 0}, {0, 0, width}}};
     });
 }

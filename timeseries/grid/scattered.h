@@ -15,4 +15,13 @@ namespace timeseries {
 // has a volume.
 Mesh meshOfScattered(const std::vector<glm::dvec3>& at);
 
+// Splats are wider than a lattice's: points lie closer in one place than in another.
+constexpr double kScatteredSpread = 1.5;
+
+// The same of points of which it is known what each stands for. Splats are as wide as cubes of
+// these volumes, times the spread; points whose volume is not finite, or not above 0, stand for
+// nothing.
+Mesh meshOfVolumes(const std::vector<glm::dvec3>& at, const std::vector<double>& volumes,
+                   double spread = kScatteredSpread);
+
 }  // namespace timeseries

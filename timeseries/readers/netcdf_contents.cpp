@@ -7,9 +7,8 @@
 
 #include "timeseries/readers/cf_lists.h"
 #include "timeseries/readers/cf_mpas.h"
-#include "timeseries/readers/exodus_mesh.h"
+#include "timeseries/readers/netcdf_others.h"
 #include "timeseries/readers/other_formats.h"
-#include "timeseries/readers/vtkhdf_mesh.h"
 
 namespace timeseries {
 namespace {
@@ -122,10 +121,9 @@ FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const Nc
 
 FileContents contentsOf(const NetcdfFile& file) {
     const NcHeader& header = file.header();
-    if (isExodus(header))
-        file.fail("", "expected a grid as in the files beside it, found an Exodus II mesh");
-    if (isVtkHdf(header))
-        file.fail("", "expected a grid as in the files beside it, found a VTKHDF file");
+    if (const OtherNetcdf* const other = otherNetcdf(header))
+        file.fail("",
+                  fmt::format("expected a grid as in the files beside it, found {}", other->what));
     const std::vector<const NcVariable*> geographic = geographicOf(header);
     const std::vector<const NcVariable*> fields = fieldsOf(header, geographic);
     const FileAxes fileAxes(header, fields);

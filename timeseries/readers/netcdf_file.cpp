@@ -190,6 +190,7 @@ void NetcdfFile::readGroup(int group, const std::string& name, int depth) {
                                 header_.variables.size() + ids.size()));
     check(nc_inq_varids(group, &count, ids.data()), place, "its variables");
     for (const int id : ids) readVariable(group, name, id);
+    readGroupAttributes(group, name);
 
     check(nc_inq_grps(group, &count, nullptr), place, "its groups");
     ids.resize(static_cast<std::size_t>(count));
@@ -222,7 +223,9 @@ void NetcdfFile::readVariable(int group, const std::string& groupName, int id) {
         if (at == dimensionIds_.end()) fail(place, "expected dimensions that the file declares");
         variable.dimensions.push_back(static_cast<std::size_t>(at - dimensionIds_.begin()));
     }
-    for (int i = 0; i < attributeCount; ++i) readAttribute(variable, i);
+    for (int i = 0; i < attributeCount; ++i)
+        if (auto attribute = readAttribute(group, id, i, place))
+            variable.attributes.push_back(std::move(*attribute));
 
     int noFill = 0, storage = NC_CONTIGUOUS;
     if (nc_inq_var_fill(group, id, &noFill, nullptr) == NC_NOERR) variable.filled = noFill == 0;
@@ -236,15 +239,31 @@ void NetcdfFile::readVariable(int group, const std::string& groupName, int id) {
     header_.variables.push_back(std::move(variable));
 }
 
-void NetcdfFile::readAttribute(NcVariable& variable, int number) const {
-    const int group = variable.groupId, id = variable.id;
-    const std::string place = "variable '" + variable.name + "'";
+// One that cannot be read costs no variable: most formats ask no group for anything.
+void NetcdfFile::readGroupAttributes(int group, const std::string& name) {
+    NcGroup& read = header_.groups.emplace_back();
+    read.name = name;
+    int count = 0;
+    if (nc_inq_varnatts(group, NC_GLOBAL, &count) != NC_NOERR) return;
+    for (int i = 0; i < count; ++i) {
+        try {
+            if (auto attribute = readAttribute(group, NC_GLOBAL, i, "group '" + name + "'"))
+                read.attributes.push_back(std::move(*attribute));
+        } catch (const FileError&) {
+            continue;
+        }
+    }
+}
+
+// Nothing of what is too long, or no text nor numbers.
+std::optional<NcAttribute> NetcdfFile::readAttribute(int group, int id, int number,
+                                                     const std::string& place) const {
     std::array<char, NC_MAX_NAME + 1> name{};
     nc_type type = NC_NAT;
     std::size_t length = 0;
     check(nc_inq_attname(group, id, number, name.data()), place, "its attributes");
     check(nc_inq_att(group, id, name.data(), &type, &length), place, "its attributes");
-    if (length > kMaxAttributeBytes) return;
+    if (length > kMaxAttributeBytes) return std::nullopt;
     const std::string what = fmt::format("its attribute '{}'", name.data());
     NcAttribute attribute{name.data(), {}, valueType(type)};
     if (type == NC_CHAR) {
@@ -277,22 +296,26 @@ void NetcdfFile::readAttribute(NcVariable& variable, int number) const {
         for (std::size_t i = 0; i < length; ++i)
             std::get<1>(attribute.value)[i] = std::int64_t{values[i]};
     } else {
-        return;  // compound and other user types tell nothing here
+        return std::nullopt;  // compound and other user types tell nothing here
     }
-    variable.attributes.push_back(std::move(attribute));
+    return attribute;
 }
 
 std::string NetcdfFile::tooLarge(const NcVariable& variable, std::uint64_t points) const {
+    return tooLarge(variable.type.value_or(ValueType::U8), points, variable.chunkBytes);
+}
+
+std::string NetcdfFile::tooLarge(ValueType type, std::uint64_t points,
+                                 std::uint64_t chunkBytes) const {
     const double limit = 1100.0 * static_cast<double>(fileBytes_) + 1048576.0;
-    const double bytes = static_cast<double>(points) *
-                         static_cast<double>(typeBytes(variable.type.value_or(ValueType::U8)));
+    const double bytes = static_cast<double>(points) * static_cast<double>(typeBytes(type));
     if (points > kMaxStepPoints)
         return fmt::format("expected at most 2^32 points, found {}", points);
-    if (std::max(bytes, static_cast<double>(variable.chunkBytes)) > limit)
+    if (std::max(bytes, static_cast<double>(chunkBytes)) > limit)
         return fmt::format(
             "expected values that a file of {} bytes can hold, found {:.0f} bytes "
             "of them (chunks of {})",
-            fileBytes_, bytes, variable.chunkBytes);
+            fileBytes_, bytes, chunkBytes);
     return "";
 }
 

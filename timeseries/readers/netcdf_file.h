@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,10 @@ class NetcdfFile {
     // file's own: a compressed file unpacks to at most about 1032 times its bytes (the limit of
     // deflate; its format, RFC 1951, spends at least two bits on 258 bytes).
     std::string tooLarge(const NcVariable& variable, std::uint64_t points) const;
+    // The same of values of a type for which the file has no array.
+    std::string tooLarge(ValueType type, std::uint64_t points) const {
+        return tooLarge(type, points, 0);
+    }
 
     // Every value, exact, in the file's order. REQUIRES: a numeric type. Throws FileError.
     std::vector<Number> numbers(const NcVariable& variable) const;
@@ -56,11 +61,14 @@ class NetcdfFile {
     [[noreturn]] void failAttribute(const NcVariable& variable, std::string_view what) const;
 
  private:
+    std::string tooLarge(ValueType type, std::uint64_t points, std::uint64_t chunkBytes) const;
     void open();
     void readHeader();
     void readGroup(int group, const std::string& name, int depth);
     void readVariable(int group, const std::string& groupName, int id);
-    void readAttribute(NcVariable& variable, int number) const;
+    void readGroupAttributes(int group, const std::string& name);
+    std::optional<NcAttribute> readAttribute(int group, int variable, int number,
+                                             const std::string& place) const;
     void check(int status, std::string_view place, std::string_view expected) const;
 
     std::filesystem::path path_;

@@ -9,15 +9,23 @@ std::string_view NcVariable::baseName() const {
     return group.empty() ? all : all.substr(group.size() + 1);
 }
 
-const NcAttribute* NcVariable::find(std::string_view attribute) const {
+const NcAttribute* NcAttributes::find(std::string_view attribute) const {
     const auto at = std::ranges::find(attributes, attribute, &NcAttribute::name);
     return at == attributes.end() ? nullptr : &*at;
 }
 
-std::string NcVariable::text(std::string_view attribute) const {
+std::string NcAttributes::text(std::string_view attribute) const {
     const NcAttribute* found = find(attribute);
     const auto* text = found ? std::get_if<std::string>(&found->value) : nullptr;
     return text ? *text : "";
+}
+
+std::vector<double> NcAttributes::numbers(std::string_view attribute) const {
+    std::vector<double> numbers;
+    const NcAttribute* found = find(attribute);
+    if (const auto* all = found ? std::get_if<std::vector<Number>>(&found->value) : nullptr)
+        for (const Number& number : *all) numbers.push_back(toDouble(number));
+    return numbers;
 }
 
 const NcVariable* NcHeader::find(std::string_view name, std::string_view group) const {
@@ -30,6 +38,11 @@ const NcVariable* NcHeader::find(std::string_view name, std::string_view group) 
         const auto slash = group.rfind('/');
         group = slash == std::string_view::npos ? "" : group.substr(0, slash);
     }
+}
+
+const NcGroup* NcHeader::findGroup(std::string_view name) const {
+    const auto at = std::ranges::find(groups, name, &NcGroup::name);
+    return at == groups.end() ? nullptr : &*at;
 }
 
 std::string NcHeader::declaration(const NcVariable& variable) const {

@@ -30,19 +30,30 @@ struct NcDimension {
     bool isNamed() const { return !name.starts_with("phony_dim_"); }
 };
 
-struct NcVariable {
+// What a variable or a group says of itself.
+struct NcAttributes {
+    std::vector<NcAttribute> attributes;
+
+    const NcAttribute* find(std::string_view attribute) const;
+    std::string text(std::string_view attribute) const;  // "" when absent or not text
+    // None when absent or text.
+    std::vector<double> numbers(std::string_view attribute) const;
+};
+
+struct NcGroup : NcAttributes {
+    std::string name;  // "" for the root, else "a/b"
+};
+
+struct NcVariable : NcAttributes {
     std::string name;                     // "T"; in a group "a/b/T"
     std::string group;                    // "" for the root, else "a/b"
     std::optional<ValueType> type;        // as stored; nothing for text, strings, compound types
     std::vector<std::size_t> dimensions;  // positions in NcHeader::dimensions, slowest first
-    std::vector<NcAttribute> attributes;
-    bool filled = true;            // the library fills what was never written
-    std::uint64_t chunkBytes = 0;  // of one chunk, 0 when not chunked
-    int groupId = 0, id = 0;       // the library's, while the file is open
+    bool filled = true;                   // the library fills what was never written
+    std::uint64_t chunkBytes = 0;         // of one chunk, 0 when not chunked
+    int groupId = 0, id = 0;              // the library's, while the file is open
 
     std::string_view baseName() const;
-    const NcAttribute* find(std::string_view attribute) const;
-    std::string text(std::string_view attribute) const;  // "" when absent or not text
     // Whether it is numbers, one for each place along that dimension.
     bool isAlong(std::size_t dimension) const {
         return type && dimensions.size() == 1 && dimensions[0] == dimension;
@@ -56,10 +67,13 @@ struct NcHeader {
     std::string format;  // "NetCDF-4"
     std::vector<NcDimension> dimensions;
     std::vector<NcVariable> variables;
+    std::vector<NcGroup> groups;  // the root is the first
 
     // By the name as written in a file's attributes, seen from `group`: there, then in the groups
     // around it (CF 1.10, section 2.7). Null when there is none.
     const NcVariable* find(std::string_view name, std::string_view group) const;
+    // Null when there is none of this name.
+    const NcGroup* findGroup(std::string_view name) const;
     // "T(time, z, y, x)"
     std::string declaration(const NcVariable& variable) const;
     const NcDimension& dimension(const NcVariable& variable, std::size_t position) const {

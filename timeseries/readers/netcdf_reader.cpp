@@ -8,12 +8,9 @@
 #include <stdexcept>
 
 #include "timeseries/readers/cf_lists.h"
-#include "timeseries/readers/exodus_mesh.h"
-#include "timeseries/readers/exodus_reader.h"
 #include "timeseries/readers/netcdf_contents.h"
+#include "timeseries/readers/netcdf_others.h"
 #include "timeseries/readers/sequence_reader.h"
-#include "timeseries/readers/vtkhdf_mesh.h"
-#include "timeseries/readers/vtkhdf_reader.h"
 
 namespace timeseries {
 namespace {
@@ -373,10 +370,9 @@ Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
 
 std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths) {
     auto first = std::make_unique<NetcdfFile>(paths[0], NetcdfFile::Header::New);
-    const bool exodus = isExodus(first->header()), vtkHdf = isVtkHdf(first->header());
-    if (!exodus && !vtkHdf) return std::make_unique<NetcdfReader>(paths, std::move(first));
-    if (paths.size() == 1)
-        return exodus ? openExodus(std::move(first)) : openVtkHdf(std::move(first));
+    const OtherNetcdf* const other = otherNetcdf(first->header());
+    if (!other) return std::make_unique<NetcdfReader>(paths, std::move(first));
+    if (paths.size() == 1) return other->open(std::move(first));
     first.reset();
     return openSequence(
         paths, [](const std::filesystem::path& path) { return openNetcdf(std::span(&path, 1)); });

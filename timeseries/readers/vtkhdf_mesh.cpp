@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "timeseries/grid/with_type.h"
+#include "timeseries/readers/netcdf_rows.h"
 
 namespace timeseries {
 namespace {
@@ -60,30 +60,6 @@ std::vector<std::uint64_t> wholeNumbers(const NetcdfFile& file, const std::strin
 bool isVtkHdf(const NcHeader& header) {
     return std::ranges::any_of(header.variables, [](const NcVariable& variable) {
         return variable.name.starts_with("VTKHDF/");
-    });
-}
-
-Values rowsOf(const NetcdfFile& file, const NcVariable& variable, std::uint64_t first,
-              std::uint64_t rows, std::uint64_t columns) {
-    const auto& header = file.header();
-    const std::size_t rank = variable.dimensions.size();
-    const std::string place = "variable '" + variable.name + "'";
-    const std::uint64_t length = rank > 0 ? header.dimension(variable, 0).length : 0;
-    const std::uint64_t width = rank == 2 ? header.dimension(variable, 1).length : 1;
-    if (!variable.type || rank < 1 || rank > 2 || width != columns)
-        file.fail(place, fmt::format("expected rows of {} numbers", columns));
-    if (first > length || rows > length - first)
-        file.fail(place, fmt::format("expected {} rows from row {} on, found {} in all", rows,
-                                     first, length));
-    if (const std::string why = file.tooLarge(variable, rows * columns); !why.empty())
-        file.fail(place, why);
-    return withType(*variable.type, [&]<typename T>(T) -> Values {
-        std::vector<T> values(rows * columns);
-        const std::array<std::size_t, 2> start{first, 0}, count{rows, columns};
-        if (!values.empty())
-            file.read(variable, std::span(start).first(rank), std::span(count).first(rank),
-                      values.data());
-        return values;
     });
 }
 
@@ -251,13 +227,7 @@ void VtkHdfLayout::addCells(const Topology& topology, const VtkHdfStep& step, st
 UnstructuredGrid VtkHdfLayout::gridOf(const VtkHdfStep& step) const {
     UnstructuredGrid grid;
     const std::uint64_t points = pointsOf(step);
-    const Values places = rowsOf(file_, expected(file_, "VTKHDF/Points"), step.points, points, 3);
-    std::visit(
-        [&](const auto& at) {
-            for (std::uint64_t i = 0; i < points; ++i)
-                grid.points.emplace_back(at[3 * i], at[3 * i + 1], at[3 * i + 2]);
-        },
-        places);
+    grid.points = placesOf(file_, expected(file_, "VTKHDF/Points"), step.points, points);
     std::uint64_t firstPoint = 0;
     for (std::uint64_t part = 0; part < step.parts; ++part) {
         const std::uint64_t count =

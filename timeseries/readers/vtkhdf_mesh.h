@@ -61,9 +61,4 @@ class VtkHdfLayout {
     std::vector<double> times_;
 };
 
-// So many rows of a variable from this one on, as stored, each of so many numbers. Throws FileError
-// when the file has fewer, or others.
-Values rowsOf(const NetcdfFile& file, const NcVariable& variable, std::uint64_t first,
-              std::uint64_t rows, std::uint64_t columns);
-
 }  // namespace timeseries

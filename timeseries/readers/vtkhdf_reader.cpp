@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "timeseries/readers/components.h"
+#include "timeseries/readers/netcdf_rows.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/vtkhdf_mesh.h"
 

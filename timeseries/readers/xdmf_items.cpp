@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/netcdf_rows.h"
 #include "timeseries/readers/number_text.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/words.h"
@@ -328,10 +329,6 @@ Values XdmfItems::read(const XdmfElement& item) {
         uniform(whole));
 }
 
-std::vector<double> XdmfItems::numbers(const XdmfElement& item) {
-    const Values all = read(item);
-    return std::visit(
-        [](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, all);
-}
+std::vector<double> XdmfItems::numbers(const XdmfElement& item) { return asDoubles(read(item)); }
 
 }  // namespace timeseries

@@ -1,0 +1,28 @@
+#include "timeseries/readers/netcdf_others.h"
+
+#include <algorithm>
+#include <array>
+
+#include "timeseries/readers/exodus_mesh.h"
+#include "timeseries/readers/exodus_reader.h"
+#include "timeseries/readers/openpmd_reader.h"
+#include "timeseries/readers/openpmd_records.h"
+#include "timeseries/readers/snapshot_particles.h"
+#include "timeseries/readers/snapshot_reader.h"
+#include "timeseries/readers/vtkhdf_mesh.h"
+#include "timeseries/readers/vtkhdf_reader.h"
+
+namespace timeseries {
+
+const OtherNetcdf* otherNetcdf(const NcHeader& header) {
+    static constexpr std::array kOthers{
+        OtherNetcdf{"an Exodus II mesh", isExodus, openExodus},
+        OtherNetcdf{"a VTKHDF file", isVtkHdf, openVtkHdf},
+        OtherNetcdf{"an openPMD file", isOpenPmd, openOpenPmd},
+        OtherNetcdf{"a snapshot of particles", isSnapshot, openSnapshot}};
+    const auto found =
+        std::ranges::find_if(kOthers, [&](const OtherNetcdf& each) { return each.holds(header); });
+    return found == kOthers.end() ? nullptr : &*found;
+}
+
+}  // namespace timeseries
