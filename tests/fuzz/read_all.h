@@ -41,8 +41,7 @@ inline std::filesystem::path write(const std::string& name, std::string_view byt
     return path;
 }
 
-inline void readAll(std::string_view bytes, const std::string& name) {
-    const std::filesystem::path path = write(name, bytes);
+inline void readOpened(const std::filesystem::path& path) {
     try {
         const auto reader = timeseries::openReader(std::span(&path, 1));
         for (std::size_t v = 0; v < reader->variables().size(); ++v) {
@@ -59,6 +58,10 @@ inline void readAll(std::string_view bytes, const std::string& name) {
         // One sentence on one line, or it is a finding.
         if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
     }
+}
+
+inline void readAll(std::string_view bytes, const std::string& name) {
+    readOpened(write(name, bytes));
 }
 
 inline std::string_view text(const std::uint8_t* data, std::size_t size) {

@@ -292,7 +292,12 @@ TEST(DamagedZarr, SizesThatNoFilesHoldAreRefused) {
     const Layout vast{.shape = {128, 512, 512}, .chunk = {8000, 512, 512}};
     put(store / "v/.zarray", v2Array(vast, "|u1", {{"compressor", R"({"id": "zlib"})"}}));
     put(store / "v/0.0.0", byZlib(std::string(1 << 20, 'a')));
-    EXPECT_THROW(open(store)->read(0, 0), FileError);
+    try {
+        open(store)->read(0, 0);
+        ADD_FAILURE();
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("zlib cannot hold"));
+    }
 }
 
 TEST(DamagedZarr, StepsInTooManyChunksAreRefused) {

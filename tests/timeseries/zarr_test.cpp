@@ -269,8 +269,9 @@ TEST(Zarr, ShardsHoldChunksWhereTheirIndexSays) {
 }
 
 TEST(Zarr, ChunksThatAreNotThereAreTheFill) {
-    for (const auto& [fill, value] : std::vector<std::pair<std::string, float>>{
+    for (const auto& [fill, filled] : std::vector<std::pair<std::string, float>>{
              {"null", 0}, {"-3.5", -3.5f}, {"7", 7}, {"\"Infinity\"", HUGE_VALF}}) {
+        const float value = filled;
         Layout layout = kLayout;
         layout.isWritten = [](const Lengths& chunk) { return chunk != Lengths{0, 1, 0, 1}; };
         const auto store = v2Group();
