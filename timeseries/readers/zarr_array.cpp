@@ -63,10 +63,10 @@ void takeZarrShape(const ZarrJson& metadata, ZarrArray& array) {
     if (shape->size() > kMaxZarrRank)
         throw std::invalid_argument(fmt::format("shape: expected at most {} dimensions, found {}",
                                                 kMaxZarrRank, shape->size()));
-    constexpr std::uint64_t kMost = std::uint64_t{1}
-                                    << 62;  // sums of two of them are numbers still
+    constexpr std::uint64_t kMostLength = std::uint64_t{1}
+                                          << 62;  // sums of two of them are numbers still
     for (const std::uint64_t length : *shape)
-        if (length > kMost)
+        if (length > kMostLength)
             throw std::invalid_argument(
                 fmt::format("shape: expected lengths of at most 2^62, found {}", length));
     array.shape = *shape;

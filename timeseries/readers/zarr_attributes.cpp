@@ -11,9 +11,9 @@ namespace {
 
 // Those that are numbers, of which Python writes some as words (zarr_json.h).
 bool isOfNumbers(std::string_view name) {
-    static constexpr std::array kNames{"_FillValue", "missing_value", "valid_min", "valid_max",
-                                       "valid_range"};
-    return std::ranges::find(kNames, name) != kNames.end();
+    static constexpr std::array kOfNumbers{"_FillValue", "missing_value", "valid_min", "valid_max",
+                                           "valid_range"};
+    return std::ranges::find(kOfNumbers, name) != kOfNumbers.end();
 }
 
 // The 8 bytes of a double, little-endian, in base64 (RFC 4648): what xarray writes as _FillValue of

@@ -101,13 +101,13 @@ std::optional<std::vector<std::uint64_t>> jsonCounts(const ZarrJson* json) {
 }
 
 std::string jsonBriefly(const ZarrJson* json) {
-    constexpr std::size_t kMost = 60;
+    constexpr std::size_t kMostShown = 60;
     if (!json || json->is_null()) return "none";
     std::string text = json->is_string() ? json->get<std::string>() : json->dump();
     for (char& c : text)
         if (c >= '\0' && c < ' ') c = ' ';
-    if (text.size() <= kMost) return text;
-    std::size_t end = kMost;
+    if (text.size() <= kMostShown) return text;
+    std::size_t end = kMostShown;
     while (end > 0 && (text[end] & 0xC0) == 0x80) --end;  // not within a character
     return text.substr(0, end) + "...";
 }
