@@ -275,17 +275,28 @@ TEST(ZarrConventions, LabelsOfOmeAreCategories) {
         R"({"multiscales": [{"axes": ["z", "y", "x"], "datasets": [{"path": "s 0"}]}]})");
     putLevel(store / "s 0", {2, 3, 4}, false);
     put(store / "labels/.zgroup", "{}");
-    put(store / "labels/cells/.zgroup", "{}");
-    put(store / "labels/cells/.zattrs",
+    put(store / "labels/the cells/.zgroup", "{}");
+    put(store / "labels/the cells/.zattrs",
         R"({"image-label": {}, "multiscales": [{"axes": ["z", "y", "x"], "datasets": )"
         R"([{"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [3, 2, 1]}]}]}]})");
-    putLevel(store / "labels/cells/0", {2, 3, 4}, false);
+    putLevel(store / "labels/the cells/0", {2, 3, 4}, false);
     const auto reader = open(store);
-    ASSERT_THAT(namesOf(*reader), ElementsAre("s 0", "labels/cells/0"));
+    ASSERT_THAT(namesOf(*reader), ElementsAre("s 0", "labels/the cells/0"));
     EXPECT_FALSE(reader->variables()[0].categories);
     EXPECT_EQ(reader->variables()[0].grid->axes()[2].units, "index");
     EXPECT_TRUE(reader->variables()[1].categories);
     EXPECT_EQ(reader->variables()[1].grid->axes()[2].coordinates, (std::vector<double>{0, 3}));
+}
+
+TEST(ZarrConventions, AxesOfOmeAreWhatTheirTypesSay) {
+    const auto store = v2Group();
+    put(store / ".zattrs",
+        R"({"multiscales": [{"axes": [{"name": "frame", "type": "time"}, {"name": "row", "type": )"
+        R"("space"}, {"name": "column", "type": "space"}], "datasets": [{"path": "0"}]}]})");
+    putLevel(store / "0", {3, 2, 4}, false);
+    const auto reader = open(store);
+    EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 2, 1}));
+    EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
 }
 
 // Before version 0.3 the axes are t, c, z, y, x; a transformation that is not read places nothing.

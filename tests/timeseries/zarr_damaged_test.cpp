@@ -56,6 +56,7 @@ TEST(DamagedZarr, WhatIsNotReadOfVersion2IsNamed) {
              {{{"chunks", "[1000000, 1000000, 1000000]"}}, "expected a chunk of at most"},
              {{{"chunks", "[4294967296, 4294967296, 4294967296]"}}, "expected a chunk of at most"},
              {{{"fill_value", "\"none\""}}, "fill_value: expected a value of float32, found none"},
+             {{{"fill_value", "1e300"}}, "fill_value: expected a value of float32, found 1e+300"},
              {{{"fill_value", "300"}, {"dtype", "\"|u1\""}},
               "expected a value of uint8, found 300"},
              {{{"fill_value", "1.5"}, {"dtype", "\"|u1\""}},
@@ -100,6 +101,7 @@ TEST(DamagedZarr, WhatIsNotReadOfVersion3IsNamed) {
              {codecs(R"([{"name": "transpose", "configuration": {"order": "F"}}, )" + bytes + "]"),
               "expected each dimension once, found F"},
              {shards("[2, 3, 4]", "[" + bytes + "]", "[" + bytes + "]"), "shards of whole chunks"},
+             {codecs(R"([{"name": "sharding_indexed"}, "gzip"])"), "none beside sharding_indexed"},
              {shards("[1, 1]", "[" + bytes + "]", "[" + bytes + "]"), "expected 3 lengths"},
              {shards("[1, 1, 1]", "[" + bytes + "]", "[" + bytes + R"(, "gzip"])"),
               "index_codecs: expected bytes and crc32c alone"},
@@ -140,6 +142,8 @@ TEST(DamagedZarr, OneThatIsNotReadCostsOnlyItself) {
     EXPECT_EQ(reader->damaged()[0].name, "none");
     EXPECT_THAT(reader->damaged()[0].why, HasSubstr("none/.zarray: expected a JSON object"));
     EXPECT_EQ(reader->damaged()[1].name, "half");
+    EXPECT_TRUE(open(store / "a")->damaged().empty());
+    EXPECT_THAT(refusalOf(store / "half"), HasSubstr("found <f2"));
 }
 
 TEST(DamagedZarr, ACoordinateThatIsNotReadCostsWhatItPlaces) {
@@ -166,19 +170,16 @@ TEST(DamagedZarr, ACoordinateThatIsNotReadCostsWhatItPlaces) {
     expectLeftOut("variable 'x': compressor: expected");
 }
 
-// What reading says of a chunk that holds these bytes.
+// What reading an array says of its only chunk, of 128 bytes, that holds these.
 std::string chunkRefusal(const std::string& compressor, const std::string& bytes) {
     const auto store = v2Group();
+    const std::string id = compressor.empty() ? "null" : "{\"id\": \"" + compressor + "\"}";
     put(store / "v/.zarray",
-        v2Array(
-            kCube, "<f4",
-            {{"compressor", compressor.empty() ? "null" : "{\"id\": \"" + compressor + "\"}"}}));
-    writeChunks<float>(store / "v", kCube, indexOf3);
-    put(store / "v/1.0.0", bytes);
+        v2Array({.shape = {2, 4, 4}, .chunk = {2, 4, 4}}, "<f4", {{"compressor", id}}));
+    put(store / "v/0.0.0", bytes);
     try {
         open(store)->read(0, 0);
     } catch (const FileError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("store.zarr/v/"));
         return error.what();
     }
     return "";
@@ -191,35 +192,22 @@ TEST(DamagedZarr, AChunkHasAsManyBytesAsItsShapeSays) {
     };
     const std::string whole(128, 'a');  // of which no packer makes nothing
     for (const auto& [name, pack] : packers) {
-        // The chunk before it is not packed as the metadata say, but for none.
-        const auto refusal = [&, name = name](const std::string& bytes) {
-            const auto store = v2Group();
-            const Layout one{.shape = {2, 4, 4}, .chunk = {2, 4, 4}};
-            put(store / "v/.zarray",
-                v2Array(one, "<f4",
-                        {{"compressor", name.empty() ? "null" : "{\"id\": \"" + name + "\"}"}}));
-            put(store / "v/0.0.0", bytes);
-            try {
-                open(store)->read(0, 0);
-            } catch (const FileError& error) {
-                return std::string(error.what());
-            }
-            return std::string();
-        };
-        EXPECT_EQ(refusal(pack(whole)), "") << name;
+        EXPECT_EQ(chunkRefusal(name, pack(whole)), "") << name;
         for (const std::string& wrong :
              {pack(whole.substr(1)), pack(whole + "a"), pack(whole + whole), std::string(),
               std::string("x"), pack(whole).substr(0, pack(whole).size() - 3),
               pack(whole).substr(0, 2)})
-            EXPECT_THAT(refusal(wrong), AllOf(HasSubstr("v/0.0.0: expected"), HasSubstr("128")))
+            EXPECT_THAT(chunkRefusal(name, wrong),
+                        AllOf(HasSubstr("v/0.0.0: expected"), HasSubstr("128")))
                 << name << ", " << wrong.size();
     }
     // Sizes that a packer states, of 2 GB.
     const std::string huge = littleEndian(0x7FFFFFFF, 4);
-    EXPECT_THAT(chunkRefusal("lz4", huge + "abcdef"), HasSubstr("expected 128 bytes"));
+    EXPECT_THAT(chunkRefusal("lz4", huge + "abcdef"),
+                HasSubstr("expected 128 bytes packed by lz4, found 2147483647"));
     std::string blosc = byBlosc(whole);
     blosc.replace(4, 4, huge);
-    EXPECT_THAT(chunkRefusal("blosc", blosc), HasSubstr("expected 128 bytes"));
+    EXPECT_THAT(chunkRefusal("blosc", blosc), HasSubstr("expected 128 bytes packed by blosc"));
 }
 
 TEST(DamagedZarr, ChecksumsAreHeld) {
@@ -288,7 +276,12 @@ TEST(DamagedZarr, SizesThatNoFilesHoldAreRefused) {
     put(store / "v/0.0.0", byZstd(std::string(std::size_t{1} << 25, 'a')));
     const auto values = valuesOf<std::uint8_t>(*open(store), "v");
     EXPECT_EQ(std::ranges::count(values, 'a'), std::ssize(values));
-    // But not 2 GB of chunk from a few bytes.
+    // But not more points than a step has, whatever is stored.
+    put(store / "v/.zarray",
+        v2Array({.shape = {2048, 2048, 2048}, .chunk = {256, 256, 256}}, "|u1"));
+    put(store / "v/0.0.0", std::string(1 << 18, 'a'));
+    EXPECT_THAT(refusalOf(store), HasSubstr("expected at most 2^32 points, found 8589934592"));
+    // Nor 2 GB of chunk from a few bytes.
     const Layout vast{.shape = {128, 512, 512}, .chunk = {8000, 512, 512}};
     put(store / "v/.zarray", v2Array(vast, "|u1", {{"compressor", R"({"id": "zlib"})"}}));
     put(store / "v/0.0.0", byZlib(std::string(1 << 20, 'a')));
@@ -343,7 +336,10 @@ TEST(DamagedZarr, MetadataThatAreNoneAreRefused) {
     std::filesystem::remove(store / ".zarray");
     put(store / ".zattrs", "{" + std::string(17 << 20, ' ') + "}");
     EXPECT_THAT(refusalOf(store), HasSubstr("expected metadata of at most 16777216 bytes"));
-    put(store / ".zattrs", std::string(1 << 20, '['));
+    const std::string open(1 << 20, '['), close(1 << 20, ']');
+    put(store / ".zattrs", "{\"a\": " + open + close + "}");
+    EXPECT_THAT(refusalOf(store), HasSubstr("nested at most 100 deep"));
+    put(store / ".zattrs", open);
     EXPECT_THAT(refusalOf(store), HasSubstr("expected a JSON object"));
     store = v3Group();
     put(store / "zarr.json", "{\"node_type\": \"a\\nb\"}");

@@ -377,7 +377,7 @@ TEST(Zarr, AnArrayAloneIsCalledAsItsFolder) {
     layout.separator = "/";
     writeChunks<float>(store, layout, valueAt<float>);
     expectValues<float>(store, "alone");
-    EXPECT_EQ(open(store)->variables()[0].name, "alone.zarr");
+    EXPECT_EQ(open(store)->variables()[0].name, "alone");
     EXPECT_EQ(open(store)->format(), "Zarr v3");
     // Chunks may be written over without any sign of it in the folder itself.
     EXPECT_TRUE(open(store)->sources(0, 0).files.empty());

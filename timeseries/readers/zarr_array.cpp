@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "timeseries/grid/with_type.h"
@@ -17,7 +18,10 @@ namespace {
 template <typename T>
 std::optional<T> storedFill(const Number& number) {
     if constexpr (std::is_floating_point_v<T>) {
-        return static_cast<T>(toDouble(number));
+        const double value = toDouble(number);
+        if (std::isfinite(value) && std::abs(value) > std::numeric_limits<T>::max())
+            return std::nullopt;
+        return static_cast<T>(value);
     } else {
         if (const double* d = std::get_if<double>(&number)) {
             // Whole numbers with a point, as some write them: exact up to 2^53.

@@ -13,7 +13,8 @@
 namespace timeseries {
 namespace {
 
-constexpr std::uint64_t kMaxChannels = 256;  // a variable each
+constexpr std::uint64_t kMaxChannels = 256;   // a variable each
+constexpr std::size_t kMaxVariables = 16384;  // each is looked for among the others
 
 std::string groupOf(const std::string& name) {
     const auto slash = name.rfind('/');
@@ -41,6 +42,9 @@ class ZarrHeaderBuilder {
             return std::ranges::count(array->name, '/');
         });
         for (const ZarrArray* array : arrays) addArray(*array);
+        if (!hierarchy.only.empty())
+            std::erase_if(result_.damaged,
+                          [&](const DamagedVariable& each) { return each.name != hierarchy.only; });
     }
     ZarrHeader take() { return std::move(result_); }
 
@@ -50,8 +54,7 @@ class ZarrHeaderBuilder {
     bool isWanted(const ZarrArray& array) const;
     void addArray(const ZarrArray& array);
     void addLevel(const ZarrArray& array, const ZarrLevel& level, NcVariable variable);
-    void addCoordinate(const ZarrArray& array, const ZarrAxis& axis, std::size_t dimension,
-                       NcVariable& variable);
+    void addCoordinate(const ZarrAxis& axis, std::size_t dimension, NcVariable& variable);
     void addChannels(const ZarrArray& array, const ZarrLevel& level, std::size_t position,
                      const NcVariable& variable);
     void add(NcVariable variable, ZarrSource source);
@@ -169,12 +172,14 @@ void ZarrHeaderBuilder::addLevel(const ZarrArray& array, const ZarrLevel& level,
             channels = d;
             continue;
         }
-        variable.dimensions.push_back(dimensionOf(array.name, axis.name, array.shape[d], false));
-        // Times that are but counted are not told.
-        const bool isCounted = axis.kind == AxisKind::T && axis.units.empty() && axis.places &&
-                               axis.places->scale == 1 && axis.places->offset == 0;
+        // Times that are but counted are not told, only that they are times.
+        const bool isCounted = axis.kind == AxisKind::T &&
+                               (!axis.places || (axis.units.empty() && axis.places->scale == 1 &&
+                                                 axis.places->offset == 0));
+        variable.dimensions.push_back(
+            dimensionOf(array.name, isCounted ? "t" : axis.name, array.shape[d], false));
         if (axis.kind && axis.places && !isCounted)
-            addCoordinate(array, axis, variable.dimensions.back(), variable);
+            addCoordinate(axis, variable.dimensions.back(), variable);
     }
     if (level.areLabels)
         variable.attributes.push_back({"flag_meanings", std::string("labels"), std::nullopt});
@@ -185,10 +190,13 @@ void ZarrHeaderBuilder::addLevel(const ZarrArray& array, const ZarrLevel& level,
 }
 
 // Each level has its own, in a group that no array can be in.
-void ZarrHeaderBuilder::addCoordinate(const ZarrArray& array, const ZarrAxis& axis,
-                                      std::size_t dimension, NcVariable& variable) {
+void ZarrHeaderBuilder::addCoordinate(const ZarrAxis& axis, std::size_t dimension,
+                                      NcVariable& variable) {
+    // As the variable names it from its own group; what else it names is of no image.
+    const std::string own = asWord(std::string(variable.baseName()));
+    const std::string word = own + '/' + asWord(axis.name);
     NcVariable coordinate;
-    coordinate.group = asWord(array.name);
+    coordinate.group = variable.group + (variable.group.empty() ? "" : "/") + own;
     coordinate.name = coordinate.group + '/' + asWord(axis.name);
     coordinate.type = ValueType::F64;
     coordinate.dimensions = {dimension};
@@ -199,9 +207,6 @@ void ZarrHeaderBuilder::addCoordinate(const ZarrArray& array, const ZarrAxis& ax
                                                           : "T";
     coordinate.attributes = {{"axis", std::string(letter), std::nullopt},
                              {"units", axis.units, std::nullopt}};
-    // As the variable names it from its own group; what else it names is of no image.
-    const std::string word =
-        coordinate.name.substr(variable.group.empty() ? 0 : variable.group.size() + 1);
     auto said = std::ranges::find(variable.attributes, "coordinates", &NcAttribute::name);
     if (said == variable.attributes.end())
         said = variable.attributes.insert(said, {"coordinates", std::string(), std::nullopt});
@@ -212,6 +217,14 @@ void ZarrHeaderBuilder::addCoordinate(const ZarrArray& array, const ZarrAxis& ax
 // A variable for each.
 void ZarrHeaderBuilder::addChannels(const ZarrArray& array, const ZarrLevel& level,
                                     std::size_t position, const NcVariable& variable) {
+    if (result_.header.variables.size() + array.shape[position] > kMaxVariables) {
+        result_.damaged.push_back(
+            {array.name,
+             fmt::format("{}: expected at most {} variables, found more with its {} "
+                         "channels",
+                         hierarchy_.folder.string(), kMaxVariables, array.shape[position])});
+        return;
+    }
     std::set<std::string> seen{""};
     for (std::size_t c = 0; c < array.shape[position]; ++c) {
         std::string label = c < level.channels.size() ? level.channels[c] : "";

@@ -158,6 +158,8 @@ ZarrHierarchy zarrHierarchyOf(const fs::path& path) {
                     ? folder.parent_path()
                     : around;
             name.clear();
+        } else if (name.ends_with(".zarr")) {
+            name.resize(name.size() - 5);
         }
     }
     all.folder = folder;

@@ -16,13 +16,19 @@ constexpr std::uintmax_t kMostJsonBytes = 16 << 20;
 // The longer first.
 constexpr std::array<std::string_view, 3> kNoJson{"-Infinity", "Infinity", "NaN"};
 
-// The words of Python's that are no JSON, as texts.
+// Of lists within lists: they are copied and written by functions that call themselves.
+constexpr int kMostJsonDepth = 100;
+
+// With the words of Python's that are no JSON as texts; "" when it is nested too deeply.
 std::string asJson(std::string_view text) {
     std::string json;
     bool quoted = false;
+    int depth = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (c == '"') quoted = !quoted;
+        if (!quoted && (c == '[' || c == '{') && ++depth > kMostJsonDepth) return "";
+        if (!quoted && (c == ']' || c == '}')) --depth;
         if (quoted && c == '\\' && i + 1 < text.size()) json += text[i++];
         std::string_view word;
         if (!quoted && (c == '-' || c == 'I' || c == 'N'))
@@ -55,7 +61,8 @@ ZarrJson readZarrJson(const std::filesystem::path& path) {
     file.read(text.data(), static_cast<std::streamsize>(bytes));
     text.resize(static_cast<std::size_t>(file.gcount()));
     ZarrJson json = ZarrJson::parse(asJson(text), nullptr, false);
-    if (!json.is_object()) fail("expected a JSON object");
+    if (!json.is_object())
+        fail(fmt::format("expected a JSON object, nested at most {} deep", kMostJsonDepth));
     return json;
 }
 
