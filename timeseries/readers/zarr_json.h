@@ -14,8 +14,8 @@ namespace timeseries {
 
 using ZarrJson = nlohmann::json;
 
-// Of a file of at most 16 MB that holds an object, nested at most 100 deep. NaN, Infinity and -Infinity, which Python writes
-// as they are, become texts. Throws FileError.
+// Of a file of at most 16 MB that holds an object, nested at most 100 deep. NaN, Infinity and
+// -Infinity, which Python writes as they are, become texts. Throws FileError.
 ZarrJson readZarrJson(const std::filesystem::path& path);
 
 // Null when it is no object, or has none of that name.
