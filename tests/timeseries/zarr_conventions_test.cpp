@@ -55,6 +55,8 @@ TEST(ZarrConventions, DimensionsOfXarrayHaveTheirCoordinates) {
     EXPECT_EQ(axes[0], (Axis{"lon", "degrees_east", {10, 20, 40, 70}, false}));
     EXPECT_EQ(axes[1], (Axis{"lat", "degrees_north", {-5, 0, 5}, false}));
     EXPECT_EQ(axes[2], (Axis{"depth", "m", {100, 500}, true}));
+    // Named alone, it has the coordinates of its group.
+    EXPECT_EQ(open(store / "temp")->variables()[0].grid->axes()[0], axes[0]);
     EXPECT_EQ(variable.time->calendar, "noleap");
     EXPECT_EQ(variable.time->points[1].date, "2000-03-01 12:00:00");  // without a 29th
     EXPECT_THAT(
@@ -81,7 +83,8 @@ TEST(ZarrConventions, PackedNumbersAreUnpacked) {
     const Layout layout{.shape = {2, 2, 2}, .chunk = {2, 2, 2}};
     put(store / "v/.zarray", v2Array(layout, "<i2", {{"fill_value", "-1"}}));
     put(store / "v/.zattrs",
-        R"({"_ARRAY_DIMENSIONS": ["z", "y", "x"], "scale_factor": 0.5, "add_offset": 100})");
+        R"({"_ARRAY_DIMENSIONS": ["z", "y", "x"], "scale_factor": 0.5, "add_offset": 100, )"
+        R"("long_name": "Infinity"})");
     writeChunks<std::int16_t>(store / "v", layout, [](const Lengths& at) {
         const auto n = placeOf<std::int16_t>(at);
         return static_cast<std::int16_t>(n == 11 ? -1 : n);
@@ -89,6 +92,7 @@ TEST(ZarrConventions, PackedNumbersAreUnpacked) {
     const auto reader = open(store);
     EXPECT_EQ(reader->variables()[0].storedAs, "int16 packed, scale 0.5, offset 100");
     EXPECT_EQ(reader->variables()[0].missing, "_FillValue -1");
+    EXPECT_EQ(reader->variables()[0].longName, "Infinity");
     const Field field = reader->read(0, 0);
     EXPECT_THAT(std::get<std::vector<double>>(field.values),
                 ElementsAre(100, 100.5, 105, 99.5, 150, 150.5, 155, 155.5));
@@ -140,6 +144,32 @@ TEST(ZarrConventions, WhatIsMissingIsWhatXarrayCallsSo) {
                               R"( \" NaN", "range": [-Infinity, Infinity]})"),
                 IsEmpty());
     EXPECT_EQ(missingOf(false, "\"NaN\"", R"({"valid_range": [-Infinity, 6]})"), only(7));
+}
+
+TEST(ZarrConventions, LongitudesOfTwoDimensionsPlaceColumns) {
+    const auto store = v2Group();
+    const Layout flat{.shape = {3, 4}, .chunk = {3, 4}},
+        volume{.shape = {2, 3, 4}, .chunk = {2, 3, 4}};
+    for (const std::string name : {"lon", "lat"}) {
+        put(store / name / ".zarray", v2Array(flat, "<f8"));
+        put(store / name / ".zattrs",
+            fmt::format(R"({{"_ARRAY_DIMENSIONS": ["j", "i"], "units": "degrees_{}"}})",
+                        name == "lon" ? "east" : "north"));
+        writeChunks<double>(store / name, flat, [&](const Lengths& at) {
+            const auto j = static_cast<double>(at[0]), i = static_cast<double>(at[1]);
+            return name == "lon" ? i + 0.25 * j : j - 0.125 * i;
+        });
+    }
+    put(store / "v/.zarray", v2Array(volume, "<f4"));
+    put(store / "v/.zattrs",
+        R"({"_ARRAY_DIMENSIONS": ["lev", "j", "i"], "coordinates": "lon lat"})");
+    for (const auto& path : {store, store / "v"}) {
+        const auto reader = open(path);
+        ASSERT_THAT(namesOf(*reader), ElementsAre("v"));
+        const Grid& grid = *reader->variables()[0].grid;
+        ASSERT_TRUE(grid.mesh()) << path;
+        EXPECT_LT(glm::distance(grid.position(12 + 2 * 4 + 3), glm::dvec3(3.5, 1.625, 1)), 1e-6);
+    }
 }
 
 TEST(ZarrConventions, GroupsSeeTheCoordinatesAroundThem) {
@@ -203,8 +233,14 @@ TEST(ZarrConventions, DimensionsWithoutNamesAreTimeAndSpace) {
         EXPECT_EQ(reader->variables()[0].time->points.size(), steps) << listed(shape);
         EXPECT_TRUE(reader->variables()[0].time->counted);
     }
+    // Of two dimensions without names it is a table.
+    auto store = v2Group();
+    for (const Lengths& shape : {Lengths{6, 7}, Lengths{2, 3, 4}})
+        put(store / std::to_string(shape.size()) / ".zarray",
+            v2Array({.shape = shape, .chunk = shape}, "<i4"));
+    EXPECT_THAT(namesOf(*open(store)), ElementsAre("3"));
     const Layout layout{.shape = {5, 2, 2, 3, 4}, .chunk = {5, 2, 2, 3, 4}};
-    const auto store = v2Group();
+    store = v2Group();
     put(store / "v/.zarray", v2Array(layout, "<i4"));
     EXPECT_THAT(refusalOf(store),
                 HasSubstr("the dimension dim_0 of 5 is none of x, y, z and time"));
@@ -237,7 +273,7 @@ TEST(ZarrConventions, ImagesOfOmeAreResolutionsAndChannels) {
     for (const bool isV3 : {false, true}) {
         const std::string said = fmt::format(
             R"("multiscales": [{{"axes": {}, "datasets": [{}, {}], "coordinateTransformations": )"
-            R"([{{"type": "scale", "scale": [30, 1, 1, 1, 1]}}]}}], "omero": {{"channels": )"
+            R"([{{"type": "scale", "scale": [30, 1, 2, 1, 1]}}]}}], "omero": {{"channels": )"
             R"([{{"label": "DAPI"}}, {{}}]}})",
             kAxes, dataset("0", "[1, 1, 2, 0.5, 0.25]", "[0, 0, 10, 0, 0]"),
             dataset("1", "[1, 1, 2, 1, 0.5]", "[0, 0, 10, 0.25, 0.125]"));
@@ -253,7 +289,7 @@ TEST(ZarrConventions, ImagesOfOmeAreResolutionsAndChannels) {
         const auto& axes = fine.grid->axes();
         EXPECT_EQ(axes[0], (Axis{"x", "micrometer", {0, 0.25, 0.5, 0.75, 1, 1.25}, false}));
         EXPECT_EQ(axes[1], (Axis{"y", "micrometer", {0, 0.5, 1, 1.5}, false}));
-        EXPECT_EQ(axes[2], (Axis{"z", "micrometer", {10, 12}, false}));
+        EXPECT_EQ(axes[2], (Axis{"z", "micrometer", {20, 24}, false}));
         EXPECT_THAT(timesOf(*reader), ElementsAre(0, 30));
         EXPECT_EQ(fine.time->units, "second");
         EXPECT_THAT(fine.notes, IsEmpty());
@@ -265,14 +301,15 @@ TEST(ZarrConventions, ImagesOfOmeAreResolutionsAndChannels) {
         // The array alone.
         const auto one = open(store / "1");
         EXPECT_THAT(namesOf(*one), ElementsAre("1 DAPI", "1 channel 1"));
-        EXPECT_EQ(one->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{10, 12}));
+        EXPECT_EQ(one->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{20, 24}));
     }
 }
 
 TEST(ZarrConventions, LabelsOfOmeAreCategories) {
     const auto store = v2Group();
     put(store / ".zattrs",
-        R"({"multiscales": [{"axes": ["z", "y", "x"], "datasets": [{"path": "s 0"}]}]})");
+        R"({"multiscales": [{"axes": ["z", "y", "x"], "datasets": [{"path": "s 0", )"
+        R"("coordinateTransformations": [{"type": "scale", "scale": [5, 1, 1]}]}]}]})");
     putLevel(store / "s 0", {2, 3, 4}, false);
     put(store / "labels/.zgroup", "{}");
     put(store / "labels/the cells/.zgroup", "{}");
@@ -283,7 +320,7 @@ TEST(ZarrConventions, LabelsOfOmeAreCategories) {
     const auto reader = open(store);
     ASSERT_THAT(namesOf(*reader), ElementsAre("s 0", "labels/the cells/0"));
     EXPECT_FALSE(reader->variables()[0].categories);
-    EXPECT_EQ(reader->variables()[0].grid->axes()[2].units, "index");
+    EXPECT_EQ(reader->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{0, 5}));
     EXPECT_TRUE(reader->variables()[1].categories);
     EXPECT_EQ(reader->variables()[1].grid->axes()[2].coordinates, (std::vector<double>{0, 3}));
 }
@@ -292,11 +329,21 @@ TEST(ZarrConventions, AxesOfOmeAreWhatTheirTypesSay) {
     const auto store = v2Group();
     put(store / ".zattrs",
         R"({"multiscales": [{"axes": [{"name": "frame", "type": "time"}, {"name": "row", "type": )"
-        R"("space"}, {"name": "column", "type": "space"}], "datasets": [{"path": "0"}]}]})");
+        R"("space"}, {"name": "column", "type": "space"}], "datasets": [{"path": "0", )"
+        R"("coordinateTransformations": [{"type": "scale", "scale": [1, 2, 3]}]}]}]})");
     putLevel(store / "0", {3, 2, 4}, false);
     const auto reader = open(store);
     EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 2, 1}));
     EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
+    EXPECT_TRUE(reader->variables()[0].time->counted);  // for want of a unit
+}
+
+TEST(ZarrConventions, ChannelsOfOneNameAreNumbered) {
+    const auto store = v2Group();
+    put(store / ".zattrs", R"({"multiscales": [{"datasets": [{"path": "0"}]}], "omero": )"
+                           R"({"channels": [{"label": "a"}, {"label": "a"}, {"label": "b"}]}})");
+    putLevel(store / "0", {1, 3, 2, 3, 4}, false);
+    EXPECT_THAT(namesOf(*open(store)), ElementsAre("0 a", "0 channel 1", "0 b"));
 }
 
 // Before version 0.3 the axes are t, c, z, y, x; a transformation that is not read places nothing.
@@ -314,6 +361,10 @@ TEST(ZarrConventions, OldImagesOfOmeHaveFiveAxes) {
         EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 3, 2}));
         EXPECT_EQ(reader->variables()[0].grid->axes()[0].units, "index");
     }
+    put(store / ".zattrs", R"({"multiscales": [{"datasets": [)" +
+                               dataset("0", "[1, 1, 2, 2, 2]", "[0, 0, 0, 0, 0]") +
+                               R"(], "coordinateTransformations": [{"type": "affine"}]}]})");
+    EXPECT_EQ(open(store)->variables()[0].grid->axes()[0].units, "index");
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ TEST(DamagedZarr, WhatIsNotReadOfVersion2IsNamed) {
              {{{"chunks", "[2, 4]"}}, "chunks: expected 3 lengths greater than 0, found [2,4]"},
              {{{"chunks", "[2, 0, 4]"}}, "chunks: expected 3 lengths greater than 0"},
              {{{"chunks", "[2, -4, 4]"}}, "chunks: expected 3 lengths greater than 0"},
+             {{{"chunks", "[4611686018427387904, 4, 4]"}}, "expected a chunk of at most"},
              {{{"chunks", "[1000000, 1000000, 1000000]"}}, "expected a chunk of at most"},
              {{{"chunks", "[4294967296, 4294967296, 4294967296]"}}, "expected a chunk of at most"},
              {{{"fill_value", "\"none\""}}, "fill_value: expected a value of float32, found none"},
