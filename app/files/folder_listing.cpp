@@ -24,9 +24,10 @@ FolderContents listed(const fs::path& folder, bool all) {
         for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
             if (entry.path().filename().string().starts_with('.')) continue;
             std::error_code gone;
-            const bool isFolder = entry.is_directory(gone);
-            if (isFolder || (entry.is_regular_file(gone) && (all || opens(entry.path()))))
-                contents.entries.push_back({entry.path(), isFolder});
+            const bool inside = isFolder(entry.path());
+            const bool isData = !inside && entry.is_directory(gone);
+            if (inside || isData || (entry.is_regular_file(gone) && (all || opens(entry.path()))))
+                contents.entries.push_back({entry.path(), inside});
         }
     } catch (const fs::filesystem_error& error) {
         contents.why = folder.string() + ": " + error.code().message();
@@ -39,6 +40,11 @@ FolderContents listed(const fs::path& folder, bool all) {
 }
 
 }  // namespace
+
+bool isFolder(const fs::path& path) {
+    std::error_code gone;
+    return fs::is_directory(path, gone) && !timeseries::isReadable(path);
+}
 
 bool opens(const fs::path& file) {
     const std::string extension = file.extension().string();

@@ -20,6 +20,9 @@ struct FolderContents {
     std::string why;                   // one sentence when it could not be read
 };
 
+// A folder to look into: none that is a data set itself.
+bool isFolder(const std::filesystem::path& path);
+
 // Sessions and pictures are told by their names, data files by their beginnings.
 bool opens(const std::filesystem::path& file);
 

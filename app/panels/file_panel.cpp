@@ -21,11 +21,6 @@ fs::path meant(const std::string& typed, const fs::path& folder) {
     return folder / typed;
 }
 
-bool isFolder(const fs::path& path) {
-    std::error_code gone;
-    return fs::is_directory(path, gone);
-}
-
 const char* titleOf(FilePanel::For what) {
     switch (what) {
         case FilePanel::For::Open:

@@ -84,9 +84,12 @@ TEST(PlotPicture, AFilledMarkCoversWhatLiesUnderIt) {
     for (int y = 0; y < 40; ++y)
         for (int x = 0; x < 60; ++x) {
             const double off = std::hypot(x + 0.5 - 30, y + 0.5 - 20);
-            if (off < 11.4) EXPECT_EQ(pixelAt(picture, x, y), 0x0969dau) << x << ' ' << y;
-            if (off > 12.6 && std::abs(y + 0.5 - 20) > 2.6)
+            if (off < 11.4) {
+                EXPECT_EQ(pixelAt(picture, x, y), 0x0969dau) << x << ' ' << y;
+            }
+            if (off > 12.6 && std::abs(y + 0.5 - 20) > 2.6) {
                 EXPECT_EQ(pixelAt(picture, x, y), kPaper) << x << ' ' << y;
+            }
         }
 }
 
@@ -99,9 +102,12 @@ TEST(PlotPicture, AHollowMarkIsItsRimAroundPaper) {
     for (int y = 0; y < 40; ++y)
         for (int x = 0; x < 60; ++x) {
             const double off = std::hypot(x + 0.5 - 30, y + 0.5 - 20);
-            if (off < 7.4) EXPECT_EQ(pixelAt(picture, x, y), kPaper) << x << ' ' << y;
-            if (off > 8.6 && off < 11.4)
+            if (off < 7.4) {
+                EXPECT_EQ(pixelAt(picture, x, y), kPaper) << x << ' ' << y;
+            }
+            if (off > 8.6 && off < 11.4) {
                 EXPECT_EQ(pixelAt(picture, x, y), 0xc2410cu) << x << ' ' << y;
+            }
         }
 }
 

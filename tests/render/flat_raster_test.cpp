@@ -114,9 +114,13 @@ TEST(FlatRaster, ADiscsTrianglesMeetWithoutGapOrOverlap) {
     const auto light = drawn(mesh);
     for (int y = 0; y < kPicture.y; ++y)
         for (int x = 0; x < kPicture.x; ++x) {
-            const float off = glm::length(glm::vec2(x + 0.5f, y + 0.5f) - glm::vec2(31.2f, 24.5f));
-            if (off < 17.4f) EXPECT_EQ(at(light, x, y).r, 0.5f) << x << ' ' << y;
-            if (off > 18.6f) EXPECT_EQ(at(light, x, y).r, 0.0f) << x << ' ' << y;
+            const float off = glm::length(glm::vec2(x, y) + 0.5f - glm::vec2(31.2f, 24.5f));
+            if (off < 17.4f) {
+                EXPECT_EQ(at(light, x, y).r, 0.5f) << x << ' ' << y;
+            }
+            if (off > 18.6f) {
+                EXPECT_EQ(at(light, x, y).r, 0.0f) << x << ' ' << y;
+            }
         }
 }
 

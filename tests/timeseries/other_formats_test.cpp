@@ -16,8 +16,9 @@ using namespace std::string_literals;
 using Path = std::filesystem::path;
 
 const std::string kTail =
-    "; isochron reads NetCDF, Exodus II, VTKHDF, XDMF, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of "
-    "VTK, image data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, "
+    "; isochron reads NetCDF, Exodus II, VTKHDF, XDMF, Zarr, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV "
+    "and, of VTK, image data, rectilinear, structured and unstructured grids, polygons (.vti, "
+    ".vtr, .vts, "
     ".vtu, .vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series)";
 
 // What opening a file or folder says it is.
@@ -102,13 +103,12 @@ TEST(OtherFormats, SignsInsideAFileThatIsReadTellNothing) {
     EXPECT_EQ(toldOf(file), "read");
 }
 
-TEST(OtherFormats, AZarrStoreIsAFolder) {
-    for (const char* name : {".zgroup", ".zarray", "zarr.json"}) {
-        const Path store = tests::testFolder() / (name + "_store.zarr"s);
-        std::filesystem::create_directories(store);
-        tests::writeBytes(store / name, "{}");
-        EXPECT_EQ(told(store), "a Zarr store");
-    }
+TEST(OtherFormats, AnAdios2FileIsAFolder) {
+    const Path store = tests::testFolder() / "run.bp";
+    std::filesystem::create_directories(store);
+    tests::writeBytes(store / "md.idx", "");
+    tests::writeBytes(store / "md.0", "");
+    EXPECT_EQ(told(store), "an ADIOS2 file (BP)");
 }
 
 TEST(OtherFormats, RealFilesAreNamed) {

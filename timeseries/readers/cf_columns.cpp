@@ -54,7 +54,7 @@ FoundColumns columnsOf(const NcHeader& header, const NcVariable& variable, const
     return found;
 }
 
-std::shared_ptr<const Mesh> meshOf(const NetcdfFile& file, const NcVariable& variable,
+std::shared_ptr<const Mesh> meshOf(const CfFile& file, const NcVariable& variable,
                                    const Roles& roles, const ColumnPlaces& columns, const Axis& z,
                                    std::size_t step) {
     const NcVariable* const lon = file.header().find(columns.x, "");

@@ -9,8 +9,8 @@
 
 #include "timeseries/grid/grid.h"
 #include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/cf_file.h"
 #include "timeseries/readers/cf_heights.h"
-#include "timeseries/readers/netcdf_file.h"
 
 namespace timeseries {
 
@@ -48,7 +48,7 @@ FoundColumns columnsOf(const NcHeader& header, const NcVariable& variable, const
 
 // Of that step of the file, with the levels of `z` above each column, or its own heights. Throws
 // FileError, and std::invalid_argument when the places make no mesh.
-std::shared_ptr<const Mesh> meshOf(const NetcdfFile& file, const NcVariable& variable,
+std::shared_ptr<const Mesh> meshOf(const CfFile& file, const NcVariable& variable,
                                    const Roles& roles, const ColumnPlaces& columns, const Axis& z,
                                    std::size_t step);
 

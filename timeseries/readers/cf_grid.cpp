@@ -30,7 +30,7 @@ bool measured(const NcVariable* coordinate) {
     return units.starts_with("deg") || units.starts_with("rad") || sameDimension(units, "m");
 }
 
-Axis axisOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+Axis axisOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
             std::size_t position, std::vector<std::string>& notes) {
     const NcDimension& dimension = file.header().dimension(variable, position);
     const NcVariable* coordinate = fileAxes.coordinateOf(variable, position);
@@ -86,7 +86,7 @@ Axis listedAxis(const NcHeader& header, const ColumnPlaces& list, bool isX) {
 }
 
 // Where each column has heights of its own: unless there are too many of them.
-void takeHeights(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+void takeHeights(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                  const Roles& roles, bool upright, FoundColumns& found,
                  std::vector<std::string>& notes) {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 26;  // 36 bytes each, of every step
@@ -114,7 +114,7 @@ void takeHeights(const NetcdfFile& file, const FileAxes& fileAxes, const NcVaria
 
 }  // namespace
 
-VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+VariableAxes axesOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                     const Roles& roles, std::span<const NcVariable* const> geographic,
                     const std::optional<ColumnPlaces>& list, std::vector<std::string>& notes) {
     const NcHeader& header = file.header();

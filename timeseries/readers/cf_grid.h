@@ -11,7 +11,7 @@
 #include "timeseries/grid/grid.h"
 #include "timeseries/readers/cf_axes.h"
 #include "timeseries/readers/cf_columns.h"
-#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/cf_file.h"
 
 namespace timeseries {
 
@@ -24,7 +24,7 @@ struct VariableAxes {
 
 // `geographic`: the file's longitudes and latitudes of any rank. `list`: where the points lie, of a
 // variable on a mesh. Throws FileError when coordinates cannot be read.
-VariableAxes axesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+VariableAxes axesOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                     const Roles& roles, std::span<const NcVariable* const> geographic,
                     const std::optional<ColumnPlaces>& list, std::vector<std::string>& notes);
 

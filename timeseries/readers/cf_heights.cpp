@@ -144,7 +144,7 @@ std::optional<HeightFormula> wrfFormulaOf(const NcHeader& header, const NcVariab
 }
 
 // Halfway between, where the variable lies there; beside the outermost columns as in these.
-std::vector<double> wrfHeights(const NetcdfFile& file, const HeightFormula& formula,
+std::vector<double> wrfHeights(const CfFile& file, const HeightFormula& formula,
                                const std::array<std::size_t, 3>& size, std::size_t step) {
     constexpr double kGravity = 9.80665;
     std::array<TermValues, 2> parts;
@@ -200,8 +200,8 @@ std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVar
     return wrfFormulaOf(header, variable, roles);
 }
 
-std::vector<double> heightsOf(const NetcdfFile& file, const NcVariable& variable,
-                              const Roles& roles, const HeightFormula& formula, std::size_t step) {
+std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
+                              const HeightFormula& formula, std::size_t step) {
     const auto term = [&](const char* name) {
         const auto found = formula.terms.find(name);
         if (found == formula.terms.end()) return Term{};

@@ -37,7 +37,7 @@ std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVar
 
 // [z][y][x], x fastest, of one step; not a number where a term is none. REQUIRES: heightFormulaOf
 // gave it. Throws FileError, and std::invalid_argument when there is too much of a term.
-std::vector<double> heightsOf(const NetcdfFile& file, const NcVariable& variable,
-                              const Roles& roles, const HeightFormula& formula, std::size_t step);
+std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
+                              const HeightFormula& formula, std::size_t step);
 
 }  // namespace timeseries

@@ -92,7 +92,7 @@ std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variab
 }
 
 // Of which there are so many that each has a number of 32 bits.
-std::vector<double> allOf(const NetcdfFile& file, const NcVariable& variable) {
+std::vector<double> allOf(const CfFile& file, const NcVariable& variable) {
     std::uint64_t count = 1;
     for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
         count *= std::min<std::uint64_t>(file.header().dimension(variable, i).length, 1ull << 31);
@@ -109,7 +109,7 @@ struct Coordinates {
     double turn = 0;  // after which x comes round to itself; 0: never
 };
 
-Coordinates coordinatesOf(const NetcdfFile& file, const NcVariable& x, const NcVariable& y,
+Coordinates coordinatesOf(const CfFile& file, const NcVariable& x, const NcVariable& y,
                           const std::string& units) {
     Coordinates all{allOf(file, x), allOf(file, y), turnIn(units) > 0 ? 360.0 : 0.0};
     const double degrees = degreesIn(units);
@@ -118,13 +118,13 @@ Coordinates coordinatesOf(const NetcdfFile& file, const NcVariable& x, const NcV
     return all;
 }
 
-const NcVariable& found(const NetcdfFile& file, const std::string& name) {
+const NcVariable& found(const CfFile& file, const std::string& name) {
     const NcVariable* const variable = file.header().find(name, "");
     if (!variable) file.fail("variable '" + name + "'", "expected it, but the file has changed");
     return *variable;
 }
 
-const NcVariable& boundsOf(const NetcdfFile& file, const NcVariable& coordinate) {
+const NcVariable& boundsOf(const CfFile& file, const NcVariable& coordinate) {
     const NcVariable* const bounds =
         file.header().find(coordinate.text("bounds"), coordinate.group);
     if (!bounds || !bounds->type)
@@ -183,7 +183,7 @@ struct PlacedPolygons {
     std::vector<glm::dvec3> places;
 };
 
-PlacedPolygons polygonsOfBounds(const NetcdfFile& file, const ColumnPlaces& places) {
+PlacedPolygons polygonsOfBounds(const CfFile& file, const ColumnPlaces& places) {
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
     // Bounds have the units of what they bound.
     const std::string units = x.text("units");
@@ -211,7 +211,7 @@ PlacedPolygons polygonsOfBounds(const NetcdfFile& file, const ColumnPlaces& plac
 // Of each which nodes it has, without those that there are not.
 using Faces = std::vector<std::vector<std::uint32_t>>;
 
-Faces facesOf(const NetcdfFile& file, const ColumnPlaces& places, std::size_t nodes) {
+Faces facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t nodes) {
     const NcVariable& faces = found(file, places.faces);
     if (faces.dimensions.size() != 2 || !faces.type)
         file.fail("variable '" + faces.name + "'", "expected faces, but the file has changed");
@@ -320,7 +320,7 @@ std::optional<FoundList> listOf(const NcHeader& header, const NcVariable& variab
     return byBounds(header, variable, roles, geographic);
 }
 
-std::shared_ptr<const Mesh> meshOfList(const NetcdfFile& file, const ColumnPlaces& places,
+std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& places,
                                        const std::vector<double>& levels) {
     if (places.by == ColumnPlaces::By::Bounds) {
         const auto [grid, at] = polygonsOfBounds(file, places);

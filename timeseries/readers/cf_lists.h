@@ -10,7 +10,7 @@
 #include "timeseries/grid/mesh.h"
 #include "timeseries/readers/cf_axes.h"
 #include "timeseries/readers/cf_columns.h"
-#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/cf_file.h"
 
 namespace timeseries {
 
@@ -30,7 +30,7 @@ std::optional<FoundList> listOf(const NcHeader& header, const NcVariable& variab
 
 // With columns above the places, if there are levels. Throws FileError, and std::invalid_argument
 // when no place has a polygon of any area.
-std::shared_ptr<const Mesh> meshOfList(const NetcdfFile& file, const ColumnPlaces& places,
+std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& places,
                                        const std::vector<double>& levels);
 
 }  // namespace timeseries

@@ -41,7 +41,7 @@ bool hasTime(const NcVariable& term, const NcVariable& variable, const Roles& ro
                                [&](std::size_t d) { return isTime(d, variable, roles); });
 }
 
-TermValues termOf(const NetcdfFile& file, const NcVariable& term, const NcVariable& variable,
+TermValues termOf(const CfFile& file, const NcVariable& term, const NcVariable& variable,
                   const Roles& roles, std::size_t step) {
     const Packing packing =
         packingOf(term, [&](const std::string& what) { file.failAttribute(term, what); });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "timeseries/readers/cf_axes.h"
-#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/cf_file.h"
 
 namespace timeseries {
 
@@ -28,7 +28,7 @@ struct TermValues {
 
 // Of one step, or the last that there is; not a number where the file has none. REQUIRES:
 // spansNoMore. Throws FileError, and std::invalid_argument when there is too much of it.
-TermValues termOf(const NetcdfFile& file, const NcVariable& term, const NcVariable& variable,
+TermValues termOf(const CfFile& file, const NcVariable& term, const NcVariable& variable,
                   const Roles& roles, std::size_t step);
 
 }  // namespace timeseries

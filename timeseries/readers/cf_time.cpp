@@ -28,7 +28,7 @@ const NcVariable* scalarTime(const NcHeader& header, const NcVariable& variable)
     return nullptr;
 }
 
-void readCoordinate(const NetcdfFile& file, const NcVariable& time, StoredTimes& times) {
+void readCoordinate(const CfFile& file, const NcVariable& time, StoredTimes& times) {
     const Packing packing =
         packingOf(time, [&](const std::string& what) { file.failAttribute(time, what); });
     times.name = time.baseName();
@@ -98,7 +98,7 @@ JoinedTimes count(const std::vector<StoredTimes>& parts,
 
 }  // namespace
 
-StoredTimes timesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+StoredTimes timesOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                     const Roles& roles) {
     const NcHeader& header = file.header();
     StoredTimes times;

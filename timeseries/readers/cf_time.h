@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "timeseries/readers/cf_axes.h"
-#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/cf_file.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
@@ -20,7 +20,7 @@ struct StoredTimes {
 
 // From the time dimension, else from a scalar time coordinate (CF 1.10, section 5.7).
 // Throws FileError.
-StoredTimes timesOf(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+StoredTimes timesOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                     const Roles& roles);
 
 TimeAxis timeAxisOf(const StoredTimes& times, std::vector<std::string>& notes);

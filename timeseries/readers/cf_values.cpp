@@ -8,7 +8,7 @@
 
 namespace timeseries {
 
-std::vector<double> valuesOf(const NetcdfFile& file, const NcVariable& coordinate) {
+std::vector<double> valuesOf(const CfFile& file, const NcVariable& coordinate) {
     const Packing packing = packingOf(
         coordinate, [&](const std::string& what) { file.failAttribute(coordinate, what); });
     std::vector<double> values;

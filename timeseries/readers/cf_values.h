@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/cf_file.h"
 
 namespace timeseries {
 
 // In the file's order; not a number where the file has none. REQUIRES: a numeric type. Throws
 // FileError.
-std::vector<double> valuesOf(const NetcdfFile& file, const NcVariable& coordinate);
+std::vector<double> valuesOf(const CfFile& file, const NcVariable& coordinate);
 
 // A whole turn in degrees or radians; 0 of what comes round to itself in another measure, or not at
 // all.

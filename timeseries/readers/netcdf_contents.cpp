@@ -76,7 +76,7 @@ std::uint64_t stepPoints(const NcHeader& header, const NcVariable& variable, con
 }
 
 // Why a variable with enough spatial dimensions cannot be drawn; "" when it can.
-std::string obstacle(const NetcdfFile& file, const NcVariable& variable, const Roles& roles) {
+std::string obstacle(const CfFile& file, const NcVariable& variable, const Roles& roles) {
     const NcHeader& header = file.header();
     for (const std::size_t i : roles.extra) {
         const NcDimension& extra = header.dimension(variable, i);
@@ -96,7 +96,7 @@ std::string obstacle(const NetcdfFile& file, const NcVariable& variable, const R
     return file.tooLarge(variable, stepPoints(header, variable, roles));
 }
 
-FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
+FileVariable describe(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                       const Roles& roles, std::span<const NcVariable* const> geographic,
                       const std::optional<ColumnPlaces>& list) {
     const NcHeader& header = file.header();
@@ -119,7 +119,7 @@ FileVariable describe(const NetcdfFile& file, const FileAxes& fileAxes, const Nc
 
 }  // namespace
 
-FileContents contentsOf(const NetcdfFile& file) {
+FileContents contentsOf(const CfFile& file) {
     const NcHeader& header = file.header();
     if (const OtherNetcdf* const other = otherNetcdf(header))
         file.fail("",
@@ -128,6 +128,7 @@ FileContents contentsOf(const NetcdfFile& file) {
     const std::vector<const NcVariable*> fields = fieldsOf(header, geographic);
     const FileAxes fileAxes(header, fields);
     FileContents contents;
+    contents.damaged.assign(file.damaged().begin(), file.damaged().end());
     std::string passedOver;
     for (const NcVariable* field : fields) {
         const NcVariable& variable = *field;

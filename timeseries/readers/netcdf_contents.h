@@ -1,4 +1,4 @@
-// What one netCDF file offers to be drawn, by the CF conventions.
+// What one file of netCDF's data model offers to be drawn, by the CF conventions.
 #pragma once
 
 #include <array>
@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/cf_file.h"
 #include "timeseries/readers/cf_grid.h"
 #include "timeseries/readers/cf_packing.h"
 #include "timeseries/readers/cf_time.h"
-#include "timeseries/readers/netcdf_file.h"
 
 namespace timeseries {
 
@@ -32,6 +32,6 @@ struct FileContents {
 
 // Throws FileError when no variable is left: of one that is damaged, else with those that were
 // passed over and why.
-FileContents contentsOf(const NetcdfFile& file);
+FileContents contentsOf(const CfFile& file);
 
 }  // namespace timeseries

@@ -96,29 +96,13 @@ std::vector<Number> asNumbers(const std::vector<T>& values) {
 
 }  // namespace
 
-std::string NetcdfFile::sentence(std::string_view place, std::string_view what) const {
-    // Names and texts come from the file: whatever they hold, it stays one line.
-    std::string sentence = fmt::format("{}{}{}", place, place.empty() ? "" : ": ", what);
-    for (char& c : sentence)
-        if (c >= '\0' && c < ' ') c = ' ';
-    return path_.string() + ": " + sentence;
-}
-
-void NetcdfFile::fail(std::string_view place, std::string_view what) const {
-    throw FileError(sentence(place, what));
-}
-
-void NetcdfFile::failAttribute(const NcVariable& variable, std::string_view what) const {
-    throw AttributeError(sentence("variable '" + variable.name + "'", what));
-}
-
 void NetcdfFile::check(int status, std::string_view place, std::string_view expected) const {
     if (status != NC_NOERR)
         fail(place, fmt::format("expected {}, but the library says \"{}\"", expected,
                                 nc_strerror(status)));
 }
 
-NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : path_(path) {
+NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFile(path) {
     std::error_code error;
     fileBytes_ = std::filesystem::file_size(path, error);
     std::ifstream file(path, std::ios::binary);

@@ -9,56 +9,33 @@
 #include <string_view>
 #include <vector>
 
-#include "timeseries/readers/netcdf_header.h"
-#include "timeseries/readers/reader.h"
+#include "timeseries/readers/cf_file.h"
 
 namespace timeseries {
 
-// An attribute that is not what it must be, which costs only the variables that need it.
-struct AttributeError : FileError {
-    using FileError::FileError;
-};
-
-class NetcdfFile {
+class NetcdfFile final : public CfFile {
  public:
     // A new file's header may crash HDF5 or keep it forever, so that it is read in a copy of this
     // process first; a known one was read before.
     enum class Header { New, Known };
     // Reads the header. Throws FileError, also when a classic file lacks values it declares.
     NetcdfFile(const std::filesystem::path& path, Header header);
-    ~NetcdfFile();
-    NetcdfFile(const NetcdfFile&) = delete;
-    NetcdfFile& operator=(const NetcdfFile&) = delete;
+    ~NetcdfFile() override;
 
-    const std::filesystem::path& path() const { return path_; }
-    const NcHeader& header() const { return header_; }
-
-    // Why so many points of a variable are not read, as a sentence's end; "" when they are. A
-    // damaged or hostile header may declare any size, so what is asked for is held against the
-    // file's own: a compressed file unpacks to at most about 1032 times its bytes (the limit of
-    // deflate; its format, RFC 1951, spends at least two bits on 258 bytes).
-    std::string tooLarge(const NcVariable& variable, std::uint64_t points) const;
+    // A compressed file unpacks to at most about 1032 times its bytes (the limit of deflate; its
+    // format, RFC 1951, spends at least two bits on 258 bytes).
+    std::string tooLarge(const NcVariable& variable, std::uint64_t points) const override;
     // The same of values of a type for which the file has no array.
     std::string tooLarge(ValueType type, std::uint64_t points) const {
         return tooLarge(type, points, 0);
     }
-
-    // Every value, exact, in the file's order. REQUIRES: a numeric type. Throws FileError.
-    std::vector<Number> numbers(const NcVariable& variable) const;
-    // A block of values as stored. REQUIRES: `values` holds the product of `count` values of the
-    // variable's type. Throws FileError.
+    std::vector<Number> numbers(const NcVariable& variable) const override;
     void read(const NcVariable& variable, std::span<const std::size_t> start,
-              std::span<const std::size_t> count, void* values) const;
+              std::span<const std::size_t> count, void* values) const override;
 
     // The rows of characters of the variable of that name, each up to where it ends; none when
     // there is none. Throws FileError.
     std::vector<std::string> lines(std::string_view name) const;
-
-    // "path: place: what", on one line.
-    std::string sentence(std::string_view place, std::string_view what) const;
-    [[noreturn]] void fail(std::string_view place, std::string_view what) const;
-    // As an AttributeError.
-    [[noreturn]] void failAttribute(const NcVariable& variable, std::string_view what) const;
 
  private:
     std::string tooLarge(ValueType type, std::uint64_t points, std::uint64_t chunkBytes) const;
@@ -71,10 +48,8 @@ class NetcdfFile {
                                              const std::string& place) const;
     void check(int status, std::string_view place, std::string_view expected) const;
 
-    std::filesystem::path path_;
     std::uint64_t fileBytes_ = 0;
     int id_ = -1;
-    NcHeader header_;
     std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
 };
 

@@ -17,11 +17,14 @@ namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
-class NetcdfReader final : public Reader {
+class CfReader final : public Reader {
  public:
     // `first` is the first of them.
-    NetcdfReader(std::span<const std::filesystem::path> paths, std::unique_ptr<NetcdfFile> first)
-        : paths_(paths.begin(), paths.end()), file_(std::move(first)) {
+    CfReader(std::span<const std::filesystem::path> paths, std::unique_ptr<CfFile> first,
+             OpenCfFile openFile)
+        : paths_(paths.begin(), paths.end()),
+          openFile_(std::move(openFile)),
+          file_(std::move(first)) {
         // Backwards, so that the first file is the one left open.
         contents_.resize(paths_.size());
         for (std::size_t i = paths_.size(); i-- > 0;) {
@@ -50,7 +53,7 @@ class NetcdfReader final : public Reader {
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 
  private:
-    NetcdfFile& open(std::size_t index);
+    CfFile& open(std::size_t index);
     void addDamaged(std::vector<DamagedVariable> damaged);
     void leaveOutDamaged();
     void expectSameVariables() const;
@@ -67,6 +70,7 @@ class NetcdfReader final : public Reader {
     [[noreturn]] void differ(std::size_t file, const std::string& what) const;
 
     Paths paths_;
+    OpenCfFile openFile_;
     std::string format_;
     std::vector<std::vector<FileVariable>> contents_;  // [file][variable], the same order in each
     std::vector<Variable> variables_;
@@ -75,27 +79,25 @@ class NetcdfReader final : public Reader {
     // file is a step.
     bool anyTime_ = false;
     std::vector<std::vector<Segment>> segments_;  // [variable]
-    std::unique_ptr<NetcdfFile> file_;  // one at a time: a series may have more files than handles
+    std::unique_ptr<CfFile> file_;  // one at a time: a series may have more files than handles
     std::size_t openIndex_ = 0;
 };
 
-NetcdfFile& NetcdfReader::open(std::size_t index) {
+CfFile& CfReader::open(std::size_t index) {
     if (!file_ || openIndex_ != index) {
         file_.reset();
-        file_ = std::make_unique<NetcdfFile>(paths_[index], contents_[index].empty()
-                                                                ? NetcdfFile::Header::New
-                                                                : NetcdfFile::Header::Known);
+        file_ = openFile_(paths_[index], !contents_[index].empty());
         openIndex_ = index;
     }
     return *file_;
 }
 
-void NetcdfReader::differ(std::size_t file, const std::string& what) const {
+void CfReader::differ(std::size_t file, const std::string& what) const {
     throw FileError(fmt::format("{} and {}: {}", paths_[0].string(), paths_[file].string(), what));
 }
 
 // Of a file before those that were added: its sentences stay.
-void NetcdfReader::addDamaged(std::vector<DamagedVariable> damaged) {
+void CfReader::addDamaged(std::vector<DamagedVariable> damaged) {
     std::set<std::string> names;
     for (const DamagedVariable& each : damaged) names.insert(each.name);
     for (DamagedVariable& later : damaged_)
@@ -104,7 +106,7 @@ void NetcdfReader::addDamaged(std::vector<DamagedVariable> damaged) {
 }
 
 // What is damaged in one file is no variable of the series.
-void NetcdfReader::leaveOutDamaged() {
+void CfReader::leaveOutDamaged() {
     std::set<std::string> names;
     for (const DamagedVariable& each : damaged_) names.insert(each.name);
     for (auto& contents : contents_)
@@ -112,7 +114,7 @@ void NetcdfReader::leaveOutDamaged() {
     if (contents_[0].empty()) throw FileError(damaged_.front().why);
 }
 
-void NetcdfReader::expectSameVariables() const {
+void CfReader::expectSameVariables() const {
     const auto& first = contents_[0];
     for (std::size_t f = 1; f < contents_.size(); ++f) {
         const auto& other = contents_[f];
@@ -144,7 +146,7 @@ void NetcdfReader::expectSameVariables() const {
 }
 
 // Of the first step. Its bounds are those of the last one, too: of a nest that moves, the way.
-std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std::string>& notes) {
+std::shared_ptr<const Grid> CfReader::gridOf(std::size_t v, std::vector<std::string>& notes) {
     FileVariable& first = contents_[0][v];
     std::array<Axis, 3> axes = first.axes.axes;
     if (!first.axes.columns) return std::make_shared<const Grid>(std::move(axes));
@@ -193,9 +195,9 @@ std::shared_ptr<const Grid> NetcdfReader::gridOf(std::size_t v, std::vector<std:
     }
 }
 
-std::shared_ptr<const Mesh> NetcdfReader::meshAt(std::size_t f, std::size_t v, std::size_t step) {
+std::shared_ptr<const Mesh> CfReader::meshAt(std::size_t f, std::size_t v, std::size_t step) {
     const FileVariable& source = contents_[f][v];
-    NetcdfFile& file = open(f);
+    CfFile& file = open(f);
     const NcVariable* const found = file.header().find(source.name, "");
     if (!found)
         file.fail("variable '" + source.name + "'", "expected it, but the file has changed");
@@ -207,7 +209,7 @@ std::shared_ptr<const Mesh> NetcdfReader::meshAt(std::size_t f, std::size_t v, s
 }
 
 // One whose places make no cells costs no other.
-void NetcdfReader::addVariables() {
+void CfReader::addVariables() {
     anyTime_ = std::ranges::any_of(
         contents_[0], [](const FileVariable& f) { return !f.times.single || !f.times.counted; });
     for (std::size_t v = 0; v < contents_[0].size();) {
@@ -224,7 +226,7 @@ void NetcdfReader::addVariables() {
     if (variables_.empty()) throw FileError(damaged_.front().why);
 }
 
-void NetcdfReader::addVariable(std::size_t v) {
+void CfReader::addVariable(std::size_t v) {
     const FileVariable& first = contents_[0][v];
     Variable variable;
     variable.name = first.name;
@@ -297,7 +299,7 @@ Block blockOf(const FileVariable& variable, std::size_t step, const Slab* slab) 
     return block;
 }
 
-std::optional<StepSpan> NetcdfReader::stepsOf(std::size_t variable, std::size_t file) const {
+std::optional<StepSpan> CfReader::stepsOf(std::size_t variable, std::size_t file) const {
     std::size_t first = 0;
     for (const Segment& segment : segments_[variable]) {
         if (segment.file == file) return StepSpan{first, segment.count};
@@ -306,24 +308,23 @@ std::optional<StepSpan> NetcdfReader::stepsOf(std::size_t variable, std::size_t 
     return std::nullopt;  // what has no time is read of the first file
 }
 
-StepSources NetcdfReader::sources(std::size_t variable, std::size_t step) {
+StepSources CfReader::sources(std::size_t variable, std::size_t step) {
     const auto [file, own] = fileOf(variable, step);
     const auto& columns = contents_[0][variable].axes.columns;
-    if (columns && (columns->inTime || file > 0)) return {};
+    if ((columns && (columns->inTime || file > 0)) || !file_->isOneFile()) return {};
     return {{paths_[file]}, own};
 }
 
-std::pair<std::size_t, std::size_t> NetcdfReader::fileOf(std::size_t variable,
-                                                         std::size_t step) const {
+std::pair<std::size_t, std::size_t> CfReader::fileOf(std::size_t variable, std::size_t step) const {
     auto segment = segments_[variable].begin();
     while (step >= segment->count) step -= (segment++)->count;
     return {segment->file, step};
 }
 
-Field NetcdfReader::valuesOf(std::size_t variable, std::size_t index, std::size_t step,
-                             const Slab* slab) {
+Field CfReader::valuesOf(std::size_t variable, std::size_t index, std::size_t step,
+                         const Slab* slab) {
     const FileVariable& source = contents_[index][variable];
-    NetcdfFile& file = open(index);
+    CfFile& file = open(index);
     const NcVariable* found = file.header().find(source.name, "");
     std::vector<std::uint64_t> lengths;
     if (found)
@@ -342,12 +343,12 @@ Field NetcdfReader::valuesOf(std::size_t variable, std::size_t index, std::size_
     return field;
 }
 
-Field NetcdfReader::readSlab(std::size_t variable, std::size_t seriesStep, const Slab& slab) {
+Field CfReader::readSlab(std::size_t variable, std::size_t seriesStep, const Slab& slab) {
     const auto [index, step] = fileOf(variable, seriesStep);
     return valuesOf(variable, index, step, &slab);
 }
 
-Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
+Field CfReader::read(std::size_t variable, std::size_t seriesStep) {
     const auto [index, step] = fileOf(variable, seriesStep);
     Field field = valuesOf(variable, index, step, nullptr);
     field.grid = variables_[variable].grid;
@@ -368,10 +369,19 @@ Field NetcdfReader::read(std::size_t variable, std::size_t seriesStep) {
 
 }  // namespace
 
+std::unique_ptr<Reader> openCf(std::span<const std::filesystem::path> paths,
+                               std::unique_ptr<CfFile> first, OpenCfFile open) {
+    return std::make_unique<CfReader>(paths, std::move(first), std::move(open));
+}
+
 std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths) {
     auto first = std::make_unique<NetcdfFile>(paths[0], NetcdfFile::Header::New);
     const OtherNetcdf* const other = otherNetcdf(first->header());
-    if (!other) return std::make_unique<NetcdfReader>(paths, std::move(first));
+    if (!other)
+        return openCf(paths, std::move(first), [](const std::filesystem::path& path, bool known) {
+            return std::make_unique<NetcdfFile>(
+                path, known ? NetcdfFile::Header::Known : NetcdfFile::Header::New);
+        });
     if (paths.size() == 1) return other->open(std::move(first));
     first.reset();
     return openSequence(

@@ -141,14 +141,13 @@ std::string otherFolder(const std::filesystem::path& folder) {
         std::error_code ignored;
         return std::filesystem::exists(folder / name, ignored);
     };
-    for (const char* name : {".zgroup", ".zarray", ".zmetadata", "zarr.json"})
-        if (holds(name)) return "a Zarr store";
     return holds("md.idx") && holds("md.0") ? "an ADIOS2 file (BP)" : "";
 }
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, Exodus II, VTKHDF, XDMF, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of VTK, image "
+        "NetCDF, Exodus II, VTKHDF, XDMF, Zarr, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of VTK, "
+        "image "
         "data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, .vtu, "
         ".vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series)";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);

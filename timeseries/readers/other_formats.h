@@ -24,7 +24,7 @@ std::string otherVtk(std::string_view start);
 // As otherVtk, of the type that a file states.
 std::string otherVtkType(std::string_view type);
 
-// As otherFormat, of a folder that is one data set: "a Zarr store".
+// As otherFormat, of a folder that is one data set: "an ADIOS2 file (BP)".
 std::string otherFolder(const std::filesystem::path& folder);
 
 // The sentence for one of these: "PATH is a NIfTI file; isochron reads ...".

@@ -19,6 +19,8 @@
 #include "timeseries/readers/sequence_reader.h"
 #include "timeseries/readers/step_reader.h"
 #include "timeseries/readers/xdmf_reader.h"
+#include "timeseries/readers/zarr_hierarchy.h"
+#include "timeseries/readers/zarr_reader.h"
 #ifdef ISOCHRON_VTK
 #include "timeseries/readers/vtk_reader.h"
 #else
@@ -96,8 +98,11 @@ const std::array kFormats = {
 };
 // Begins with nothing of its own: told by its size, when it is none of the others.
 const Format kPlot3d{nullptr, openPlot3d};
+// A folder.
+const Format kZarr{nullptr, openZarr, true};
 
 const Format& recognise(const std::filesystem::path& path) {
+    if (isZarr(path)) return kZarr;
     const std::string start = beginning(path);
     for (const Format& format : kFormats)
         if (format.begins(start)) return format;

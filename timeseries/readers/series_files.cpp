@@ -12,6 +12,7 @@
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/series_text.h"
+#include "timeseries/readers/zarr_hierarchy.h"
 
 namespace timeseries {
 namespace {
@@ -280,7 +281,8 @@ Paths matches(const Path& pattern) {
     Paths files;
     for (std::size_t i = 0; i < found.gl_pathc; ++i) {
         std::error_code ignored;
-        if (!std::filesystem::is_directory(found.gl_pathv[i], ignored))
+        const Path path = found.gl_pathv[i];
+        if (!std::filesystem::is_directory(path, ignored) || isZarr(path))
             files.emplace_back(found.gl_pathv[i]);
     }
     if (files.empty())
@@ -299,7 +301,7 @@ ExpandedSeries expandSeries(std::span<const Path> named) {
         const Path& one = named.front();
         if (isPattern(one)) return together(matches(one), kByName);
         std::error_code ignored;
-        if (std::filesystem::is_directory(one, ignored)) return folder(one);
+        if (std::filesystem::is_directory(one, ignored) && !isZarr(one)) return folder(one);
         if (std::filesystem::is_regular_file(one, ignored)) return member(one);
         return {{one}, {}, "", {}};
     }

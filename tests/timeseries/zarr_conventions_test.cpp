@@ -1,0 +1,371 @@
+// What the conventions of xarray (CF) and of OME-NGFF say of Zarr arrays.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/read_variables.h"
+#include "tests/support/zarr_store.h"
+
+namespace timeseries::zarr_conventions {
+namespace {
+
+using namespace tests;
+using namespace tests::zarr;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+const Layout kVolume{.shape = {3, 2, 3, 4}, .chunk = {1, 2, 3, 4}};
+
+std::vector<std::string> namesOf(const Reader& reader) {
+    std::vector<std::string> names;
+    for (const Variable& variable : reader.variables()) names.push_back(variable.name);
+    return names;
+}
+
+template <typename T>
+T placeOf(const Lengths& at) {
+    std::size_t n = 0;
+    for (const std::size_t along : at) n = n * 10 + along;
+    return static_cast<T>(n);
+}
+
+// As xarray's to_zarr() writes a dataset.
+TEST(ZarrConventions, DimensionsOfXarrayHaveTheirCoordinates) {
+    const auto store = v2Group();
+    putCoordinate(store, "lon", {10, 20, 40, 70}, R"("units": "degrees_east")");
+    putCoordinate(store, "lat", {-5, 0, 5}, R"("units": "degrees_north")");
+    putCoordinate(store, "depth", {100, 500}, R"("units": "m", "positive": "down")");
+    putCoordinate(store, "time", {0, 1.5, 2},
+                  R"("units": "days since 2000-02-28", "calendar": "noleap")");
+    put(store / "temp/.zarray", v2Array(kVolume, "<f4"));
+    put(store / "temp/.zattrs",
+        R"({"_ARRAY_DIMENSIONS": ["time", "depth", "lat", "lon"], "units": "degC",)"
+        R"( "long_name": "temperature"})");
+    writeChunks<float>(store / "temp", kVolume, placeOf<float>);
+    const auto reader = open(store);
+    ASSERT_THAT(namesOf(*reader), ElementsAre("temp"));
+    const Variable& variable = reader->variables()[0];
+    EXPECT_EQ(variable.longName, "temperature");
+    EXPECT_EQ(variable.units, "degC");
+    EXPECT_THAT(variable.notes, IsEmpty());
+    const auto& axes = variable.grid->axes();
+    EXPECT_EQ(axes[0], (Axis{"lon", "degrees_east", {10, 20, 40, 70}, false}));
+    EXPECT_EQ(axes[1], (Axis{"lat", "degrees_north", {-5, 0, 5}, false}));
+    EXPECT_EQ(axes[2], (Axis{"depth", "m", {100, 500}, true}));
+    // Named alone, it has the coordinates of its group.
+    EXPECT_EQ(open(store / "temp")->variables()[0].grid->axes()[0], axes[0]);
+    EXPECT_EQ(variable.time->calendar, "noleap");
+    EXPECT_EQ(variable.time->points[1].date, "2000-03-01 12:00:00");  // without a 29th
+    EXPECT_THAT(
+        valuesOf<float>(*reader, "temp", 2),
+        ElementsAre(2000, 2001, 2002, 2003, 2010, 2011, 2012, 2013, 2020, 2021, 2022, 2023, 2100,
+                    2101, 2102, 2103, 2110, 2111, 2112, 2113, 2120, 2121, 2122, 2123));
+}
+
+TEST(ZarrConventions, DimensionsOfAnyOrderAreTurned) {
+    const auto store = v3Group();
+    const Layout layout{.shape = {4, 3, 2}, .chunk = {3, 2, 2}, .keyStart = "c", .separator = "/"};
+    put(store / "v/zarr.json",
+        v3Array(layout, "int32", {{"dimension_names", R"(["lon", "lat", "lev"])"}}));
+    writeChunks<std::int32_t>(store / "v", layout, placeOf<std::int32_t>);
+    const auto reader = open(store);
+    EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 3, 2}));
+    EXPECT_THAT(valuesOf<std::int32_t>(*reader, "v"),
+                ElementsAre(0, 100, 200, 300, 10, 110, 210, 310, 20, 120, 220, 320, 1, 101, 201,
+                            301, 11, 111, 211, 311, 21, 121, 221, 321));
+}
+
+TEST(ZarrConventions, PackedNumbersAreUnpacked) {
+    const auto store = v2Group();
+    const Layout layout{.shape = {2, 2, 2}, .chunk = {2, 2, 2}};
+    put(store / "v/.zarray", v2Array(layout, "<i2", {{"fill_value", "-1"}}));
+    put(store / "v/.zattrs",
+        R"({"_ARRAY_DIMENSIONS": ["z", "y", "x"], "scale_factor": 0.5, "add_offset": 100, )"
+        R"("long_name": "Infinity"})");
+    writeChunks<std::int16_t>(store / "v", layout, [](const Lengths& at) {
+        const auto n = placeOf<std::int16_t>(at);
+        return static_cast<std::int16_t>(n == 11 ? -1 : n);
+    });
+    const auto reader = open(store);
+    EXPECT_EQ(reader->variables()[0].storedAs, "int16 packed, scale 0.5, offset 100");
+    EXPECT_EQ(reader->variables()[0].missing, "_FillValue -1");
+    EXPECT_EQ(reader->variables()[0].longName, "Infinity");
+    const Field field = reader->read(0, 0);
+    EXPECT_THAT(std::get<std::vector<double>>(field.values),
+                ElementsAre(100, 100.5, 105, 99.5, 150, 150.5, 155, 155.5));
+    EXPECT_THAT(field.missing, ElementsAre(false, false, false, true, false, false, false, false));
+}
+
+// Values 0 to 7; which are missing?
+std::vector<bool> missingOf(bool isV3, const std::string& fill, const std::string& attributes) {
+    const Layout layout{.shape = {2, 2, 2},
+                        .chunk = {2, 2, 2},
+                        .keyStart = isV3 ? "c" : "",
+                        .separator = isV3 ? "/" : "."};
+    const auto store = isV3 ? v3Group() : v2Group();
+    if (isV3) {
+        put(store / "v/zarr.json",
+            v3Array(layout, "float64", {{"fill_value", fill}, {"attributes", attributes}}));
+    } else {
+        put(store / "v/.zarray", v2Array(layout, "<f8", {{"fill_value", fill}}));
+        put(store / "v/.zattrs", attributes);
+    }
+    writeChunks<double>(store / "v", layout, [](const Lengths& at) {
+        return static_cast<double>(4 * at[0] + 2 * at[1] + at[2]);
+    });
+    return open(store)->read(0, 0).missing;
+}
+
+TEST(ZarrConventions, WhatIsMissingIsWhatXarrayCallsSo) {
+    const auto only = [](std::size_t which) {
+        std::vector<bool> missing(8, false);
+        missing[which] = true;
+        return missing;
+    };
+    const std::string dimensions = R"("_ARRAY_DIMENSIONS": ["z", "y", "x"])";
+    // xarray puts _FillValue of version 2 nowhere but there.
+    EXPECT_EQ(missingOf(false, "3", "{" + dimensions + "}"), only(3));
+    // Others' fill is a value, like zarr's own 0.
+    EXPECT_THAT(missingOf(false, "0", "{}"), IsEmpty());
+    EXPECT_THAT(missingOf(true, "3", "{}"), IsEmpty());
+    EXPECT_EQ(missingOf(false, "0", R"({"_FillValue": 5})"), only(5));
+    EXPECT_EQ(missingOf(false, "3", "{" + dimensions + R"(, "_FillValue": 5})"), only(5));
+    EXPECT_EQ(missingOf(true, "0", R"({"_FillValue": 5.0, "missing_value": 5})"), only(5));
+    EXPECT_EQ(missingOf(true, "0", R"({"missing_value": [2]})"), only(2));
+    // 6.0 as xarray writes it for version 3: its bytes in base64.
+    EXPECT_EQ(missingOf(true, "0", R"({"_FillValue": "AAAAAAAAGEA="})"), only(6));
+    // Python's words are no JSON, and all the same there.
+    EXPECT_THAT(missingOf(false, "NaN",
+                          "{" + dimensions +
+                              R"(, "missing_value": NaN, "a": "NaN)"
+                              R"( \" NaN", "range": [-Infinity, Infinity]})"),
+                IsEmpty());
+    EXPECT_EQ(missingOf(false, "\"NaN\"", R"({"valid_range": [-Infinity, 6]})"), only(7));
+}
+
+TEST(ZarrConventions, LongitudesOfTwoDimensionsPlaceColumns) {
+    const auto store = v2Group();
+    const Layout flat{.shape = {3, 4}, .chunk = {3, 4}},
+        volume{.shape = {2, 3, 4}, .chunk = {2, 3, 4}};
+    for (const std::string name : {"lon", "lat"}) {
+        put(store / name / ".zarray", v2Array(flat, "<f8"));
+        put(store / name / ".zattrs",
+            fmt::format(R"({{"_ARRAY_DIMENSIONS": ["j", "i"], "units": "degrees_{}"}})",
+                        name == "lon" ? "east" : "north"));
+        writeChunks<double>(store / name, flat, [&](const Lengths& at) {
+            const auto j = static_cast<double>(at[0]), i = static_cast<double>(at[1]);
+            return name == "lon" ? i + 0.25 * j : j - 0.125 * i;
+        });
+    }
+    put(store / "v/.zarray", v2Array(volume, "<f4"));
+    put(store / "v/.zattrs",
+        R"({"_ARRAY_DIMENSIONS": ["lev", "j", "i"], "coordinates": "lon lat"})");
+    for (const auto& path : {store, store / "v"}) {
+        const auto reader = open(path);
+        ASSERT_THAT(namesOf(*reader), ElementsAre("v"));
+        const Grid& grid = *reader->variables()[0].grid;
+        ASSERT_TRUE(grid.mesh()) << path;
+        EXPECT_LT(glm::distance(grid.position(12 + 2 * 4 + 3), glm::dvec3(3.5, 1.625, 1)), 1e-6);
+    }
+}
+
+TEST(ZarrConventions, GroupsSeeTheCoordinatesAroundThem) {
+    const auto store = v3Group();
+    const auto array = [&](const std::string& name, const Layout& layout,
+                           const std::string& dimensions) {
+        put(store / name / "zarr.json",
+            v3Array(layout, "float32", {{"dimension_names", dimensions}}));
+        writeChunks<float>(store / name, layout, placeOf<float>);
+    };
+    Layout line{.shape = {4}, .chunk = {4}, .keyStart = "c", .separator = "/"};
+    array("x", line, R"(["x"])");
+    put(store / "runs/zarr.json", R"({"zarr_format": 3, "node_type": "group"})");
+    put(store / "runs/a/zarr.json", R"({"zarr_format": 3, "node_type": "group"})");
+    Layout layout{.shape = {2, 3, 4}, .chunk = {2, 3, 4}, .keyStart = "c", .separator = "/"};
+    array("runs/a/v", layout, R"(["z", "y", "x"])");
+    const auto reader = open(store);
+    ASSERT_THAT(namesOf(*reader), ElementsAre("runs/a/v"));
+    EXPECT_EQ(reader->variables()[0].grid->axes()[0], (Axis{"x", "", {0, 1, 2, 3}, false}));
+    EXPECT_EQ(reader->variables()[0].grid->axes()[1].units, "index");
+    // From within, nobody sees them.
+    EXPECT_THAT(namesOf(*open(store / "runs")), ElementsAre("a/v"));
+}
+
+TEST(ZarrConventions, StoresAreJoinedByTheirTimes) {
+    const auto folder = freshFolder();
+    std::vector<std::filesystem::path> stores;
+    for (int i = 0; i < 3; ++i) {
+        const auto store = folder / fmt::format("run{}.zarr", i);
+        stores.push_back(store);
+        put(store / ".zgroup", R"({"zarr_format": 2})");
+        putCoordinate(store, "time", {i * 2.0, i * 2.0 + 1}, R"("units": "s", "axis": "T")");
+        Layout layout{.shape = {2, 2, 2, 2}, .chunk = {1, 2, 2, 2}};
+        put(store / "v/.zarray", v2Array(layout, "<i4"));
+        put(store / "v/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time", "z", "y", "x"]})");
+        writeChunks<std::int32_t>(store / "v", layout, [&](const Lengths& at) {
+            return static_cast<std::int32_t>(100 * i) + placeOf<std::int32_t>(at);
+        });
+    }
+    const auto reader = openReader(stores);
+    EXPECT_THAT(timesOf(*reader), ElementsAre(0, 1, 2, 3, 4, 5));
+    EXPECT_EQ(valuesOf<std::int32_t>(*reader, "v", 3)[0], 1100);
+    EXPECT_EQ(valuesOf<std::int32_t>(*reader, "v", 4)[7], 311);
+}
+
+TEST(ZarrConventions, DimensionsWithoutNamesAreTimeAndSpace) {
+    for (const auto& [shape, steps, size] :
+         std::vector<std::tuple<Lengths, std::size_t, std::array<std::size_t, 3>>>{
+             {{2, 3, 4}, 1, {4, 3, 2}},
+             {{5, 2, 3, 4}, 5, {4, 3, 2}},
+             {{5, 1, 3, 4}, 5, {4, 3, 1}},
+             {{1, 2, 3, 4}, 1, {4, 3, 2}},
+             {{5, 1, 2, 3, 4}, 5, {4, 3, 2}},
+             {{1, 5, 2, 3, 4}, 5, {4, 3, 2}}}) {
+        const Layout layout{.shape = shape, .chunk = shape};
+        const auto store = v2Group();
+        put(store / "v/.zarray", v2Array(layout, "<i4"));
+        writeChunks<std::int32_t>(store / "v", layout, placeOf<std::int32_t>);
+        const auto reader = open(store);
+        EXPECT_EQ(reader->variables()[0].grid->size(), size) << listed(shape);
+        EXPECT_EQ(reader->variables()[0].time->points.size(), steps) << listed(shape);
+        EXPECT_TRUE(reader->variables()[0].time->counted);
+    }
+    // Of two dimensions without names it is a table.
+    auto store = v2Group();
+    for (const Lengths& shape : {Lengths{6, 7}, Lengths{2, 3, 4}})
+        put(store / std::to_string(shape.size()) / ".zarray",
+            v2Array({.shape = shape, .chunk = shape}, "<i4"));
+    EXPECT_THAT(namesOf(*open(store)), ElementsAre("3"));
+    const Layout layout{.shape = {5, 2, 2, 3, 4}, .chunk = {5, 2, 2, 3, 4}};
+    store = v2Group();
+    put(store / "v/.zarray", v2Array(layout, "<i4"));
+    EXPECT_THAT(refusalOf(store),
+                HasSubstr("the dimension dim_0 of 5 is none of x, y, z and time"));
+}
+
+constexpr const char* kAxes =
+    R"([{"name": "t", "type": "time", "unit": "second"}, {"name": "c", "type": "channel"},)"
+    R"( {"name": "z", "type": "space", "unit": "micrometer"},)"
+    R"( {"name": "y", "type": "space", "unit": "micrometer"},)"
+    R"( {"name": "x", "type": "space", "unit": "micrometer"}])";
+
+std::string dataset(const std::string& path, const std::string& scale,
+                    const std::string& translation) {
+    return fmt::format(R"({{"path": "{}", "coordinateTransformations": [{{"type": "scale", )"
+                       R"("scale": {}}}, {{"type": "translation", "translation": {}}}]}})",
+                       path, scale, translation);
+}
+
+void putLevel(const std::filesystem::path& folder, const Lengths& shape, bool isV3) {
+    const Layout layout{
+        .shape = shape, .chunk = shape, .keyStart = isV3 ? "c" : "", .separator = "/"};
+    put(folder / (isV3 ? "zarr.json" : ".zarray"),
+        isV3 ? v3Array(layout, "uint16")
+             : v2Array(layout, "<u2", {{"dimension_separator", "\"/\""}}));
+    writeChunks<std::uint16_t>(folder, layout, placeOf<std::uint16_t>);
+}
+
+// Version 0.5 says the same as 0.4 under another name.
+TEST(ZarrConventions, ImagesOfOmeAreResolutionsAndChannels) {
+    for (const bool isV3 : {false, true}) {
+        const std::string said = fmt::format(
+            R"("multiscales": [{{"axes": {}, "datasets": [{}, {}], "coordinateTransformations": )"
+            R"([{{"type": "scale", "scale": [30, 1, 2, 1, 1]}}]}}], "omero": {{"channels": )"
+            R"([{{"label": "DAPI"}}, {{}}]}})",
+            kAxes, dataset("0", "[1, 1, 2, 0.5, 0.25]", "[0, 0, 10, 0, 0]"),
+            dataset("1", "[1, 1, 2, 1, 0.5]", "[0, 0, 10, 0.25, 0.125]"));
+        const auto store =
+            isV3 ? v3Group(R"({"ome": {"version": "0.5", )" + said + "}}") : v2Group();
+        if (!isV3) put(store / ".zattrs", "{" + said + "}");
+        putLevel(store / "0", {2, 2, 2, 4, 6}, isV3);
+        putLevel(store / "1", {2, 2, 2, 2, 3}, isV3);
+        const auto reader = open(store);
+        ASSERT_THAT(namesOf(*reader),
+                    ElementsAre("0 DAPI", "0 channel 1", "1 DAPI", "1 channel 1"));
+        const Variable& fine = reader->variables()[0];
+        const auto& axes = fine.grid->axes();
+        EXPECT_EQ(axes[0], (Axis{"x", "micrometer", {0, 0.25, 0.5, 0.75, 1, 1.25}, false}));
+        EXPECT_EQ(axes[1], (Axis{"y", "micrometer", {0, 0.5, 1, 1.5}, false}));
+        EXPECT_EQ(axes[2], (Axis{"z", "micrometer", {20, 24}, false}));
+        EXPECT_THAT(timesOf(*reader), ElementsAre(0, 30));
+        EXPECT_EQ(fine.time->units, "second");
+        EXPECT_THAT(fine.notes, IsEmpty());
+        EXPECT_EQ(reader->variables()[2].grid->axes()[0],
+                  (Axis{"x", "micrometer", {0.125, 0.625, 1.125}, false}));
+        EXPECT_THAT(valuesOf<std::uint16_t>(*reader, "1 channel 1", 1),
+                    ElementsAre(11000, 11001, 11002, 11010, 11011, 11012, 11100, 11101, 11102,
+                                11110, 11111, 11112));
+        // The array alone.
+        const auto one = open(store / "1");
+        EXPECT_THAT(namesOf(*one), ElementsAre("1 DAPI", "1 channel 1"));
+        EXPECT_EQ(one->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{20, 24}));
+    }
+}
+
+TEST(ZarrConventions, LabelsOfOmeAreCategories) {
+    const auto store = v2Group();
+    put(store / ".zattrs",
+        R"({"multiscales": [{"axes": ["z", "y", "x"], "datasets": [{"path": "s 0", )"
+        R"("coordinateTransformations": [{"type": "scale", "scale": [5, 1, 1]}]}]}]})");
+    putLevel(store / "s 0", {2, 3, 4}, false);
+    put(store / "labels/.zgroup", "{}");
+    put(store / "labels/the cells/.zgroup", "{}");
+    put(store / "labels/the cells/.zattrs",
+        R"({"image-label": {}, "multiscales": [{"axes": ["z", "y", "x"], "datasets": )"
+        R"([{"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [3, 2, 1]}]}]}]})");
+    putLevel(store / "labels/the cells/0", {2, 3, 4}, false);
+    const auto reader = open(store);
+    ASSERT_THAT(namesOf(*reader), ElementsAre("s 0", "labels/the cells/0"));
+    EXPECT_FALSE(reader->variables()[0].categories);
+    EXPECT_EQ(reader->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{0, 5}));
+    EXPECT_TRUE(reader->variables()[1].categories);
+    EXPECT_EQ(reader->variables()[1].grid->axes()[2].coordinates, (std::vector<double>{0, 3}));
+}
+
+TEST(ZarrConventions, AxesOfOmeAreWhatTheirTypesSay) {
+    const auto store = v2Group();
+    put(store / ".zattrs",
+        R"({"multiscales": [{"axes": [{"name": "frame", "type": "time"}, {"name": "row", "type": )"
+        R"("space"}, {"name": "column", "type": "space"}], "datasets": [{"path": "0", )"
+        R"("coordinateTransformations": [{"type": "scale", "scale": [1, 2, 3]}]}]}]})");
+    putLevel(store / "0", {3, 2, 4}, false);
+    const auto reader = open(store);
+    EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 2, 1}));
+    EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
+    EXPECT_TRUE(reader->variables()[0].time->counted);  // for want of a unit
+}
+
+TEST(ZarrConventions, ChannelsOfOneNameAreNumbered) {
+    const auto store = v2Group();
+    put(store / ".zattrs", R"({"multiscales": [{"datasets": [{"path": "0"}]}], "omero": )"
+                           R"({"channels": [{"label": "a"}, {"label": "a"}, {"label": "b"}]}})");
+    putLevel(store / "0", {1, 3, 2, 3, 4}, false);
+    EXPECT_THAT(namesOf(*open(store)), ElementsAre("0 a", "0 channel 1", "0 b"));
+}
+
+// Before version 0.3 the axes are t, c, z, y, x; a transformation that is not read places nothing.
+TEST(ZarrConventions, OldImagesOfOmeHaveFiveAxes) {
+    const auto store = v2Group();
+    for (const std::string transformations :
+         {"", R"(, "coordinateTransformations": [{"type": "affine", "affine": [[1]]}])"}) {
+        put(store / ".zattrs",
+            R"({"multiscales": [{"datasets": [{"path": "0"}])" + transformations + "}]}");
+        putLevel(store / "0", {3, 1, 2, 3, 4}, false);
+        const auto reader = open(store);
+        ASSERT_THAT(namesOf(*reader), ElementsAre("0"));
+        EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
+        EXPECT_TRUE(reader->variables()[0].time->counted);
+        EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 3, 2}));
+        EXPECT_EQ(reader->variables()[0].grid->axes()[0].units, "index");
+    }
+    put(store / ".zattrs", R"({"multiscales": [{"datasets": [)" +
+                               dataset("0", "[1, 1, 2, 2, 2]", "[0, 0, 0, 0, 0]") +
+                               R"(], "coordinateTransformations": [{"type": "affine"}]}]})");
+    EXPECT_EQ(open(store)->variables()[0].grid->axes()[0].units, "index");
+}
+
+}  // namespace
+}  // namespace timeseries::zarr_conventions
