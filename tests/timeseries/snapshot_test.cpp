@@ -72,12 +72,14 @@ void expectVolumes(const Mesh& mesh, const Gas& gas) {
 // Of isotropic splats, how long a side of what they are made of is.
 double sideOf(const Mesh& mesh, std::uint64_t i) { return std::cbrt(mesh.cell(i).determinant()); }
 
-// Gadget's lengths h reach to where the spline ends, twice as far as those of its formula: a side
-// of sqrt(12) standard deviations is 1.897 (h / 2). SWIFT's are two standard deviations.
+// A splat's density, (1 - r^2)^3.5 within 1.396 sides of its cell, has the variance 1.396^2 / 12.
+// Gadget's lengths h reach to where the spline ends, twice as far as those of its formula, where
+// sqrt(12) standard deviations are 1.897 (h / 2). SWIFT's are two standard deviations.
 TEST(Snapshot, GasStandsForItsMassAndIsAsWideAsItsKernel) {
     for (const auto& [name, code, side] :
-         {std::tuple("SmoothingLength", "", 1.897 / 2), std::tuple("SmoothingLengths", "", 1.7321),
-          std::tuple("SmoothingLength", "SWIFT", 1.7321)}) {
+         {std::tuple("SmoothingLength", "", 1.897 / 2 / 1.396),
+          std::tuple("SmoothingLengths", "", 1.7321 / 1.396),
+          std::tuple("SmoothingLength", "SWIFT", 1.7321 / 1.396)}) {
         const Gas gas(2.3);
         SnapshotFile file;
         file.gas(gas, name);
@@ -127,7 +129,7 @@ TEST(Snapshot, LengthsBesideTheOthersAreTold) {
     file.gas(gas);
     const auto reader = open(file.close());
     expectVolumes(*reader->variables()[0].grid->mesh(), gas);
-    EXPECT_NEAR(reader->variables()[0].grid->mesh()->spread(), 1.897, 1e-3);
+    EXPECT_NEAR(reader->variables()[0].grid->mesh()->spread(), 1.897 / 1.396, 1e-3);
     EXPECT_THAT(reader->variables()[0].notes,
                 ElementsAre(HasSubstr("those of 12 of 125 particles are more than 10 % longer")));
 

@@ -66,6 +66,10 @@ double deviationOf(const NcHeader& header, const NcVariable& lengths) {
     return lengths.baseName() == "SmoothingLengths" || isSwift(header) ? 0.5 : std::sqrt(0.075);
 }
 
+// Of a splat, in sides of its cell (render/model/footprint.h); its variance along a coordinate is a
+// twelfth of that radius' square.
+constexpr double kSplatRadius = 1.396;
+
 bool isVolume(double volume) { return volume > 0 && std::isfinite(volume); }
 
 // By smoothing lengths: how many times as wide as cubes of these volumes the splats are.
@@ -75,7 +79,8 @@ double spreadOf(const std::vector<double>& lengths, double deviation,
     constexpr double kLeast = 0.5, kMost = 8, kBeside = 0.1;
     std::vector<double> ratios;
     for (std::size_t i = 0; i < volumes.size(); ++i) {
-        const double ratio = std::sqrt(12.0) * deviation * lengths[i] / std::cbrt(volumes[i]);
+        const double side = std::sqrt(12.0) / kSplatRadius * deviation * lengths[i];
+        const double ratio = side / std::cbrt(volumes[i]);
         if (isVolume(volumes[i]) && std::isfinite(ratio)) ratios.push_back(ratio);
     }
     if (ratios.empty()) return kScatteredSpread;

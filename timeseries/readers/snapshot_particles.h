@@ -32,8 +32,8 @@ struct SnapshotMesh {
 };
 
 // Each stands for mass / density where the file has both; else for what its neighbours leave it.
-// Where it has smoothing lengths, too, splats are as wide as the kernel: a cube as long as the
-// kernel's standard deviation along a coordinate times the root of 12. A mesh has one spread, so
+// Where it has smoothing lengths, too, splats are as wide as the kernel, by the standard deviation
+// along a coordinate. A mesh has one spread, so
 // that their width beside (mass / density)^(1/3), the same for all but for the tolerance of the
 // simulation's own iteration, is the median's. Throws FileError.
 SnapshotMesh snapshotMeshOf(const NetcdfFile& file, const SnapshotParticles& particles);
