@@ -1,5 +1,6 @@
 #include "render/points/block_order.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -36,6 +37,21 @@ std::vector<std::uint16_t> sortedBy(const std::vector<std::uint16_t>& order, con
     return sorted;
 }
 
+// Of points in these cells.
+std::vector<std::uint16_t> orderOf(const std::vector<std::uint16_t>& cell) {
+    std::vector<std::uint16_t> given(cell.size());
+    std::iota(given.begin(), given.end(), std::uint16_t{0});
+    const auto near =
+        sortedBy<kCells * kCells * kCells>(given, [&](std::uint16_t place) { return cell[place]; });
+    // Level 0: ranks of the largest prefix; each further level has three times all before it.
+    constexpr std::uint32_t kLargest = prefixStride(kMaxStride);
+    constexpr std::size_t kLevels = (std::bit_width(kLargest) + 1) / 2;
+    return sortedBy<kLevels>(near, [](std::uint16_t place) {
+        return static_cast<std::size_t>(
+            (std::bit_width(subsetRank(place) / (kSubsetPeriod / kLargest)) + 1) / 2);
+    });
+}
+
 }  // namespace
 
 std::vector<std::uint16_t> blockOrder(std::span<const std::uint32_t> gridIndex, glm::uvec3 size) {
@@ -47,17 +63,26 @@ std::vector<std::uint16_t> blockOrder(std::span<const std::uint32_t> gridIndex, 
         cell.push_back(
             static_cast<std::uint16_t>(tables[0][at.x] | tables[1][at.y] | tables[2][at.z]));
     }
-    std::vector<std::uint16_t> given(gridIndex.size());
-    std::iota(given.begin(), given.end(), std::uint16_t{0});
-    const auto near =
-        sortedBy<kCells * kCells * kCells>(given, [&](std::uint16_t place) { return cell[place]; });
-    // Level 0: ranks of the largest prefix; each further level has three times all before it.
-    constexpr std::uint32_t kLargest = prefixStride(kMaxStride);
-    constexpr std::size_t kLevels = (std::bit_width(kLargest) + 1) / 2;
-    return sortedBy<kLevels>(near, [](std::uint16_t place) {
-        return static_cast<std::size_t>(
-            (std::bit_width(subsetRank(place) / (kSubsetPeriod / kLargest)) + 1) / 2);
-    });
+    return orderOf(cell);
+}
+
+std::vector<std::uint16_t> blockOrder(std::span<const std::uint32_t> gridIndex,
+                                      const timeseries::Mesh& mesh) {
+    const glm::dvec3 extent = mesh.hi() - mesh.lo();
+    std::vector<std::uint16_t> cell;
+    cell.reserve(gridIndex.size());
+    for (const std::uint32_t i : gridIndex) {
+        const glm::dvec3 at = mesh.position(i) - mesh.lo();
+        std::uint32_t code = 0;
+        for (int a = 0; a < 3; ++a) {
+            const double share = kCells * (at[a] / extent[a]);
+            // A point without a place, or along a coordinate without an extent.
+            if (!(share > 0)) continue;
+            code |= spread(static_cast<std::uint32_t>(std::min(share, kCells - 1.0))) << a;
+        }
+        cell.push_back(static_cast<std::uint16_t>(code));
+    }
+    return orderOf(cell);
 }
 
 }  // namespace render

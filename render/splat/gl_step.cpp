@@ -156,7 +156,10 @@ std::uint64_t GlStep::send(const Scene& scene, std::uint64_t block, ScaledValues
     const timeseries::Run run{first, count};
     const timeseries::Columns columns = scene.step.columns({&run, 1});
     const auto index = columns.gridIndex.subspan(first, count);
-    const std::vector<std::uint16_t> places = blockOrder(index, scene.placed.size());
+    // Whatever the axes are stretched by: points and their values may be sent apart.
+    const std::vector<std::uint16_t> places = scene.placed.isMesh()
+                                                  ? blockOrder(index, *scene.placed.mesh())
+                                                  : blockOrder(index, scene.placed.size());
     if (sendPoints) {
         std::vector<std::uint32_t> ordered;
         ordered.reserve(count);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <tuple>
 
@@ -53,6 +54,37 @@ TEST(BlockOrder, IsBySubsetThenByCellOnMortonsCurveThenAsGiven) {
                 ASSERT_EQ(order[i], std::get<2>(expected[i])) << i;
         }
     EXPECT_TRUE(blockOrder({}, {4, 4, 4}).empty());
+}
+
+// Of a mesh places tell what is near, not numbers.
+TEST(BlockOrder, OfAMeshIsThatOfItsPlaces) {
+    const glm::uvec3 size(20, 9, 13);
+    const auto index = someOf(size, 2000);
+    // Point i of the mesh lies where point index[i] of the grid does; one has no place.
+    const timeseries::Mesh mesh(
+        index.size(),
+        {glm::dvec3(-7, 100, 0), glm::dvec3(-7, 100, 0) + 2.0 * glm::dvec3(size - 1u)}, 1,
+        [&](std::uint64_t i) {
+            glm::dvec3 place = glm::dvec3(-7, 100, 0) + 2.0 * glm::dvec3(at(index[i], size));
+            if (i == 17) place.x = std::nan("");
+            return timeseries::MeshPoint{place, {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}}};
+        });
+    std::vector<std::uint32_t> all(index.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint16_t>> expected;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        std::uint32_t stride = 256;
+        while (!inSubset(i, stride)) stride /= 4;
+        // 32 cells between the outermost places, the last of which holds them, too.
+        glm::uvec3 cell = glm::min(32u * at(index[i], size) / (size - 1u), glm::uvec3(31));
+        if (i == 17) cell = glm::uvec3(0);
+        expected.emplace_back(256 / stride, mortonCode(cell), static_cast<std::uint16_t>(i));
+    }
+    std::ranges::sort(expected);
+    const auto order = blockOrder(all, mesh);
+    ASSERT_EQ(order.size(), expected.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        ASSERT_EQ(order[i], std::get<2>(expected[i])) << i;
 }
 
 TEST(BlockOrder, BeginsWithASubsetThatHoldsAny) {
