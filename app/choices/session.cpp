@@ -124,15 +124,16 @@ class Objects {
     // Null where there is none.
     JsonObject* of(const std::string& key) {
         if (key.empty()) return &session_;
-        const auto [known, isNew] = objects_.try_emplace(key);
+        const bool isNew = !objects_.contains(key);
+        std::optional<JsonObject>& object = objects_[key];
         if (isNew) {
             const auto [outer, last] = splitKey(key.c_str());
-            if (JsonObject* const in = of(outer))
-                in->read<json>(last, [&, name = last](const json& value) {
-                    known->second.emplace(value, in->place(name));
-                });
+            if (JsonObject* const in = of(outer)) {
+                const std::string place = in->place(last);
+                in->read<json>(last, [&](const json& value) { object.emplace(value, place); });
+            }
         }
-        return known->second ? &*known->second : nullptr;
+        return object ? &*object : nullptr;
     }
     void refuseOthers() const {
         for (const auto& [key, object] : objects_)
