@@ -74,9 +74,10 @@ void addChoices(const Explorer& e, Arguments& arguments) {
     const Explorer plain;
     for (const Choice& choice : choices()) {
         const auto text = choice.text(e);
-        // Splats alone would choose points.
-        const bool isModel = choice.option == std::string_view("--model");
-        const bool isTold = isModel && e.footprint != plain.footprint;
+        // Splats alone would choose points; and from where it is seen is told of every picture.
+        const std::string_view option = choice.option;
+        const bool isTold =
+            option == "--view" || (option == "--model" && e.footprint != plain.footprint);
         if (*choice.option == '\0' || !text || (text == choice.text(plain) && !isTold)) continue;
         if (choice.flag)
             arguments.flag(choice.option, *text == choice.flag);

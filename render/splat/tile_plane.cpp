@@ -99,6 +99,7 @@ void TilePlane::storeMeans(const TileRoom& room) {
     const int rays = layout_.raysAcross;
     const auto width = static_cast<std::size_t>(room.size.x);
     const float share = 1 / static_cast<float>(rays * rays);
+    const bool byFactor = isPerRay();
     std::array<float, kTileWidth> columns;
     for (int first = 0; first < room.size.y; first += rays)
         for (std::size_t c = 0; c < floats_; ++c) {
@@ -108,7 +109,7 @@ void TilePlane::storeMeans(const TileRoom& room) {
                 const float* const sums = room.sums.data() + c * room.plane + at;
                 const float* const factor = room.factor.data() + at;
                 for (std::size_t x = 0; x < width; ++x)
-                    columns[x] += isPerRay() ? factor[x] * sums[x] : sums[x];
+                    columns[x] += byFactor ? factor[x] * sums[x] : sums[x];
             }
             float* to = pixelsOf(room.at, first) + c;
             for (std::size_t x = 0; x < width; x += static_cast<std::size_t>(rays), to += floats_)

@@ -12,9 +12,12 @@
 #include "app/measure/trade_plot.h"
 #include "render/annotate/flat_mesh.h"
 #include "render/image/color.h"
+#include "tests/support/measured_modes.h"
 
 namespace app {
 namespace {
+
+using tests::measuredAt;
 
 using render::Image;
 
@@ -165,15 +168,6 @@ TEST(PlotPicture, ControlCharactersAreSpaces) {
     EXPECT_GT(inkIn(of("a b c")), 50);
 }
 
-Measured at(double frame, double error, Mode mode = {}, double mass = 1) {
-    Measured m;
-    m.mode = mode;
-    m.frame = frame;
-    m.depthError = error;
-    m.mass = mass;
-    return m;
-}
-
 // Of a plot from 1 to 100 ms and from 1 to 100 %, in pixels; its frame is 84 to 696 and 84 to 412.
 glm::dvec2 placeOf(double frame, double error) {
     return {2 * (84 + (696 - 84) * (std::log10(frame) + 3) / 2),
@@ -182,8 +176,9 @@ glm::dvec2 placeOf(double frame, double error) {
 
 class TradePicture : public testing::Test {
  protected:
-    const std::vector<Measured> modes{at(0.001, 0.8, {Model::Points, 4}), at(0.004, 0.3, {}, 1.2),
-                                      at(0.09, 0.012, {Model::Cells})};
+    const std::vector<Measured> modes{measuredAt(0.001, 0.8, {Model::Points, 4}),
+                                      measuredAt(0.004, 0.3, {}, 1.2),
+                                      measuredAt(0.09, 0.012, {Model::Cells})};
     const Image picture = plotPicture(tradePlot(modes, "fire.nc: T, 1 to 2 K"));
     PlotColor atMark(const Measured& m, double right) const {
         const glm::dvec2 place = placeOf(m.frame, m.depthError);

@@ -12,21 +12,15 @@
 
 #include "app/measure/plot_svg.h"
 #include "app/measure/plot_text.h"
+#include "tests/support/measured_modes.h"
 
 namespace app {
 namespace {
 
+using tests::measuredAt;
+
 using testing::HasSubstr;
 using testing::Not;
-
-Measured at(double frame, double error, Mode mode = {}, double mass = 1) {
-    Measured m;
-    m.mode = mode;
-    m.frame = frame;
-    m.depthError = error;
-    m.mass = mass;
-    return m;
-}
 
 std::string svgOfModes(std::span<const Measured> modes, const std::string& title) {
     return plotSvg(tradePlot(modes, title));
@@ -52,7 +46,8 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 // Ten times the time is as far to the right wherever it is, and ten times the error as far up.
 TEST(TradePlot, IsLogarithmicInBoth) {
-    const std::vector modes = {at(0.001, 0.1), at(0.01, 0.01), at(0.1, 0.001)};
+    const std::vector modes = {measuredAt(0.001, 0.1), measuredAt(0.01, 0.01),
+                               measuredAt(0.1, 0.001)};
     const auto marks = marksOf(svgOfModes(modes, ""));
     ASSERT_EQ(marks.size(), 3u);
     EXPECT_NEAR(marks[1].x - marks[0].x, marks[2].x - marks[1].x, 0.11);
@@ -62,7 +57,7 @@ TEST(TradePlot, IsLogarithmicInBoth) {
 }
 
 TEST(TradePlot, EscapesText) {
-    const std::string svg = svgOfModes(std::vector{at(1, 1)}, "a<b> & \"c\"\x01 \xb0");
+    const std::string svg = svgOfModes(std::vector{measuredAt(1, 1)}, "a<b> & \"c\"\x01 \xb0");
     EXPECT_THAT(svg, HasSubstr("a&lt;b&gt; &amp; &quot;c&quot;  \ufffd<"));  // a Latin-1 degree
     EXPECT_EQ(count(svg, "<svg"), count(svg, "</svg>"));
     EXPECT_EQ(count(svg, "<text"), count(svg, "</text>"));
@@ -70,20 +65,21 @@ TEST(TradePlot, EscapesText) {
 }
 
 TEST(TradePlot, AModeWhoseMassIsOffIsHollow) {
-    const std::string svg =
-        svgOfModes(std::vector{at(0.01, 0.1, {}, 1.2), at(0.1, 0.01, {Model::Cells})}, "");
+    const std::string svg = svgOfModes(
+        std::vector{measuredAt(0.01, 0.1, {}, 1.2), measuredAt(0.1, 0.01, {Model::Cells})}, "");
     const auto marks = marksOf(svg);
     EXPECT_EQ(marks[0].fill, "#ffffff");
     EXPECT_NE(marks[1].fill, "#ffffff");
     EXPECT_THAT(svg, HasSubstr("points (mass +20 %)"));
     EXPECT_THAT(svg, HasSubstr("hollow: its mass is more than 5 % off"));
-    EXPECT_THAT(svgOfModes(std::vector{at(0.01, 0.1)}, ""), Not(HasSubstr("hollow")));
+    EXPECT_THAT(svgOfModes(std::vector{measuredAt(0.01, 0.1)}, ""), Not(HasSubstr("hollow")));
 }
 
 // No error, or none that is a number, stands at the end of its axis.
 TEST(TradePlot, WhatHasNoLogarithmStaysInThePicture) {
     for (const double error : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-        const std::string svg = svgOfModes(std::vector{at(0.01, error), at(0.1, 0.3)}, "");
+        const std::string svg =
+            svgOfModes(std::vector{measuredAt(0.01, error), measuredAt(0.1, 0.3)}, "");
         for (const Mark& mark : marksOf(svg)) {
             EXPECT_GE(mark.x, 0);
             EXPECT_LE(mark.x, 720);
@@ -93,13 +89,14 @@ TEST(TradePlot, WhatHasNoLogarithmStaysInThePicture) {
         EXPECT_THAT(svg, Not(HasSubstr("\"nan\"")));
         EXPECT_THAT(svg, Not(HasSubstr("\"inf\"")));
     }
-    EXPECT_EQ(marksOf(svgOfModes(std::vector{at(0, 0)}, "")).size(), 1u);
+    EXPECT_EQ(marksOf(svgOfModes(std::vector{measuredAt(0, 0)}, "")).size(), 1u);
 }
 
 TEST(TradePlot, JoinsTheSubsetsOfOneOrder) {
-    const std::vector modes = {at(0.01, 0.3, {Model::Points, 2}), at(0.02, 0.2, {Model::Points}),
-                               at(0.02, 0.2, {Model::Points, 1, render::Order::BackToFront}),
-                               at(0.1, 0.01, {Model::Cells})};
+    const std::vector modes = {
+        measuredAt(0.01, 0.3, {Model::Points, 2}), measuredAt(0.02, 0.2, {Model::Points}),
+        measuredAt(0.02, 0.2, {Model::Points, 1, render::Order::BackToFront}),
+        measuredAt(0.1, 0.01, {Model::Cells})};
     EXPECT_EQ(count(svgOfModes(modes, ""), "stroke-width=\"1.5\""), 1u);
 }
 
@@ -112,8 +109,8 @@ const PlotText& textOf(const Plot& plot, const std::string& begin) {
 
 // There is no room to the right of a mark at the right end, 696.
 TEST(TradePlot, ANameLeftOfItsMarkEndsTwoRadiiBesideIt) {
-    const Plot plot =
-        tradePlot(std::vector{at(0.001, 0.1), at(0.1, 0.03, {Model::Cells}, 1.2)}, "");
+    const Plot plot = tradePlot(
+        std::vector{measuredAt(0.001, 0.1), measuredAt(0.1, 0.03, {Model::Cells}, 1.2)}, "");
     const PlotText& name = textOf(plot, "cells (mass +20 %)");
     const PlotFont font(std::array{name.lettering});
     EXPECT_NEAR(name.at.x + font.width(name.text, name.lettering), 696 - 2 * 5, 1e-6);
@@ -122,8 +119,8 @@ TEST(TradePlot, ANameLeftOfItsMarkEndsTwoRadiiBesideIt) {
 // The line to the other mark leaves to the right, where a name would stand first.
 TEST(TradePlot, ANameStandsOnNoLine) {
     for (const double error : {0.03, 0.02}) {
-        const Plot plot =
-            tradePlot(std::vector{at(0.001, 0.03, {Model::Points, 2}), at(0.1, error)}, "");
+        const Plot plot = tradePlot(
+            std::vector{measuredAt(0.001, 0.03, {Model::Points, 2}), measuredAt(0.1, error)}, "");
         const PlotText& name = textOf(plot, "1/2");
         const auto joining = std::ranges::find_if(plot.shapes, [](const PlotShape& shape) {
             const auto* line = std::get_if<PlotLine>(&shape);
@@ -139,7 +136,7 @@ TEST(TradePlot, ANameStandsOnNoLine) {
 }
 
 TEST(TradePlot, ATitleEndsWithinThePlot) {
-    const std::vector modes = {at(0.01, 0.1)};
+    const std::vector modes = {measuredAt(0.01, 0.1)};
     for (const bool isLong : {false, true}) {
         const std::string title = "fire.nc: T, " + std::string(isLong ? 200 : 20, 'm');
         const PlotText shown = textOf(tradePlot(modes, title), "fire.nc: T, mmm");

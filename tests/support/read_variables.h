@@ -1,6 +1,7 @@
 // Variables of an open file by their names.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,6 +31,17 @@ inline std::string refusalOf(const std::vector<std::filesystem::path>& paths) {
 }
 inline std::string refusalOf(const std::filesystem::path& path) {
     return refusalOf(std::vector{path});
+}
+// Of a file that is being made, once something about it is changed; it begins with the file's path.
+template <typename File, typename Change>
+std::string refusalAfter(File& file, const Change& change) {
+    change(file);
+    const auto path = file.close();
+    const std::string refusal = refusalOf(path);
+    if (!refusal.empty()) {
+        EXPECT_THAT(refusal, testing::StartsWith(path.string() + ": "));
+    }
+    return refusal;
 }
 
 // Fails the test, and is the first, where there is none.

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <lz4.h>
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/deflated.h"
 #include "tests/support/files.h"
 
 namespace tests::zarr {
@@ -28,22 +28,6 @@ using Pack = std::function<std::string(const std::string&)>;
 inline std::string listed(const Lengths& lengths) {
     return fmt::format("[{}]", fmt::join(lengths, ", "));
 }
-
-inline std::string deflated(const std::string& bytes, int windowBits) {
-    z_stream stream{};
-    deflateInit2(&stream, 6, Z_DEFLATED, windowBits, 8, Z_DEFAULT_STRATEGY);
-    std::string out(bytes.size() * 2 + 100, '\0'), in = bytes;
-    stream.next_in = reinterpret_cast<Bytef*>(in.data());
-    stream.avail_in = static_cast<uInt>(in.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    return out;
-}
-inline std::string byZlib(const std::string& bytes) { return deflated(bytes, 15); }
-inline std::string byGzip(const std::string& bytes) { return deflated(bytes, 15 + 16); }
 
 inline std::string byBzip2(const std::string& bytes) {
     std::string out(bytes.size() * 2 + 1000, '\0'), in = bytes;
@@ -171,6 +155,16 @@ void writeChunks(const std::filesystem::path& folder, const Layout& layout,
     });
 }
 
+// An object of these members, with others in their places.
+inline std::string jsonOf(std::map<std::string, std::string> members,
+                          const std::map<std::string, std::string>& others) {
+    for (const auto& [name, value] : others) members[name] = value;
+    std::string text;
+    for (const auto& [name, value] : members)
+        text += fmt::format("{}\"{}\": {}", text.empty() ? "{" : ", ", name, value);
+    return text + "}";
+}
+
 // .zarray, with others of its members in the place of these.
 inline std::string v2Array(const Layout& layout, const std::string& dtype,
                            const std::map<std::string, std::string>& others = {}) {
@@ -184,11 +178,7 @@ inline std::string v2Array(const Layout& layout, const std::string& dtype,
         {"filters", "null"},
         {"order", "\"C\""},
     };
-    for (const auto& [name, value] : others) members[name] = value;
-    std::string text;
-    for (const auto& [name, value] : members)
-        text += fmt::format("{}\"{}\": {}", text.empty() ? "{" : ", ", name, value);
-    return text + "}";
+    return jsonOf(std::move(members), others);
 }
 
 // zarr.json of an array, alike.
@@ -207,11 +197,7 @@ inline std::string v3Array(const Layout& layout, const std::string& type,
         {"codecs", R"([{"name": "bytes", "configuration": {"endian": "little"}}])"},
         {"attributes", "{}"},
     };
-    for (const auto& [name, value] : others) members[name] = value;
-    std::string text;
-    for (const auto& [name, value] : members)
-        text += fmt::format("{}\"{}\": {}", text.empty() ? "{" : ", ", name, value);
-    return text + "}";
+    return jsonOf(std::move(members), others);
 }
 
 inline void put(const std::filesystem::path& file, const std::string& text) {

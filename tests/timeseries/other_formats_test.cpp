@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
+#include "tests/support/deflated.h"
 #include "tests/support/files.h"
 #include "tests/support/shared_data.h"
 #include "timeseries/readers/reader.h"
@@ -52,25 +52,11 @@ std::string at(std::size_t place, const std::string& bytes) {
     return file.replace(place, bytes.size(), bytes);
 }
 
-std::string gzipped(const std::string& bytes) {
-    z_stream stream{};
-    EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    std::string in = bytes, out(deflateBound(&stream, in.size()), '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(in.data());
-    stream.avail_in = static_cast<uInt>(in.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    return out;
-}
-
 // The signs are those of the formats' own documents.
 TEST(OtherFormats, AreNamed) {
     for (const auto& [bytes, name] : std::vector<std::pair<std::string, std::string>>{
              {at(0, "GRIB"), "a GRIB file"},
-             {gzipped(at(0, "GRIB")), "a GRIB file"},
+             {tests::byGzip(at(0, "GRIB")), "a GRIB file"},
              {at(128, "DICM"), "a DICOM file"},
              {at(0, "II*\0"s), "a TIFF file"},
              {at(0, "MM\0*"s), "a TIFF file"},
@@ -81,7 +67,7 @@ TEST(OtherFormats, AreNamed) {
              {"<?xml version=\"1.0\"?>\n<VTKFile type=\"HyperTreeGrid\"/>",
               "a VTK file of type HyperTreeGrid"},
              {"# vtk DataFile Version 3.0\nt\nBINARY\nDATASET FIELD\n", "a VTK file of type field"},
-             {gzipped("CDF\1"s), "compressed by gzip, and must be unpacked first"},
+             {tests::byGzip("CDF\1"s), "compressed by gzip, and must be unpacked first"},
              {"BZh91AY&SY", "compressed by bzip2, and must be unpacked first"},
              {"just words", "unknown"},
              {std::string(5000, '\1'), "unknown"},

@@ -21,7 +21,6 @@ using namespace tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::StartsWith;
 
 // A lattice of 5 x 5 x 5, whose particles are the heavier and lie the thinner the later they stand.
 struct Gas {
@@ -235,13 +234,7 @@ TEST(Snapshot, WhatIsNoWholeSnapshotIsRefused) {
     const auto told = [](const auto& change) {
         SnapshotFile file;
         file.gas(Gas(2));
-        change(file);
-        const auto path = file.close();
-        const std::string refusal = refusalOf(path);
-        if (!refusal.empty()) {
-            EXPECT_THAT(refusal, StartsWith(path.string() + ": "));
-        }
-        return refusal;
+        return refusalAfter(file, change);
     };
     using File = SnapshotFile&;
     EXPECT_EQ(told([](File) {}), "");
