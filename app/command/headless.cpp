@@ -53,13 +53,11 @@ struct Told {
 };
 
 std::optional<double> errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-                              const render::PlacedPoints& placed,
-                              const render::Splatters& splatters) {
+                              const render::PlacedPoints& placed) {
     const Rung drawn{e.model};
-    const bool isGl = splatters.sumsByGl(makeScene(e, step, placed, frame.tick));
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
                          eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front(),
-                         std::span(&drawn, 1), isGl ? CellsBy::Gl : CellsBy::Program)
+                         std::span(&drawn, 1))
         .of(drawn);
 }
 
@@ -108,7 +106,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
         }
         std::optional<double> error;
         if (i == frames.size() / 2 && hasDepthError(*step)) {
-            error = told.error = errorOf(e, frame, *step, *placed, renderer.splatters());
+            error = told.error = errorOf(e, frame, *step, *placed);
             told.of = frame.file;
         }
         DrawnStill drawn = drawStill({.explorer = e,

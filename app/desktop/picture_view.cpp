@@ -121,7 +121,7 @@ bool PictureView::waitsForError() const {
 }
 
 void PictureView::tellError() {
-    auto errors = error_.of({content_->sorted, content_->explorer, eyes_.front(), report_.cellsBy});
+    auto errors = error_.of({content_->sorted, content_->explorer, eyes_.front()});
     if (!errors) return;
     errors_ = std::move(errors);
     errorsOf_ = selectionOf(content_->explorer);

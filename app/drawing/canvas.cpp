@@ -195,7 +195,6 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
     report.stride = stride;
     report.drawn = drawnSplats(scene.layers, stride);
     if (scene.cells && byCells) report.cells = cellCount(scene, render::Channels::Over, 0);
-    if (scene.cells && renderer.splatters().sumsByGl(scene)) report.cellsBy = CellsBy::Gl;
     report.lacksCells = lacksCells(scene);
     report.whole = stride == 1 && report.uploaded == 1 && !report.lacksCells;
 }

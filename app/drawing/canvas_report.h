@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "app/exploration/point_counts.h"
-#include "app/picture/depth_error.h"
 
 namespace app {
 
@@ -16,7 +15,6 @@ struct CanvasReport {
     std::size_t step = 0;                     // the step on the screen
     std::uint64_t drawn = 0, selected = 0;    // splats an eye, of all layers; points they stand for
     std::optional<std::uint64_t> cells = {};  // likewise, where they are drawn instead
-    CellsBy cellsBy = CellsBy::Program;       // these, or those that are to come
     // Of that step, under the choices on the screen; none before the first picture.
     std::optional<PointCounts> counts = {};
     std::uint32_t stride = 1;  // one of so many points stands for its neighbours

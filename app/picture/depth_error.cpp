@@ -55,8 +55,8 @@ std::optional<Rung> DepthErrors::cheapest(double error) const {
 }
 
 DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
-                          const render::View& view, std::span<const Rung> rungs, CellsBy by,
-                          unsigned threads, const std::atomic<bool>& wanted) {
+                          const render::View& view, std::span<const Rung> rungs, unsigned threads,
+                          const std::atomic<bool>& wanted) {
     const render::PlacedPoints placed(step.grid(), explorer.scale);
     Explorer e = explorer;
     e.opacityPer = render::OpacityPer::Length;
@@ -68,17 +68,13 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         scene.footprint = standingFor(scene.footprint, rung.stride);
         return scene;
     };
-    const auto raysOf = [&](const render::Scene& scene) {
-        return by == CellsBy::Gl ? 1 : render::raysAcross(scene, view);
-    };
     const auto isByRays = [&](const render::Scene& scene) {
-        return scene.cells && (raysOf(scene) != render::raysAcross(scene, view) ||
-                               render::cellCount(scene, render::Channels::Over, 0) > kFewCells);
+        return scene.cells && render::cellCount(scene, render::Channels::Over, 0) > kFewCells;
     };
     const auto depthOf = [&](render::Scene scene) -> render::DepthAt {
         if (!isByRays(scene))
             return render::depthFrom(opticalDepthOf(scene, view, wanted), view.size);
-        const int rays = raysOf(scene);
+        const int rays = render::raysAcross(scene, view);
         return
             [scene = std::move(scene), &view, rays, threads](std::span<const glm::ivec2> pixels) {
                 return render::cellDepthAt(scene, view, pixels, rays, threads);

@@ -38,15 +38,11 @@ struct DepthErrors {
     // none is, the truest. None where nothing is known.
     std::optional<Rung> cheapest(double error) const;
 };
-// Who draws cells: the program, by several rays a pixel where they are small
-// (render/model/rays_across.h), or GL, by one.
-enum class CellsBy { Program, Gl };
 // Of each of these, the first of which chooses the pixels. None where nothing is visible, and once
 // they are not wanted any more. On any thread. REQUIRES: a resolved explorer;
 // hasDepthError(step).
 DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
                           const render::View& view, std::span<const Rung> rungs,
-                          CellsBy by = CellsBy::Program,
                           unsigned threads = render::sharingThreads(),
                           const std::atomic<bool>& wanted = true);
 // What a window draws while the picture moves and when it rests. Cells only where they are made.

@@ -33,7 +33,7 @@ Splatters::Gl& Splatters::needGl() {
 
 bool Splatters::sumsByGl(const Scene& scene) const {
     if (!byGl_) return false;
-    if (scene.cells) return !scene.placed.isMesh() && GlCells::fit(scene, mostCellBytes_);
+    if (scene.cells) return GlPieces::bytesOf(scene) <= mostCellBytes_;
     const auto& mesh = scene.placed.mesh();
     return !mesh || GlMesh::bytesOf(*mesh) <= mostMeshBytes_;
 }
@@ -53,8 +53,9 @@ std::unique_ptr<SplatFrame> Splatters::prepare(const Scene& scene, DrawList list
     if (!scene.cells || !sumsByGl(scene)) return of(scene).prepare(scene, std::move(list), step);
     try {
         return needGl().cells.prepare(scene, list, step);
-    } catch (const std::runtime_error&) {  // the GPU has no room: the program draws them
-        mostCellBytes_ = 0;
+    } catch (const std::runtime_error&) {  // no room there for so many: the program draws them
+        const std::uint64_t bytes = GlPieces::bytesOf(scene);
+        mostCellBytes_ = bytes > 0 ? bytes - 1 : 0;
         return processor_.prepare(scene, std::move(list), step);
     }
 }

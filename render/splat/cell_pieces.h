@@ -57,6 +57,8 @@ class CellRank {
     }
     std::size_t count() const { return count_; }    // all less
     const glm::ivec3& eye() const { return eye_; }  // the cell that it is in, or beside
+    // Where it is: of a mesh, in axis coordinates.
+    const glm::dvec3& from() const { return from_; }
 
  private:
     void takeDistances(const Scene& scene, const View& view);

@@ -2,25 +2,30 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include "render/gl/pass.h"
 #include "render/model/footprint.h"
+#include "render/model/rays_across.h"
 #include "render/shader_sources.h"
 #include "render/splat/cell_view.h"
+#include "render/splat/gl_ray_means.h"
 #include "render/splat/gl_targets.h"
 
 namespace render {
 namespace {
 
-// GLSL mirror: CellView in shaders/cell.vert and shaders/cell.frag.
+// GLSL mirror: CellView in shaders/cell_view.glsl.
 struct CellViewBlock {
     glm::mat4 viewFromAxes;
     glm::vec4 eye, rayAxis, perPixelX, perPixelY, window, depths, squares, products;
     glm::uvec4 cells;
+    glm::ivec4 part;
 };
 
-CellViewBlock blockOf(const Scene& scene, const View& view, Channels channels) {
-    const PointsView seen(scene.placed, view);
+CellViewBlock blockOf(const Scene& scene, const View& view, Channels channels, const PixelBox& part,
+                      int raysAcross) {
+    const PointsView seen(scene.placed, finer(view, raysAcross));
     const PixelRays& rays = seen.rays;
     const std::array<float, 6> metric = gradientMetric(scene.placed);
     const auto light = channels == Channels::Over ? static_cast<float>(scene.light) : 0.0f;
@@ -30,58 +35,95 @@ CellViewBlock blockOf(const Scene& scene, const View& view, Channels channels) {
     b.rayAxis = glm::vec4(glm::dvec4(rays.axis, seen.rayLength / seen.unitLength));
     b.perPixelX = glm::vec4(glm::dvec4(rays.perPixelX, rays.focal.x));
     b.perPixelY = glm::vec4(glm::dvec4(rays.perPixelY, rays.focal.y));
-    b.window = {glm::vec2(rays.centre), glm::vec2(view.size)};
+    const glm::dvec2 first(raysAcross * part.at);
+    b.window = {glm::vec2(rays.centre - first), glm::vec2(raysAcross * part.size)};
     b.depths = {view.clipFromView[3][2], -view.clipFromView[2][2], seen.rayLength, 0};
     b.squares = {metric[0], metric[1], metric[2], light};
     b.products = {metric[3], metric[4], metric[5], 0};
     b.cells = {scene.cells->size(), 0};
+    b.part = {part.at, raysAcross, 0};
     return b;
 }
 
+}  // namespace
+
 class GlCellPlane final : public PlaneSum {
  public:
-    GlCellPlane(GlCellSplatter& splatter, const Scene& scene, std::shared_ptr<GlCells> cells,
+    GlCellPlane(GlCellSplatter& splatter, const Scene& scene, std::shared_ptr<GlPieces> pieces,
                 const View& view, Channels channels, std::size_t plane, GlTargets& targets)
         : splatter_(splatter),
           scene_(scene),
-          cells_(std::move(cells)),
+          pieces_(std::move(pieces)),
           view_(view),
           channels_(channels),
-          plane_(plane),
+          plane_(targets.planeFramebuffer(plane)),
           targets_(targets) {
-        std::tie(next_, end_) = cells_->placesOf(channels, plane);
-        if (channels == Channels::Over) order_ = cells_->farthestFirst(CellRank(scene, view));
+        std::tie(first_, end_) = pieces_->placesOf(channels, plane);
+        next_ = first_;
+        if (first_ == end_) return;
+        if (channels == Channels::Over) order_ = pieces_->farthestFirst(scene, view);
+        if (const int rays = raysAcross(scene, view); rays > 1)
+            means_.emplace(coveredPixels(scene, view), formatOf(channels), rays,
+                           splatter.rayBytes_);
+        parts_ = means_ ? means_->parts() : std::vector{PixelBox{{}, view.size}};
     }
+    // So many in each part.
     std::uint64_t add(std::uint64_t splats) override {
-        const auto count = static_cast<std::uint32_t>(
-            std::min<std::uint64_t>(std::max(splats, kLeast), end_ - next_));
-        splatter_.draw({scene_, *cells_, order_.get(), view_, channels_, next_, count}, plane_,
-                       targets_);
-        next_ += count;
+        const std::uint64_t count = std::min<std::uint64_t>(std::max(splats, kLeast), left());
+        for (std::uint64_t todo = count * parts_.size(); todo > 0;) {
+            const auto some =
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(todo, end_ - next_));
+            draw(parts_[part_], some);
+            todo -= some;
+        }
+        added_ += count;
         return count;
     }
-    bool done() const override { return next_ == end_; }
+    bool done() const override { return left() == 0; }
 
  private:
     static constexpr std::uint64_t kLeast = 1 << 10;
+    static GLenum formatOf(Channels channels) {
+        return floatsPerPixel(channels) == 1 ? GL_R32F : GL_RGBA32F;
+    }
+    std::uint64_t left() const { return parts_.empty() ? 0 : end_ - first_ - added_; }
+    void draw(const PixelBox& part, std::uint32_t count) {
+        GLuint framebuffer = plane_;
+        if (means_) framebuffer = next_ == first_ ? means_->cleared(part) : means_->framebuffer();
+        splatter_.draw({scene_, *pieces_, order_.get(), view_, channels_, next_, count, part,
+                        means_ ? means_->raysAcross() : 1, framebuffer},
+                       targets_);
+        next_ += count;
+        if (next_ < end_) return;
+        if (means_) means_->putMeans(part, plane_, splatter_.mean(), splatter_.nothing_);
+        next_ = first_;
+        ++part_;
+    }
+
     GlCellSplatter& splatter_;
     const Scene& scene_;
-    std::shared_ptr<GlCells> cells_;
+    std::shared_ptr<GlPieces> pieces_;
     std::shared_ptr<const gl::Buffer> order_;
     const View& view_;
     Channels channels_;
-    std::size_t plane_;
+    GLuint plane_;
     GlTargets& targets_;
-    std::uint32_t next_ = 0, end_ = 0;
+    std::optional<GlRayMeans> means_;
+    std::vector<PixelBox> parts_;
+    std::size_t part_ = 0;
+    std::uint32_t first_ = 0, end_ = 0, next_ = 0;  // of the pieces
+    std::uint64_t added_ = 0;
 };
+
+namespace {
 
 class GlCellFrame final : public SplatFrame {
  public:
-    GlCellFrame(GlCellSplatter& splatter, const Scene& scene, std::shared_ptr<GlCells> cells)
-        : splatter_(splatter), scene_(scene), cells_(std::move(cells)) {}
+    GlCellFrame(GlCellSplatter& splatter, const Scene& scene, std::shared_ptr<GlPieces> pieces)
+        : splatter_(splatter), scene_(scene), pieces_(std::move(pieces)) {}
 
     std::uint64_t splats(Channels channels, std::size_t layer) const override {
-        const auto [first, end] = cells_->placesOf(channels, layer);
+        const auto [first, end] = pieces_->placesOf(channels, layer);
         return end - first;
     }
     std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
@@ -89,26 +131,26 @@ class GlCellFrame final : public SplatFrame {
         GlTargets& onGl = targets.onGl();
         onGl.clearedPlane(layer, channels);
         glTextureBarrier();  // the opaque scene's depth, which shaders read
-        return std::make_unique<GlCellPlane>(splatter_, scene_, cells_, view, channels, layer,
+        return std::make_unique<GlCellPlane>(splatter_, scene_, pieces_, view, channels, layer,
                                              onGl);
     }
 
  private:
     GlCellSplatter& splatter_;
     const Scene& scene_;
-    std::shared_ptr<GlCells> cells_;
+    std::shared_ptr<GlPieces> pieces_;
 };
 
 }  // namespace
 
-GlCellSplatter::GlCellSplatter(const GlSplatter& layers)
-    : layers_(layers), view_(sizeof(CellViewBlock)) {}
+GlCellSplatter::GlCellSplatter(const GlSplatter& layers, std::uint64_t rayBytes)
+    : layers_(layers), rayBytes_(rayBytes), view_(sizeof(CellViewBlock)) {}
 
 std::uint64_t GlCellSplatter::mostBytes() {
     GLint blocks = 0;  // GL 4.5 promises none to vertices
     glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
     if (blocks < 2) return 0;
-    constexpr GLint64 kMost = 1 << 29;
+    constexpr GLint64 kMost = 1 << 30;
     GLint64 bound = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bound);
     return static_cast<std::uint64_t>(std::min(bound, kMost));
@@ -118,35 +160,46 @@ const gl::Program& GlCellSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
     std::string defines = defineOf(variant.channels);
     if (variant.ordered) defines += "#define ORDERED\n";
+    const std::string vertex = std::string(shaders::cell_view_glsl) + shaders::cell_vertex_glsl +
+                               (variant.tets ? shaders::tet_vert : shaders::cell_vert);
+    const std::string fragment = std::string(shaders::cell_view_glsl) + shaders::cell_range_glsl +
+                                 (variant.tets ? shaders::tet_frag : shaders::cell_frag);
     return programs_
-        .emplace(variant,
-                 gl::Program("cell", shaders::cell_vert, shaders::cell_frag, defines.c_str()))
+        .emplace(variant, gl::Program(variant.tets ? "tet" : "cell", vertex.c_str(),
+                                      fragment.c_str(), defines.c_str()))
         .first->second;
 }
 
-std::unique_ptr<SplatFrame> GlCellSplatter::prepare(const Scene& scene, DrawList, const GlStep&) {
-    if (!cells_ || !cells_->areOf(scene)) {
-        cells_.reset();  // before there are others
-        cells_ = std::make_shared<GlCells>(scene);
-    }
-    return std::make_unique<GlCellFrame>(*this, scene, cells_);
+const gl::Program& GlCellSplatter::mean() {
+    if (!mean_) mean_.emplace("mean", shaders::viewport_vert, shaders::mean_frag);
+    return *mean_;
 }
 
-void GlCellSplatter::draw(const Draw& what, std::size_t plane, GlTargets& targets) {
+std::unique_ptr<SplatFrame> GlCellSplatter::prepare(const Scene& scene, DrawList, const GlStep&) {
+    if (!pieces_ || !pieces_->areOf(scene)) {
+        pieces_.reset();  // before there are others
+        pieces_ = GlPieces::of(scene, mostBytes());
+    }
+    return std::make_unique<GlCellFrame>(*this, scene, pieces_);
+}
+
+void GlCellSplatter::draw(const Draw& what, const GlTargets& targets) {
     if (what.count == 0) return;
-    const CellViewBlock block = blockOf(what.scene, what.view, what.channels);
+    const CellViewBlock block =
+        blockOf(what.scene, what.view, what.channels, what.part, what.raysAcross);
     view_.write(0, sizeof block, &block);
-    const gl::Program& with = program({what.channels, what.order != nullptr});
+    const gl::BufferTexture* const sides = what.pieces.sides();
+    const gl::Program& with = program({what.channels, what.order != nullptr, sides == nullptr});
     gl::begin(
-        {.framebuffer = targets.planeFramebuffer(plane),
-         .size = what.view.size,
+        {.framebuffer = what.framebuffer,
+         .size = what.raysAcross * what.part.size,
          .blend = what.channels == Channels::Over ? gl::Blend::Premultiplied : gl::Blend::Add});
     glUseProgram(with.id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_.id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, layers_.layerBlock().id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, what.cells.pieces().id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, what.pieces.pieces().id());
     if (what.order) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, what.order->id());
-    glBindTextureUnit(0, what.cells.sides().id());
+    if (sides) glBindTextureUnit(0, sides->id());
     glBindTextureUnit(1, layers_.colorMaps().id());
     // Read where it is also attached, which is defined after a barrier as long as nothing writes
     // it.

@@ -1,16 +1,11 @@
-// The cells of a scene on the GPU: what of them no view changes.
+// The cells of an upright grid on the GPU.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <span>
-#include <utility>
+#include <glm/vec3.hpp>
 #include <vector>
 
-#include "render/gl/object.h"
-#include "render/model/scene.h"
-#include "render/splat/cell_pieces.h"
+#include "render/splat/gl_pieces.h"
 
 namespace render {
 
@@ -21,42 +16,24 @@ struct GlCell {
     // Bits 0 to 3: which octant, or kWholeCell; 4 and 5: crossesLeast, crossesMost; from 8: layer.
     std::uint32_t kind;
     float least, most, perRange;
-    float mapPlace, mapPerValue;
+    GlMapPlace map;
     float steep;
     float f[8];
 };
 
-class GlCells {
+class GlCells final : public GlPieces {
  public:
-    // Whether a buffer of so many bytes holds them, however many are parted into octants.
-    static bool fit(const Scene& scene, std::uint64_t bytes);
-    explicit GlCells(const Scene& scene);
-
-    // Whether they are those of this scene, whatever its view, its colours and their opacity.
-    bool areOf(const Scene& scene) const;
-
-    const gl::Buffer& pieces() const { return *pieces_; }  // GlCell, layer by layer
-    // Places in pieces() that a plane takes.
-    std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
-    // Places of all pieces as uints, the farthest first.
-    std::shared_ptr<const gl::Buffer> farthestFirst(const CellRank& rank);
-    std::uint64_t bytes() const;  // on the GPU
-    // Middles and sizes of cells, axis after axis, in axis coordinates.
-    const gl::BufferTexture& sides() const { return sidesTexture_; }
+    GlCells(const Scene& scene, std::uint64_t mostBytes);
+    std::uint64_t bytes() const override { return GlPieces::bytes() + sides_.bytes(); }
+    const gl::BufferTexture* sides() const override { return &sidesTexture_; }
 
  private:
-    std::weak_ptr<const timeseries::CellIndex> index_;
-    std::vector<double> choices_;  // all else that they depend on
-    std::unique_ptr<gl::Buffer> pieces_;
-    std::vector<glm::uvec3> cells_;      // of each piece, along the axes
-    std::vector<std::uint32_t> firsts_;  // of each layer, and the end
+    glm::dvec3 keyOf(const CellRank& rank) const override { return rank.eye(); }
+    std::vector<std::uint32_t> order(const CellRank& rank) const override;
+
+    std::vector<glm::uvec3> cells_;  // of each piece, along the axes
     gl::Buffer sides_;
     gl::BufferTexture sidesTexture_;
-    struct Ordered {
-        glm::ivec3 eye;
-        std::shared_ptr<const gl::Buffer> places;
-    };
-    std::vector<Ordered> ordered_;  // for the eyes that asked last
 };
 
 }  // namespace render

@@ -7,22 +7,18 @@
 #include <limits>
 #include <random>
 
-#include "render/gl/debug_output.h"
-#include "render/gl/headless_context.h"
-#include "render/gl/pass.h"
-#include "render/splat/gl_cell_splatter.h"
-#include "render/splat/gl_targets.h"
-#include "tests/support/cell_worlds.h"
+#include "render/model/rays_across.h"
+#include "tests/support/gl_cell_planes.h"
 
 namespace render {
 namespace {
+
+using GlCellsOf = tests::GlCellPlanes;
 
 using tests::CellWorld;
 using tests::drawn;
 using tests::lookFrom;
 using timeseries::Grid;
-
-constexpr glm::ivec2 kSize{120, 90};
 
 double wave(const glm::dvec3& p) {
     return std::sin(0.9 * p.x) + std::cos(0.7 * p.y + 0.3 * p.x) * std::sin(0.8 * p.z);
@@ -32,59 +28,6 @@ timeseries::SortedStep sampled(const std::shared_ptr<const Grid>& grid, const F&
     return tests::stepOf(grid, [&](std::size_t i) { return f(glm::dvec3(grid->indices(i))); });
 }
 timeseries::SortedStep waves(std::size_t n = 10) { return sampled(tests::cube(n), wave); }
-
-class GlCellsOf : public testing::Test {
- protected:
-    // Of the whole picture, row 0 at the bottom; the opaque scene is a wall at this window depth.
-    std::vector<float> plane(const Scene& scene, const View& view, Channels channels,
-                             std::size_t layer = 0, std::uint64_t slice = tests::kAllCells,
-                             float opaque = 1) {
-        GlTargets targets(view.size);
-        gl::begin({.framebuffer = targets.lightFramebuffer(),
-                   .size = view.size,
-                   .clearColor = glm::vec4(0),
-                   .clearDepth = opaque});
-        layers_.setLayers(scene, ValueScale::of(scene.layers));
-        const auto frame = cells_.prepare(scene, Runs{}, GlStep(scene.step, scene.placed));
-        const auto sum = frame->begin(view, channels, layer, targets);
-        std::uint64_t added = 0;
-        while (!sum->done()) added += sum->add(slice);
-        EXPECT_EQ(added, frame->splats(channels, layer));
-        std::vector<float> pixels(std::size_t(view.size.x) * std::size_t(view.size.y) *
-                                  floatsPerPixel(channels));
-        glGetTextureSubImage(targets.plane(layer).id(), 0, 0, 0, 0, view.size.x, view.size.y, 1,
-                             floatsPerPixel(channels) == 1 ? GL_RED : GL_RGBA, GL_FLOAT,
-                             static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
-        gl::throwOnError();
-        return pixels;
-    }
-    // Each plane of the scene's picture, and how often it is touched.
-    void expectTheProcessors(const Scene& scene, const View& view, double error = 2e-5) {
-        std::vector<Channels> planes = channelsFor(scene);
-        for (std::size_t k = 0; k < planes.size(); ++k)
-            expectSame(plane(scene, view, planes[k], k), drawn(scene, view, planes[k], k), error);
-    }
-    // Relative L2.
-    static void expectSame(const std::vector<float>& is, const std::vector<float>& expected,
-                           double error) {
-        ASSERT_EQ(is.size(), expected.size());
-        double off = 0, all = 0;
-        for (std::size_t i = 0; i < is.size(); ++i) {
-            ASSERT_TRUE(std::isfinite(is[i])) << i;
-            off += std::pow(double{is[i]} - double{expected[i]}, 2);
-            all += std::pow(double{expected[i]}, 2);
-        }
-        ASSERT_GT(all, 0) << "nothing was compared";
-        EXPECT_LT(std::sqrt(off / all), error);
-    }
-
-    gl::HeadlessContext context_;
-    GlSplatter layers_;
-    GlCellSplatter cells_{layers_};
-};
-
-const View kOutside = lookFrom({1.2, -2.5, 1}, kSize);
-const View kInside = lookFrom({0.12, 0.2, -0.15}, kSize, 0.9);
 
 TEST_F(GlCellsOf, LengthsAreTheProcessorsFromOutsideAndInside) {
     for (const char* range : {"-0.5:0.5", "min:max", "0.3:0.31", "0.2"}) {
@@ -210,15 +153,21 @@ TEST_F(GlCellsOf, EachOfSeveralScenesIsItsOwn) {
     expectTheProcessors(world.scene, kOutside, 2e-4);
 }
 
-// Where there is not enough room for their 64 bytes each, octants eight times as many.
-TEST_F(GlCellsOf, FitWhatTheyTake) {
+// 64 bytes each, and as many for each octant of those that are parted.
+TEST_F(GlCellsOf, TakeNoMoreThanTheyMay) {
     CellWorld world(waves(), {"-0.5:0.5"});
     const std::uint64_t bytes = 64 * cellCount(world.scene.layers[0]);
-    EXPECT_TRUE(GlCells::fit(world.scene, bytes));
-    EXPECT_FALSE(GlCells::fit(world.scene, bytes - 1));
+    EXPECT_EQ(GlPieces::bytesOf(world.scene), bytes);
+    EXPECT_NO_THROW(GlPieces::of(world.scene, bytes));
+    EXPECT_THROW(
+        GlPieces::of(world.scene, 64 * cells_.prepare(world.scene, Runs{},
+                                                      GlStep(world.scene.step, world.scene.placed))
+                                              ->splats(Channels::Weight, 0) -
+                                      1),
+        std::runtime_error);
     world.scene.clip = {{0, 0, 0}, {5, 9, 9}};
-    EXPECT_FALSE(GlCells::fit(world.scene, 8 * bytes - 1));
-    EXPECT_LE(GlCells(world.scene).pieces().bytes(), 8 * bytes);
+    EXPECT_EQ(GlPieces::bytesOf(world.scene), bytes);
+    EXPECT_LE(GlPieces::of(world.scene, 8 * bytes)->bytes(), 8 * bytes + 1000);
 }
 
 // Of axes whose coordinates are the same as floats.
@@ -248,6 +197,26 @@ TEST_F(GlCellsOf, ValuesFarBeyondFloatsAreTheProcessors) {
     expectTheProcessors(ofWhole.scene, kOutside, 1e-4);
     const CellWorld plateau(sampled(grid, [](const glm::dvec3&) { return 3.0; }), {"2:4"});
     expectTheProcessors(plateau.scene, kOutside, 1e-4);
+}
+
+// Cells less than three pixels wide: of several rays a pixel has the mean.
+TEST_F(GlCellsOf, SmallOnesAreTheProcessorsMeans) {
+    CellWorld world(waves(30), {"-0.4:-0.3", "0.2:0.25"}, 0.7);
+    world.scene.layers[1].style.color = ByValue{{}, 0.2, 0.25};
+    for (const double far : {2.0, 5.0, 12.0})
+        for (const bool inParts : {false, true})
+            for (const Order order : {Order::None, Order::BackToFront}) {
+                inParts_ = inParts;
+                world.scene.order = order;
+                world.scene.light = order == Order::None ? Light::Off : Light::Soft;
+                const View view = lookFrom(far * glm::dvec3(0.4, -0.8, 0.4), kSize, 1.5 / far);
+                SCOPED_TRACE(testing::Message() << raysAcross(world.scene, view) << inParts);
+                EXPECT_GT(raysAcross(world.scene, view), 1);
+                expectTheProcessors(world.scene, view, 3e-4);
+                const Channels channels = channelsFor(world.scene)[0];
+                EXPECT_EQ(plane(world.scene, view, channels, 0, 1),
+                          plane(world.scene, view, channels));
+            }
 }
 
 }  // namespace

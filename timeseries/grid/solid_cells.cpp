@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <limits>
+#include <numeric>
 
 #include "timeseries/together.h"
 
@@ -66,11 +67,16 @@ void SolidCells::measure(const std::vector<glm::dvec3>& points) {
     };
     const unsigned threads = threadsFor(count(), 1 << 14);
     std::vector<glm::dvec3> longest(threads, glm::dvec3(0));
+    std::vector<std::uint64_t> tets(threads);
     together(threads, [&](unsigned k) {
-        for (std::uint64_t cell = count() * k / threads; cell < count() * (k + 1) / threads; ++cell)
+        for (std::uint64_t cell = count() * k / threads; cell < count() * (k + 1) / threads;
+             ++cell) {
             longest[k] = glm::max(longest[k], extentOf(cell));
+            forEachTet(cell, [&](const auto&) { ++tets[k]; });
+        }
     });
     for (const glm::dvec3& of : longest) longest_ = glm::max(longest_, of);
+    tets_ = std::accumulate(tets.begin(), tets.end(), std::uint64_t{0});
 }
 
 std::uint64_t SolidCells::bytes() const {

@@ -46,6 +46,7 @@ class SolidCells {
     void forEachTet(std::uint64_t cell, const Use& use) const;
     // How far corners of a cell are apart along each coordinate, at most.
     const glm::dvec3& longest() const { return longest_; }
+    std::uint64_t tets() const { return tets_; }  // of all cells
     std::uint64_t bytes() const;
     friend bool operator==(const SolidCells&, const SolidCells&) = default;
 
@@ -64,6 +65,7 @@ class SolidCells {
     std::vector<std::uint64_t> ends_, faceEnds_;
     std::vector<std::uint32_t> corners_, faces_;
     glm::dvec3 longest_{0};
+    std::uint64_t tets_ = 0;
 };
 
 template <typename Use>

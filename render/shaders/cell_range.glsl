@@ -1,0 +1,107 @@
+// What the values that a pixel's ray meets in a cell or a tetrahedron have in the range, which
+// colours and light that has, and what is accumulated: put before both fragment shaders. Names and
+// formulas: render/model/cell_splat.h; of light: render/model/light.h.
+// Variants: WEIGHT, WEIGHTED_COLOR, OVER or COUNT: what is accumulated.
+
+// C++ mirror: LayerBlock in render/splat/gl_splatter.cpp.
+layout(std140, binding = 1) uniform Layers {
+    vec4 style[8];  // constant linear colour; w: optical depth per weight
+    vec4 map[8];    // z: by value: the map's entries, else 0
+} layers;
+
+layout(binding = 1) uniform sampler2D colorMaps;    // a row a layer, linear colour; then their sums
+layout(binding = 2) uniform sampler2D opaqueDepth;  // what hides cells
+
+layout(location = 0) flat in vec4 centreAndBase;
+layout(location = 1) flat in vec4 range;  // least, most, per range
+layout(location = 2) flat in vec4 map;    // place of f = 0, per f
+layout(location = 3) flat in uvec2 kind;
+
+#if defined(WEIGHT) || defined(COUNT)
+layout(location = 0) out float sum;
+#else
+layout(location = 0) out vec4 sum;
+#endif
+
+const int kMaxLayers = 8;
+const float kLeastChange = 1e-5, kLeastStep = 1e-12;
+const float kAmbient = 0.25, kEven = 0.625, kSpecular = 0.35;
+
+// 1 - e^-x; the series where the difference would cancel (its error there is below 1e-9).
+float opacity(float x) {
+    if (x > 0.1) return 1.0 - exp(-x);
+    return x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0 - x / 720.0)))));
+}
+
+// The mean of clamp(x, 0, 1) between a and b.
+float meanRamp(float a, float b) {
+    const float ca = clamp(a, 0.0, 1.0), cb = clamp(b, 0.0, 1.0), between = b - a;
+    if (abs(between) < kLeastStep) return 0.5 * (ca + cb);
+    return ((cb - ca) * (cb + ca) * 0.5 + (max(b, 1.0) - max(a, 1.0))) / between;
+}
+
+bool crossesLeast() { return (kind.x & 1u) != 0u; }
+bool crossesMost() { return (kind.x & 2u) != 0u; }
+
+// Of a piece between these values, what lies in the range over a pixel of this width of values.
+float shareIn(float begin, float end, float perWidth) {
+    float share = 1.0;
+    if (crossesLeast())
+        share = meanRamp((begin - range.x) * perWidth + 0.5, (end - range.x) * perWidth + 0.5);
+    if (crossesMost())
+        share -= meanRamp((begin - range.y) * perWidth + 0.5, (end - range.y) * perWidth + 0.5);
+    return max(share, 0.0);
+}
+// The values in the range that are the nearest to these.
+vec2 withinRange(vec2 values) {
+    return clamp(values, crossesLeast() ? max(range.x, -1.0) : -1.0,
+                 crossesMost() ? min(range.y, 1.0) : 1.0);
+}
+
+#if defined(WEIGHTED_COLOR) || defined(OVER)
+// Of a place among a row's entries: a layer's map, linear, or from kMaxLayers on its sums.
+vec3 entryAt(float place, int row) {
+    const int below = min(int(place), int(layers.map[kind.y].z) - 2);
+    return mix(texelFetch(colorMaps, ivec2(below, row), 0).rgb,
+               texelFetch(colorMaps, ivec2(below + 1, row), 0).rgb, place - float(below));
+}
+// The mean of the colours of all values of f between these.
+vec3 colorBetween(float a, float b) {
+    const int row = int(kind.y);
+    if (layers.map[row].z == 0.0) return layers.style[row].rgb;
+    const vec2 places = clamp(map.x + vec2(a, b) * map.y, 0.0, 1.0) * (layers.map[row].z - 1.0);
+    const float way = places.y - places.x;
+    if (abs(way) <= 2.0) return entryAt(0.5 * (places.x + places.y), row);
+    return (entryAt(places.y, kMaxLayers + row) - entryAt(places.x, kMaxLayers + row)) / way;
+}
+#endif
+
+#ifdef OVER
+// As in render/splat/cell_range-inl.h.
+float seenTo(float front, float back, float x, float along, float width) {
+    const float hiding = along / max(along + width, 1e-30);
+    const float share = (1.0 + x / 12.0) / (2.0 + x / 2.0 + x * x / 12.0);
+    return front + (1.0 + hiding * (2.0 * share - 1.0)) * (back - front);
+}
+
+// What light makes of a colour, where a surface faces the eye so much, as far as there is one.
+vec3 lit(vec3 color, float facing, float certainty) {
+    const float diffuse = kEven + certainty * (kAmbient + (1.0 - kAmbient) * facing - kEven);
+    const float specular =
+        view.squares.w > 1.0 ? certainty * kSpecular * pow(facing, 30.0) : 0.0;
+    return color * diffuse + specular;
+}
+#endif
+
+// Of this pixel: how far from the centre, and how much longer its ray is than the view axis'.
+vec2 offsetOfPixel() { return gl_FragCoord.xy - view.window.xy - centreAndBase.xy; }
+float longerThanAxis(vec2 offset) {
+    const vec2 slope = (offset + centreAndBase.xy) / vec2(view.perPixelX.w, view.perPixelY.w);
+    return sqrt(1.0 + dot(slope, slope));
+}
+// The depth from the base at which it ends at what is opaque.
+float hiddenFrom() {
+    const ivec2 pixel = view.part.xy + ivec2(gl_FragCoord.xy) / view.part.z;
+    const float opaque = texelFetch(opaqueDepth, pixel, 0).r;
+    return opaque < 1.0 ? view.depths.x / (opaque - view.depths.y) - centreAndBase.z : 3e38;
+}

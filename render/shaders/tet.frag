@@ -1,0 +1,52 @@
+// One pixel of a tetrahedron: the length that its ray has inside the range, or how much of the range
+// it crosses. Names and formulas: fragmentOn in render/model/tet_splat.h. After cell_view.glsl and
+// cell_range.glsl.
+
+layout(location = 4) flat in vec4 at;
+layout(location = 5) flat in vec4 ray;
+layout(location = 6) flat in vec4 right;
+layout(location = 7) flat in vec4 up;
+layout(location = 8) flat in vec4 field;
+layout(location = 9) flat in vec2 light;
+
+void main() {
+    const vec2 offset = offsetOfPixel();
+    const float base = centreAndBase.z;
+    const vec4 shift = offset.x * right + offset.y * up;
+    const vec4 along = ray + shift;
+    const vec4 least = max(abs(along), vec4(kLeastStep));
+    const bvec4 enters = greaterThanEqual(along, vec4(0.0));
+    const vec4 where = -(at + base * shift) / mix(-least, least, enters);
+    const vec4 enter = mix(vec4(-3e38), where, enters), leave = mix(where, vec4(3e38), enters);
+    const float from = max(max(max(enter.x, enter.y), max(enter.z, enter.w)), view.eye.w - base);
+    const float to = min(min(min(leave.x, leave.y), min(leave.z, leave.w)), hiddenFrom());
+    if (!(to > from)) discard;
+    const float longer = longerThanAxis(offset);
+    const float whole = view.rayAxis.w * (to - from) * longer;
+
+    const float moved = offset.x * field.z + offset.y * field.w;
+    const float value = field.x + base * moved, change = field.y + moved;
+    const float first = value + from * change, last = value + to * change;
+    float w = whole, front = first, back = last, width = 0.0;
+    if (crossesLeast() || crossesMost()) {
+        width = max((base + 0.5 * (from + to)) * length(field.zw), 2.0 * kLeastChange);
+        w = shareIn(first, last, 1.0 / width) * max(whole, abs(last - first) * range.z);
+        if (!(w > 0.0)) discard;
+        const vec2 ends = withinRange(vec2(min(first, last), max(first, last)) + vec2(-0.5, 0.5) * width);
+        front = change > 0.0 ? ends.x : ends.y;
+        back = change > 0.0 ? ends.y : ends.x;
+    }
+#if defined(WEIGHT)
+    sum = w;
+#elif defined(COUNT)
+    sum = 1.0;
+#elif defined(WEIGHTED_COLOR)
+    sum = vec4(colorBetween(front, back) * w, w);
+#else
+    const float depthOfLight = layers.style[kind.y].w * w, alpha = opacity(depthOfLight);
+    vec3 color = colorBetween(front, seenTo(front, back, depthOfLight, abs(last - first), width));
+    if (view.squares.w > 0.0)
+        color = lit(color, min(1.0, abs(change) * light.x / (view.depths.z * longer)), light.y);
+    sum = vec4(color * alpha, alpha);
+#endif
+}

@@ -1,0 +1,99 @@
+#include "render/splat/gl_pieces.h"
+
+#include <algorithm>
+
+#include "render/splat/cell_view.h"
+#include "render/splat/gl_cells.h"
+#include "render/splat/gl_tets.h"
+
+namespace render {
+namespace {
+
+constexpr std::size_t kEyes = 2;
+
+// What pieces depend on beside the field. Places along axes say how an upright grid is placed.
+std::vector<double> choicesOf(const Scene& scene) {
+    const glm::dvec3 scale = scene.placed.scale();
+    std::vector<double> choices{static_cast<double>(scene.opacityPer),
+                                scene.light == Light::Off ? 0.0 : 1.0,
+                                scene.placed.unitLength(),
+                                scale.x,
+                                scale.y,
+                                scale.z};
+    for (int a = 0; a < 3; ++a) {
+        choices.insert(choices.end(), {double(scene.clip.lo[a]), double(scene.clip.hi[a]),
+                                       scene.clip.from[a], scene.clip.to[a]});
+    }
+    for (const Layer& layer : scene.layers) {
+        const auto* map = std::get_if<ByValue>(&layer.style.color);
+        choices.insert(choices.end(), {map ? 1.0 : 0.0, map ? map->lo : 0, map ? map->hi : 0,
+                                       static_cast<double>(layer.cells.ranges.size())});
+        for (const auto& range : layer.cells.ranges)
+            choices.insert(choices.end(), {range.lo, range.hi});
+    }
+    if (scene.placed.isMesh()) return choices;
+    for (const std::vector<double>& along : scene.placed.positions())
+        choices.insert(choices.end(), along.begin(), along.end());
+    return choices;
+}
+
+}  // namespace
+
+std::shared_ptr<GlPieces> GlPieces::of(const Scene& scene, std::uint64_t mostBytes) {
+    if (scene.placed.isMesh()) return std::make_shared<GlTets>(scene, mostBytes);
+    return std::make_shared<GlCells>(scene, mostBytes);
+}
+
+std::uint64_t GlPieces::bytesOf(const Scene& scene) {
+    std::uint64_t pieces = 0;
+    for (const Layer& layer : scene.layers)
+        pieces += cellCount(layer) * std::max<std::size_t>(layer.cells.ranges.size(), 1);
+    if (!scene.placed.isMesh()) return pieces * sizeof(GlCell);
+    return static_cast<std::uint64_t>(static_cast<double>(pieces) * GlTets::perCell(scene)) *
+           sizeof(GlTet);
+}
+
+GlPieces::GlPieces(const Scene& scene, std::uint64_t mostBytes)
+    : index_(scene.cells),
+      mesh_(scene.placed.mesh()),
+      choices_(choicesOf(scene)),
+      mostBytes_(mostBytes),
+      firsts_(scene.layers.size() + 1) {}
+
+bool GlPieces::areOf(const Scene& scene) const {
+    return index_.lock() == scene.cells && mesh_.lock() == scene.placed.mesh() &&
+           choices_ == choicesOf(scene);
+}
+
+std::uint64_t GlPieces::bytes() const {
+    std::uint64_t sum = pieces_->bytes();
+    for (const Ordered& ordered : ordered_) sum += ordered.places->bytes();
+    return sum;
+}
+
+std::pair<std::uint32_t, std::uint32_t> GlPieces::placesOf(Channels channels,
+                                                           std::size_t layer) const {
+    const auto [first, last] = layersOf(firsts_.size() - 1, channels, layer);
+    return {firsts_[first], firsts_[last]};
+}
+
+std::shared_ptr<const gl::Buffer> GlPieces::farthestFirst(const Scene& scene, const View& view) {
+    const CellRank rank(scene, view);
+    const glm::dvec3 key = keyOf(rank);
+    const auto found = std::ranges::find(ordered_, key, &Ordered::key);
+    if (found != ordered_.end()) return found->places;
+    const std::vector<std::uint32_t> places = order(rank);
+    if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
+    ordered_.push_back(
+        {key, std::make_shared<const gl::Buffer>(std::span<const std::uint32_t>(places))});
+    return ordered_.back().places;
+}
+
+GlMapPlace glMapPlaceOf(const RangeStyle& style, double reference, double extent) {
+    const auto* map = std::get_if<ByValue>(&style.color);
+    if (map == nullptr) return {};
+    const CellMapPlace place = mapPlaceOf(*map, reference, extent);
+    return {floatPlace(place.at), floatPlace(place.perValue)};
+}
+
+}  // namespace render

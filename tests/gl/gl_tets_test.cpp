@@ -1,0 +1,159 @@
+// Interval volumes of grids whose points lie one by one by GL, tetrahedron by tetrahedron: what the
+// processor draws, which tests/render holds to the truth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "render/model/rays_across.h"
+#include "tests/support/gl_cell_planes.h"
+#include "tests/support/meshes.h"
+#include "tests/support/unstructured.h"
+
+namespace render {
+namespace {
+
+using tests::CellWorld;
+using tests::drawn;
+using tests::lookFrom;
+using timeseries::Grid;
+using GlTetsOf = tests::GlCellPlanes;
+
+// One of each kind: six tetrahedra about a diagonal; fans of the faces of cells of every shape.
+std::vector<std::shared_ptr<const Grid>> grids() {
+    std::vector<std::shared_ptr<const Grid>> all{tests::twisted()};
+    for (const tests::Cut cut : tests::kCuts)
+        all.push_back(tests::gridOf(tests::atPoints(tests::bentBricks(cut))));
+    return all;
+}
+
+TEST_F(GlTetsOf, LengthsAreTheProcessorsFromOutsideAndInside) {
+    for (const auto& grid : grids())
+        for (const char* range : {"0.3:0.6", "min:max", "0.5~0.01", "0.5"}) {
+            CellWorld world(tests::noise(grid), {range});
+            for (const OpacityPer per : {OpacityPer::Length, OpacityPer::Crossing}) {
+                if (per == OpacityPer::Length && std::string_view(range) == "0.5") continue;
+                world.scene.opacityPer = per;
+                for (const View& view : {kOutside, kInside}) {
+                    SCOPED_TRACE(testing::Message() << range << (per == OpacityPer::Crossing));
+                    expectTheProcessors(world.scene, view, 3e-4);
+                }
+            }
+        }
+}
+
+TEST_F(GlTetsOf, ColoursLightAndOrderAreTheProcessors) {
+    for (const auto& grid : grids()) {
+        CellWorld world(tests::noise(grid), {"0:0.2", "0.4:0.45", "0.7:0.9"}, 0.7);
+        world.scene.layers[1].style.color = ByValue{{}, 0.4, 0.45};
+        world.scene.layers[2].style.color = ByValue{{}, 0.6, 1};
+        world.scene.opacityPer = OpacityPer::Crossing;
+        for (const Order order : {Order::None, Order::BackToFront})
+            for (const Light light : {Light::Off, Light::Soft, Light::Full})
+                for (const View& view : {kOutside, kInside}) {
+                    if (order == Order::None && light != Light::Off) continue;
+                    world.scene.order = order;
+                    world.scene.light = light;
+                    SCOPED_TRACE(testing::Message()
+                                 << static_cast<int>(order) << static_cast<int>(light)
+                                 << view.viewFromWorld[3][2]);
+                    // Within a cell they come by their middles: where it is bent, a few rays meet
+                    // two of them the other way round.
+                    expectTheProcessors(world.scene, view, order == Order::None ? 3e-4 : 4e-3);
+                }
+    }
+}
+
+// What is missing or clipped takes the part of each tetrahedron that is nearest to it.
+TEST_F(GlTetsOf, PartsAreTheProcessors) {
+    for (const auto& grid : grids()) {
+        CellWorld world(tests::stepOf(grid,
+                                      [](std::size_t i) {
+                                          return i % 9 == 0
+                                                     ? std::numeric_limits<double>::quiet_NaN()
+                                                     : double(i * 7919 % 1000) / 1000;
+                                      }),
+                        {"0.3:0.6"});
+        for (const Order order : {Order::None, Order::BackToFront}) {
+            world.scene.order = order;
+            world.scene.clip = {};
+            expectTheProcessors(world.scene, kOutside, 1e-3);
+            const auto whole = drawn(world.scene, kOutside);
+            world.scene.clip.to.y = 1.6;
+            expectTheProcessors(world.scene, kOutside, 1e-3);
+            EXPECT_NE(drawn(world.scene, kOutside), whole);
+        }
+    }
+}
+
+TEST_F(GlTetsOf, WhatIsOpaqueHidesTheRestOfARay) {
+    const CellWorld world(tests::noise(tests::twisted()), {"0.3:0.6"});
+    const auto wall =
+        static_cast<float>(windowDepth(kOutside, glm::length(glm::dvec3(1.2, -2.5, 1))));
+    const std::vector<float> hides(std::size_t(kSize.x) * kSize.y, wall);
+    const auto expected =
+        drawn(world.scene, kOutside, Channels::Weight, 0, 2, tests::kAllCells, hides);
+    expectSame(plane(world.scene, kOutside, Channels::Weight, 0, tests::kAllCells, wall), expected,
+               3e-4);
+    EXPECT_NE(drawn(world.scene, kOutside), expected) << "or nothing was hidden";
+}
+
+TEST_F(GlTetsOf, SmallOnesAreTheProcessorsMeansInAnySlices) {
+    for (const auto& grid : grids()) {
+        CellWorld world(tests::noise(grid), {"0.3:0.6"});
+        inParts_ = grid->mesh()->solids() == nullptr;
+        for (const Order order : {Order::None, Order::BackToFront}) {
+            world.scene.order = order;
+            const View view = lookFrom({20, -40, 20}, kSize);
+            EXPECT_GT(raysAcross(world.scene, view), 1);
+            expectTheProcessors(world.scene, view, 1e-3);
+            const Channels channels = channelsFor(world.scene)[0];
+            EXPECT_EQ(plane(world.scene, view, channels, 0, 1), plane(world.scene, view, channels));
+        }
+    }
+}
+
+// What is kept on the GPU is not taken for that of another grid of as many points, nor of another
+// scale.
+TEST_F(GlTetsOf, EachOfSeveralScenesIsItsOwn) {
+    for (const auto& grid : grids()) {
+        const CellWorld world(tests::noise(grid), {"0.3:0.6"});
+        expectTheProcessors(world.scene, kOutside, 3e-4);
+        CellWorld stretched(tests::noise(grid), {"0.3:0.6"});
+        stretched.scene.cells = world.scene.cells;
+        stretched.placed = PlacedPoints(*grid, glm::dvec3(1, 2, 0.5));
+        expectTheProcessors(stretched.scene, kOutside, 3e-4);
+    }
+}
+
+// 96 bytes each: six a cell of a curvilinear grid, of others as many as they have.
+TEST_F(GlTetsOf, TakeNoMoreThanTheyMay) {
+    for (const auto& grid : grids()) {
+        CellWorld world(tests::noise(grid), {"min:max"});
+        const auto pieces = GlPieces::of(world.scene, GlPieces::bytesOf(world.scene));
+        const auto [first, end] = pieces->placesOf(Channels::Weight, 0);
+        EXPECT_LE(96 * (end - first), GlPieces::bytesOf(world.scene));
+        if (grid->mesh()->solids()) {
+            EXPECT_GT(96 * (end - first), GlPieces::bytesOf(world.scene) * 9 / 10);
+        }
+        EXPECT_THROW(GlPieces::of(world.scene, 96 * (end - first) - 1), std::runtime_error);
+    }
+}
+
+TEST_F(GlTetsOf, ValuesFarBeyondFloatsAreTheProcessors) {
+    for (const auto& grid : grids()) {
+        const auto scaled = [&](double by) {
+            std::vector<double> values(grid->count());
+            for (std::size_t i = 0; i < values.size(); ++i)
+                values[i] = by * (double(i * 7919 % 1000) / 1000);
+            return timeseries::SortedStep::build({grid, std::move(values), {}});
+        };
+        expectTheProcessors(CellWorld(scaled(1e300), {"3e299:6e299"}).scene, kOutside, 3e-4);
+        expectTheProcessors(CellWorld(scaled(1e-300), {"3e-301:6e-301"}).scene, kOutside, 3e-4);
+        const CellWorld plateau(tests::stepOf(grid, [](std::size_t) { return 3.0; }), {"2:4"});
+        expectTheProcessors(plateau.scene, kOutside, 3e-4);
+    }
+}
+
+}  // namespace
+}  // namespace render
