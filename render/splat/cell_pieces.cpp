@@ -103,8 +103,7 @@ CellRank::CellRank(const Scene& scene, const View& view) : size_(scene.cells->si
 void CellRank::takeDistances(const Scene& scene, const View& view) {
     constexpr std::size_t kRanks = 1 << 20;
     count_ = kRanks;
-    mesh_ = &scene.placed;
-    corners_ = &scene.cells->cornersOf();
+    scene_ = &scene;
     from_ = pixelRays(view).eye;
     // Of points, which lie in the box; cells end half a cell beyond it.
     const double around =
@@ -115,22 +114,24 @@ void CellRank::takeDistances(const Scene& scene, const View& view) {
         (kRanks - 1) / std::max(glm::distance(from_, middle) + around - nearest_, 1e-300);
 }
 
-glm::dvec3 CellRank::middleOf(std::uint32_t cell) const {
-    if (const auto& solids = mesh_->mesh()->solids()) {
+glm::dvec3 middleOfCell(const Scene& scene, std::uint32_t cell) {
+    const PlacedPoints& placed = scene.placed;
+    if (const auto& solids = placed.mesh()->solids()) {
         const auto corners = solids->corners(cell);
         glm::dvec3 sum(0);
-        for (const std::uint32_t corner : corners) sum += mesh_->alongAxes(corner);
+        for (const std::uint32_t corner : corners) sum += placed.alongAxes(corner);
         return sum / static_cast<double>(corners.size());
     }
-    const glm::uvec3 at = timeseries::indicesOf(cell, size_);
+    const timeseries::CellCorners& corners = scene.cells->cornersOf();
+    const glm::uvec3 at = timeseries::indicesOf(cell, scene.cells->size());
     const auto placeOf = [&](unsigned corner) {
-        return mesh_->alongAxes(corners_->indexOf(corners_->pointAt(at, corner)));
+        return placed.alongAxes(corners.indexOf(corners.pointAt(at, corner)));
     };
     return 0.5 * (placeOf(0) + placeOf(7));
 }
 
-std::uint32_t CellRank::byDistance(std::uint32_t cell) const {
-    const double away = glm::distance(from_, middleOf(cell)) - nearest_;
+std::uint32_t CellRank::ofMiddle(const glm::dvec3& middle) const {
+    const double away = glm::distance(from_, middle) - nearest_;
     const double rank = away * perDistance_;  // of a place that is none, nothing is drawn
     return rank > 0 ? static_cast<std::uint32_t>(std::min(rank, double(count_ - 1))) : 0;
 }

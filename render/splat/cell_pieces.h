@@ -31,6 +31,9 @@ std::pair<std::size_t, std::size_t> layersOf(std::size_t count, Channels channel
                                              std::size_t layer);
 std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer);
 
+// Of a mesh's cell, in axis coordinates.
+glm::dvec3 middleOfCell(const Scene& scene, std::uint32_t cell);
+
 // An order by depth. What hides a part of a cell lies, along each axis, no farther from the eye's
 // cell than it does and on the same side, and nearer along one: the sum of these distances is an
 // order, in bricks of cells first, then in cells within a brick, of which each is passed in one go:
@@ -53,8 +56,11 @@ class CellRank {
         return first_[brick] + within;
     }
     std::uint32_t operator()(std::uint32_t cell) const {
-        return mesh_ ? byDistance(cell) : (*this)(timeseries::indicesOf(cell, size_));
+        return scene_ ? ofMiddle(middleOfCell(*scene_, cell))
+                      : (*this)(timeseries::indicesOf(cell, size_));
     }
+    // Of a mesh, that of a cell whose middle is there.
+    std::uint32_t ofMiddle(const glm::dvec3& middle) const;
     std::size_t count() const { return count_; }    // all less
     const glm::ivec3& eye() const { return eye_; }  // the cell that it is in, or beside
     // Where it is: of a mesh, in axis coordinates.
@@ -63,8 +69,6 @@ class CellRank {
  private:
     void takeDistances(const Scene& scene, const View& view);
     void takeBricks(const Scene& scene, const View& view);
-    std::uint32_t byDistance(std::uint32_t cell) const;
-    glm::dvec3 middleOf(std::uint32_t cell) const;  // of a mesh
 
     // Of a cell's place along an axis: its brick's, times what the axes before it have, and how far
     // it lies behind that one's first.
@@ -77,8 +81,7 @@ class CellRank {
     std::array<std::vector<Place>, 3> places_;
     std::vector<std::uint32_t> first_;  // of a brick, its least rank
     std::size_t count_ = 0;
-    const PlacedPoints* mesh_ = nullptr;
-    const timeseries::CellCorners* corners_ = nullptr;
+    const Scene* scene_ = nullptr;  // of a mesh
     glm::dvec3 from_{0};
     double nearest_ = 0, perDistance_ = 0;
 };

@@ -60,39 +60,49 @@ GlTets::GlTets(const Scene& scene, std::uint64_t mostBytes) : GlPieces(scene, mo
                 !groups_.empty() && groups_.back().cell == piece.cell && layer == piece.kind >> 8;
             layer = piece.kind >> 8;
             if (!goesOn)
-                groups_.push_back({piece.cell, static_cast<std::uint32_t>(middles_.size())});
+                groups_.push_back({piece.cell, static_cast<std::uint32_t>(middles_.size()),
+                                   glm::vec3(middleOfCell(scene, piece.cell))});
             middles_.push_back(middleOf(piece));
         });
+    groups_.push_back({0, static_cast<std::uint32_t>(middles_.size()), {}});
 }
 
 std::vector<std::uint32_t> GlTets::order(const CellRank& rank) const {
     constexpr std::size_t kWorthAThread = 1 << 12;
-    std::vector<std::uint32_t> ranks(groups_.size());
-    const unsigned shared = threadsFor(ranks.size(), kWorthAThread, sharingThreads());
-    sharing(shared, [&](unsigned k) {
-        const std::size_t last = ranks.size() * (k + 1) / shared;
-        for (std::size_t i = ranks.size() * k / shared; i < last; ++i)
-            ranks[i] = rank(groups_[i].cell);
+    const std::size_t groups = groups_.size() - 1;
+    const unsigned shared = threadsFor(groups, kWorthAThread, sharingThreads());
+    const auto share = [&](const auto& use) {  // of the groups with each thread
+        sharing(shared, [&](unsigned k) { use(groups * k / shared, groups * (k + 1) / shared); });
+    };
+    std::vector<std::uint32_t> ranks(groups), ordered(groups), ends(groups),
+        places(middles_.size());
+    share([&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            ranks[i] = rank.ofMiddle(glm::dvec3(groups_[i].middle));
     });
     NearestFirst nearest(rank);
     for (const std::uint32_t r : ranks) nearest.count(r);
     nearest.allCounted();
-    std::vector<std::uint32_t> ordered(groups_.size());
-    for (std::uint32_t i = 0; i < ranks.size(); ++i) ordered[nearest.place(ranks[i])] = i;
+    for (std::uint32_t i = 0; i < groups; ++i) ordered[groups - 1 - nearest.place(ranks[i])] = i;
+    std::uint32_t end = 0;
+    for (std::size_t i = 0; i < groups; ++i)
+        ends[i] = end += groups_[ordered[i] + 1].first - groups_[ordered[i]].first;
 
     const glm::vec3 eye(rank.from());
-    std::vector<std::uint32_t> places(middles_.size());
-    auto to = places.end();
-    std::vector<std::pair<float, std::uint32_t>> away;
-    for (const std::uint32_t group : ordered) {
-        const std::size_t last =
-            group + 1 < groups_.size() ? groups_[group + 1].first : middles_.size();
-        away.clear();
-        for (std::uint32_t i = groups_[group].first; i < last; ++i)
-            away.emplace_back(glm::distance(eye, middles_[i]), i);
-        std::ranges::sort(away);
-        for (const auto& [distance, place] : away) *--to = place;
-    }
+    share([&](std::size_t first, std::size_t last) {
+        std::vector<std::pair<float, std::uint32_t>> own;  // minus the square of how far away
+        for (std::size_t i = first; i < last; ++i) {
+            own.clear();
+            const Group* const group = &groups_[ordered[i]];
+            for (std::uint32_t p = group->first; p < group[1].first; ++p) {
+                const glm::vec3 way = middles_[p] - eye;
+                own.emplace_back(-glm::dot(way, way), p);
+            }
+            std::ranges::sort(own);
+            std::uint32_t to = ends[i] - static_cast<std::uint32_t>(own.size());
+            for (const auto& [nearer, place] : own) places[to++] = place;
+        }
+    });
     return places;
 }
 

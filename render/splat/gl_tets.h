@@ -30,16 +30,17 @@ class GlTets final : public GlPieces {
     static double perCell(const Scene& scene);
 
  private:
-    // Pieces that are of one cell and layer.
+    // Pieces that are of one cell and layer, and that cell's middle.
     struct Group {
         std::uint32_t cell, first;
+        glm::vec3 middle;
     };
     glm::dvec3 keyOf(const CellRank& rank) const override { return rank.from(); }
     // A cell's own by the distances of their middles: of the six about a diagonal, where the cell
     // is a brick, that is the order in which they hide each other.
     std::vector<std::uint32_t> order(const CellRank& rank) const override;
 
-    std::vector<Group> groups_;
+    std::vector<Group> groups_;       // and one more, where they end
     std::vector<glm::vec3> middles_;  // of each piece, in axis coordinates
 };
 
