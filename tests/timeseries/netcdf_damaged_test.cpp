@@ -170,9 +170,10 @@ TEST(DamagedNetcdf, OtherFormatsAreToldApart) {
         const Path path = write("other.bin", bytes);
         EXPECT_THAT(
             refusalOf({path}),
-            StartsWith(path.string() +
-                       ": expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV or VTK file, "
-                       "found no format that is known"));
+            StartsWith(
+                path.string() +
+                ": expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV, VTK or OpenVDB file, "
+                "found no format that is known"));
     }
     // The right first bytes and nothing after.
     EXPECT_FALSE(contents(write("magic.nc", "CDF\1"s)));

@@ -1,4 +1,4 @@
-// VTK files in a build without VTK.
+// VTK and OpenVDB files in a build without them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +63,21 @@ TEST(WithoutVtk, TheWayCanBePastedWhateverTheFilesName) {
             error.what(),
             testing::HasSubstr("`./run --with-vtk '" +
                                (tests::testFolder() / "it'\\''s one.vti").string() + "'` makes"));
+    }
+}
+
+TEST(WithoutOpenVdb, ItsFilesAreRecognisedAndTheWayToReadThemIsTold) {
+    const auto path = tests::testFolder() / "file";
+    tests::writeBytes(path, std::string(" BDV\0\0\0\0", 8));
+    EXPECT_TRUE(isReadable(path));
+    try {
+        openReader(std::span(&path, 1));
+        FAIL();
+    } catch (const FileError& error) {
+        EXPECT_EQ(error.what(), path.string() +
+                                    ": expected a build that reads OpenVDB files, which `./run "
+                                    "--with-openvdb " +
+                                    path.string() + "` makes");
     }
 }
 

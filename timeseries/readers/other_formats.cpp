@@ -23,7 +23,6 @@ constexpr std::array kMagics{
     Magic{0, "II+\0"sv, "a BigTIFF file"},
     Magic{0, "MM\0+"sv, "a BigTIFF file"},
     Magic{0, "\x93NUMPY"sv, "a NumPy array (.npy)"},
-    Magic{0, " BDV\0\0\0\0"sv, "an OpenVDB file"},
     Magic{0, "\x0e\x03\x13\x01"sv, "an HDF4 file"},
     Magic{512, "\x89HDF\r\n\x1a\n"sv, "an HDF5 file behind a user block"},
     Magic{0, "MATLAB 5.0 MAT-file"sv, "a MATLAB file"},

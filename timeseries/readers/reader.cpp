@@ -23,7 +23,11 @@
 #include "timeseries/readers/zarr_reader.h"
 #ifdef ISOCHRON_VTK
 #include "timeseries/readers/vtk_reader.h"
-#else
+#endif
+#ifdef ISOCHRON_OPENVDB
+#include "timeseries/readers/vdb_reader.h"
+#endif
+#if !defined(ISOCHRON_VTK) || !defined(ISOCHRON_OPENVDB)
 #include "timeseries/readers/shell_word.h"
 #endif
 
@@ -53,14 +57,27 @@ struct Format {
 
 const Format& recognise(const std::filesystem::path& path);
 
+#if !defined(ISOCHRON_VTK) || !defined(ISOCHRON_OPENVDB)
+[[noreturn]] void failUnbuilt(const std::filesystem::path& path, std::string_view format,
+                              std::string_view option) {
+    throw FileError(
+        fmt::format("{}: expected a build that reads {} files, which `./run --with-{} {}` makes",
+                    path.string(), format, option, shellWord(path.string())));
+}
+#endif
+
 #ifndef ISOCHRON_VTK
 std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths) {
     // Nobody shall build anew for a collection that is not read then either.
     if (const std::string member = firstMember(beginning(paths[0])); !member.empty())
         recognise(paths[0].parent_path() / member);
-    throw FileError(
-        fmt::format("{}: expected a build that reads VTK files, which `./run --with-vtk {}` makes",
-                    paths[0].string(), shellWord(paths[0].string())));
+    failUnbuilt(paths[0], "VTK", "vtk");
+}
+#endif
+
+#ifndef ISOCHRON_OPENVDB
+std::unique_ptr<Reader> openVdb(std::span<const std::filesystem::path> paths) {
+    failUnbuilt(paths[0], "OpenVDB", "openvdb");
 }
 #endif
 
@@ -82,6 +99,8 @@ const std::array kFormats = {
     Format{isMrc, openWith<readMrcHeader>},
     Format{[](std::string_view start) { return start.starts_with("SIMPLE  ="sv); }, openFits},
     Format{[](std::string_view start) { return start.starts_with("isostep\n"sv); }, openStep},
+    Format{[](std::string_view start) { return start.starts_with(" BDV\0\0\0\0"sv); }, openVdb,
+           true},
     Format{isXdmf, openXdmf},
     Format{isCsv, openCsv},
     Format{[](std::string_view start) {
@@ -111,7 +130,7 @@ const Format& recognise(const std::filesystem::path& path) {
     std::error_code ignored;
     if (isPlot3d(start, std::filesystem::file_size(path, ignored))) return kPlot3d;
     throw FileError(fmt::format(
-        "{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV or VTK file, {}", path.string(),
+        "{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV, VTK or OpenVDB file, {}", path.string(),
         start.empty() ? "but it is empty" : "found no format that is known"));
 }
 
