@@ -128,10 +128,11 @@ TEST(FoamField, ValuesOfFacesAreTold) {
     const auto folder = caseOf(cubes(1));
     put(folder / "0/T", scalars({1}));
     put(folder / "0/phi", field("surfaceScalarField", "nonuniform List<scalar> 0()"));
+    put(folder / "0/Uf", field("surfaceVectorField", "uniform (1 2 3)"));
     put(folder / "0/T~", "left by an editor");
     const auto reader = open(folder);
     EXPECT_EQ(reader->variables().size(), 1u);
-    EXPECT_THAT(reader->variables()[0].notes, Contains(HasSubstr("'phi' is a surfaceScalarField")));
+    EXPECT_THAT(reader->variables()[0].notes, Contains("fields of faces are left out: Uf, phi"));
     EXPECT_TRUE(reader->damaged().empty());
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <stdexcept>
@@ -38,6 +37,9 @@ class FoamReader final : public Reader {
                                 : damaged_.front().why);
         auto& notes = variables_.front().notes;
         notes.insert(notes.end(), case_.notes.begin(), case_.notes.end());
+        if (!atFaces_.empty())
+            notes.push_back(
+                fmt::format("fields of faces are left out: {}", fmt::join(atFaces_, ", ")));
     }
 
     std::string format() const override { return "OpenFOAM case"; }
@@ -59,7 +61,8 @@ class FoamReader final : public Reader {
     FoamCase case_;
     std::vector<Variable> variables_;
     std::vector<DamagedVariable> damaged_;
-    std::vector<FoamSource> sources_;  // [variable]
+    std::vector<FoamSource> sources_;   // [variable]
+    std::vector<std::string> atFaces_;  // fields
     // Of the mesh that is open.
     std::vector<FoamMeshFiles> open_;
     FoamMesh mesh_;
@@ -81,13 +84,7 @@ void FoamReader::addField(const std::string& field, const std::vector<std::size_
         damaged_.push_back({field, error.what()});
         return;
     }
-    const std::string& name = source.head.className;
-    if (source.head.components == 0) {
-        if (name.starts_with("surface"))
-            case_.notes.push_back(
-                fmt::format("'{}' is a {}, whose values are of faces: left out", field, name));
-        return;
-    }
+    if (source.head.className.starts_with("surface")) atFaces_.push_back(field);
     for (const ComponentVariable& each :
          componentsOf(field, source.head.type, source.head.components)) {
         source.component = each.component;
