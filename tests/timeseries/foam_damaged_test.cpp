@@ -47,6 +47,7 @@ TEST(DamagedFoam, ValuesThatAreNoneAreTold) {
              {list + "-2(1 2)", "expected a number, found '-2'"},
              {list + "18446744073709551615(1)", "expected a list of at most 2"},
              {"nonuniform List<vector> 2((1 2 3) (1 2 3))", "found 'List<vector>'"},
+             {"uniform \"a\nb\"", "expected a number, found '\"a?b\"'"},
              {"uniform", "expected a number, found ';'"}})
         EXPECT_THAT(refusalOfRead(caseWithT(field("volScalarField", values))),
                     AllOf(HasSubstr("case/0/T: line "), HasSubstr(told)))

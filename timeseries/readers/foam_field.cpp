@@ -118,7 +118,6 @@ FoamFieldHead foamFieldHeadOf(const std::filesystem::path& path) {
     FoamFieldHead head;
     head.className = header.className;
     head.type = header.scalarBytes == 4 ? ValueType::F32 : ValueType::F64;
-    head.typeIsSaid = header.isBinary || header.hasArch;
     const FoamClass* const of = foamClassOf(header.className);
     if (!of) return head;
     head.components = of->components;

@@ -15,8 +15,7 @@ struct FoamFieldHead {
     std::string className;         // "volScalarField"
     std::uint64_t components = 0;  // of a value; 0 where values are neither of cells nor of points
     bool atPoints = false;
-    ValueType type{};  // what OpenFOAM has in memory: of texts that do not say it, float64
-    bool typeIsSaid = false;
+    ValueType type{};   // what OpenFOAM has in memory: of texts that do not say it, float64
     std::string units;  // "m/s"
 };
 

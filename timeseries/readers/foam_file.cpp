@@ -54,11 +54,16 @@ FoamFile::FoamFile(std::filesystem::path path)
 }
 
 void FoamFile::fail(std::string_view what) const {
+    // It may quote the file, of which a string may have several lines.
+    constexpr std::size_t kLongestSentence = 300;
+    std::string sentence(what.substr(0, kLongestSentence));
+    for (char& c : sentence)
+        if (static_cast<unsigned char>(c) < ' ') c = '?';
     const auto lines = std::count(buffer_.begin(), buffer_.begin() + std::ptrdiff_t(at_), '\n');
     const std::string place = header_.isBinary
                                   ? fmt::format("byte {}", passed_ + at_)
                                   : fmt::format("line {}", lines_ + std::uint64_t(lines) + 1);
-    throw FileError(fmt::format("{}: {}: {}", path_.string(), place, what));
+    throw FileError(fmt::format("{}: {}: {}", path_.string(), place, sentence));
 }
 
 // Whether so many bytes stand in the buffer, if the file has them.

@@ -27,8 +27,10 @@ class FoamReader final : public Reader {
  public:
     explicit FoamReader(const std::filesystem::path& path) : paths_{path}, case_(foamCaseOf(path)) {
         if (case_.times.empty())
-            throw FileError(fmt::format("{}: expected folders of times with fields, found none",
-                                        path.string()));
+            throw FileError(
+                fmt::format("{}: expected folders of times with fields of the case, not of its "
+                            "regions, found none",
+                            path.string()));
         for (const auto& [field, times] : case_.fields) addField(field, times);
         if (variables_.empty())
             throw FileError(damaged_.empty()
