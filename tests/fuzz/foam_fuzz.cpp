@@ -1,5 +1,5 @@
-// OpenFOAM cases: a mesh, and a field of cells and one of points. The input is their files, apart by
-// lines of ====; its first byte tells whether they are packed by gzip.
+// OpenFOAM cases: a mesh, and a field of cells and one of points. The input is their files, apart
+// by lines of ====; its first byte tells whether they are packed by gzip.
 #include <zlib.h>
 
 #include "tests/fuzz/read_all.h"
