@@ -20,5 +20,19 @@ TEST(FolderListing, AFolderThatIsADataSetIsNoneToLookInto) {
     EXPECT_FALSE(isFolder(store / ".zgroup"));
 }
 
+TEST(FolderListing, ACaseOfOpenFoamIsADataSet) {
+    const std::filesystem::path folder = tests::freshFolder(), simulation = folder / "cavity";
+    std::filesystem::create_directories(simulation / "system");
+    std::filesystem::create_directories(simulation / "0");
+    EXPECT_TRUE(isFolder(simulation));
+    tests::writeBytes(simulation / "system/controlDict", "");
+    tests::writeBytes(simulation / "cavity.foam", "");
+    EXPECT_FALSE(isFolder(simulation));
+    for (const char* name : {"", "system/controlDict", "cavity.foam"})
+        EXPECT_TRUE(opens(simulation / name)) << name;
+    EXPECT_TRUE(isFolder(simulation / "0"));
+    EXPECT_TRUE(isFolder(folder));
+}
+
 }  // namespace
 }  // namespace app

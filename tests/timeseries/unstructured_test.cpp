@@ -84,6 +84,20 @@ TEST(Unstructured, TheOrderOfCellsAndOfTheirCornersChangesNothing) {
     for (std::uint64_t i = 0; i < p.count(); ++i) EXPECT_NEAR(volume(q, i), volume(p, i), 1e-6);
 }
 
+// Centroids of a layer whose corners lie at -0.05 and 0.05, but for the last bits of these.
+TEST(Unstructured, OneLayerOfCellsHasNoExtentAcross) {
+    for (const double bits : {1e-17, 0.01}) {
+        const auto grid = bricks({4, 4, 2}, Cut::Hexahedra, [&](double i, double j, double k) {
+            return glm::dvec3(i, j, 0.1 * (k - 0.5) + bits * (i + j));
+        });
+        const auto mesh = std::make_shared<const Mesh>(tests::atCells(grid));
+        EXPECT_GT(mesh->hi().z, mesh->lo().z);
+        const Grid of(spaceAxes(), mesh);
+        EXPECT_EQ(of.axes()[0].coordinates.size(), 2u);
+        EXPECT_EQ(of.axes()[2].coordinates.size(), bits < 1e-10 ? 1u : 2u);
+    }
+}
+
 TEST(Unstructured, CellsOfFewerDimensionsThanOthersTakeNoSpace) {
     UnstructuredGrid grid = bricks({2, 2, 2}, Cut::Hexahedra, [](double i, double j, double k) {
         return glm::dvec3(i, j, k);

@@ -98,10 +98,13 @@ Grid::Grid(std::array<Axis, 3> axes, CoordinateFrame frame)
 
 Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofOneStep)
     : axes_(std::move(space)), mesh_(std::move(mesh)), ofOneStep_(ofOneStep) {
+    // What rounding leaves across one layer of cells, beside how thick they are: no extent.
+    constexpr double kRounding = 0x1p-24;
     for (int a = 0; a < 3; ++a) {
         if (!axes_[a].coordinates.empty()) continue;
-        axes_[a].coordinates = {mesh_->lo()[a]};
-        if (mesh_->hi()[a] > mesh_->lo()[a]) axes_[a].coordinates.push_back(mesh_->hi()[a]);
+        const double lo = mesh_->lo()[a], hi = mesh_->hi()[a];
+        axes_[a].coordinates = {lo};
+        if (hi - lo > kRounding * mesh_->widest()[a]) axes_[a].coordinates.push_back(hi);
     }
 }
 

@@ -9,6 +9,8 @@
 #include "timeseries/readers/array_reader.h"
 #include "timeseries/readers/csv_reader.h"
 #include "timeseries/readers/fits_reader.h"
+#include "timeseries/readers/foam_case.h"
+#include "timeseries/readers/foam_reader.h"
 #include "timeseries/readers/mrc_header.h"
 #include "timeseries/readers/netcdf_reader.h"
 #include "timeseries/readers/nifti_header.h"
@@ -117,11 +119,13 @@ const std::array kFormats = {
 };
 // Begins with nothing of its own: told by its size, when it is none of the others.
 const Format kPlot3d{nullptr, openPlot3d};
-// A folder.
+// Folders.
 const Format kZarr{nullptr, openZarr, true};
+const Format kFoam{nullptr, openFoam};
 
 const Format& recognise(const std::filesystem::path& path) {
     if (isZarr(path)) return kZarr;
+    if (isFoamCase(path)) return kFoam;
     const std::string start = beginning(path);
     for (const Format& format : kFormats)
         if (format.begins(start)) return format;

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "timeseries/readers/decimal_names.h"
+#include "timeseries/readers/foam_case.h"
 #include "timeseries/readers/numbered_names.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/reader.h"
@@ -282,7 +283,7 @@ Paths matches(const Path& pattern) {
     for (std::size_t i = 0; i < found.gl_pathc; ++i) {
         std::error_code ignored;
         const Path path = found.gl_pathv[i];
-        if (!std::filesystem::is_directory(path, ignored) || isZarr(path))
+        if (!std::filesystem::is_directory(path, ignored) || isZarr(path) || isFoamCase(path))
             files.emplace_back(found.gl_pathv[i]);
     }
     if (files.empty())
@@ -300,6 +301,7 @@ ExpandedSeries expandSeries(std::span<const Path> named) {
     if (named.size() == 1) {
         const Path& one = named.front();
         if (isPattern(one)) return together(matches(one), kByName);
+        if (isFoamCase(one)) return {{one}, {}, "", {}};
         std::error_code ignored;
         if (std::filesystem::is_directory(one, ignored) && !isZarr(one)) return folder(one);
         if (std::filesystem::is_regular_file(one, ignored)) return member(one);
