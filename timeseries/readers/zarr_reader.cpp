@@ -23,7 +23,10 @@ class ZarrFile final : public CfFile {
     }
 
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
-    bool isOneFile() const override { return hierarchy_.store->isOneFile(); }
+    std::vector<std::filesystem::path> sources() const override {
+        if (hierarchy_.store->isOneFile()) return {path_};
+        return {};
+    }
     std::string tooLarge(const NcVariable& variable, std::uint64_t points) const override;
     std::vector<Number> numbers(const NcVariable& variable) const override;
     void read(const NcVariable& variable, std::span<const std::size_t> start,
