@@ -1,5 +1,5 @@
 // Zarr hierarchies: a group with a variable and a coordinate. The input is their metadata and one
-// chunk, apart by bytes of 0; its first byte tells the version.
+// chunk, apart by bytes of 0; its first byte tells the version, or that a zip file follows.
 #include <array>
 
 #include "tests/fuzz/read_all.h"
@@ -27,6 +27,10 @@ std::string_view next(std::string_view& rest) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::string_view rest = fuzz::text(data, size);
     if (rest.empty()) return 0;
+    if (rest[0] == 'z') {
+        fuzz::readAll(rest.substr(1), "store.zarr.zip");
+        return 0;
+    }
     const bool isV3 = rest[0] == '3';
     rest.remove_prefix(1);
     const fs::path store = fuzz::folder() / "store.zarr";

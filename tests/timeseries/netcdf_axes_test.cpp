@@ -42,7 +42,7 @@ TEST(NetcdfAxes, ValuesOnAMeshWithoutPolygonsAreToldAndRefused) {
     const std::string told =
         ": variable 'S': expected values on a grid, found them on an unstructured mesh (40 places "
         "listed along ";
-    for (const char* along : {"c", "ncells", "nod2"}) {  // by coordinates, of ICON, of FESOM
+    for (const char* along : {"c", "ncells"}) {  // by coordinates, of ICON
         const Path path = written(along == std::string("c"), along, nothing);
         EXPECT_EQ(refusalOf(path),
                   path.string() + told + along +

@@ -19,10 +19,13 @@ struct ColumnPlaces {
     std::string x, y;
     bool inTime = false;
     // What lies about each place: its neighbours along both dimensions; or of places in a list
-    // (cf_lists.h) the polygon of its bounds, its face of a mesh, or the faces about it as a node.
-    enum class By { Neighbours, Bounds, Faces, Nodes } by = By::Neighbours;
+    // (cf_lists.h) the polygon of its bounds, its face of a mesh, or the faces about it as a node
+    // or an edge.
+    enum class By { Neighbours, Bounds, Faces, Nodes, Edges } by = By::Neighbours;
     std::string faces = {};  // the mesh's connectivity
     bool turned = false;     // of which the faces are the second dimension
+    std::string edges = {};  // alike
+    bool edgesTurned = false;
     // How many nodes each face has; "": all that there are. What the first one counts as, where the
     // connectivity does not say. The units of a longitude x and a latitude y that do not say what
     // they are; "": they do.

@@ -30,8 +30,9 @@ class CfFile {
     const NcHeader& header() const { return header_; }
     // Those of the file that are no part of its header for what it says of them.
     virtual std::span<const DamagedVariable> damaged() const { return {}; }
-    // Whether its size and its times tell that no value has changed.
-    virtual bool isOneFile() const { return true; }
+    // All files that it is made of; none where their sizes and times do not tell that no value has
+    // changed.
+    virtual std::vector<std::filesystem::path> sources() const { return {path_}; }
 
     // Why so many points of a variable are not read, as a sentence's end; "" when they are. A
     // damaged or hostile header may declare any size, so what is asked for is held against the

@@ -4,19 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/vec2.hpp>
 #include <limits>
 #include <stdexcept>
 
 #include "timeseries/grid/unstructured.h"
 #include "timeseries/readers/cf_mpas.h"
+#include "timeseries/readers/cf_polygons.h"
 #include "timeseries/readers/cf_values.h"
 
 namespace timeseries {
 namespace {
-
-// As VTK numbers them (cell_types.h).
-constexpr std::uint8_t kTriangle = 5, kPolygon = 7, kQuad = 9;
 
 std::optional<std::size_t> positionOf(const NcVariable& variable, std::size_t dimension) {
     const auto found = std::ranges::find(variable.dimensions, dimension);
@@ -62,12 +59,18 @@ std::optional<FoundList> byBounds(const NcHeader& header, const NcVariable& vari
     return found;
 }
 
+// Whether what a connectivity counts is its second dimension: the one that says so, else the first.
+bool isTurned(const NcHeader& header, const NcVariable& connectivity, const std::string& counted) {
+    return header.dimension(connectivity, 1).name == counted;
+}
+
 std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variable,
                                 const Roles& roles) {
     using By = ColumnPlaces::By;
     const NcVariable* const mesh = header.find(variable.text("mesh"), variable.group);
     const std::string location = lower(variable.text("location"));
-    if (!mesh || (location != "face" && location != "node")) return std::nullopt;
+    if (!mesh || (location != "face" && location != "node" && location != "edge"))
+        return std::nullopt;
     const NcVariable* const faces = header.find(mesh->text("face_node_connectivity"), mesh->group);
     const std::vector<std::string> names = words(mesh->text("node_coordinates"));
     if (!faces || !faces->type || faces->dimensions.size() != 2 || names.size() != 2)
@@ -77,18 +80,27 @@ std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variab
     if (!x || !y || x->dimensions.size() != 1 || !y->isAlong(x->dimensions[0]) || !x->type)
         return std::nullopt;
     if (kindByAttributes(*x) == AxisKind::Y) std::swap(x, y);
-    // Which of its dimensions counts faces: the one that says so, else the first.
-    const bool turned = header.dimension(*faces, 1).name == mesh->text("face_dimension");
-    const std::size_t along =
-        location == "node" ? x->dimensions[0] : faces->dimensions[turned ? 1 : 0];
+    FoundList found{{.x = x->name, .y = y->name, .faces = faces->name}, {}};
+    found.places.turned = isTurned(header, *faces, mesh->text("face_dimension"));
+    std::size_t along = x->dimensions[0];
+    if (location == "node") {
+        found.places.by = By::Nodes;
+    } else if (location == "face") {
+        found.places.by = By::Faces;
+        along = faces->dimensions[found.places.turned ? 1 : 0];
+    } else {
+        const NcVariable* const edges =
+            header.find(mesh->text("edge_node_connectivity"), mesh->group);
+        if (!edges || !edges->type || edges->dimensions.size() != 2) return std::nullopt;
+        found.places.by = By::Edges;
+        found.places.edges = edges->name;
+        found.places.edgesTurned = isTurned(header, *edges, mesh->text("edge_dimension"));
+        along = edges->dimensions[found.places.edgesTurned ? 1 : 0];
+    }
     const auto list = positionOf(variable, along);
     if (!list) return std::nullopt;
-    return FoundList{{.x = x->name,
-                      .y = y->name,
-                      .by = location == "node" ? By::Nodes : By::Faces,
-                      .faces = faces->name,
-                      .turned = turned},
-                     rolesOn(header, variable, roles, *list)};
+    found.roles = rolesOn(header, variable, roles, *list);
+    return found;
 }
 
 // Of which there are so many that each has a number of 32 bits.
@@ -103,15 +115,9 @@ std::vector<double> allOf(const CfFile& file, const NcVariable& variable) {
     return valuesOf(file, variable);
 }
 
-// Longitudes and latitudes in degrees, or coordinates in whatever they are measured.
-struct Coordinates {
-    std::vector<double> x, y;
-    double turn = 0;  // after which x comes round to itself; 0: never
-};
-
-Coordinates coordinatesOf(const CfFile& file, const NcVariable& x, const NcVariable& y,
-                          const std::string& units) {
-    Coordinates all{allOf(file, x), allOf(file, y), turnIn(units) > 0 ? 360.0 : 0.0};
+PlaneCoordinates coordinatesOf(const CfFile& file, const NcVariable& x, const NcVariable& y,
+                               const std::string& units) {
+    PlaneCoordinates all{allOf(file, x), allOf(file, y), turnIn(units) > 0 ? 360.0 : 0.0};
     const double degrees = degreesIn(units);
     for (auto* const values : {&all.x, &all.y})
         for (double& value : *values) value *= degrees;
@@ -133,85 +139,22 @@ const NcVariable& boundsOf(const CfFile& file, const NcVariable& coordinate) {
     return *bounds;
 }
 
-constexpr double kPole = 90 - 1e-6;
-
-// As near to the reference as whole turns bring it. At a pole every longitude is the same.
-glm::dvec3 unwound(double x, double y, double reference, double turn) {
-    if (turn > 0)
-        x = std::abs(y) > kPole ? reference : x + turn * std::round((reference - x) / turn);
-    return {x, y, 0};
-}
-
-void addPolygon(UnstructuredGrid& grid, std::vector<std::uint32_t>& corners) {
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    grid.types.push_back(corners.size() == 3 ? kTriangle : corners.size() == 4 ? kQuad : kPolygon);
-    std::ranges::copy(corners, std::back_inserter(grid.corners));
-    grid.ends.push_back(grid.corners.size());
-}
-
-bool isPole(double y, double turn) { return turn > 0 && std::abs(y) > kPole; }
-
-// A polygon a place, with corners of its own.
-class OwnCorners {
- public:
-    explicit OwnCorners(double turn) : turn_(turn) {}
-    // About that longitude; none: about that of the first corner that has one.
-    void add(double reference, const std::vector<glm::dvec2>& corners) {
-        indices_.clear();
-        for (const glm::dvec2& corner : corners)
-            if (!std::isfinite(reference) && !isPole(corner.y, turn_)) reference = corner.x;
-        if (!std::isfinite(reference)) reference = 0;
-        for (const glm::dvec2& corner : corners) {
-            const glm::dvec3 at = unwound(corner.x, corner.y, reference, turn_);
-            if (!indices_.empty() && grid_.points[indices_.back()] == at) continue;
-            indices_.push_back(static_cast<std::uint32_t>(grid_.points.size()));
-            grid_.points.push_back(at);
-        }
-        addPolygon(grid_, indices_);
-    }
-    const UnstructuredGrid& grid() const { return grid_; }
-
- private:
-    double turn_;
-    std::vector<std::uint32_t> indices_;
-    UnstructuredGrid grid_;
-};
-
-// With the places that the file gives them.
-struct PlacedPolygons {
-    UnstructuredGrid grid;
-    std::vector<glm::dvec3> places;
-};
-
 PlacedPolygons polygonsOfBounds(const CfFile& file, const ColumnPlaces& places) {
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
     // Bounds have the units of what they bound.
     const std::string units = x.text("units");
-    const Coordinates centres = coordinatesOf(file, x, y, units);
-    const Coordinates corners = coordinatesOf(file, boundsOf(file, x), boundsOf(file, y), units);
+    const PlaneCoordinates centres = coordinatesOf(file, x, y, units);
+    const PlaneCoordinates corners =
+        coordinatesOf(file, boundsOf(file, x), boundsOf(file, y), units);
     const std::size_t count = centres.x.size(), each = count > 0 ? corners.x.size() / count : 0;
     if (corners.x.size() != corners.y.size() || count != centres.y.size() ||
         each * count != corners.x.size())
         throw std::invalid_argument("its bounds are of other places");
-    OwnCorners polygons(centres.turn);
-    PlacedPolygons result;
-    std::vector<glm::dvec2> polygon;
-    for (std::size_t place = 0; place < count; ++place) {
-        polygon.clear();
-        for (std::size_t i = place * each; i < (place + 1) * each; ++i)
-            if (std::isfinite(corners.x[i]) && std::isfinite(corners.y[i]))
-                polygon.emplace_back(corners.x[i], corners.y[i]);
-        polygons.add(centres.x[place], polygon);
-        result.places.emplace_back(centres.x[place], centres.y[place], 0);
-    }
-    result.grid = polygons.grid();
-    return result;
+    return polygonsAbout(centres, corners);
 }
 
-// Of each which nodes it has, without those that there are not.
-using Faces = std::vector<std::vector<std::uint32_t>>;
-
-Faces facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t nodes) {
+// Of each face its nodes, without those that there are not.
+NodesOf facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t nodes) {
     const NcVariable& faces = found(file, places.faces);
     if (faces.dimensions.size() != 2 || !faces.type)
         file.fail("variable '" + faces.name + "'", "expected faces, but the file has changed");
@@ -231,7 +174,7 @@ Faces facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t nodes)
                                           : allOf(file, found(file, places.faceSizes));
     if (!sizes.empty() && sizes.size() != count)
         throw std::invalid_argument(places.faceSizes + " is of other faces");
-    Faces result(count);
+    NodesOf result(count);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double node = all[i] - first;
         if (!(node >= 0)) continue;  // none
@@ -244,55 +187,6 @@ Faces facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t nodes)
         result[face].push_back(static_cast<std::uint32_t>(node));
     }
     return result;
-}
-
-UnstructuredGrid polygonsOfFaces(const Coordinates& nodes, const Faces& faces) {
-    OwnCorners polygons(nodes.turn);
-    std::vector<glm::dvec2> polygon;
-    for (const auto& face : faces) {
-        polygon.clear();
-        for (const std::uint32_t node : face)
-            if (std::isfinite(nodes.x[node]) && std::isfinite(nodes.y[node]))
-                polygon.emplace_back(nodes.x[node], nodes.y[node]);
-        polygons.add(std::numeric_limits<double>::quiet_NaN(), polygon);
-    }
-    return polygons.grid();
-}
-
-// The nodes, and the faces about them. One that lies where longitudes begin anew is there once for
-// either side, with corners on the other side that are no nodes.
-UnstructuredGrid polygonsAboutNodes(const Coordinates& nodes, const Faces& faces) {
-    UnstructuredGrid grid;
-    for (std::size_t i = 0; i < nodes.x.size(); ++i)
-        grid.points.emplace_back(nodes.x[i], nodes.y[i], 0);
-    std::vector<std::uint32_t> corners;
-    const auto add = [&](const std::vector<std::uint32_t>& face, double reference) {
-        corners.clear();
-        bool crosses = false;
-        double other = reference;
-        for (const std::uint32_t node : face) {
-            const glm::dvec3 at = unwound(nodes.x[node], nodes.y[node], reference, nodes.turn);
-            if (at.x == nodes.x[node]) {
-                corners.push_back(node);
-                continue;
-            }
-            if (!isPole(nodes.y[node], nodes.turn)) {
-                crosses = true;
-                other = nodes.x[node];
-            }
-            corners.push_back(static_cast<std::uint32_t>(grid.points.size()));
-            grid.points.push_back(at);
-        }
-        addPolygon(grid, corners);
-        return crosses ? std::optional(other) : std::nullopt;
-    };
-    for (const auto& face : faces) {
-        const auto first = std::ranges::find_if(
-            face, [&](std::uint32_t node) { return !isPole(nodes.y[node], nodes.turn); });
-        if (first == face.end()) continue;
-        if (const auto other = add(face, nodes.x[*first])) add(face, *other);
-    }
-    return grid;
 }
 
 }  // namespace
@@ -328,14 +222,24 @@ std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& p
             meshOfCells(grid, UnstructuredShapes(grid), levels, at));
     }
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
-    const Coordinates nodes =
+    const PlaneCoordinates nodes =
         coordinatesOf(file, x, y, places.units.empty() ? x.text("units") : places.units);
     if (nodes.x.size() != nodes.y.size())
         throw std::invalid_argument("its nodes have other numbers of coordinates");
-    const Faces faces = facesOf(file, places, nodes.x.size());
+    const NodesOf faces = facesOf(file, places, nodes.x.size());
     if (places.by == ColumnPlaces::By::Faces) {
         const UnstructuredGrid grid = polygonsOfFaces(nodes, faces);
         return std::make_shared<const Mesh>(meshOfCells(grid, UnstructuredShapes(grid), levels));
+    }
+    if (places.by == ColumnPlaces::By::Edges) {
+        ColumnPlaces ofEdges = places;
+        ofEdges.faces = places.edges;
+        ofEdges.turned = places.edgesTurned;
+        ofEdges.faceSizes.clear();
+        const auto [grid, at] =
+            polygonsAboutEdges(nodes, faces, facesOf(file, ofEdges, nodes.x.size()));
+        return std::make_shared<const Mesh>(
+            meshOfCells(grid, UnstructuredShapes(grid), levels, at));
     }
     const UnstructuredGrid grid = polygonsAboutNodes(nodes, faces);
     return std::make_shared<const Mesh>(

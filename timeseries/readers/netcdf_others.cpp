@@ -7,7 +7,7 @@
 #include "timeseries/readers/exodus_reader.h"
 #include "timeseries/readers/openpmd_reader.h"
 #include "timeseries/readers/openpmd_records.h"
-#include "timeseries/readers/snapshot_particles.h"
+#include "timeseries/readers/snapshot_files.h"
 #include "timeseries/readers/snapshot_reader.h"
 #include "timeseries/readers/vtkhdf_mesh.h"
 #include "timeseries/readers/vtkhdf_reader.h"

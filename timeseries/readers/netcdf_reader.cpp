@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "timeseries/readers/cf_fesom.h"
 #include "timeseries/readers/cf_lists.h"
 #include "timeseries/readers/netcdf_contents.h"
 #include "timeseries/readers/netcdf_others.h"
@@ -311,8 +312,10 @@ std::optional<StepSpan> CfReader::stepsOf(std::size_t variable, std::size_t file
 StepSources CfReader::sources(std::size_t variable, std::size_t step) {
     const auto [file, own] = fileOf(variable, step);
     const auto& columns = contents_[0][variable].axes.columns;
-    if ((columns && (columns->inTime || file > 0)) || !file_->isOneFile()) return {};
-    return {{paths_[file]}, own};
+    if (columns && (columns->inTime || file > 0)) return {};
+    std::vector<std::filesystem::path> files = open(file).sources();
+    if (files.empty()) return {};
+    return {std::move(files), own};
 }
 
 std::pair<std::size_t, std::size_t> CfReader::fileOf(std::size_t variable, std::size_t step) const {
@@ -378,10 +381,11 @@ std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths)
     auto first = std::make_unique<NetcdfFile>(paths[0], NetcdfFile::Header::New);
     const OtherNetcdf* const other = otherNetcdf(first->header());
     if (!other)
-        return openCf(paths, std::move(first), [](const std::filesystem::path& path, bool known) {
-            return std::make_unique<NetcdfFile>(
-                path, known ? NetcdfFile::Header::Known : NetcdfFile::Header::New);
-        });
+        return openCf(paths, withFesomMesh(std::move(first)),
+                      [](const std::filesystem::path& path, bool known) {
+                          return withFesomMesh(std::make_unique<NetcdfFile>(
+                              path, known ? NetcdfFile::Header::Known : NetcdfFile::Header::New));
+                      });
     if (paths.size() == 1) return other->open(std::move(first));
     first.reset();
     return openSequence(

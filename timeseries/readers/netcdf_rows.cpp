@@ -38,17 +38,21 @@ std::vector<double> asDoubles(const Values& values) {
                       values);
 }
 
-std::vector<glm::dvec3> placesOf(const NetcdfFile& file, const NcVariable& variable,
-                                 std::uint64_t first, std::uint64_t rows) {
+std::vector<glm::dvec3> placesOf(const Values& rows) {
     std::vector<glm::dvec3> places;
-    places.reserve(rows);
     std::visit(
         [&](const auto& at) {
-            for (std::uint64_t i = 0; i < rows; ++i)
-                places.emplace_back(at[3 * i], at[3 * i + 1], at[3 * i + 2]);
+            places.reserve(at.size() / 3);
+            for (std::size_t i = 0; i + 2 < at.size(); i += 3)
+                places.emplace_back(at[i], at[i + 1], at[i + 2]);
         },
-        rowsOf(file, variable, first, rows, 3));
+        rows);
     return places;
+}
+
+std::vector<glm::dvec3> placesOf(const NetcdfFile& file, const NcVariable& variable,
+                                 std::uint64_t first, std::uint64_t rows) {
+    return placesOf(rowsOf(file, variable, first, rows, 3));
 }
 
 }  // namespace timeseries

@@ -17,7 +17,9 @@ Values rowsOf(const NetcdfFile& file, const NcVariable& variable, std::uint64_t 
 
 std::vector<double> asDoubles(const Values& values);
 
-// Of rows of three numbers. Throws FileError.
+// Of rows of three numbers.
+std::vector<glm::dvec3> placesOf(const Values& rows);
+// Throws FileError.
 std::vector<glm::dvec3> placesOf(const NetcdfFile& file, const NcVariable& variable,
                                  std::uint64_t first, std::uint64_t rows);
 

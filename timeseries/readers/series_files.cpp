@@ -13,6 +13,7 @@
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/series_text.h"
+#include "timeseries/readers/snapshot_files.h"
 #include "timeseries/readers/zarr_hierarchy.h"
 
 namespace timeseries {
@@ -133,13 +134,12 @@ ExpandedSeries seriesOf(const Path& file, std::span<const Sibling> siblings) {
     return alone;
 }
 
-ExpandedSeries member(const Path& file) {
-    ExpandedSeries alone{{file}, {}, "", {}};
-    const Name name = cut(file);
-    if (name.digits.empty() || name.extension == ".pvd") return alone;
+ExpandedSeries member(const Path& named) {
+    ExpandedSeries alone{{named}, {}, "", {}};
+    if (const Name name = cut(named); name.digits.empty() || name.extension == ".pvd") return alone;
     std::optional<Paths> listed;
     try {
-        listed = filesIn(file.parent_path());
+        listed = filesIn(named.parent_path());
     } catch (const FileError&) {
         alone.notes.push_back("only this file is opened: its folder cannot be listed");
         return alone;
@@ -149,6 +149,9 @@ ExpandedSeries member(const Path& file) {
             "only this file is opened: its folder holds more than {} files", kMaxSeriesFiles));
         return alone;
     }
+    *listed = firstPartsOf(std::move(*listed));
+    const Path file = firstPartOf(named, *listed);
+    const Name name = cut(file);
     std::vector<Sibling> siblings;
     Paths otherDots;
     for (const Path& other : *listed) {
@@ -167,6 +170,7 @@ ExpandedSeries member(const Path& file) {
 
 // Files that were named or found together.
 ExpandedSeries together(Paths files, std::string_view order) {
+    files = firstPartsOf(std::move(files));
     const auto isCollection = [](const Path& file) { return file.extension() == ".pvd"; };
     const auto collection = std::ranges::find_if(files, isCollection);
     if (collection != files.end() && !std::ranges::all_of(files, isCollection))
@@ -219,6 +223,7 @@ ExpandedSeries folder(const Path& folder) {
     if (!listed)
         throw FileError(fmt::format("{}: expected a folder of at most {} files, found more",
                                     folder.string(), kMaxSeriesFiles));
+    *listed = firstPartsOf(std::move(*listed));
     std::ranges::sort(*listed, nameLess);
     std::map<std::string, Paths> byExtension;
     for (const Path& file : *listed) byExtension[cut(file).extension].push_back(file);

@@ -8,23 +8,34 @@
 #include <vector>
 
 #include "timeseries/grid/mesh.h"
-#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/snapshot_files.h"
 
 namespace timeseries {
 
-bool isSnapshot(const NcHeader& header);
+// Rows of numbers, one a particle.
+struct SnapshotArray {
+    std::string name;  // "PartType0/Density"
+    ValueType type;
+    std::uint64_t columns;
+    std::string description, units;
+    bool operator==(const SnapshotArray&) const = default;
+};
 
 // The particles of a type, of which there is at least one.
 struct SnapshotParticles {
-    std::string name;  // "PartType0"
-    std::uint64_t count = 0;
-    double mass = 0;  // of each, from MassTable; 0: each has its own
-    const NcVariable* coordinates = nullptr;
-    std::vector<const NcVariable*> arrays;  // all others with a row a particle, in the file's order
+    std::string name;                   // "PartType0"
+    std::vector<std::uint64_t> counts;  // in each file
+    std::uint64_t count = 0;            // in all of them
+    double mass = 0;                    // of each, from MassTable; 0: each has its own
+    std::vector<SnapshotArray> arrays;  // but the coordinates, in the order of the first file
 };
 
-// Throws FileError, also of one file of several that make a snapshot.
-std::vector<SnapshotParticles> snapshotParticlesOf(const NetcdfFile& file);
+// Throws FileError, also where the files are not of one snapshot.
+std::vector<SnapshotParticles> snapshotParticlesOf(const SnapshotFiles& files);
+
+// Those of all files, one behind the other. Throws FileError.
+Values snapshotRowsOf(const SnapshotFiles& files, const SnapshotParticles& particles,
+                      const std::string& array, std::uint64_t columns);
 
 struct SnapshotMesh {
     Mesh mesh;
@@ -36,6 +47,6 @@ struct SnapshotMesh {
 // along a coordinate. A mesh has one spread, so
 // that their width beside (mass / density)^(1/3), the same for all but for the tolerance of the
 // simulation's own iteration, is the median's. Throws FileError.
-SnapshotMesh snapshotMeshOf(const NetcdfFile& file, const SnapshotParticles& particles);
+SnapshotMesh snapshotMeshOf(const SnapshotFiles& files, const SnapshotParticles& particles);
 
 }  // namespace timeseries

@@ -3,43 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 #include <stdexcept>
 
 #include "timeseries/grid/middles.h"
+#include "timeseries/readers/image_grid.h"
 
 namespace timeseries {
 namespace {
 
-constexpr std::array kNames{"x", "y", "z"}, kIndices{"i", "j", "k"};
-
-// How an image's axes lie in space; `length` is of each as the file has it.
-struct Directions {
-    glm::dmat3 unit{1.0};
-    glm::dvec3 length{1};
-};
-
-Directions directionsOf(const VtkHeader& header) {
-    Directions found;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int c = 0; c < 3; ++c) found.unit[axis][c] = header.direction[3 * c + axis];
-        const glm::dvec3& d = found.unit[axis];
-        found.length[axis] = std::hypot(d.x, d.y, d.z);
-        found.unit[axis] /= found.length[axis];
-    }
-    return found;
-}
-
-// An image's, at first + spacing n of index n.
-std::vector<double> imageCoordinates(const VtkHeader& header, std::size_t axis, double first,
-                                     double spacing) {
-    auto coordinates = indexCoordinates(header.size(VtkPlace::Points)[axis]);
-    for (double& c : coordinates)
-        c = first + spacing * (c + static_cast<double>(header.extent[axis][0]));
-    return coordinates;
-}
+constexpr std::array kIndices{"i", "j", "k"};
 
 VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     VtkGrid result;
@@ -96,42 +68,14 @@ VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place, const UnstructuredSha
 VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place) {
     if (isStructured(header.kind)) return structuredGridOf(header, place);
     const bool image = header.kind == VtkKind::XmlImage || header.kind == VtkKind::LegacyPoints;
-    const Directions directions = directionsOf(header);
-    const auto along = alignedWith(directions.unit);
-    const std::string flaw = flawOf(directions.unit);
-    VtkGrid result;
-    if (!flaw.empty()) result.notes.push_back("drawn in index space: " + flaw);
-    CoordinateFrame frame;
-    if (!along && flaw.empty())
-        frame = {directions.unit, {header.origin[0], header.origin[1], header.origin[2]}};
-    const auto size = header.size(place);
-    std::array<Axis, 3> axes;
-    std::size_t stride = 1;
-    for (int i = 0; i < 3; ++i) {
-        const int to = along ? (*along)[i] : i;
-        const char* name = frame.aligned() ? kNames[to] : kIndices[i];
-        const double spacing = header.spacing[i] * directions.length[i];
-        std::vector<double> coordinates =
-            !image  ? header.coordinates[i]
-            : along ? imageCoordinates(header, i, header.origin[to],
-                                       std::copysign(spacing, spacing * directions.unit[i][to]))
-                    : imageCoordinates(header, i, 0, spacing);
-        if (place == VtkPlace::Cells) coordinates = middlesOf(coordinates);
-        std::string why = flaw.empty() ? flawOf(coordinates) : "";
-        if (!why.empty()) {
-            if (image && header.spacing[i] == 0) why = "its spacing is 0";
-            result.notes.push_back(fmt::format("{} is placed by index: {}", name, why));
-        }
-        if (flaw.empty() && why.empty())
-            axes[to] = {name, "", std::move(coordinates), false};
-        else
-            axes[to] = {name, "index", indexCoordinates(size[i]), false};
-        result.layout.size[to] = size[i];
-        result.layout.stride[to] = stride;
-        stride *= size[i];
-    }
-    result.grid = std::make_shared<Grid>(std::move(axes), frame);
-    return result;
+    ImagePlaces places{.points = header.size(VtkPlace::Points),
+                       .origin = header.origin,
+                       .spacing = header.spacing,
+                       .direction = header.direction};
+    for (std::size_t i = 0; i < 3; ++i) places.first[i] = header.extent[i][0];
+    if (!image) places.coordinates = header.coordinates;
+    PlacedImage placed = placedImage(places, place == VtkPlace::Cells);
+    return {std::move(placed.grid), placed.layout, std::move(placed.notes)};
 }
 
 }  // namespace timeseries

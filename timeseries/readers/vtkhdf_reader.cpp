@@ -9,6 +9,7 @@
 #include "timeseries/readers/components.h"
 #include "timeseries/readers/netcdf_rows.h"
 #include "timeseries/readers/other_formats.h"
+#include "timeseries/readers/vtkhdf_image.h"
 #include "timeseries/readers/vtkhdf_mesh.h"
 
 namespace timeseries {
@@ -173,9 +174,11 @@ Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
 }  // namespace
 
 std::unique_ptr<Reader> openVtkHdf(std::unique_ptr<NetcdfFile> file) {
+    if (isVtkHdfImage(file->header())) return openVtkHdfImage(std::move(file));
     if (!file->header().find("VTKHDF/Points", ""))
         throw FileError(notReadSentence(
-            file->path(), "a VTKHDF file of neither an unstructured grid nor polygons"));
+            file->path(),
+            "a VTKHDF file of neither an unstructured grid nor polygons nor an image"));
     return std::make_unique<VtkHdfReader>(std::move(file));
 }
 

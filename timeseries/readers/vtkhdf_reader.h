@@ -1,4 +1,4 @@
-// VTKHDF files (.vtkhdf, .hdf): unstructured grids and polygons, in parts and in time.
+// VTKHDF files (.vtkhdf, .hdf): unstructured grids and polygons, in parts and in time, and images.
 #pragma once
 
 #include <memory>

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,8 +25,8 @@ struct ZarrShards {
 
 // Sizes are bounded: shape.size() <= kMaxZarrRank, a chunk has at most kMaxChunkBytes.
 struct ZarrArray {
-    std::filesystem::path folder;
-    std::string name;  // in its hierarchy: "a/b"
+    std::string folder;  // in its store
+    std::string name;    // in its hierarchy: "a/b"
     // Why its values cannot be read, as a sentence's end; then of what follows only the shape is
     // known, and what stands before what is wrong.
     std::string flaw;

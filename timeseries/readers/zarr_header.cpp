@@ -77,7 +77,7 @@ void ZarrHeaderBuilder::takeLevels() {
         } catch (const std::invalid_argument& flaw) {
             result_.damaged.push_back(
                 {group.name.empty() ? "multiscales" : group.name,
-                 fmt::format("{}: {}", (hierarchy_.folder / group.name).string(), flaw.what())});
+                 fmt::format("{}: {}", hierarchy_.store->told(group.name), flaw.what())});
         }
     }
 }
@@ -149,7 +149,7 @@ void ZarrHeaderBuilder::addArray(const ZarrArray& array) {
     const bool isField = rank >= 2;
     if (isField && !array.flaw.empty()) {
         result_.damaged.push_back(
-            {array.name, fmt::format("{}: {}", array.folder.string(), array.flaw)});
+            {array.name, fmt::format("{}: {}", hierarchy_.store->told(array.folder), array.flaw)});
         variable.type.reset();
     }
     if (const auto level = levels_.find(array.name); level != levels_.end())
@@ -222,7 +222,7 @@ void ZarrHeaderBuilder::addChannels(const ZarrArray& array, const ZarrLevel& lev
             {array.name,
              fmt::format("{}: expected at most {} variables, found more with its {} "
                          "channels",
-                         hierarchy_.folder.string(), kMaxVariables, array.shape[position])});
+                         hierarchy_.store->told(""), kMaxVariables, array.shape[position])});
         return;
     }
     std::set<std::string> seen{""};

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "timeseries/readers/numbered_names.h"
+#include "timeseries/readers/zarr_zip.h"
 
 namespace timeseries {
 namespace {
@@ -15,102 +16,81 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxZarrDepth = 16;
-constexpr std::size_t kMaxNodes = 8192;     // as many as netCDF has variables
-constexpr std::size_t kMaxEntries = 65536;  // of a group's folder
+constexpr std::size_t kMaxNodes = 8192;  // as many as netCDF has variables
 constexpr std::string_view kV3 = "zarr.json";
-
-bool isThere(const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
-}
-
-bool isNode(const fs::path& folder) {
-    return isThere(folder / kV3) || isThere(folder / ".zarray") || isThere(folder / ".zgroup");
-}
 
 struct Node {
     bool isArray, isV3;
     ZarrJson metadata;
 };
 
-Node nodeAt(const fs::path& folder) {
-    if (isThere(folder / kV3)) {
-        Node node{false, true, readZarrJson(folder / kV3)};
+Node nodeAt(const ZarrStore& store, const std::string& folder) {
+    const std::string v3 = zarrJoined(folder, std::string(kV3)), v2 = zarrJoined(folder, ".zarray");
+    if (store.isThere(v3)) {
+        Node node{false, true, readZarrJson(store, v3)};
         const ZarrJson* const type = jsonMember(&node.metadata, "node_type");
         node.isArray = jsonText(type) == "array";
         if (!node.isArray && jsonText(type) != "group")
             throw FileError(fmt::format("{}: node_type: expected array or group, found {}",
-                                        (folder / kV3).string(), jsonBriefly(type)));
+                                        store.told(v3), jsonBriefly(type)));
         return node;
     }
-    if (isThere(folder / ".zarray")) return {true, false, readZarrJson(folder / ".zarray")};
+    if (store.isThere(v2)) return {true, false, readZarrJson(store, v2)};
     return {false, false, ZarrJson()};
 }
 
-ZarrJson attributesAt(const fs::path& folder, const Node& node) {
+ZarrJson attributesAt(const ZarrStore& store, const std::string& folder, const Node& node) {
     if (node.isV3) {
         const ZarrJson* const own = jsonMember(&node.metadata, "attributes");
         return own ? *own : ZarrJson();
     }
-    return isThere(folder / ".zattrs") ? readZarrJson(folder / ".zattrs") : ZarrJson();
+    const std::string file = zarrJoined(folder, ".zattrs");
+    return store.isThere(file) ? readZarrJson(store, file) : ZarrJson();
 }
 
-// The folders in a group that are nodes, in natural order.
-std::vector<fs::path> nodesIn(const fs::path& folder) {
-    std::vector<fs::path> nodes;
-    std::size_t seen = 0;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        if (++seen > kMaxEntries)
-            throw FileError(fmt::format("{}: expected a group of at most {} files and folders",
-                                        folder.string(), kMaxEntries));
-        std::error_code ignored;
-        if (!entry->path().filename().string().starts_with('.') && entry->is_directory(ignored) &&
-            isNode(entry->path()))
-            nodes.push_back(entry->path());
-    }
-    if (error)
-        throw FileError(fmt::format("{}: expected a folder that can be listed, but {}",
-                                    folder.string(), error.message()));
+// The folders in a group that are nodes, by their own names, in natural order.
+std::vector<std::string> nodesIn(const ZarrStore& store, const std::string& folder) {
+    std::vector<std::string> nodes = store.foldersIn(folder);
+    std::erase_if(nodes, [&](const std::string& name) {
+        return name.starts_with('.') || !isZarrNode(store, zarrJoined(folder, name));
+    });
     std::ranges::sort(nodes, nameLess);
     return nodes;
 }
 
-void addArray(const fs::path& folder, const std::string& name, const Node& node,
+void addArray(const std::string& folder, const std::string& name, const Node& node,
               ZarrHierarchy& all) {
     try {
-        ZarrArray array = node.isV3 ? zarrArrayOfV3(node.metadata)
-                                    : zarrArrayOfV2(node.metadata, attributesAt(folder, node));
+        ZarrArray array =
+            node.isV3 ? zarrArrayOfV3(node.metadata)
+                      : zarrArrayOfV2(node.metadata, attributesAt(*all.store, folder, node));
         array.folder = folder;
         array.name = name;
         all.arrays.push_back(std::move(array));
     } catch (const std::invalid_argument& flaw) {
-        all.damaged.push_back({name, fmt::format("{}: {}", folder.string(), flaw.what())});
+        all.damaged.push_back({name, fmt::format("{}: {}", all.store->told(folder), flaw.what())});
     }
 }
 
-void addNode(const fs::path& folder, const std::string& name, int depth, ZarrHierarchy& all) {
+void addNode(const std::string& folder, const std::string& name, int depth, ZarrHierarchy& all) {
     // A link to a group around it has no end, too.
     if (depth > kMaxZarrDepth)
         throw FileError(fmt::format("{}: expected groups at most {} deep, found more",
-                                    folder.string(), kMaxZarrDepth));
+                                    all.store->told(folder), kMaxZarrDepth));
     if (all.groups.size() + all.arrays.size() + all.damaged.size() >= kMaxNodes)
         throw FileError(fmt::format("{}: expected at most {} groups and arrays, found more",
-                                    all.folder.string(), kMaxNodes));
+                                    all.store->told(""), kMaxNodes));
     std::optional<Node> node;
     try {
-        node = nodeAt(folder);
+        node = nodeAt(*all.store, folder);
         if (node->isArray) return addArray(folder, name, *node, all);
-        all.groups.push_back({name, attributesAt(folder, *node)});
+        all.groups.push_back({name, attributesAt(*all.store, folder, *node)});
     } catch (const FileError& error) {  // costs no other
         all.damaged.push_back({name, error.what()});
         return;
     }
-    for (const fs::path& each : nodesIn(folder)) {
-        const std::string own = each.filename().string();
-        addNode(each, name.empty() ? own : name + '/' + own, depth + 1, all);
-    }
+    for (const std::string& own : nodesIn(*all.store, folder))
+        addNode(zarrJoined(folder, own), zarrJoined(name, own), depth + 1, all);
 }
 
 fs::path folderOf(const fs::path& path) {
@@ -124,10 +104,44 @@ fs::path folderOf(const fs::path& path) {
 // A group's own metadata, not an array's.
 bool isGroup(const fs::path& folder) {
     try {
-        return isNode(folder) && !nodeAt(folder).isArray;
+        const auto store = zarrFolder(folder);
+        return isZarrNode(*store, "") && !nodeAt(*store, "").isArray;
     } catch (const FileError&) {
         return false;
     }
+}
+
+// One that says that it is one, but cannot be opened, shall be told as one.
+bool isZarrZip(const fs::path& path) {
+    if (!isZip(path)) return false;
+    try {
+        return isZarrNode(*zarrZip(path), "");
+    } catch (const FileError&) {
+        return path.string().ends_with(".zarr.zip");
+    }
+}
+
+// An array that is a store's outermost folder is called as the store is.
+std::string nameOf(const fs::path& path) {
+    // "." has a name, too.
+    const fs::path whole = fs::absolute(path).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+void dropEnding(std::string& name, std::string_view ending) {
+    if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+}
+
+ZarrHierarchy zipHierarchyOf(const fs::path& path) {
+    ZarrHierarchy all;
+    all.store = zarrZip(path);
+    const Node node = nodeAt(*all.store, "");
+    all.format = node.isV3 ? "Zarr v3 in a zip file" : "Zarr v2 in a zip file";
+    std::string name = node.isArray ? nameOf(path) : "";
+    dropEnding(name, ".zip");
+    dropEnding(name, ".zarr");
+    addNode("", name, 0, all);
+    return all;
 }
 
 }  // namespace
@@ -135,35 +149,36 @@ bool isGroup(const fs::path& folder) {
 bool isZarr(const fs::path& path) {
     static constexpr std::array kFiles{".zgroup", ".zarray", ".zattrs", ".zmetadata", "zarr.json"};
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) return isNode(path);
-    return std::ranges::find(kFiles, path.filename().string()) != kFiles.end() &&
-           fs::is_regular_file(path, ignored) && isNode(folderOf(path));
+    if (fs::is_directory(path, ignored)) return isZarrNode(*zarrFolder(path), "");
+    if (!fs::is_regular_file(path, ignored)) return false;
+    if (std::ranges::find(kFiles, path.filename().string()) == kFiles.end()) return isZarrZip(path);
+    return isZarrNode(*zarrFolder(folderOf(path)), "");
 }
 
 ZarrHierarchy zarrHierarchyOf(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored) && isZip(path)) return zipHierarchyOf(path);
     fs::path folder = folderOf(path);
-    const Node node = nodeAt(folder);
     ZarrHierarchy all;
+    all.store = zarrFolder(folder);
+    const Node node = nodeAt(*all.store, "");
     all.format = node.isV3 ? "Zarr v3" : "Zarr v2";
     std::string name;
     if (node.isArray) {
-        // "." has a name, too.
-        const fs::path whole = fs::absolute(folder).lexically_normal();
-        name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+        name = nameOf(folder);
         const fs::path around = folder / "..";
         if (isGroup(around)) {
             all.only = name;
-            folder =
-                folder.has_parent_path() && folder.filename() != "." && folder.filename() != ".."
-                    ? folder.parent_path()
-                    : around;
+            all.store = zarrFolder(folder.has_parent_path() && folder.filename() != "." &&
+                                           folder.filename() != ".."
+                                       ? folder.parent_path()
+                                       : around);
             name.clear();
-        } else if (name.ends_with(".zarr")) {
-            name.resize(name.size() - 5);
+        } else {
+            dropEnding(name, ".zarr");
         }
     }
-    all.folder = folder;
-    addNode(folder, name, 0, all);
+    addNode("", name, 0, all);
     return all;
 }
 

@@ -1,13 +1,15 @@
-// The groups and arrays of a Zarr hierarchy in a folder, of version 2 or 3: what its folders hold,
-// whatever .zmetadata or consolidated_metadata say of them, which are copies.
+// The groups and arrays of a Zarr hierarchy of version 2 or 3, in a folder or a zip file: what its
+// folders hold, whatever .zmetadata or consolidated_metadata say of them, which are copies.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/zarr_array.h"
+#include "timeseries/readers/zarr_store.h"
 
 namespace timeseries {
 
@@ -17,7 +19,7 @@ struct ZarrGroup {
 };
 
 struct ZarrHierarchy {
-    std::filesystem::path folder;
+    std::shared_ptr<const ZarrStore> store;
     std::string format;             // "Zarr v2"
     std::vector<ZarrGroup> groups;  // one comes before what lies in it; names in natural order
     std::vector<ZarrArray> arrays;  // alike
@@ -25,7 +27,7 @@ struct ZarrHierarchy {
     std::string only;                      // the array that was named, "" for all
 };
 
-// Whether it is such a folder, of a group or an array, or a file of metadata in one.
+// Whether it is such a folder, of a group or an array, or a file of metadata in one, or a zip file.
 bool isZarr(const std::filesystem::path& path);
 
 // Of an array's folder: with what else is in its group, which may place its values. REQUIRES:

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <limits>
+#include <stdexcept>
 
-#include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {
 
-constexpr std::uintmax_t kMostJsonBytes = 16 << 20;
+constexpr std::uint64_t kMostJsonBytes = 16 << 20;
 // The longer first.
 constexpr std::array<std::string_view, 3> kNoJson{"-Infinity", "Infinity", "NaN"};
 
@@ -46,23 +45,23 @@ std::string asJson(std::string_view text) {
 
 }  // namespace
 
-ZarrJson readZarrJson(const std::filesystem::path& path) {
-    const auto fail = [&](const std::string& what) {
-        throw FileError(fmt::format("{}: {}", path.string(), what));
-    };
-    if (const std::string flaw = flawOfFile(path); !flaw.empty()) fail(flaw);
-    std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-    std::ifstream file(path, std::ios::binary);
-    if (error || !file) fail("expected a file that can be read");
-    if (bytes > kMostJsonBytes)
-        fail(fmt::format("expected metadata of at most {} bytes, found {}", kMostJsonBytes, bytes));
-    std::string text(bytes, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(bytes));
-    text.resize(static_cast<std::size_t>(file.gcount()));
+ZarrJson readZarrJson(const ZarrStore& store, const std::string& name) {
+    std::string text;
+    try {
+        const auto file = store.open(name);
+        if (!file) throw std::invalid_argument("expected a file, but there is none");
+        if (file->bytes() > kMostJsonBytes)
+            throw std::invalid_argument(fmt::format(
+                "expected metadata of at most {} bytes, found {}", kMostJsonBytes, file->bytes()));
+        const ZarrBytes bytes = file->read(0, file->bytes());
+        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    } catch (const std::invalid_argument& flaw) {
+        throw FileError(fmt::format("{}: {}", store.told(name), flaw.what()));
+    }
     ZarrJson json = ZarrJson::parse(asJson(text), nullptr, false);
     if (!json.is_object())
-        fail(fmt::format("expected a JSON object, nested at most {} deep", kMostJsonDepth));
+        throw FileError(fmt::format("{}: expected a JSON object, nested at most {} deep",
+                                    store.told(name), kMostJsonDepth));
     return json;
 }
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "timeseries/index/number.h"
+#include "timeseries/readers/zarr_store.h"
 
 namespace timeseries {
 
@@ -16,7 +16,7 @@ using ZarrJson = nlohmann::json;
 
 // Of a file of at most 16 MB that holds an object, nested at most 100 deep. NaN, Infinity and
 // -Infinity, which Python writes as they are, become texts. Throws FileError.
-ZarrJson readZarrJson(const std::filesystem::path& path);
+ZarrJson readZarrJson(const ZarrStore& store, const std::string& name);
 
 // Null when it is no object, or has none of that name.
 const ZarrJson* jsonMember(const ZarrJson* object, const char* name);

@@ -23,7 +23,10 @@ class ZarrFile final : public CfFile {
     }
 
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
-    bool isOneFile() const override { return false; }
+    std::vector<std::filesystem::path> sources() const override {
+        if (hierarchy_.store->isOneFile()) return {path_};
+        return {};
+    }
     std::string tooLarge(const NcVariable& variable, std::uint64_t points) const override;
     std::vector<Number> numbers(const NcVariable& variable) const override;
     void read(const NcVariable& variable, std::span<const std::size_t> start,
@@ -44,7 +47,7 @@ class ZarrFile final : public CfFile {
 
 ZarrValues& ZarrFile::valuesOf(const NcVariable& variable) const {
     const ZarrArray* const array = sourceOf(variable).array;
-    return values_.try_emplace(array, *array).first->second;
+    return values_.try_emplace(array, *hierarchy_.store, *array).first->second;
 }
 
 std::string ZarrFile::tooLarge(const NcVariable& variable, std::uint64_t points) const {

@@ -1,5 +1,5 @@
-// Zarr hierarchies of versions 2 and 3 in folders, by the conventions of xarray (which are CF's)
-// and of OME-NGFF.
+// Zarr hierarchies of versions 2 and 3, in folders and zip files, by the conventions of xarray
+// (which are CF's) and of OME-NGFF.
 #pragma once
 
 #include <filesystem>

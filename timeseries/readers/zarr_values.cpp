@@ -4,17 +4,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 #include "timeseries/readers/limits.h"
-#include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {
-
-namespace fs = std::filesystem;
 
 // An offset and a size of all ones: a chunk that was never written (sharding_indexed, "Binary shard
 // format").
@@ -115,64 +111,16 @@ void withBytes(std::size_t valueBytes, Use use) {
     }
 }
 
-// A file that is asked for parts of itself.
-class PartsOfFile {
- public:
-    // Nothing when there is no such file, which stands for values that were never written.
-    static std::optional<PartsOfFile> open(const fs::path& path) {
-        std::error_code ignored;
-        if (fs::symlink_status(path, ignored).type() == fs::file_type::not_found)
-            return std::nullopt;
-        return PartsOfFile(path);
-    }
-
-    std::uint64_t bytes() const { return bytes_; }
-
-    ZarrBytes read(std::uint64_t from, std::uint64_t count) {
-        if (count > bytes_ || from > bytes_ - count)
-            throw std::invalid_argument(
-                fmt::format("expected {} bytes at {}, found a file of {}", count, from, bytes_));
-        ZarrBytes bytes(count);
-        file_.seekg(static_cast<std::streamoff>(from));
-        file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-        if (!file_) throw std::invalid_argument("expected a file that can be read");
-        return bytes;
-    }
-
- private:
-    explicit PartsOfFile(const fs::path& path) {
-        if (const std::string flaw = flawOfFile(path); !flaw.empty())
-            throw std::invalid_argument(flaw);
-        file_.open(path, std::ios::binary);
-        std::error_code error;
-        bytes_ = fs::file_size(path, error);
-        if (!file_ || error) throw std::invalid_argument("expected a file that can be read");
-    }
-
-    std::ifstream file_;
-    std::uint64_t bytes_ = 0;
-};
-
 }  // namespace
 
 std::string ZarrValues::tooLarge(std::uint64_t values) const {
     // What no file holds is the fill, so that any file may declare any size: beyond some for all,
     // what is believed of the best packed (of Zstandard, 2^15 times its bytes), half never written.
     constexpr double kFree = 1 << 24, kMostPerByte = 1 << 16;
-    constexpr int kMostFiles = 1 << 20;
     if (values > kMaxPoints) return fmt::format("expected at most 2^32 points, found {}", values);
     const double bytes = static_cast<double>(values) * static_cast<double>(array_.valueBytes());
-    double held = kFree;
-    int files = 0;
-    std::error_code error;
-    for (fs::recursive_directory_iterator file(array_.folder, error), end;
-         !error && held < bytes && file != end && files < kMostFiles;
-         file.increment(error), ++files) {
-        std::error_code ignored;
-        const std::string name = file->path().filename().string();
-        if (file->is_regular_file(ignored) && !name.starts_with('.') && name != "zarr.json")
-            held += kMostPerByte * static_cast<double>(file->file_size(ignored));
-    }
+    const double held =
+        kFree + kMostPerByte * store_.bytesBelow(array_.folder, (bytes - kFree) / kMostPerByte);
     return held >= bytes ? ""
                          : fmt::format(
                                "expected files that hold {:.0f} bytes of values, found few "
@@ -182,17 +130,17 @@ std::string ZarrValues::tooLarge(std::uint64_t values) const {
 
 // "c/0/1/2" of version 3's own names, "0.1.2" of version 2; of an array without dimensions "c",
 // "0".
-fs::path ZarrValues::fileOf(const Index& chunk) const {
+std::string ZarrValues::fileOf(const Index& chunk) const {
     std::string name = array_.keyStart;
     for (const std::uint64_t along : chunk)
         name += (name.empty() ? "" : array_.separator) + std::to_string(along);
-    return array_.folder / (name.empty() ? "0" : name);
+    return zarrJoined(array_.folder, name.empty() ? "0" : name);
 }
 
 std::optional<ZarrBytes> ZarrValues::packed(const Index& chunk) {
     if (array_.shards) return packedInShard(chunk);
-    chunkPath_ = fileOf(chunk);
-    auto file = PartsOfFile::open(chunkPath_);
+    chunkFile_ = fileOf(chunk);
+    const auto file = store_.open(chunkFile_);
     if (!file) return std::nullopt;
     const std::uint64_t most = mostPackedBytes(array_.chunkBytes());
     if (file->bytes() > most)
@@ -203,10 +151,10 @@ std::optional<ZarrBytes> ZarrValues::packed(const Index& chunk) {
     return file->read(0, file->bytes());
 }
 
-void ZarrValues::openShard(const fs::path& path) {
-    shardPath_.clear();
+void ZarrValues::openShard(const std::string& name) {
+    shardFile_.clear();
     shardIndex_.clear();
-    if (auto file = PartsOfFile::open(path)) {
+    if (const auto file = store_.open(name)) {
         std::uint64_t bytes = 2 * sizeof(std::uint64_t);
         for (std::size_t d = 0; d < array_.chunk.size(); ++d)
             bytes *= array_.shards->shape[d] / array_.chunk[d];
@@ -219,7 +167,7 @@ void ZarrValues::openShard(const fs::path& path) {
         shardIndex_.resize(bytes / sizeof(std::uint64_t));
         std::memcpy(shardIndex_.data(), index.data(), bytes);
     }
-    shardPath_ = path;
+    shardFile_ = name;
 }
 
 std::optional<ZarrBytes> ZarrValues::packedInShard(const Index& chunk) {
@@ -230,8 +178,8 @@ std::optional<ZarrBytes> ZarrValues::packedInShard(const Index& chunk) {
         shard[d] = chunk[d] / along;
         number = number * along + chunk[d] % along;
     }
-    chunkPath_ = fileOf(shard);
-    if (chunkPath_ != shardPath_) openShard(chunkPath_);
+    chunkFile_ = fileOf(shard);
+    if (chunkFile_ != shardFile_) openShard(chunkFile_);
     if (shardIndex_.empty()) return std::nullopt;
     const std::uint64_t from = shardIndex_[2 * number], bytes = shardIndex_[2 * number + 1];
     if (from == kNoChunk && bytes == kNoChunk) return std::nullopt;
@@ -240,7 +188,7 @@ std::optional<ZarrBytes> ZarrValues::packedInShard(const Index& chunk) {
         throw std::invalid_argument(
             fmt::format("expected at most {} bytes for {} of values, found {} in the shard's index",
                         most, array_.chunkBytes(), bytes));
-    auto file = PartsOfFile::open(chunkPath_);
+    const auto file = store_.open(chunkFile_);
     if (!file) throw std::invalid_argument("expected the shard, but it has gone");
     return file->read(from, bytes);
 }
@@ -253,7 +201,7 @@ std::optional<ZarrBytes> ZarrValues::unpacked(const Index& chunk) {
         if (array_.swapped) swapBytes(*bytes, array_.valueBytes());
         return bytes;
     } catch (const std::invalid_argument& flaw) {
-        throw FileError(fmt::format("{}: {}", chunkPath_.string(), flaw.what()));
+        throw FileError(fmt::format("{}: {}", store_.told(chunkFile_), flaw.what()));
     }
 }
 
@@ -270,7 +218,7 @@ void ZarrValues::read(std::span<const std::size_t> start, std::span<const std::s
     }
     if (chunks > static_cast<double>(kMaxZarrChunks))
         throw FileError(fmt::format("{}: expected a step in at most {} chunks, found {:.0f}",
-                                    array_.folder.string(), kMaxZarrChunks, chunks));
+                                    store_.told(array_.folder), kMaxZarrChunks, chunks));
     const auto fill = array_.fillBytes();
     for (Index chunk = first;;) {
         const auto bytes = unpacked(chunk);

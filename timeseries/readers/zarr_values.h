@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "timeseries/readers/zarr_array.h"
+#include "timeseries/readers/zarr_store.h"
 
 namespace timeseries {
 
@@ -18,8 +19,8 @@ constexpr std::uint64_t kMaxZarrChunks = std::uint64_t{1} << 18;
 
 class ZarrValues {
  public:
-    // REQUIRES: array.type, no array.flaw; it outlives this.
-    explicit ZarrValues(const ZarrArray& array) : array_(array) {}
+    // REQUIRES: array.type, no array.flaw; it and its store outlive this.
+    ZarrValues(const ZarrStore& store, const ZarrArray& array) : store_(store), array_(array) {}
 
     // Why so many values of the array are not read, as a sentence's end; "" when they are: what its
     // files hold bounds them, but for small ones.
@@ -31,16 +32,17 @@ class ZarrValues {
 
  private:
     using Index = std::vector<std::uint64_t>;
-    std::filesystem::path fileOf(const Index& chunk) const;
+    std::string fileOf(const Index& chunk) const;
     std::optional<ZarrBytes> unpacked(const Index& chunk);
     std::optional<ZarrBytes> packed(const Index& chunk);
     std::optional<ZarrBytes> packedInShard(const Index& chunk);
-    void openShard(const std::filesystem::path& path);
+    void openShard(const std::string& name);
 
+    const ZarrStore& store_;
     const ZarrArray& array_;
-    std::filesystem::path chunkPath_;  // the file looked at last: whose flaws are told
+    std::string chunkFile_;  // the file looked at last: whose flaws are told
     // Of the shard that was looked at last: where each chunk lies. Empty of one that is missing.
-    std::filesystem::path shardPath_;
+    std::string shardFile_;
     std::vector<std::uint64_t> shardIndex_;
 };
 
