@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "timeseries/readers/amrex_header.h"
 #include "timeseries/readers/decimal_names.h"
 #include "timeseries/readers/numbered_names.h"
 #include "timeseries/readers/other_formats.h"
@@ -22,8 +23,12 @@ using Paths = std::vector<Path>;
 
 constexpr std::string_view kByName = "in the order of their names";
 
-// The ordinary files of a folder, hidden ones left out. None when there are too many.
-std::optional<Paths> filesIn(const Path& folder) {
+// What the members of a series are: a plotfile is a folder.
+enum class Members { Files, Plotfiles };
+
+// The ordinary files of a folder, or its plotfiles, hidden ones left out. None when there are too
+// many.
+std::optional<Paths> filesIn(const Path& folder, Members members = Members::Files) {
     Paths files;
     std::size_t seen = 0;
     std::error_code error;
@@ -32,8 +37,11 @@ std::optional<Paths> filesIn(const Path& folder) {
          entry.increment(error)) {
         if (++seen > kMaxSeriesFiles) return std::nullopt;
         std::error_code ignored;
-        if (entry->path().filename().string().starts_with('.') || !entry->is_regular_file(ignored))
-            continue;
+        if (entry->path().filename().string().starts_with('.')) continue;
+        const bool isMember = members == Members::Files
+                                  ? entry->is_regular_file(ignored)
+                                  : entry->is_directory(ignored) && isAmrex(entry->path());
+        if (!isMember) continue;
         files.push_back(folder / entry->path().filename());
     }
     if (error)
@@ -132,13 +140,13 @@ ExpandedSeries seriesOf(const Path& file, std::span<const Sibling> siblings) {
     return alone;
 }
 
-ExpandedSeries member(const Path& file) {
+ExpandedSeries member(const Path& file, Members members = Members::Files) {
     ExpandedSeries alone{{file}, {}, "", {}};
     const Name name = cut(file);
     if (name.digits.empty() || name.extension == ".pvd") return alone;
     std::optional<Paths> listed;
     try {
-        listed = filesIn(file.parent_path());
+        listed = filesIn(file.parent_path(), members);
     } catch (const FileError&) {
         alone.notes.push_back("only this file is opened: its folder cannot be listed");
         return alone;
@@ -218,6 +226,8 @@ ExpandedSeries folder(const Path& folder) {
     if (!listed)
         throw FileError(fmt::format("{}: expected a folder of at most {} files, found more",
                                     folder.string(), kMaxSeriesFiles));
+    if (Paths plotfiles = filesIn(folder, Members::Plotfiles).value(); !plotfiles.empty())
+        listed = std::move(plotfiles);
     std::ranges::sort(*listed, nameLess);
     std::map<std::string, Paths> byExtension;
     for (const Path& file : *listed) byExtension[cut(file).extension].push_back(file);
@@ -282,7 +292,7 @@ Paths matches(const Path& pattern) {
     for (std::size_t i = 0; i < found.gl_pathc; ++i) {
         std::error_code ignored;
         const Path path = found.gl_pathv[i];
-        if (!std::filesystem::is_directory(path, ignored) || isZarr(path))
+        if (!std::filesystem::is_directory(path, ignored) || isZarr(path) || isAmrex(path))
             files.emplace_back(found.gl_pathv[i]);
     }
     if (files.empty())
@@ -300,6 +310,7 @@ ExpandedSeries expandSeries(std::span<const Path> named) {
     if (named.size() == 1) {
         const Path& one = named.front();
         if (isPattern(one)) return together(matches(one), kByName);
+        if (isAmrex(one)) return member(amrexFolderOf(one), Members::Plotfiles);
         std::error_code ignored;
         if (std::filesystem::is_directory(one, ignored) && !isZarr(one)) return folder(one);
         if (std::filesystem::is_regular_file(one, ignored)) return member(one);
