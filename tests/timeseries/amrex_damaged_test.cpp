@@ -62,7 +62,7 @@ TEST(DamagedAmrex, WhatATextSaysWrongIsTold) {
              {{"Header", "\n0\n0\n0 3", "\n1\n0\n0 3"},
               "expected Cartesian coordinates, found those of a cylinder (RZ), which are not read"},
              {{"Header", "\n0\n0\n0 3", "\n2\n0\n0 3"}, "those of a sphere, which are not read"},
-             {{"Header", "\n0\n0\n0 3", "\n0\n0\n0 2"}, "2 boxes"},
+             {{"Header", "\n0\n0\n0 3", "\n0\n0\n0 2"}, "_H: expected a file, but there is none"},
              {{"Header", "Level_0/Cell", "../Cell"}, "a path within the folder, found '../Cell'"},
              {{"Header", "Level_0/Cell", "/tmp/Cell"}, "a path within the folder, found"},
              {{"Header", "Level_0/Cell", "Level_7/Cell"}, "Level_7/Cell_H: expected a file, but"},
@@ -125,7 +125,13 @@ TEST(DamagedAmrex, FilesThatEndEarlyAreTold) {
     }
 }
 
-// A series whose step is cut later on, and one of other types.
+TEST(DamagedAmrex, BoxesAreAsManyInBothTexts) {
+    const Path folder = freshFolder() / "plt00000";
+    writePlotfile(folder, threeLevels());
+    writeBytes(folder / "Level_0/Cell_H", readBytes(folder / "Level_1/Cell_H"));
+    EXPECT_THAT(refusal(folder), HasSubstr("expected 2 boxes of level 0 as in"));
+}
+
 TEST(DamagedAmrex, OneTypeForAllBoxes) {
     const Path folder = freshFolder() / "plt00000";
     Plotfile file = threeLevels();

@@ -151,8 +151,8 @@ TEST(Amrex, CountsAreThoseOfTheFilesOwnCells) {
         std::uint64_t expected = 0, found = 0;
         for (const auto& [place, value] : expectedOf<double>(file, 0))
             expected += lo <= value && value <= hi;
-        const RangeSet range({{{lo, false}, {hi, false}}});
-        for (const Run& run : step.select(range)) found += run.count;
+        const RangeSet range({Range{{lo}, {hi}}});
+        for (const auto& run : step.select(range)) found += run.count;
         EXPECT_EQ(found, expected);
         EXPECT_GT(expected, 0u);
     }

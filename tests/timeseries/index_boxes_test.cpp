@@ -74,7 +74,7 @@ TEST(IndexBoxes, CountsStayNumbers) {
 // Of cells twice as fine along x, three times along y, alike along z, where indices are negative.
 TEST(IndexBoxes, LevelsCoverWholeCellsOfThoseBefore) {
     std::vector<LatticeLevel> levels{{{{-3, -2, 0}, {4, 3, 1}}, {{{-3, -2, 0}, {4, 3, 1}}}},
-                                     {{{-6, -6, 0}, {9, 11, 1}}, {{{-4, -3, 1}, {1, 5, 1}}}}};
+                                     {{{-6, -6, 0}, {9, 11, 1}}, {{{-4, -3, 1}, {-1, 5, 1}}}}};
     EXPECT_EQ(flawOf(levels), "");
     const auto covered = coveredCells(levels);
     std::size_t cell = 0;

@@ -146,7 +146,8 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, Exodus II, VTKHDF, XDMF, Zarr, AMReX, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of VTK, "
+        "NetCDF, Exodus II, VTKHDF, XDMF, Zarr, AMReX, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, of "
+        "VTK, "
         "image "
         "data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, .vtu, "
         ".vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series)";
