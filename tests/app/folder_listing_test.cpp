@@ -34,5 +34,17 @@ TEST(FolderListing, ACaseOfOpenFoamIsADataSet) {
     EXPECT_TRUE(isFolder(folder));
 }
 
+TEST(FolderListing, APlotfileOfAmrexIsADataSet) {
+    const std::filesystem::path folder = tests::freshFolder(), plotfile = folder / "plt00000";
+    std::filesystem::create_directories(plotfile / "Level_0");
+    EXPECT_TRUE(isFolder(plotfile));
+    tests::writeBytes(plotfile / "Header", "HyperCLaw-V1.1\n");
+    EXPECT_FALSE(isFolder(plotfile));
+    EXPECT_TRUE(opens(plotfile));
+    EXPECT_TRUE(opens(plotfile / "Header"));
+    EXPECT_TRUE(isFolder(plotfile / "Level_0"));
+    EXPECT_TRUE(isFolder(folder));
+}
+
 }  // namespace
 }  // namespace app

@@ -16,7 +16,8 @@ using namespace std::string_literals;
 using Path = std::filesystem::path;
 
 const std::string kTail =
-    "; isochron reads NetCDF, Exodus II, VTKHDF, XDMF, Zarr, OpenFOAM, NRRD, NIfTI, MRC, FITS, "
+    "; isochron reads NetCDF, Exodus II, VTKHDF, XDMF, Zarr, OpenFOAM, AMReX, NRRD, NIfTI, MRC, "
+    "FITS, "
     "PLOT3D, CSV "
     "and, of VTK, image data, rectilinear, structured and unstructured grids, polygons (.vti, "
     ".vtr, .vts, "

@@ -145,7 +145,8 @@ std::string otherFolder(const std::filesystem::path& folder) {
 
 std::string notReadSentence(const std::filesystem::path& path, std::string_view what) {
     constexpr std::string_view kRead =
-        "NetCDF, Exodus II, VTKHDF, XDMF, Zarr, OpenFOAM, NRRD, NIfTI, MRC, FITS, PLOT3D, CSV and, "
+        "NetCDF, Exodus II, VTKHDF, XDMF, Zarr, OpenFOAM, AMReX, NRRD, NIfTI, MRC, FITS, PLOT3D, "
+        "CSV and, "
         "of VTK, "
         "image "
         "data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, .vtu, "

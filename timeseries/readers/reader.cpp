@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "timeseries/readers/amrex_header.h"
+#include "timeseries/readers/amrex_reader.h"
 #include "timeseries/readers/array_reader.h"
 #include "timeseries/readers/csv_reader.h"
 #include "timeseries/readers/fits_reader.h"
@@ -121,11 +123,12 @@ const std::array kFormats = {
 const Format kPlot3d{nullptr, openPlot3d};
 // Folders.
 const Format kZarr{nullptr, openZarr, true};
-const Format kFoam{nullptr, openFoam};
+const Format kFoam{nullptr, openFoam}, kAmrex{nullptr, openAmrex, true};
 
 const Format& recognise(const std::filesystem::path& path) {
     if (isZarr(path)) return kZarr;
     if (isFoamCase(path)) return kFoam;
+    if (isAmrex(path)) return kAmrex;
     const std::string start = beginning(path);
     for (const Format& format : kFormats)
         if (format.begins(start)) return format;

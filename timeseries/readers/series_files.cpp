@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "timeseries/readers/amrex_header.h"
 #include "timeseries/readers/decimal_names.h"
 #include "timeseries/readers/foam_case.h"
 #include "timeseries/readers/numbered_names.h"
@@ -24,8 +25,12 @@ using Paths = std::vector<Path>;
 
 constexpr std::string_view kByName = "in the order of their names";
 
-// The ordinary files of a folder, hidden ones left out. None when there are too many.
-std::optional<Paths> filesIn(const Path& folder) {
+// What the members of a series are: a plotfile is a folder.
+enum class Members { Files, Plotfiles };
+
+// The ordinary files of a folder, or its plotfiles, hidden ones left out. None when there are too
+// many.
+std::optional<Paths> filesIn(const Path& folder, Members members = Members::Files) {
     Paths files;
     std::size_t seen = 0;
     std::error_code error;
@@ -34,8 +39,11 @@ std::optional<Paths> filesIn(const Path& folder) {
          entry.increment(error)) {
         if (++seen > kMaxSeriesFiles) return std::nullopt;
         std::error_code ignored;
-        if (entry->path().filename().string().starts_with('.') || !entry->is_regular_file(ignored))
-            continue;
+        if (entry->path().filename().string().starts_with('.')) continue;
+        const bool isMember = members == Members::Files
+                                  ? entry->is_regular_file(ignored)
+                                  : entry->is_directory(ignored) && isAmrex(entry->path());
+        if (!isMember) continue;
         files.push_back(folder / entry->path().filename());
     }
     if (error)
@@ -134,12 +142,12 @@ ExpandedSeries seriesOf(const Path& file, std::span<const Sibling> siblings) {
     return alone;
 }
 
-ExpandedSeries member(const Path& named) {
+ExpandedSeries member(const Path& named, Members members = Members::Files) {
     ExpandedSeries alone{{named}, {}, "", {}};
     if (const Name name = cut(named); name.digits.empty() || name.extension == ".pvd") return alone;
     std::optional<Paths> listed;
     try {
-        listed = filesIn(named.parent_path());
+        listed = filesIn(named.parent_path(), members);
     } catch (const FileError&) {
         alone.notes.push_back("only this file is opened: its folder cannot be listed");
         return alone;
@@ -224,6 +232,8 @@ ExpandedSeries folder(const Path& folder) {
         throw FileError(fmt::format("{}: expected a folder of at most {} files, found more",
                                     folder.string(), kMaxSeriesFiles));
     *listed = firstPartsOf(std::move(*listed));
+    if (Paths plotfiles = filesIn(folder, Members::Plotfiles).value(); !plotfiles.empty())
+        listed = std::move(plotfiles);
     std::ranges::sort(*listed, nameLess);
     std::map<std::string, Paths> byExtension;
     for (const Path& file : *listed) byExtension[cut(file).extension].push_back(file);
@@ -288,7 +298,8 @@ Paths matches(const Path& pattern) {
     for (std::size_t i = 0; i < found.gl_pathc; ++i) {
         std::error_code ignored;
         const Path path = found.gl_pathv[i];
-        if (!std::filesystem::is_directory(path, ignored) || isZarr(path) || isFoamCase(path))
+        if (!std::filesystem::is_directory(path, ignored) || isZarr(path) || isFoamCase(path) ||
+            isAmrex(path))
             files.emplace_back(found.gl_pathv[i]);
     }
     if (files.empty())
@@ -307,6 +318,7 @@ ExpandedSeries expandSeries(std::span<const Path> named) {
         const Path& one = named.front();
         if (isPattern(one)) return together(matches(one), kByName);
         if (isFoamCase(one)) return {{one}, {}, "", {}};
+        if (isAmrex(one)) return member(amrexFolderOf(one), Members::Plotfiles);
         std::error_code ignored;
         if (std::filesystem::is_directory(one, ignored) && !isZarr(one)) return folder(one);
         if (std::filesystem::is_regular_file(one, ignored)) return member(one);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "timeseries/grid/index_boxes.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/vtk_file.h"
 #include "timeseries/readers/vtk_xml_numbers.h"
@@ -55,15 +56,12 @@ void addNamed(const XmlFile& file, const XmlElement& parent, std::uint64_t level
 
 bool isImage(const VtkHeader& block) { return block.kind == VtkKind::XmlImage; }
 
-// Which of a block's cells have their middles within a finer block: a box of indices, empty where
-// first > last along an axis. Images whose axes are those of space.
-struct CellBox {
-    std::array<std::int64_t, 3> first, last;
-};
-CellBox coveredBy(const VtkHeader& block, const VtkHeader& finer) {
+// Which of a block's cells have their middles within a finer block, counted from its first one.
+// Images whose axes are those of space.
+IndexBox coveredBy(const VtkHeader& block, const VtkHeader& finer) {
     constexpr double kRounding = 1e-6;  // of a cell: writers work out origins each for itself
     const Size cells = block.size(VtkPlace::Cells), points = block.size(VtkPlace::Points);
-    CellBox box{};
+    IndexBox box{};
     for (std::size_t a = 0; a < 3; ++a) {
         const auto last = static_cast<std::int64_t>(cells[a]) - 1;
         box.last[a] = last;
@@ -85,19 +83,11 @@ CellBox coveredBy(const VtkHeader& block, const VtkHeader& finer) {
 }
 
 std::vector<bool> coveredCells(const VtkHeader& block, std::span<const VtkHeader* const> finer) {
-    const Size size = block.size(VtkPlace::Cells);
+    IndexBox cells{};
+    for (std::size_t a = 0; a < 3; ++a)
+        cells.last[a] = static_cast<std::int64_t>(block.size(VtkPlace::Cells)[a]) - 1;
     std::vector<bool> covered;
-    for (const VtkHeader* each : finer) {
-        const CellBox box = coveredBy(block, *each);
-        for (std::int64_t k = box.first[2]; k <= box.last[2]; ++k)
-            for (std::int64_t j = box.first[1]; j <= box.last[1]; ++j) {
-                if (box.first[0] > box.last[0]) break;
-                covered.resize(size[0] * size[1] * size[2]);
-                const auto row = covered.begin() + (k * static_cast<std::int64_t>(size[1]) + j) *
-                                                       static_cast<std::int64_t>(size[0]);
-                std::fill(row + box.first[0], row + box.last[0] + 1, true);
-            }
-    }
+    for (const VtkHeader* each : finer) cover(covered, cells, coveredBy(block, *each));
     return covered;
 }
 
