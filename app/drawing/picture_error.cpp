@@ -15,14 +15,15 @@ struct PictureError::Work {
 
     bool isOf(const Picture& other) const {
         return sorted.lock() == other.sorted && picture.explorer == other.explorer &&
-               picture.view == other.view && picture.cellsBy == other.cellsBy;
+               picture.view == other.view && picture.cellsBy == other.cellsBy &&
+               picture.parts == other.parts;
     }
     void run() {
         try {
             // One thread: the interface has the others.
             errors = depthErrorsOf(picture.explorer, *picture.sorted, picture.view,
-                                   rungsOf(picture.explorer, *picture.sorted), picture.cellsBy, 1,
-                                   wanted);
+                                   rungsOf(picture.explorer, *picture.sorted),
+                                   {picture.cellsBy, picture.parts, 1}, wanted);
         } catch (...) {  // then it is not told: a picture is as good without
         }
         picture.sorted.reset();

@@ -23,6 +23,7 @@ class PictureError {
         Explorer explorer;
         render::View view;
         CellsBy cellsBy = CellsBy::Program;
+        Parts parts = Parts::None;
         friend bool operator==(const Picture&, const Picture&) = default;
     };
     // Of the ways to draw it, once they are known: begins to work them out, one picture at a time.
