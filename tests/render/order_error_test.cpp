@@ -122,10 +122,11 @@ TEST(OrderError, HoldsAgainstTheLightOfTheTruth) {
 
 TEST(OrderError, CountsPixelsAsOftenAsTheyStandFor) {
     const Ramp ramp({"1:3", "5:6"});
-    const std::vector<glm::ivec2> two{{10, 10}, {0, 0}}, one{{10, 10}};
+    const std::vector<glm::ivec2> two{{10, 10}, {12, 11}}, one{{10, 10}};
     const auto error = [&](std::span<const glm::ivec2> pixels, std::vector<double> weights) {
         return orderError(ramp.scene, ramp.scene.cells->field(), ramp.view, pixels, weights, 2);
     };
+    ASSERT_GT(error(two, {0, 1}), 0);
     EXPECT_NEAR(error(two, {1, 0}), error(one, {1}), 1e-15);
     EXPECT_NEAR(error(two, {3, 5}), error(two, {0.6, 1}), 1e-15);
 }
