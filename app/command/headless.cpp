@@ -12,6 +12,7 @@
 #include "app/files/frame_files.h"
 #include "app/files/progress.h"
 #include "app/picture/depth_error.h"
+#include "app/picture/error_text.h"
 #include "app/picture/picture.h"
 #include "app/picture/still.h"
 #include "app/say.h"
@@ -47,18 +48,24 @@ void tellFiles(const FrameFiles& frames, const timeseries::Variable& variable) {
 
 // What is said of the pictures once they are made.
 struct Told {
-    std::size_t mixed = 0;          // how many say that their colours are mixed
-    std::optional<double> error{};  // of the one in the middle (depth_error.h)
-    std::filesystem::path of{};     // that one
+    std::size_t mixed = 0;       // how many say that their colours are mixed
+    std::string error{};         // of the one in the middle, as it is said
+    std::filesystem::path of{};  // that one
 };
 
-std::optional<double> errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-                              const render::PlacedPoints& placed) {
+DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
+                    const render::PlacedPoints& placed) {
     const Rung drawn{e.model};
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
                          eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front(),
-                         std::span(&drawn, 1))
-        .of(drawn);
+                         std::span(&drawn, 1));
+}
+
+std::string errorText(const DepthErrors& errors) {
+    const RungError& error = errors.rungs.front();
+    const std::string depth = depthErrorText(error.depth);
+    if (depth.empty()) return "";
+    return depth + " of optical depth" + lightErrorText(error, errors.ordering);
 }
 
 // Writes a picture while the next one is drawn.
@@ -106,7 +113,9 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
         }
         std::optional<double> error;
         if (i == frames.size() / 2 && hasDepthError(*step)) {
-            error = told.error = errorOf(e, frame, *step, *placed);
+            const DepthErrors errors = errorOf(e, frame, *step, *placed);
+            error = errors.of({e.model});
+            if (error) told.error = errorText(errors);
             told.of = frame.file;
         }
         DrawnStill drawn = drawStill({.explorer = e,
@@ -177,9 +186,8 @@ int renderHeadless(const RenderOptions& options) {
                                    : fmt::format(" in {} of {} pictures", mixed, frames.size()),
             render::kMixedDepth);
     tellStyle(e, dataset.variable);
-    if (const std::string text = depthErrorText(error); !text.empty())
-        say("  {} of optical depth{}\n", text,
-            frames.size() == 1 ? "" : fmt::format(" in {}", middle.string()));
+    if (!error.empty())
+        say("  {}{}\n", error, frames.size() == 1 ? "" : fmt::format(" in {}", middle.string()));
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);

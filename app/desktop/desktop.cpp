@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/desktop/check_driver.h"
+#include "app/panels/figures.h"
 #include "render/gl/debug_output.h"
 
 namespace app::desktop {
@@ -117,6 +118,7 @@ void Desktop::serve(const panels::Requests& requests) {
     fileActions_.serve(requests, interface_, picture ? picture_.errorOf(*picture) : std::nullopt);
     if (std::ranges::count(requests.commands, panels::Command::Headset) > 0) askForHeadset();
     const Explorer& shown = exploration_.explorer();
+    picture_.wantParts(requests.errorParts);
     if (requests.hover) interface_.takeHover(picture_.readSoon(*requests.hover, shown));
     if (requests.probe)
         interface_.takeReading(picture_.read(*requests.probe, shown), requests.ruler);

@@ -53,6 +53,7 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
                        bool playing, bool held, const panels::Choices& choices) {
     if (shown == nullptr) return render::showGround(window, kGroundColor);
     playing_ = playing;
+    partsCame_ = false;
     const bool current = isCurrent(*shown);
     rest_.frame(!current, held, Clock::now());
     const bool resting = !playing && rest_.is(Clock::now());
@@ -116,22 +117,23 @@ CanvasLimits PictureView::moving(const Explorer& explorer, const panels::Choices
 }
 
 bool PictureView::waitsForError() const {
-    return content_ && isDone() && !measured_ && eyes_.size() == 1 &&
-           hasDepthError(*content_->sorted);
+    const bool isTold = measured_ && (parts_ == Parts::None || *measured_ == Parts::All);
+    return content_ && isDone() && !isTold && eyes_.size() == 1 && hasDepthError(*content_->sorted);
 }
 
 void PictureView::tellError() {
-    auto errors = error_.of({content_->sorted, content_->explorer, eyes_.front()});
+    auto errors = error_.of({content_->sorted, content_->explorer, eyes_.front(), parts_});
     if (!errors) return;
     errors_ = std::move(errors);
     errorsOf_ = selectionOf(content_->explorer);
     predictError();
-    measured_ = true;
+    measured_ = parts_;
+    partsCame_ = parts_ == Parts::All;
 }
 
 // Steps of a series and views of a step are alike enough for the figure that is told.
 void PictureView::predictError() {
-    measured_ = false;
+    measured_.reset();
     performance_.errors =
         errorsOf_ == selectionOf(content_->explorer) ? errors_ : std::optional<DepthErrors>();
 }
@@ -141,6 +143,7 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 }
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
+    if (partsCame_) return 0ns;
     if (!content_ || (isDone() && (playing_ || !waitsForError()))) return std::nullopt;
     const bool goesOn = !isDone() && (report_.uploaded < 1 || (report_.refined > 0 && !playing_));
     return goesOn ? 0ns : std::chrono::nanoseconds(Rest::kHesitation);

@@ -42,6 +42,9 @@ class PictureView {
     // How long the frame took that the last draw() belongs to, where the GPU did not tell.
     void took(std::chrono::nanoseconds frame);
 
+    // Whether somebody looks at the parts of its error, which are told later than that.
+    void wantParts(bool wanted) { parts_ = wanted ? Parts::All : Parts::None; }
+
     Canvas& canvas() { return canvas_; }
     const panels::Performance& performance() const { return performance_; }
     // Of the picture of what is shown, where it is drawn whole and its error is known.
@@ -85,7 +88,9 @@ class PictureView {
     PictureError error_;
     std::optional<DepthErrors> errors_;  // told last, and of which selection:
     Explorer errorsOf_;
-    bool measured_ = false;  // of the picture that is kept
+    std::optional<Parts> measured_;  // of the picture that is kept: what was asked for
+    Parts parts_ = Parts::None;      // what is to be
+    bool partsCame_ = false;         // with the last draw(): panels were drawn before
     glm::dmat3 boxHalfEdges_{0.5};
     std::vector<render::View> eyes_;
     glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other

@@ -10,7 +10,7 @@
 #include "app/drawing/telling.h"
 #include "app/picture/still.h"
 #include "render/gl/timer.h"
-#include "render/model/splat_cost.h"
+#include "render/splat/splat_cost.h"
 #include "render/reference/cell_pick.h"
 #include "render/splat/cell_pieces.h"
 

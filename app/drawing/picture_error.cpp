@@ -15,13 +15,13 @@ struct PictureError::Work {
 
     bool isOf(const Picture& other) const {
         return sorted.lock() == other.sorted && picture.explorer == other.explorer &&
-               picture.view == other.view;
+               picture.view == other.view && picture.parts == other.parts;
     }
     void run() {
         try {
             // One thread: the interface has the others.
             errors = depthErrorsOf(picture.explorer, *picture.sorted, picture.view,
-                                   rungsOf(picture.explorer, *picture.sorted), 1,
+                                   rungsOf(picture.explorer, *picture.sorted), {picture.parts, 1},
                                    wanted);
         } catch (...) {  // then it is not told: a picture is as good without
         }

@@ -22,6 +22,7 @@ class PictureError {
         std::shared_ptr<const timeseries::SortedStep> sorted;
         Explorer explorer;
         render::View view;
+        Parts parts = Parts::None;
         friend bool operator==(const Picture&, const Picture&) = default;
     };
     // Of the ways to draw it, once they are known: begins to work them out, one picture at a time.

@@ -26,7 +26,7 @@ class Refinement {
 
     // Goes on with the draw list for about as long as a frame takes. True when it is there.
     bool order();
-    // Draws until `cost` is reached (render/model/splat_cost.h), a little more than that, and hands
+    // Draws until `cost` is reached (render/splat/splat_cost.h), a little more than that, and hands
     // each eye's light to `show` once it is whole. Returns what it cost. REQUIRES: order(), and not
     // done.
     double goOn(double cost, const std::function<void(std::size_t eye, render::Targets&)>& show);

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/panels/figures.h"
+
 namespace app::headset {
 
 Panel::Context::Context() {

@@ -132,6 +132,15 @@ class Bench {
         }
     }
 
+    // As the modes are measured: lengths, and light that comes from within.
+    DepthErrors errorParts(std::span<const Rung> rungs, render::Order order) const {
+        Explorer e = explorer_;
+        e.opacityPer = render::OpacityPer::Length;
+        e.light = render::Light::Off;
+        e.order = order;
+        return depthErrorsOf(e, step_, views_.front(), rungs, {.parts = Parts::All});
+    }
+
     struct Truth {
         Views shown;
         std::vector<double> turned;  // optical depth
@@ -173,6 +182,22 @@ void compare(const Views& shown, const Views& truth, Measured& into) {
     constexpr double kShare = 0.95;
     into.colorDifference =
         colorDifferenceQuantile(shown.light, truth.light, glm::vec3(kBackground), kShare);
+}
+
+// Of all modes, those of each order at once.
+void takeParts(const Bench& bench, std::vector<Measured>& all) {
+    for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
+        std::vector<Rung> rungs;
+        for (const Measured& m : all)
+            if (m.mode.order == order) rungs.push_back({m.mode.model, m.mode.stride});
+        if (rungs.empty()) continue;
+        std::ranges::reverse(rungs);  // cells choose the pixels
+        const DepthErrors errors = bench.errorParts(rungs, order);
+        for (Measured& m : all) {
+            const RungError* const known = errors.find({m.mode.model, m.mode.stride});
+            if (m.mode.order == order && known != nullptr) m.parts = *known;
+        }
+    }
 }
 
 // Of optical depth, pixel by pixel; a view and the same turned, of a picture and of the truth.
@@ -257,6 +282,7 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
         compare(drawn[i].shown, truth.shown, m);
         m.popping = poppingOf(drawn[i].shown.opticalDepth, drawn[i].turned, first, truth.turned);
     }
+    takeParts(bench, all);
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/choices/explorer.h"
+#include "app/picture/depth_error.h"
 #include "render/model/scene.h"
 #include "timeseries/index/sorted_step.h"
 
@@ -47,6 +48,9 @@ struct Measured {
     double rmse = 0, psnr = 0;   // linear; dB, infinite for the same picture
     double largest = 0;          // linear, of one channel
     double colorDifference = 0;  // CIEDE2000, the 95th percentile of pixels that show something
+    // What the depth's error comes from, and what order costs of light (app/picture/depth_error.h):
+    // of the first view, from some of its pixels, against 8 x 8 rays in each.
+    RungError parts;
 
     bool massIsOff() const { return !(mass >= 1 - kMassTolerance && mass <= 1 + kMassTolerance); }
 };

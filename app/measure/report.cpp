@@ -85,12 +85,18 @@ ordered_json bestJson(std::span<const Measured> modes) {
 }
 
 ordered_json json(const Measured& m) {
+    const ErrorParts parts = m.parts.parts.value_or(ErrorParts());
     return {{"mode", m.mode.name()},
             {"order", orderText(m.mode.order)},
             {"frame", m.frame},
             {"before", m.before},
             {"drawn", static_cast<std::uint64_t>(m.drawn)},
             {"depthError", finite(m.depthError)},
+            {"sampledError", finite(m.parts.depth)},
+            {"modelError", finite(parts.model)},
+            {"subsetError", finite(parts.subset)},
+            {"pixelsError", finite(parts.pixels)},
+            {"orderError", finite(m.parts.order)},
             {"mass", finite(m.mass)},
             {"massIsOff", m.massIsOff()},
             {"popping", finite(m.popping)},

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/choices/view_edits.h"
+#include "app/panels/error_parts.h"
 #include "app/panels/header.h"
 #include "app/panels/help.h"
 #include "app/panels/quality_page.h"
@@ -69,6 +70,8 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
     if (started) {
         drawSide(context, around);
         timeBar_.draw(context, context.layout.timeBar);
+        // Last of those that Tab goes to: it comes and goes.
+        if (around.hasPicture) drawErrorParts(context);
     }
     files_.draw(context);
     focus_.end(around.theme.scale);

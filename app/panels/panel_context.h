@@ -31,6 +31,8 @@ struct Performance {
     std::optional<DepthErrors> errors = {};
 
     Rung drawn() const { return {report.cells ? Model::Cells : Model::Points, report.stride}; }
+    // Of what is drawn, null where it is not known.
+    const RungError* told() const { return errors ? errors->find(drawn()) : nullptr; }
     std::optional<double> error() const { return errors ? errors->of(drawn()) : std::nullopt; }
 };
 
@@ -56,6 +58,7 @@ struct Requests {
     std::optional<glm::vec2> probe;  // where to read, in pixels of the picture, y down
     bool ruler = false;              // the reading asked for is another end of the ruler
     std::optional<glm::vec2> hover;  // likewise, for a look that must be quick
+    bool errorParts = false;         // what the picture's error comes from is looked at
 };
 
 struct PanelContext {

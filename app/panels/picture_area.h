@@ -23,15 +23,4 @@ class PictureArea {
 void drawPictureOverlay(PanelContext& context, float top,
                         const std::optional<std::string>& exporting);
 
-// How many points the picture has, and how fast it came; nothing before the first.
-std::vector<std::string> figuresOf(const Performance& performance,
-                                   const timeseries::Series* series);
-// What is said of the error where the pointer asks for it: what each way to draw would have. Empty
-// where it is not known.
-std::vector<std::string> errorLines(const Performance& performance);
-// The figures below the picture, under all panels. After the picture is drawn that they are of, and
-// before ImGui renders.
-void drawFigures(const Theme& theme, const Layout& layout, const Performance& performance,
-                 const timeseries::Series* series);
-
 }  // namespace app::panels

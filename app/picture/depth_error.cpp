@@ -1,15 +1,15 @@
 #include "app/picture/depth_error.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
+#include <map>
 #include <utility>
 
 #include "app/picture/picture.h"
 #include "render/frame/plain_frame.h"
 #include "render/model/rays_across.h"
 #include "render/reference/cells_on_rays.h"
+#include "render/reference/order_error.h"
 #include "render/reference/sampled_error.h"
+#include "render/reference/splats_on_pixels.h"
 #include "render/splat/cell_pieces.h"
 
 namespace app {
@@ -19,80 +19,154 @@ namespace {
 constexpr std::uint64_t kFewCells = 1 << 18;
 constexpr std::size_t kPixelsAsked = 2048;
 
-}  // namespace
+// One view of a step, drawn in one way and another.
+class Ways {
+ public:
+    Ways(const Explorer& explorer, const timeseries::SortedStep& step, const render::View& view,
+         const ErrorQuestion& question, const std::atomic<bool>& wanted)
+        : explorer_(explorer),
+          step_(step),
+          placed_(step.grid(), explorer.scale),
+          view_(view),
+          question_(question),
+          wanted_(wanted) {}
 
-std::string rungText(const Rung& rung) {
-    if (rung.model == Model::Cells) return "cells";
-    return rung.stride == 1 ? "points" : fmt::format("1 of {} points", rung.stride);
-}
-
-std::optional<double> DepthErrors::of(const Rung& rung) const {
-    std::optional<double> error;
-    std::uint32_t coarsest = 0;
-    for (const auto& [known, of] : rungs) {
-        if (known.model != rung.model || known.stride > rung.stride || known.stride <= coarsest)
-            continue;
-        coarsest = known.stride;
-        error = of;
-    }
-    return error;
-}
-
-std::optional<Rung> DepthErrors::cheapest(double error) const {
-    const std::pair<Rung, double>* best = nullptr;
-    const auto draws = [](const Rung& rung) {
-        return rung.model == Model::Cells ? 2.0 : 1.0 / rung.stride;
-    };
-    for (const auto& each : rungs) {
-        const bool fits = each.second <= error;
-        const bool isBetter =
-            best == nullptr ||
-            (best->second <= error ? fits && draws(each.first) < draws(best->first)
-                                   : each.second < best->second);
-        if (isBetter) best = &each;
-    }
-    return best != nullptr ? std::optional(best->first) : std::nullopt;
-}
-
-DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
-                          const render::View& view, std::span<const Rung> rungs, unsigned threads,
-                          const std::atomic<bool>& wanted) {
-    const render::PlacedPoints placed(step.grid(), explorer.scale);
-    Explorer e = explorer;
-    e.opacityPer = render::OpacityPer::Length;
-    e.order = render::Order::None;  // depth alone
-    const auto sceneOf = [&](const Rung& rung) {
+    // For depth alone.
+    render::Scene sceneOf(const Rung& rung) const {
+        Explorer e = explorer_;
+        e.opacityPer = render::OpacityPer::Length;
+        e.order = render::Order::None;
         e.model = rung.model;
-        render::Scene scene = makeScene(e, step, placed, e.play.tick);
+        render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
         scene.stride = rung.stride;
         scene.footprint = standingFor(scene.footprint, rung.stride);
         return scene;
-    };
-    const auto isByRays = [&](const render::Scene& scene) {
+    }
+    // As it is drawn, but for its light.
+    render::Scene orderedSceneOf(Model model) const {
+        Explorer e = explorer_;
+        e.model = model;
+        if (model == Model::Points) e.opacityPer = render::OpacityPer::Length;
+        return makeScene(e, step_, placed_, e.play.tick);
+    }
+
+    bool isByRays(const render::Scene& scene) const {
         return scene.cells && render::cellCount(scene, render::Channels::Over, 0) > kFewCells;
-    };
-    const auto depthOf = [&](render::Scene scene) -> render::DepthAt {
+    }
+    // What is drawn.
+    render::DepthAt depthOf(render::Scene scene) const {
         if (!isByRays(scene))
-            return render::depthFrom(opticalDepthOf(scene, view, wanted), view.size);
-        const int rays = render::raysAcross(scene, view);
-        return
-            [scene = std::move(scene), &view, rays, threads](std::span<const glm::ivec2> pixels) {
-                return render::cellDepthAt(scene, view, pixels, rays, threads);
-            };
+            return render::depthFrom(opticalDepthOf(scene, view_, wanted_), view_.size);
+        const int rays = render::raysAcross(scene, view_);
+        return [this, scene = std::move(scene), rays](std::span<const glm::ivec2> pixels) {
+            return render::cellDepthAt(scene, view_, pixels, rays, question_.threads);
+        };
+    }
+    // With as many rays a pixel as the truth.
+    std::vector<double> finelyDrawn(Model model, std::span<const glm::ivec2> pixels) const {
+        const render::Scene whole = sceneOf({model});
+        const int rays = render::Sampling().raysAcross;
+        if (whole.cells) return render::cellDepthAt(whole, view_, pixels, rays, question_.threads);
+        return render::splatDepthAt(whole, view_, pixels, rays, question_.threads, wanted_);
+    }
+    bool isWanted() const { return wanted_; }
+    double orderOf(Model model, const render::SampledTruth& truth) const {
+        return orderError(orderedSceneOf(model), *step_.sharedField(), view_, truth.pixels(),
+                          truth.weights(), question_.threads);
+    }
+
+ private:
+    const Explorer& explorer_;
+    const timeseries::SortedStep& step_;
+    render::PlacedPoints placed_;
+    const render::View& view_;
+    const ErrorQuestion question_;
+    const std::atomic<bool>& wanted_;
+};
+
+Ordering orderingOf(const Ways& ways, Model model) {
+    const render::Scene scene = ways.orderedSceneOf(model);
+    if (render::areOneColor(scene.layers)) return Ordering::OneColor;
+    return scene.order == render::Order::None ? Ordering::Mixed : Ordering::ByDepth;
+}
+
+// What the parts of a model's errors are told by, at the truth's pixels.
+struct SeenWhole {
+    double order;
+    std::vector<double> asDrawn, finely;  // of all its points or cells; where parts are asked for
+
+    SeenWhole(const Ways& ways, Model model, const render::SampledTruth& truth,
+              const ErrorQuestion& question)
+        : order(ways.orderOf(model, truth)) {
+        if (question.parts == Parts::None) return;
+        const render::DepthAt picture = ways.depthOf(ways.sceneOf({model}));
+        if (!ways.isWanted()) return;
+        asDrawn = picture(truth.pixels());
+        finely = ways.finelyDrawn(model, truth.pixels());
+    }
+};
+
+}  // namespace
+
+const RungError* DepthErrors::find(const Rung& rung) const {
+    const RungError* found = nullptr;
+    for (const RungError& known : rungs) {
+        const bool isCoarser = found == nullptr || known.rung.stride > found->rung.stride;
+        if (known.rung.model == rung.model && known.rung.stride <= rung.stride && isCoarser)
+            found = &known;
+    }
+    return found;
+}
+
+std::optional<double> DepthErrors::of(const Rung& rung) const {
+    const RungError* const known = find(rung);
+    return known != nullptr ? std::optional(known->depth) : std::nullopt;
+}
+
+std::optional<Rung> DepthErrors::cheapest(double error) const {
+    const RungError* best = nullptr;
+    const auto draws = [](const RungError& known) {
+        return known.rung.model == Model::Cells ? 2.0 : 1.0 / known.rung.stride;
     };
-    const render::Scene first = sceneOf(rungs.front());
+    for (const RungError& each : rungs) {
+        const bool fits = each.depth <= error;
+        const bool isBetter =
+            best == nullptr ||
+            (best->depth <= error ? fits && draws(each) < draws(*best) : each.depth < best->depth);
+        if (isBetter) best = &each;
+    }
+    return best != nullptr ? std::optional(best->rung) : std::nullopt;
+}
+
+DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
+                          const render::View& view, std::span<const Rung> rungs,
+                          const ErrorQuestion& question, const std::atomic<bool>& wanted) {
+    const Ways ways(explorer, step, view, question, wanted);
+    const render::Scene first = ways.sceneOf(rungs.front());
     if (first.layers.empty()) return {};
     std::vector<render::DepthAt> pictures;
     for (const Rung& rung : rungs) {
-        pictures.push_back(depthOf(sceneOf(rung)));
+        pictures.push_back(ways.depthOf(ways.sceneOf(rung)));
         if (!wanted) return {};
     }
-    render::Sampling sampling{.threads = threads};
-    if (isByRays(first)) sampling.asked = kPixelsAsked;
-    const auto errors = sampledErrors(first, *step.sharedField(), view, pictures, sampling);
-    DepthErrors told;
-    for (std::size_t i = 0; i < rungs.size(); ++i)
-        told.rungs.emplace_back(rungs[i], errors[i].relativeL2);
+    render::Sampling sampling{.threads = question.threads};
+    if (ways.isByRays(first)) sampling.asked = kPixelsAsked;
+    const render::SampledTruth truth(first, *step.sharedField(), view, pictures[0], sampling);
+    DepthErrors told{.rungs = {}, .ordering = orderingOf(ways, rungs.front().model)};
+    std::map<Model, SeenWhole> whole;
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+        const Model model = rungs[i].model;
+        const std::vector<double> drawn = pictures[i](truth.pixels());
+        if (!whole.contains(model)) whole.emplace(model, SeenWhole(ways, model, truth, question));
+        if (!wanted) return {};
+        const SeenWhole& all = whole.at(model);
+        RungError& error = told.rungs.emplace_back(
+            RungError{rungs[i], truth.apart(drawn, truth.depth()), all.order});
+        if (question.parts == Parts::All)
+            error.parts = ErrorParts{.model = truth.apart(all.finely, truth.depth()),
+                                     .subset = truth.apart(drawn, all.asDrawn),
+                                     .pixels = truth.apart(all.asDrawn, all.finely)};
+    }
     return told;
 }
 
@@ -102,17 +176,6 @@ std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep
     for (const std::uint32_t stride : {1u, 2u, 4u, 8u, 16u})
         rungs.push_back({Model::Points, stride});
     return rungs;
-}
-
-std::string shareText(double error) {
-    const double percent = 100 * error;
-    if (percent < 0.1) return "below 0.1 %";
-    return fmt::format("{:.{}f} %", percent, percent < 1 ? 1 : 0);
-}
-
-std::string depthErrorText(const std::optional<double>& error) {
-    if (!error || !std::isfinite(*error)) return "";
-    return *error < 0.001 ? "error " + shareText(*error) : "error about " + shareText(*error);
 }
 
 }  // namespace app

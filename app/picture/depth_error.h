@@ -1,13 +1,23 @@
-// How far a picture is from the interval volume of the field between its points, and how that is
-// told.
+// How far a picture is from the interval volume of the field between its points, and which part of
+// that comes from what.
+//
+// With T the truth at some of the picture's pixels, each the mean of 8 x 8 rays, M the model drawn
+// whole with as many rays in a pixel, P the same with the rays that are drawn, one or a few, and D
+// what is drawn, all of optical depth, of lengths in the ranges whatever opacity is of:
+//   whole  |D - T| / |T|
+//   model  |M - T| / |T|   cells or points instead of the interval volume
+//   pixels |P - M| / |T|   few rays a pixel instead of its mean
+//   subset |D - P| / |T|   what is left out while a picture moves
+// The differences add up to the whole one, their sizes do not: they may cancel, so that the whole
+// is at most the sum of the three, and less where they do. Order changes no depth; what it costs is
+// told of light, of exact parts in the order in which the picture puts them together
+// (render/reference/order_error.h).
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "app/choices/explorer.h"
@@ -25,34 +35,47 @@ struct Rung {
     std::uint32_t stride = 1;
     friend bool operator==(const Rung&, const Rung&) = default;
 };
-// "cells", "points", "1 of 8 points".
-std::string rungText(const Rung& rung);
 
-// Of one selection, however it is drawn: the relative L2 of optical depth, of lengths in its ranges
-// whatever its opacity is of, from a sample of the pixels (render/reference/sampled_error.h).
+struct ErrorParts {
+    double model = 0, subset = 0, pixels = 0;
+    friend bool operator==(const ErrorParts&, const ErrorParts&) = default;
+};
+struct RungError {
+    Rung rung;
+    double depth = 0;  // the whole
+    double order = 0;  // of light
+    std::optional<ErrorParts> parts = {};
+};
+// How a picture puts together what a ray passes: OneColor is the same in any order.
+enum class Ordering { OneColor, Mixed, ByDepth };
+
+// Of one selection, however it is drawn, from a sample of the pixels
+// (render/reference/sampled_error.h).
 struct DepthErrors {
-    std::vector<std::pair<Rung, double>> rungs;
-    // Of a coarser subset than was looked at, the coarsest's. None of cells where none were.
-    std::optional<double> of(const Rung& rung) const;
+    std::vector<RungError> rungs;
+    Ordering ordering = Ordering::OneColor;
+    // Of a coarser subset than was looked at, the coarsest's; null of cells where none were.
+    const RungError* find(const Rung& rung) const;
+    std::optional<double> of(const Rung& rung) const;  // the whole
     // The one that draws least of those within this error: the coarsest points, then cells. Where
     // none is, the truest. None where nothing is known.
     std::optional<Rung> cheapest(double error) const;
 };
+enum class Parts { None, All };
+struct ErrorQuestion {
+    Parts parts = Parts::None;  // All takes about twice as long
+    unsigned threads = render::sharingThreads();
+};
 // Of each of these, the first of which chooses the pixels. None where nothing is visible, and once
-// they are not wanted any more. On any thread. REQUIRES: a resolved explorer;
-// hasDepthError(step).
+// they are not wanted any more. On any thread. REQUIRES: a resolved explorer; hasDepthError(step).
 DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
                           const render::View& view, std::span<const Rung> rungs,
-                          unsigned threads = render::sharingThreads(),
+                          const ErrorQuestion& question = {},
                           const std::atomic<bool>& wanted = true);
 // What a window draws while the picture moves and when it rests. Cells only where they are made.
 std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step);
 
-// "0.4 %", "12 %", "below 0.1 %".
-std::string shareText(double error);
-// "error about 0.4 %"; "" where it is not known.
-std::string depthErrorText(const std::optional<double>& error);
-// What a picture file has it under, as a number.
+// What a picture file has the whole of it under, as a number.
 inline constexpr const char* kErrorKey = "isochronOpticalDepthError";
 
 }  // namespace app

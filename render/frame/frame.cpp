@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "render/gl/debug_output.h"
-#include "render/model/splat_cost.h"
+#include "render/splat/splat_cost.h"
 
 namespace render {
 namespace {

@@ -77,7 +77,7 @@ class FrameRenderer {
         const View& eye;
         FlatMesh legend;
         AxesMeshes axes;
-        std::vector<double> splatCosts;  // of each plane; render/model/splat_cost.h
+        std::vector<double> splatCosts;  // of each plane; render/splat/splat_cost.h
         std::size_t plane = 0;           // to go on with
         std::unique_ptr<PlaneSum> sum = {};
         double cost = 0;  // of what is drawn so far, in ordinary splats

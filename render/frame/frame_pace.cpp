@@ -44,6 +44,10 @@ std::chrono::nanoseconds FramePace::costOf(std::uint64_t splats) const {
     return std::chrono::nanoseconds(std::llround(perSplatNs_ * static_cast<double>(splats)));
 }
 
+std::chrono::nanoseconds FramePace::predicted(std::uint64_t splats) const {
+    return std::chrono::nanoseconds(std::llround(fixedNs_)) + costOf(splats);
+}
+
 std::uint64_t FramePace::fitting(std::chrono::nanoseconds time) const {
     if (recent_.empty()) return first_;
     return static_cast<std::uint64_t>(

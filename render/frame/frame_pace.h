@@ -25,6 +25,8 @@ class FramePace {
 
     // What so many splats take, as is known so far.
     std::chrono::nanoseconds costOf(std::uint64_t splats) const;
+    // What a frame of so many splats takes, all of it, as is known so far; 0 before the first.
+    std::chrono::nanoseconds predicted(std::uint64_t splats) const;
     // How many splats that time has room for, if it holds nothing but splats; the first budget
     // where nothing is known.
     std::uint64_t fitting(std::chrono::nanoseconds time) const;

@@ -3,104 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <numeric>
 #include <vector>
 
-#include "render/reference/cell_walk.h"
-#include "render/reference/interval_cells.h"
-#include "render/reference/tets_on_pixels.h"
+#include "render/reference/parts_on_rays.h"
 
 namespace render {
 namespace {
 
-// A part of the ray's way in a layer.
-struct Passed {
-    Met met;  // its depth and value are those of its middle
-    glm::uvec3 cell;
-    glm::dvec3 from, to;  // its ends, in the cell
-    double fromDepth, toDepth;
-};
-
-// W of a piece of the way that is so long, in units of l, and along which the field goes from one
-// value to another (OpacityPer).
-double weightOf(const Scene& scene, const Layer& layer, double length, double from, double to) {
-    if (scene.opacityPer == OpacityPer::Length) return length;
-    const double middle = std::midpoint(from, to);
-    for (const auto& range : layer.cells.ranges) {
-        const double width = range.hi - range.lo;
-        if (range.lo <= middle && middle <= range.hi && width > 0 && std::isfinite(width))
-            length = std::max(length, std::abs(to - from) / width);
-    }
-    return length;
-}
-
-class Ray {
- public:
-    Ray(const Scene& scene, const View& view, const glm::dvec2& window)
-        : scene_(scene), walk_(scene.placed), rays_(pixelRays(scene.placed.inAxes(view))) {
-        const glm::dvec2 o = window - rays_.centre;
-        along_ = rays_.axis + o.x * rays_.perPixelX + o.y * rays_.perPixelY;
-        perDepth_ = glm::length(scene.placed.worldFromAxes() * along_) / scene.placed.unitLength();
-        for (const Layer& layer : scene.layers)
-            layers_.emplace_back(scene.cells->field(), scene.clip, layer.cells.ranges, 1,
-                                 IntervalCells::Look::WhenAsked);
-    }
-
-    double valueAt(const Passed& passed, const glm::dvec3& place) const {
-        return layers_[passed.met.layer].valueAt(passed.cell, place);
-    }
-    std::vector<Passed> passed() const {
-        std::vector<Passed> all;
-        walk_(rays_.eye, along_, rays_.near, [&](const glm::uvec3& cell, double from, double to) {
-            for (std::size_t k = 0; k < layers_.size(); ++k) pass(cell, from, to, k, all);
-        });
-        return all;
-    }
-
- private:
-    glm::dvec3 at(double depth) const { return rays_.eye + depth * along_; }
-    void pass(const glm::uvec3& cell, double from, double to, std::size_t layer,
-              std::vector<Passed>& into) const {
-        const IntervalCells& cells = layers_[layer];
-        const IntervalCells::Kind kind = cells.kind(cell);
-        if (kind == IntervalCells::Kind::Nothing) return;
-        const glm::dvec3 a = walk_.inCell(cell, at(from)), b = walk_.inCell(cell, at(to));
-        std::vector<LinePart> parts;
-        if (kind == IntervalCells::Kind::Whole) parts.push_back({0, 1});
-        if (kind == IntervalCells::Kind::Part) cells.addParts(cell, a, b, parts);
-        const auto value = [&](double t) { return cells.valueAt(cell, glm::mix(a, b, t)); };
-        const Layer& of = scene_.layers[layer];
-        for (const LinePart& part : parts) {
-            const double middle = std::midpoint(part.from, part.to);
-            const double weight =
-                weightOf(scene_, of, (to - from) * (part.to - part.from) * perDepth_,
-                         value(part.from), value(part.to));
-            into.push_back({{layer, from + middle * (to - from),
-                             opticalDepthPerWeight(of.style.opacity) * weight, value(middle)},
-                            cell,
-                            glm::mix(a, b, part.from),
-                            glm::mix(a, b, part.to),
-                            from + part.from * (to - from),
-                            from + part.to * (to - from)});
-        }
-    }
-
-    const Scene& scene_;
-    CellWalk walk_;
-    PixelRays rays_;  // in axis coordinates
-    glm::dvec3 along_{0};
-    double perDepth_;  // of a unit of depth, in units of l
-    std::vector<IntervalCells> layers_;
-};
-
 // The corner whose octant of the cell holds a place in it, [0, 1]: it is there, for what is nearest
 // to a point that is not is seen by nobody.
-std::uint32_t cornerAt(const Scene& scene, const glm::uvec3& cell, const glm::dvec3& place) {
+std::uint32_t cornerAt(const Scene& scene, std::uint32_t cell, const glm::dvec3& place) {
     unsigned corner = 0;
     for (int a = 0; a < 3; ++a)
         if (place[a] > 0.5) corner |= 1u << a;
-    const glm::uvec3 at = scene.cells->cornersOf().pointAt(cell, corner),
+    const glm::uvec3 at = scene.cells->cornersOf().pointAt(
+                         timeseries::indicesOf(cell, scene.cells->size()), corner),
                      size = scene.placed.size();
     return at.x + size.x * (at.y + size.y * at.z);
 }
@@ -110,11 +28,14 @@ timeseries::Number valueOfPoint(const timeseries::Field& field, std::uint64_t in
                       field.values);
 }
 
-// A part of the ray's way in a tetrahedron: its depth and value are those of its middle.
+Met metOf(const PartInLayer& passed) {
+    const PartOnRay& part = passed.part;
+    return {passed.layer, std::midpoint(part.from, part.to), passed.opticalDepth,
+            std::midpoint(part.begin, part.end)};
+}
+
 struct PassedTet {
-    Met met;
-    PartOnRay part;
-    std::uint32_t cell;
+    PartInLayer passed;
     unsigned nearest;  // of its corners, to the middle
 };
 
@@ -141,21 +62,14 @@ std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm
         sharingThreads(),
         [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron& tet,
             std::size_t layer, std::size_t) {
-            const Layer& of = scene.layers[layer];
-            for (const auto& range : of.cells.ranges) {
+            for (const auto& range : scene.layers[layer].cells.ranges) {
                 const auto s = tetSplatAt<double>(
                     seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
                 const auto in = s.visible ? partOnRay(seen, s, window) : std::nullopt;
                 if (!in) continue;
-                const double middle = std::midpoint(in->from, in->to);
-                const double weight =
-                    weightOf(scene, of, (in->to - in->from) * perDepth, in->begin, in->end);
                 parts[part].push_back(
-                    {{layer, middle, opticalDepthPerWeight(of.style.opacity) * weight,
-                      std::midpoint(in->begin, in->end)},
-                     *in,
-                     cell,
-                     tet.corners[nearestCorner(seen, s, window, middle)]});
+                    {partInLayer(scene, layer, cell, *in, perDepth),
+                     tet.corners[nearestCorner(seen, s, window, std::midpoint(in->from, in->to))]});
             }
         });
     std::vector<PassedTet> passed;
@@ -165,17 +79,17 @@ std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm
 
 std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::dvec2& window) {
     std::vector<PassedTet> passed = tetsOnRay(scene, view, window);
-    std::ranges::stable_sort(passed, {}, [](const PassedTet& p) { return p.met.depth; });
+    std::ranges::stable_sort(passed, {}, [](const PassedTet& p) { return metOf(p.passed).depth; });
     std::vector<Met> met;
-    for (const PassedTet& p : passed) met.push_back(p.met);
+    for (const PassedTet& p : passed) met.push_back(metOf(p.passed));
     const auto half = atHalfOfLight(scene, met);
     if (!half) return std::nullopt;
-    const PassedTet& seen = passed[half->at];
-    const PartOnRay& part = seen.part;
+    const PassedTet& at = passed[half->at];
+    const PartOnRay& part = at.passed.part;
     std::uint64_t nearest = 0;
     withTets(scene.placed, scene.cells->field(), scene.clip,
-             [&](const auto& tets) { nearest = tets.pointOf(seen.cell, seen.nearest); });
-    return Picked{.layer = seen.met.layer,
+             [&](const auto& tets) { nearest = tets.pointOf(at.passed.cell, at.nearest); });
+    return Picked{.layer = at.passed.layer,
                   .gridIndex = nearest,
                   .value = valueOfPoint(scene.cells->field(), nearest),
                   .world = scene.placed.position(nearest),
@@ -187,22 +101,23 @@ std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::d
 
 std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::dvec2& window) {
     if (scene.placed.isMesh()) return pickTet(scene, view, window);
-    const Ray ray(scene, view, window);
-    std::vector<Passed> passed = ray.passed();
-    std::ranges::stable_sort(passed, {}, [](const Passed& p) { return p.met.depth; });
+    const CellRays rays(scene, scene.cells->field(), view);
+    std::vector<PartInLayer> passed = rays.partsOn(window);
+    std::ranges::stable_sort(passed, {}, [](const PartInLayer& p) { return metOf(p).depth; });
     std::vector<Met> met;
-    for (const Passed& p : passed) met.push_back(p.met);
+    for (const PartInLayer& p : passed) met.push_back(metOf(p));
     const auto half = atHalfOfLight(scene, met);
     if (!half) return std::nullopt;
-    const Passed& seen = passed[half->at];
-    const glm::dvec3 place = glm::mix(seen.from, seen.to, half->share);
+    const PartInLayer& seen = passed[half->at];
+    const double depth = std::lerp(seen.part.from, seen.part.to, half->share);
+    const glm::dvec3 place = rays.placeIn(seen.cell, window, depth);
     const std::uint32_t at = cornerAt(scene, seen.cell, place);
-    return Picked{.layer = seen.met.layer,
+    return Picked{.layer = seen.layer,
                   .gridIndex = at,
                   .value = valueOfPoint(scene.cells->field(), at),
                   .world = scene.placed.position(at),
-                  .depth = std::lerp(seen.fromDepth, seen.toDepth, half->share),
-                  .between = ray.valueAt(seen, place)};
+                  .depth = depth,
+                  .between = rays.valueAt(seen.layer, seen.cell, place)};
 }
 
 }  // namespace render

@@ -28,17 +28,23 @@ class LightOnRay {
     // valueAt(i, share) is the field's value for the i-th of them at a share of the piece.
     template <typename ValueAt>
     void pass(std::span<const std::size_t> in, double weight, const ValueAt& valueAt) {
-        // Along a piece a colour by value is taken in so many steps.
-        constexpr int kSteps = 4;
+        depths_.clear();
+        for (const std::size_t layer : in) depths_.push_back(depthPerWeight_[layer] * weight);
+        pass(in, depths_, valueAt);
+    }
+    // The same where each layer has an optical depth of its own on this piece.
+    template <typename ValueAt>
+    void pass(std::span<const std::size_t> in, std::span<const double> depths,
+              const ValueAt& valueAt) {
         double depth = 0;
-        for (const std::size_t layer : in) depth += depthPerWeight_[layer];
+        for (const double each : depths) depth += each;
         if (!(depth > 0)) return;
-        const double taken = -std::expm1(-depth * weight / kSteps);
+        const double taken = -std::expm1(-depth / kSteps);
         for (int step = 0; step < kSteps; ++step) {
             glm::dvec3 colors(0);
             for (std::size_t i = 0; i < in.size(); ++i)
-                colors += depthPerWeight_[in[i]] *
-                          colorOf(layers_[in[i]].style, valueAt(i, (step + 0.5) / kSteps));
+                colors +=
+                    depths[i] * colorOf(layers_[in[i]].style, valueAt(i, (step + 0.5) / kSteps));
             rgb_ += through_ * taken / depth * colors;
             through_ *= 1 - taken;
         }
@@ -47,9 +53,12 @@ class LightOnRay {
     bool isOpaque() const { return through_ < 1e-7; }
     glm::dvec4 light() const { return {rgb_, 1 - through_}; }  // premultiplied, linear
 
+    // Along a piece a colour by value is taken in so many steps.
+    static constexpr int kSteps = 4;
+
  private:
     std::span<const Layer> layers_;
-    std::vector<double> depthPerWeight_;
+    std::vector<double> depthPerWeight_, depths_;
     glm::dvec3 rgb_{0};
     double through_ = 1;
 };

@@ -45,16 +45,15 @@ DepthAt depthFrom(std::vector<float> depth, glm::ivec2 size) {
     };
 }
 
-std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
-                                        const View& view, std::span<const DepthAt> pictures,
-                                        const Sampling& sampling) {
+SampledTruth::SampledTruth(const Scene& scene, const timeseries::Field& field, const View& view,
+                           const DepthAt& first, const Sampling& sampling) {
     std::mt19937 random(1);  // one picture, one figure
     std::vector<glm::ivec2> shown, rest;
     {
         const std::vector<glm::ivec2> all = pixelsOf(coveredPixels(scene, view));
         for (std::size_t count = sampling.asked; true; count *= 4) {
             const std::vector<glm::ivec2> asked = sampleOf(all, count, random);
-            const std::vector<double> depth = pictures[0](asked);
+            const std::vector<double> depth = first(asked);
             shown.clear();
             rest.clear();
             for (std::size_t i = 0; i < asked.size(); ++i)
@@ -64,36 +63,44 @@ std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Fi
                 break;
         }
     }
-
-    const IntervalTruth truth(scene, field, sampling.raysAcross, sampling.threads,
-                              IntervalCells::Look::WhenAsked);
-    std::vector<double> errors(pictures.size());  // sums of squares, and the truth's
-    double truths = 0;
-    std::size_t looked = 0;
     const auto add = [&](const std::vector<glm::ivec2>& all, std::size_t count) {
         const std::vector<glm::ivec2> some = sampleOf(all, count, random);
+        pixels_.insert(pixels_.end(), some.begin(), some.end());
         if (some.empty()) return;
-        std::vector<double> depth(some.size());
-        for (std::size_t k = 0; k < scene.layers.size(); ++k) {
-            const double perWeight = opticalDepthPerWeight(scene.layers[k].style.opacity);
-            const std::vector<double> weight = truth.weight(view, k, some);
-            for (std::size_t i = 0; i < some.size(); ++i) depth[i] += perWeight * weight[i];
-        }
-        const double each = static_cast<double>(all.size()) / static_cast<double>(some.size());
-        for (const double d : depth) truths += each * d * d;
-        for (std::size_t k = 0; k < errors.size(); ++k) {
-            const std::vector<double> drawn = pictures[k](some);
-            for (std::size_t i = 0; i < some.size(); ++i)
-                errors[k] += each * std::pow(drawn[i] - depth[i], 2);
-        }
-        looked += some.size();
+        weights_.resize(pixels_.size(),
+                        static_cast<double>(all.size()) / static_cast<double>(some.size()));
     };
     const std::size_t half = sampling.pixels / 2, beside = std::min(rest.size(), half);
     add(shown, sampling.pixels - beside);
     add(rest, std::max(beside, sampling.pixels - std::min(sampling.pixels, shown.size())));
+
+    const IntervalTruth truth(scene, field, sampling.raysAcross, sampling.threads,
+                              IntervalCells::Look::WhenAsked);
+    depth_.resize(pixels_.size());
+    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+        const double perWeight = opticalDepthPerWeight(scene.layers[k].style.opacity);
+        const std::vector<double> weight = truth.weight(view, k, pixels_);
+        for (std::size_t i = 0; i < depth_.size(); ++i) depth_[i] += perWeight * weight[i];
+    }
+}
+
+double SampledTruth::apart(std::span<const double> a, std::span<const double> b) const {
+    double squares = 0, truths = 0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        squares += weights_[i] * std::pow(a[i] - b[i], 2);
+        truths += weights_[i] * depth_[i] * depth_[i];
+    }
+    return squares == 0 ? 0 : std::sqrt(squares / truths);
+}
+
+std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
+                                        const View& view, std::span<const DepthAt> pictures,
+                                        const Sampling& sampling) {
+    const SampledTruth truth(scene, field, view, pictures[0], sampling);
     std::vector<SampledError> told;
-    for (const double error : errors)
-        told.push_back({error == 0 ? 0 : std::sqrt(error / truths), looked});
+    for (const DepthAt& picture : pictures)
+        told.push_back(
+            {truth.apart(picture(truth.pixels()), truth.depth()), truth.pixels().size()});
     return told;
 }
 

@@ -41,9 +41,30 @@ struct Sampling {
     unsigned threads = sharingThreads();
 };
 
+// The truth at some pixels of a scene's picture, to hold what is drawn there against. Not a bit
+// depends on the threads.
+class SampledTruth {
+ public:
+    // `first`: of the picture that chooses the pixels. `field`: the scene's, in the grid's order.
+    // REQUIRES: layers whose `cells.ranges` are there.
+    SampledTruth(const Scene& scene, const timeseries::Field& field, const View& view,
+                 const DepthAt& first, const Sampling& sampling = {});
+
+    std::span<const glm::ivec2> pixels() const { return pixels_; }
+    // For how many of the picture's pixels each stands.
+    std::span<const double> weights() const { return weights_; }
+    std::span<const double> depth() const { return depth_; }
+    // sqrt( sum w (a - b)^2 / sum w truth^2 ) of optical depths at these pixels, which are there in
+    // their order; against depth() itself an error's relative L2.
+    double apart(std::span<const double> a, std::span<const double> b) const;
+
+ private:
+    std::vector<glm::ivec2> pixels_;
+    std::vector<double> weights_, depth_;
+};
+
 // Of pictures of the scene, however they are drawn, without lines; the first chooses the pixels.
-// `field`: the scene's, in the grid's order. The same for any number of threads. REQUIRES: layers
-// whose `cells.ranges` are there; a picture.
+// REQUIRES: as of SampledTruth; a picture.
 std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
                                         const View& view, std::span<const DepthAt> pictures,
                                         const Sampling& sampling = {});

@@ -97,6 +97,23 @@ TEST_F(MeasuredRamp, SeveralColoursAreDrawnInBothOrders) {
     EXPECT_EQ(ordered.mass, mixed.mass);
     EXPECT_LT(3 * ordered.rmse, mixed.rmse);
     EXPECT_LT(ordered.colorDifference, mixed.colorDifference);
+    // Of parts that lie in cells of their own, whose order is exact.
+    EXPECT_LT(ordered.parts.order, 1e-6);
+    EXPECT_GT(mixed.parts.order, 0.1);
+    EXPECT_EQ(ordered.parts.parts, mixed.parts.parts);
+}
+
+TEST_F(MeasuredRamp, PartsTellWhatIsLeftOut) {
+    const auto modes = measured({"2:5"});
+    ASSERT_EQ(modes.size(), 5u);
+    for (const Measured& m : modes) {
+        ASSERT_TRUE(m.parts.parts) << m.mode.name();
+        EXPECT_EQ(m.parts.rung, (Rung{m.mode.model, m.mode.stride}));
+        EXPECT_EQ(m.parts.parts->subset > 0, m.mode.stride > 1) << m.mode.name();
+        EXPECT_EQ(m.parts.order, 0) << "one colour";
+    }
+    EXPECT_GT(modes[0].parts.parts->subset, modes[2].parts.parts->subset);
+    EXPECT_GT(modes[3].parts.parts->model, 3 * modes[4].parts.parts->model);
 }
 
 TEST_F(MeasuredRamp, WhereNothingIsThereIsNothingWrong) {
@@ -150,6 +167,9 @@ std::vector<Measured> someModes() {
         .mode = {Model::Points, 4, render::Order::None}, .frame = 0.002, .before = 1e-5};
     points.drawn = 12345;
     points.depthError = 0.25;
+    points.parts.parts = ErrorParts{.model = 0.1875, .subset = 0.125, .pixels = 0.0625};
+    points.parts.depth = 0.3125;
+    points.parts.order = 0.5;
     points.mass = 1.0625;
     points.psnr = 20;
     Measured cells{.mode = {Model::Cells, 1, render::Order::BackToFront}, .frame = 1.5};
@@ -178,11 +198,14 @@ TEST(MeasuredReport, IsOffFromMoreThanFivePercentOnAndWhereItIsNoNumber) {
 }
 
 TEST(MeasuredReport, CsvHasARowAMode) {
-    EXPECT_EQ(csv(someModes()),
-              "mode,order,frame,before,drawn,depthError,mass,massIsOff,popping,rmse,psnr,largest,"
-              "colorDifference\n"
-              "points 1/4,mixed,0.002,1e-05,12345,0.25,1.0625,true,0.0,0.0,20.0,0.0,0.0\n"
-              "cells,by depth,1.5,0.0,0,0.0,1.0,false,0.0,0.0,,0.0,0.0\n");
+    EXPECT_EQ(
+        csv(someModes()),
+        "mode,order,frame,before,drawn,depthError,sampledError,modelError,subsetError,pixelsError,"
+        "orderError,mass,massIsOff,popping,rmse,psnr,largest,colorDifference\n"
+        "points "
+        "1/4,mixed,0.002,1e-05,12345,0.25,0.3125,0.1875,0.125,0.0625,0.5,1.0625,true,0.0,0.0,"
+        "20.0,0.0,0.0\n"
+        "cells,by depth,1.5,0.0,0,0.0,0.0,0.0,0.0,0.0,0.0,1.0,false,0.0,0.0,,0.0,0.0\n");
 }
 
 TEST(MeasuredReport, JsonHasNullForTheInfinite) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -87,17 +88,116 @@ TEST(PictureError, OfEveryWayToDrawIsWhatEachWouldHave) {
     EXPECT_NEAR(*all.of({Model::Points}) / worked(cells), 1, 0.3);
 }
 
+DepthErrors partsOf(const PictureError::Picture& p, std::vector<Rung> rungs,
+                    CellsBy by = CellsBy::Program) {
+    return depthErrorsOf(p.explorer, *p.sorted, p.view, rungs, {.by = by, .parts = Parts::All});
+}
+
+// What parts must be whatever they are of: D - T = (M - T) + (P - M) + (D - P), whose sizes obey
+// the triangle inequality, each against the sum of the others.
+TEST(PictureError, PartsAddUpAsDifferencesDo) {
+    for (const char* range : {"0.2:0.9", "0.2:0.23"}) {
+        const PictureError::Picture picture = waves(Model::Cells, range);
+        picture.sorted->cells();
+        const auto rungs = rungsOf(picture.explorer, *picture.sorted);
+        const DepthErrors told = partsOf(picture, rungs);
+        ASSERT_EQ(told.rungs.size(), rungs.size());
+        for (const RungError& error : told.rungs) {
+            ASSERT_TRUE(error.parts);
+            const auto& [model, subset, pixels] = *error.parts;
+            const std::array sizes{error.depth, model, subset, pixels};
+            double sum = 0;
+            for (const double size : sizes) sum += size;
+            for (const double size : sizes) EXPECT_LE(size, sum - size + 1e-12);
+            EXPECT_EQ(subset == 0, error.rung.stride == 1);
+            EXPECT_GT(model, 0);
+        }
+        // The same without them.
+        const DepthErrors plain =
+            depthErrorsOf(picture.explorer, *picture.sorted, picture.view, rungs);
+        for (std::size_t i = 0; i < rungs.size(); ++i) {
+            EXPECT_EQ(plain.rungs[i].depth, told.rungs[i].depth);
+            EXPECT_FALSE(plain.rungs[i].parts);
+        }
+    }
+}
+
+TEST(PictureError, APartComesFromWhatMakesIt) {
+    PictureError::Picture picture = waves(Model::Cells, "0.2:0.23");
+    const Rung cells{Model::Cells}, points{Model::Points};
+    const DepthErrors few =
+        partsOf(picture, {cells, points, {Model::Points, 4}, {Model::Points, 16}});
+    const auto partsIn = [](const DepthErrors& errors, const Rung& rung) {
+        return *errors.find(rung)->parts;
+    };
+    // Dots are no shell; fewer of them less so.
+    EXPECT_GT(partsIn(few, points).model, 5 * partsIn(few, cells).model);
+    EXPECT_EQ(partsIn(few, {Model::Points, 4}).model, partsIn(few, points).model);
+    EXPECT_GT(partsIn(few, {Model::Points, 4}).subset, 0);
+    EXPECT_GT(partsIn(few, {Model::Points, 16}).subset, partsIn(few, {Model::Points, 4}).subset);
+    // Small cells by one ray, as GL has them.
+    picture.explorer.size = {24, 18};
+    const render::PlacedPoints placed(picture.sorted->grid());
+    picture.view =
+        eyes(picture.explorer.view, {}, placed.boxHalfEdges(), picture.explorer.size).front();
+    const double one = partsIn(partsOf(picture, {cells}, CellsBy::Gl), cells).pixels;
+    EXPECT_GT(one, 2 * partsIn(partsOf(picture, {cells}), cells).pixels);
+    EXPECT_GT(one, 0.1);
+}
+
+TEST(PictureError, OfOrderIsToldOfColoursThatMeet) {
+    PictureError::Picture picture = waves(Model::Cells, "0.2:0.5");
+    const auto told = [&](render::Order order, Model model) {
+        picture.explorer.order = order;
+        const DepthErrors errors =
+            depthErrorsOf(picture.explorer, *picture.sorted, picture.view, std::array{Rung{model}});
+        return std::pair(errors.ordering, errors.rungs.front().order);
+    };
+    using render::Order;
+    EXPECT_EQ(told(Order::None, Model::Cells), std::pair(Ordering::OneColor, 0.0));
+    picture.explorer.layers.push_back(picture.explorer.layers.front());
+    picture.explorer.layers.back().ranges = timeseries::RangeSet::parse("-0.8:-0.6");
+    picture.explorer.layers.back().color = glm::dvec3(0, 0.2, 1);
+    const auto [mixed, byMixing] = told(Order::None, Model::Cells);
+    EXPECT_EQ(mixed, Ordering::Mixed);
+    EXPECT_GT(byMixing, 0.02);
+    const auto [ordered, byOrder] = told(Order::BackToFront, Model::Cells);
+    EXPECT_EQ(ordered, Ordering::ByDepth);
+    EXPECT_LT(10 * byOrder, byMixing);
+    EXPECT_EQ(told(Order::BackToFront, Model::Points), std::pair(Ordering::ByDepth, 0.0));
+    // Points are as opaque as they are long.
+    const auto ofBoth = [&](render::OpacityPer per) {
+        picture.explorer.order = Order::None;
+        picture.explorer.opacityPer = per;
+        const std::array rungs{Rung{Model::Cells}, Rung{Model::Points}};
+        const DepthErrors errors =
+            depthErrorsOf(picture.explorer, *picture.sorted, picture.view, rungs);
+        return std::pair(errors.find(rungs[0])->order, errors.find(rungs[1])->order);
+    };
+    const auto [cells, points] = ofBoth(render::OpacityPer::Length);
+    EXPECT_EQ(cells, points);
+    const auto [opaqueCells, samePoints] = ofBoth(render::OpacityPer::Crossing);
+    EXPECT_EQ(samePoints, points);
+    EXPECT_NE(opaqueCells, cells);
+}
+
 TEST(PictureError, TheCheapestWayWithinAnErrorDrawsLeast) {
     constexpr Rung kCells{Model::Cells};
     const auto points = [](std::uint32_t stride) { return Rung{Model::Points, stride}; };
-    const DepthErrors errors{
-        {{kCells, 0.01}, {points(1), 0.1}, {points(2), 0.2}, {points(4), 0.5}}};
+    const auto errorsOf = [](std::initializer_list<std::pair<Rung, double>> known) {
+        DepthErrors errors;
+        for (const auto& [rung, depth] : known)
+            errors.rungs.push_back({.rung = rung, .depth = depth});
+        return errors;
+    };
+    const DepthErrors errors =
+        errorsOf({{kCells, 0.01}, {points(1), 0.1}, {points(2), 0.2}, {points(4), 0.5}});
     for (const auto& [error, rung] :
          {std::pair(0.9, points(4)), std::pair(0.5, points(4)), std::pair(0.3, points(2)),
           std::pair(0.15, points(1)), std::pair(0.05, kCells), std::pair(0.001, kCells)})
         EXPECT_EQ(errors.cheapest(error), rung) << error;
     // Points are truer of what is below a pixel.
-    EXPECT_EQ((DepthErrors{{{kCells, 0.2}, {points(1), 0.1}}}.cheapest(0.01)), points(1));
+    EXPECT_EQ(errorsOf({{kCells, 0.2}, {points(1), 0.1}}).cheapest(0.01), points(1));
     EXPECT_FALSE(DepthErrors().cheapest(1));
 }
 

@@ -12,7 +12,7 @@
 #include "render/gl/headless_context.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
-#include "render/model/splat_cost.h"
+#include "render/splat/splat_cost.h"
 #include "render/reference/image_compare.h"
 #include "tests/support/canvas_of_noise.h"
 #include "tests/support/files.h"

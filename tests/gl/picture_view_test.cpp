@@ -43,6 +43,22 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
     EXPECT_FALSE(view.untilNextDraw());
     const double measured = *view.performance().error();
     EXPECT_EQ(view.errorOf(world.shown()), measured);
+    // Its parts, once somebody looks: the picture rests, and what is known stays.
+    ASSERT_FALSE(view.performance().told()->parts);
+    view.wantParts(true);
+    EXPECT_GT(view.untilNextDraw().value(), 0ns);
+    while (!view.performance().told()->parts && std::chrono::steady_clock::now() < end) {
+        draw(false);
+        ASSERT_EQ(view.performance().error(), measured);
+    }
+    ASSERT_TRUE(view.performance().told()->parts);
+    EXPECT_EQ(view.untilNextDraw(), 0ns) << "panels have not seen them yet";
+    draw(false);
+    EXPECT_FALSE(view.untilNextDraw());
+    view.wantParts(false);
+    draw(false);
+    EXPECT_TRUE(view.performance().told()->parts) << "they are still true";
+    EXPECT_FALSE(view.untilNextDraw());
     // While it moves: what was told of such a subset.
     const DepthErrors told = *view.performance().errors;
     world.explorer.view.azimuthDegrees += 5;

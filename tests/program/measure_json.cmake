@@ -19,7 +19,8 @@ expectMembers("${view}" azimuth NUMBER elevation NUMBER)
 foreach(i RANGE 4)
   string(JSON mode GET "${out}" modes ${i})
   expectMembers("${mode}" mode STRING order STRING frame NUMBER before NUMBER drawn NUMBER
-                depthError NUMBER mass NUMBER massIsOff BOOLEAN popping NUMBER rmse NUMBER psnr NUMBER
+                depthError NUMBER sampledError NUMBER modelError NUMBER
+                subsetError NUMBER pixelsError NUMBER orderError NUMBER mass NUMBER massIsOff BOOLEAN popping NUMBER rmse NUMBER psnr NUMBER
                 largest NUMBER colorDifference NUMBER)
 endforeach()
 string(JSON best GET "${out}" best)

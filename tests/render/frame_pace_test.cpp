@@ -150,5 +150,17 @@ TEST(FramePace, BeginsWhereItIsToldAndLearnsFromThere) {
     EXPECT_NEAR(machine.exactly(pace.budget()), 16e6, 0.2 * 16e6);
 }
 
+TEST(FramePace, PredictsFramesOfOtherSizes) {
+    Machine machine{3e6, 200};
+    FramePace pace(kTarget);
+    EXPECT_EQ(pace.predicted(1000), 0ns);
+    for (const std::uint64_t splats : {20'000u, 40'000u, 30'000u, 60'000u})
+        pace.took(splats, machine.frame(splats));
+    for (const std::uint64_t splats : {10'000u, 50'000u, 1'000'000u})
+        EXPECT_NEAR(static_cast<double>(pace.predicted(splats).count()), machine.exactly(splats),
+                    0.25 * machine.exactly(splats))
+            << splats;
+}
+
 }  // namespace
 }  // namespace render

@@ -1,8 +1,9 @@
-#include "render/model/splat_cost.h"
+#include "render/splat/splat_cost.h"
 
 #include <gtest/gtest.h>
 
 #include "render/reference/cpu_splatter.h"
+#include "tests/support/cell_worlds.h"
 #include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
 
@@ -57,6 +58,40 @@ TEST(SplatCost, LargeOnesCostTheirPixels) {
 TEST(SplatCost, NothingCostsNothing) {
     const CostlyWorld world(1, "2:3");
     EXPECT_EQ(sceneCost(world.scene, tests::lookFrom({0, -3, 0}, {40, 30})), 0);
+}
+
+// A cell, and what of it is seen.
+double costOfCells(double (*field)(const glm::uvec3&), const char* range, const View& view,
+                   Order order = Order::None) {
+    tests::CellWorld world(
+        tests::stepOf(tests::cube(12),
+                      [&](std::size_t i) {
+                          return field(timeseries::indicesOf(unsigned(i), glm::uvec3(12)));
+                      }),
+        {range});
+    world.scene.order = order;
+    return splatCost(world.scene, 0, view);
+}
+double ramp(const glm::uvec3& at) { return at.x; }
+
+TEST(SplatCost, CellsCostByTheRaysThatCrossTheRangesEnds) {
+    const View view = tests::lookFrom({0.3, -2.5, 0.4}, {600, 450});
+    View nearer = tests::lookFrom({0.3, -2.5, 0.4}, {1200, 900});
+    // Of a ramp between two points all cells between them are the same: crossed, or whole.
+    const double crossed = costOfCells(ramp, "5.2:5.8", view),
+                 whole = costOfCells(ramp, "5:6", view);
+    EXPECT_GT(crossed, 1.3 * whole);
+    // Twice as many pixels along each side: four times as many in the row's vectors, or twice as
+    // many rows.
+    const double ofNearer = costOfCells(ramp, "5.2:5.8", nearer);
+    EXPECT_GT(ofNearer, 1.3 * crossed);
+    EXPECT_LT(ofNearer, 4 * crossed);
+}
+
+TEST(SplatCost, CellsInOrderCostMore) {
+    const View view = tests::lookFrom({0.3, -2.5, 0.4}, {600, 450});
+    EXPECT_GT(costOfCells(ramp, "5.2:5.8", view, Order::BackToFront),
+              1.5 * costOfCells(ramp, "5.2:5.8", view));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ class PanelsDesk : public ExplorationDesk {
                         .exporting = exporting,
                         .dt = kFrame,
                         .key = key,
-                        .performance = {.report = {.whole = true}}},
+                        .performance = performance},
                        asked);
         ImGui::EndFrame();
         for (const app::panels::Command command : asked.commands)
@@ -94,6 +94,7 @@ class PanelsDesk : public ExplorationDesk {
         frame();
     }
 
+    const app::panels::Theme& theme() const { return theme_; }
     app::panels::Layout layout() { return app::panels::layoutOf(window_, 1); }
 
     app::panels::Interface interface {
@@ -101,6 +102,7 @@ class PanelsDesk : public ExplorationDesk {
     };
     app::panels::StartOffers offers;
     std::optional<std::string> exporting;
+    app::panels::Performance performance{.report = {.whole = true}};
     app::panels::Requests asked;  // of the last frame
 
  private:

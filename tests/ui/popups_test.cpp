@@ -27,6 +27,27 @@ TEST_F(DeskPopups, TheVariablesOpenAndClose) {
     desk_->waitFor("they are gone", [&] { return differing(desk_->shot(below), before) == 0; });
 }
 
+// Where it stands depends on the figures before it: whatever else is pressed there does nothing.
+TEST_F(DeskPopups, TheErrorOpensWhereItComesFrom) {
+    const Rect &picture = at_.window.picture, &status = at_.window.status;
+    const Rect above{{picture.min.x, picture.max.y - 160}, picture.max};
+    desk_->moveAway();
+    const Shot before = desk_->settled(above);
+    const auto changed = [&] { return differing(desk_->shot(above), before); };
+    desk_->waitFor("the error is told, and opens", [&] {
+        for (float x = status.min.x + 40; x < status.max.x; x += 40) {
+            desk_->click({x, status.min.y + 13});
+            desk_->moveAway();
+            if (changed() > 3000) return true;
+        }
+        return false;
+    });
+    const Shot open = desk_->settled(above);
+    desk_->press("Escape");
+    desk_->waitFor("it is gone", [&] { return changed() == 0; });
+    EXPECT_GT(differing(open, before), 20'000u);
+}
+
 TEST_F(DeskPopups, TheFilesCloseWithTheirButtonAndSaveWithTheOther) {
     const Rect at = files();
     const float y = at.max.y - 31, right = at.max.x - 20;

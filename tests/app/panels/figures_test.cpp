@@ -2,7 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/panels/picture_area.h"
+#include "app/panels/error_parts.h"
+#include "app/panels/figures.h"
 #include "tests/support/scripted_exploration.h"
 
 namespace app::panels {
@@ -65,16 +66,46 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
                                       {0.0041, "7 points drawn  ·  error about 0.4 %"},
                                       {0.123, "7 points drawn  ·  error about 12 %"},
                                       {kNan, "7 points drawn"}}) {
-        p.errors = DepthErrors{{{{Model::Points}, error}}};
+        p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = error}}};
         EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(), text);
     }
+}
+
+// Where colours are mixed, the same line says what that costs.
+TEST(Figures, StateTheErrorOfLightWhereColoursAreMixed) {
+    tests::ScriptedExploration desk;
+    Performance p{.frame = 5ms, .budget = 33ms};
+    p.report.whole = true;
+    p.report.drawn = p.report.selected = 7;
+    p.report.counts = PointCounts{.layers = {7}, .selected = 7, .kept = 10, .total = 10};
+    p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = 0.03, .order = 0.08}},
+                           .ordering = Ordering::Mixed};
+    EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(),
+              "7 points drawn  ·  error about 3 %, light 8 % (colours mixed)");
+}
+
+TEST(Figures, PartsOfTheErrorAreTheWholeThenEachOnceItIsKnown) {
+    Performance p{.frame = 5ms, .budget = 33ms};
+    const auto names = [&] {
+        std::vector<std::string> all;
+        for (const ErrorLine& line : errorPartLines(p)) all.push_back(line.name + " " + line.size);
+        return all;
+    };
+    EXPECT_THAT(errorPartLines(p).front().what, HasSubstr("not known"));
+    p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = 0.03, .order = 0.08}},
+                           .ordering = Ordering::Mixed};
+    EXPECT_THAT(names(), ElementsAre("whole 3 %", "model …", "subset …", "pixels …", "order …"));
+    p.errors->rungs[0].parts = ErrorParts{.model = 0.02, .subset = 0, .pixels = 0.01};
+    EXPECT_THAT(names(),
+                ElementsAre("whole 3 %", "model 2 %", "subset none", "pixels 1 %", "order 8 %"));
 }
 
 TEST(Figures, TellWhatOtherWaysToDrawWouldHave) {
     Performance p{.frame = 5ms, .budget = 33ms};
     EXPECT_TRUE(errorLines(p).empty());
     p.report.stride = 8;
-    p.errors = DepthErrors{{{{Model::Cells}, 0.004}, {{Model::Points, 8}, 0.31}}};
+    p.errors = DepthErrors{.rungs = {{.rung = {Model::Cells}, .depth = 0.004},
+                                     {.rung = {Model::Points, 8}, .depth = 0.31}}};
     EXPECT_THAT(errorLines(p), ElementsAre(HasSubstr("against the field between its points"),
                                            "0.4 %  cells", "31 %  1 of 8 points, as drawn"));
     p.report.cells = 10;

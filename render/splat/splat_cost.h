@@ -10,8 +10,8 @@ namespace render {
 
 constexpr double kOrdinaryPixels = 256;
 
-// Of one splat of that layer, in the mean: estimated from a few of them, so it depends on view and
-// footprint, but costs nothing that grows with their number. At least 1.
+// Of one splat or cell of that layer, in the mean: estimated from a few of them, so it depends on
+// view, footprint and the field, but costs nothing that grows with their number. At least 1.
 double splatCost(const Scene& scene, std::size_t layer, const View& view);
 // Of all that the scene draws in a view.
 double sceneCost(const Scene& scene, const View& view);

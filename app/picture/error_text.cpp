@@ -1,0 +1,72 @@
+#include "app/picture/error_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace app {
+namespace {
+
+// Less is not told: nobody sees it.
+constexpr double kLeastTold = 0.001;
+// What sums in float lose is no part of anything.
+constexpr double kNothing = 1e-6;
+
+std::string orderReason(Ordering ordering) {
+    return ordering == Ordering::Mixed ? "colours mixed" : "layers within a cell";
+}
+
+}  // namespace
+
+std::string rungText(const Rung& rung) {
+    if (rung.model == Model::Cells) return "cells";
+    return rung.stride == 1 ? "points" : fmt::format("1 of {} points", rung.stride);
+}
+
+std::string shareText(double error) {
+    const double percent = 100 * error;
+    if (error < kLeastTold) return "below 0.1 %";
+    return fmt::format("{:.{}f} %", percent, percent < 1 ? 1 : 0);
+}
+
+std::string depthErrorText(double error) {
+    if (!std::isfinite(error)) return "";
+    return (error < kLeastTold ? "error " : "error about ") + shareText(error);
+}
+
+std::string lightErrorText(const RungError& error, Ordering ordering) {
+    if (!(error.order >= kLeastTold)) return "";
+    return fmt::format(", light {} ({})", shareText(error.order), orderReason(ordering));
+}
+
+std::vector<PartLine> partLines(const RungError& error, Ordering ordering) {
+    const ErrorParts& parts = *error.parts;
+    const auto line = [](const char* name, double size, std::string some, std::string none) {
+        return size < kNothing ? PartLine{name, "none", std::move(none)}
+                               : PartLine{name, shareText(size), std::move(some)};
+    };
+    const bool cells = error.rung.model == Model::Cells;
+    const std::string model =
+        fmt::format("{} in place of the field between points", cells ? "cells" : "points");
+    std::vector<PartLine> lines{
+        line("model", parts.model, model, "exact here"),
+        line("subset", parts.subset, rungText(error.rung) + " for all of them", "all is drawn"),
+        line("pixels", parts.pixels, "few rays a pixel instead of its mean",
+             "as many rays as the truth")};
+    switch (ordering) {
+        case Ordering::OneColor:
+            lines.push_back({"order", "none", "one colour"});
+            break;
+        case Ordering::Mixed:
+            lines.push_back(line("order", error.order, "of light: colours mixed, not by depth",
+                                 "no colours meet on a ray"));
+            break;
+        case Ordering::ByDepth:
+            lines.push_back(line("order", error.order, "of light: layers within a cell",
+                                 cells ? "cells by depth" : "points by depth"));
+            break;
+    }
+    return lines;
+}
+
+}  // namespace app

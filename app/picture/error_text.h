@@ -1,0 +1,29 @@
+// What is said of a picture's error (depth_error.h).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/depth_error.h"
+
+namespace app {
+
+// "cells", "points", "1 of 8 points".
+std::string rungText(const Rung& rung);
+// "0.4 %", "12 %", "below 0.1 %".
+std::string shareText(double error);
+// "error about 0.4 %"; "" where it is none that can be told.
+std::string depthErrorText(double error);
+// ", light 8 % (colours mixed)" where order costs light that shows, else "".
+std::string lightErrorText(const RungError& error, Ordering ordering);
+
+// One part of it, for a person: "model", "2.9 %", "cells instead of the field between points".
+struct PartLine {
+    std::string name, size, what;
+};
+// Model, subset, pixels, then order: "none" of what is nothing, with the reason. REQUIRES:
+// error.parts.
+std::vector<PartLine> partLines(const RungError& error, Ordering ordering);
+
+}  // namespace app

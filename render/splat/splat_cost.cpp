@@ -1,0 +1,121 @@
+#include "render/splat/splat_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/model/cell_splat.h"
+#include "render/model/footprint.h"
+#include "render/model/rays_across.h"
+#include "render/model/tet_splat.h"
+#include "render/splat/cell_pieces.h"
+#include "render/splat/tile_layout.h"
+
+namespace render {
+namespace {
+
+// Calls use(position) for some of the layer's runs' elements: the k-th is in the middle of the k-th
+// part of all. Returns how many.
+template <typename Use>
+std::uint64_t forSome(std::span<const timeseries::Run> runs, std::uint64_t all, std::uint64_t most,
+                      const Use& use) {
+    const std::uint64_t samples = std::min(all, most);
+    std::uint64_t passed = 0, k = 0;
+    for (const timeseries::Run& run : runs) {
+        for (std::uint64_t at;
+             k < samples && (at = (2 * k + 1) * all / (2 * samples)) < passed + run.count; ++k)
+            use(run.first + (at - passed));
+        passed += run.count;
+    }
+    return samples;
+}
+
+// Within the picture: how wide and high it is.
+template <typename Seen>
+glm::dvec2 sidesOf(const Seen& s, const PointsView& seen, glm::ivec2 size) {
+    const glm::dvec2 window = seen.rays.centre + s.centre, most(size);
+    return glm::max(glm::clamp(window + glm::dvec2(s.hi), glm::dvec2(0), most) -
+                        glm::clamp(window + glm::dvec2(s.lo), glm::dvec2(0), most),
+                    glm::dvec2(0));
+}
+
+// Of a piece of a cell, in ordinary splats: what setting it up takes, and of its rays, which are
+// taken row by row in vectors of eight or so, a vector; less where all of the piece is in the range
+// (tests/bench/NOTES.md).
+struct PieceCost {
+    double setUp, crossed, whole;
+};
+constexpr PieceCost kUnordered{9, 0.5, 0.075}, kOrdered{7.5, 1.5, 1};
+
+class CellCosts {
+ public:
+    CellCosts(const Scene& scene, const View& view)
+        : fine_(finer(view, raysAcross(scene, view))),
+          seen_(scene.placed, fine_),
+          per_(scene.order == Order::None ? kUnordered : kOrdered) {}
+
+    double of(const ValuedCell& cell) const { return ofSeen(cellSplatAt<double>(seen_, cell)); }
+    double of(const ValuedTet& tet) const { return ofSeen(tetSplatAt<double>(seen_, tet)); }
+
+ private:
+    template <typename Seen>
+    double ofSeen(const Seen& s) const {
+        if (!s.visible) return 0;
+        constexpr double kVector = 8;
+        const glm::dvec2 sides = sidesOf(s, seen_, fine_.size);
+        const double vectors = sides.x > 0 ? sides.y * (1 + sides.x / kVector) : 0;
+        const bool isWhole = !s.crossesLeast && !s.crossesMost;
+        return per_.setUp + vectors * (isWhole ? per_.whole : per_.crossed);
+    }
+
+    View fine_;
+    PointsView seen_;
+    PieceCost per_;
+};
+
+double cellCost(const Scene& scene, std::size_t layer, const View& view) {
+    constexpr std::uint64_t kSamples = 64;
+    const CellCosts costs(scene, view);
+    double sum = 0;
+    const auto add = [&](std::uint64_t candidate) {
+        const CellOfLayer of{scene.cells->cell(candidate), static_cast<std::uint8_t>(layer)};
+        if (scene.placed.isMesh())
+            forEachTet(scene, std::span(&of, 1), nullptr,
+                       [&](const ValuedTet& tet, const CellOfLayer&) { sum += costs.of(tet); });
+        else
+            forEachPiece(scene, std::span(&of, 1),
+                         [&](const ValuedCell& piece, const CellOfLayer&, unsigned) {
+                             sum += costs.of(piece);
+                         });
+    };
+    const Layer& of = scene.layers[layer];
+    const std::uint64_t samples = forSome(of.cells.candidates, cellCount(of), kSamples, add);
+    return samples == 0 ? 1 : std::max(1.0, sum / static_cast<double>(samples));
+}
+
+}  // namespace
+
+double splatCost(const Scene& scene, std::size_t layer, const View& view) {
+    if (scene.cells) return cellCost(scene, layer, view);
+    constexpr std::uint64_t kSamples = 32;
+    const Layer& of = scene.layers[layer];
+    const PointsView seen(scene.placed, view);
+    double pixels = 0;
+    const std::uint64_t samples =
+        forSome(of.runs, pointCount(of), kSamples, [&](std::uint64_t point) {
+            const auto s = splatAt<double>(seen, scene.step.gridIndex(point), scene.footprint);
+            if (!s.visible) return;
+            const glm::dvec2 sides = sidesOf(s, seen, view.size);
+            pixels += sides.x * sides.y;
+        });
+    if (samples == 0) return 1;
+    return std::max(1.0, pixels / static_cast<double>(samples) / kOrdinaryPixels);
+}
+
+double sceneCost(const Scene& scene, const View& view) {
+    double sum = 0;
+    for (std::size_t k = 0; k < scene.layers.size(); ++k)
+        sum += splatCost(scene, k, view) * static_cast<double>(drawnCount(scene, scene.layers[k]));
+    return sum;
+}
+
+}  // namespace render

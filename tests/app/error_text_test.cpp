@@ -1,0 +1,61 @@
+// What is said of a picture's error.
+#include "app/picture/error_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace app {
+namespace {
+
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+
+TEST(ErrorText, IsRoundedToWhatASampleTells) {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(depthErrorText(0.0004), "error below 0.1 %");
+    EXPECT_EQ(depthErrorText(0.0041), "error about 0.4 %");
+    EXPECT_EQ(depthErrorText(0.123), "error about 12 %");
+    EXPECT_EQ(depthErrorText(kInfinite), "");
+}
+
+TEST(ErrorText, LightIsToldWhereOrderShows) {
+    RungError error{.rung = {}, .depth = 0.03, .order = 0.08};
+    EXPECT_EQ(lightErrorText(error, Ordering::Mixed), ", light 8 % (colours mixed)");
+    EXPECT_EQ(lightErrorText(error, Ordering::ByDepth), ", light 8 % (layers within a cell)");
+    error.order = 0.0009;
+    EXPECT_EQ(lightErrorText(error, Ordering::Mixed), "");
+    error.order = std::nan("");
+    EXPECT_EQ(lightErrorText(error, Ordering::Mixed), "");
+}
+
+auto part(const char* name, const char* size, const char* what) {
+    return testing::AllOf(Field(&PartLine::name, name), Field(&PartLine::size, size),
+                          Field(&PartLine::what, HasSubstr(what)));
+}
+
+TEST(ErrorText, PartsAreFourAndSayWhyTheyAreNone) {
+    RungError cells{.rung = {Model::Cells}, .depth = 0.03, .order = 0};
+    cells.parts = ErrorParts{.model = 0.029, .subset = 0, .pixels = 0};
+    EXPECT_THAT(
+        partLines(cells, Ordering::OneColor),
+        ElementsAre(part("model", "3 %", "cells in place"), part("subset", "none", "all is drawn"),
+                    part("pixels", "none", "as many rays"), part("order", "none", "one colour")));
+    RungError points{.rung = {Model::Points, 8}, .depth = 0.5, .order = 0.21};
+    points.parts = ErrorParts{.model = 0.3, .subset = 0.4, .pixels = 0.0002};
+    EXPECT_THAT(partLines(points, Ordering::Mixed),
+                ElementsAre(part("model", "30 %", "points in place"),
+                            part("subset", "40 %", "1 of 8 points"),
+                            part("pixels", "below 0.1 %", "few rays"),
+                            part("order", "21 %", "colours mixed")));
+    points.order = 1e-9;
+    EXPECT_THAT(partLines(points, Ordering::ByDepth).back(),
+                part("order", "none", "points by depth"));
+    EXPECT_THAT(partLines(points, Ordering::Mixed).back(),
+                part("order", "none", "no colours meet"));
+}
+
+}  // namespace
+}  // namespace app
