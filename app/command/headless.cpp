@@ -58,7 +58,7 @@ std::optional<double> errorOf(const Explorer& e, const FrameAt& frame, const Sor
     const Rung drawn{e.model};
     const bool isGl = splatters.sumsByGl(makeScene(e, step, placed, frame.tick));
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
-                         eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front(),
+                         eyes(e.view, e.stereo, placed.outline(), e.size).front(),
                          std::span(&drawn, 1), isGl ? CellsBy::Gl : CellsBy::Program)
         .of(drawn);
 }
@@ -103,7 +103,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
         if (step != shown) {
             shown = step;
             if (i > 0) source.drop(frames[i - 1].step);
-            placed.emplace(step->grid(), e.scale);
+            placed.emplace(step->grid(), e.scale, e.map);
             onGpu.emplace(*step, *placed, onGpu ? onGpu->mesh() : nullptr);
         }
         std::optional<double> error;

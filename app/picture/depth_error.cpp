@@ -57,7 +57,7 @@ std::optional<Rung> DepthErrors::cheapest(double error) const {
 DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep& step,
                           const render::View& view, std::span<const Rung> rungs, CellsBy by,
                           unsigned threads, const std::atomic<bool>& wanted) {
-    const render::PlacedPoints placed(step.grid(), explorer.scale);
+    const render::PlacedPoints placed(step.grid(), explorer.scale, explorer.map);
     Explorer e = explorer;
     e.opacityPer = render::OpacityPer::Length;
     e.order = render::Order::None;  // depth alone

@@ -97,7 +97,11 @@ glm::dvec3 MeshCells::beyond(const glm::uvec3& point, int axis, bool before) con
     const glm::dvec3 round = way(place, placeOf(other));
     const bool comesRound =
         points_[axis] > 2 && glm::dot(round, round) < kOnePlace * kOnePlace * glm::dot(step, step);
-    return comesRound ? glm::dvec3(0) : 0.5 * step;
+    if (comesRound) return glm::dvec3(0);
+    // On a globe the first and the last of all longitudes are neighbours: halves meet between them.
+    const double ratio = glm::dot(round, step) / glm::dot(step, step);
+    const bool isSeam = placed_.globe() && points_[axis] > 2 && ratio > 0.5 && ratio < 2;
+    return 0.5 * (isSeam ? round : step);
 }
 
 glm::dvec3 MeshCells::cornerAt(const glm::uvec3& cell, unsigned corner) const {
