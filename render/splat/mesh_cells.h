@@ -100,6 +100,7 @@ class MeshCells {
     glm::dvec3 cornerAt(const glm::uvec3& cell, unsigned corner) const;
     // From an outermost point half a cell on along an index.
     glm::dvec3 beyond(const glm::uvec3& point, int axis, bool before) const;
+    bool isSeam(const glm::uvec3& point) const;
     glm::dvec3 acrossLayer(const glm::uvec3& point, int axis) const;
     Hexahedron octantOf(const Hexahedron& cell, unsigned octant) const;
 
