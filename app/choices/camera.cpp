@@ -38,8 +38,8 @@ struct Fit {
 // corners,
 //   x1 - x2 <= s m (2 d - z1 - z2),
 // which gives the least d; a may then be chosen between the bounds that single corners give it.
-Fit fittingStand(const ViewChoice& view, const glm::dmat3& axes, const glm::dmat3& boxHalfEdges,
-                 const glm::dvec2& slope, const glm::dvec2& most) {
+Fit boxFit(const ViewChoice& view, const glm::dmat3& axes, const glm::dmat3& boxHalfEdges,
+           const glm::dvec2& slope, const glm::dvec2& most) {
     constexpr double kNearestCorner = 0.6;
     const bool isCentred = view.target == glm::dvec3(0);
     if (boxHalfEdges == glm::dmat3(0) && isCentred) return {4};
@@ -100,6 +100,26 @@ Camera orthographic(const Stand& stand) {
             .far = from + 2};
 }
 
+// A ball at x and z, of radius h: the frustum's side x - a = s m (d - z) is h or more away from its
+// centre where s m (d - z) >= |x| + h sqrt(1 + (s m)^2); parallel sides where s m d >= |x| + h.
+Fit ballFit(const ViewChoice& view, const glm::dmat3& axes, double radius,
+            const glm::dvec2& reach) {
+    const glm::dvec3 centre = glm::transpose(axes) * -view.target;
+    const bool isParallel = view.projection == Projection::Orthographic;
+    double distance = 0;
+    for (int k = 0; k < 2; ++k) {
+        const double wide = isParallel ? radius : radius * std::sqrt(1 + reach[k] * reach[k]);
+        distance = std::max(distance, (std::abs(centre[k]) + wide) / reach[k]);
+    }
+    return {distance + (isParallel ? 0 : centre.z)};
+}
+
+Fit fittingStand(const ViewChoice& view, const glm::dmat3& axes, const render::Outline& outline,
+                 const glm::dvec2& slope, const glm::dvec2& most) {
+    if (outline.isBall) return ballFit(view, axes, outline.boxHalfEdges[0].x, slope * most);
+    return boxFit(view, axes, outline.boxHalfEdges, slope, most);
+}
+
 }  // namespace
 
 glm::dvec2 freeAreaOf(glm::ivec2 size) {
@@ -111,7 +131,7 @@ glm::dvec2 freeAreaOf(glm::ivec2 size) {
     return 1.0 - 2 * line * kLines / glm::dvec2(size);
 }
 
-Stand standOf(const ViewChoice& view, const glm::dmat3& boxHalfEdges, glm::ivec2 size) {
+Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size) {
     const double azimuth = glm::radians(view.azimuthDegrees);
     const double elevation = glm::radians(view.elevationDegrees);
     // Right comes from the azimuth alone, so that looking straight down is no special case.
@@ -126,15 +146,15 @@ Stand standOf(const ViewChoice& view, const glm::dmat3& boxHalfEdges, glm::ivec2
         stand.distance = *view.distance;
         return stand;
     }
-    const Fit fit = fittingStand(view, axes, boxHalfEdges, slope, kBoxShare * freeAreaOf(size));
+    const Fit fit = fittingStand(view, axes, outline, slope, kBoxShare * freeAreaOf(size));
     stand.distance = fit.distance;
     stand.target += fit.aside.x * axes[0] + fit.aside.y * axes[1];
     return stand;
 }
 
 std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stereo,
-                               const glm::dmat3& boxHalfEdges, glm::ivec2 size) {
-    const Stand stand = standOf(view, boxHalfEdges, size);
+                               const render::Outline& outline, glm::ivec2 size) {
+    const Stand stand = standOf(view, outline, size);
     const bool isFar = view.projection == Projection::Orthographic;
     const Camera camera = isFar ? orthographic(stand) : perspective(stand);
     const auto eye = [&](double sideways, double convergence) {

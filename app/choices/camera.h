@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/choices/explorer.h"
+#include "render/points/placed_points.h"
 #include "render/points/view.h"
 
 namespace app {
@@ -20,12 +21,12 @@ struct Stand {
 // what titles and the labels around a box leave free. Labels find places among the box's edges, so
 // that little is kept free for them.
 glm::dvec2 freeAreaOf(glm::ivec2 size);
-// Without a distance, the box with these half edges (columns, centre at 0) spans kBoxShare of the
-// free area in one direction, and no more in the other. Where the view has no target of its own
+// Without a distance, the box or ball (centre at 0) spans kBoxShare of the free area in one
+// direction, and no more in the other. Where the view has no target of its own
 // either, what is seen of the box stands in the middle: the nearer corners of a perspective reach
 // farther, so that the target is then beside the box's centre, mostly below or above it.
 inline constexpr double kBoxShare = 0.9;
-Stand standOf(const ViewChoice& view, const glm::dmat3& boxHalfEdges, glm::ivec2 size);
+Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size);
 
 // One view, or left then right. The eyes look along parallel axes and their frusta meet at the
 // convergence distance (off-axis projection), so that nothing is sheared or keystoned.
@@ -37,6 +38,6 @@ Stand standOf(const ViewChoice& view, const glm::dmat3& boxHalfEdges, glm::ivec2
 // 1600. Its eyes are as much farther apart, so that depth shows as it does in the perspective.
 inline constexpr double kFarEye = 1e4;
 std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stereo,
-                               const glm::dmat3& boxHalfEdges, glm::ivec2 size);
+                               const render::Outline& outline, glm::ivec2 size);
 
 }  // namespace app

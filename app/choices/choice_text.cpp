@@ -88,6 +88,8 @@ constexpr std::array<std::pair<std::string_view, render::Kernel>, 2> kKernels = 
     {{"kernel", render::Kernel::Quartic}, {"point", render::Kernel::Point}}};
 constexpr std::array<std::pair<std::string_view, render::Order>, 2> kOrders = {
     {{"none", render::Order::None}, {"depth", render::Order::BackToFront}}};
+constexpr std::array<std::pair<std::string_view, render::Map>, 2> kMaps = {
+    {{"flat", render::Map::Flat}, {"globe", render::Map::Globe}}};
 
 constexpr std::array<std::pair<std::string_view, Projection>, 2> kProjections = {
     {{"perspective", Projection::Perspective}, {"orthographic", Projection::Orthographic}}};
@@ -296,6 +298,8 @@ std::string_view endingName(timeseries::Ending ending) {
 }
 Stereo parseStereo(std::string_view name) { return named<Stereo>("stereo", name, kStereo); }
 std::string_view stereoName(Stereo stereo) { return nameOf<Stereo>(stereo, kStereo); }
+render::Map parseMapKind(std::string_view name) { return named<render::Map>("map", name, kMaps); }
+std::string_view mapKindName(render::Map map) { return nameOf<render::Map>(map, kMaps); }
 Model parseModel(std::string_view name) { return named<Model>("model", name, kModels); }
 std::string_view modelName(Model model) { return nameOf<Model>(model, kModels); }
 

@@ -71,5 +71,7 @@ render::Kernel parseKernel(std::string_view name);  // kernel point
 std::string_view kernelName(render::Kernel kernel);
 render::Order parseOrder(std::string_view name);  // none depth
 std::string_view orderName(render::Order order);
+render::Map parseMapKind(std::string_view name);  // flat globe
+std::string_view mapKindName(render::Map map);
 
 }  // namespace app

@@ -201,6 +201,13 @@ constexpr std::array kChoices = {
            [](const Explorer& e) { return e.scale ? triple(*e.scale) : Text(); },
            [](Explorer& e, std::string_view t) { e.scale = parseScale(t); }, "View",
            "x,y,z: stretch of the axes"},
+    Choice{"--map", "map", Form::Text,
+           [](const Explorer& e) {
+               return unless(e.map == render::Map::Flat, std::string(mapKindName(e.map)));
+           },
+           [](Explorer& e, std::string_view t) { e.map = parseMapKind(t); }, "View",
+           "of longitudes and latitudes: flat (default), or globe, on which heights and depths are "
+           "exaggerated"},
     Choice{"--view", "", Form::Text, [](const Explorer& e) { return Text(viewText(e.view)); },
            [](Explorer& e, std::string_view t) { takeView(e.view, t); }, "View",
            "AZIMUTH,ELEVATION[,DISTANCE]: degrees, and half diagonals"},

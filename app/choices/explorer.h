@@ -116,6 +116,7 @@ struct Explorer {
     render::Order order = render::Order::BackToFront;  // where it shows
     std::optional<ClipBox> clip;
     std::optional<glm::dvec3> scale;
+    render::Map map = render::Map::Flat;  // a globe: of longitudes and latitudes alone
     ViewChoice view;
     StereoChoice stereo;
     glm::ivec2 size{1200, 900};

@@ -6,13 +6,14 @@
 #include <glm/vec2.hpp>
 
 #include "app/choices/explorer.h"
+#include "render/points/placed_points.h"
 
 namespace app {
 
 // A picture as it is looked at: window positions below are its pixels, y down, (0, 0) the upper
 // left corner.
 struct Looking {
-    glm::dmat3 boxHalfEdges;  // PlacedPoints::boxHalfEdges()
+    render::Outline outline;  // PlacedPoints::outline()
     glm::ivec2 size;
 };
 

@@ -57,7 +57,7 @@ DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& s
                     const render::PlacedPoints& placed) {
     const Rung drawn{e.model};
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
-                         eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front(),
+                         eyes(e.view, e.stereo, placed.outline(), e.size).front(),
                          std::span(&drawn, 1));
 }
 
@@ -108,7 +108,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
         if (step != shown) {
             shown = step;
             if (i > 0) source.drop(frames[i - 1].step);
-            placed.emplace(step->grid(), e.scale);
+            placed.emplace(step->grid(), e.scale, e.map);
             onGpu.emplace(*step, *placed, onGpu ? onGpu->mesh() : nullptr);
         }
         std::optional<double> error;

@@ -117,7 +117,7 @@ int measureModes(const MeasureOptions& options) {
         throw ChoiceError(
             fmt::format("measure needs the cells between the points: {}", step->whyNoCells()));
     const Subject subject{options, data, *step, index};
-    const render::PlacedPoints placed(step->grid(), data.explorer.scale);
+    const render::PlacedPoints placed(step->grid(), data.explorer.scale, data.explorer.map);
     std::vector<Measured> modes;
     {
         const Progress progress("mode", 1);

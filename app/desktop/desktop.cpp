@@ -101,7 +101,7 @@ void Desktop::interact(std::chrono::nanoseconds dt) {
                         {.window = glm::vec2(window_.framebufferSize()),
                          .theme = gui_.theme(),
                          .offers = fileActions_.offers(),
-                         .boxHalfEdges = picture_.boxHalfEdges(),
+                         .outline = picture_.outline(),
                          .eye = picture_.eye(),
                          .exporting = fileActions_.exporting(),
                          .dt = first ? dt : 0ns,

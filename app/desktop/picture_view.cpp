@@ -99,7 +99,7 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
     performance_ = {performance_.frame, frameBudget, report_, performance_.picture + 1};
     content_ = Content{drawnOf(e), shown.sorted};
     predictError();
-    if (const auto drawn = canvas_.drawn()) boxHalfEdges_ = drawn->placed->boxHalfEdges();
+    if (const auto drawn = canvas_.drawn()) outline_ = drawn->placed->outline();
 }
 
 std::uint64_t PictureView::firstSlice(std::chrono::nanoseconds slice) const {

@@ -51,7 +51,7 @@ class PictureView {
     std::optional<double> errorOf(const Shown& shown) const {
         return isCurrent(shown) && measured_ ? performance_.error() : std::nullopt;
     }
-    const glm::dmat3& boxHalfEdges() const { return boxHalfEdges_; }
+    const render::Outline& outline() const { return outline_; }
     std::optional<render::View> eye() const {  // where there is one
         return eyes_.size() == 1 ? std::optional(eyes_.front()) : std::nullopt;
     }
@@ -91,7 +91,7 @@ class PictureView {
     std::optional<Parts> measured_;  // of the picture that is kept: what was asked for
     Parts parts_ = Parts::None;      // what is to be
     bool partsCame_ = false;         // with the last draw(): panels were drawn before
-    glm::dmat3 boxHalfEdges_{0.5};
+    render::Outline outline_{glm::dmat3(0.5)};
     std::vector<render::View> eyes_;
     glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other
     Rest rest_;

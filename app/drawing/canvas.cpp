@@ -29,6 +29,8 @@ double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
     return sum;
 }
 
+GlSteps::Places placesOf(const Explorer& e) { return {e.scale, e.map}; }
+
 // The same selection, of which points stand for cells.
 render::Scene byPoints(render::Scene scene) {
     if (!scene.cells) return scene;
@@ -135,13 +137,13 @@ void Canvas::State::choose(const Explorer& choices) {
     Screen changed = *screen;
     changed.explorer = choices;
     if (!isThere(*changed.held, sceneOf(changed))) return;
-    changed.held->stretch(choices.scale);
+    changed.held->place(placesOf(choices));
     screen = std::move(changed);
 }
 
 GlSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limits,
                                     std::span<const render::View> moving, CanvasReport& report) {
-    GlSteps::Held& held = steps.use(shown.sorted, shown.explorer.scale);
+    GlSteps::Held& held = steps.use(shown.sorted, placesOf(shown.explorer));
     Screen next{shown.sorted, &held, shown.explorer, shown.dataset.variable, shown.step};
     const render::Scene scene = sceneOf(next);
     const bool onScreen = screen && screen->held == &held;
@@ -273,8 +275,7 @@ void Canvas::drawPlacards(std::span<const render::Placard> placards,
 
 std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
     const Explorer& e = shown.explorer;
-    return eyes(e.view, e.stereo,
-                render::PlacedPoints(shown.sorted->grid(), e.scale).boxHalfEdges(), e.size);
+    return eyes(e.view, e.stereo, state_->steps.outline(shown.sorted, placesOf(e)), e.size);
 }
 
 bool Canvas::shows(const Explorer& data) const {
@@ -311,7 +312,7 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
 void Canvas::save(const Shown& shown, const std::filesystem::path& file,
                   const std::optional<double>& error) {
     state_->resting.reset();
-    GlSteps::Held& held = state_->steps.use(shown.sorted, shown.explorer.scale);
+    GlSteps::Held& held = state_->steps.use(shown.sorted, placesOf(shown.explorer));
     write(drawStill({.explorer = shown.explorer,
                      .variable = shown.dataset.variable,
                      .stepIndex = shown.step,

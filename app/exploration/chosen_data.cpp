@@ -5,6 +5,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/clip_flaw.h"
+#include "app/choices/map_flaw.h"
 #include "app/files/chosen_axes.h"
 #include "app/picture/picture.h"
 #include "app/picture/resolved.h"
@@ -28,6 +29,9 @@ ChosenData openChosen(const Explorer& choices) {
     chooseAxes(dataset, e.axes);
     if (e.clip)
         if (const std::string flaw = clipFlaw(*e.clip, *dataset.variable.grid); !flaw.empty())
+            throw ChoiceError(flaw);
+    if (e.map == render::Map::Globe)
+        if (const std::string flaw = globeFlaw(*dataset.variable.grid); !flaw.empty())
             throw ChoiceError(flaw);
     if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);

@@ -43,6 +43,9 @@ void Exploration::change(Explorer next, std::string_view gesture) {
         const std::size_t step = std::min(next.steps.value_or(*explorer().steps).first, last);
         next.steps = StepChoice{step, step};
         try {
+            if (next.map == render::Map::Globe)
+                if (const std::string flaw = globeFlaw(open_->sorted->grid()); !flaw.empty())
+                    throw ChoiceError(flaw);
             if (needsSamples(next)) next = resolved(next, {{open_->step, open_->sorted}});
             timeseries::Playback playback = followed(playback_, explorer(), next);
             open_->counts = pointCounts(next, *open_->sorted);

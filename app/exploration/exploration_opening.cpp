@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/choices/clip_flaw.h"
+#include "app/choices/map_flaw.h"
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
 #include "app/files/chosen_axes.h"
@@ -151,6 +152,11 @@ void Exploration::adopt(LiveSteps::Arrival first) {
         if (std::string flaw = clipFlaw(*next.clip, first.sorted->grid()); !flaw.empty()) {
             tell(std::move(flaw), true);
             next.clip.reset();
+        }
+    if (next.map == render::Map::Globe)
+        if (std::string flaw = globeFlaw(first.sorted->grid()); !flaw.empty()) {
+            tell(std::move(flaw), true);
+            next.map = render::Map::Flat;
         }
     timeseries::Playback playback;
     try {

@@ -35,6 +35,10 @@ picture "$data/viscous_fingers_demo.nc" viscous_fingers_stereo.png --step 12 \
     --view 25,12 --size 700x700 --range 25~5 --colormap cividis --opacity 0.1 --stereo side-by-side
 picture "$data/echam_rhumidity_gaussian_3d.nc" humidity.png --size 1000x750 --view 0,50 \
     --range 0.95:max --colormap viridis --opacity 0.35 --scale 1,1,0.0004
+picture "$data/echam_rhumidity_gaussian_3d.nc" humidity_globe.png --map globe --size 1000x750 --view 110,25 \
+    --range 0.95:max --colormap viridis --opacity 0.35
+picture "$data/grids/icon_ocean_triangles.nc" ocean_of_triangles_globe.png --map globe --variable S --size 1000x750 --view 60,25 \
+    --range 33:37.5 --colormap viridis --opacity 0.5
 picture "$data/bluntfin/bluntfin.vts" bluntfin.png --size 1000x750 --view 25,22 --range 1.6:max --colormap viridis --opacity 0.35
 picture "$data/grids/wrf_mercator_moving_nest.nc" moving_nest.png --variable QRAIN --size 1000x750 --view 20,25 --step 2
 picture "$data/dambreak_amr/dambreak.pvd" dam_break.png --size 1000x750 --step 4 --view 25,22 --range 0.5:1 --color '#3aa0ff' --opacity 0.22

@@ -50,7 +50,8 @@ std::optional<ClipBox> withFace(const std::optional<ClipBox>& clip, Face face, d
 std::optional<Hold> ClipHand::holdAt(const xr::Pose& aim, const Drawn& drawn,
                                      const xr::Placement& placement,
                                      const Exploration& exploration) {
-    if (!isShown(drawn, exploration)) return std::nullopt;
+    // On a globe the box of the file's coordinates has no faces that a hand could hold.
+    if (!isShown(drawn, exploration) || drawn.placed->globe()) return std::nullopt;
     return holdOf(aim, stageFromAxes(placement, *drawn.placed),
                   clippedBox(*drawn.placed, exploration.explorer().clip), drawn.placed->boxHalf());
 }
@@ -89,7 +90,7 @@ std::vector<ClipHand::Edge> ClipHand::edges(const std::array<std::optional<Hold>
                                             const Drawn& drawn,
                                             const Exploration& exploration) const {
     std::vector<Edge> edges;
-    if (!isShown(drawn, exploration)) return edges;
+    if (!isShown(drawn, exploration) || drawn.placed->globe()) return edges;
     const AxisBox box = clippedBox(*drawn.placed, exploration.explorer().clip);
     const glm::dvec3 half = 0.5 * (box.hi - box.lo), middle = 0.5 * (box.hi + box.lo);
     const auto isOf = [&](const render::Edge& edge, const Face& face) {

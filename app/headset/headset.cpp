@@ -106,7 +106,7 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
     // What comes first is placed before it is drawn.
     std::optional<render::PlacedPoints> first;
     if (const auto shown = exploration_.shown(); shown && !input.drawn) {
-        first.emplace(shown->sorted->grid(), shown->explorer.scale);
+        first.emplace(shown->sorted->grid(), shown->explorer.scale, shown->explorer.map);
         input.drawn = Drawn{&*first, shown->sorted, shown->step};
     }
     const HandOutcome outcome = interaction_.update(exploration_, input);

@@ -158,7 +158,7 @@ class Bench {
 
  private:
     render::View viewOf(const ViewChoice& view) const {
-        return eyes(view, {}, placed_.boxHalfEdges(), explorer_.size).front();
+        return eyes(view, {}, placed_.outline(), explorer_.size).front();
     }
 
     const Explorer& explorer_;

@@ -50,7 +50,7 @@ struct Measured {
     double colorDifference = 0;  // CIEDE2000, the 95th percentile of pixels that show something
     // What the depth's error comes from, and what order costs of light (app/picture/depth_error.h):
     // of the first view, from some of its pixels, against 8 x 8 rays in each.
-    RungError parts;
+    RungError parts = {};
 
     bool massIsOff() const { return !(mass >= 1 - kMassTolerance && mass <= 1 + kMassTolerance); }
 };

@@ -131,7 +131,7 @@ void Interface::drawPicture(PanelContext& context, const Surroundings& around) {
     if (help_) drawHelp(context);
     // Last: ImGui gives the mouse to the first that lies under it.
     if (shown) {
-        if (around.hasPicture) picture_.handle(context, around.boxHalfEdges);
+        if (around.hasPicture) picture_.handle(context, around.outline);
         hover_.follow(context, help_ || popup_ ? std::nullopt : picture_.pointer(), around.dt);
         hover_.draw(context);
     }

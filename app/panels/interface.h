@@ -28,10 +28,10 @@ struct Surroundings {
     glm::vec2 window{0};  // pixels
     const Theme& theme;
     StartOffers offers;
-    glm::dmat3 boxHalfEdges{0.577};        // of what is drawn
-    std::optional<render::View> eye;       // of the picture, where probes are marked
-    bool hasPicture = true;                // a headset's stands in the room
-    std::optional<std::string> exporting;  // how far an export is, while one runs
+    render::Outline outline{glm::dmat3(0.577)};  // of what is drawn
+    std::optional<render::View> eye;             // of the picture, where probes are marked
+    bool hasPicture = true;                      // a headset's stands in the room
+    std::optional<std::string> exporting;        // how far an export is, while one runs
     std::chrono::nanoseconds dt{0};
     std::optional<KeyPress> key = {};  // pressed since the last frame
     Performance performance;

@@ -46,7 +46,7 @@ bool cancelPill(const PanelContext& context, glm::vec2 top, float align, std::st
 
 }  // namespace
 
-void PictureArea::handle(PanelContext& context, const glm::dmat3& boxHalfEdges) {
+void PictureArea::handle(PanelContext& context, const render::Outline& outline) {
     Exploration& exploration = context.exploration;
     const Rect& at = context.layout.picture;
     const ImGuiIO& io = ImGui::GetIO();
@@ -54,7 +54,7 @@ void PictureArea::handle(PanelContext& context, const glm::dmat3& boxHalfEdges) 
     ImGui::InvisibleButton("##picture", im(glm::max(at.size(), glm::vec2(1))),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     pointer_.reset();
-    const Looking looking{boxHalfEdges, exploration.explorer().size};
+    const Looking looking{outline, exploration.explorer().size};
     // With two eyes, of the one that it is over.
     const glm::dvec2 place = vec(io.MousePos) - at.min;
     const glm::dvec2 cursor = glm::mod(place, glm::dvec2(looking.size));

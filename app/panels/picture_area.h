@@ -7,9 +7,9 @@ namespace app::panels {
 
 class PictureArea {
  public:
-    // Takes the mouse over the picture, where nothing drawn before has it. `boxHalfEdges`:
-    // PlacedPoints::boxHalfEdges() of what is drawn there. REQUIRES: something is shown.
-    void handle(PanelContext& context, const glm::dmat3& boxHalfEdges);
+    // Takes the mouse over the picture, where nothing drawn before has it. `outline`:
+    // PlacedPoints::outline() of what is drawn there. REQUIRES: something is shown.
+    void handle(PanelContext& context, const render::Outline& outline);
     // The pointer's place on the picture, in its pixels; none where it is elsewhere or drags.
     const std::optional<glm::vec2>& pointer() const { return pointer_; }
 

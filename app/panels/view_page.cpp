@@ -6,6 +6,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/edits.h"
+#include "app/choices/map_flaw.h"
 #include "app/panels/widgets.h"
 #include "render/annotate/ticks.h"
 
@@ -56,11 +57,21 @@ void ViewPage::draw(PanelContext& context, const Rect& at) {
                                : *chosen == 1 ? Stereo::SideBySide
                                               : Stereo::TopBottom;
         });
+    map(context, form);
     form.space(6);
     clip(context, form);
     form.space(6);
     scale(context, form);
     axes(context, form);
+}
+
+// Where places are longitudes and latitudes.
+void ViewPage::map(PanelContext& context, Form& form) {
+    constexpr std::array kMaps = {"Flat", "Globe"};
+    if (!globeFlaw(context.exploration.shown()->sorted->grid()).empty()) return;
+    const auto now = static_cast<std::size_t>(context.exploration.explorer().map);
+    if (const auto chosen = segmented(context.theme, "map", form.row("Map"), kMaps, now))
+        edit(context, {}, [&](Explorer& e) { e.map = static_cast<render::Map>(*chosen); });
 }
 
 void ViewPage::clip(PanelContext& context, Form& form) {

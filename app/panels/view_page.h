@@ -15,6 +15,7 @@ class ViewPage {
     void draw(PanelContext& context, const Rect& at);
 
  private:
+    void map(PanelContext& context, Form& form);
     void clip(PanelContext& context, Form& form);
     void scale(PanelContext& context, Form& form);
     void axes(PanelContext& context, Form& form);

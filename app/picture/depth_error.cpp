@@ -26,7 +26,7 @@ class Ways {
          const ErrorQuestion& question, const std::atomic<bool>& wanted)
         : explorer_(explorer),
           step_(step),
-          placed_(step.grid(), explorer.scale),
+          placed_(step.grid(), explorer.scale, explorer.map),
           view_(view),
           question_(question),
           wanted_(wanted) {}

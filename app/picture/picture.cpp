@@ -248,8 +248,7 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
 }
 
 bool isMixed(const Explorer& e, const render::Scene& scene) {
-    return render::isMixed(scene,
-                           eyes(e.view, e.stereo, scene.placed.boxHalfEdges(), e.size).front());
+    return render::isMixed(scene, eyes(e.view, e.stereo, scene.placed.outline(), e.size).front());
 }
 
 Picture makePicture(const Explorer& e, const timeseries::Variable& variable, std::size_t stepIndex,

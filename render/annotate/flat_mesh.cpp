@@ -54,6 +54,10 @@ void FlatMesh::line(glm::vec3 a, glm::vec3 b, float width, glm::vec4 color) {
          {b - side, color, kNoGlyph, {-reach, half}}, {a - side, color, kNoGlyph, {-reach, half}});
 }
 
+void FlatMesh::triangle(const std::array<glm::vec3, 3>& at, const std::array<glm::vec4, 3>& color) {
+    for (std::size_t i = 0; i < 3; ++i) vertices_.push_back({at[i], color[i], kNoGlyph, kSolid});
+}
+
 void FlatMesh::disc(glm::vec2 middle, float radius, glm::vec4 color) {
     const float reach = radius + 1;  // one pixel for the soft edge
     // Between two of n corners the distance is told too large by reach (1 - cos(pi / n)), about

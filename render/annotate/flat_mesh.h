@@ -2,6 +2,7 @@
 // FlatPass draws it.
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -44,6 +45,8 @@ class FlatMesh {
     // Smooth-edged. `a` and `b`: pixels and window depth, linear between (as a projected straight
     // line is). Colour is linear, premultiplied; width in pixels.
     void line(glm::vec3 a, glm::vec3 b, float width, glm::vec4 color);
+    // Places as of lines; colours, linear and premultiplied, change linearly between the corners.
+    void triangle(const std::array<glm::vec3, 3>& at, const std::array<glm::vec4, 3>& color);
     // Smooth-edged, round to a thirtieth of a pixel. Colour is linear, premultiplied; in pixels.
     // REQUIRES: a radius > 0.
     void disc(glm::vec2 middle, float radius, glm::vec4 color);

@@ -14,33 +14,7 @@ extern const unsigned char isochron_coastlines_begin[], isochron_coastlines_end[
 namespace render {
 namespace {
 
-using timeseries::Axis;
-
 constexpr double kTurn = 360;
-
-std::string lowerCase(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
-// CF 1.10, sections 4.1 and 4.2; degrees alone with a name that leaves no doubt.
-bool isDegrees(const Axis& axis, std::string_view direction, std::string_view name) {
-    const std::string units = lowerCase(axis.units), called = lowerCase(axis.name);
-    if (!units.starts_with("degree")) return false;
-    std::string_view rest = std::string_view(units).substr(6);
-    if (rest.starts_with('s')) rest.remove_prefix(1);
-    if (rest.starts_with('_')) rest.remove_prefix(1);
-    if (rest == direction || rest == direction.substr(0, 1)) return true;
-    return rest.empty() && (called == name || called == name.substr(0, 3));
-}
-
-// What lies in depths counts downwards, and so does the pressure of the air.
-bool isOfTheAir(const Axis& axis) {
-    constexpr std::array<std::string_view, 7> kPressures{"pa",   "hpa",      "kpa",      "mb",
-                                                         "mbar", "millibar", "millibars"};
-    return std::ranges::find(kPressures, lowerCase(axis.units)) != kPressures.end();
-}
 
 std::vector<MapLine> readLines(std::string_view text) {
     std::vector<MapLine> lines;
@@ -89,18 +63,13 @@ const std::vector<MapLine>& coastlines() {
 }
 
 std::optional<MapPlane> mapPlaneOf(const timeseries::Grid& grid) {
-    const auto& axes = grid.axes();
-    if (!grid.frame().aligned() || !isDegrees(axes[0], "east", "longitude") ||
-        !isDegrees(axes[1], "north", "latitude"))
-        return std::nullopt;
+    if (!isGeographic(grid)) return std::nullopt;
+    const timeseries::Axis& axis = grid.axes()[2];
     const auto x = grid.ends(0), y = grid.ends(1), z = grid.ends(2);
-    // More than once round is no longitude.
-    if (!(x.most - x.least <= kTurn + 1) || !(std::max(std::abs(x.least), std::abs(x.most)) <= 720))
-        return std::nullopt;
-    const bool inDepths = axes[2].down && !isOfTheAir(axes[2]);
+    const bool inDepths = isDepth(axis);
     return MapPlane{{x.least, y.least},
                     {x.most, y.most},
-                    axes[2].down != inDepths ? z.most : z.least,
+                    axis.down != inDepths ? z.most : z.least,
                     inDepths ? 1 : -1};
 }
 

@@ -34,6 +34,8 @@ Splatters::Gl& Splatters::needGl() {
 bool Splatters::sumsByGl(const Scene& scene) const {
     if (!byGl_) return false;
     if (scene.cells) return GlPieces::bytesOf(scene) <= mostCellBytes_;
+    // The clip box is the file's, of which the GPU's mesh knows nothing.
+    if (scene.placed.globe() && !scene.clip.holdsAll()) return false;
     const auto& mesh = scene.placed.mesh();
     return !mesh || GlMesh::bytesOf(*mesh) <= mostMeshBytes_;
 }

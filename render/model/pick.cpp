@@ -130,8 +130,16 @@ std::optional<HalfOfLight> atHalfOfLight(const Scene& scene, std::span<const Met
     return HalfOfLight{at, std::min(-std::log1p(share * std::expm1(-depth)) / depth, 1.0)};
 }
 
+double depthOfBall(const PlacedPoints& placed, const View& view, const glm::dvec2& window) {
+    const PixelRays rays = pixelRays(placed.inAxes(view));
+    const glm::dvec2 o = window - rays.centre;
+    return placed.ballOnRay(rays.eye, rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY);
+}
+
 std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window) {
     std::vector<Hit> met = hits(scene, view, window);
+    const double ball = depthOfBall(scene.placed, view, window);
+    std::erase_if(met, [&](const Hit& hit) { return hit.depth > ball; });
     std::ranges::stable_sort(met, {}, &Hit::depth);
     const auto half = atHalfOfLight(scene, std::vector<Met>(met.begin(), met.end()));
     if (!half) return std::nullopt;

@@ -36,6 +36,10 @@ struct HalfOfLight {
 };
 std::optional<HalfOfLight> atHalfOfLight(const Scene& scene, std::span<const Met> met);
 
+// The view depth from which on a globe's Earth hides what a window position shows; infinity where
+// it hides nothing.
+double depthOfBall(const PlacedPoints& placed, const View& view, const glm::dvec2& window);
+
 // Of the splats whose footprint covers the window position (pixel coordinates, y up), the one at
 // half of the light. None where the ray meets nothing that is seen. Costs a pass over the points
 // that the scene draws, some 30 ns each. Of cells: render/reference/cell_pick.h.

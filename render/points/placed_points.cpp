@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace render {
 namespace {
@@ -67,10 +68,14 @@ std::string comparableUnit(const Axis& axis) {
     return axis.units.starts_with("degree") ? "degree" : axis.units;
 }
 
-PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch)
+PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, Map map)
     : mesh_(grid.mesh()),
       size_(grid.size()[0], grid.size()[1], grid.size()[2]),
       worldFromAxes_(grid.frame().directions) {
+    if (map == Map::Globe) {
+        placeOnGlobe(grid, stretch);
+        return;
+    }
     // Thinner boxes and cells could not be seen; their volumes would leave the GPU's floats.
     constexpr Wide kThinnestBox = 1e-9L;
     const auto stretched =
@@ -89,6 +94,37 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch)
         scale_[a] = axis.down ? -perUnit : perUnit;
     }
     mesh_ ? measureMesh() : measureAxes(grid);
+}
+
+void PlacedPoints::placeOnGlobe(const Grid& grid, std::optional<glm::dvec3> stretch) {
+    globe_ =
+        std::make_shared<const Globe>(grid, stretch ? std::optional(stretch->z) : std::nullopt);
+    fileMesh_ = std::exchange(mesh_, globe_->meshOf(grid));
+    const Globe::Box box = globe_->box();
+    const double radius = glm::length(0.5 * (box.hi - box.lo));
+    boxHalf_ = 0.5 * (box.hi - box.lo) / radius;
+    for (int a = 0; a < 3; ++a) {
+        centre_[a] = (Wide{box.lo[a]} + Wide{box.hi[a]}) / 2;
+        scale_[a] = 1 / Wide{radius};
+    }
+    measureMesh();
+}
+
+std::optional<PlacedPoints::Ball> PlacedPoints::ball() const {
+    if (!globe_) return std::nullopt;
+    return Ball{axesFromGlobe(glm::dvec3(0)), meshScale_.x * globe_->ballRadius()};
+}
+
+double PlacedPoints::ballOnRay(const glm::dvec3& eye, const glm::dvec3& along) const {
+    constexpr double kNowhere = std::numeric_limits<double>::infinity();
+    const auto ball = this->ball();
+    if (!ball) return kNowhere;
+    // |eye + t along - centre| = radius: the lesser root.
+    const glm::dvec3 from = eye - ball->centre;
+    const double a = glm::dot(along, along), b = glm::dot(from, along),
+                 c = glm::dot(from, from) - ball->radius * ball->radius;
+    const double root2 = b * b - a * c;
+    return root2 > 0 && b < 0 && c > 0 ? c / (-b + std::sqrt(root2)) : kNowhere;
 }
 
 void PlacedPoints::measureMesh() {
@@ -226,7 +262,8 @@ glm::uvec3 PlacedPoints::indices(std::uint64_t index) const {
 }
 
 bool PlacedPoints::inside(std::uint64_t index, const IndexBox& box) const {
-    if (mesh_) return box.holdsAll() || box.holdsPlace(mesh_->position(index));
+    const auto& mesh = globe_ ? fileMesh_ : mesh_;
+    if (mesh) return box.holdsAll() || box.holdsPlace(mesh->position(index));
     return box.holds(indices(index));
 }
 

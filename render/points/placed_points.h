@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "render/points/globe.h"
 #include "render/points/view.h"
 #include "timeseries/grid/grid.h"
 
@@ -37,6 +38,17 @@ struct IndexBox {
     }
 };
 
+// How longitudes and latitudes are drawn.
+enum class Map { Flat, Globe };
+
+// What a picture is to show all of: a box about the world's centre, or the ball in it.
+struct Outline {
+    glm::dmat3 boxHalfEdges;  // columns: from the centre to the middles of three faces
+    bool isBall = false;      // as wide as the box along x
+    Outline(const glm::dmat3& halfEdges, bool ball = false)
+        : boxHalfEdges(halfEdges), isBall(ball) {}
+};
+
 // World coordinates: z up, the centre of the grid's box at 0, and the box scaled so that its
 // farthest corners are 1 away. That keeps every coordinate near 1 whatever the grid's units and
 // offsets are.
@@ -49,7 +61,11 @@ class PlacedPoints {
     // `stretch` multiplies the grid's units, each along its axis, before the uniform scaling.
     // Without it axes of one unit keep their proportions, however flat, and axes of other units are
     // fitted to half the length of the longest. Axes that count downwards are drawn downwards.
-    explicit PlacedPoints(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch = {});
+    // On a globe (render/points/globe.h) points are those of a mesh in space, of whose `stretch`
+    // the third counts; clip boxes stay the file's. REQUIRES of a globe: isGeographic(grid), and
+    // what Globe::meshOf() does.
+    explicit PlacedPoints(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch = {},
+                          Map map = Map::Flat);
 
     glm::uvec3 size() const { return size_; }  // points along the indices
     // In the world.
@@ -70,6 +86,21 @@ class PlacedPoints {
     double volumePerDeterminant() const { return mesh_->volumePerDeterminant(); }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
     const std::shared_ptr<const timeseries::Mesh>& mesh() const { return mesh_; }  // none: null
+
+    const Globe* globe() const { return globe_.get(); }  // none: null
+    // In axis coordinates, from those of the globe. REQUIRES: globe().
+    glm::dvec3 axesFromGlobe(const glm::dvec3& place) const {
+        return meshScale_ * (place - meshCentre_);
+    }
+    // What an eye cannot see through, in axis coordinates: the Earth of a globe.
+    struct Ball {
+        glm::dvec3 centre;
+        double radius;
+    };
+    std::optional<Ball> ball() const;
+    // Where a ray from an eye meets that, in multiples of `along`; infinity where it does not. Both
+    // in axis coordinates.
+    double ballOnRay(const glm::dvec3& eye, const glm::dvec3& along) const;
 
     // REQUIRES of these: not isMesh(). Lengths of the cell's sides, all > 0.
     glm::dvec3 cell(std::uint64_t index) const;
@@ -113,6 +144,7 @@ class PlacedPoints {
     glm::dvec3 boxHalf() const { return boxHalf_; }
     // The half box in the world: columns from the centre of the box to the middles of its faces.
     glm::dmat3 boxHalfEdges() const;
+    Outline outline() const { return {boxHalfEdges(), globe_ && globe_->isWhole()}; }
     // World length per grid unit along each axis, signed; their ratios are what a picture states.
     glm::dvec3 scale() const;
     // In axis coordinates, from the grid's coordinates along its axes.
@@ -120,11 +152,13 @@ class PlacedPoints {
     glm::dvec3 gridFromAxes(const glm::dvec3& axes) const;  // and back
 
  private:
+    void placeOnGlobe(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch);
     void measureMesh();
     void measureAxes(const timeseries::Grid& grid);
 
     std::array<std::vector<double>, 3> positions_, widths_;
-    std::shared_ptr<const timeseries::Mesh> mesh_;
+    std::shared_ptr<const timeseries::Mesh> mesh_, fileMesh_;  // the grid's own, of a globe's
+    std::shared_ptr<const Globe> globe_;
     glm::dvec3 meshScale_{1}, meshCentre_{0};  // scale_ and centre_, for many points
     glm::uvec3 size_{1};
     // Long doubles: products and squares of very large or small extents leave the doubles.

@@ -79,6 +79,8 @@ std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm
 
 std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::dvec2& window) {
     std::vector<PassedTet> passed = tetsOnRay(scene, view, window);
+    const double ball = depthOfBall(scene.placed, view, window);
+    std::erase_if(passed, [&](const PassedTet& p) { return metOf(p.passed).depth > ball; });
     std::ranges::stable_sort(passed, {}, [](const PassedTet& p) { return metOf(p.passed).depth; });
     std::vector<Met> met;
     for (const PassedTet& p : passed) met.push_back(metOf(p.passed));

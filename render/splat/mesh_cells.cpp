@@ -100,15 +100,33 @@ glm::dvec3 MeshCells::beyond(const glm::uvec3& point, int axis, bool before) con
     return comesRound ? glm::dvec3(0) : 0.5 * step;
 }
 
+// Whether the first and the last of a globe's longitudes are neighbours there.
+bool MeshCells::isSeam(const glm::uvec3& point) const {
+    if (!placed_.globe() || points_.x <= 2) return false;
+    glm::uvec3 inward = point, other = point;
+    inward.x = point.x == 0 ? 1 : points_.x - 2;
+    other.x = points_.x - 1 - point.x;
+    const glm::dvec3 place = placeOf(point), step = place - placeOf(inward);
+    const double ratio = glm::dot(placeOf(other) - place, step) / glm::dot(step, step);
+    return ratio > 0.5 && ratio < 2;
+}
+
 glm::dvec3 MeshCells::cornerAt(const glm::uvec3& cell, unsigned corner) const {
+    const auto outwards = [&](const glm::uvec3& point, int firstAxis) {
+        glm::dvec3 place = placeOf(point);
+        for (int a = firstAxis; a < 3; ++a) {
+            const unsigned side = corner >> a & 1;
+            if (cell[a] + side == 0) place += beyond(point, a, true);
+            if (cell[a] + side > points_[a]) place += beyond(point, a, false);
+        }
+        return place;
+    };
     const glm::uvec3 point = corners_.pointAt(cell, corner);
-    glm::dvec3 place = placeOf(point);
-    for (int a = 0; a < 3; ++a) {
-        const unsigned side = corner >> a & 1;
-        if (cell[a] + side == 0) place += beyond(point, a, true);
-        if (cell[a] + side > points_[a]) place += beyond(point, a, false);
-    }
-    return place;
+    const unsigned x = cell.x + (corner & 1);
+    if ((x > 0 && x <= points_.x) || !isSeam(point)) return outwards(point, 0);
+    glm::uvec3 other = point;
+    other.x = points_.x - 1 - point.x;
+    return 0.5 * (outwards(point, 1) + outwards(other, 1));
 }
 
 std::optional<MeshCells::Hexahedron> MeshCells::operator()(const glm::uvec3& cell) const {

@@ -33,7 +33,8 @@ class MeshCells {
     };
     // None where nothing is seen: a corner has no place, or none a value within the clip box. Half
     // cells beyond the outermost points reach as far as half the way to the points before these,
-    // and nowhere where a grid comes round to where it began. A layer of points is as thick as its
+    // and nowhere where a grid comes round to where it began; on a globe those of the first and the
+    // last longitude meet. A layer of points is as thick as its
     // points' cells.
     std::optional<Hexahedron> operator()(const glm::uvec3& cell) const;
     struct Tetrahedron {
@@ -99,6 +100,7 @@ class MeshCells {
     glm::dvec3 cornerAt(const glm::uvec3& cell, unsigned corner) const;
     // From an outermost point half a cell on along an index.
     glm::dvec3 beyond(const glm::uvec3& point, int axis, bool before) const;
+    bool isSeam(const glm::uvec3& point) const;
     glm::dvec3 acrossLayer(const glm::uvec3& point, int axis) const;
     Hexahedron octantOf(const Hexahedron& cell, unsigned octant) const;
 

@@ -371,5 +371,29 @@ TEST(Camera, ASinglePointIsInTheMiddle) {
     EXPECT_GT(p.depth, 0);
 }
 
+// Four places of a ball's outline in the picture: on the free area's edge in one direction, within
+// it in the other.
+TEST(Camera, ABallFillsItsShareOfThePicture) {
+    const double radius = 1 / std::sqrt(3.0);
+    for (const Projection projection : {Projection::Perspective, Projection::Orthographic})
+        for (const ivec2 size : {ivec2(800, 600), ivec2(300, 900)})
+            for (const double elevation : {-60.0, 0.0, 20.0, 90.0}) {
+                const ViewChoice view{.azimuthDegrees = 30,
+                                      .elevationDegrees = elevation,
+                                      .distance = {},
+                                      .projection = projection};
+                const render::Outline ball{kCube, true};
+                const View eye = eyes(view, {}, ball, size)[0];
+                const auto rays = render::pixelRays(eye);
+                const double distance = glm::length(rays.eye);
+                const double tangent = radius / std::sqrt(distance * distance - radius * radius);
+                const glm::dvec2 half = tangent * rays.focal / (0.5 * glm::dvec2(size));
+                const glm::dvec2 share = half / (kBoxShare * freeAreaOf(size));
+                EXPECT_NEAR(std::max(share.x, share.y), 1, 1e-3) << size.x << " " << elevation;
+                const Projected centre = project(eye, dvec3(0));
+                EXPECT_LT(glm::distance(centre.window, 0.5 * glm::dvec2(size)), 1e-6);
+            }
+}
+
 }  // namespace
 }  // namespace app

@@ -390,6 +390,22 @@ TEST(Exploration, AClipBoxWithoutAPointIsToldAndLeftOut) {
     EXPECT_THAT(desk.errors(), ElementsAre(HasSubstr("holds no point")));
 }
 
+TEST(Exploration, AGlobeOfNoLongitudesIsToldAndLeftOut) {
+    Desk desk;
+    Explorer wish;
+    wish.files = {"a"};
+    wish.map = render::Map::Globe;
+    desk.exploration.open(wish);
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer().map, render::Map::Flat);
+    EXPECT_THAT(desk.errors(), ElementsAre(HasSubstr("longitudes and latitudes")));
+    // Nor is it chosen later.
+    wish = desk.exploration.explorer();
+    wish.map = render::Map::Globe;
+    desk.exploration.edit(wish);
+    EXPECT_EQ(desk.exploration.explorer().map, render::Map::Flat);
+}
+
 TEST(Exploration, ASessionOpensAsItSays) {
     Desk desk({{"a", {}}, {"b", {.steps = 20}}});
     desk.open("a");

@@ -88,9 +88,8 @@ TEST(PictureError, OfEveryWayToDrawIsWhatEachWouldHave) {
     EXPECT_NEAR(*all.of({Model::Points}) / worked(cells), 1, 0.3);
 }
 
-DepthErrors partsOf(const PictureError::Picture& p, std::vector<Rung> rungs,
-                    CellsBy by = CellsBy::Program) {
-    return depthErrorsOf(p.explorer, *p.sorted, p.view, rungs, {.by = by, .parts = Parts::All});
+DepthErrors partsOf(const PictureError::Picture& p, std::vector<Rung> rungs) {
+    return depthErrorsOf(p.explorer, *p.sorted, p.view, rungs, {.parts = Parts::All});
 }
 
 // What parts must be whatever they are of: D - T = (M - T) + (P - M) + (D - P), whose sizes obey
@@ -135,14 +134,6 @@ TEST(PictureError, APartComesFromWhatMakesIt) {
     EXPECT_EQ(partsIn(few, {Model::Points, 4}).model, partsIn(few, points).model);
     EXPECT_GT(partsIn(few, {Model::Points, 4}).subset, 0);
     EXPECT_GT(partsIn(few, {Model::Points, 16}).subset, partsIn(few, {Model::Points, 4}).subset);
-    // Small cells by one ray, as GL has them.
-    picture.explorer.size = {24, 18};
-    const render::PlacedPoints placed(picture.sorted->grid());
-    picture.view =
-        eyes(picture.explorer.view, {}, placed.boxHalfEdges(), picture.explorer.size).front();
-    const double one = partsIn(partsOf(picture, {cells}, CellsBy::Gl), cells).pixels;
-    EXPECT_GT(one, 2 * partsIn(partsOf(picture, {cells}), cells).pixels);
-    EXPECT_GT(one, 0.1);
 }
 
 TEST(PictureError, OfOrderIsToldOfColoursThatMeet) {

@@ -43,13 +43,13 @@ class ViewEdits : public testing::Test {
 
 // Window positions with y down, as the edits have them.
 dvec2 windowOf(const ViewChoice& view, const Looking& at, const dvec3& world) {
-    const dvec2 up = render::project(eyes(view, {}, at.boxHalfEdges, at.size)[0], world).window;
+    const dvec2 up = render::project(eyes(view, {}, at.outline, at.size)[0], world).window;
     return {up.x, at.size.y - up.y};
 }
 
 // The point of the target's plane that a pixel shows: where its ray meets the plane.
 dvec3 worldUnder(const ViewChoice& view, const Looking& at, dvec2 cursor) {
-    const auto rays = render::pixelRays(eyes(view, {}, at.boxHalfEdges, at.size)[0]);
+    const auto rays = render::pixelRays(eyes(view, {}, at.outline, at.size)[0]);
     const dvec2 offset = dvec2(cursor.x, at.size.y - cursor.y) - rays.centre;
     const dvec3 ray = rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY;
     const double along = glm::dot(view.target - rays.eye, rays.axis) / glm::dot(ray, rays.axis);
@@ -72,7 +72,7 @@ TEST_F(ViewEdits, PanningKeepsThePointUnderTheCursor) {
         EXPECT_LE(glm::distance(now, cursor + by), tolerance(view, 2000)) << "case " << i;
         EXPECT_EQ(next.azimuthDegrees, view.azimuthDegrees);
         EXPECT_EQ(next.elevationDegrees, view.elevationDegrees);
-        EXPECT_EQ(*next.distance, standOf(view, at.boxHalfEdges, at.size).distance);
+        EXPECT_EQ(*next.distance, standOf(view, at.outline, at.size).distance);
     }
 }
 
@@ -86,7 +86,7 @@ TEST_F(ViewEdits, ZoomingKeepsThePointUnderTheCursor) {
         const ViewChoice next = zoomed(view, factor, cursor, at);
         EXPECT_LE(glm::distance(windowOf(next, at, held), cursor), tolerance(view, 2000))
             << "case " << i;
-        const double before = standOf(view, at.boxHalfEdges, at.size).distance;
+        const double before = standOf(view, at.outline, at.size).distance;
         EXPECT_NEAR(*next.distance, before * factor, 1e-12 * before * factor);
     }
 }
@@ -106,7 +106,7 @@ TEST_F(ViewEdits, TheBoxFollowsTheHandThatTurnsIt) {
     // What is nearest to the eye moves the way of the hand; half the shorter side is a right angle.
     const Looking at{glm::dmat3(1 / std::sqrt(3.0)), {800, 600}};
     const ViewChoice view{20, 10, 5.0};
-    const dvec3 nearest = standOf(view, at.boxHalfEdges, at.size).axes[2];
+    const dvec3 nearest = standOf(view, at.outline, at.size).axes[2];
     const dvec2 before = windowOf(view, at, nearest);
     EXPECT_GT(windowOf(orbited(view, {10, 0}, at), at, nearest).x, before.x + 5);
     EXPECT_LT(windowOf(orbited(view, {-10, 0}, at), at, nearest).x, before.x - 5);
@@ -130,8 +130,8 @@ TEST_F(ViewEdits, TurningKeepsAnglesInBoundsAndTheDistance) {
                               next.azimuthDegrees) /
                              360;
         EXPECT_NEAR(turns, std::round(turns), 1e-9);
-        EXPECT_EQ(*next.distance, standOf(view, at.boxHalfEdges, at.size).distance);
-        EXPECT_EQ(next.target, standOf(view, at.boxHalfEdges, at.size).target);
+        EXPECT_EQ(*next.distance, standOf(view, at.outline, at.size).distance);
+        EXPECT_EQ(next.target, standOf(view, at.outline, at.size).target);
     }
 }
 

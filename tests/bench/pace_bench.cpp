@@ -15,10 +15,10 @@
 
 namespace {
 
-constexpr glm::ivec2 kSize{600, 600};
-constexpr int kFrames = 50;  // whose median is foretold
+constexpr glm::ivec2 kForetoldSize{600, 600};
+constexpr int kForetoldFrames = 50;  // whose median is foretold
 
-timeseries::SortedStep stepOf(bool isNoise, std::size_t side) {
+timeseries::SortedStep foretoldStep(bool isNoise, std::size_t side) {
     if (isNoise) return tests::noise(tests::cube(side));
     return tests::stepOf(tests::cube(side), [side](std::size_t i) {
         const auto at = glm::dvec3(i % side, i / side % side, i / (side * side)) / 12.0;
@@ -55,7 +55,8 @@ std::vector<Picture> picturesOf(const timeseries::SortedStep& step,
                 layer.cells.candidates = scene.cells->select(layer.cells.ranges);
             }
             scene.layers.push_back(layer);
-            pictures.push_back({scene, tests::lookFrom(away * glm::dvec3(0.5, -1, 0.4), kSize)});
+            pictures.push_back(
+                {scene, tests::lookFrom(away * glm::dvec3(0.5, -1, 0.4), kForetoldSize)});
         }
     return pictures;
 }
@@ -80,7 +81,7 @@ std::vector<double> foretold(const std::vector<Picture>& pictures) {
 void BM_ForetoldFrame(benchmark::State& state) {
     using Clock = std::chrono::steady_clock;
     // As many as a frame of some milliseconds has.
-    const auto step = stepOf(state.range(0) != 0, state.range(1) != 0 ? 40 : 96);
+    const auto step = foretoldStep(state.range(0) != 0, state.range(1) != 0 ? 40 : 96);
     const render::PlacedPoints placed(step.grid());
     auto pictures = picturesOf(step, placed, state.range(1) != 0, state.range(2) != 0);
     for (auto _ : state)
@@ -90,7 +91,7 @@ void BM_ForetoldFrame(benchmark::State& state) {
             render::PlainFrame frame(picture.view.size, glm::dvec3(0));
             frame.draw(picture.scene, picture.view);  // makes room
             std::vector<double> times;
-            for (int i = 0; i < kFrames; ++i) {
+            for (int i = 0; i < kForetoldFrames; ++i) {
                 const auto start = Clock::now();
                 frame.draw(picture.scene, picture.view);
                 times.push_back(std::chrono::duration<double>(Clock::now() - start).count());

@@ -35,7 +35,7 @@ void share(const bench::Volume& v, vtkImageData* image) {
 const bench::Volume& volume(const benchmark::State& state) {
     return bench::volume(static_cast<std::size_t>(state.range(0)));
 }
-double share(const benchmark::State& state) { return static_cast<double>(state.range(1)) / 1000; }
+double selectedShare(const benchmark::State& state) { return static_cast<double>(state.range(1)) / 1000; }
 
 void threshold(vtkThresholdPoints* filter, const timeseries::Range& range) {
     filter->ThresholdBetween(std::get<double>(range.lo.value), std::get<double>(range.hi.value));
@@ -45,8 +45,8 @@ void threshold(vtkThresholdPoints* filter, const timeseries::Range& range) {
 
 void vtkSelect(benchmark::State& state) {
     const bench::Volume& v = volume(state);
-    const auto range = v.range(share(state));
-    const auto ranges = v.rangeSet(share(state));
+    const auto range = v.range(selectedShare(state));
+    const auto ranges = v.rangeSet(selectedShare(state));
     vtkNew<vtkImageData> image;
     share(v, image);
     vtkNew<vtkThresholdPoints> filter;
@@ -74,7 +74,7 @@ void makeReady(const bench::Volume& v, double share, GlSplatter& splatter) {
 // Until the points can be drawn: ours lie on the GPU, in drawing order; VTK's in main memory.
 void vtkSelectToDraw(benchmark::State& state) {
     const bench::Volume& v = volume(state);
-    const auto range = v.range(share(state));
+    const auto range = v.range(selectedShare(state));
     vtkNew<vtkImageData> image;
     share(v, image);
     vtkNew<vtkThresholdPoints> filter;
@@ -108,7 +108,7 @@ void vtkContour(benchmark::State& state) {
 
 void vtkOrder(benchmark::State& state) {
     const bench::Volume& v = volume(state);
-    Scene scene = v.scene(share(state));
+    Scene scene = v.scene(selectedShare(state));
     scene.order = Order::BackToFront;
     const glm::dvec3 eye = pixelRays(bench::outside()).eye;
     vtkNew<vtkPoints> points;

@@ -14,6 +14,7 @@
 #include "render/reference/cpu_splatter.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/tile_splatter.h"
+#include "tests/support/measured_axis.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -316,6 +317,53 @@ TEST_F(FrameInMemory, OnGlThereIsTheSameLightAndDepth) {
     EXPECT_EQ(onGl.readLight(), memory.readLight());
     std::vector<float> read;
     EXPECT_TRUE(std::ranges::equal(onGl.opaqueDepth(read), depth));
+}
+
+// Noise on a shell, by points and by cells, beside what double draws; and of what lies behind the
+// Earth alone nothing.
+TEST_P(Frame, AGlobeIsTheTruthsAndItsEarthHidesTheFarSide) {
+    const auto grid = std::make_shared<const timeseries::Grid>(
+        std::array{tests::measuredAxis("lon", "degrees_east", 0, 355, 72),
+                   tests::measuredAxis("lat", "degrees_north", -87.5, 87.5, 36),
+                   tests::measuredAxis("level", "1", 0, 4, 5)});
+    const auto noise = tests::noise(grid);
+    const auto halves =
+        tests::stepOf(grid, [&](std::size_t i) { return grid->position(i).x < 180 ? 1 : 2; });
+    const PlacedPoints placed(*grid, {}, Map::Globe);
+    const View view = tests::lookFrom({0, -4, 0}, {200, 160}, 0.2);  // from longitude 270
+    const auto pictureOf = [&](FrameRenderer& by, const timeseries::SortedStep& step,
+                               const char* range, Order order, bool cells) {
+        Scene scene{.step = step,
+                    .placed = placed,
+                    .layers = {{step.select(RangeSet::parse(range)), {ByValue{{}, 0, 1}, 0.4}}},
+                    .footprint = {},
+                    .order = order,
+                    .clip = {}};
+        if (cells) {
+            scene.cells = step.cells();
+            auto& of = scene.layers[0].cells;
+            of.ranges = timeseries::betweenPoints(RangeSet::parse(range), step.type());
+            of.candidates = scene.cells->select(of.ranges);
+        }
+        GlStep onGpu(step, placed);
+        return by.render({scene, *grid, {}, glm::dvec3(0.02)}, onGpu, std::array{view})[0].image;
+    };
+    FrameRenderer exact(SplatterChoice::Exact);
+    for (const Order order : {Order::None, Order::BackToFront})
+        for (const bool cells : {false, true}) {
+            const Image drawn = pictureOf(renderer_, noise, "0.6:1", order, cells),
+                        truth = pictureOf(exact, noise, "0.6:1", order, cells);
+            std::size_t apart = 0;  // where a splat's middle is beside the Earth's edge
+            for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+                for (int c = 0; c < 3; ++c)
+                    if (std::abs(drawn.pixels[i][c] - truth.pixels[i][c]) > 0.03f) ++apart;
+            EXPECT_LT(apart, truth.pixels.size() / 200) << cells;
+            const Image near = pictureOf(renderer_, halves, "2", order, cells),
+                        far = pictureOf(renderer_, halves, "1", order, cells),
+                        none = pictureOf(renderer_, halves, "3", order, cells);
+            EXPECT_NE(near.at(97, 83), none.at(97, 83));
+            EXPECT_EQ(far.at(97, 83), none.at(97, 83));
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(By, Frame,

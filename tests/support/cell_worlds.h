@@ -19,9 +19,9 @@ constexpr std::uint64_t kAllCells = std::numeric_limits<std::uint64_t>::max();
 // Layers of a step, drawn by cells.
 struct CellWorld {
     CellWorld(timeseries::SortedStep s, const std::vector<std::string>& layers,
-              double opacity = 0.5)
+              double opacity = 0.5, render::Map map = render::Map::Flat)
         : step(std::move(s)),
-          placed(step.grid()),
+          placed(step.grid(), {}, map),
           scene{.step = step,
                 .placed = placed,
                 .layers = {},

@@ -51,6 +51,7 @@ class RandomExplorer {
         e.order = maybe() ? render::Order::None : render::Order::BackToFront;
         if (maybe()) e.clip = clip();
         if (maybe()) e.scale = glm::dvec3(0.1 + unit(), 1e-9 + unit(), 1 + 1e9 * unit());
+        if (maybe()) e.map = render::Map::Globe;
         e.view = view();
         e.stereo.mode = static_cast<app::Stereo>(random_() % 5);
         if (maybe()) e.stereo.eyeDistance = maybe() ? 0 : unit();

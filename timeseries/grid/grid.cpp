@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 
@@ -79,8 +80,14 @@ double Axis::width(std::size_t i) const {
     return 0.5 * coordinates[i + 1] - 0.5 * coordinates[i - 1];
 }
 
+struct Grid::Elsewhere {
+    std::mutex guard;
+    double of = 0;
+    std::weak_ptr<const Mesh> mesh;
+};
+
 Grid::Grid(std::array<Axis, 3> axes, CoordinateFrame frame)
-    : axes_(std::move(axes)), frame_(std::move(frame)) {
+    : axes_(std::move(axes)), frame_(std::move(frame)), elsewhere_(std::make_shared<Elsewhere>()) {
     if (const std::string flaw = flawOf(frame_.directions); !flaw.empty())
         throw std::invalid_argument("directions: " + flaw);
     std::uint64_t count = 1;
@@ -97,7 +104,10 @@ Grid::Grid(std::array<Axis, 3> axes, CoordinateFrame frame)
 }
 
 Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofOneStep)
-    : axes_(std::move(space)), mesh_(std::move(mesh)), ofOneStep_(ofOneStep) {
+    : axes_(std::move(space)),
+      mesh_(std::move(mesh)),
+      ofOneStep_(ofOneStep),
+      elsewhere_(std::make_shared<Elsewhere>()) {
     // What rounding leaves across one layer of cells, beside how thick they are: no extent.
     constexpr double kRounding = 0x1p-24;
     for (int a = 0; a < 3; ++a) {
@@ -163,6 +173,7 @@ double Grid::nearestPlane(std::size_t axis, double coordinate) const {
 Grid Grid::relabelled(const std::array<std::string, 3>& names,
                       const std::array<bool, 3>& flip) const {
     Grid same = *this;
+    same.elsewhere_ = std::make_shared<Elsewhere>();
     for (std::size_t a = 0; a < 3; ++a) {
         if (flip[a]) same.axes_[a].down = !same.axes_[a].down;
         if (!names[a].empty()) same.axes_[a].name = names[a];
@@ -195,6 +206,18 @@ glm::dmat3 Grid::cell(std::uint64_t index) const {
         steps[a][a] = axes_[a].coordinates.size() > 1 ? width : smallest;
     }
     return frame_.directions * steps;
+}
+
+std::shared_ptr<const Mesh> Grid::elsewhere(
+    double of, const std::function<std::shared_ptr<const Mesh>()>& make) const {
+    const std::scoped_lock lock(elsewhere_->guard);
+    std::shared_ptr<const Mesh> mesh = elsewhere_->mesh.lock();
+    if (!mesh || elsewhere_->of != of) {
+        mesh = make();
+        elsewhere_->of = of;
+        elsewhere_->mesh = mesh;
+    }
+    return mesh;
 }
 
 }  // namespace timeseries

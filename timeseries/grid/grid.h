@@ -4,6 +4,7 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -109,6 +110,11 @@ class Grid {
     // the others, else 1.
     glm::dmat3 cell(std::uint64_t index) const;
 
+    // The same points in another space, which `of` tells from others. make() is called once while
+    // somebody holds what it made, and the grid, of which others may ask meanwhile.
+    std::shared_ptr<const Mesh> elsewhere(
+        double of, const std::function<std::shared_ptr<const Mesh>()>& make) const;
+
     friend bool operator==(const Grid& a, const Grid& b) {
         const bool sameMesh = a.mesh_ == b.mesh_ || (a.mesh_ && b.mesh_ && *a.mesh_ == *b.mesh_);
         return sameMesh && a.axes_ == b.axes_ && a.frame_ == b.frame_;
@@ -119,6 +125,8 @@ class Grid {
     CoordinateFrame frame_;
     std::shared_ptr<const Mesh> mesh_;
     bool ofOneStep_ = false;
+    struct Elsewhere;
+    std::shared_ptr<Elsewhere> elsewhere_;  // shared by copies
 };
 
 // Coordinates x, y and z without bounds: of points that lie one by one.

@@ -76,6 +76,12 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size), period_(places.period
     });
 }
 
+Mesh::Mesh(const std::array<std::size_t, 3>& size, const std::vector<glm::dvec3>& between,
+           const glm::dvec3& longestWay, const std::function<MeshPoint(std::uint64_t)>& point)
+    : size_(size), longestWay_(longestWay) {
+    takeColumns(count(), between, {}, point);
+}
+
 Mesh::Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
            const std::function<MeshPoint(std::uint64_t)>& point, const std::vector<double>& levels,
            std::shared_ptr<const SolidCells> solids)

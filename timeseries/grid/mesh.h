@@ -31,6 +31,10 @@ class Mesh {
     // A curvilinear grid. Throws std::invalid_argument when the places are not as many as `size`
     // says, none is finite, or no cell of them has a volume.
     explicit Mesh(const MeshPlaces& places);
+    // One whose places and cells are known, x fastest, where neighbours are at most `longestWay`
+    // apart along each coordinate. `between` and `point` as below.
+    Mesh(const std::array<std::size_t, 3>& size, const std::vector<glm::dvec3>& between,
+         const glm::dvec3& longestWay, const std::function<MeshPoint(std::uint64_t index)>& point);
     // Points without neighbours, as many as `count`, which lie between these, with splats that are
     // `spread` times as wide as the cells. `point` is called by several threads at once. With
     // levels, as MeshPlaces has them, each is the column of points at these, of cells as high as

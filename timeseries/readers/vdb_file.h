@@ -33,8 +33,8 @@ struct VdbGrid {
     ValueType value{};          // of a number
     std::uint64_t numbers = 1;  // of a voxel
     bool isHalf = false;        // as the file holds them
-    std::string kind;           // its class: "fog volume", "level set"
-    VdbBox box;                 // of what is active
+    std::string kind = {};      // its class: "fog volume", "level set"
+    VdbBox box = {};            // of what is active
     // The middle of voxel (i, j, k) is origin + i steps[0] + j steps[1] + k steps[2].
     glm::dmat3 steps{1.0};
     glm::dvec3 origin{0.0};

@@ -1,0 +1,30 @@
+#include "app/choices/map_flaw.h"
+
+#include <fmt/format.h>
+
+#include "render/points/globe.h"
+
+namespace app {
+
+std::string globeFlaw(const timeseries::Grid& grid) {
+    if (!render::isGeographic(grid)) {
+        const auto told = [&](std::size_t axis) {
+            const auto& [name, units, coordinates, down] = grid.axes()[axis];
+            return units.empty() ? name : fmt::format("{} ({})", name, units);
+        };
+        return fmt::format(
+            "a globe is drawn of longitudes and latitudes in degrees, not of {} and {}", told(0),
+            told(1));
+    }
+    constexpr double kPole = 90.01;  // beyond rounding
+    if (const auto y = grid.ends(1); y.least < -kPole || y.most > kPole)
+        return fmt::format(
+            "a globe is drawn of latitudes from -90 to 90, not from {:.7g} to {:.7g}", y.least,
+            y.most);
+    if (grid.count() > render::Globe::kMostPoints)
+        return fmt::format("a globe is drawn of at most {} points, not of {}",
+                           render::Globe::kMostPoints, grid.count());
+    return "";
+}
+
+}  // namespace app

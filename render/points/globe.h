@@ -1,0 +1,80 @@
+// The Earth as a ball: where places of longitude, latitude and height lie in space. Pure, in
+// double.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+
+#include "timeseries/grid/grid.h"
+
+namespace render {
+
+// Whether the first two axes are longitude and latitude in degrees (CF 1.10, sections 4.1 and 4.2),
+// at most once round.
+bool isGeographic(const timeseries::Grid& grid);
+// Coordinates that count downwards from the surface of the Earth, but for the air's pressure.
+bool isDepth(const timeseries::Axis& axis);
+
+// The surface has radius 1 about the origin. At longitude a, latitude b and radius r a place is
+//   (r cos b cos a, r cos b sin a, r sin b),
+// and of a field that covers less than half of the longitudes this turned so that at its middle x
+// leads east, y north and z up, and tilted towards who looks from the front (-y) by half of its
+// latitudes. Heights, depths, and what else the third axis counts, add to the
+// radius or take from it in proportion, exaggerated.
+class Globe {
+ public:
+    static constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 26;  // 36 bytes each
+
+    // `stretch`: of lengths how many times as long as on the Earth they are drawn, of other units
+    // how many degrees of the surface one of them is. Without it they reach a tenth of the radius,
+    // or half of the field's longer side where that is less. In either case no deeper than nine
+    // tenths of the radius. REQUIRES: isGeographic(grid).
+    explicit Globe(const timeseries::Grid& grid, std::optional<double> stretch = {});
+
+    // `place`: longitude and latitude in degrees, and the third coordinate, as the file has them.
+    glm::dvec3 at(const glm::dvec3& place) const;
+    struct Directions {
+        glm::dvec3 east, north, up;
+    };
+    Directions directionsAt(const glm::dvec3& place) const;
+    double radius(double third) const { return 1 + perUnit_ * (third - surface_); }
+    // Columns: the ways of a degree east, a degree north and a unit of the third coordinate.
+    glm::dmat3 waysAt(const glm::dvec3& place) const;
+    // What is between the ends of the grid's axes lies in this box, as do all steps of a series; of
+    // a field that goes about half of the longitudes or more all of the globe.
+    struct Box {
+        glm::dvec3 lo, hi;
+    };
+    Box box() const;
+    bool isWhole() const { return 2 * (hi_.x - lo_.x) >= 360; }
+    // Below all that is drawn.
+    double ballRadius() const { return ball_; }
+
+    double surface() const { return surface_; }  // the third coordinate there
+    bool liesBelow() const { return below_; }    // what is drawn, below the surface
+    // Of lengths, how many times as long as on the Earth they are drawn; of other units nothing.
+    std::optional<double> exaggeration() const;
+    double degreesPerUnit() const;  // of the surface that a unit is drawn as long as; 0: none
+    // The corners of the field, in degrees.
+    glm::dvec2 lo() const { return glm::dvec2(lo_); }
+    glm::dvec2 hi() const { return glm::dvec2(hi_); }
+
+    // The grid's points in this space: of upright grids cells have the volumes that they have
+    // between spheres, cones and half planes, exactly; at 360 degrees the first and the last points
+    // are one. Made once while somebody holds it. REQUIRES: no more points than that, no latitudes
+    // beyond the poles.
+    std::shared_ptr<const timeseries::Mesh> meshOf(const timeseries::Grid& grid) const;
+
+ private:
+    glm::dmat3 turn_{1.0};
+    glm::dvec3 lo_, hi_;  // the ends of the axes
+    double surface_ = 0, perUnit_ = 0, ball_ = 1;
+    std::optional<double> metres_;  // of a unit
+    bool below_ = false;
+};
+
+}  // namespace render

@@ -1,0 +1,159 @@
+// The points of a grid on a globe, and the cells that they stand for there.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+#include <vector>
+
+#include "render/points/globe.h"
+
+namespace render {
+namespace {
+
+using timeseries::Axis;
+using timeseries::Grid;
+using timeseries::Mesh;
+using timeseries::MeshPoint;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The part of an axis from half the way to the point before to half the way to the one after, at
+// an end as far beyond it.
+struct Stretch {
+    double from, to;
+    double length() const { return to - from; }
+};
+Stretch aboutPoint(const Axis& axis, std::size_t i) {
+    const double half = 0.5 * std::abs(axis.width(i));
+    return {axis.coordinates[i] - half, axis.coordinates[i] + half};
+}
+
+// Where the last point is the first, once round, each stands for half of what it stands for.
+bool comesRound(const Axis& longitude) {
+    constexpr double kOnePlace = 1e-3;  // of a step
+    const auto& c = longitude.coordinates;
+    const double beyond = std::abs(std::abs(c.back() - c.front()) - 360);
+    return c.size() > 2 && beyond < kOnePlace * std::abs(longitude.width(0));
+}
+
+// Cells of an upright grid: between two meridians, two parallels and two spheres, whose volume is
+// (sin b2 - sin b1) (a2 - a1) (r2^3 - r1^3) / 3.
+class UprightCells {
+ public:
+    UprightCells(const Grid& grid, const Globe& globe)
+        : axes_(grid.axes()),
+          globe_(globe),
+          size_(axes_[0].coordinates.size(), axes_[1].coordinates.size(),
+                axes_[2].coordinates.size()) {
+        const bool halves = comesRound(axes_[0]);
+        for (std::size_t i = 0; i < size_.x; ++i) {
+            const bool isEnd = i == 0 || i + 1 == size_.x;
+            const double wide = axes_[0].width(i) * (halves && isEnd ? 0.5 : 1);
+            degreesEast_.push_back(size_.x > 1 ? wide : 1);
+        }
+        for (std::size_t j = 0; j < size_.y; ++j) {
+            const double sense = axes_[1].width(j) < 0 ? -1 : 1;
+            const Stretch b =
+                size_.y > 1 ? aboutPoint(axes_[1], j)
+                            : Stretch{axes_[1].coordinates[j] - 0.5, axes_[1].coordinates[j] + 0.5};
+            const double from = std::max(b.from, -90.0), to = std::min(b.to, 90.0);
+            degreesNorth_.push_back(sense * std::max(to - from, 0.0));
+            const double sines = std::sin(to * kDegree) - std::sin(from * kDegree);
+            cosine_.push_back(to > from ? sines / ((to - from) * kDegree) : 0);
+        }
+        double area = 0;
+        for (std::size_t j = 0; j < size_.y; ++j)
+            area += std::abs(degreesNorth_[j] * cosine_[j]) / static_cast<double>(size_.y);
+        const double wide = (axes_[0].coordinates.back() - axes_[0].coordinates.front()) /
+                            std::max(static_cast<double>(size_.x) - 1, 1.0);
+        thickness_ = std::sqrt(area * std::max(std::abs(wide), 1e-9)) * kDegree;
+        for (std::size_t k = 0; k < size_.z; ++k) {
+            const Stretch third = aboutPoint(axes_[2], k);
+            const double middle = globe.radius(axes_[2].coordinates[k]);
+            double r1 = globe.radius(third.from), r2 = globe.radius(third.to);
+            if (size_.z == 1) r1 = middle - thickness_ / 2, r2 = middle + thickness_ / 2;
+            outwards_.push_back((axes_[2].width(k) < 0 ? -1 : 1) * (r2 - r1));
+            squared_.push_back((r1 * r1 + r1 * r2 + r2 * r2) / 3);
+        }
+    }
+
+    MeshPoint operator()(std::uint64_t index) const {
+        const auto at = timeseries::indicesOf(index, size_);
+        const glm::dvec3 place(axes_[0].coordinates[at.x], axes_[1].coordinates[at.y],
+                               axes_[2].coordinates[at.z]);
+        const auto [east, north, up] = globe_.directionsAt(place);
+        const double r = std::sqrt(squared_[at.z]) * kDegree;
+        const glm::dmat3 rows =
+            glm::transpose(glm::dmat3(r * cosine_[at.y] * degreesEast_[at.x] * east,
+                                      r * degreesNorth_[at.y] * north, outwards_[at.z] * up));
+        return {globe_.at(place), {rows[0], rows[1], rows[2]}};
+    }
+    // Neighbours are no farther apart along any coordinate.
+    double longestWay() const {
+        const auto longest = [](const std::vector<double>& v) {
+            double most = 0;
+            for (const double each : v) most = std::max(most, std::abs(each));
+            return most;
+        };
+        const double farthest = std::sqrt(*std::ranges::max_element(squared_));
+        // A step between two points is no longer than twice what one of them stands for.
+        return 2 * std::max(farthest * 1.1 * kDegree *
+                                std::max(longest(degreesEast_), longest(degreesNorth_)),
+                            longest(outwards_));
+    }
+
+ private:
+    const std::array<Axis, 3>& axes_;
+    const Globe& globe_;
+    glm::vec<3, std::uint64_t> size_;
+    // Of each point along its axis: signed along increasing index; the mean cosine of latitude and
+    // the mean square of the radius in its cells.
+    std::vector<double> degreesEast_, degreesNorth_, cosine_, outwards_, squared_;
+    double thickness_ = 0;  // of one level: as thick as its cells are wide
+};
+
+// Points with neighbours have the cells that lie between these, wherever they are.
+std::shared_ptr<const Mesh> curvilinear(const Mesh& file, const Globe& globe) {
+    timeseries::MeshPlaces places{.size = file.size(), .at = {}};
+    places.at.reserve(file.count());
+    for (std::uint64_t i = 0; i < file.count(); ++i)
+        places.at.push_back(globe.at(file.position(i)));
+    return std::make_shared<const Mesh>(places);
+}
+
+// Others the ones of the file, of which the globe turns, shears and stretches each.
+std::shared_ptr<const Mesh> oneByOne(const Mesh& file, const Globe& globe,
+                                     const std::vector<glm::dvec3>& between) {
+    return std::make_shared<const Mesh>(
+        file.count(), between, file.spread(),
+        [&](std::uint64_t i) {
+            const glm::dvec3 place = file.position(i);
+            const auto rows = file.cell(i).rows();
+            const glm::dmat3 sides =
+                glm::transpose(glm::dmat3(rows[0], rows[1], rows[2])) / file.spread();
+            const glm::dmat3 onGlobe = glm::transpose(globe.waysAt(place) * sides);
+            return MeshPoint{globe.at(place), {onGlobe[0], onGlobe[1], onGlobe[2]}};
+        },
+        std::vector<double>{}, file.solids());
+}
+
+}  // namespace
+
+std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid) const {
+    return grid.elsewhere(perUnit_, [&]() -> std::shared_ptr<const Mesh> {
+        const Box bounds = box();
+        const std::vector between{bounds.lo, bounds.hi};
+        if (!grid.mesh()) {
+            const UprightCells cells(grid, *this);
+            return std::make_shared<const Mesh>(grid.size(), between,
+                                                glm::dvec3(cells.longestWay()),
+                                                [&](std::uint64_t index) { return cells(index); });
+        }
+        return grid.mesh()->hasNeighbours() ? curvilinear(*grid.mesh(), *this)
+                                            : oneByOne(*grid.mesh(), *this, between);
+    });
+}
+
+}  // namespace render
