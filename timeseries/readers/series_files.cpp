@@ -226,7 +226,7 @@ ExpandedSeries folder(const Path& folder) {
     if (!listed)
         throw FileError(fmt::format("{}: expected a folder of at most {} files, found more",
                                     folder.string(), kMaxSeriesFiles));
-    if (Paths plotfiles = filesIn(folder, Members::Plotfiles).value(); !plotfiles.empty())
+    if (auto plotfiles = filesIn(folder, Members::Plotfiles); plotfiles && !plotfiles->empty())
         listed = std::move(plotfiles);
     std::ranges::sort(*listed, nameLess);
     std::map<std::string, Paths> byExtension;
