@@ -232,7 +232,7 @@ ExpandedSeries folder(const Path& folder) {
         throw FileError(fmt::format("{}: expected a folder of at most {} files, found more",
                                     folder.string(), kMaxSeriesFiles));
     *listed = firstPartsOf(std::move(*listed));
-    if (Paths plotfiles = filesIn(folder, Members::Plotfiles).value(); !plotfiles.empty())
+    if (auto plotfiles = filesIn(folder, Members::Plotfiles); plotfiles && !plotfiles->empty())
         listed = std::move(plotfiles);
     std::ranges::sort(*listed, nameLess);
     std::map<std::string, Paths> byExtension;
