@@ -296,7 +296,8 @@ void FesomFile::hide(const NcVariable& variable, std::span<const std::size_t> st
     const bool areLayers = !vertical;
     if (!vertical) vertical = positionOf(variable, dimensionOf(header_, kLayers));
     if (!list || !vertical) return;
-    const auto& [first, beyond] = levelsOf(atNodes);
+    const auto& levels = levelsOf(atNodes);
+    const std::vector<double>&first = levels[0], &beyond = levels[1];
     if (first.empty() && beyond.empty()) return;
     std::size_t total = 1, listStride = 1, verticalStride = 1;
     for (std::size_t i = count.size(); i-- > 0; total *= count[i]) {

@@ -7,10 +7,9 @@
 #include <string_view>
 
 namespace timeseries {
+namespace {
 
 using Path = std::filesystem::path;
-
-namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
