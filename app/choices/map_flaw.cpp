@@ -24,6 +24,8 @@ std::string globeFlaw(const timeseries::Grid& grid) {
     if (grid.count() > render::Globe::kMostPoints)
         return fmt::format("a globe is drawn of at most {} points, not of {}",
                            render::Globe::kMostPoints, grid.count());
+    if (!render::Globe::shows(grid))
+        return "a globe is drawn of more than one place, and of heights that are told apart";
     return "";
 }
 

@@ -10,9 +10,10 @@
 #include "app/drawing/telling.h"
 #include "app/picture/still.h"
 #include "render/gl/timer.h"
-#include "render/splat/splat_cost.h"
 #include "render/reference/cell_pick.h"
 #include "render/splat/cell_pieces.h"
+#include "render/splat/gl_tets.h"
+#include "render/splat/splat_cost.h"
 
 namespace app {
 namespace {
@@ -106,6 +107,13 @@ struct Canvas::State {
     bool isThere(const GlSteps::Held& held, const render::Scene& scene) const {
         return !renderer.splatters().takesPointsFromGpu(scene) || held.onGpu.ready(scene);
     }
+    // Tetrahedra for GL are listed and put in order by the processor in one go, as the selection or
+    // the eye moves: so many in 50 ms on two cores (tests/bench/NOTES.md).
+    bool listsForLong(const render::Scene& scene) const {
+        constexpr std::uint64_t kMost = sizeof(render::GlTet) << 17;
+        return scene.cells && scene.placed.isMesh() && renderer.splatters().sumsByGl(scene) &&
+               render::GlPieces::bytesOf(scene) > kMost;
+    }
     // What stands there in what was shown last.
     std::optional<render::Picked> pick(const render::View& eye, const glm::dvec2& window) const;
     // What of the scene is on the screen.
@@ -120,7 +128,7 @@ struct Canvas::State {
 render::Scene Canvas::State::thinned(render::Scene scene, std::span<const render::View> eyes,
                                      const CanvasLimits& limits) const {
     const bool isWhole = limits.rung ? *limits.rung == (scene.cells ? Rung{} : Rung{Model::Points})
-                                     : keepsTo(limits, scene, eyes);
+                                     : keepsTo(limits, scene, eyes) && !listsForLong(scene);
     if (isWhole) return scene;
     render::Scene points = byPoints(scene);
     if (scene.cells && !isThere(*screen->held, points)) return scene;
@@ -137,7 +145,7 @@ void Canvas::State::choose(const Explorer& choices) {
     Screen changed = *screen;
     changed.explorer = choices;
     if (!isThere(*changed.held, sceneOf(changed))) return;
-    changed.held->place(placesOf(choices));
+    if (!changed.held->place(placesOf(choices))) return;  // another globe, which is to come
     screen = std::move(changed);
 }
 

@@ -42,7 +42,7 @@ render::Outline GlSteps::outline(const std::shared_ptr<const timeseries::SortedS
     const auto found = std::ranges::find_if(
         held_, [&](const Held& held) { return held.sorted.lock() == sorted && held.places == at; });
     if (found != held_.end()) return found->placed.outline();
-    return render::PlacedPoints(sorted->grid(), at.scale, at.map).outline();
+    return render::PlacedPoints::outlineOf(sorted->grid(), at.scale, at.map);
 }
 
 void GlSteps::trim(std::uint64_t budgetBytes, const Held* drawn, const Held* coming) {

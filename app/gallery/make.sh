@@ -39,6 +39,9 @@ picture "$data/echam_rhumidity_gaussian_3d.nc" humidity_globe.png --map globe --
     --range 0.95:max --colormap viridis --opacity 0.35
 picture "$data/grids/icon_ocean_triangles.nc" ocean_of_triangles_globe.png --map globe --variable S --size 1000x750 --view 60,25 \
     --range 33:37.5 --colormap viridis --opacity 0.5
+currents=(--range min:-0.08,0.08:max --colormap cool-warm=-0.3:0.3 --opacity 0.5 --size 1000x750)
+picture "$data/nemo_northsea_u.nc" currents_globe.png --map globe --view 0,62,2.1 --target -0.3,0.05,0.1 "${currents[@]}"
+picture "$data/nemo_northsea_u.nc" currents.png --view 0,65,2.2 --target -0.3,0.1,0.2 "${currents[@]}"
 picture "$data/bluntfin/bluntfin.vts" bluntfin.png --size 1000x750 --view 25,22 --range 1.6:max --colormap viridis --opacity 0.35
 picture "$data/grids/wrf_mercator_moving_nest.nc" moving_nest.png --variable QRAIN --size 1000x750 --view 20,25 --step 2
 picture "$data/dambreak_amr/dambreak.pvd" dam_break.png --size 1000x750 --step 4 --view 25,22 --range 0.5:1 --color '#3aa0ff' --opacity 0.22

@@ -97,8 +97,8 @@ struct SeenWhole {
 
     SeenWhole(const Ways& ways, Model model, const render::SampledTruth& truth,
               const ErrorQuestion& question)
-        : order(ways.orderOf(model, truth)) {
-        if (question.parts == Parts::None) return;
+        : order(ways.isWanted() ? ways.orderOf(model, truth) : 0) {
+        if (question.parts == Parts::None || !ways.isWanted()) return;
         const render::DepthAt picture = ways.depthOf(ways.sceneOf({model}));
         if (!ways.isWanted()) return;
         asDrawn = picture(truth.pixels());

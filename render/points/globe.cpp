@@ -58,8 +58,12 @@ std::optional<double> metresOf(const Axis& axis) {
     return std::nullopt;
 }
 
-// Levels of the air that count downwards, too.
-bool isHybrid(const Axis& axis) { return lowerCase(axis.units).starts_with("hybrid"); }
+// Levels of the air count downwards, too: of what is no length, the name tells.
+bool saysDepth(const Axis& axis) {
+    const std::string name = lowerCase(axis.name), units = lowerCase(axis.units);
+    if (units.starts_with("dbar") || units.starts_with("decibar")) return true;  // the sea's
+    return name.find("depth") != name.npos || name.find("ocean") != name.npos;
+}
 
 // Columns: east, north, up, before anything is turned.
 glm::dmat3 directionsOf(const glm::dvec3& place) {
@@ -88,7 +92,7 @@ bool isDepth(const Axis& axis) {
 }
 
 Globe::Globe(const Grid& grid, std::optional<double> stretch) {
-    constexpr double kFitted = 0.1, kFittedShare = 0.5, kDeepest = 0.9;
+    constexpr double kFitted = 0.1, kFittedShare = 0.5, kDeepest = 0.9, kHighest = 9;
     const Axis& axis = grid.axes()[2];
     const auto x = grid.ends(0), y = grid.ends(1), z = grid.ends(2);
     lo_ = {x.least, y.least, z.least};
@@ -101,7 +105,7 @@ Globe::Globe(const Grid& grid, std::optional<double> stretch) {
         turn_ = tilted * glm::transpose(directionsOf(middle));
     }
     metres_ = metresOf(axis);
-    below_ = metres_ ? (middle.z > 0) == axis.down : isDepth(axis) && !isHybrid(axis);
+    below_ = metres_ ? (middle.z > 0) == axis.down : isDepth(axis) && saysDepth(axis);
     surface_ = metres_ ? 0 : below_ == axis.down ? z.least : z.most;
 
     const double farthest = std::max(std::abs(z.least - surface_), std::abs(z.most - surface_));
@@ -110,9 +114,13 @@ Globe::Globe(const Grid& grid, std::optional<double> stretch) {
     } else {
         const double wide = (x.most - x.least) * std::cos(middle.y * kPerDegree);
         const double longer = std::max(wide, y.most - y.least) * kPerDegree;
-        double perUnit = std::min(kFitted, kFittedShare * longer) / farthest;
+        // A column alone has no longer side.
+        const double fitted = longer > 0 ? std::min(kFitted, kFittedShare * longer) : kFitted;
+        double perUnit = fitted / farthest;
         if (stretch) perUnit = *stretch * (metres_ ? *metres_ / kEarth : kPerDegree);
-        if (below_) perUnit = std::min(perUnit, kDeepest / farthest);
+        const double deepest = axis.down ? z.most - surface_ : surface_ - z.least;
+        if (deepest > 0) perUnit = std::min(perUnit, kDeepest / deepest);
+        perUnit = std::min(perUnit, kHighest / farthest);
         perUnit_ = axis.down ? -perUnit : perUnit;
     }
     const auto levels = static_cast<double>(grid.size()[2]);
@@ -124,6 +132,21 @@ Globe::Globe(const Grid& grid, std::optional<double> stretch) {
     const double thick = levels > 1 ? std::abs(radius(z.most) - radius(z.least)) / (levels - 1)
                                     : std::sqrt(area / columns);
     ball_ = std::max(lowest - 0.5 * thick, 0.5 * lowest);
+}
+
+bool Globe::isSound() const {
+    const bool isFlat = lo_.z == hi_.z;
+    return std::isfinite(radius(lo_.z)) && std::isfinite(radius(hi_.z)) &&
+           (isFlat || (std::isfinite(perUnit_) && perUnit_ != 0));
+}
+
+bool Globe::shows(const Grid& grid) {
+    constexpr double kPole = 90.01;  // beyond rounding
+    if (!isGeographic(grid) || grid.count() > kMostPoints) return false;
+    const auto y = grid.ends(1);
+    const auto x = grid.ends(0);
+    const bool isOnePlace = x.least == x.most && y.least == y.most;
+    return !isOnePlace && y.least >= -kPole && y.most <= kPole && Globe(grid).isSound();
 }
 
 Globe::Directions Globe::directionsAt(const glm::dvec3& place) const {

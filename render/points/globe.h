@@ -32,8 +32,11 @@ class Globe {
     // `stretch`: of lengths how many times as long as on the Earth they are drawn, of other units
     // how many degrees of the surface one of them is. Without it they reach a tenth of the radius,
     // or half of the field's longer side where that is less. In either case no deeper than nine
-    // tenths of the radius. REQUIRES: isGeographic(grid).
+    // tenths of the radius, and no higher than nine times as far out. REQUIRES: isGeographic(grid).
     explicit Globe(const timeseries::Grid& grid, std::optional<double> stretch = {});
+    // Whether a grid can be drawn so: geographic, between the poles, of so many points at most, of
+    // more than one place, and of heights that are told apart.
+    static bool shows(const timeseries::Grid& grid);
 
     // `place`: longitude and latitude in degrees, and the third coordinate, as the file has them.
     glm::dvec3 at(const glm::dvec3& place) const;
@@ -71,7 +74,9 @@ class Globe {
 
  private:
     glm::dmat3 turn_{1.0};
-    glm::dvec3 lo_, hi_;  // the ends of the axes
+    glm::dvec3 lo_, hi_;   // the ends of the axes
+    bool isSound() const;  // radii are numbers, and several levels have several
+
     double surface_ = 0, perUnit_ = 0, ball_ = 1;
     std::optional<double> metres_;  // of a unit
     bool below_ = false;

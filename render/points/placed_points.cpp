@@ -72,9 +72,13 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, 
     : mesh_(grid.mesh()),
       size_(grid.size()[0], grid.size()[1], grid.size()[2]),
       worldFromAxes_(grid.frame().directions) {
-    if (map == Map::Globe) {
-        placeOnGlobe(grid, stretch);
-        return;
+    if (map == Map::Globe && Globe::shows(grid)) {
+        try {
+            placeOnGlobe(grid, stretch);
+            return;
+        } catch (const std::invalid_argument&) {  // no cell of it has a volume there
+            globe_ = nullptr;
+        }
     }
     // Thinner boxes and cells could not be seen; their volumes would leave the GPU's floats.
     constexpr Wide kThinnestBox = 1e-9L;
@@ -96,10 +100,19 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, 
     mesh_ ? measureMesh() : measureAxes(grid);
 }
 
+Outline PlacedPoints::outlineOf(const Grid& grid, std::optional<glm::dvec3> stretch, Map map) {
+    if (map != Map::Globe || !Globe::shows(grid)) return PlacedPoints(grid, stretch).outline();
+    const Globe globe(grid, stretch ? std::optional(stretch->z) : std::nullopt);
+    const Globe::Box box = globe.box();
+    const glm::dvec3 half = 0.5 * (box.hi - box.lo) / glm::length(0.5 * (box.hi - box.lo));
+    return {glm::dmat3(half.x, 0, 0, 0, half.y, 0, 0, 0, half.z), globe.isWhole()};
+}
+
 void PlacedPoints::placeOnGlobe(const Grid& grid, std::optional<glm::dvec3> stretch) {
     globe_ =
         std::make_shared<const Globe>(grid, stretch ? std::optional(stretch->z) : std::nullopt);
-    fileMesh_ = std::exchange(mesh_, globe_->meshOf(grid));
+    auto mesh = globe_->meshOf(grid);
+    fileMesh_ = std::exchange(mesh_, std::move(mesh));
     const Globe::Box box = globe_->box();
     const double radius = glm::length(0.5 * (box.hi - box.lo));
     boxHalf_ = 0.5 * (box.hi - box.lo) / radius;

@@ -62,8 +62,7 @@ class PlacedPoints {
     // Without it axes of one unit keep their proportions, however flat, and axes of other units are
     // fitted to half the length of the longest. Axes that count downwards are drawn downwards.
     // On a globe (render/points/globe.h) points are those of a mesh in space, of whose `stretch`
-    // the third counts; clip boxes stay the file's. REQUIRES of a globe: isGeographic(grid), and
-    // what Globe::meshOf() does.
+    // the third counts; clip boxes stay the file's. A grid that a globe cannot show lies flat.
     explicit PlacedPoints(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch = {},
                           Map map = Map::Flat);
 
@@ -144,6 +143,9 @@ class PlacedPoints {
     glm::dvec3 boxHalf() const { return boxHalf_; }
     // The half box in the world: columns from the centre of the box to the middles of its faces.
     glm::dmat3 boxHalfEdges() const;
+    // Without placing a point.
+    static Outline outlineOf(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch,
+                             Map map);
     Outline outline() const { return {boxHalfEdges(), globe_ && globe_->isWhole()}; }
     // World length per grid unit along each axis, signed; their ratios are what a picture states.
     glm::dvec3 scale() const;

@@ -135,11 +135,42 @@ TEST(Globe, DepthsGoInwardsAndHeightsOutwards) {
     expect(measuredAxis("lev", "hPa", 1000, 10, 9, true), false);
     expect(measuredAxis("lev", "hybrid_sigma_pressure", 5, 992, 9, true), false);
     expect(measuredAxis("level", "index", 0, 8, 9), false);
+    // Levels of the air that count downwards.
+    expect(measuredAxis("lev", "level", 1, 9, 9, true), false);
+    expect(measuredAxis("sigma", "1", 0.1, 0.9, 9, true), false);
     // However large a stretch is asked for, nothing passes the Earth's centre.
     const auto grid =
         gridOf(east(0, 350, 36), north(-80, 80, 17), measuredAxis("depth", "m", 0, 5000, 5, true));
     EXPECT_GT(Globe(*grid, 1e9).radius(5000), 0);
     EXPECT_GT(Globe(*grid, 1e9).ballRadius(), 0);
+    const auto both =
+        gridOf(east(0, 350, 36), north(-80, 80, 17), measuredAxis("z", "m", -4000, 9000, 5));
+    EXPECT_NEAR(Globe(*both, 1e9).radius(-4000), 0.1, 1e-12);
+    EXPECT_GT(Globe(*both, 1e9).ballRadius(), 0);
+    EXPECT_NEAR(Globe(*both, 1e4).radius(0), 1, 1e-12);
+}
+
+// What a globe cannot show lies flat, and how far a globe reaches is known without its points.
+TEST(Globe, OfOnePlaceOrOfHeightsThatAreNotToldApartThereIsNone) {
+    const auto tiny = std::numeric_limits<double>::denorm_min();
+    for (const auto& grid :
+         {gridOf(east(5, 5, 1), north(10, 10, 1), measuredAxis("z", "m", 0, 2, 3)),
+          gridOf(east(0, 9, 10), north(0, 9, 10), measuredAxis("z", "m", 0, tiny, 2))}) {
+        EXPECT_FALSE(Globe::shows(*grid));
+        const PlacedPoints placed(*grid, {}, Map::Globe);
+        EXPECT_EQ(placed.globe(), nullptr);
+        EXPECT_EQ(placed.isMesh(), false);
+    }
+    for (const auto& grid : {gridOf(east(0, 350, 36), north(-80, 80, 17), levels(3)),
+                             gridOf(east(-24, 32, 15), north(44, 76, 9), levels(2))})
+        for (const Map map : {Map::Flat, Map::Globe}) {
+            EXPECT_TRUE(Globe::shows(*grid));
+            const PlacedPoints placed(*grid, {}, map);
+            EXPECT_EQ(placed.globe() != nullptr, map == Map::Globe);
+            const Outline is = PlacedPoints::outlineOf(*grid, {}, map), expected = placed.outline();
+            EXPECT_EQ(is.isBall, expected.isBall);
+            EXPECT_EQ(is.boxHalfEdges, expected.boxHalfEdges);
+        }
 }
 
 // Whole spheres are filled exactly, with points on the poles or without, and where the first and

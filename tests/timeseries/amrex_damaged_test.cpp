@@ -48,6 +48,8 @@ TEST(DamagedAmrex, WhatATextSaysWrongIsTold) {
              {{"Header", "1.1\n2\n", "1.1\n0\n"}, "line 2: expected a number of variables from 1 "},
              {{"Header", "1.1\n2\n", "1.1\n3\n"}, "expected a number of dimensions"},
              {{"Header", "density\n", "\n"}, "expected the name of a variable"},
+             {{"Header", "density\n", "Temp of it\n"},
+              "expected names of variables that differ, found 'Temp of it' again"},
              {{"Header", "it\n3\n", "it\n1\n"},
               "expected a plotfile of 2 or 3 dimensions, found one of 1"},
              {{"Header", "it\n3\n", "it\n4\n"}, "expected a number of dimensions from 1 to 3"},

@@ -93,6 +93,10 @@ TEST(DamagedFoam, HeadersThatAreNoneAreTold) {
              {"FoamFile { format binary; arch \"MSB;label=32;scalar=64\"; class volScalarField; }" +
                   rest,
               "byte order"},
+             {"FoamFile { arch \"MSB;label=32;scalar=64\"; class volScalarField; format binary; }" +
+                  rest,
+              "byte order"},
+             {"FoamFile { meta { names (a b); ", "expected the end of an entry"},
              {"FoamFile { format binary; arch \"LSB;label=16;scalar=64\"; class volScalarField; }" +
                   rest,
               "label=32 or label=64"},
@@ -128,6 +132,8 @@ TEST(DamagedFoam, MeshesThatAreNoneAreTold) {
              Change{"faces", "faceList", "decomposedBlockData", "reconstructPar"},
              Change{"points", "\n12\n", "\n1000000\n", "expected a list that the file can hold"},
              Change{"points", "\n12\n", "\n11\n", "expected ')'"},
+             Change{"points", "\n12\n", "\n12{(0 0 0)}\n",
+                    "expected a list of rows that differ, found one for all"},
              Change{"points", "vectorField", "labelList", "expected a vectorField"},
              Change{"owner", "\n11\n", "\n10\n", "expected ')'"},
              Change{"owner", "\n0\n", "\n4000000000\n", "expected numbers from 0 to below 6"},
@@ -181,6 +187,9 @@ TEST(DamagedFoam, ProcessorsThatAreMissingAreTold) {
         putMesh(folder / name / "constant/polyMesh", cubes(1));
     }
     EXPECT_THAT(refusalOf(folder), HasSubstr("expected a folder processor1, found processor2"));
+    // Reconstructed, they are not asked for.
+    put(folder / "0/T", scalars({7}));
+    EXPECT_EQ(valuesOf<double>(*open(folder), "T"), std::vector<double>{7});
 }
 
 TEST(DamagedFoam, AFieldHasOneClassAtAllTimes) {

@@ -83,6 +83,32 @@ TEST(FoamField, DimensionsAreUnits) {
     EXPECT_EQ(units({"m^2/s^2"}), "m^2/s^2");
 }
 
+TEST(FoamField, HeadersMayHoldDictionariesAndLists) {
+    const std::string line = "    version 2.0;\n";
+    for (const char* entry :
+         {"meta { names (p U); inner { class x; } note \"};\"; }", "meta { format binary; };",
+          "meta named { class x; }", "list (1 (2 3));", "empty;"}) {
+        std::string file = field("volScalarField", "uniform 4", {}, "0 1 -1 0 0 0 0");
+        file.replace(file.find(line), line.size(), std::string(entry) + "\n");
+        const auto folder = caseOf(cubes(2));
+        put(folder / "0/T", file);
+        const auto reader = open(folder);
+        EXPECT_EQ(valuesOf<double>(*reader, "T"), Doubles(2, 4)) << entry;
+        EXPECT_EQ(reader->variables()[0].units, "m/s") << entry;
+    }
+}
+
+// A text has no order of bytes, whatever machine wrote it.
+TEST(FoamField, TextOfOtherMachinesIsRead) {
+    std::string file = scalars({1, 2});
+    const std::string format = "    format ascii;\n";
+    file.replace(file.find(format), format.size(),
+                 "    arch \"MSB;label=32;scalar=64\";\n" + format);
+    const auto folder = caseOf(cubes(2));
+    put(folder / "0/T", file);
+    EXPECT_EQ(valuesOf<double>(*open(folder), "T"), (Doubles{1, 2}));
+}
+
 TEST(FoamField, TimesAreTheNumbersOfTheirFolders) {
     const auto folder = caseOf(cubes(1));
     for (const char* time : {"10", "0", "1e-05", "0.5", "2", "0.10", "-3"})

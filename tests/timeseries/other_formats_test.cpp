@@ -21,7 +21,7 @@ const std::string kTail =
     "PLOT3D, CSV "
     "and, of VTK, image data, rectilinear, structured and unstructured grids, polygons (.vti, "
     ".vtr, .vts, "
-    ".vtu, .vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series)";
+    ".vtu, .vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series), OpenVDB";
 
 // What opening a file or folder says it is.
 std::string told(const Path& path) {

@@ -154,6 +154,21 @@ TEST(SnapshotFiles, OneThatIsMissingIsNamed) {
     }
 }
 
+// Whichever it is, the others tell that it is one of several.
+TEST(SnapshotFiles, OneThatIsCutShortLeavesTheOthersParts) {
+    for (std::size_t cut = 0; cut < 6; ++cut) {
+        freshFolder();
+        std::vector<Path> all = writeSnapshot({.snapshot = 9, .time = 0.5});
+        const auto second = writeSnapshot({.snapshot = 10, .time = 1.5});
+        all.insert(all.end(), second.begin(), second.end());
+        std::filesystem::resize_file(all[cut], 300);
+        for (const Path& path : {all[1], second[0], testFolder()})
+            EXPECT_THAT(expandSeries(std::span(&path, 1)).files, ElementsAre(all[0], second[0]))
+                << path << " beside " << all[cut];
+        EXPECT_THAT(expandSeries(all).files, ElementsAre(all[0], second[0])) << all[cut];
+    }
+}
+
 TEST(SnapshotFiles, ThatAreNotOfOneSnapshotAreRefused) {
     const auto refusal = [](std::size_t which, const std::function<void(Part&)>& change) {
         freshFolder();

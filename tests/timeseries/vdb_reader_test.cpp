@@ -201,6 +201,10 @@ TEST(VdbReader, WhatIsNotReadIsTold) {
     EXPECT_THAT(
         reader->damaged()[0].why,
         testing::HasSubstr("grid 'points': expected numbers or vectors of three, found a "));
+    auto tile = openvdb::FloatGrid::create(1);
+    tile->fill(openvdb::CoordBBox({0, 0, 0}, {1023, 1023, 1023}), 2.0f);
+    EXPECT_THAT(refusalOf(written({tile})),
+                testing::HasSubstr("voxels a byte of the file, found a box of 1073741824"));
     auto far = openvdb::FloatGrid::create(1);
     far->getAccessor().setValue({0, 0, 0}, 1);
     far->getAccessor().setValue({1 << 30, 0, 0}, 1);

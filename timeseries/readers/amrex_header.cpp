@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "timeseries/readers/amrex_text.h"
 #include "timeseries/readers/limits.h"
@@ -49,9 +50,13 @@ Beginning readBeginning(AmrexText& text, AmrexPlotfile& file) {
     if (!isVersion(text.restOfLine())) text.fail("the name of a plotfile's version");
     const std::int64_t names = text.integer("a number of variables", 1, kMostVariables);
     text.restOfLine();
+    std::set<std::string> seen;
     for (std::int64_t i = 0; i < names; ++i) {
         file.names.push_back(text.restOfLine());
-        if (file.names.back().empty()) text.fail("the name of a variable");
+        const std::string& name = file.names.back();
+        if (name.empty()) text.fail("the name of a variable");
+        if (!seen.insert(name).second)
+            text.fail(fmt::format("names of variables that differ, found '{}' again", name));
     }
     file.dimensions = static_cast<std::size_t>(text.integer("a number of dimensions", 1, 3));
     if (file.dimensions == 1) text.fail("a plotfile of 2 or 3 dimensions, found one of 1");

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "timeseries/readers/cut_name.h"
 #include "timeseries/readers/foam_file.h"
@@ -97,7 +98,7 @@ FoamCase::Meshes meshesIn(const fs::path& part, const FoamTimes& times) {
     return meshes;
 }
 
-// Of the processors of a case that was decomposed, whose numbers must be all from 0 on.
+// Of the processors of a case that was decomposed, in the order of their numbers.
 std::vector<fs::path> processorsOf(const fs::path& folder) {
     std::vector<fs::path> all;
     for (const std::string& name : foldersOrFilesIn(folder, fs::file_type::directory)) {
@@ -105,12 +106,17 @@ std::vector<fs::path> processorsOf(const fs::path& folder) {
         if (!name.starts_with(kProcessor) || name.size() == kProcessor.size() ||
             name.find_first_not_of("0123456789", kProcessor.size()) != name.npos)
             continue;
-        if (name != fmt::format("processor{}", all.size()))
-            throw FileError(fmt::format("{}: expected a folder processor{}, found {}",
-                                        folder.string(), all.size(), name));
         all.push_back(folder / name);
     }
     return all;
+}
+
+void expectAllFromZero(std::span<const fs::path> processors) {
+    for (std::size_t i = 0; i < processors.size(); ++i)
+        if (processors[i].filename() != fmt::format("processor{}", i))
+            throw FileError(fmt::format("{}: expected a folder processor{}, found {}",
+                                        processors[i].parent_path().string(), i,
+                                        processors[i].filename().string()));
 }
 
 // Collated: "processors4", or "processors4_0-1".
@@ -154,6 +160,7 @@ FoamTimes chooseParts(FoamCase& all) {
             return !fs::is_directory(processor / time.name, ignored);
         });
     if (common.size() > own.size()) {
+        expectAllFromZero(processors);
         all.parts = processors;
         all.notes.push_back(fmt::format("read from its {} processor folders", processors.size()));
         return common;

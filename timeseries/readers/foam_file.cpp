@@ -143,13 +143,19 @@ std::string_view FoamFile::next() {
     return {buffer_.data() + first, at_ - first};
 }
 
-bool FoamFile::take(std::string_view token) {
+std::string_view FoamFile::peek() {
     skipBlanks();
     fill(kLongestWord);
     const std::size_t before = at_;
-    if (next() == token) return true;
+    const std::string_view token = next();
     at_ = before;  // what was filled before stays where it is
-    return false;
+    return token;
+}
+
+bool FoamFile::take(std::string_view token) {
+    if (peek() != token) return false;
+    at_ += token.size();
+    return true;
 }
 
 void FoamFile::expect(std::string_view token) {
@@ -171,8 +177,6 @@ void FoamFile::skipEntry() {
 
 void FoamFile::readArch(std::string_view arch) {
     header_.hasArch = true;
-    if (arch.find("MSB") != arch.npos)
-        fail("expected numbers in the byte order of this machine, found MSB");
     const auto bytesOf = [&](std::string_view key) {
         const std::size_t at = arch.find(key);
         const std::string_view bits = at == arch.npos ? "" : arch.substr(at + key.size(), 2);
@@ -187,16 +191,18 @@ void FoamFile::readArch(std::string_view arch) {
 void FoamFile::readHeader() {
     if (!take("FoamFile")) fail("expected a header that begins with FoamFile");
     expect("{");
-    bool isBinary = false;
+    bool isBinary = false, isMsb = false;
     while (!take("}")) {
         const std::string keyword(next());
         if (keyword.empty()) fail("expected the end of the header");
-        skipBlanks();
+        if (keyword == ";") continue;  // behind a dictionary
         if (keyword == "{") fail("expected entries in the header, found '{'");
-        const std::string value(next());
-        if (value == ";") continue;
+        const std::string value(peek());
         if (keyword == "class") header_.className = value;
-        if (keyword == "arch") readArch(value);
+        if (keyword == "arch") {
+            readArch(value);
+            isMsb = value.find("MSB") != value.npos;
+        }
         if (keyword == "format") {
             if (value != "ascii" && value != "binary")
                 fail(fmt::format("expected the format ascii or binary, found '{}'", value));
@@ -204,6 +210,7 @@ void FoamFile::readHeader() {
         }
         skipEntry();
     }
+    if (isBinary && isMsb) fail("expected numbers in the byte order of this machine, found MSB");
     header_.isBinary = isBinary;
 }
 

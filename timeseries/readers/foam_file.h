@@ -46,7 +46,8 @@ class FoamFile {
 
     // A list's numbers, each in [least, end), -1 as kNoPoint. At most so many.
     std::vector<std::uint32_t> labels(std::int64_t least, std::uint64_t end, std::uint64_t most);
-    // A list of rows of so many scalars, of binary ones no wider than T. So many rows.
+    // A list of rows of so many scalars, of binary ones no wider than T. So many rows; one for all
+    // only where `least` is `most`.
     template <std::floating_point T>
     std::vector<T> rows(std::uint64_t components, std::uint64_t least, std::uint64_t most);
     // One row, as text.
@@ -80,6 +81,8 @@ class FoamFile {
     void skipBlanks();
     void skipLine();
     std::size_t wordEnd() const;
+    // As next(), but it stays.
+    std::string_view peek();
     void readBytes(std::uint64_t count, char* out);
     template <typename T>
     T number();

@@ -172,6 +172,8 @@ std::vector<T> FoamFile::rows(std::uint64_t components, std::uint64_t least, std
     if (list.count) check(*list.count);
     if (list.form == Form::Nothing) return all;
     if (list.form == Form::OneForAll) {
+        // Nothing else would bound what it takes.
+        if (least != most) fail("expected a list of rows that differ, found one for all");
         add();
         const std::vector<T> one = all;
         all.reserve(*list.count * components);

@@ -150,7 +150,7 @@ std::string notReadSentence(const std::filesystem::path& path, std::string_view 
         "of VTK, "
         "image "
         "data, rectilinear, structured and unstructured grids, polygons (.vti, .vtr, .vts, .vtu, "
-        ".vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series)";
+        ".vtp, .pvti and so on, .vtm, .vthb, .vtk, .pvd, .series), OpenVDB";
     return fmt::format("{} is {}; isochron reads {}", path.string(), what, kRead);
 }
 

@@ -40,13 +40,32 @@ double headerNumber(const NcHeader& header, const char* name) {
     return numbers.empty() ? 0 : numbers[0];
 }
 
-bool isPart(const fs::path& path) {
+// Unknown of a file that cannot be read.
+std::optional<bool> isPart(const fs::path& path) {
     try {
         const NetcdfFile file(path, NetcdfFile::Header::New);
         return isSnapshot(file.header()) && headerNumber(file.header(), "NumFilesPerSnapshot") > 1;
     } catch (const FileError&) {
-        return false;
+        return std::nullopt;
     }
+}
+
+// Of each kind of name all, if the first that can be read is one; each kind in natural order.
+std::vector<fs::path> partsAmong(std::span<const fs::path> files) {
+    constexpr std::size_t kMostAsked = 64;  // of one kind, all of which may be of another format
+    std::map<std::string, std::vector<fs::path>> byShape;
+    for (const fs::path& file : files)
+        if (partNameOf(file))
+            byShape[(file.parent_path() / shapeOf(file)).string()].push_back(file);
+    std::vector<fs::path> parts;
+    for (auto& [shape, alike] : byShape) {
+        std::ranges::sort(alike, nameLess);
+        std::optional<bool> areParts;
+        for (std::size_t i = 0; !areParts && i < std::min(alike.size(), kMostAsked); ++i)
+            areParts = isPart(alike[i]);
+        if (areParts.value_or(false)) parts.insert(parts.end(), alike.begin(), alike.end());
+    }
+    return parts;
 }
 
 }  // namespace
@@ -117,18 +136,8 @@ const NetcdfFile& SnapshotFiles::at(std::size_t index) const {
 }
 
 std::vector<fs::path> firstPartsOf(std::vector<fs::path> files) {
-    std::map<std::string, bool> areParts;  // by the shapes of names
-    std::map<fs::path, fs::path> first;    // by the names without numbers
-    for (const fs::path& file : files) {
-        const auto name = partNameOf(file);
-        if (!name) continue;
-        const std::string shape = (file.parent_path() / shapeOf(file)).string();
-        auto kind = areParts.find(shape);
-        if (kind == areParts.end()) kind = areParts.emplace(shape, isPart(file)).first;
-        if (!kind->second) continue;
-        const auto [least, isNew] = first.emplace(name->whole(), file);
-        if (!isNew && nameLess(file, least->second)) least->second = file;
-    }
+    std::map<fs::path, fs::path> first;  // by the names without numbers
+    for (const fs::path& part : partsAmong(files)) first.emplace(partNameOf(part)->whole(), part);
     std::erase_if(files, [&](const fs::path& file) {
         const auto name = partNameOf(file);
         const auto found = first.find(name ? name->whole() : file);

@@ -36,9 +36,9 @@ class SnapshotFiles {
     mutable std::vector<bool> known_;  // those whose headers were read
 };
 
-// Of files that are parts of snapshots, told by their names and by the header of one of each kind,
-// the first alone of each snapshot; nor what SWIFT writes beside them. The others as they are, in
-// the order in which they are given.
+// Of files that are parts of snapshots, told by their names and by the header of one of each kind
+// that can be read, the first alone of each snapshot; nor what SWIFT writes beside them. The others
+// as they are, in the order in which they are given.
 std::vector<std::filesystem::path> firstPartsOf(std::vector<std::filesystem::path> files);
 
 // Which of firstPartsOf() stands for a file, or the file itself.

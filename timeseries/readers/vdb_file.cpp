@@ -155,6 +155,7 @@ void VdbFile::tried(std::string_view place, std::uint64_t more,
 void VdbFile::readHeader() {
     openvdb::io::File file(path_.string());
     file.open(false);
+    const std::uint64_t bytes = file.getSize();
     std::vector<std::string> names;
     for (auto name = file.beginName(); name != file.endName(); ++name)
         names.push_back(name.gridName());
@@ -193,6 +194,13 @@ void VdbFile::readHeader() {
                        ? std::string("expected active voxels, found none")
                        : fmt::format("expected at most 2^32 voxels, found {} x {} x {}", sides[0],
                                      sides[1], sides[2]));
+            continue;
+        }
+        // Tiles of a few bytes may stand for any number of voxels.
+        constexpr std::uint64_t kVoxelsAByte = 1 << 12, kAlways = 1 << 26;
+        if (*found.box.count() > kAlways + kVoxelsAByte * bytes) {
+            refuse(fmt::format("expected at most {} voxels a byte of the file, found a box of {}",
+                               kVoxelsAByte, *found.box.count()));
             continue;
         }
         // Rows, which a place is multiplied by from the left.
