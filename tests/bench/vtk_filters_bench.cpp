@@ -35,7 +35,9 @@ void share(const bench::Volume& v, vtkImageData* image) {
 const bench::Volume& volume(const benchmark::State& state) {
     return bench::volume(static_cast<std::size_t>(state.range(0)));
 }
-double selectedShare(const benchmark::State& state) { return static_cast<double>(state.range(1)) / 1000; }
+double selectedShare(const benchmark::State& state) {
+    return static_cast<double>(state.range(1)) / 1000;
+}
 
 void threshold(vtkThresholdPoints* filter, const timeseries::Range& range) {
     filter->ThresholdBetween(std::get<double>(range.lo.value), std::get<double>(range.hi.value));

@@ -137,8 +137,8 @@ const Format& recognise(const std::filesystem::path& path) {
     std::error_code ignored;
     if (isPlot3d(start, std::filesystem::file_size(path, ignored))) return kPlot3d;
     throw FileError(fmt::format(
-        "{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV, VTK or OpenVDB file, {}", path.string(),
-        start.empty() ? "but it is empty" : "found no format that is known"));
+        "{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV, VTK or OpenVDB file, {}",
+        path.string(), start.empty() ? "but it is empty" : "found no format that is known"));
 }
 
 // Those of the slab, of all in the order of a grid of this size.
