@@ -16,7 +16,7 @@ std::string globeFlaw(const timeseries::Grid& grid) {
             "a globe is drawn of longitudes and latitudes in degrees, not of {} and {}", told(0),
             told(1));
     }
-    constexpr double kPole = 90.01;  // beyond rounding
+    constexpr double kPole = render::Globe::kPole;
     if (const auto y = grid.ends(1); y.least < -kPole || y.most > kPole)
         return fmt::format(
             "a globe is drawn of latitudes from -90 to 90, not from {:.7g} to {:.7g}", y.least,

@@ -167,7 +167,7 @@ GlSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limi
                 1 - static_cast<double>(missing) /
                         static_cast<double>(render::GlStep::neededBytes(points, scale));
     }
-    const bool mayMove = keepsTo(limits, scene, moving) || isThere(held, points);
+    const bool mayMove = isThere(held, points) || keepsTo(limits, scene, moving);
     if (isThere(held, scene) && mayMove) {
         screen.emplace(std::move(next));
     } else if (onScreen) {
@@ -234,11 +234,12 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     const render::FrameContent content{drawn, screen->sorted->grid(), std::move(legend),
                                        kBackground, scene.placards};
     const auto frame = state_->renderer.prepare(content, screen->held->onGpu, eyes);
+    double cost = 0;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-        state_->renderer.drawEye(frame, eyes[i]);
+        cost += state_->renderer.drawEye(frame, eyes[i]);
         show(i, state_->renderer.targets());
     }
-    report.cost = static_cast<std::uint64_t>(costOf(drawn, eyes));
+    report.cost = static_cast<std::uint64_t>(std::llround(cost));
     state_->timer.end(labelOf(report.cost, drawn));
     return report;
 }

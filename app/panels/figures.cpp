@@ -73,8 +73,9 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
     std::string last =
         fmt::format("{:.1f} of {:.0f} ms  ·  {} memory  ·  {} GPU", milliseconds(p.frame),
                     milliseconds(p.budget), bytesText(series->bytes()), bytesText(r.gpuBytes));
-    if (r.step < series->stepCount() && series->isStored(r.step)) last += "  ·  from the index";
-    if (const std::string limit = limitText(p); !limit.empty()) last += "  ·  " + limit;
+    if (r.step < series->stepCount() && series->isStored(r.step))
+        last += std::string(kApart) + "from the index";
+    if (const std::string limit = limitText(p); !limit.empty()) last += kApart + limit;
     lines.push_back(last);
     return lines;
 }
@@ -127,7 +128,7 @@ void drawFigures(const Theme& theme, const Layout& layout, const Performance& pe
     std::vector<std::string> lines = figuresOf(performance, series);
     if (lines.empty()) return;
     while (lines.size() > statusLines(layout)) {
-        lines[0] += "  ·  " + lines[1];
+        lines[0] += kApart + lines[1];
         lines.erase(lines.begin() + 1);
     }
     const float s = theme.scale;

@@ -1,7 +1,6 @@
 // What is said of a picture's error (depth_error.h).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -18,8 +18,8 @@ struct AxesMeshes {
     // Coastlines and lines of longitude and latitude (render/annotate/map_lines.h), which let
     // through what lies behind them: one of both, the other is empty.
     FlatMesh mapBehind, mapBefore;
-    FlatMesh
-        behind;  // edges behind all that the box holds, a globe's Earth: drawn before the volume
+    // Edges behind all that the box holds, and a globe's Earth: drawn before the volume.
+    FlatMesh behind;
     FlatMesh before;   // edges before it or on its outline, and ticks: drawn over it
     FlatMesh grounds;  // of the labels
     FlatMesh labels;

@@ -70,15 +70,23 @@ void drawBall(FlatMesh& mesh, const Screen& screen, const PlacedPoints::Ball& ba
     const auto triangle = [&](const Corner& a, const Corner& b, const Corner& c) {
         if (a.at && b.at && c.at) mesh.triangle({*a.at, *b.at, *c.at}, {a.color, b.color, c.color});
     };
-    for (int ring = 0; ring < kRings; ++ring)
-        for (int sector = 0; sector < kSectors; ++sector) {
-            const Corner a = corner(ring, sector), b = corner(ring + 1, sector),
-                         c = corner(ring + 1, sector + 1), d = corner(ring, sector + 1);
+    const auto cornersOf = [&](int ring) {
+        std::vector<Corner> all;
+        for (int sector = 0; sector <= kSectors; ++sector) all.push_back(corner(ring, sector));
+        return all;
+    };
+    std::vector<Corner> inner = cornersOf(0), outer;
+    for (int ring = 0; ring < kRings; ++ring, inner = std::move(outer)) {
+        outer = cornersOf(ring + 1);
+        for (std::size_t sector = 0; sector < kSectors; ++sector) {
+            const Corner &a = inner[sector], &b = outer[sector], &c = outer[sector + 1],
+                         &d = inner[sector + 1];
             triangle(a, b, c);
             if (ring > 0) triangle(a, c, d);
             // The limb's edge is smooth.
             if (ring + 1 == kRings && b.at && c.at) mesh.line(*b.at, *c.at, width, b.color);
         }
+    }
 }
 
 // A line of degrees, as far as it lies before the horizon.
@@ -138,13 +146,14 @@ class DegreeLabels {
     void parallel(double latitude) {
         std::vector<double> longitudes{globe_.lo().x, globe_.hi().x};
         if (globe_.isWhole()) {
+            std::vector<std::pair<double, double>> fromLeft;
+            for (double each = -175; each < 180; each += 10) {
+                const glm::dvec3 at = surface_.at({each, latitude});
+                fromLeft.emplace_back(isSeen(at) ? screen_.pixel(at).x : 1e9, each);
+            }
+            std::ranges::sort(fromLeft);
             longitudes.clear();
-            for (double each = -175; each < 180; each += 10) longitudes.push_back(each);
-            const auto fromLeft = [&](double longitude) {
-                const glm::dvec3 at = surface_.at({longitude, latitude});
-                return isSeen(at) ? screen_.pixel(at).x : 1e9;
-            };
-            std::ranges::sort(longitudes, {}, fromLeft);
+            for (const auto& [left, each] : fromLeft) longitudes.push_back(each);
         }
         for (const double longitude : longitudes)
             if (tryAt({longitude, latitude}, latitudeText(latitude))) return;

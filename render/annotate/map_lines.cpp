@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <string_view>
 
+#include "render/points/globe.h"
+
 extern "C" {
 extern const unsigned char isochron_coastlines_begin[], isochron_coastlines_end[];
 }

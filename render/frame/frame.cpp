@@ -94,9 +94,10 @@ LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const 
     return inMemory_;
 }
 
-void FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
+double FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
     EyeInWork work = begin(frame, eye);
     goOn(work, kAll);
+    return work.cost;
 }
 
 FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View& eye) {
@@ -105,7 +106,7 @@ FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View&
     FlatMesh legend = legendMesh(content.legend, font_, eye.size);
     AxesMeshes axes = axesMeshes(content.grid, content.scene.placed, eye, frame.midEye, font_,
                                  legend, content.background);
-    return {frame, eye, std::move(legend), std::move(axes), splatCosts(content.scene, eye)};
+    return {frame, eye, std::move(legend), std::move(axes), splatCosts(frame, eye)};
 }
 
 bool FrameRenderer::goOn(EyeInWork& work, double cost) {
@@ -121,34 +122,31 @@ bool FrameRenderer::goOn(EyeInWork& work, double cost) {
 void FrameRenderer::drawWhole(const Prepared& frame, const View& eye,
                               const std::function<void(double)>& progress) {
     constexpr double kAtOnce = 1 << 18;  // half a second on two cores without a GPU
-    if (!progress) return drawEye(frame, eye);
+    if (!progress) {
+        drawEye(frame, eye);
+        return;
+    }
     const double whole = cost(frame, eye);
     EyeInWork work = begin(frame, eye);
     while (!goOn(work, kAtOnce)) progress(std::min(work.cost / whole, 1.0));
 }
 
-// Of the planes in turn; one that takes every layer has their mean.
-std::vector<double> FrameRenderer::splatCosts(const Scene& scene, const View& eye) const {
+// Sums count splats or cells, or what cells are drawn in pieces of.
+std::vector<double> FrameRenderer::splatCosts(const Prepared& frame, const View& eye) {
+    const Scene& scene = frame.content.scene;
+    const std::vector<Channels> channels = channelsFor(scene);
     std::vector<double> costs;
-    if (scene.order == Order::None) {
-        for (std::size_t k = 0; k < scene.layers.size(); ++k)
-            costs.push_back(splatCost(scene, k, eye));
-        return costs;
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        const std::uint64_t splats = frame.splats->splats(channels[k], k);
+        const double plane =
+            scene.order == Order::None ? layerCost(scene, k, eye) : sceneCost(scene, eye);
+        costs.push_back(plane / static_cast<double>(std::max(splats, std::uint64_t{1})));
     }
-    std::uint64_t splats = 0;
-    for (const Layer& layer : scene.layers) splats += drawnCount(scene, layer);
-    const auto count = static_cast<double>(std::max(splats, std::uint64_t{1}));
-    return {std::max(1.0, sceneCost(scene, eye) / count)};
+    return costs;
 }
 
 double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
-    const Scene& scene = frame.content.scene;
-    const std::vector<Channels> channels = channelsFor(scene);
-    const std::vector<double> each = splatCosts(scene, eye);
-    double sum = 0;
-    for (std::size_t i = 0; i < channels.size(); ++i)
-        sum += each[i] * static_cast<double>(frame.splats->splats(channels[i], i));
-    return sum;
+    return sceneCost(frame.content.scene, eye);
 }
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GlStep& step,

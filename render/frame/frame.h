@@ -69,7 +69,8 @@ class FrameRenderer {
     Prepared prepare(const FrameContent& content, const GlStep& step, std::span<const View> eyes,
                      DrawList list);
     // One of the eyes that the frame was prepared for; its light is then in targets().
-    void drawEye(const Prepared& frame, const View& eye);
+    // Returns its cost.
+    double drawEye(const Prepared& frame, const View& eye);
     // An eye drawn over several frames, bit for bit as drawEye() draws it, in which nothing else is
     // drawn. Frame and view must outlive it.
     struct EyeInWork {
@@ -77,8 +78,9 @@ class FrameRenderer {
         const View& eye;
         FlatMesh legend;
         AxesMeshes axes;
-        std::vector<double> splatCosts;  // of each plane; render/splat/splat_cost.h
-        std::size_t plane = 0;           // to go on with
+        // Of each plane one of what its sum counts; render/splat/splat_cost.h.
+        std::vector<double> splatCosts;
+        std::size_t plane = 0;  // to go on with
         std::unique_ptr<PlaneSum> sum = {};
         double cost = 0;  // of what is drawn so far, in ordinary splats
     };
@@ -106,7 +108,7 @@ class FrameRenderer {
                      DrawList list, LightAs as);
     GlLight& glLight();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
-    std::vector<double> splatCosts(const Scene& scene, const View& eye) const;
+    static std::vector<double> splatCosts(const Prepared& frame, const View& eye);
     bool drawSplats(EyeInWork& work, double cost);
     void drawWhole(const Prepared& frame, const View& eye,
                    const std::function<void(double)>& progress);

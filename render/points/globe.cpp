@@ -141,7 +141,6 @@ bool Globe::isSound() const {
 }
 
 bool Globe::shows(const Grid& grid) {
-    constexpr double kPole = 90.01;  // beyond rounding
     if (!isGeographic(grid) || grid.count() > kMostPoints) return false;
     const auto y = grid.ends(1);
     const auto x = grid.ends(0);

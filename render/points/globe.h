@@ -28,6 +28,7 @@ bool isDepth(const timeseries::Axis& axis);
 class Globe {
  public:
     static constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 26;  // 36 bytes each
+    static constexpr double kPole = 90.01;  // degrees, beyond rounding
 
     // `stretch`: of lengths how many times as long as on the Earth they are drawn, of other units
     // how many degrees of the surface one of them is. Without it they reach a tenth of the radius,

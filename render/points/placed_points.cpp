@@ -70,6 +70,7 @@ std::string comparableUnit(const Axis& axis) {
 
 PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, Map map)
     : mesh_(grid.mesh()),
+      fileMesh_(mesh_),
       size_(grid.size()[0], grid.size()[1], grid.size()[2]),
       worldFromAxes_(grid.frame().directions) {
     if (map == Map::Globe && Globe::shows(grid)) {
@@ -100,22 +101,29 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, 
     mesh_ ? measureMesh() : measureAxes(grid);
 }
 
+namespace {
+
+// Of a stretch its third axis counts.
+Globe globeOf(const Grid& grid, const std::optional<glm::dvec3>& stretch) {
+    return Globe(grid, stretch ? std::optional(stretch->z) : std::nullopt);
+}
+
+}  // namespace
+
 Outline PlacedPoints::outlineOf(const Grid& grid, std::optional<glm::dvec3> stretch, Map map) {
     if (map != Map::Globe || !Globe::shows(grid)) return PlacedPoints(grid, stretch).outline();
-    const Globe globe(grid, stretch ? std::optional(stretch->z) : std::nullopt);
+    const Globe globe = globeOf(grid, stretch);
     const Globe::Box box = globe.box();
-    const glm::dvec3 half = 0.5 * (box.hi - box.lo) / glm::length(0.5 * (box.hi - box.lo));
+    const glm::dvec3 half = glm::normalize(box.hi - box.lo);
     return {glm::dmat3(half.x, 0, 0, 0, half.y, 0, 0, 0, half.z), globe.isWhole()};
 }
 
 void PlacedPoints::placeOnGlobe(const Grid& grid, std::optional<glm::dvec3> stretch) {
-    globe_ =
-        std::make_shared<const Globe>(grid, stretch ? std::optional(stretch->z) : std::nullopt);
-    auto mesh = globe_->meshOf(grid);
-    fileMesh_ = std::exchange(mesh_, std::move(mesh));
+    globe_ = std::make_shared<const Globe>(globeOf(grid, stretch));
+    mesh_ = globe_->meshOf(grid);
     const Globe::Box box = globe_->box();
     const double radius = glm::length(0.5 * (box.hi - box.lo));
-    boxHalf_ = 0.5 * (box.hi - box.lo) / radius;
+    boxHalf_ = glm::normalize(box.hi - box.lo);
     for (int a = 0; a < 3; ++a) {
         centre_[a] = (Wide{box.lo[a]} + Wide{box.hi[a]}) / 2;
         scale_[a] = 1 / Wide{radius};
@@ -275,8 +283,7 @@ glm::uvec3 PlacedPoints::indices(std::uint64_t index) const {
 }
 
 bool PlacedPoints::inside(std::uint64_t index, const IndexBox& box) const {
-    const auto& mesh = globe_ ? fileMesh_ : mesh_;
-    if (mesh) return box.holdsAll() || box.holdsPlace(mesh->position(index));
+    if (fileMesh_) return box.holdsAll() || box.holdsPlace(fileMesh_->position(index));
     return box.holds(indices(index));
 }
 

@@ -159,7 +159,7 @@ class PlacedPoints {
     void measureAxes(const timeseries::Grid& grid);
 
     std::array<std::vector<double>, 3> positions_, widths_;
-    std::shared_ptr<const timeseries::Mesh> mesh_, fileMesh_;  // the grid's own, of a globe's
+    std::shared_ptr<const timeseries::Mesh> mesh_, fileMesh_;  // drawn, and the grid's own
     std::shared_ptr<const Globe> globe_;
     glm::dvec3 meshScale_{1}, meshCentre_{0};  // scale_ and centre_, for many points
     glm::uvec3 size_{1};

@@ -93,15 +93,4 @@ double SampledTruth::apart(std::span<const double> a, std::span<const double> b)
     return squares == 0 ? 0 : std::sqrt(squares / truths);
 }
 
-std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
-                                        const View& view, std::span<const DepthAt> pictures,
-                                        const Sampling& sampling) {
-    const SampledTruth truth(scene, field, view, pictures[0], sampling);
-    std::vector<SampledError> told;
-    for (const DepthAt& picture : pictures)
-        told.push_back(
-            {truth.apart(picture(truth.pixels()), truth.depth()), truth.pixels().size()});
-    return told;
-}
-
 }  // namespace render

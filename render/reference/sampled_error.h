@@ -16,13 +16,6 @@
 
 namespace render {
 
-struct SampledError {
-    // ||picture - truth|| / ||truth|| of optical depth; 0 where both are nothing, infinite where
-    // the truth is nothing and the picture is not.
-    double relativeL2 = 0;
-    std::size_t pixels = 0;  // looked at
-};
-
 // The optical depth of all layers, of W as path length, that a picture has at each of these pixels;
 // row 0 is at the bottom.
 using DepthAt = std::function<std::vector<double>(std::span<const glm::ivec2>)>;
@@ -55,18 +48,13 @@ class SampledTruth {
     std::span<const double> weights() const { return weights_; }
     std::span<const double> depth() const { return depth_; }
     // sqrt( sum w (a - b)^2 / sum w truth^2 ) of optical depths at these pixels, which are there in
-    // their order; against depth() itself an error's relative L2.
+    // their order; against depth() itself an error's relative L2: 0 where both are
+    // nothing, infinite where the truth is nothing and the picture is not.
     double apart(std::span<const double> a, std::span<const double> b) const;
 
  private:
     std::vector<glm::ivec2> pixels_;
     std::vector<double> weights_, depth_;
 };
-
-// Of pictures of the scene, however they are drawn, without lines; the first chooses the pixels.
-// REQUIRES: as of SampledTruth; a picture.
-std::vector<SampledError> sampledErrors(const Scene& scene, const timeseries::Field& field,
-                                        const View& view, std::span<const DepthAt> pictures,
-                                        const Sampling& sampling = {});
 
 }  // namespace render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "render/model/cell_splat.h"
 #include "render/model/footprint.h"
@@ -76,19 +77,19 @@ double cellCost(const Scene& scene, std::size_t layer, const View& view) {
     constexpr std::uint64_t kSamples = 64;
     const CellCosts costs(scene, view);
     double sum = 0;
-    const auto add = [&](std::uint64_t candidate) {
-        const CellOfLayer of{scene.cells->cell(candidate), static_cast<std::uint8_t>(layer)};
-        if (scene.placed.isMesh())
-            forEachTet(scene, std::span(&of, 1), nullptr,
-                       [&](const ValuedTet& tet, const CellOfLayer&) { sum += costs.of(tet); });
-        else
-            forEachPiece(scene, std::span(&of, 1),
-                         [&](const ValuedCell& piece, const CellOfLayer&, unsigned) {
-                             sum += costs.of(piece);
-                         });
-    };
     const Layer& of = scene.layers[layer];
-    const std::uint64_t samples = forSome(of.cells.candidates, cellCount(of), kSamples, add);
+    std::vector<CellOfLayer> some;
+    const std::uint64_t samples =
+        forSome(of.cells.candidates, cellCount(of), kSamples, [&](std::uint64_t candidate) {
+            some.push_back({scene.cells->cell(candidate), static_cast<std::uint8_t>(layer)});
+        });
+    if (scene.placed.isMesh())
+        forEachTet(scene, some, nullptr,
+                   [&](const ValuedTet& tet, const CellOfLayer&) { sum += costs.of(tet); });
+    else
+        forEachPiece(scene, some, [&](const ValuedCell& piece, const CellOfLayer&, unsigned) {
+            sum += costs.of(piece);
+        });
     return samples == 0 ? 1 : std::max(1.0, sum / static_cast<double>(samples));
 }
 
@@ -111,10 +112,14 @@ double splatCost(const Scene& scene, std::size_t layer, const View& view) {
     return std::max(1.0, pixels / static_cast<double>(samples) / kOrdinaryPixels);
 }
 
+double layerCost(const Scene& scene, std::size_t layer, const View& view) {
+    return splatCost(scene, layer, view) *
+           static_cast<double>(drawnCount(scene, scene.layers[layer]));
+}
+
 double sceneCost(const Scene& scene, const View& view) {
     double sum = 0;
-    for (std::size_t k = 0; k < scene.layers.size(); ++k)
-        sum += splatCost(scene, k, view) * static_cast<double>(drawnCount(scene, scene.layers[k]));
+    for (std::size_t k = 0; k < scene.layers.size(); ++k) sum += layerCost(scene, k, view);
     return sum;
 }
 

@@ -20,14 +20,7 @@ void putInto(const fs::path& folder, const std::string& name, std::string_view b
     gzclose(file);
 }
 
-// Of what comes before the next line of ====, which is passed.
-std::string_view next(std::string_view& rest) {
-    constexpr std::string_view kLine = "\n====\n";
-    const std::size_t end = std::min(rest.find(kLine), rest.size());
-    const std::string_view part = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + kLine.size(), rest.size()));
-    return part;
-}
+constexpr std::string_view kLine = "\n====\n";  // between texts
 
 }  // namespace
 
@@ -41,8 +34,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fs::create_directories(mesh);
     fs::create_directories(folder / "0");
     for (const char* name : {"points", "faces", "owner", "neighbour"})
-        putInto(mesh, name, next(rest), isPacked);
-    for (const char* name : {"T", "Tp"}) putInto(folder / "0", name, next(rest), isPacked);
+        putInto(mesh, name, fuzz::next(rest, kLine), isPacked);
+    for (const char* name : {"T", "Tp"})
+        putInto(folder / "0", name, fuzz::next(rest, kLine), isPacked);
     fuzz::readAll(folder);
     return 0;
 }

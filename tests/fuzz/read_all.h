@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -39,6 +40,15 @@ inline std::filesystem::path write(const std::string& name, std::string_view byt
     std::ofstream(path, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path;
+}
+
+// Of an input of several texts, what comes before the next that tells them apart, which is passed.
+inline std::string_view next(std::string_view& rest,
+                             std::string_view apart = std::string_view("\0", 1)) {
+    const std::size_t end = std::min(rest.find(apart), rest.size());
+    const std::string_view part = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + apart.size(), rest.size()));
+    return part;
 }
 
 inline void readAll(const std::filesystem::path& path) {

@@ -14,14 +14,6 @@ void putInto(const fs::path& folder, const char* name, std::string_view bytes) {
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-// Of what comes before the next byte of 0, which is passed.
-std::string_view next(std::string_view& rest) {
-    const std::size_t end = std::min(rest.find('\0'), rest.size());
-    const std::string_view part = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    return part;
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -35,8 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     rest.remove_prefix(1);
     const fs::path store = fuzz::folder() / "store.zarr";
     fs::remove_all(store);
-    const std::string_view group = next(rest), array = next(rest), attributes = next(rest),
-                           coordinate = next(rest);
+    const std::string_view group = fuzz::next(rest), array = fuzz::next(rest),
+                           attributes = fuzz::next(rest), coordinate = fuzz::next(rest);
     if (isV3) {
         putInto(store, "zarr.json", group);
         putInto(store / "0", "zarr.json", array);

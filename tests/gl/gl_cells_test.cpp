@@ -49,17 +49,7 @@ TEST_F(GlCellsOf, ColoursLightAndOrderAreTheProcessors) {
     world.scene.layers[1].style.color = ByValue{{}, 0.2, 0.25};
     world.scene.layers[2].style.color = ByValue{{}, 0.5, 2.5};
     world.scene.opacityPer = OpacityPer::Crossing;
-    for (const Order order : {Order::None, Order::BackToFront})
-        for (const Light light : {Light::Off, Light::Soft, Light::Full})
-            for (const View& view : {kOutside, kInside}) {
-                if (order == Order::None && light != Light::Off) continue;
-                world.scene.order = order;
-                world.scene.light = light;
-                SCOPED_TRACE(testing::Message()
-                             << static_cast<int>(order) << static_cast<int>(light)
-                             << view.viewFromWorld[3][2]);
-                expectTheProcessors(world.scene, view, 2e-4);
-            }
+    expectTheProcessorsInEveryLight(world.scene, 2e-4, 2e-4);
 }
 
 // Missing corners leave octants, and so does a clip box.

@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "render/reference/cells_on_rays.h"
-#include "render/reference/sampled_error.h"
 #include "render/splat/tile_layout.h"
-#include "tests/support/cell_worlds.h"
+#include "tests/support/sampled_errors.h"
 
 namespace render {
 namespace {
@@ -124,9 +123,7 @@ TEST(RaysAcross, CellsBelowAPixelAreTrue) {
         const DepthAt picture = [&, rays](std::span<const glm::ivec2> pixels) {
             return cellDepthAt(world.scene, view, pixels, rays);
         };
-        return sampledErrors(world.scene, world.scene.cells->field(), view, {&picture, 1},
-                             {.raysAcross = 24})[0]
-            .relativeL2;
+        return tests::sampledError(world, view, picture, {.raysAcross = 24}).relativeL2;
     };
     ASSERT_LT(cellPixels(world.scene, view), 0.5);
     const double error = errorBy(raysAcross(world.scene, view));

@@ -8,12 +8,14 @@
 #include "render/reference/cells_on_rays.h"
 #include "render/reference/image_compare.h"
 #include "render/reference/interval_truth.h"
-#include "tests/support/cell_worlds.h"
+#include "tests/support/sampled_errors.h"
 
 namespace render {
 namespace {
 
 using tests::CellWorld;
+using tests::SampledError;
+using tests::sampledError;
 
 const View kView = tests::lookFrom({1.2, -2.5, 1}, {160, 120});
 
@@ -47,9 +49,8 @@ double errorOfAll(const CellWorld& world, const std::vector<float>& depth) {
 }
 SampledError sampled(const CellWorld& world, const std::vector<float>& depth, std::size_t pixels,
                      unsigned threads = 2) {
-    const DepthAt picture = depthFrom(depth, kView.size);
-    return sampledErrors(world.scene, world.scene.cells->field(), kView, std::span(&picture, 1),
-                         {.pixels = pixels, .raysAcross = 3, .threads = threads})[0];
+    return sampledError(world, kView, depthFrom(depth, kView.size),
+                        {.pixels = pixels, .raysAcross = 3, .threads = threads});
 }
 
 // What cells leave out, and pictures that are worse: a tenth too bright, and another range's.
@@ -85,9 +86,8 @@ TEST(SampledError, OfCellsThatAreAskedPixelByPixelIsThatOfThePicture) {
             return cellDepthAt(world.scene, kView, pixels, 1, 2);
         };
         const double all = errorOfAll(world, depthOf(world));
-        const SampledError some =
-            sampledErrors(world.scene, world.scene.cells->field(), kView, {{asked}},
-                          {.pixels = 512, .asked = 100, .raysAcross = 3, .threads = 2})[0];
+        const SampledError some = sampledError(
+            world, kView, asked, {.pixels = 512, .asked = 100, .raysAcross = 3, .threads = 2});
         EXPECT_LE(some.pixels, 512u);
         EXPECT_LT(std::max(some.relativeL2 / all, all / some.relativeL2), 1.25)
             << range << ": " << some.relativeL2 << " of " << all;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <bzlib.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/deflated.h"
 #include "tests/support/files.h"
 #include "tests/support/read_variables.h"
 #include "timeseries/readers/reader.h"
@@ -28,20 +28,6 @@ std::string bytesOf(const std::vector<T>& values, std::endian order = std::endia
     return bytes;
 }
 
-inline std::string gzipped(const std::string& bytes) {
-    z_stream stream{};
-    deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-    std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())) + 64, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    deflate(&stream, Z_FINISH);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    return out;
-}
-
 inline std::string bzipped(const std::string& bytes) {
     // The most it can take (bzlib's manual, 3.5.1).
     auto size = static_cast<unsigned>(bytes.size() + bytes.size() / 100 + 601);
@@ -54,7 +40,7 @@ inline std::string bzipped(const std::string& bytes) {
 
 // In one of the encodings "raw", "gzip" and "bzip2".
 inline std::string encoded(const std::string& encoding, const std::string& bytes) {
-    return encoding == "gzip" ? gzipped(bytes) : encoding == "bzip2" ? bzipped(bytes) : bytes;
+    return encoding == "gzip" ? byGzip(bytes) : encoding == "bzip2" ? bzipped(bytes) : bytes;
 }
 
 // "NRRD0004", the lines, a blank line, the bytes.

@@ -1,9 +1,10 @@
-// Bytes packed by zlib.
+// Bytes packed by zlib, and numbers as bytes.
 #pragma once
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <cstdint>
 #include <string>
 
 namespace tests {
@@ -24,5 +25,11 @@ inline std::string deflated(const std::string& bytes, int windowBits) {
 }
 inline std::string byZlib(const std::string& bytes) { return deflated(bytes, 15); }
 inline std::string byGzip(const std::string& bytes) { return deflated(bytes, 15 + 16); }
+
+inline std::string littleEndian(std::uint64_t number, int bytes) {
+    std::string out;
+    for (int i = 0; i < bytes; ++i) out += static_cast<char>(number >> 8 * i & 0xFF);
+    return out;
+}
 
 }  // namespace tests

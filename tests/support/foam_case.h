@@ -26,7 +26,7 @@ inline void put(const std::filesystem::path& file, const std::string& text,
                 const Writing& how = {}) {
     std::filesystem::create_directories(file.parent_path());
     if (how.isPacked)
-        writeBytes(file.string() + ".gz", gzipped(text));
+        writeBytes(file.string() + ".gz", byGzip(text));
     else
         writeBytes(file, text);
 }
@@ -39,11 +39,6 @@ inline std::string header(const std::string& className, const Writing& how = {})
         how.isBinary ? fmt::format("    arch \"LSB;label={};scalar={}\";\n", how.label, how.scalar)
                      : "",
         className);
-}
-
-template <typename T>
-std::string bytesOf(const std::vector<T>& numbers) {
-    return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)};
 }
 
 inline std::string labels(const std::vector<std::int64_t>& numbers, const Writing& how = {}) {

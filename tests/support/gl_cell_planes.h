@@ -58,6 +58,21 @@ class GlCellPlanes : public testing::Test {
                 drawn(scene, view, planes[k], k, 2, kAllCells, {}, render::raysAcross(scene, view)),
                 error);
     }
+    // From outside and inside, without order and in it with each light.
+    void expectTheProcessorsInEveryLight(render::Scene& scene, double unordered, double ordered) {
+        using render::Light, render::Order;
+        for (const Order order : {Order::None, Order::BackToFront})
+            for (const Light light : {Light::Off, Light::Soft, Light::Full})
+                for (const render::View& view : {kOutside, kInside}) {
+                    if (order == Order::None && light != Light::Off) continue;
+                    scene.order = order;
+                    scene.light = light;
+                    SCOPED_TRACE(testing::Message()
+                                 << static_cast<int>(order) << static_cast<int>(light)
+                                 << view.viewFromWorld[3][2]);
+                    expectTheProcessors(scene, view, order == Order::None ? unordered : ordered);
+                }
+    }
     // Relative L2.
     static void expectSame(const std::vector<float>& is, const std::vector<float>& expected,
                            double error) {

@@ -32,6 +32,15 @@ inline std::string refusalOf(const std::vector<std::filesystem::path>& paths) {
 inline std::string refusalOf(const std::filesystem::path& path) {
     return refusalOf(std::vector{path});
 }
+// What opening it or reading a step of its first variable is refused with; "" when both are done.
+inline std::string refusalOfRead(const std::filesystem::path& path, std::size_t step = 0) {
+    try {
+        open(path)->read(0, step);
+    } catch (const timeseries::FileError& error) {
+        return error.what();
+    }
+    return "";
+}
 // Of a file that is being made, once something about it is changed; it begins with the file's path.
 template <typename File, typename Change>
 std::string refusalAfter(File& file, const Change& change) {

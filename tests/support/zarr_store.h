@@ -51,12 +51,6 @@ inline std::string byBlosc(const std::string& bytes) {
     return out.substr(0, static_cast<std::size_t>(size));
 }
 
-inline std::string littleEndian(std::uint64_t number, int bytes) {
-    std::string out;
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>(number >> 8 * i & 0xFF);
-    return out;
-}
-
 // As numcodecs does.
 inline std::string byLz4(const std::string& bytes) {
     std::string out(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(bytes.size()))),

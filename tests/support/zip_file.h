@@ -29,12 +29,6 @@ struct Options {
     std::optional<std::uint64_t> saidCount = {};
 };
 
-inline std::string number(std::uint64_t value, int bytes) {
-    std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i & 0xFF);
-    return text;
-}
-
 // What a member's local header and its entry in the list at the end have in common, from the
 // version on; `offset` where it is told.
 struct Heads {
@@ -51,11 +45,14 @@ inline Heads headsOf(const Member& member, const std::string& packed, std::uint6
                                     static_cast<unsigned>(member.bytes.size())))));
     const bool wide = zip64 || size > 0xFFFFFFFE || packedSize > 0xFFFFFFFE;
     Heads heads;
-    heads.common = number(wide ? 45 : 20, 2) + number(member.flags, 2) + number(method, 2) +
-                   number(0, 4) + number(crc, 4) + number(wide ? 0xFFFFFFFF : packedSize, 4) +
-                   number(wide ? 0xFFFFFFFF : size, 4) + number(member.name.size(), 2);
-    if (wide) heads.extra = number(1, 2) + number(16, 2) + number(size, 8) + number(packedSize, 8);
-    heads.offset = number(at, 4);
+    heads.common = littleEndian(wide ? 45 : 20, 2) + littleEndian(member.flags, 2) +
+                   littleEndian(method, 2) + littleEndian(0, 4) + littleEndian(crc, 4) +
+                   littleEndian(wide ? 0xFFFFFFFF : packedSize, 4) +
+                   littleEndian(wide ? 0xFFFFFFFF : size, 4) + littleEndian(member.name.size(), 2);
+    if (wide)
+        heads.extra = littleEndian(1, 2) + littleEndian(16, 2) + littleEndian(size, 8) +
+                      littleEndian(packedSize, 8);
+    heads.offset = littleEndian(at, 4);
     return heads;
 }
 
@@ -64,25 +61,26 @@ inline std::string zipOf(const std::vector<Member>& members, const Options& opti
     for (const Member& member : members) {
         const std::string packed = member.deflate ? deflated(member.bytes, -15) : member.bytes;
         const Heads heads = headsOf(member, packed, file.size(), options.zip64);
-        list += "PK\1\2" + number(45, 2) + heads.common + number(heads.extra.size(), 2) +
-                number(0, 2) + number(0, 2) + number(0, 2) + number(0, 4) + heads.offset +
-                member.name + heads.extra;
-        file += "PK\3\4" + heads.common + number(heads.extra.size(), 2) + member.name +
+        list += "PK\1\2" + littleEndian(45, 2) + heads.common +
+                littleEndian(heads.extra.size(), 2) + littleEndian(0, 2) + littleEndian(0, 2) +
+                littleEndian(0, 2) + littleEndian(0, 4) + heads.offset + member.name + heads.extra;
+        file += "PK\3\4" + heads.common + littleEndian(heads.extra.size(), 2) + member.name +
                 heads.extra + packed;
     }
     const std::uint64_t start = file.size(), count = options.saidCount.value_or(members.size());
     file += list;
     if (options.zip64) {
         const std::uint64_t end = file.size();
-        file += "PK\6\6" + number(44, 8) + number(45, 2) + number(45, 2) + number(0, 4) +
-                number(0, 4) + number(count, 8) + number(count, 8) + number(list.size(), 8) +
-                number(start, 8);
-        file += "PK\6\7" + number(0, 4) + number(end, 8) + number(1, 4);
-        return file + "PK\5\6" + number(0, 4) + number(0xFFFF, 2) + number(0xFFFF, 2) +
-               number(0xFFFFFFFF, 4) + number(0xFFFFFFFF, 4) + number(0, 2);
+        file += "PK\6\6" + littleEndian(44, 8) + littleEndian(45, 2) + littleEndian(45, 2) +
+                littleEndian(0, 4) + littleEndian(0, 4) + littleEndian(count, 8) +
+                littleEndian(count, 8) + littleEndian(list.size(), 8) + littleEndian(start, 8);
+        file += "PK\6\7" + littleEndian(0, 4) + littleEndian(end, 8) + littleEndian(1, 4);
+        return file + "PK\5\6" + littleEndian(0, 4) + littleEndian(0xFFFF, 2) +
+               littleEndian(0xFFFF, 2) + littleEndian(0xFFFFFFFF, 4) + littleEndian(0xFFFFFFFF, 4) +
+               littleEndian(0, 2);
     }
-    return file + "PK\5\6" + number(0, 4) + number(count, 2) + number(count, 2) +
-           number(list.size(), 4) + number(start, 4) + number(0, 2);
+    return file + "PK\5\6" + littleEndian(0, 4) + littleEndian(count, 2) + littleEndian(count, 2) +
+           littleEndian(list.size(), 4) + littleEndian(start, 4) + littleEndian(0, 2);
 }
 
 // All files below a folder, in order of their names, which begin with `start`.

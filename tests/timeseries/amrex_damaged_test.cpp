@@ -27,16 +27,6 @@ void change(const Path& folder, const Change& change) {
                bytes.substr(0, at) + change.to + bytes.substr(at + from.size()));
 }
 
-// Of what is found when it is opened, or its first variable is read; "" when all is.
-std::string refusal(const Path& path) {
-    try {
-        open(path)->read(0, 0);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 struct Told {
     Change change;
     const char* told;
@@ -101,13 +91,13 @@ TEST(DamagedAmrex, WhatATextSaysWrongIsTold) {
         std::filesystem::remove_all(folder);
         writePlotfile(folder, threeLevels());
         change(folder, damage);
-        const std::string sentence = refusal(folder);
+        const std::string sentence = refusalOfRead(folder);
         EXPECT_THAT(sentence, AllOf(HasSubstr("plt00000"), HasSubstr(told), Not(HasSubstr("\n"))))
             << damage.file << ": " << damage.to;
     }
     std::filesystem::remove_all(folder);
     writePlotfile(folder, threeLevels());
-    EXPECT_EQ(refusal(folder), "");
+    EXPECT_EQ(refusalOfRead(folder), "");
 }
 
 TEST(DamagedAmrex, FilesThatEndEarlyAreTold) {
@@ -121,7 +111,7 @@ TEST(DamagedAmrex, FilesThatEndEarlyAreTold) {
         for (std::size_t size = 15; size + 20 < bytes.size();
              size += 1 + bytes.size() / (bytes.size() > 2000 ? 7 : 70)) {
             std::filesystem::resize_file(folder / name, size);
-            EXPECT_THAT(refusal(folder), HasSubstr("expected")) << name << ": " << size;
+            EXPECT_THAT(refusalOfRead(folder), HasSubstr("expected")) << name << ": " << size;
             writeBytes(folder / name, bytes);
         }
     }
@@ -131,7 +121,7 @@ TEST(DamagedAmrex, BoxesAreAsManyInBothTexts) {
     const Path folder = freshFolder() / "plt00000";
     writePlotfile(folder, threeLevels());
     writeBytes(folder / "Level_0/Cell_H", readBytes(folder / "Level_1/Cell_H"));
-    EXPECT_THAT(refusal(folder), HasSubstr("expected 2 boxes of level 0 as in"));
+    EXPECT_THAT(refusalOfRead(folder), HasSubstr("expected 2 boxes of level 0 as in"));
 }
 
 TEST(DamagedAmrex, OneTypeForAllBoxes) {
@@ -141,7 +131,7 @@ TEST(DamagedAmrex, OneTypeForAllBoxes) {
     file.isSingle = true;
     writeLevel(folder / "Level_1", file, 1);
     EXPECT_THAT(
-        refusal(folder),
+        refusalOfRead(folder),
         HasSubstr("expected 2 variables of float64 in box 0 of level 1, found 2 of float32"));
 }
 

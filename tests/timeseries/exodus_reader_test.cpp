@@ -21,6 +21,7 @@ namespace {
 using testing::HasSubstr;
 using tests::NetcdfBuilder;
 using tests::open;
+using tests::refusalOf;
 using Path = std::filesystem::path;
 
 // Two unit cubes beside each other, of 12 nodes: a block of one hexahedron, one of two wedges.
@@ -115,15 +116,6 @@ Path write(const Written& what, const std::string& name = "a.e") {
     return file.close();
 }
 
-std::string refusal(const Path& path) {
-    try {
-        open(path);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 TEST(Exodus, ResultsAtNodesAndAtElementsInBothLayouts) {
     for (const bool together : {false, true}) {
         const auto reader = open(write({.together = together}));
@@ -177,11 +169,11 @@ TEST(Exodus, KindsThatAreNotKnownAreTold) {
 }
 
 TEST(Exodus, WhatDoesNotFitIsRefused) {
-    EXPECT_THAT(refusal(write({.cube = {1, 2, 5, 4, 7, 8, 11, 13}})),
+    EXPECT_THAT(refusalOf(write({.cube = {1, 2, 5, 4, 7, 8, 11, 13}})),
                 HasSubstr("connect: expected elements of nodes that there are"));
-    EXPECT_THAT(refusal(write({.cube = {0, 2, 5, 4, 7, 8, 11, 10}})),
+    EXPECT_THAT(refusalOf(write({.cube = {0, 2, 5, 4, 7, 8, 11, 10}})),
                 HasSubstr("cell 0 has point"));
-    EXPECT_THAT(refusal(write({.times = {0.5, std::nan("")}})),
+    EXPECT_THAT(refusalOf(write({.times = {0.5, std::nan("")}})),
                 HasSubstr("expected times that are finite"));
     // Elements that no list names are not counted, however many a dimension says.
     NetcdfBuilder many("many.e", NC_NETCDF4);
@@ -190,13 +182,13 @@ TEST(Exodus, WhatDoesNotFitIsRefused) {
     many.dimension("num_el_in_blk1", std::size_t{1} << 40);
     many.dimension("num_nod_per_el1", 8);
     many.variable("coord", NC_DOUBLE, {three, some});
-    EXPECT_THAT(refusal(many.close()),
+    EXPECT_THAT(refusalOf(many.close()),
                 HasSubstr("expected the variable connect1 of 1099511627776"));
     NetcdfBuilder file("bare.e", 0);
     const int dims = file.dimension("num_dim", 3), nodes = file.dimension("num_nodes", 8);
     file.dimension("num_el_blk", 1);
     file.variable("coord", NC_DOUBLE, {nodes, dims});
-    EXPECT_THAT(refusal(file.close()),
+    EXPECT_THAT(refusalOf(file.close()),
                 HasSubstr("variable 'coord': expected numbers of the dimensions "
                           "3 x 8, found 8 x 3"));
 }

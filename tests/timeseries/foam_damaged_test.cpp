@@ -20,15 +20,6 @@ std::filesystem::path caseWithT(const std::string& file) {
     return folder;
 }
 
-std::string refusalOfRead(const std::filesystem::path& folder) {
-    try {
-        open(folder)->read(0, 0);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 TEST(DamagedFoam, ValuesThatAreNoneAreTold) {
     const std::string list = "nonuniform List<scalar> ";
     for (const auto& [values, told] : std::initializer_list<std::pair<std::string, const char*>>{

@@ -7,6 +7,8 @@
 
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
+#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/netcdf_reader.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
@@ -350,6 +352,27 @@ TEST(NetcdfTime, EachFileOfASeriesHasItsOwnPacking) {
                 ElementsAre(201, 202, 203, 204));
     EXPECT_THAT(std::get<std::vector<double>>(reader->read(0, 0).values),
                 ElementsAre(101, 102, 103, 104));
+}
+
+// For each step that is played from the store it is asked.
+TEST(NetcdfTime, WhatStepsComeFromIsToldWithoutOpeningTheirFiles) {
+    const std::vector<Path> paths{series("a.nc", {0.0, 1.0}, "s"), series("b.nc", {2.0}, "s")};
+    const auto openFile = [](const Path& path) {
+        return std::make_unique<NetcdfFile>(path, NetcdfFile::Header::Known);
+    };
+    int opened = 0;
+    const auto reader = openCf(paths, openFile(paths[0]), [&](const Path& path, bool) {
+        ++opened;
+        return openFile(path);
+    });
+    opened = 0;
+    for (const auto& [step, file, own] :
+         {std::array<std::size_t, 3>{0, 0, 0}, {2, 1, 0}, {1, 0, 1}}) {
+        const StepSources from = reader->sources(0, step);
+        EXPECT_THAT(from.files, ElementsAre(paths[file]));
+        EXPECT_EQ(from.step, own);
+    }
+    EXPECT_EQ(opened, 0);
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ void expectValues(std::int16_t type) {
         const std::string bytes = bytesOf(values, order);
         for (const std::string& head :
              {nifti1(type, {3, 2, 3, 4}, order).bytes(), nifti2(type, {3, 2, 3, 4}, order).bytes()})
-            for (const std::string& file : {head + bytes, gzipped(head + bytes)})
+            for (const std::string& file : {head + bytes, byGzip(head + bytes)})
                 EXPECT_EQ(valuesOf<T>(*openBytes(file)), values) << type;
     }
 }
@@ -197,7 +197,7 @@ TEST(Nifti, AHeaderBesideItsValues) {
                                         {"c.hdr.gz", "c.img.gz"},
                                         {"d.hdr.gz", "d.img"}}) {
         const auto packed = [](std::string_view name, const std::string& bytes) {
-            return name.ends_with(".gz") ? gzipped(bytes) : bytes;
+            return name.ends_with(".gz") ? byGzip(bytes) : bytes;
         };
         writeBytes(folder / header, packed(header, head));
         EXPECT_THAT(refusal(folder / header), HasSubstr("img")) << header;

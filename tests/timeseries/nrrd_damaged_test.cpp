@@ -44,7 +44,7 @@ class DamagedNrrd : public testing::Test {
 std::string sample(const std::string& encoding) {
     const auto values = ramp<float>(2 * 3 * 4 * 2);
     std::string bytes = bytesOf(values);
-    if (encoding == "gzip") bytes = gzipped(bytes);
+    if (encoding == "gzip") bytes = byGzip(bytes);
     if (encoding == "ascii") {
         bytes.clear();
         for (const float value : values) bytes += fmt::format("{} ", value);

@@ -42,7 +42,7 @@ TEST_F(DetachedNrrd, OneFileAfterLinesAndBytesThatAreSkipped) {
     expectRamp();
     EXPECT_EQ(open("encoding: raw\nbyte skip: -1\ndatafile: ./sub/with blank.raw"), "");
     expectRamp();
-    writeBytes(folder / "v.gz", "one\n" + gzipped("xyz" + part(0, 24)));
+    writeBytes(folder / "v.gz", "one\n" + byGzip("xyz" + part(0, 24)));
     EXPECT_EQ(open("encoding: gz\nline skip: 1\nbyte skip: 3\ndata file: v.gz\n\n"), "");
     expectRamp();
     writeBytes(folder / "v.txt",
@@ -60,11 +60,11 @@ TEST_F(DetachedNrrd, OneFileASliceRowOrSlab) {
     EXPECT_EQ(open("encoding: raw\ndata file: LIST\ns008.raw\ns006.raw\ns004.raw\ns002.raw\n"), "");
     expectRamp();
     for (std::size_t i = 0; i < 12; ++i)
-        writeBytes(folder / fmt::format("r%{:2}", i), gzipped(part(2 * i, 2)));
+        writeBytes(folder / fmt::format("r%{:2}", i), byGzip(part(2 * i, 2)));
     EXPECT_EQ(open("encoding: gzip\ndata file: r%%%2d 0 11 1 1\n"), "");
     expectRamp();
     for (std::size_t i = 0; i < 12; ++i)
-        writeBytes(folder / fmt::format("r%{}", i), gzipped(part(2 * i, 2)));
+        writeBytes(folder / fmt::format("r%{}", i), byGzip(part(2 * i, 2)));
     EXPECT_EQ(open("encoding: gzip\ndata file: r%%%d 0 11 1 1\n"), "");
     expectRamp();
     writeBytes(folder / "a", part(0, 12));

@@ -16,16 +16,8 @@ using testing::HasSubstr;
 using tests::dataArray;
 using tests::imageText;
 using tests::open;
+using tests::refusalOfRead;
 using Path = std::filesystem::path;
-
-std::string refusal(const Path& path, std::size_t step = 0) {
-    try {
-        open(path)->read(0, step);
-    } catch (const FileError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 Path collection(const std::string& sets) {
     return tests::write(
@@ -136,15 +128,16 @@ TEST(VtkCollection, AListOfFilesIsASeriesToo) {
         EXPECT_EQ(reader->variables()[0].time->points[step].value, time);
         EXPECT_EQ(std::get<std::vector<float>>(reader->read(0, step).values)[7], time);
     }
-    EXPECT_THAT(refusal(listed("[]")), HasSubstr("files: expected a file, found none"));
-    EXPECT_THAT(refusal(listed("7")), HasSubstr("expected JSON with a list of \"files\""));
-    EXPECT_THAT(refusal(listed("[")), HasSubstr("expected JSON with a list of \"files\""));
-    EXPECT_THAT(refusal(listed("[7]")), HasSubstr("files[0]: expected the \"name\" of a file"));
-    EXPECT_THAT(refusal(listed("[{\"name\": \"a\", \"time\": \"b\"}]")),
+    EXPECT_THAT(refusalOfRead(listed("[]")), HasSubstr("files: expected a file, found none"));
+    EXPECT_THAT(refusalOfRead(listed("7")), HasSubstr("expected JSON with a list of \"files\""));
+    EXPECT_THAT(refusalOfRead(listed("[")), HasSubstr("expected JSON with a list of \"files\""));
+    EXPECT_THAT(refusalOfRead(listed("[7]")),
+                HasSubstr("files[0]: expected the \"name\" of a file"));
+    EXPECT_THAT(refusalOfRead(listed("[{\"name\": \"a\", \"time\": \"b\"}]")),
                 HasSubstr("files[0]: expected a finite number"));
-    EXPECT_THAT(refusal(listed("[" + files + ", {\"name\": \"a\"}]")),
+    EXPECT_THAT(refusalOfRead(listed("[" + files + ", {\"name\": \"a\"}]")),
                 HasSubstr("expected a time of each file or of none"));
-    EXPECT_THAT(refusal(listed("[" + files + "," + files + "]")),
+    EXPECT_THAT(refusalOfRead(listed("[" + files + "," + files + "]")),
                 HasSubstr("expected times that differ, found 0 twice"));
 }
 
@@ -156,30 +149,31 @@ TEST(VtkCollection, WhatDiffersIsTold) {
                             .points = dataArray("Int32", "p", std::vector<int>(12, 1))}));
     const Path other = tests::write(
         "c.vti", imageText({.points = dataArray("Int16", "p", std::vector<int>(12, 1))}));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("1", finer)), 1),
+    EXPECT_THAT(refusalOfRead(collection(member("0", good) + member("1", finer)), 1),
                 HasSubstr("expected the grid of"));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("1", other)), 1),
+    EXPECT_THAT(refusalOfRead(collection(member("0", good) + member("1", other)), 1),
                 HasSubstr("'p': expected int32 of 1 components"));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("0", finer))),
+    EXPECT_THAT(refusalOfRead(collection(member("0", good) + member("0", finer))),
                 HasSubstr("expected times that differ, found 0 twice"));
-    EXPECT_THAT(
-        refusal(collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
-        HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusal(collection(member("0", good) + member("1", good, "part=\"0\"") +
-                                   member("1", finer, "part=\"1\""))),
+    EXPECT_THAT(refusalOfRead(
+                    collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
                 HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusal(collection("<DataSet part=\"0\" file=\"a.vti\"/>"
-                                   "<DataSet part=\"1\" file=\"b.vti\"/>")),
+    EXPECT_THAT(refusalOfRead(collection(member("0", good) + member("1", good, "part=\"0\"") +
+                                         member("1", finer, "part=\"1\""))),
                 HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusal(collection(member("nan", good))), HasSubstr("expected a finite number"));
-    EXPECT_THAT(refusal(collection("")), HasSubstr("expected a file, found none"));
+    EXPECT_THAT(refusalOfRead(collection("<DataSet part=\"0\" file=\"a.vti\"/>"
+                                         "<DataSet part=\"1\" file=\"b.vti\"/>")),
+                HasSubstr("expected one part a time step, found 2 parts"));
+    EXPECT_THAT(refusalOfRead(collection(member("nan", good))),
+                HasSubstr("expected a finite number"));
+    EXPECT_THAT(refusalOfRead(collection("")), HasSubstr("expected a file, found none"));
     const Path gap = collection(member("0", good) + member("1", "none.vti"));
     EXPECT_THAT(open(gap)->variables()[0].notes,
                 ElementsAre("1 of 2 files are missing, the first none.vti"));
-    EXPECT_THAT(refusal(gap, 1), HasSubstr("none.vti: expected a file, but there is none"));
-    EXPECT_THAT(refusal(collection(member("0", "none.vti"))), HasSubstr("there is none"));
-    EXPECT_THAT(refusal(collection("<DataSet file=\"..\"/>")), HasSubstr("it is a folder"));
-    EXPECT_THAT(refusal(collection("<DataSet file=\"/dev/zero\"/>")),
+    EXPECT_THAT(refusalOfRead(gap, 1), HasSubstr("none.vti: expected a file, but there is none"));
+    EXPECT_THAT(refusalOfRead(collection(member("0", "none.vti"))), HasSubstr("there is none"));
+    EXPECT_THAT(refusalOfRead(collection("<DataSet file=\"..\"/>")), HasSubstr("it is a folder"));
+    EXPECT_THAT(refusalOfRead(collection("<DataSet file=\"/dev/zero\"/>")),
                 HasSubstr("/dev/zero: expected an ordinary file"));
 }
 

@@ -174,7 +174,7 @@ TEST(VtkMultiBlock, WhatIsWrongIsNamed) {
     const auto told = [&](const std::string& inside,
                           const std::string& type = "vtkMultiBlockDataSet") {
         writeList(folder / "all.vtm", type, inside);
-        return refusal(folder / "all.vtm");
+        return refusalOfRead(folder / "all.vtm");
     };
     EXPECT_THAT(told(""), HasSubstr("expected a DataSet with a file that holds points"));
     EXPECT_THAT(told("<DataSet index=\"0\"/>"), HasSubstr("expected a DataSet with a file"));

@@ -13,7 +13,7 @@ inline std::filesystem::path writeSlowFile(const std::filesystem::path& file) {
     constexpr std::size_t kSide = 192, kSteps = 4000;
     std::string values;
     for (std::size_t z = 0; z < kSide; ++z) values.append(kSide * kSide, static_cast<char>(z));
-    const std::string step = tests::gzipped(values);
+    const std::string step = tests::byGzip(values);
     std::ofstream out(file, std::ios::binary);
     out << fmt::format(
         "NRRD0004\ntype: uint8\ndimension: 4\nsizes: {0} {0} {0} {1}\n"

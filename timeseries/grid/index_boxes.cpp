@@ -34,17 +34,29 @@ IndexBox common(const IndexBox& a, const IndexBox& b) {
     return box;
 }
 
+IndexBox around(const IndexBox& a, const IndexBox& b) {
+    IndexBox box;
+    for (std::size_t c = 0; c < 3; ++c) {
+        box.first[c] = std::min(a.first[c], b.first[c]);
+        box.last[c] = std::max(a.last[c], b.last[c]);
+    }
+    return box;
+}
+
+std::uint64_t IndexBox::placeOf(const std::array<std::int64_t, 3>& cell) const {
+    const auto sides = size();
+    const auto along = [&](std::size_t a) {
+        return static_cast<std::uint64_t>(cell[a] - first[a]);
+    };
+    return (along(2) * sides[1] + along(1)) * sides[0] + along(0);
+}
+
 void cover(std::vector<bool>& covered, const IndexBox& box, const IndexBox& by) {
     const IndexBox part = common(box, by);
     if (part.isEmpty()) return;
-    const auto size = box.size();
-    covered.resize(size[0] * size[1] * size[2]);
+    covered.resize(box.count());
     const auto at = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
-        const auto along = [&](std::int64_t place, std::size_t a) {
-            return static_cast<std::uint64_t>(place - box.first[a]);
-        };
-        return covered.begin() + static_cast<std::ptrdiff_t>(
-                                     (along(k, 2) * size[1] + along(j, 1)) * size[0] + along(i, 0));
+        return covered.begin() + static_cast<std::ptrdiff_t>(box.placeOf({i, j, k}));
     };
     for (std::int64_t k = part.first[2]; k <= part.last[2]; ++k)
         for (std::int64_t j = part.first[1]; j <= part.last[1]; ++j)
@@ -60,11 +72,7 @@ void IndexBoxes::add(std::uint32_t first, std::uint32_t count) {
     constexpr std::uint32_t kLeaf = 8;
     const auto begin = order_.begin() + first, end = begin + count;
     IndexBox bounds = boxes_[*begin];
-    for (auto each = begin; each != end; ++each)
-        for (std::size_t a = 0; a < 3; ++a) {
-            bounds.first[a] = std::min(bounds.first[a], boxes_[*each].first[a]);
-            bounds.last[a] = std::max(bounds.last[a], boxes_[*each].last[a]);
-        }
+    for (auto each = begin; each != end; ++each) bounds = around(bounds, boxes_[*each]);
     const std::size_t node = nodes_.size();
     nodes_.push_back({bounds, first, count});
     if (count <= kLeaf) return;

@@ -18,10 +18,14 @@ struct IndexBox {
     // REQUIRES: not empty.
     std::array<std::uint64_t, 3> size() const;
     std::uint64_t count() const;  // at most 2^62
+    // Of a cell among its own, x fastest.
+    std::uint64_t placeOf(const std::array<std::int64_t, 3>& cell) const;
     friend bool operator==(const IndexBox&, const IndexBox&) = default;
 };
 
 IndexBox common(const IndexBox& a, const IndexBox& b);
+// The least that holds both.
+IndexBox around(const IndexBox& a, const IndexBox& b);
 
 // Of the cells of a box, x fastest, those that another has too become true. `covered` stays as it
 // is where there are none, and else is made as long as the box has cells.

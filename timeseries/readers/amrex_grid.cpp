@@ -39,10 +39,7 @@ std::optional<IndexBox> filledBy(const std::vector<IndexBox>& boxes) {
     std::uint64_t count = 0;
     for (const IndexBox& box : boxes) {
         count += box.count();
-        for (std::size_t a = 0; a < 3; ++a) {
-            bounds.first[a] = std::min(bounds.first[a], box.first[a]);
-            bounds.last[a] = std::max(bounds.last[a], box.last[a]);
-        }
+        bounds = around(bounds, box);
     }
     return count == bounds.count() ? std::optional(bounds) : std::nullopt;
 }

@@ -15,14 +15,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Of a cell among those of a box.
-std::ptrdiff_t placeIn(const IndexBox& box, std::int64_t i, std::int64_t j, std::int64_t k) {
-    const auto size = box.size();
-    return (i - box.first[0]) +
-           static_cast<std::ptrdiff_t>(size[0]) *
-               ((j - box.first[1]) + static_cast<std::ptrdiff_t>(size[1]) * (k - box.first[2]));
-}
-
 class AmrexReader final : public Reader {
  public:
     AmrexReader(const Path& path, bool mayBeUpright)
@@ -131,10 +123,12 @@ void AmrexReader::fill(std::size_t variable, std::vector<T>& values) const {
             std::size_t cell = 0;
             for (std::int64_t k = box.first[2]; k <= box.last[2]; ++k)
                 for (std::int64_t j = box.first[1]; j <= box.last[1]; ++j) {
-                    const auto begin = all.begin() + placeIn(header.box, box.first[0], j, k);
+                    const auto rowIn = [&](const IndexBox& of) {
+                        return static_cast<std::ptrdiff_t>(of.placeOf({box.first[0], j, k}));
+                    };
+                    const auto begin = all.begin() + rowIn(header.box);
                     if (placed_.whole)
-                        std::copy_n(begin, row,
-                                    values.begin() + placeIn(*placed_.whole, box.first[0], j, k));
+                        std::copy_n(begin, row, values.begin() + rowIn(*placed_.whole));
                     else
                         for (std::ptrdiff_t i = 0; i < row; ++i, ++cell)
                             if (covered.empty() || !covered[cell]) values.push_back(begin[i]);

@@ -59,12 +59,12 @@ std::vector<std::filesystem::path> meshesBeside(const std::filesystem::path& val
     return paths;
 }
 
-std::unique_ptr<NetcdfFile> meshFileOf(const NetcdfFile& values) {
+std::unique_ptr<NetcdfFile> meshFileOf(const NetcdfFile& values, NetcdfFile::Header header) {
     std::string looked;
     for (const auto& path : meshesBeside(values.path())) {
         std::error_code ignored;
         if (std::filesystem::exists(path, ignored))
-            return std::make_unique<NetcdfFile>(path, NetcdfFile::Header::New);
+            return std::make_unique<NetcdfFile>(path, header);
         looked += (looked.empty() ? "" : " nor ") + path.filename().string();
     }
     values.fail(
@@ -85,8 +85,8 @@ struct MeshSource {
 
 class FesomFile final : public CfFile {
  public:
-    explicit FesomFile(std::unique_ptr<NetcdfFile> values)
-        : CfFile(values->path()), values_(std::move(values)), mesh_(meshFileOf(*values_)) {
+    FesomFile(std::unique_ptr<NetcdfFile> values, NetcdfFile::Header header)
+        : CfFile(values->path()), values_(std::move(values)), mesh_(meshFileOf(*values_, header)) {
         header_ = values_->header();
         nodes_ = dimensionOf(header_, kNodes);
         triangles_ = dimensionOf(header_, kTriangles);
@@ -331,9 +331,9 @@ bool isFesom(const NcHeader& header) {
 
 }  // namespace
 
-std::unique_ptr<CfFile> withFesomMesh(std::unique_ptr<NetcdfFile> file) {
+std::unique_ptr<CfFile> withFesomMesh(std::unique_ptr<NetcdfFile> file, NetcdfFile::Header header) {
     if (!isFesom(file->header())) return file;
-    return std::make_unique<FesomFile>(std::move(file));
+    return std::make_unique<FesomFile>(std::move(file), header);
 }
 
 }  // namespace timeseries

@@ -123,9 +123,8 @@ std::uint64_t FacesOfCells::cells() const {
     return count;
 }
 
-std::string addCells(const FacesOfCells& faces, std::uint32_t firstPoint, UnstructuredGrid& grid) {
-    std::vector<std::uint32_t> moved = faces.corners;
-    for (std::uint32_t& point : moved) point += firstPoint;
+std::string addCells(FacesOfCells faces, std::uint32_t firstPoint, UnstructuredGrid& grid) {
+    for (std::uint32_t& point : faces.corners) point += firstPoint;
     const FaceLists lists(faces);
     std::vector<Face> own;
     for (std::size_t cell = 0; cell + 1 < lists.ends.size(); ++cell) {
@@ -133,7 +132,7 @@ std::string addCells(const FacesOfCells& faces, std::uint32_t firstPoint, Unstru
         for (std::uint64_t i = lists.ends[cell]; i < lists.ends[cell + 1]; ++i) {
             const std::uint32_t face = lists.faces[i];
             const std::uint64_t first = face == 0 ? 0 : faces.ends[face - 1];
-            own.push_back(Face(moved).subspan(first, faces.ends[face] - first));
+            own.push_back(Face(faces.corners).subspan(first, faces.ends[face] - first));
         }
         if (own.size() < 4)
             return fmt::format("cell {} has {} faces, fewer than 4", cell, own.size());

@@ -23,6 +23,6 @@ struct FacesOfCells {
 // hexahedra as such, others as polyhedra. The first thing that is wrong, in a few words, or "".
 // REQUIRES: as many ends as owners, no fewer than neighbours; all corners name points that there
 // are.
-std::string addCells(const FacesOfCells& faces, std::uint32_t firstPoint, UnstructuredGrid& grid);
+std::string addCells(FacesOfCells faces, std::uint32_t firstPoint, UnstructuredGrid& grid);
 
 }  // namespace timeseries

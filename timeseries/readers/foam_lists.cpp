@@ -192,13 +192,14 @@ std::vector<T> FoamFile::rows(std::uint64_t components, std::uint64_t least, std
         return all;
     }
     const std::uint64_t count = *list.count * components;
-    const auto take = [&](auto value) { all.push_back(static_cast<T>(value)); };
+    if (least == most) all.reserve(count);  // the mesh bounds it, not this file alone
+    const auto keep = [&](auto value) { all.push_back(static_cast<T>(value)); };
     if (!header_.isBinary)
         while (all.size() < count) add();
     else if (header_.scalarBytes == 8)
-        forEachBinary<double>(count, take);
+        forEachBinary<double>(count, keep);
     else
-        forEachBinary<float>(count, take);
+        forEachBinary<float>(count, keep);
     expect(")");
     return all;
 }

@@ -55,13 +55,13 @@ FoamMesh foamMeshOf(std::span<const FoamMeshFiles> parts) {
     FoamMesh mesh;
     for (const FoamMeshFiles& files : parts) {
         const std::vector<glm::dvec3> places = placesIn(files);
-        const FacesOfCells faces = facesIn(files, places.size());
+        FacesOfCells faces = facesIn(files, places.size());
         const std::uint64_t before = mesh.grid.points.size(), cells = mesh.grid.types.size();
         if (before + places.size() >= kNoPoint)
             throw FileError(fmt::format("{}: expected fewer than 2^32 points, found {}",
                                         files.points.string(), before + places.size()));
         mesh.grid.points.insert(mesh.grid.points.end(), places.begin(), places.end());
-        if (const std::string flaw = addCells(faces, std::uint32_t(before), mesh.grid);
+        if (const std::string flaw = addCells(std::move(faces), std::uint32_t(before), mesh.grid);
             !flaw.empty())
             throw FileError(fmt::format("{}: expected cells between faces, found that {}",
                                         files.owner.string(), flaw));

@@ -28,8 +28,11 @@ class CfReader final : public Reader {
           file_(std::move(first)) {
         // Backwards, so that the first file is the one left open.
         contents_.resize(paths_.size());
+        sources_.resize(paths_.size());
         for (std::size_t i = paths_.size(); i-- > 0;) {
-            FileContents contents = contentsOf(open(i));
+            CfFile& file = open(i);
+            FileContents contents = contentsOf(file);
+            sources_[i] = file.sources();
             contents_[i] = std::move(contents.variables);
             addDamaged(std::move(contents.damaged));
         }
@@ -71,6 +74,7 @@ class CfReader final : public Reader {
     [[noreturn]] void differ(std::size_t file, const std::string& what) const;
 
     Paths paths_;
+    std::vector<Paths> sources_;  // [file]: of what it is made
     OpenCfFile openFile_;
     std::string format_;
     std::vector<std::vector<FileVariable>> contents_;  // [file][variable], the same order in each
@@ -313,9 +317,8 @@ StepSources CfReader::sources(std::size_t variable, std::size_t step) {
     const auto [file, own] = fileOf(variable, step);
     const auto& columns = contents_[0][variable].axes.columns;
     if (columns && (columns->inTime || file > 0)) return {};
-    std::vector<std::filesystem::path> files = open(file).sources();
-    if (files.empty()) return {};
-    return {std::move(files), own};
+    if (sources_[file].empty()) return {};
+    return {sources_[file], own};
 }
 
 std::pair<std::size_t, std::size_t> CfReader::fileOf(std::size_t variable, std::size_t step) const {
@@ -381,10 +384,11 @@ std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths)
     auto first = std::make_unique<NetcdfFile>(paths[0], NetcdfFile::Header::New);
     const OtherNetcdf* const other = otherNetcdf(first->header());
     if (!other)
-        return openCf(paths, withFesomMesh(std::move(first)),
+        return openCf(paths, withFesomMesh(std::move(first), NetcdfFile::Header::New),
                       [](const std::filesystem::path& path, bool known) {
-                          return withFesomMesh(std::make_unique<NetcdfFile>(
-                              path, known ? NetcdfFile::Header::Known : NetcdfFile::Header::New));
+                          const auto header =
+                              known ? NetcdfFile::Header::Known : NetcdfFile::Header::New;
+                          return withFesomMesh(std::make_unique<NetcdfFile>(path, header), header);
                       });
     if (paths.size() == 1) return other->open(std::move(first));
     first.reset();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -177,11 +178,11 @@ void addParticles(const SnapshotFiles& files, std::size_t index, std::size_t typ
         file.fail(all.name, "expected at most 2^32 particles in all files of the snapshot");
 }
 
-// What all files say alike, and whether they hold all that they say there is.
-void expectOneSnapshot(const SnapshotFiles& files,
+// Whether all files hold what the first says that there is, and say of what they are alike.
+// `headers`: theirs.
+void expectOneSnapshot(const SnapshotFiles& files, std::span<const NcGroup> headers,
                        const std::array<SnapshotParticles, kSnapshotTypes>& types) {
-    const NcGroup about = *files.at(0).header().findGroup("Header");
-    const auto said = [&](const char* name) { return about.numbers(name); };
+    const auto said = [&](const char* name) { return headers[0].numbers(name); };
     for (std::size_t type = 0; type < kSnapshotTypes; ++type) {
         // In 32 bits, and those above them (NumPart_Total_HighWord).
         const double total = numberOf(said("NumPart_Total"), type) +
@@ -193,15 +194,12 @@ void expectOneSnapshot(const SnapshotFiles& files,
                             "snapshot's {} files, found {}",
                             types[type].count, types[type].name, files.paths().size(), total));
     }
-    for (std::size_t i = 1; i < files.paths().size(); ++i)
-        for (const char* const name : {"NumFilesPerSnapshot", "Time"}) {
-            const NetcdfFile& file = files.at(i);
-            const NcGroup* const other = file.header().findGroup("Header");
-            if (other->numbers(name) != said(name))
-                file.fail("Header",
-                          fmt::format("expected the {} of {}, for they are of one snapshot", name,
-                                      files.paths()[0].string()));
-        }
+    for (std::size_t i = 1; i < headers.size(); ++i)
+        for (const char* const name : {"NumFilesPerSnapshot", "Time"})
+            if (headers[i].numbers(name) != said(name))
+                files.at(i).fail("Header",
+                                 fmt::format("expected the {} of {}, for they are of one snapshot",
+                                             name, files.paths()[0].string()));
 }
 
 }  // namespace
@@ -210,14 +208,16 @@ std::vector<SnapshotParticles> snapshotParticlesOf(const SnapshotFiles& files) {
     std::array<SnapshotParticles, kSnapshotTypes> types;
     for (std::size_t type = 0; type < kSnapshotTypes; ++type)
         types[type].name = fmt::format("PartType{}", type);
+    std::vector<NcGroup> headers;
     for (std::size_t i = 0; i < files.paths().size(); ++i) {
         const NetcdfFile& file = files.at(i);
-        if (!file.header().findGroup("Header"))
-            file.fail("", "expected a snapshot of particles, with a group Header");
+        const NcGroup* const about = file.header().findGroup("Header");
+        if (!about) file.fail("", "expected a snapshot of particles, with a group Header");
+        headers.push_back(*about);  // one file stays open
         for (std::size_t type = 0; type < kSnapshotTypes; ++type)
             addParticles(files, i, type, types[type]);
     }
-    if (files.paths().size() > 1) expectOneSnapshot(files, types);
+    if (files.paths().size() > 1) expectOneSnapshot(files, headers, types);
     std::vector<SnapshotParticles> present;
     for (SnapshotParticles& each : types)
         if (each.count > 0) present.push_back(std::move(each));

@@ -21,4 +21,13 @@ void forEachPlace(const StridedLayout& layout, Visit visit) {
                 visit(x * layout.stride[0] + y * layout.stride[1] + z * layout.stride[2]);
 }
 
+// From the file's order to the grid's.
+template <typename T>
+T arranged(const T& from, const StridedLayout& layout) {
+    T to;
+    to.reserve(from.size());
+    forEachPlace(layout, [&](std::size_t place) { to.push_back(from[place]); });
+    return to;
+}
+
 }  // namespace timeseries

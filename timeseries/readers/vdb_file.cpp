@@ -109,21 +109,19 @@ void VdbBox::add(const VdbBox& other) {
     }
 }
 
-VdbFile::VdbFile(const std::filesystem::path& path) : path_(path) {
+VdbFile::VdbFile(const std::filesystem::path& path, Header header) : path_(path) {
     initialize();
-    tried("header", 0, [this] {
-        grids_.clear();
-        damaged_.clear();
-        readHeader();
-    });
+    const auto read = [this] { readHeader(); };
+    if (header == Header::New) tryInCopy("header", 0, read);
+    told("header", read);
 }
 
 void VdbFile::fail(std::string_view place, std::string_view what) const {
     throw FileError(fmt::format("{}: {}: {}", path_.string(), place, what));
 }
 
-void VdbFile::tried(std::string_view place, std::uint64_t more,
-                    const std::function<void()>& work) const {
+void VdbFile::tryInCopy(std::string_view place, std::uint64_t more,
+                        const std::function<void()>& work) const {
     constexpr std::chrono::seconds kMostTime(30);
     constexpr std::uint64_t kUnpacked = 256, kBeside = std::uint64_t{256} << 20;
     std::error_code unknown;
@@ -139,6 +137,9 @@ void VdbFile::tried(std::string_view place, std::uint64_t more,
         },
         kMostTime);
     if (!end.empty()) fail(place, "expected what OpenVDB can read, but OpenVDB " + end);
+}
+
+void VdbFile::told(std::string_view place, const std::function<void()>& work) const {
     try {
         work();
     } catch (const openvdb::Exception& error) {
@@ -215,7 +216,7 @@ Values VdbFile::read(const VdbGrid& of, const VdbBox& box) const {
     const std::string place = fmt::format("grid '{}'", of.name);
     Values values;
     const std::uint64_t most = sizeof(double) * of.numbers * *box.count();
-    tried(place, most, [&] {
+    const auto work = [&] {
         openvdb::io::File file(path_.string());
         file.open(false);
         const openvdb::GridBase::Ptr grid = file.readGrid(of.name);
@@ -233,7 +234,9 @@ Values VdbFile::read(const VdbGrid& of, const VdbBox& box) const {
             values = std::move(numbers);
         });
         if (!isRead) fail(place, "expected the type that it had, found another");
-    });
+    };
+    tryInCopy(place, most, work);
+    told(place, work);
     return values;
 }
 

@@ -42,9 +42,10 @@ struct VdbGrid {
 
 class VdbFile {
  public:
-    // OpenVDB crashes on some damaged files, so what is new is tried in a copy of this process.
-    // Throws FileError.
-    explicit VdbFile(const std::filesystem::path& path);
+    // OpenVDB crashes on some damaged files, so that a new one's header is read in a copy of this
+    // process first, as are voxels; a known one was read before. Throws FileError.
+    enum class Header { New, Known };
+    VdbFile(const std::filesystem::path& path, Header header);
 
     const std::vector<VdbGrid>& grids() const { return grids_; }
     const std::vector<DamagedVariable>& damaged() const { return damaged_; }
@@ -56,8 +57,11 @@ class VdbFile {
     void readHeader();
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
     // In a copy of this process, which may take as much memory as the file's bytes account for and
-    // so many bytes more, then here: what OpenVDB throws becomes a FileError.
-    void tried(std::string_view place, std::uint64_t more, const std::function<void()>& work) const;
+    // so many bytes more.
+    void tryInCopy(std::string_view place, std::uint64_t more,
+                   const std::function<void()>& work) const;
+    // What OpenVDB throws becomes a FileError.
+    void told(std::string_view place, const std::function<void()>& work) const;
 
     std::filesystem::path path_;
     std::vector<VdbGrid> grids_;

@@ -53,7 +53,8 @@ std::vector<T> turned(const std::vector<T>& from, const ArrayLayout& layout) {
 
 class VdbReader final : public Reader {
  public:
-    VdbReader(const Path& path, const Boxes& boxes) : path_(path), file_(path) {
+    VdbReader(const Path& path, VdbFile::Header header, const Boxes& boxes)
+        : path_(path), file_(path, header) {
         for (const VdbGrid& grid : file_.grids()) {
             const auto box = boxes.find(grid.name);
             add(grid, box == boxes.end() ? grid.box : box->second);
@@ -117,10 +118,11 @@ void VdbReader::add(const VdbGrid& grid, const VdbBox& box) {
 }  // namespace
 
 std::unique_ptr<Reader> openVdb(std::span<const Path> paths) {
-    if (paths.size() == 1) return std::make_unique<VdbReader>(paths[0], Boxes());
+    if (paths.size() == 1)
+        return std::make_unique<VdbReader>(paths[0], VdbFile::Header::New, Boxes());
     Boxes boxes;
     for (const Path& path : paths) {
-        const VdbFile file(path);
+        const VdbFile file(path, VdbFile::Header::New);
         for (const VdbGrid& grid : file.grids()) {
             const auto [box, isNew] = boxes.emplace(grid.name, grid.box);
             if (!isNew) box->second.add(grid.box);
@@ -133,8 +135,9 @@ std::unique_ptr<Reader> openVdb(std::span<const Path> paths) {
                             "holds all steps, "
                             "found {}",
                             paths[0].string(), name, fmt::join(box.size(), " x ")));
-    return openSequence(
-        paths, [boxes](const Path& path) { return std::make_unique<VdbReader>(path, boxes); });
+    return openSequence(paths, [boxes](const Path& path) {
+        return std::make_unique<VdbReader>(path, VdbFile::Header::Known, boxes);
+    });
 }
 
 }  // namespace timeseries

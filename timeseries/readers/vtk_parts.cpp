@@ -271,15 +271,6 @@ void putUncovered(const std::vector<bool>& covered, VtkPlace place, std::uint64_
     }
 }
 
-// From the file's order to the grid's.
-template <typename T>
-T arranged(const T& from, const StridedLayout& layout) {
-    T to;
-    to.reserve(from.size());
-    forEachPlace(layout, [&](std::size_t tuple) { to.push_back(from[tuple]); });
-    return to;
-}
-
 }  // namespace
 
 VtkContents vtkContentsOf(const Path& path) {

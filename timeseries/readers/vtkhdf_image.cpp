@@ -238,14 +238,8 @@ Field VtkHdfImageReader::read(std::size_t variable, std::size_t step) {
     const StridedLayout& layout = placed_[source.atPoints].layout;
     // In the order of the grid, whose axes may be the image's in another.
     const auto inOrder = [&](const Values& stored) {
-        return std::visit(
-            [&]<typename T>(const std::vector<T>& values) -> Values {
-                std::vector<T> all;
-                all.reserve(values.size());
-                forEachPlace(layout, [&](std::size_t place) { all.push_back(values[place]); });
-                return all;
-            },
-            stored);
+        return std::visit([&](const auto& values) -> Values { return arranged(values, layout); },
+                          stored);
     };
     Field field{.grid = variables_[variable].grid,
                 .values = inOrder(

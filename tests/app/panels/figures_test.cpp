@@ -55,12 +55,17 @@ TEST(Figures, CountCellsWhereTheyAreDrawn) {
               "3,321 cells drawn, before clipping");
 }
 
-TEST(Figures, StateTheErrorOnceItIsKnown) {
-    tests::ScriptedExploration desk;
+Performance sevenPoints() {
     Performance p{.frame = 5ms, .budget = 33ms};
     p.report.whole = true;
     p.report.drawn = p.report.selected = 7;
     p.report.counts = PointCounts{.layers = {7}, .selected = 7, .kept = 10, .total = 10};
+    return p;
+}
+
+TEST(Figures, StateTheErrorOnceItIsKnown) {
+    tests::ScriptedExploration desk;
+    Performance p = sevenPoints();
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [error, text] : {std::pair(0.0004, "7 points drawn  ·  error below 0.1 %"),
                                       {0.0041, "7 points drawn  ·  error about 0.4 %"},
@@ -74,10 +79,7 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
 // Where colours are mixed, the same line says what that costs.
 TEST(Figures, StateTheErrorOfLightWhereColoursAreMixed) {
     tests::ScriptedExploration desk;
-    Performance p{.frame = 5ms, .budget = 33ms};
-    p.report.whole = true;
-    p.report.drawn = p.report.selected = 7;
-    p.report.counts = PointCounts{.layers = {7}, .selected = 7, .kept = 10, .total = 10};
+    Performance p = sevenPoints();
     p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = 0.03, .order = 0.08}},
                            .ordering = Ordering::Mixed};
     EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(),
