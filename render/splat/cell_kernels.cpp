@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "render/splat/cell_kernels.cpp"
 #include <hwy/foreach_target.h>  // the first of these
 //
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 //
 #include "render/splat/cell_pixels-inl.h"
@@ -28,16 +29,21 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
     }
 }
 
+// Cells of one tile lie all over the list.
+constexpr std::size_t kAhead = 8;
+HWY_INLINE void prefetch(const SeenCell& cell) {
+    const auto* bytes = reinterpret_cast<const char*>(&cell);
+    for (std::size_t at = 0; at < sizeof cell; at += 64) hwy::Prefetch(bytes + at);
+}
+
 template <Channels kChannels, bool kByValue, bool kLit>
 HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
                          std::span<const std::uint32_t> which, TileRoom& room) {
     for (std::size_t i = 0; i < which.size(); ++i) {
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
+        prefetch(cells[which[std::min(i + kAhead, which.size() - 1)]]);
         const SeenCell& c = cells[which[i]];
-        if (c.columns <= 8)
-            addCell<kChannels, kByValue, kLit>(FewFloats(), view, c, room);
-        else
-            addCell<kChannels, kByValue, kLit>(Floats(), view, c, room);
+        addCell<kChannels, kByValue, kLit>(Floats(), view, c, room);
     }
 }
 

@@ -213,10 +213,11 @@ SeenOctants seenOctants(const Scene& scene, std::uint32_t number) {
         std::tie(cell.from[a], cell.to[a]) =
             endsAlong(scene.placed, static_cast<std::size_t>(a), at[a]);
     seen.octants = fillMissing(cell.corners);
-    const bool isInside = scene.clip.holds(scene.cells->cornersOf().pointAt(at, 0)) &&
-                          scene.clip.holds(scene.cells->cornersOf().pointAt(at, 7));
+    const timeseries::CellCorners& corners = scene.cells->cornersOf();
+    const bool isInside =
+        scene.clip.holds(corners.pointAt(at, 0)) && scene.clip.holds(corners.pointAt(at, 7));
     for (unsigned c = 0; c < 8 && !isInside; ++c)
-        if (!scene.clip.holds(scene.cells->cornersOf().pointAt(at, c))) seen.octants &= ~(1u << c);
+        if (!scene.clip.holds(corners.pointAt(at, c))) seen.octants &= ~(1u << c);
     return seen;
 }
 

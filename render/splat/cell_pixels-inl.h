@@ -138,7 +138,9 @@ template <Channels kChannels, bool kByValue, bool kLit, int kEnds, class Lanes>
 HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, TileRoom& room) {
     using V = hn::Vec<Lanes>;
     constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
-    constexpr int kStep = static_cast<int>(hn::MaxLanes(Lanes()));
+    constexpr PixelBlock<Lanes, kTileStride> pixels;
+    constexpr int kColumns = static_cast<int>(pixels.kColumns);
+    constexpr int kRows = static_cast<int>(pixels.kRows);
     const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
     const glm::ivec2 most =
         glm::min(glm::ivec2(c.x + c.columns, c.y + c.rows), room.at + room.size);
@@ -160,16 +162,16 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
     const bool hides = room.nearestOpaque < 1;
     const V depthA = hn::Set(lanes, static_cast<float>(view.depthA));
     const V depthB = hn::Set(lanes, static_cast<float>(view.depthB));
-    const V steps = hn::ConvertTo(lanes, hn::Iota(hn::RebindToSigned<Lanes>(), 0));
+    const V stepsX = pixels.columns(lanes), stepsY = pixels.rows(lanes);
     RayParts<Lanes> r;
-    for (int x = least.x; x < most.x; x += kStep) {
-        const V ox = hn::Add(hn::Set(lanes, c.ox + static_cast<float>(x - c.x)), steps);
-        for (int y = least.y; y < most.y; ++y) {
+    for (int x = least.x; x < most.x; x += kColumns) {
+        const V ox = hn::Add(hn::Set(lanes, c.ox + static_cast<float>(x - c.x)), stepsX);
+        for (int y = least.y; y < most.y; y += kRows) {
             const auto at = static_cast<std::size_t>((y - room.at.y) * kTileStride + x - room.at.x);
-            const V oy = hn::Set(lanes, c.oy + static_cast<float>(y - c.y));
+            const V oy = hn::Add(hn::Set(lanes, c.oy + static_cast<float>(y - c.y)), stepsY);
             V to = far;
             if (hides) {
-                const V opaque = hn::LoadU(lanes, room.opaque.data() + at);
+                const V opaque = pixels.load(lanes, room.opaque.data() + at);
                 to = hn::Sub(hn::Div(depthA, hn::Sub(opaque, depthB)), cell.base);
             }
             cell.meet(ox, oy, to, r);
@@ -192,7 +194,7 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                     // As if along the view axis: the ray's own length is a factor later.
                     const V crossing =
                         c.perRange > 0
-                            ? hn::Mul(perRange, reciprocal(lanes, hn::LoadU(lanes, factors + at)))
+                            ? hn::Mul(perRange, reciprocal(lanes, pixels.load(lanes, factors + at)))
                             : zero;
                     t = range.template sum<kEnds, kByValue>(values, width, t, crossing, mean, low,
                                                             high);
@@ -205,15 +207,15 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                     back = hn::Add(mean, toBack);
                     if constexpr (kChannels == Channels::Over)
                         back = seenTo(lanes, front, back,
-                                      hn::Mul(t, hn::LoadU(lanes, factors + at)), along, width);
+                                      hn::Mul(t, pixels.load(lanes, factors + at)), along, width);
                 }
             }
             t = hn::IfThenElseZero(inside, t);
-            addWeight<kChannels>(lanes, t, room, at, [&](V* colors) HWY_ATTR {
+            addWeight<kChannels>(pixels, lanes, t, room, at, [&](V* colors) HWY_ATTR {
                 if constexpr (kColors) color.between(front, back, colors);
                 if constexpr (kLit) {
                     V diffuse, specular;
-                    light.shade(r, change, hn::LoadU(lanes, factors + at), diffuse, specular);
+                    light.shade(r, change, pixels.load(lanes, factors + at), diffuse, specular);
                     for (int k = 0; k < 3; ++k)
                         colors[k] = hn::MulAdd(colors[k], diffuse, specular);
                 }

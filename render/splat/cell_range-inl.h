@@ -189,14 +189,14 @@ HWY_INLINE void lightOf(Lanes lanes, Light light, V certainty, V facing, V& diff
 }
 
 // Adds weights W of pixels that begin at `at`, of the colours that paint(colors) tells.
-template <Channels kChannels, class Lanes, class V, class Paint>
-HWY_INLINE void addWeight(Lanes lanes, V t, TileRoom& room, std::size_t at, const Paint& paint) {
+template <Channels kChannels, class Pixels, class Lanes, class V, class Paint>
+HWY_INLINE void addWeight(Pixels pixels, Lanes lanes, V t, TileRoom& room, std::size_t at, const Paint& paint) {
     float* const sums = room.sums.data() + at;
     if constexpr (kChannels == Channels::Weight) {
-        hn::StoreU(hn::Add(t, hn::LoadU(lanes, sums)), lanes, sums);
+        pixels.store(lanes, hn::Add(t, pixels.load(lanes, sums)), sums);
     } else if constexpr (kChannels == Channels::Count) {
         const V counted = hn::IfThenElseZero(hn::Gt(t, hn::Zero(lanes)), hn::Set(lanes, 1.0f));
-        hn::StoreU(hn::Add(counted, hn::LoadU(lanes, sums)), lanes, sums);
+        pixels.store(lanes, hn::Add(counted, pixels.load(lanes, sums)), sums);
     } else {
         V colors[3];
         paint(colors);
@@ -204,11 +204,11 @@ HWY_INLINE void addWeight(Lanes lanes, V t, TileRoom& room, std::size_t at, cons
             for (std::size_t k = 0; k < 4; ++k) {
                 float* const sum = sums + k * room.plane;
                 const V share = k < 3 ? hn::Mul(t, colors[k]) : t;
-                hn::StoreU(hn::Add(share, hn::LoadU(lanes, sum)), lanes, sum);
+                pixels.store(lanes, hn::Add(share, pixels.load(lanes, sum)), sum);
             }
         } else {
-            const V factor = hn::LoadU(lanes, room.factor.data() + at);
-            layUnder<false>(lanes, hn::Mul(t, factor), colors, sums, room.plane);
+            const V factor = pixels.load(lanes, room.factor.data() + at);
+            layUnder<false>(pixels, lanes, hn::Mul(t, factor), colors, sums, room.plane);
         }
     }
 }

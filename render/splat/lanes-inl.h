@@ -10,6 +10,7 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -73,21 +74,70 @@ HWY_INLINE V opacity(Lanes lanes, V x) {
     return hn::Neg(hn::Expm1(lanes, hn::Neg(hn::Min(x, set(80)))));
 }
 
+// Neighbouring pixels of one row, whose floats lie one after another.
+template <class Lanes>
+struct PixelRow {
+    using V = hn::Vec<Lanes>;
+    HWY_INLINE V load(Lanes lanes, const float* from) const { return hn::LoadU(lanes, from); }
+    HWY_INLINE void store(Lanes lanes, V v, float* to) const { hn::StoreU(v, lanes, to); }
+};
+
+// Neighbouring pixels of as many rows as make a vector of four columns, in rows so many floats
+// apart.
+template <class Lanes, std::size_t kStride>
+struct PixelBlock {
+    using V = hn::Vec<Lanes>;
+    static constexpr std::size_t kColumns = std::min(hn::MaxLanes(Lanes()), std::size_t{4});
+    static constexpr std::size_t kRows = hn::MaxLanes(Lanes()) / kColumns;
+    HWY_INLINE V load(Lanes lanes, const float* from) const {
+        if constexpr (kRows == 1) {
+            return hn::LoadU(lanes, from);
+        } else {
+            const hn::Half<Lanes> half;
+            const PixelBlock<hn::Half<Lanes>, kStride> rows;
+            return hn::Combine(lanes, rows.load(half, from + kRows / 2 * kStride),
+                               rows.load(half, from));
+        }
+    }
+    HWY_INLINE void store(Lanes lanes, V v, float* to) const {
+        if constexpr (kRows == 1) {
+            hn::StoreU(v, lanes, to);
+        } else {
+            const hn::Half<Lanes> half;
+            const PixelBlock<hn::Half<Lanes>, kStride> rows;
+            rows.store(half, hn::LowerHalf(half, v), to);
+            rows.store(half, hn::UpperHalf(half, v), to + kRows / 2 * kStride);
+        }
+    }
+    // Of each pixel, from the first.
+    static HWY_INLINE V columns(Lanes lanes) {
+        return hn::ConvertTo(lanes, hn::And(hn::Iota(Int(), 0), hn::Set(Int(), kColumns - 1)));
+    }
+    static HWY_INLINE V rows(Lanes lanes) {
+        return hn::Mul(hn::Sub(hn::Iota(lanes, 0), columns(lanes)),
+                       hn::Set(lanes, 1.0f / kColumns));
+    }
+
+ private:
+    using Int = hn::RebindToSigned<Lanes>;
+};
+
 // Front to back: of what comes through, a layer of optical depth x takes its share, and what it has
 // of each colour is added to what stands at `sums` and `plane` floats on. Where less than a 10^7th
 // comes through, nothing does any more. The sum is of what is taken, not what is left of 1, which
 // would lose the faintest.
-template <bool kSmall, class Lanes, class V = hn::Vec<Lanes>>
-HWY_INLINE void layUnder(Lanes lanes, V x, const V* color, float* sums, std::size_t plane) {
+template <bool kSmall, class Pixels, class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE void layUnder(Pixels pixels, Lanes lanes, V x, const V* color, float* sums,
+                         std::size_t plane) {
     float* const all = sums + 3 * plane;
-    const auto one = hn::Set(lanes, 1.0f), before = hn::LoadU(lanes, all);
+    const auto one = hn::Set(lanes, 1.0f), before = pixels.load(lanes, all);
     const auto taken = hn::Mul(hn::Sub(one, before), opacity<kSmall>(lanes, x));
     for (std::size_t c = 0; c < 3; ++c) {
         float* const to = sums + c * plane;
-        hn::StoreU(hn::MulAdd(taken, color[c], hn::LoadU(lanes, to)), lanes, to);
+        pixels.store(lanes, hn::MulAdd(taken, color[c], pixels.load(lanes, to)), to);
     }
     const auto now = hn::Add(before, taken);
-    hn::StoreU(hn::IfThenElse(hn::Lt(now, hn::Set(lanes, 1 - 1e-7f)), now, one), lanes, all);
+    pixels.store(lanes, hn::IfThenElse(hn::Lt(now, hn::Set(lanes, 1 - 1e-7f)), now, one), all);
 }
 
 }  // namespace HWY_NAMESPACE

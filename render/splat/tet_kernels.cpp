@@ -107,7 +107,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 back =
                     seenTo(lanes, front, back, hn::Mul(t, factor), hn::Add(reach, reach), beside);
             t = hn::IfThenElseZero(inside, t);
-            addWeight<kChannels>(lanes, t, room, at, [&](V* colors) HWY_ATTR {
+            addWeight<kChannels>(PixelRow<Lanes>(), lanes, t, room, at, [&](V* colors) HWY_ATTR {
                 if constexpr (kColors) color.between(front, back, colors);
                 if (!isLit) return;
                 const V perLength = hn::Mul(set(1 / view.rayLength), reciprocal(lanes, factor));

@@ -71,7 +71,7 @@ struct LayUnder {
     }
     HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
         const auto x = hn::Mul(hn::Mul(t, depth), hn::LoadU(lanes, factor + at));
-        layUnder<kSmall>(lanes, x, color, sums + at, plane);
+        layUnder<kSmall>(PixelRow<Lanes>(), lanes, x, color, sums + at, plane);
     }
 };
 

@@ -73,7 +73,7 @@ HWY_EXPORT(FillRays);
 HWY_EXPORT(TakeDepths);
 
 TileRoom::TileRoom(const TileLayout& layout) {
-    plane = static_cast<std::size_t>(kTileStride * layout.tile.y) + 16;
+    plane = static_cast<std::size_t>(kTileStride * (layout.tile.y + 4)) + 16;
     sums.resize(plane * floatsPerPixel(layout.channels));
     factor.resize(plane);
     perRay2.resize(plane);

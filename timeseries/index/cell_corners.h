@@ -62,15 +62,23 @@ class CellCorners {
         const glm::vec<3, std::uint64_t> n(points_);
         return point.x + n.x * (point.y + n.y * point.z);
     }
+    // Of the points at its corners.
+    std::array<std::uint64_t, 8> pointsOf(const glm::uvec3& cell) const {
+        const std::uint64_t first = indexOf(pointAt(cell, 0)), last = indexOf(pointAt(cell, 7));
+        const std::uint64_t x = cell.x > 0 && cell.x < points_.x ? 1 : 0;
+        const std::uint64_t y = cell.y > 0 && cell.y < points_.y ? points_.x : 0;
+        const std::uint64_t z = last - first - x - y;
+        return {first, first + x, first + y, first + x + y, first + z, first + z + x, last - x, last};
+    }
     // Of a cell; NaN where a value is missing or not finite.
     std::array<double, 8> values(const glm::uvec3& cell) const {
+        const std::array<std::uint64_t, 8> points = pointsOf(cell);
+        const bool lacks = !field_->missing.empty();
         std::array<double, 8> out{};
         std::visit(
             [&](const auto& values) {
-                for (unsigned c = 0; c < 8; ++c) {
-                    const std::uint64_t at = indexOf(pointAt(cell, c));
-                    out[c] = finiteOr(values[at], !field_->missing.empty() && field_->missing[at]);
-                }
+                for (unsigned c = 0; c < 8; ++c)
+                    out[c] = finiteOr(values[points[c]], lacks && field_->missing[points[c]]);
             },
             field_->values);
         return out;
