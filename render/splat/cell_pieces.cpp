@@ -213,6 +213,7 @@ SeenOctants seenOctants(const Scene& scene, std::uint32_t number) {
         std::tie(cell.from[a], cell.to[a]) =
             endsAlong(scene.placed, static_cast<std::size_t>(a), at[a]);
     seen.octants = fillMissing(cell.corners);
+    if (scene.clip.holdsAll()) return seen;
     const timeseries::CellCorners& corners = scene.cells->cornersOf();
     const bool isInside =
         scene.clip.holds(corners.pointAt(at, 0)) && scene.clip.holds(corners.pointAt(at, 7));

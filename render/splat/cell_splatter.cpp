@@ -5,6 +5,7 @@
 
 #include "render/splat/cell_kernels.h"
 #include "render/splat/cell_pieces.h"
+#include "render/splat/seen_cells.h"
 #include "render/splat/tet_kernels.h"
 #include "render/splat/tile_bins.h"
 #include "render/splat/tile_plane.h"
@@ -34,6 +35,7 @@ TileSpan spanOf(const CellView& view, const SeenPiece& c) {
 struct CellMemory::Seen {
     std::vector<SeenCell> cells;
     std::vector<SeenTet> tets;  // of a mesh, instead of these
+    PieceBatch pieces;
     std::vector<TileSpan> spans;
     TileBins bins;
     std::vector<std::uint32_t> binned;
@@ -53,25 +55,27 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view,
     cells.clear();
     tets.clear();
     spans.clear();
-    const auto keep = [&](const auto& seen, auto& all) {
-        if (seen.columns == 0) return;
-        all.push_back(seen);
-        spans.push_back(spanOf(view, seen));
-    };
-    const auto styleOf = [&](const CellOfLayer& of) -> const RangeStyle& {
-        return scene.layers[of.layer].style;
-    };
     if (scene.placed.isMesh()) {
         const bool isOrdered = view.channels == Channels::Over;
         forEachTet(scene, part, isOrdered ? &view.seen.rays.eye : nullptr,
                    [&](const ValuedTet& tet, const CellOfLayer& of) {
-                       keep(seenTet(view, tet, of.layer, styleOf(of)), tets);
+                       const SeenTet seen =
+                           seenTet(view, tet, of.layer, scene.layers[of.layer].style);
+                       if (seen.columns > 0) tets.push_back(seen);
                    });
     } else {
+        const auto seeAll = [&] {
+            seeCells(view, scene, pieces, cells);
+            pieces.count = 0;
+        };
         forEachPiece(scene, part, [&](const ValuedCell& piece, const CellOfLayer& of, unsigned) {
-            keep(seenCell(view, piece, of.layer, styleOf(of)), cells);
+            pieces.add(piece, of.layer);
+            if (pieces.isFull()) seeAll();
         });
+        seeAll();
     }
+    for (const SeenCell& cell : cells) spans.push_back(spanOf(view, cell));
+    for (const SeenTet& tet : tets) spans.push_back(spanOf(view, tet));
     bins.fill(
         view.count(), view.tiles.x, spans, 0, spans.size(),
         [&](std::size_t places) { binned.resize(places); },

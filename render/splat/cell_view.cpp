@@ -25,8 +25,7 @@ double steepnessOf(const Scene& scene) {
 }
 
 float steepnessIn(double extent, double steep) {
-    constexpr double kFlat = 1e10;  // more would leave the floats
-    return static_cast<float>(extent > 0 ? std::min(steep / extent, kFlat) : kFlat);
+    return static_cast<float>(extent > 0 ? std::min(steep / extent, kSteepest) : kSteepest);
 }
 
 CellMapPlace mapPlaceOf(const ByValue& style, double reference, double extent) {
@@ -77,13 +76,18 @@ bool takePixels(SeenPiece& c, const CellView& view, const Splat& s) {
 }
 
 template <typename Splat>
-void takeRange(SeenPiece& c, const CellView& view, const Splat& s, std::size_t layer,
-               const RangeStyle& style) {
+void takeRange(SeenPiece& c, const Splat& s) {
     c.least = s.least;
     c.most = s.most;
     c.crossesLeast = s.crossesLeast;
     c.crossesMost = s.crossesMost;
     c.perRange = s.perRange;
+}
+
+}  // namespace
+
+void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
+               double reference, double extent) {
     if (view.tintsOf.empty()) return;
     const TileLayout::Tints& tints = view.tintsOf[layer];
     c.firstTint = tints.first;
@@ -91,29 +95,10 @@ void takeRange(SeenPiece& c, const CellView& view, const Splat& s, std::size_t l
     c.tint = tints.first;
     const auto* of = std::get_if<ByValue>(&style.color);
     if (of == nullptr) return;
-    const CellMapPlace place = mapPlaceOf(*of, s.reference, s.extent);
+    const CellMapPlace place = mapPlaceOf(*of, reference, extent);
     const auto whole = static_cast<double>(tints.span);
     c.tint = floatPlace(static_cast<double>(tints.first) + whole * place.at);
     c.tintPerValue = floatPlace(whole * place.perValue);
-}
-
-}  // namespace
-
-SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t layer,
-                  const RangeStyle& style) {
-    SeenCell c;
-    const CellSplat<float> s = cellSplatAt<float>(view.seen, cell);
-    if (!takePixels(c, view, s)) return c;
-    takeRange(c, view, s, layer, style);
-    for (std::size_t a = 0; a < 3; ++a) {
-        const auto at = static_cast<int>(a);
-        c.at[a] = s.at[at];
-        c.ray[a] = s.ray[at];
-        c.perSize[a] = s.perSize[at];
-    }
-    c.f = s.f;
-    c.steep = steepnessIn(s.extent, view.steep);
-    return c;
 }
 
 SeenTet seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
@@ -121,7 +106,8 @@ SeenTet seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
     SeenTet c;
     const TetSplat<float> s = tetSplatAt<float>(view.seen, tet);
     if (!takePixels(c, view, s)) return c;
-    takeRange(c, view, s, layer, style);
+    takeRange(c, s);
+    takeTints(c, view, layer, style, s.reference, s.extent);
     c.at = s.at;
     c.ray = s.ray;
     c.right = s.x;

@@ -35,7 +35,8 @@ std::array<float, 6> gradientMetric(const PlacedPoints& placed);
 // What gradients are measured against, of the field a length of the world (render/model/light.h).
 double steepnessOf(const Scene& scene);
 // What gradients of f are measured against, where the field is reference + extent f: a plateau is
-// lit evenly.
+// lit evenly. More would leave the floats.
+constexpr double kSteepest = 1e10;
 float steepnessIn(double extent, double steep);
 
 // Where values of a cell are in a map, [0, 1] in it: that of f is at + f perValue.
@@ -58,6 +59,9 @@ struct SeenPiece {
     // In the layout's box; none where the view does not see it.
     std::int32_t x = 0, y = 0, columns = 0, rows = 0;
 };
+// Of one of that layer, whose field is reference + extent f.
+void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
+               double reference, double extent);
 
 // A CellSplat in a picture.
 struct SeenCell : SeenPiece {
@@ -65,8 +69,6 @@ struct SeenCell : SeenPiece {
     std::array<float, 8> f{};
     float steep = 0;  // CellView::steep as the gradient of f
 };
-SeenCell seenCell(const CellView& view, const ValuedCell& cell, std::size_t layer,
-                  const RangeStyle& style);
 
 // A TetSplat in a picture.
 struct SeenTet : SeenPiece {

@@ -14,6 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/points/grid_indices-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
@@ -26,6 +28,12 @@ using FewFloats = hn::CappedTag<float, 8>;  // pixels of narrow splats
 constexpr std::size_t kLanes = hn::MaxLanes(Floats());
 using F = hn::Vec<Floats>;
 using I = hn::Vec<Ints>;
+
+using HalfFloats = hn::Rebind<float, Doubles>;
+HWY_INLINE F joined(const D* halves) {
+    return hn::Combine(Floats(), hn::DemoteTo(HalfFloats(), halves[1]),
+                       hn::DemoteTo(HalfFloats(), halves[0]));
+}
 
 HWY_INLINE F f(float x) { return hn::Set(Floats(), x); }
 

@@ -21,11 +21,6 @@ namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using HalfFloats = hn::Rebind<float, Doubles>;
-HWY_INLINE F joined(const D* halves) {
-    return hn::Combine(Floats(), hn::DemoteTo(HalfFloats(), halves[1]),
-                       hn::DemoteTo(HalfFloats(), halves[0]));
-}
 HWY_INLINE I joinedInts(const D* halves) {
     return hn::Combine(Ints(), hn::DemoteTo(HalfInts(), halves[1]),
                        hn::DemoteTo(HalfInts(), halves[0]));

@@ -346,12 +346,12 @@ double CellIndex::halfRange(std::span<const Run> runs, double share) const {
 }
 
 void CellIndex::prefetch(std::uint32_t cell) const {
-    const glm::uvec3 at = indicesOf(cell, size_);
+    const std::array<std::uint64_t, 8> points = corners_.pointsOf(indicesOf(cell, size_));
     std::visit(
         [&](const auto& values) {
-            for (const unsigned c : {0u, 2u, 4u, 6u}) {
+            for (const std::size_t c : {0u, 2u, 4u, 6u}) {
                 asm volatile("");  // or compilers take this for a function without an effect
-                __builtin_prefetch(&values[corners_.indexOf(corners_.pointAt(at, c))]);
+                __builtin_prefetch(&values[points[c]]);
             }
         },
         field_->values);

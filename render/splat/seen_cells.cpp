@@ -1,0 +1,291 @@
+#include "render/splat/seen_cells.h"
+
+#include <algorithm>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/splat/seen_cells.cpp"
+#include <hwy/foreach_target.h>  // the first of these
+//
+#include <hwy/highway.h>
+//
+#include "render/splat/lanes-inl.h"
+
+#ifndef RENDER_SEEN_CELLS_ROWS
+#define RENDER_SEEN_CELLS_ROWS
+namespace render {
+namespace {
+
+// What is found of a PieceBatch, names as in SeenCell and CellSplat.
+struct SeenRows {
+    template <typename T>
+    using Row = PieceBatch::Row<T>;
+    Row<float> base, ox, oy, least, most, perRange, steep, crossesLeast, crossesMost;
+    std::array<Row<float>, 3> at, ray, perSize;
+    std::array<Row<float>, 8> f;
+    Row<double> reference, extent;
+    Row<std::int32_t> x, y, columns, rows;  // no columns where nothing is seen
+};
+
+}  // namespace
+}  // namespace render
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+HWY_INLINE D yes(hn::Mask<Doubles> is) { return hn::IfThenElseZero(is, d(1)); }
+HWY_INLINE void put(F v, PieceBatch::Row<float>& row, std::size_t at) {
+    hn::StoreU(v, Floats(), row.data() + at);
+}
+HWY_INLINE void put(I v, PieceBatch::Row<std::int32_t>& row, std::size_t at) {
+    hn::StoreU(v, Ints(), row.data() + at);
+}
+
+// A vector of pieces. What needs doubles is done in two halves.
+struct SeenLanes {
+    const CellView& view;
+    const PieceBatch& pieces;
+    SeenRows& rows;
+    std::size_t at;
+    bool isPerCrossing;
+    D seen[3][2] = {}, edge[3][3][2] = {};  // of edge a, half of it along k
+    D visible[2] = {}, whole[2] = {};  // 1 where something, and where all, is beyond the near plane
+    D windowWhole[2][2] = {}, windowPart[2][2] = {};
+
+    // The piece in the view, and its range.
+    HWY_INLINE void takeHalf(std::size_t h) {
+        const std::size_t from = at + h * hn::Lanes(Doubles());
+        const auto load = [&](const PieceBatch::Row<double>& row)
+                              HWY_ATTR { return hn::LoadU(Doubles(), row.data() + from); };
+        const PixelRays& rays = view.seen.rays;
+        D middle[3], size[3], perSize[3];
+        for (std::size_t a = 0; a < 3; ++a) {
+            const D first = load(pieces.from[a]), last = load(pieces.to[a]);
+            size[a] = hn::Sub(last, first);
+            middle[a] = hn::Mul(d(0.5), hn::Add(first, last));
+            perSize[a] = hn::Div(d(1), size[a]);
+        }
+        const auto& m = view.seen.viewFromAxes;
+        for (int k = 0; k < 3; ++k) {
+            D sum = d(m[3][k]);
+            for (int a = 0; a < 3; ++a) {
+                sum = hn::MulAdd(middle[a], d(m[a][k]), sum);
+                edge[a][k][h] = hn::Mul(size[a], d(0.5 * m[a][k]));
+            }
+            seen[k][h] = sum;
+        }
+        const D depth = hn::Neg(seen[2][h]);
+        D deep = hn::Zero(Doubles());
+        for (const auto& e : edge) deep = hn::Add(deep, hn::Abs(e[2][h]));
+        const auto isWhole = hn::Gt(hn::Sub(depth, deep), d(rays.near));
+        visible[h] =
+            hn::And(takeField(from, perSize), yes(hn::Gt(hn::Add(depth, deep), d(rays.near))));
+        whole[h] = yes(isWhole);
+        D centre[2];
+        for (int k = 0; k < 2; ++k) {
+            centre[k] = hn::IfThenElseZero(
+                isWhole, hn::Div(hn::Mul(seen[k][h], d(rays.focal[k])), depth));
+            constexpr double kMost = 1e9;  // beside any picture
+            const D window = hn::Min(
+                hn::Max(hn::Add(centre[k], d(view.centre[static_cast<std::size_t>(k)])), d(-kMost)),
+                d(kMost));
+            windowWhole[k][h] = hn::Floor(window);
+            windowPart[k][h] = hn::Sub(window, windowWhole[k][h]);
+        }
+        for (int a = 0; a < 3; ++a) {
+            const D ray = hn::MulAdd(centre[0], d(rays.perPixelX[a]),
+                                     hn::MulAdd(centre[1], d(rays.perPixelY[a]), d(rays.axis[a])));
+            const D fromEye = hn::Mul(hn::Sub(d(rays.eye[a]), middle[a]), perSize[a]);
+            const auto axis = static_cast<std::size_t>(a);
+            store(hn::IfThenZeroElse(isWhole, fromEye), rows.at[axis], from);
+            store(hn::Mul(ray, perSize[a]), rows.ray[axis], from);
+            store(perSize[a], rows.perSize[axis], from);
+        }
+    }
+    static HWY_INLINE void store(D v, PieceBatch::Row<float>& row, std::size_t to) {
+        hn::StoreU(hn::DemoteTo(HalfFloats(), v), HalfFloats(), row.data() + to);
+    }
+
+    // As seeField() and seeRange(). 1 where the piece takes something of the range.
+    HWY_INLINE D takeField(std::size_t from, const D* perSize) const {
+        const auto load = [&](const PieceBatch::Row<double>& row)
+                              HWY_ATTR { return hn::LoadU(Doubles(), row.data() + from); };
+        const D zero = hn::Zero(Doubles()), half = d(0.5);
+        D f[8];
+        for (std::size_t c = 0; c < 8; ++c) f[c] = load(pieces.corners[c]);
+        D least = f[0], greatest = f[0];
+        for (std::size_t c = 1; c < 8; ++c) {
+            least = hn::Min(least, f[c]);
+            greatest = hn::Max(greatest, f[c]);
+        }
+        const D lo = load(pieces.lo), hi = load(pieces.hi);
+        const D reference = hn::MulAdd(half, least, hn::Mul(half, greatest));
+        const D extent = hn::Sub(hn::Mul(half, greatest), hn::Mul(half, least));
+        hn::StoreU(reference, Doubles(), rows.reference.data() + from);
+        hn::StoreU(extent, Doubles(), rows.extent.data() + from);
+        const auto changes = hn::Gt(extent, zero);
+        const D divisor = hn::IfThenElse(changes, extent, d(1));
+        for (D& corner : f) corner = hn::Div(hn::Sub(corner, reference), divisor);
+        storeCoefficients(f, from);
+
+        D passages = zero;  // of a length that f may pass the range in
+        if (isPerCrossing)
+            passages = hn::Mul(hn::Div(extent, hn::Sub(hi, lo)),
+                               hn::Mul(d(2 * view.seen.unitLength), hn::Sqrt(dot(perSize, perSize))));
+        const auto isThin = hn::And(changes, hn::Gt(passages, d(1)));
+        const auto within = [&](D end) HWY_ATTR {  // in halves, the whole may overflow
+            return hn::Mul(
+                d(2), hn::Div(hn::Sub(hn::Mul(half, end), hn::Mul(half, reference)), divisor));
+        };
+        const auto ifLeast = hn::And(changes, hn::Or(isThin, hn::Lt(least, lo)));
+        const auto ifMost = hn::And(changes, hn::Or(isThin, hn::Gt(greatest, hi)));
+        store(yes(ifLeast), rows.crossesLeast, from);
+        store(yes(ifMost), rows.crossesMost, from);
+        store(hn::IfThenElseZero(ifLeast, within(lo)), rows.least, from);
+        store(hn::IfThenElseZero(ifMost, within(hi)), rows.most, from);
+        store(yes(isThin), rows.perRange, from);
+        const D steep = hn::Min(hn::Div(d(view.steep), divisor), d(kSteepest));
+        store(hn::IfThenElse(changes, steep, d(kSteepest)), rows.steep, from);
+        const auto reaches = hn::And(hn::Lt(least, hi), hn::Gt(greatest, lo));
+        const auto touches = hn::And(hn::Le(least, hi), hn::Ge(greatest, lo));
+        return yes(hn::Or(reaches, hn::And(hn::Eq(least, greatest), touches)));
+    }
+    // As cell::coefficients().
+    HWY_INLINE void storeCoefficients(D* f, std::size_t from) const {
+        for (const std::size_t step : {1u, 2u, 4u})
+            for (std::size_t i = 0; i < 8; ++i)
+                if ((i & step) == 0) {
+                    const D a = f[i], b = f[i + step];
+                    f[i] = hn::Mul(d(0.5), hn::Add(a, b));
+                    f[i + step] = hn::Sub(b, a);
+                }
+        constexpr std::size_t kOrder[] = {0, 1, 2, 4, 3, 5, 6, 7};
+        for (std::size_t c = 0; c < 8; ++c) store(f[kOrder[c]], rows.f[c], from);
+    }
+
+    // Ranges that are thin beside what a cell changes have two ends.
+    HWY_INLINE void widenThin() const {
+        const F isThin = hn::LoadU(Floats(), rows.perRange.data() + at);
+        const auto thin = hn::Gt(isThin, hn::Zero(Floats()));
+        if (hn::AllFalse(Floats(), thin)) return;
+        const F least = hn::LoadU(Floats(), rows.least.data() + at);
+        const F most = hn::LoadU(Floats(), rows.most.data() + at);
+        const F middle = hn::Mul(f(0.5f), hn::Add(least, most));
+        const F way = hn::Max(hn::Sub(most, middle), f(static_cast<float>(kThinnest / 2)));
+        put(hn::IfThenElse(thin, hn::Sub(middle, way), least), rows.least, at);
+        put(hn::IfThenElse(thin, hn::Add(middle, way), most), rows.most, at);
+        put(hn::IfThenElseZero(thin, hn::Div(f(0.5f), way)), rows.perRange, at);
+    }
+
+    // Which pixels the corners of each lie between.
+    HWY_INLINE void takePixels() const {
+        constexpr float kMore = 0.01f;  // than arithmetic loses
+        constexpr float kAll = 1e9f;
+        const F depth = hn::Neg(joined(seen[2]));
+        const auto isWhole = hn::Gt(joined(whole), hn::Zero(Floats()));
+        const auto isVisible = hn::Gt(joined(visible), hn::Zero(Floats()));
+        put(hn::IfThenElseZero(isWhole, depth), rows.base, at);
+        F centre[2], place[2], half[3][3], least[2], most[2];
+        for (int k = 0; k < 2; ++k) {
+            place[k] = joined(seen[k]);
+            centre[k] = hn::Div(place[k], depth);
+            least[k] = f(kAll);
+            most[k] = f(-kAll);
+        }
+        for (int a = 0; a < 3; ++a)
+            for (int k = 0; k < 3; ++k) half[a][k] = joined(edge[a][k]);
+        const auto moved = [&](F v, const F& by, unsigned up)
+                               HWY_ATTR { return up ? hn::Add(v, by) : hn::Sub(v, by); };
+        for (unsigned c = 0; c < 8; ++c) {
+            F v[3] = {place[0], place[1], hn::Neg(depth)};
+            for (unsigned a = 0; a < 3; ++a)
+                for (int k = 0; k < 3; ++k) v[k] = moved(v[k], half[a][k], c >> a & 1);
+            const F per = hn::Neg(reciprocal(Floats(), v[2]));
+            for (int k = 0; k < 2; ++k) {
+                const F offset = hn::MulSub(v[k], per, centre[k]);
+                least[k] = hn::Min(least[k], offset);
+                most[k] = hn::Max(most[k], offset);
+            }
+        }
+        F first[2], last[2];
+        for (int k = 0; k < 2; ++k) {
+            const F part = joined(windowPart[k]), from = joined(windowWhole[k]);
+            const F focal = f(static_cast<float>(view.focal[static_cast<std::size_t>(k)]));
+            const auto reach = [&](F offset, float more) HWY_ATTR {
+                const F begins = hn::Add(hn::MulAdd(offset, focal, part), f(more - 0.5f));
+                return hn::Ceil(hn::Min(hn::Max(begins, f(-kAll)), f(kAll)));
+            };
+            const F low = hn::IfThenElse(isWhole, reach(least[k], -kMore), f(-kAll));
+            const F high = hn::IfThenElse(isWhole, reach(most[k], kMore), f(kAll));
+            // Whole numbers of floats: what lies in the picture is below 2^24.
+            const F limit = f(static_cast<float>(view.box.size[k])), zero = hn::Zero(Floats());
+            first[k] = hn::Min(hn::Max(hn::Add(from, low), zero), limit);
+            last[k] = hn::Min(hn::Max(hn::Add(from, high), zero), limit);
+            put(hn::Sub(hn::Sub(hn::Add(first[k], f(0.5f)), from), part), k ? rows.oy : rows.ox,
+                at);
+            put(hn::ConvertTo(Ints(), first[k]), k ? rows.y : rows.x, at);
+        }
+        const auto columns = hn::Sub(last[0], first[0]), lines = hn::Sub(last[1], first[1]);
+        const auto some = hn::And(isVisible, hn::And(hn::Gt(columns, hn::Zero(Floats())),
+                                                     hn::Gt(lines, hn::Zero(Floats()))));
+        put(hn::ConvertTo(Ints(), hn::IfThenElseZero(some, columns)), rows.columns, at);
+        put(hn::ConvertTo(Ints(), lines), rows.rows, at);
+    }
+};
+
+HWY_ATTR void FindCells(const CellView& view, bool isPerCrossing, const PieceBatch& pieces,
+                        SeenRows& rows) {
+    static_assert(PieceBatch::kMost % kLanes == 0);
+    for (std::size_t i = 0; i < pieces.count; i += kLanes) {
+        SeenLanes lanes{view, pieces, rows, i, isPerCrossing};
+        lanes.takeHalf(0);
+        lanes.takeHalf(1);
+        lanes.widenThin();
+        lanes.takePixels();
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace render {
+HWY_EXPORT(FindCells);
+
+void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces,
+              std::vector<SeenCell>& cells) {
+    SeenRows rows;
+    HWY_DYNAMIC_DISPATCH(FindCells)
+    (view, scene.opacityPer == OpacityPer::Crossing, pieces, rows);
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+        if (rows.columns[i] == 0) continue;
+        SeenCell& c = cells.emplace_back();
+        c.base = rows.base[i];
+        c.ox = rows.ox[i];
+        c.oy = rows.oy[i];
+        c.least = rows.least[i];
+        c.most = rows.most[i];
+        c.crossesLeast = rows.crossesLeast[i] > 0;
+        c.crossesMost = rows.crossesMost[i] > 0;
+        c.perRange = rows.perRange[i];
+        c.x = rows.x[i];
+        c.y = rows.y[i];
+        c.columns = rows.columns[i];
+        c.rows = rows.rows[i];
+        for (std::size_t a = 0; a < 3; ++a) {
+            c.at[a] = rows.at[a][i];
+            c.ray[a] = rows.ray[a][i];
+            c.perSize[a] = rows.perSize[a][i];
+        }
+        for (std::size_t k = 0; k < 8; ++k) c.f[k] = rows.f[k][i];
+        c.steep = rows.steep[i];
+        takeTints(c, view, pieces.layer[i], scene.layers[pieces.layer[i]].style, rows.reference[i],
+                  rows.extent[i]);
+    }
+}
+}  // namespace render
+#endif
