@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class Lanes>
 struct RayParts {
     using V = hn::Vec<Lanes>;
-    V from, to, depth;
+    V length, depth;  // of the way through it, and where its middle is
     V middle[3], along[3], mixed[3], gradient[3], value;
 };
 
@@ -31,9 +31,13 @@ template <class Lanes>
 struct CellLanes {
     using V = hn::Vec<Lanes>;
     Lanes lanes;
-    V base, from, at[3], ray[3], x[3], y[3], f[8];
+    V base, before, at[3], ray[3], x[3], y[3], f[8];
+    bool grazes;
     CellLanes(Lanes l, const CellView& view, const SeenCell& c)
-        : lanes(l), base(hn::Set(l, c.base)), from(hn::Set(l, view.near - c.base)) {
+        : lanes(l),
+          base(hn::Set(l, c.base)),
+          before(hn::Set(l, c.base - view.near)),
+          grazes(c.grazes) {
         for (std::size_t a = 0; a < 3; ++a) {
             at[a] = hn::Set(l, c.at[a]);
             ray[a] = hn::Set(l, c.ray[a]);
@@ -43,26 +47,28 @@ struct CellLanes {
         for (std::size_t k = 0; k < 8; ++k) f[k] = hn::Set(l, c.f[k]);
     }
 
-    // Where rays at these offsets are inside.
-    HWY_INLINE void meet(V ox, V oy, V to, RayParts<Lanes>& r) const {
-        const V least = hn::Set(lanes, static_cast<float>(kLeastStep));
+    // Where rays at these offsets are inside, as far as `beyond`.
+    HWY_INLINE void meet(V ox, V oy, V beyond, RayParts<Lanes>& r) const {
         const V half = hn::Set(lanes, 0.5f);
-        r.from = from;
-        r.to = to;
+        V front = before, back = beyond;  // from where places are counted, towards the eye and away
         for (std::size_t a = 0; a < 3; ++a) {
             const V shift = hn::MulAdd(ox, x[a], hn::Mul(oy, y[a]));
             r.middle[a] = hn::MulAdd(base, shift, at[a]);  // of the ray at the base, as yet
             r.along[a] = hn::Add(ray[a], shift);
-            const V step = hn::CopySign(hn::Max(hn::Abs(r.along[a]), least), r.along[a]);
-            const V per = reciprocal(lanes, step);
-            const V centre = hn::Neg(hn::Mul(r.middle[a], per)), way = hn::Mul(half, hn::Abs(per));
-            r.from = hn::Max(r.from, hn::Sub(centre, way));
-            r.to = hn::Min(r.to, hn::Add(centre, way));
+            V step = r.along[a];
+            if (grazes) {
+                const V least = hn::Set(lanes, static_cast<float>(kLeastStep));
+                step = hn::CopySign(hn::Max(hn::Abs(step), least), step);
+            }
+            const V per = reciprocal(lanes, step), way = hn::Mul(half, hn::Abs(per));
+            front = hn::Min(front, hn::MulAdd(r.middle[a], per, way));
+            back = hn::Min(back, hn::NegMulAdd(r.middle[a], per, way));
         }
+        r.length = hn::Add(front, back);
+        r.depth = hn::Mul(half, hn::Sub(back, front));
     }
     // The field half way through, and how it changes there.
     HWY_INLINE void lookHalfWay(RayParts<Lanes>& r) const {
-        r.depth = hn::Mul(hn::Set(lanes, 0.5f), hn::Add(r.from, r.to));
         for (std::size_t a = 0; a < 3; ++a)
             r.middle[a] = hn::MulAdd(r.depth, r.along[a], r.middle[a]);
         const V* m = r.middle;
@@ -74,25 +80,37 @@ struct CellLanes {
             hn::MulAdd(m[1], hn::MulAdd(f[4], m[0], f[2]), hn::MulAdd(f[1], m[0], f[0]));
         r.value = hn::MulAdd(m[2], r.gradient[2], slice);
     }
-    // The field at the ends of its pieces, of which it changes like this half way through.
-    HWY_INLINE void follow(const RayParts<Lanes>& r, V change, V* values) const {
-        const V* d = r.along;
+    // The field at the ends of its pieces.
+    HWY_INLINE void follow(const RayParts<Lanes>& r, V* values) const {
+        static_assert(kPieces == 3);
+        const V half = hn::Mul(hn::Set(lanes, 0.5f), r.length);
+        V d[3];  // half of the way
+        for (std::size_t a = 0; a < 3; ++a) d[a] = hn::Mul(half, r.along[a]);
+        const V xy = hn::Mul(d[0], d[1]);
         const V mixed = hn::MulAdd(d[0], r.mixed[1], hn::Mul(d[1], r.mixed[0]));
-        const V second = hn::MulAdd(hn::Mul(d[0], d[1]), r.mixed[2], hn::Mul(d[2], mixed));
-        const V third = hn::Mul(hn::Mul(hn::Mul(d[0], d[1]), d[2]), f[7]);
-        const V half = hn::Mul(hn::Set(lanes, 0.5f), hn::Sub(r.to, r.from));
-        for (std::size_t k = 0; k <= kPieces; ++k) {
-            const V way = hn::Mul(half, hn::Set(lanes, static_cast<float>(2 * k) / kPieces - 1));
-            values[k] =
-                hn::MulAdd(way, hn::MulAdd(way, hn::MulAdd(way, third, second), change), r.value);
-        }
+        const V first = dot(r.gradient, d);
+        const V second = hn::MulAdd(xy, r.mixed[2], hn::Mul(d[2], mixed));
+        const V third = hn::Mul(hn::Mul(xy, d[2]), f[7]);
+        const auto ends = [&](float way, V& before, V& after) HWY_ATTR {
+            const V even = hn::MulAdd(hn::Set(lanes, way * way), second, r.value);
+            const V odd = hn::Mul(hn::Set(lanes, way),
+                                  hn::MulAdd(hn::Set(lanes, way * way), third, first));
+            before = hn::Sub(even, odd);
+            after = hn::Add(even, odd);
+        };
+        ends(1, values[0], values[3]);
+        ends(1 / 3.0f, values[1], values[2]);
     }
-    // The width of the ramp that a pixel makes of an end of the range.
-    HWY_INLINE V acrossPixel(const RayParts<Lanes>& r) const {
+    // The width of the ramp that a pixel makes of an end of the range, and its reciprocal.
+    HWY_INLINE void acrossPixel(const RayParts<Lanes>& r, V& width, V& perWidth) const {
+        constexpr float kLeast = static_cast<float>(2 * kLeastChange);
         const V alongX = dot(r.gradient, x), alongY = dot(r.gradient, y);
-        const V length = hn::Sqrt(hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));
-        return hn::Max(hn::Mul(hn::Add(base, r.depth), length),
-                       hn::Set(lanes, static_cast<float>(2 * kLeastChange)));
+        const V depth = hn::Add(base, r.depth);
+        const V change2 = hn::Mul(hn::Mul(depth, depth),
+                                  hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));
+        const V width2 = hn::Max(change2, hn::Set(lanes, kLeast * kLeast));
+        perWidth = reciprocalRoot(lanes, width2);
+        width = hn::Mul(width2, perWidth);
     }
     HWY_INLINE V dot(const V* a, const V* b) const {
         return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
@@ -175,29 +193,26 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                 to = hn::Sub(hn::Div(depthA, hn::Sub(opaque, depthB)), cell.base);
             }
             cell.meet(ox, oy, to, r);
-            const auto inside = hn::Gt(r.to, r.from);
+            const auto inside = hn::Gt(r.length, zero);
             if (hn::AllFalse(lanes, inside)) continue;
-            V t = hn::Mul(weight, hn::Sub(r.to, r.from));
-            V change = zero;              // of the field along the ray
+            V t = hn::Mul(weight, r.length);
             V front = zero, back = zero;  // values that are seen
-            if constexpr (kEnds > 0 || kByValue || kLit) {
-                cell.lookHalfWay(r);
-                change = cell.dot(r.gradient, r.along);
-            }
+            if constexpr (kEnds > 0 || kByValue || kLit) cell.lookHalfWay(r);
             if constexpr (kEnds > 0 || kByValue) {
                 V values[kPieces + 1], width = zero;
-                cell.follow(r, change, values);
+                cell.follow(r, values);
                 V mean = r.value, low = hn::Min(values[0], values[kPieces]),
                   high = hn::Max(values[0], values[kPieces]);
                 if constexpr (kEnds > 0) {
-                    width = cell.acrossPixel(r);
+                    V perWidth, crossing;
+                    cell.acrossPixel(r, width, perWidth);
                     // As if along the view axis: the ray's own length is a factor later.
-                    const V crossing =
-                        c.perRange > 0
-                            ? hn::Mul(perRange, reciprocal(lanes, pixels.load(lanes, factors + at)))
-                            : zero;
-                    t = range.template sum<kEnds, kByValue>(values, width, t, crossing, mean, low,
-                                                            high);
+                    if (c.perRange > 0)
+                        crossing =
+                            hn::Mul(perRange, reciprocal(lanes, pixels.load(lanes, factors + at)));
+                    t = range.template sum<kEnds, kByValue>(values, width, perWidth, t,
+                                                            c.perRange > 0 ? &crossing : nullptr,
+                                                            mean, low, high);
                 }
                 if constexpr (kByValue) {
                     const V half = hn::Min(hn::Sub(mean, low), hn::Sub(high, mean));
@@ -215,6 +230,7 @@ HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, Ti
                 if constexpr (kColors) color.between(front, back, colors);
                 if constexpr (kLit) {
                     V diffuse, specular;
+                    const V change = cell.dot(r.gradient, r.along);
                     light.shade(r, change, pixels.load(lanes, factors + at), diffuse, specular);
                     for (int k = 0; k < 3; ++k)
                         colors[k] = hn::MulAdd(colors[k], diffuse, specular);

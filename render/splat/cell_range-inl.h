@@ -44,42 +44,60 @@ struct RangeLanes {
         high = within(hn::Add(hn::Max(first, last), reach));
     }
 
-    // Of a piece between these values, with ramps of this width's reciprocal.
+    // Of a value, the integral of its share in the range from where that begins, times the width of
+    // the ramps at the range's ends, and that share times the width. `before` is where ramps begin.
+    struct Passed {
+        V way, share;
+    };
     template <int kEnds>
-    HWY_INLINE V share(V first, V last, V perWidth) const {
-        const V half = hn::Set(lanes, 0.5f), one = hn::Set(lanes, 1.0f), zero = hn::Zero(lanes);
-        const V change = hn::Sub(last, first), between = hn::Mul(change, perWidth);
+    HWY_INLINE Passed passed(V value, const V* before, V width) const {
+        const auto ofRamp = [&](V from) HWY_ATTR {
+            const V x = hn::Sub(value, from);
+            const V on = hn::Min(hn::Max(x, hn::Zero(lanes)), width);
+            return Passed{hn::Mul(on, hn::NegMulAdd(hn::Set(lanes, 0.5f), on, x)), on};
+        };
+        const Passed first = ofRamp(before[0]);
+        if constexpr (kEnds == 1) return first;
+        const Passed last = ofRamp(before[1]);
+        return {hn::Sub(first.way, last.way), hn::Sub(first.share, last.share)};
+    }
+    HWY_INLINE void ramps(V width, V* before) const {
+        for (std::size_t k = 0; k < 2; ++k)
+            before[k] = hn::NegMulAdd(hn::Set(lanes, 0.5f), width, end[k]);
+    }
+
+    // Of a piece between two values, which differ so much.
+    template <int kEnds>
+    HWY_INLINE V share(const Passed& first, const Passed& last, V change, V perWidth) const {
+        const V one = hn::Set(lanes, 1.0f), half = hn::Set(lanes, 0.5f);
         const auto differ =
             hn::Ge(hn::Abs(change), hn::Set(lanes, static_cast<float>(kLeastDifference)));
-        const V per = reciprocal(lanes, hn::IfThenElse(differ, between, one));
-        const auto meanRamp = [&](V at) HWY_ATTR {
-            const V a = hn::MulAdd(hn::Sub(first, at), perWidth, half);
-            const V b = hn::MulAdd(hn::Sub(last, at), perWidth, half);
-            const V ca = hn::Min(hn::Max(a, zero), one), cb = hn::Min(hn::Max(b, zero), one);
-            const V both = hn::Mul(half, hn::Add(ca, cb));
-            const V sum =
-                hn::MulAdd(hn::Sub(cb, ca), both, hn::Sub(hn::Max(b, one), hn::Max(a, one)));
-            return hn::IfThenElse(differ, hn::Mul(sum, per), both);
-        };
-        const V mean = meanRamp(end[0]);
-        return hn::Max(
-            kEnds == 2 ? hn::Sub(mean, meanRamp(end[1])) : hn::MulAdd(sign, mean, offset), zero);
+        const V per = reciprocal(lanes, hn::IfThenElse(differ, change, one));
+        const V sum = hn::IfThenElse(differ, hn::Sub(last.way, first.way),
+                                     hn::Mul(half, hn::Add(first.share, last.share)));
+        const V mean = hn::Mul(hn::Mul(sum, per), perWidth);
+        return kEnds == 2 ? mean : hn::MulAdd(sign, mean, offset);
     }
 
     // What the pieces between these values weigh, of a way that weighs so much, or `perChange` for
     // what it changes, if that is more; of the values in the range the weighted mean and the ends.
     template <int kEnds, bool kByValue>
-    HWY_INLINE V sum(const V* values, V width, V way, V perChange, V& mean, V& lowest,
-                     V& highest) const {
-        const V zero = hn::Zero(lanes), perWidth = reciprocal(lanes, width);
+    HWY_INLINE V sum(const V* values, V width, V perWidth, V way, const V* perChange, V& mean,
+                     V& lowest, V& highest) const {
+        const V zero = hn::Zero(lanes);
         const V length = hn::Mul(way, hn::Set(lanes, 1.0f / kPieces));
-        V weight = zero, twice = zero;
+        V weight = zero, twice = zero, before[2];
+        ramps(width, before);
         lowest = hn::Set(lanes, 2.0f);  // more than f can be
         highest = hn::Neg(lowest);
+        Passed at = passed<kEnds>(values[0], before, width);
         for (std::size_t k = 0; k < kPieces; ++k) {
-            const V first = values[k], last = values[k + 1];
-            const V whole = hn::Max(length, hn::Mul(perChange, hn::Abs(hn::Sub(last, first))));
-            const V is = hn::Mul(share<kEnds>(first, last, perWidth), whole);
+            const V first = values[k], last = values[k + 1], change = hn::Sub(last, first);
+            const Passed next = passed<kEnds>(last, before, width);
+            V whole = length;
+            if (perChange) whole = hn::Max(length, hn::Mul(*perChange, hn::Abs(change)));
+            const V is = hn::Mul(share<kEnds>(at, next, change, perWidth), whole);
+            at = next;
             weight = hn::Add(weight, is);
             if constexpr (kByValue) {
                 V low, high;
@@ -94,7 +112,7 @@ struct RangeLanes {
             const V all = hn::Max(hn::Add(weight, weight), hn::Set(lanes, 1e-30f));
             mean = hn::Mul(twice, reciprocal(lanes, all));
         }
-        return weight;
+        return hn::Max(weight, zero);
     }
 };
 

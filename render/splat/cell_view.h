@@ -67,7 +67,8 @@ void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const Rang
 struct SeenCell : SeenPiece {
     std::array<float, 3> at{}, ray{}, perSize{};
     std::array<float, 8> f{};
-    float steep = 0;  // CellView::steep as the gradient of f
+    float steep = 0;      // CellView::steep as the gradient of f
+    bool grazes = false;  // some of its rays may lie along a face
 };
 
 // A TetSplat in a picture.

@@ -1,7 +1,6 @@
 #include "render/splat/seen_cells.h"
 
-#include <algorithm>
-#include <limits>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/splat/seen_cells.cpp"
@@ -20,7 +19,7 @@ namespace {
 struct SeenRows {
     template <typename T>
     using Row = PieceBatch::Row<T>;
-    Row<float> base, ox, oy, least, most, perRange, steep, crossesLeast, crossesMost;
+    Row<float> base, ox, oy, least, most, perRange, steep, crossesLeast, crossesMost, grazes;
     std::array<Row<float>, 3> at, ray, perSize;
     std::array<Row<float>, 8> f;
     Row<double> reference, extent;
@@ -233,6 +232,31 @@ struct SeenLanes {
                                                      hn::Gt(lines, hn::Zero(Floats()))));
         put(hn::ConvertTo(Ints(), hn::IfThenElseZero(some, columns)), rows.columns, at);
         put(hn::ConvertTo(Ints(), lines), rows.rows, at);
+        takeFaces(columns, lines);
+    }
+
+    // Whether some of these rays, or a little beside them, go along a face: along an axis of the
+    // cell they are what the middle one is, and so much at most more or less.
+    HWY_INLINE void takeFaces(F columns, F lines) const {
+        constexpr float kMore = 8;  // pixels of a vector, and what arithmetic loses
+        const F ox = hn::LoadU(Floats(), rows.ox.data() + at);
+        const F oy = hn::LoadU(Floats(), rows.oy.data() + at);
+        const auto farthest = [&](F first, F count) HWY_ATTR {
+            return hn::Max(hn::Abs(hn::Sub(first, f(kMore))),
+                           hn::Abs(hn::Add(first, hn::Add(count, f(kMore)))));
+        };
+        const F x = farthest(ox, columns), y = farthest(oy, lines);
+        F some = hn::Zero(Floats());
+        for (std::size_t a = 0; a < 3; ++a) {
+            const F ray = hn::LoadU(Floats(), rows.ray[a].data() + at);
+            const F perSize = hn::LoadU(Floats(), rows.perSize[a].data() + at);
+            const F shift = hn::Mul(hn::Abs(perSize),
+                                    hn::MulAdd(x, f(std::abs(view.perPixelX[a])),
+                                               hn::Mul(y, f(std::abs(view.perPixelY[a])))));
+            const F one = f(1), zero = hn::Zero(Floats());
+            some = hn::Max(some, hn::IfThenElse(hn::Gt(hn::Abs(ray), shift), zero, one));
+        }
+        put(some, rows.grazes, at);
     }
 };
 
@@ -283,6 +307,7 @@ void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces
         }
         for (std::size_t k = 0; k < 8; ++k) c.f[k] = rows.f[k][i];
         c.steep = rows.steep[i];
+        c.grazes = rows.grazes[i] > 0;
         takeTints(c, view, pieces.layer[i], scene.layers[pieces.layer[i]].style, rows.reference[i],
                   rows.extent[i]);
     }

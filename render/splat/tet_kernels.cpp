@@ -95,7 +95,13 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 if (c.perRange > 0)
                     t = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),
                                            hn::Abs(hn::Sub(last, first))));
-                t = hn::Mul(t, range.template share<kEnds>(first, last, reciprocal(lanes, width)));
+                V before[2];
+                range.ramps(width, before);
+                const V share = range.template share<kEnds>(
+                    range.template passed<kEnds>(first, before, width),
+                    range.template passed<kEnds>(last, before, width), hn::Sub(last, first),
+                    reciprocal(lanes, width));
+                t = hn::Mul(t, hn::Max(share, set(0)));
                 beside = width;
                 V low, high;
                 range.ends(first, last, width, low, high);
