@@ -1,13 +1,11 @@
 #include "render/splat/cell_kernels.h"
 
 #include <algorithm>
-#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/splat/cell_kernels.cpp"
 #include <hwy/foreach_target.h>  // the first of these
 //
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 //
 #include "render/splat/cell_pixels-inl.h"
@@ -17,34 +15,19 @@ namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <Channels kChannels, bool kByValue, bool kLit, class Lanes>
-HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, TileRoom& room) {
-    switch (int{c.crossesLeast} + int{c.crossesMost}) {
-        case 0:
-            return addCell<kChannels, kByValue, kLit, 0>(lanes, view, c, room);
-        case 1:
-            return addCell<kChannels, kByValue, kLit, 1>(lanes, view, c, room);
-        default:
-            return addCell<kChannels, kByValue, kLit, 2>(lanes, view, c, room);
-    }
-}
-
-// Cells of one tile lie all over the list.
-constexpr std::size_t kAhead = 8;
-HWY_INLINE void prefetch(const SeenCell& cell) {
-    const auto* bytes = reinterpret_cast<const char*>(&cell);
-    for (std::size_t at = 0; at < sizeof cell; at += 64) hwy::Prefetch(bytes + at);
-}
-
 template <Channels kChannels, bool kByValue, bool kLit>
 HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
                          std::span<const std::uint32_t> which, TileRoom& room) {
+    SeenBlocks<Floats> blocks;
+    const auto add = [&]() HWY_ATTR {
+        addBlocks<kChannels, kByValue, kLit>(Floats(), view, room, blocks);
+    };
     for (std::size_t i = 0; i < which.size(); ++i) {
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
         prefetch(cells[which[std::min(i + kAhead, which.size() - 1)]]);
-        const SeenCell& c = cells[which[i]];
-        addCell<kChannels, kByValue, kLit>(Floats(), view, c, room);
+        meetCell(Floats(), view, cells[which[i]], room, blocks, add);
     }
+    add();
 }
 
 HWY_ATTR void SumCells(const CellView& view, std::span<const SeenCell> cells,

@@ -197,7 +197,9 @@ void CellRank::takeBricks(const Scene& scene, const View& view) {
 
 std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,
                                     std::uint32_t cell) {
-    const auto &at = placed.positions()[axis], &width = placed.widths()[axis];
+    const auto& at = placed.positions()[axis];
+    if (cell > 0 && cell < at.size()) return {at[cell - 1], at[cell]};
+    const auto& width = placed.widths()[axis];
     const double up = at.front() > at.back() ? -0.5 : 0.5;
     return {cell == 0 ? at.front() - up * width.front() : at[cell - 1],
             cell == at.size() ? at.back() + up * width.back() : at[cell]};

@@ -26,14 +26,14 @@ struct RayParts {
     V middle[3], along[3], mixed[3], gradient[3], value;
 };
 
-// A cell's numbers, the same in every lane.
+// Where a cell lies, the same in every lane.
 template <class Lanes>
-struct CellLanes {
+struct MeetLanes {
     using V = hn::Vec<Lanes>;
     Lanes lanes;
-    V base, before, at[3], ray[3], x[3], y[3], f[8];
+    V base, before, at[3], ray[3], x[3], y[3];
     bool grazes;
-    CellLanes(Lanes l, const CellView& view, const SeenCell& c)
+    MeetLanes(Lanes l, const CellView& view, const SeenCell& c)
         : lanes(l),
           base(hn::Set(l, c.base)),
           before(hn::Set(l, c.base - view.near)),
@@ -41,10 +41,9 @@ struct CellLanes {
         for (std::size_t a = 0; a < 3; ++a) {
             at[a] = hn::Set(l, c.at[a]);
             ray[a] = hn::Set(l, c.ray[a]);
-            x[a] = hn::Set(l, view.perPixelX[a] * c.perSize[a]);
-            y[a] = hn::Set(l, view.perPixelY[a] * c.perSize[a]);
+            x[a] = hn::Set(l, c.right[a]);
+            y[a] = hn::Set(l, c.up[a]);
         }
-        for (std::size_t k = 0; k < 8; ++k) f[k] = hn::Set(l, c.f[k]);
     }
 
     // Where rays at these offsets are inside, as far as `beyond`.
@@ -67,6 +66,22 @@ struct CellLanes {
         r.length = hn::Add(front, back);
         r.depth = hn::Mul(half, hn::Sub(back, front));
     }
+};
+
+// The field in it.
+template <class Lanes>
+struct CellLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    V base, x[3], y[3], f[8];
+    CellLanes(Lanes l, const SeenCell& c) : lanes(l), base(hn::Set(l, c.base)) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            x[a] = hn::Set(l, c.right[a]);
+            y[a] = hn::Set(l, c.up[a]);
+        }
+        for (std::size_t k = 0; k < 8; ++k) f[k] = hn::Set(l, c.f[k]);
+    }
+
     // The field half way through, and how it changes there.
     HWY_INLINE void lookHalfWay(RayParts<Lanes>& r) const {
         for (std::size_t a = 0; a < 3; ++a)
@@ -91,26 +106,24 @@ struct CellLanes {
         const V first = dot(r.gradient, d);
         const V second = hn::MulAdd(xy, r.mixed[2], hn::Mul(d[2], mixed));
         const V third = hn::Mul(hn::Mul(xy, d[2]), f[7]);
-        const auto ends = [&](float way, V& before, V& after) HWY_ATTR {
+        const auto ends = [&](float way, V& fromFront, V& fromBack) HWY_ATTR {
             const V even = hn::MulAdd(hn::Set(lanes, way * way), second, r.value);
-            const V odd = hn::Mul(hn::Set(lanes, way),
-                                  hn::MulAdd(hn::Set(lanes, way * way), third, first));
-            before = hn::Sub(even, odd);
-            after = hn::Add(even, odd);
+            const V odd =
+                hn::Mul(hn::Set(lanes, way), hn::MulAdd(hn::Set(lanes, way * way), third, first));
+            fromFront = hn::Sub(even, odd);
+            fromBack = hn::Add(even, odd);
         };
         ends(1, values[0], values[3]);
         ends(1 / 3.0f, values[1], values[2]);
     }
-    // The width of the ramp that a pixel makes of an end of the range, and its reciprocal.
-    HWY_INLINE void acrossPixel(const RayParts<Lanes>& r, V& width, V& perWidth) const {
+    // The square of the width of the ramp that a pixel makes of an end of the range.
+    HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r) const {
         constexpr float kLeast = static_cast<float>(2 * kLeastChange);
         const V alongX = dot(r.gradient, x), alongY = dot(r.gradient, y);
         const V depth = hn::Add(base, r.depth);
-        const V change2 = hn::Mul(hn::Mul(depth, depth),
-                                  hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));
-        const V width2 = hn::Max(change2, hn::Set(lanes, kLeast * kLeast));
-        perWidth = reciprocalRoot(lanes, width2);
-        width = hn::Mul(width2, perWidth);
+        const V change2 =
+            hn::Mul(hn::Mul(depth, depth), hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));
+        return hn::Max(change2, hn::Set(lanes, kLeast * kLeast));
     }
     HWY_INLINE V dot(const V* a, const V* b) const {
         return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
@@ -152,92 +165,202 @@ struct LightLanes {
     }
 };
 
-template <Channels kChannels, bool kByValue, bool kLit, int kEnds, class Lanes>
-HWY_INLINE void addCell(Lanes lanes, const CellView& view, const SeenCell& c, TileRoom& room) {
+// Blocks of pixels that cells are seen in, worked out together: what each of them waits for, the
+// others fill.
+template <class Lanes>
+struct SeenBlocks {
+    static constexpr std::size_t kMost = 16;
+    using Row = float[hn::MaxLanes(Lanes())];
+    struct Block {
+        alignas(64) Row middle[3], along[3], length, depth;  // of RayParts
+        alignas(64) Row value, values[kPieces + 1], width, perWidth;
+        alignas(64) Row weight, front, back, diffuse, specular;
+        const SeenCell* cell;
+        std::size_t at;
+    };
+    Block all[kMost];
+    std::uint8_t crossed[kMost], whole[kMost];
+    std::size_t count = 0, crossedCount = 0, wholeCount = 0;
+};
+
+// Where rays are inside: full blocks are passed to use().
+template <class Lanes, class Use>
+HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c, const TileRoom& room,
+                         SeenBlocks<Lanes>& blocks, const Use& use) {
     using V = hn::Vec<Lanes>;
-    constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
     constexpr PixelBlock<Lanes, kTileStride> pixels;
     constexpr int kColumns = static_cast<int>(pixels.kColumns);
     constexpr int kRows = static_cast<int>(pixels.kRows);
     const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
     const glm::ivec2 most =
         glm::min(glm::ivec2(c.x + c.columns, c.y + c.rows), room.at + room.size);
-    const CellLanes<Lanes> cell(lanes, view, c);
-    const RangeLanes<Lanes> range(lanes, c);
-    [[maybe_unused]] const auto color = [&] {
-        if constexpr (kColors)
-            return ColorLanes<kByValue, Lanes>(lanes, view, c);
-        else
-            return 0;
-    }();
-    [[maybe_unused]] const LightLanes<Lanes> light(lanes, view, c);
-    float scale = view.weight;
-    if constexpr (kColors) scale *= color.weight;
-    const V weight = hn::Set(lanes, scale), zero = hn::Zero(lanes);
-    const V perRange = hn::Set(lanes, scale / view.weight * c.perRange);
-    const float* const factors = room.factor.data();
-    const V far = hn::Set(lanes, 3e38f);
-    const bool hides = room.nearestOpaque < 1;
-    const V depthA = hn::Set(lanes, static_cast<float>(view.depthA));
-    const V depthB = hn::Set(lanes, static_cast<float>(view.depthB));
+    const MeetLanes<Lanes> cell(lanes, view, c);
+    const bool hides = room.nearestOpaque < 1, crosses = c.crossesLeast || c.crossesMost;
     const V stepsX = pixels.columns(lanes), stepsY = pixels.rows(lanes);
-    RayParts<Lanes> r;
     for (int x = least.x; x < most.x; x += kColumns) {
         const V ox = hn::Add(hn::Set(lanes, c.ox + static_cast<float>(x - c.x)), stepsX);
         for (int y = least.y; y < most.y; y += kRows) {
             const auto at = static_cast<std::size_t>((y - room.at.y) * kTileStride + x - room.at.x);
             const V oy = hn::Add(hn::Set(lanes, c.oy + static_cast<float>(y - c.y)), stepsY);
-            V to = far;
+            V to = hn::Set(lanes, 3e38f);
             if (hides) {
                 const V opaque = pixels.load(lanes, room.opaque.data() + at);
-                to = hn::Sub(hn::Div(depthA, hn::Sub(opaque, depthB)), cell.base);
+                to = hn::Sub(
+                    hn::Div(hn::Set(lanes, static_cast<float>(view.depthA)),
+                            hn::Sub(opaque, hn::Set(lanes, static_cast<float>(view.depthB)))),
+                    cell.base);
             }
+            RayParts<Lanes> r;
             cell.meet(ox, oy, to, r);
-            const auto inside = hn::Gt(r.length, zero);
-            if (hn::AllFalse(lanes, inside)) continue;
-            V t = hn::Mul(weight, r.length);
-            V front = zero, back = zero;  // values that are seen
-            if constexpr (kEnds > 0 || kByValue || kLit) cell.lookHalfWay(r);
-            if constexpr (kEnds > 0 || kByValue) {
-                V values[kPieces + 1], width = zero;
-                cell.follow(r, values);
-                V mean = r.value, low = hn::Min(values[0], values[kPieces]),
-                  high = hn::Max(values[0], values[kPieces]);
-                if constexpr (kEnds > 0) {
-                    V perWidth, crossing;
-                    cell.acrossPixel(r, width, perWidth);
-                    // As if along the view axis: the ray's own length is a factor later.
-                    if (c.perRange > 0)
-                        crossing =
-                            hn::Mul(perRange, reciprocal(lanes, pixels.load(lanes, factors + at)));
-                    t = range.template sum<kEnds, kByValue>(values, width, perWidth, t,
-                                                            c.perRange > 0 ? &crossing : nullptr,
-                                                            mean, low, high);
-                }
-                if constexpr (kByValue) {
-                    const V half = hn::Min(hn::Sub(mean, low), hn::Sub(high, mean));
-                    const V along = hn::Sub(values[kPieces], values[0]);
-                    const V toBack = hn::CopySign(hn::Max(half, zero), along);
-                    front = hn::Sub(mean, toBack);
-                    back = hn::Add(mean, toBack);
-                    if constexpr (kChannels == Channels::Over)
-                        back = seenTo(lanes, front, back,
-                                      hn::Mul(t, pixels.load(lanes, factors + at)), along, width);
-                }
+            auto& block = blocks.all[blocks.count];
+            for (std::size_t a = 0; a < 3; ++a) {
+                hn::Store(r.middle[a], lanes, block.middle[a]);
+                hn::Store(r.along[a], lanes, block.along[a]);
             }
-            t = hn::IfThenElseZero(inside, t);
-            addWeight<kChannels>(pixels, lanes, t, room, at, [&](V* colors) HWY_ATTR {
-                if constexpr (kColors) color.between(front, back, colors);
-                if constexpr (kLit) {
-                    V diffuse, specular;
-                    const V change = cell.dot(r.gradient, r.along);
-                    light.shade(r, change, pixels.load(lanes, factors + at), diffuse, specular);
-                    for (int k = 0; k < 3; ++k)
-                        colors[k] = hn::MulAdd(colors[k], diffuse, specular);
-                }
-            });
+            hn::Store(r.length, lanes, block.length);
+            hn::Store(r.depth, lanes, block.depth);
+            block.cell = &c;
+            block.at = at;
+            // Whether any ray is inside nobody foresees: no branch asks.
+            const bool some = !hn::AllFalse(lanes, hn::Gt(r.length, hn::Zero(lanes)));
+            const auto place = static_cast<std::uint8_t>(blocks.count);
+            blocks.crossed[blocks.crossedCount] = blocks.whole[blocks.wholeCount] = place;
+            blocks.count += some;
+            blocks.crossedCount += some && crosses;
+            blocks.wholeCount += some && !crosses;
+            if (blocks.count == blocks.kMost) use();
         }
     }
+}
+
+// The field along a block's rays, and its light.
+template <bool kLit, bool kCrossed, class Lanes>
+HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& room,
+                            typename SeenBlocks<Lanes>::Block& block) {
+    const SeenCell& c = *block.cell;
+    RayParts<Lanes> r;
+    for (std::size_t a = 0; a < 3; ++a) {
+        r.middle[a] = hn::Load(lanes, block.middle[a]);
+        r.along[a] = hn::Load(lanes, block.along[a]);
+    }
+    r.length = hn::Load(lanes, block.length);
+    r.depth = hn::Load(lanes, block.depth);
+    const CellLanes<Lanes> cell(lanes, c);
+    cell.lookHalfWay(r);
+    hn::Vec<Lanes> values[kPieces + 1];
+    cell.follow(r, values);
+    for (std::size_t k = 0; k <= kPieces; ++k) hn::Store(values[k], lanes, block.values[k]);
+    if constexpr (kCrossed)
+        hn::Store(cell.acrossPixel2(r), lanes, block.width);
+    else
+        hn::Store(r.value, lanes, block.value);
+    if constexpr (kLit) {
+        const LightLanes<Lanes> light(lanes, view, c);
+        constexpr PixelBlock<Lanes, kTileStride> pixels;
+        hn::Vec<Lanes> diffuse, specular;
+        light.shade(r, cell.dot(r.gradient, r.along),
+                    pixels.load(lanes, room.factor.data() + block.at), diffuse, specular);
+        hn::Store(diffuse, lanes, block.diffuse);
+        hn::Store(specular, lanes, block.specular);
+    }
+}
+
+// What of a block's rays lies in the range, and which values are seen.
+template <Channels kChannels, bool kByValue, bool kCrossed, class Lanes>
+HWY_INLINE void takeRange(Lanes lanes, const CellView& view, const TileRoom& room, float scale,
+                          typename SeenBlocks<Lanes>::Block& block) {
+    using V = hn::Vec<Lanes>;
+    constexpr PixelBlock<Lanes, kTileStride> pixels;
+    const SeenCell& c = *block.cell;
+    const V zero = hn::Zero(lanes);
+    const V length = hn::Load(lanes, block.length);
+    V t = hn::Mul(hn::Set(lanes, view.weight * scale), length);
+    const float* const factors = room.factor.data() + block.at;
+    if constexpr (kCrossed || kByValue) {
+        V values[kPieces + 1], width = zero;
+        for (std::size_t k = 0; k <= kPieces; ++k) values[k] = hn::Load(lanes, block.values[k]);
+        V mean = kCrossed ? zero : hn::Load(lanes, block.value),
+          low = hn::Min(values[0], values[kPieces]), high = hn::Max(values[0], values[kPieces]);
+        if constexpr (kCrossed) {
+            const RangeLanes<Lanes> range(lanes, c);
+            V crossing;
+            width = hn::Load(lanes, block.width);
+            const V perWidth = hn::Load(lanes, block.perWidth);
+            // As if along the view axis: the ray's own length is a factor later.
+            if (c.perRange > 0)
+                crossing = hn::Mul(hn::Set(lanes, scale * c.perRange),
+                                   reciprocal(lanes, pixels.load(lanes, factors)));
+            t = range.template sum<kByValue>(values, width, perWidth, t,
+                                             c.perRange > 0 ? &crossing : nullptr, mean, low, high);
+        }
+        if constexpr (kByValue) {
+            const V half = hn::Min(hn::Sub(mean, low), hn::Sub(high, mean));
+            const V along = hn::Sub(values[kPieces], values[0]);
+            const V toBack = hn::CopySign(hn::Max(half, zero), along);
+            const V front = hn::Sub(mean, toBack);
+            V back = hn::Add(mean, toBack);
+            if constexpr (kChannels == Channels::Over)
+                back = seenTo(lanes, front, back, hn::Mul(t, pixels.load(lanes, factors)), along,
+                              width);
+            hn::Store(front, lanes, block.front);
+            hn::Store(back, lanes, block.back);
+        }
+    }
+    hn::Store(hn::IfThenElseZero(hn::Gt(length, zero), t), lanes, block.weight);
+}
+
+// Adds them to their pixels, in their order, and leaves none.
+template <Channels kChannels, bool kByValue, bool kLit, class Lanes>
+HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
+                          SeenBlocks<Lanes>& blocks) {
+    using V = hn::Vec<Lanes>;
+    constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
+    const auto scaleOf = [&](const SeenCell& c) {
+        return kColors ? view.tints[static_cast<std::size_t>(c.firstTint)][3] : 1.0f;
+    };
+    const auto look = [&]<bool kCrossed>(const std::uint8_t* which, std::size_t count) HWY_ATTR {
+        if constexpr (kCrossed || kByValue || kLit)
+            for (std::size_t k = 0; k < count; ++k)
+                followField<kLit, kCrossed>(lanes, view, room, blocks.all[which[k]]);
+        if constexpr (kCrossed)
+            for (std::size_t k = 0; k < count; ++k) {
+                auto& block = blocks.all[which[k]];
+                const V width2 = hn::Load(lanes, block.width);
+                const V perWidth = reciprocalRoot(lanes, width2);
+                hn::Store(perWidth, lanes, block.perWidth);
+                hn::Store(hn::Mul(width2, perWidth), lanes, block.width);
+            }
+        for (std::size_t k = 0; k < count; ++k) {
+            auto& block = blocks.all[which[k]];
+            takeRange<kChannels, kByValue, kCrossed>(lanes, view, room, scaleOf(*block.cell),
+                                                     block);
+        }
+    };
+    look.template operator()<true>(blocks.crossed, blocks.crossedCount);
+    look.template operator()<false>(blocks.whole, blocks.wholeCount);
+    for (std::size_t k = 0; k < blocks.count; ++k) {
+        const auto& block = blocks.all[k];
+        addWeight<kChannels>(PixelBlock<Lanes, kTileStride>(), lanes, hn::Load(lanes, block.weight),
+                             room, block.at, [&](V* colors) HWY_ATTR {
+                                 if constexpr (kColors) {
+                                     const ColorLanes<kByValue, Lanes> color(lanes, view,
+                                                                             *block.cell);
+                                     V front = hn::Zero(lanes), back = front;
+                                     if constexpr (kByValue) {
+                                         front = hn::Load(lanes, block.front);
+                                         back = hn::Load(lanes, block.back);
+                                     }
+                                     color.between(front, back, colors);
+                                 }
+                                 if constexpr (kLit) {
+                                     const V diffuse = hn::Load(lanes, block.diffuse);
+                                     const V specular = hn::Load(lanes, block.specular);
+                                     for (int i = 0; i < 3; ++i)
+                                         colors[i] = hn::MulAdd(colors[i], diffuse, specular);
+                                 }
+                             });
+    }
+    blocks.count = blocks.crossedCount = blocks.wholeCount = 0;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -8,6 +8,8 @@
 #define RENDER_CELL_RANGE_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 
 #include "render/splat/cell_view.h"
@@ -19,18 +21,27 @@ namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Of a list of cells or tetrahedra, those of one tile lie all over it.
+constexpr std::size_t kAhead = 20;
+template <class Piece>
+HWY_INLINE void prefetch(const Piece& piece) {
+    const auto* bytes = reinterpret_cast<const char*>(&piece);
+    for (std::size_t at = 0; at < sizeof piece; at += 64) hwy::Prefetch(bytes + at);
+}
+
 // How much of a piece of a ray lies in a cell's range, and what values are there.
 template <class Lanes>
 struct RangeLanes {
     using V = hn::Vec<Lanes>;
+    static constexpr float kBeyond = 8;  // of any value
     Lanes lanes;
     V end[2], least, most;
-    // Of a range with one end in the cell, its share is sign * mean + offset.
+    // What is between these ends is sign * the range + offset.
     V sign, offset;
     RangeLanes(Lanes l, const SeenPiece& c) : lanes(l) {
         const bool first = c.crossesLeast;
         end[0] = hn::Set(l, first ? c.least : c.most);
-        end[1] = hn::Set(l, c.most);
+        end[1] = hn::Set(l, first && c.crossesMost ? c.most : kBeyond);
         sign = hn::Set(l, first ? 1.0f : -1.0f);
         offset = hn::Set(l, first ? 0.0f : 1.0f);
         least = hn::Set(l, first ? std::max(c.least, -1.0f) : -1.0f);
@@ -49,7 +60,6 @@ struct RangeLanes {
     struct Passed {
         V way, share;
     };
-    template <int kEnds>
     HWY_INLINE Passed passed(V value, const V* before, V width) const {
         const auto ofRamp = [&](V from) HWY_ATTR {
             const V x = hn::Sub(value, from);
@@ -57,7 +67,6 @@ struct RangeLanes {
             return Passed{hn::Mul(on, hn::NegMulAdd(hn::Set(lanes, 0.5f), on, x)), on};
         };
         const Passed first = ofRamp(before[0]);
-        if constexpr (kEnds == 1) return first;
         const Passed last = ofRamp(before[1]);
         return {hn::Sub(first.way, last.way), hn::Sub(first.share, last.share)};
     }
@@ -67,7 +76,6 @@ struct RangeLanes {
     }
 
     // Of a piece between two values, which differ so much.
-    template <int kEnds>
     HWY_INLINE V share(const Passed& first, const Passed& last, V change, V perWidth) const {
         const V one = hn::Set(lanes, 1.0f), half = hn::Set(lanes, 0.5f);
         const auto differ =
@@ -76,12 +84,12 @@ struct RangeLanes {
         const V sum = hn::IfThenElse(differ, hn::Sub(last.way, first.way),
                                      hn::Mul(half, hn::Add(first.share, last.share)));
         const V mean = hn::Mul(hn::Mul(sum, per), perWidth);
-        return kEnds == 2 ? mean : hn::MulAdd(sign, mean, offset);
+        return hn::MulAdd(sign, mean, offset);
     }
 
     // What the pieces between these values weigh, of a way that weighs so much, or `perChange` for
     // what it changes, if that is more; of the values in the range the weighted mean and the ends.
-    template <int kEnds, bool kByValue>
+    template <bool kByValue>
     HWY_INLINE V sum(const V* values, V width, V perWidth, V way, const V* perChange, V& mean,
                      V& lowest, V& highest) const {
         const V zero = hn::Zero(lanes);
@@ -90,13 +98,13 @@ struct RangeLanes {
         ramps(width, before);
         lowest = hn::Set(lanes, 2.0f);  // more than f can be
         highest = hn::Neg(lowest);
-        Passed at = passed<kEnds>(values[0], before, width);
+        Passed at = passed(values[0], before, width);
         for (std::size_t k = 0; k < kPieces; ++k) {
             const V first = values[k], last = values[k + 1], change = hn::Sub(last, first);
-            const Passed next = passed<kEnds>(last, before, width);
+            const Passed next = passed(last, before, width);
             V whole = length;
             if (perChange) whole = hn::Max(length, hn::Mul(*perChange, hn::Abs(change)));
-            const V is = hn::Mul(share<kEnds>(at, next, change, perWidth), whole);
+            const V is = hn::Mul(share(at, next, change, perWidth), whole);
             at = next;
             weight = hn::Add(weight, is);
             if constexpr (kByValue) {
@@ -208,7 +216,8 @@ HWY_INLINE void lightOf(Lanes lanes, Light light, V certainty, V facing, V& diff
 
 // Adds weights W of pixels that begin at `at`, of the colours that paint(colors) tells.
 template <Channels kChannels, class Pixels, class Lanes, class V, class Paint>
-HWY_INLINE void addWeight(Pixels pixels, Lanes lanes, V t, TileRoom& room, std::size_t at, const Paint& paint) {
+HWY_INLINE void addWeight(Pixels pixels, Lanes lanes, V t, TileRoom& room, std::size_t at,
+                          const Paint& paint) {
     float* const sums = room.sums.data() + at;
     if constexpr (kChannels == Channels::Weight) {
         pixels.store(lanes, hn::Add(t, pixels.load(lanes, sums)), sums);

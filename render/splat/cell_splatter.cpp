@@ -61,11 +61,13 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view,
                    [&](const ValuedTet& tet, const CellOfLayer& of) {
                        const SeenTet seen =
                            seenTet(view, tet, of.layer, scene.layers[of.layer].style);
-                       if (seen.columns > 0) tets.push_back(seen);
+                       if (seen.columns == 0) return;
+                       tets.push_back(seen);
+                       spans.push_back(spanOf(view, seen));
                    });
     } else {
         const auto seeAll = [&] {
-            seeCells(view, scene, pieces, cells);
+            seeCells(view, scene, pieces, cells, spans);
             pieces.count = 0;
         };
         forEachPiece(scene, part, [&](const ValuedCell& piece, const CellOfLayer& of, unsigned) {
@@ -74,8 +76,6 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view,
         });
         seeAll();
     }
-    for (const SeenCell& cell : cells) spans.push_back(spanOf(view, cell));
-    for (const SeenTet& tet : tets) spans.push_back(spanOf(view, tet));
     bins.fill(
         view.count(), view.tiles.x, spans, 0, spans.size(),
         [&](std::size_t places) { binned.resize(places); },

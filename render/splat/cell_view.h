@@ -66,6 +66,7 @@ void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const Rang
 // A CellSplat in a picture.
 struct SeenCell : SeenPiece {
     std::array<float, 3> at{}, ray{}, perSize{};
+    std::array<float, 3> right{}, up{};  // what a pixel adds to the ray
     std::array<float, 8> f{};
     float steep = 0;      // CellView::steep as the gradient of f
     bool grazes = false;  // some of its rays may lie along a face

@@ -19,6 +19,7 @@ constexpr double kRounded = 1e-6;  // of the mesh's extent, more than its places
 }  // namespace
 
 unsigned fillMissing(std::array<double, 8>& corners) {
+    if (std::ranges::none_of(corners, [](double v) { return std::isnan(v); })) return 255;
     double sum = 0;
     int valid = 0;
     unsigned there = 0;

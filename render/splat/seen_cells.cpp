@@ -1,7 +1,5 @@
 #include "render/splat/seen_cells.h"
 
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/splat/seen_cells.cpp"
 #include <hwy/foreach_target.h>  // the first of these
@@ -20,10 +18,11 @@ struct SeenRows {
     template <typename T>
     using Row = PieceBatch::Row<T>;
     Row<float> base, ox, oy, least, most, perRange, steep, crossesLeast, crossesMost, grazes;
-    std::array<Row<float>, 3> at, ray, perSize;
+    std::array<Row<float>, 3> at, ray, perSize, right, up;
     std::array<Row<float>, 8> f;
     Row<double> reference, extent;
     Row<std::int32_t> x, y, columns, rows;  // no columns where nothing is seen
+    Row<std::int32_t> tileX, tileY, lastTileX, lastTileY;
 };
 
 }  // namespace
@@ -85,8 +84,8 @@ struct SeenLanes {
         whole[h] = yes(isWhole);
         D centre[2];
         for (int k = 0; k < 2; ++k) {
-            centre[k] = hn::IfThenElseZero(
-                isWhole, hn::Div(hn::Mul(seen[k][h], d(rays.focal[k])), depth));
+            centre[k] =
+                hn::IfThenElseZero(isWhole, hn::Div(hn::Mul(seen[k][h], d(rays.focal[k])), depth));
             constexpr double kMost = 1e9;  // beside any picture
             const D window = hn::Min(
                 hn::Max(hn::Add(centre[k], d(view.centre[static_cast<std::size_t>(k)])), d(-kMost)),
@@ -132,12 +131,13 @@ struct SeenLanes {
 
         D passages = zero;  // of a length that f may pass the range in
         if (isPerCrossing)
-            passages = hn::Mul(hn::Div(extent, hn::Sub(hi, lo)),
-                               hn::Mul(d(2 * view.seen.unitLength), hn::Sqrt(dot(perSize, perSize))));
+            passages =
+                hn::Mul(hn::Div(extent, hn::Sub(hi, lo)),
+                        hn::Mul(d(2 * view.seen.unitLength), hn::Sqrt(dot(perSize, perSize))));
         const auto isThin = hn::And(changes, hn::Gt(passages, d(1)));
         const auto within = [&](D end) HWY_ATTR {  // in halves, the whole may overflow
-            return hn::Mul(
-                d(2), hn::Div(hn::Sub(hn::Mul(half, end), hn::Mul(half, reference)), divisor));
+            return hn::Mul(d(2),
+                           hn::Div(hn::Sub(hn::Mul(half, end), hn::Mul(half, reference)), divisor));
         };
         const auto ifLeast = hn::And(changes, hn::Or(isThin, hn::Lt(least, lo)));
         const auto ifMost = hn::And(changes, hn::Or(isThin, hn::Gt(greatest, hi)));
@@ -226,18 +226,25 @@ struct SeenLanes {
             put(hn::Sub(hn::Sub(hn::Add(first[k], f(0.5f)), from), part), k ? rows.oy : rows.ox,
                 at);
             put(hn::ConvertTo(Ints(), first[k]), k ? rows.y : rows.x, at);
+            const F perTile = f(1 / static_cast<float>(view.tile[k]));
+            const auto tileOf = [&](F pixel) HWY_ATTR {  // of its middle, far from a tile's edge
+                return hn::ConvertTo(Ints(), hn::Mul(hn::Add(pixel, f(0.5f)), perTile));
+            };
+            put(tileOf(first[k]), k ? rows.tileY : rows.tileX, at);
+            put(tileOf(hn::Sub(last[k], f(1))), k ? rows.lastTileY : rows.lastTileX, at);
         }
         const auto columns = hn::Sub(last[0], first[0]), lines = hn::Sub(last[1], first[1]);
         const auto some = hn::And(isVisible, hn::And(hn::Gt(columns, hn::Zero(Floats())),
                                                      hn::Gt(lines, hn::Zero(Floats()))));
         put(hn::ConvertTo(Ints(), hn::IfThenElseZero(some, columns)), rows.columns, at);
         put(hn::ConvertTo(Ints(), lines), rows.rows, at);
-        takeFaces(columns, lines);
+        takeRays(columns, lines);
     }
 
-    // Whether some of these rays, or a little beside them, go along a face: along an axis of the
-    // cell they are what the middle one is, and so much at most more or less.
-    HWY_INLINE void takeFaces(F columns, F lines) const {
+    // What a pixel is of a ray, and whether some of these rays, or a little beside them, go along a
+    // face: along an axis of the cell they are what the middle one is, and so much at most more or
+    // less.
+    HWY_INLINE void takeRays(F columns, F lines) const {
         constexpr float kMore = 8;  // pixels of a vector, and what arithmetic loses
         const F ox = hn::LoadU(Floats(), rows.ox.data() + at);
         const F oy = hn::LoadU(Floats(), rows.oy.data() + at);
@@ -250,9 +257,11 @@ struct SeenLanes {
         for (std::size_t a = 0; a < 3; ++a) {
             const F ray = hn::LoadU(Floats(), rows.ray[a].data() + at);
             const F perSize = hn::LoadU(Floats(), rows.perSize[a].data() + at);
-            const F shift = hn::Mul(hn::Abs(perSize),
-                                    hn::MulAdd(x, f(std::abs(view.perPixelX[a])),
-                                               hn::Mul(y, f(std::abs(view.perPixelY[a])))));
+            const F right = hn::Mul(perSize, f(view.perPixelX[a]));
+            const F up = hn::Mul(perSize, f(view.perPixelY[a]));
+            put(right, rows.right[a], at);
+            put(up, rows.up[a], at);
+            const F shift = hn::MulAdd(x, hn::Abs(right), hn::Mul(y, hn::Abs(up)));
             const F one = f(1), zero = hn::Zero(Floats());
             some = hn::Max(some, hn::IfThenElse(hn::Gt(hn::Abs(ray), shift), zero, one));
         }
@@ -281,13 +290,19 @@ namespace render {
 HWY_EXPORT(FindCells);
 
 void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces,
-              std::vector<SeenCell>& cells) {
+              std::vector<SeenCell>& cells, std::vector<TileSpan>& spans) {
     SeenRows rows;
     HWY_DYNAMIC_DISPATCH(FindCells)
     (view, scene.opacityPer == OpacityPer::Crossing, pieces, rows);
+    std::size_t seen = cells.size();
+    cells.resize(seen + pieces.count);
+    spans.resize(seen + pieces.count);
     for (std::size_t i = 0; i < pieces.count; ++i) {
         if (rows.columns[i] == 0) continue;
-        SeenCell& c = cells.emplace_back();
+        spans[seen] = {static_cast<std::uint32_t>(rows.tileY[i] * view.tiles.x + rows.tileX[i]),
+                       static_cast<std::uint16_t>(rows.lastTileX[i] - rows.tileX[i] + 1),
+                       static_cast<std::uint16_t>(rows.lastTileY[i] - rows.tileY[i] + 1)};
+        SeenCell& c = cells[seen++];
         c.base = rows.base[i];
         c.ox = rows.ox[i];
         c.oy = rows.oy[i];
@@ -304,6 +319,8 @@ void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces
             c.at[a] = rows.at[a][i];
             c.ray[a] = rows.ray[a][i];
             c.perSize[a] = rows.perSize[a][i];
+            c.right[a] = rows.right[a][i];
+            c.up[a] = rows.up[a][i];
         }
         for (std::size_t k = 0; k < 8; ++k) c.f[k] = rows.f[k][i];
         c.steep = rows.steep[i];
@@ -311,6 +328,8 @@ void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces
         takeTints(c, view, pieces.layer[i], scene.layers[pieces.layer[i]].style, rows.reference[i],
                   rows.extent[i]);
     }
+    cells.resize(seen);
+    spans.resize(seen);
 }
 }  // namespace render
 #endif

@@ -15,8 +15,7 @@ namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Most are narrow: eight pixels at once are enough.
-using Lanes = FewFloats;
+using Lanes = Floats;
 using V = hn::Vec<Lanes>;
 
 HWY_INLINE V set(float x) { return hn::Set(Lanes(), x); }
@@ -44,7 +43,9 @@ HWY_INLINE Way wayThrough(const SeenTet& c, V ox, V oy, V near, V opaque) {
 template <Channels kChannels, bool kByValue, int kEnds>
 HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
-    constexpr int kStep = static_cast<int>(hn::MaxLanes(Lanes()));
+    constexpr PixelBlock<Lanes, kTileStride> pixels;
+    constexpr int kColumns = static_cast<int>(pixels.kColumns);
+    constexpr int kRows = static_cast<int>(pixels.kRows);
     const Lanes lanes;
     const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
     const glm::ivec2 most =
@@ -63,15 +64,15 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     const V depthA = set(static_cast<float>(view.depthA));
     const V depthB = set(static_cast<float>(view.depthB));
     const V base = set(c.base), near = set(view.near - c.base), half = set(0.5f);
-    const V steps = hn::ConvertTo(lanes, hn::Iota(hn::RebindToSigned<Lanes>(), 0));
-    for (int y = least.y; y < most.y; ++y) {
-        const V oy = set(c.oy + static_cast<float>(y - c.y));
-        for (int x = least.x; x < most.x; x += kStep) {
-            const V ox = hn::Add(set(c.ox + static_cast<float>(x - c.x)), steps);
+    const V stepsX = pixels.columns(lanes), stepsY = pixels.rows(lanes);
+    for (int y = least.y; y < most.y; y += kRows) {
+        const V oy = hn::Add(set(c.oy + static_cast<float>(y - c.y)), stepsY);
+        for (int x = least.x; x < most.x; x += kColumns) {
+            const V ox = hn::Add(set(c.ox + static_cast<float>(x - c.x)), stepsX);
             const auto at = static_cast<std::size_t>((y - room.at.y) * kTileStride + x - room.at.x);
             V opaque = set(3e38f);
             if (hides) {
-                const V depth = hn::LoadU(lanes, room.opaque.data() + at);
+                const V depth = pixels.load(lanes, room.opaque.data() + at);
                 opaque = hn::Sub(hn::Div(depthA, hn::Sub(depth, depthB)), base);
             }
             const Way way = wayThrough(c, ox, oy, near, opaque);
@@ -86,7 +87,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 hn::MulAdd(middle, change, hn::MulAdd(base, shift, set(c.f)));  // half way through
             const V reach = hn::Mul(half, hn::Mul(length, change));
             V front = hn::Sub(value, reach), back = hn::Add(value, reach), beside = set(0);
-            const V factor = hn::LoadU(lanes, room.factor.data() + at);
+            const V factor = pixels.load(lanes, room.factor.data() + at);
             if constexpr (kEnds > 0) {
                 const V first = front, last = back;
                 const V width = hn::Max(hn::Mul(hn::Add(base, middle), set(c.across)),
@@ -97,10 +98,9 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                                            hn::Abs(hn::Sub(last, first))));
                 V before[2];
                 range.ramps(width, before);
-                const V share = range.template share<kEnds>(
-                    range.template passed<kEnds>(first, before, width),
-                    range.template passed<kEnds>(last, before, width), hn::Sub(last, first),
-                    reciprocal(lanes, width));
+                const V share = range.share(range.passed(first, before, width),
+                                            range.passed(last, before, width), hn::Sub(last, first),
+                                            reciprocal(lanes, width));
                 t = hn::Mul(t, hn::Max(share, set(0)));
                 beside = width;
                 V low, high;
@@ -113,7 +113,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 back =
                     seenTo(lanes, front, back, hn::Mul(t, factor), hn::Add(reach, reach), beside);
             t = hn::IfThenElseZero(inside, t);
-            addWeight<kChannels>(PixelRow<Lanes>(), lanes, t, room, at, [&](V* colors) HWY_ATTR {
+            addWeight<kChannels>(pixels, lanes, t, room, at, [&](V* colors) HWY_ATTR {
                 if constexpr (kColors) color.between(front, back, colors);
                 if (!isLit) return;
                 const V perLength = hn::Mul(set(1 / view.rayLength), reciprocal(lanes, factor));
@@ -132,6 +132,7 @@ HWY_INLINE void addTets(const CellView& view, std::span<const SeenTet> tets,
                         std::span<const std::uint32_t> which, TileRoom& room) {
     for (std::size_t i = 0; i < which.size(); ++i) {
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
+        prefetch(tets[which[std::min(i + kAhead, which.size() - 1)]]);
         const SeenTet& c = tets[which[i]];
         switch (int{c.crossesLeast} + int{c.crossesMost}) {
             case 0:

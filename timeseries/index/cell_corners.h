@@ -68,7 +68,8 @@ class CellCorners {
         const std::uint64_t x = cell.x > 0 && cell.x < points_.x ? 1 : 0;
         const std::uint64_t y = cell.y > 0 && cell.y < points_.y ? points_.x : 0;
         const std::uint64_t z = last - first - x - y;
-        return {first, first + x, first + y, first + x + y, first + z, first + z + x, last - x, last};
+        return {first,     first + x,     first + y, first + x + y,
+                first + z, first + z + x, last - x,  last};
     }
     // Of a cell; NaN where a value is missing or not finite.
     std::array<double, 8> values(const glm::uvec3& cell) const {
