@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/choices/choice_text.h"
+#include "app/choices/map_flaw.h"
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
 #include "app/picture/picture.h"
@@ -262,6 +264,7 @@ void Exploration::dropPointsPassed() {
 
 void Exploration::show(std::size_t step, std::shared_ptr<const SortedStep> sorted) {
     open_->step = step;
+    if (sorted->sharedGrid() != open_->sorted->sharedGrid()) open_->globe = {};
     open_->sorted = std::move(sorted);
     if (open_->awaited.step == step) open_->awaited = {};
     open_->counts = pointCounts(explorer(), *open_->sorted);

@@ -155,7 +155,7 @@ Globe::Directions Globe::directionsAt(const Angle& longitude, const Angle& latit
 }
 
 glm::dvec3 Globe::at(const glm::dvec3& place) const {
-    return radius(place.z) * directionsAt(place).up;
+    return radius(place.z) * (turn_ * directionsOf(Angle(place.x), Angle(place.y))[2]);
 }
 
 glm::dmat3 Globe::waysAt(const glm::dvec3& place) const {

@@ -193,6 +193,22 @@ TEST_F(ExplorationOfASmallGlobe, IsThereAtOnce) {
     EXPECT_TRUE(meshThere());
 }
 
+// Places are told apart, their cells' volumes are not.
+class ExplorationOfNoVolumes : public ExplorationOfAGlobe {
+ protected:
+    ExplorationOfNoVolumes()
+        : ExplorationOfAGlobe(std::make_shared<const Grid>(
+              std::array{measuredAxis("lon", "degrees_east", 0, 1e-170, 60),
+                         measuredAxis("lat", "degrees_north", 0, 1e-170, 60), space()[2]})) {}
+};
+
+TEST_F(ExplorationOfNoVolumes, LieFlatAndSaySo) {
+    choose(Map::Globe);
+    EXPECT_EQ(desk_.exploration.explorer().map, Map::Globe);
+    EXPECT_EQ(shown().map, Map::Flat);
+    EXPECT_EQ(waiting(), "step 5 lies flat: none of its cells has a volume on a globe");
+}
+
 // Series some of whose steps have other grids.
 class ExplorationOfGlobes : public testing::Test {
  protected:
