@@ -9,5 +9,7 @@ namespace app {
 
 // One sentence where the grid's points have no place on a globe; else "".
 std::string globeFlaw(const timeseries::Grid& grid);
+// Of a grid without such a flaw, which its points alone tell.
+inline constexpr const char* kNoVolumeOnGlobe = "none of its cells has a volume on a globe";
 
 }  // namespace app

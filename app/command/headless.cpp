@@ -6,6 +6,7 @@
 
 #include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
+#include "app/choices/map_flaw.h"
 #include "app/command/commands.h"
 #include "app/exploration/chosen_data.h"
 #include "app/files/dataset.h"
@@ -51,7 +52,16 @@ struct Told {
     std::size_t mixed = 0;       // how many say that their colours are mixed
     std::string error{};         // of the one in the middle, as it is said
     std::filesystem::path of{};  // that one
+    std::size_t flat = 0;        // how many lie flat that were to lie on a globe,
+    std::string whyFlat{};       // and why
 };
+
+std::string whyFlat(const Explorer& e, const timeseries::Grid& grid,
+                    const render::PlacedPoints& placed) {
+    if (e.map == render::Map::Flat || placed.globe()) return "";
+    const std::string flaw = globeFlaw(grid);
+    return flaw.empty() ? kNoVolumeOnGlobe : flaw;
+}
 
 DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
                     const render::PlacedPoints& placed) {
@@ -132,6 +142,10 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
                                       .progress = [&](double share) { progress.drawn(share); }},
                                      frame.file);
         if (drawn.mixed) ++told.mixed;
+        if (std::string why = whyFlat(e, step->grid(), *placed); !why.empty()) {
+            ++told.flat;
+            told.whyFlat = std::move(why);
+        }
         files.write(std::move(drawn), [&options, i, count = frames.size()] {
             if (!options.progress) return;
             say("picture {} of {}\n", i + 1, count);
@@ -174,17 +188,20 @@ int renderHeadless(const RenderOptions& options) {
     const Dataset& dataset = chosen.dataset;
     Drawing drawing(options);
     const FrameFiles frames(options.output, e, chosen.steps);
-    const auto [mixed, error, middle] =
+    const auto [mixed, error, middle, flat, why] =
         drawFrames(options, e, dataset.variable, frames, *chosen.source, drawing.renderer());
     tellFiles(frames, dataset.variable);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
+    const auto inSome = [&](std::size_t count) {
+        return count == frames.size() ? ""
+                                      : fmt::format(" in {} of {} pictures", count, frames.size());
+    };
     if (mixed > 0)
         say("  note: colours are mixed{}: the mean optical depth is more than {}; --order depth "
             "draws what is in front over what is behind\n",
-            mixed == frames.size() ? ""
-                                   : fmt::format(" in {} of {} pictures", mixed, frames.size()),
-            render::kMixedDepth);
+            inSome(mixed), render::kMixedDepth);
+    if (flat > 0) say("  note: what is drawn lies flat{}: {}\n", inSome(flat), why);
     tellStyle(e, dataset.variable);
     if (!error.empty())
         say("  {}{}\n", error, frames.size() == 1 ? "" : fmt::format(" in {}", middle.string()));

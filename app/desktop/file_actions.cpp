@@ -137,14 +137,17 @@ void FileActions::screenshot(const std::optional<double>& error) {
     telling(exploration_, [&] {
         const fs::path file = numbered(fs::path(shown->dataset.name).stem().string());
         canvas_.save(*shown, file, error);
-        exploration_.tell("Screenshot: " + fs::absolute(file).string());
+        const bool isAsAsked = shown->explorer.map == exploration_.explorer().map;
+        exploration_.tell((isAsAsked ? "Screenshot: " : "Screenshot, lying flat: ") +
+                          fs::absolute(file).string());
     });
 }
 
 void FileActions::copyCommandLine() {
     const auto shown = exploration_.shown();
     if (!shown) return;
-    const Explorer picture = onlyThis(shown->explorer, shown->step, shown->explorer.play.tick);
+    const Explorer& asked = exploration_.explorer();
+    const Explorer picture = onlyThis(asked, shown->step, asked.play.tick);
     const std::vector<std::string> arguments =
         renderArguments(picture, "picture.png", fs::current_path());
     copy_(callOfProgram() + " " + shellText(arguments));
@@ -156,7 +159,7 @@ void FileActions::exportTo(const fs::path& output) {
     if (!shown) return;
     if (export_) return exploration_.tell("One export at a time: cancel the one that runs", true);
     telling(exploration_, [&] {
-        const Explorer animation = animationOf(*shown);
+        const Explorer animation = animationOf(exploration_.explorer(), shown->dataset);
         export_.emplace(animation, FrameFiles(fs::absolute(output), animation,
                                               stepsOf(shown->dataset, *animation.steps)));
     });

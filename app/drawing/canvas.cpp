@@ -102,10 +102,20 @@ struct Canvas::State {
     // screen. Returns the step shown.
     GlSteps::Held& bring(const Shown& shown, const CanvasLimits& limits,
                          std::span<const render::View> moving, CanvasReport& report);
+    // Of what the next frame has on the screen.
+    render::Outline outline(const Shown& shown);
     // The step on the screen takes other choices, if all that they select is there to be drawn.
     void choose(const Explorer& choices);
     bool isThere(const GlSteps::Held& held, const render::Scene& scene) const {
         return !renderer.splatters().takesPointsFromGpu(scene) || held.onGpu.ready(scene);
+    }
+    // Whether what is shown is to lie otherwise than what is on the screen, of which the eyes are
+    // until all that the other may be drawn by is there.
+    bool turns(const GlSteps::Places& asked) const {
+        return screen && screen->held->places.map != asked.map;
+    }
+    bool isWhollyThere(const GlSteps::Held& held, const render::Scene& scene) const {
+        return isThere(held, scene) && isThere(held, byPoints(scene));
     }
     // Tetrahedra for GL are listed and put in order by the processor in one go, as the selection or
     // the eye moves: so many in 50 ms on two cores (tests/bench/NOTES.md).
@@ -145,7 +155,10 @@ void Canvas::State::choose(const Explorer& choices) {
     Screen changed = *screen;
     changed.explorer = choices;
     if (!isThere(*changed.held, sceneOf(changed))) return;
-    if (!changed.held->place(placesOf(choices))) return;  // another globe, which is to come
+    if (!changed.held->place(placesOf(choices))) {  // the other globe is to come
+        changed.explorer.map = changed.held->places.map;
+        changed.explorer.scale = changed.held->places.scale;
+    }
     screen = std::move(changed);
 }
 
@@ -155,20 +168,23 @@ GlSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limi
     Screen next{shown.sorted, &held, shown.explorer, shown.dataset.variable, shown.step};
     const render::Scene scene = sceneOf(next);
     const bool onScreen = screen && screen->held == &held;
+    const bool waits = turns(held.places) && !isWhollyThere(held, scene);
     // While the picture moves, points may stand for cells.
     const render::Scene points = byPoints(scene);
     if (renderer.splatters().takesPointsFromGpu(points)) {
         std::optional<render::ValueScale> scale = render::neededScale(points);
         if (scale) scale = held.onGpu.serving(*scale);
         constexpr std::uint64_t kOnScreen = 8;
+        const std::uint64_t before = waits ? held.onGpu.missingBytes(points, scale) : 0;
         held.onGpu.upload(points, scale, (onScreen ? kOnScreen : 1) * limits.uploadBytes);
-        if (const std::uint64_t missing = held.onGpu.missingBytes(points, scale); missing > 0)
+        const std::uint64_t missing = waits ? before : held.onGpu.missingBytes(points, scale);
+        if (missing > 0)
             report.uploaded =
                 1 - static_cast<double>(missing) /
                         static_cast<double>(render::GlStep::neededBytes(points, scale));
     }
     const bool mayMove = isThere(held, points) || keepsTo(limits, scene, moving);
-    if (isThere(held, scene) && mayMove) {
+    if (isThere(held, scene) && mayMove && !waits) {
         screen.emplace(std::move(next));
     } else if (onScreen) {
         screen->explorer.scale = shown.explorer.scale;  // which use() has taken over
@@ -181,6 +197,14 @@ GlSteps::Held& Canvas::State::bring(const Shown& shown, const CanvasLimits& limi
 Canvas::Canvas(render::SplatterChoice splatter, render::LightAs as)
     : state_(std::make_unique<State>(splatter, as)) {}
 Canvas::~Canvas() = default;
+
+render::Outline Canvas::State::outline(const Shown& shown) {
+    const GlSteps::Places asked = placesOf(shown.explorer);
+    if (!turns(asked)) return steps.outline(shown.sorted, asked);
+    GlSteps::Held& held = steps.use(shown.sorted, asked);
+    const Screen next{shown.sorted, &held, shown.explorer, shown.dataset.variable, shown.step};
+    return (isWhollyThere(held, sceneOf(next)) ? held : *screen->held).placed.outline();
+}
 
 CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits,
                                   std::span<const render::View> moving, render::gl::Timer& of) {
@@ -284,7 +308,7 @@ void Canvas::drawPlacards(std::span<const render::Placard> placards,
 
 std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
     const Explorer& e = shown.explorer;
-    return eyes(e.view, e.stereo, state_->steps.outline(shown.sorted, placesOf(e)), e.size);
+    return eyes(e.view, e.stereo, state_->outline(shown), e.size);
 }
 
 bool Canvas::shows(const Explorer& data) const {

@@ -1,6 +1,8 @@
 #include "app/drawing/picture_error.h"
 
 #include <atomic>
+#include <exception>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -23,7 +25,10 @@ struct PictureError::Work {
             errors = depthErrorsOf(picture.explorer, *picture.sorted, picture.view,
                                    rungsOf(picture.explorer, *picture.sorted), {picture.parts, 1},
                                    wanted);
-        } catch (...) {  // then it is not told: a picture is as good without
+        } catch (const std::bad_alloc&) {
+            errors.whyNone = "there is not enough memory to work it out";
+        } catch (const std::exception& error) {
+            errors.whyNone = error.what();
         }
         picture.sorted.reset();
         done = true;
@@ -42,8 +47,10 @@ std::optional<DepthErrors> PictureError::of(const Picture& picture) {
     work->sorted = picture.sorted;
     try {
         std::thread([work] { work->run(); }).detach();
-    } catch (const std::system_error&) {  // no thread to be had
-        return DepthErrors();
+    } catch (const std::system_error&) {
+        DepthErrors none;
+        none.whyNone = "there is no thread to work it out";
+        return none;
     }
     work_ = std::move(work);
     return std::nullopt;

@@ -26,7 +26,7 @@ class PictureError {
         friend bool operator==(const Picture&, const Picture&) = default;
     };
     // Of the ways to draw it, once they are known: begins to work them out, one picture at a time.
-    // None where they could not be. REQUIRES: hasDepthError(*picture.sorted).
+    // None where they could not be, and why. REQUIRES: hasDepthError(*picture.sorted).
     std::optional<DepthErrors> of(const Picture& picture);
     void forget();  // the picture changes: nobody wants it any more
 

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/choices/choice_text.h"
+#include "app/choices/map_flaw.h"
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
 #include "app/picture/picture.h"
@@ -43,7 +45,7 @@ void Exploration::change(Explorer next, std::string_view gesture) {
         const std::size_t step = std::min(next.steps.value_or(*explorer().steps).first, last);
         next.steps = StepChoice{step, step};
         try {
-            if (next.map == render::Map::Globe)
+            if (next.map == render::Map::Globe && explorer().map != next.map)
                 if (const std::string flaw = globeFlaw(open_->sorted->grid()); !flaw.empty())
                     throw ChoiceError(flaw);
             if (needsSamples(next)) next = resolved(next, {{open_->step, open_->sorted}});
@@ -56,6 +58,7 @@ void Exploration::change(Explorer next, std::string_view gesture) {
     }
     history_.edit(std::move(next), gesture);
     if (playback_.playing) playedFrom_ = explorer().steps;
+    if (open_) lay();
 }
 
 void Exploration::resize(glm::ivec2 picture) {
@@ -109,6 +112,7 @@ void Exploration::arrive(const Explorer& from) {
     playback_ = followed(playback_, from, there);
     open_->counts = pointCounts(there, *open_->sorted);
     history_.replace(std::move(there));
+    lay();
 }
 
 // Playing.
@@ -200,12 +204,15 @@ void Exploration::goOn(std::chrono::nanoseconds dt) {
     play(dt);
     takeArrivals();
     dropPointsPassed();
+    lay();
     open_->steps.want(wishes());
 }
 
 void Exploration::takeArrivals() {
     for (std::string& note : open_->steps.takeNotes()) tell(std::move(note), false);
     std::vector<LiveSteps::Arrival> arrivals = open_->steps.poll();
+    if (open_->awaited.sorted && canLie(*open_->awaited.sorted))
+        arrivals.push_back(std::exchange(open_->awaited, {}));
     const auto there = [&](std::size_t step) -> std::shared_ptr<const SortedStep> {
         for (const LiveSteps::Arrival& arrival : arrivals)
             if (arrival.step == step && arrival.sorted) return arrival.sorted;
@@ -217,7 +224,10 @@ void Exploration::takeArrivals() {
         tell(series.why(asked), true);
     if (asked == open_->step) return open_->passed.clear();
     open_->passed.insert(asked);
-    if (auto sorted = there(asked)) return show(asked, std::move(sorted));
+    if (auto sorted = there(asked)) {
+        if (!canLie(*sorted) && wantGlobe(*sorted)) open_->awaited = {asked, sorted};
+        if (canLie(*sorted)) return show(asked, std::move(sorted));
+    }
     if (playback_.playing && playback_.timeMoves) {
         // Back along the way that was played, as far as what is shown.
         const timeseries::TimeCursor& cursor = *playback_.time;
@@ -225,7 +235,8 @@ void Exploration::takeArrivals() {
         for (std::size_t back = 1; back < places; ++back) {
             const std::size_t step = cursor.stepOfPlace((at + places - back) % places);
             if (step == open_->step) return;
-            if (auto sorted = there(step)) return show(step, std::move(sorted));
+            if (auto sorted = there(step); sorted && canLie(*sorted))
+                return show(step, std::move(sorted));
         }
         return;
     }
@@ -235,7 +246,7 @@ void Exploration::takeArrivals() {
     };
     for (LiveSteps::Arrival& arrival : arrivals)
         if (arrival.sorted && open_->passed.contains(arrival.step) &&
-            distance(arrival.step) < distance(open_->step))
+            distance(arrival.step) < distance(open_->step) && canLie(*arrival.sorted))
             show(arrival.step, std::move(arrival.sorted));
 }
 
@@ -253,8 +264,11 @@ void Exploration::dropPointsPassed() {
 
 void Exploration::show(std::size_t step, std::shared_ptr<const SortedStep> sorted) {
     open_->step = step;
+    if (sorted->sharedGrid() != open_->sorted->sharedGrid()) open_->globe = {};
     open_->sorted = std::move(sorted);
+    if (open_->awaited.step == step) open_->awaited = {};
     open_->counts = pointCounts(explorer(), *open_->sorted);
+    lay();
 }
 
 // The step shown stays in memory beside the one asked for.
@@ -291,14 +305,18 @@ void Exploration::closeLost() {
 
 std::optional<Shown> Exploration::shown() const {
     if (!open_) return std::nullopt;
-    return Shown{explorer(), open_->dataset, open_->step, open_->sorted};
+    return Shown{laid(), open_->dataset, open_->step, open_->sorted};
 }
 
 std::string Exploration::waiting() const {
-    if (!open_ || explorer().steps->first == open_->step) return "";
+    if (!open_) return "";
+    if (explorer().steps->first == open_->step) return waitingForGlobe();
     const std::size_t asked = explorer().steps->first;
-    if (open_->steps.series().state(asked) == SlotState::Failed)
+    const SlotState state = open_->steps.series().state(asked);
+    if (state == SlotState::Failed)
         return fmt::format("step {} is not available, showing {}", asked, open_->step);
+    if (state == SlotState::Loaded && explorer().map == render::Map::Globe)
+        return fmt::format("making the globe of step {}, showing {}", asked, open_->step);
     return fmt::format("requested step {}, showing {}", asked, open_->step);
 }
 

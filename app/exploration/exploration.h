@@ -34,7 +34,8 @@
 
 namespace app {
 
-// What can be drawn now. `explorer` is resolved and fits `dataset`.
+// What can be drawn now. `explorer` is resolved and fits `dataset`; it is the one asked for, but
+// that while a globe is being made the step lies as it did before, or flat.
 struct Shown {
     const Explorer& explorer;
     const Dataset& dataset;
@@ -101,7 +102,8 @@ class Exploration {
     bool reading(const std::function<void()>& work);
 
     std::optional<Shown> shown() const;
-    // In words, when what is shown is not what is asked for: "requested step 7, showing 5".
+    // In words, when what is shown is not what is asked for: "requested step 7, showing 5", "making
+    // the globe".
     std::string waiting() const;
     // Of the step shown; null while there is none.
     const PointCounts* counts() const;
@@ -144,6 +146,13 @@ class Exploration {
     void dropPointsPassed();
     void show(std::size_t step, std::shared_ptr<const timeseries::SortedStep> sorted);
     std::vector<std::size_t> wishes() const;
+    // exploration_globe.cpp
+    void lay();
+    bool liesAsAsked() const;
+    const Explorer& laid() const;
+    bool canLie(const timeseries::SortedStep& step) const;
+    bool wantGlobe(const timeseries::SortedStep& step);
+    std::string waitingForGlobe() const;
 
     Settings settings_;
     Wake wake_;

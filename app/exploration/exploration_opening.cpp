@@ -185,6 +185,7 @@ void Exploration::adopt(LiveSteps::Arrival first) {
     if (playback_.playing) playedFrom_ = next.steps;
     open_ = std::move(pending_->opened);
     pending_.reset();
+    lay();
 }
 
 }  // namespace app

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/exploration/exploration.h"
+#include "app/exploration/globe_maker.h"
 
 namespace app {
 
@@ -14,13 +15,22 @@ struct Exploration::Open {
     Open(OpenDataset opened, const Explorer& wish, const Settings& settings, const Wake& wake)
         : dataset(opened),
           steps(opened, wish.keep.value_or(timeseries::RangeSet::everything()),
-                settings.budgetBytes, wake.callable()) {}
+                settings.budgetBytes, wake.callable()),
+          globes(wake.callable()) {}
 
     Dataset dataset;
     LiveSteps steps;
     std::size_t step = 0;  // shown
     std::shared_ptr<const timeseries::SortedStep> sorted;
     PointCounts counts;
+    GlobeMaker globes;
+    // What is shown lies so while it is to lie on a globe: flat without a mesh, stretched as asked.
+    struct Globe {
+        GlobeMaker::Made made;
+        std::optional<glm::dvec3> stretch;
+    } globe;
+    LiveSteps::Arrival awaited = {};   // shown once its globe is there, or null
+    Explorer laid;                     // what laid() tells where that is not explorer()
     std::set<std::size_t> passed;      // asked for since the step asked for was last there
     std::set<std::size_t> toldFailed;  // steps that were asked for, and whose failure was told
 };

@@ -123,14 +123,13 @@ std::string lastLine(std::string_view text) {
 
 }  // namespace
 
-Explorer animationOf(const Shown& shown) {
-    const PlayChoice& play = shown.explorer.play;
-    Explorer e = shown.explorer;
+Explorer animationOf(const Explorer& explorer, const Dataset& dataset) {
+    const PlayChoice& play = explorer.play;
+    Explorer e = explorer;
     e.oneTick = sweepOf(e) != nullptr && !play.sweepMoves;
     if (play.timeMoves)
-        e.steps =
-            StepChoice{play.time.first, std::min(play.time.last, shown.dataset.stepCount() - 1),
-                       play.time.stride};
+        e.steps = StepChoice{play.time.first, std::min(play.time.last, dataset.stepCount() - 1),
+                             play.time.stride};
     return e;
 }
 

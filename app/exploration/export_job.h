@@ -16,7 +16,7 @@ namespace app {
 // What plays, once, as pictures: the steps from the in to the out point by the stride where time
 // moves, else the one asked for; one cycle of the sweep where it moves, else its window as a layer.
 // Which way, how fast and what comes at the end is for whoever plays the pictures.
-Explorer animationOf(const Shown& shown);
+Explorer animationOf(const Explorer& explorer, const Dataset& dataset);
 
 // Nothing here blocks but its end. Everything is as poll() last saw it.
 class ExportJob {

@@ -47,6 +47,8 @@ void drawTable(PanelContext& context, const std::vector<ErrorLine>& lines) {
 
 std::vector<ErrorLine> errorPartLines(const Performance& p) {
     const RungError* const error = p.told();
+    if (error == nullptr && p.errors && !p.errors->whyNone.empty())
+        return {{"", "", "This picture's error is not known: " + p.errors->whyNone + "."}};
     if (error == nullptr) return {{"", "", "This picture's error is not known yet."}};
     std::vector<ErrorLine> lines{
         {"whole", shareText(error->depth), "of optical depth, against the field between points"}};

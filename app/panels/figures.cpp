@@ -96,6 +96,8 @@ std::optional<Rect> errorPlace(const Theme& theme, const Layout& layout,
 
 std::vector<std::string> errorLines(const Performance& p) {
     std::vector<std::string> lines;
+    if (p.errors && !p.errors->whyNone.empty())
+        return {"Error of optical depth not known: " + p.errors->whyNone};
     if (!p.errors || p.errors->rungs.empty()) return lines;
     lines.emplace_back("Error of optical depth, against the field between its points:");
     for (const RungError& error : p.errors->rungs)

@@ -95,7 +95,7 @@ std::string FilePanel::warning(const PanelContext& context, const fs::path& path
     const auto shown = context.exploration.shown();
     std::size_t files = 1, existing = 0;
     if (*for_ == For::Export && shown) {
-        const Explorer animation = animationOf(*shown);
+        const Explorer animation = animationOf(context.exploration.explorer(), shown->dataset);
         const FrameFiles frames(path, animation, stepsOf(shown->dataset, *animation.steps));
         files = frames.fileCount();
         existing = frames.existing();

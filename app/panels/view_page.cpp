@@ -65,11 +65,11 @@ void ViewPage::draw(PanelContext& context, const Rect& at) {
     axes(context, form);
 }
 
-// Where places are longitudes and latitudes.
+// Where places are longitudes and latitudes, or once were.
 void ViewPage::map(PanelContext& context, Form& form) {
     constexpr std::array kMaps = {"Flat", "Globe"};
-    if (!globeFlaw(context.exploration.shown()->sorted->grid()).empty()) return;
     const auto now = static_cast<std::size_t>(context.exploration.explorer().map);
+    if (now == 0 && !globeFlaw(context.exploration.shown()->sorted->grid()).empty()) return;
     if (const auto chosen = segmented(context.theme, "map", form.row("Map"), kMaps, now))
         edit(context, {}, [&](Explorer& e) { e.map = static_cast<render::Map>(*chosen); });
 }

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/choices/explorer.h"
@@ -54,6 +55,7 @@ enum class Ordering { OneColor, Mixed, ByDepth };
 struct DepthErrors {
     std::vector<RungError> rungs;
     Ordering ordering = Ordering::OneColor;
+    std::string whyNone = {};  // where they could not be worked out
     // Of a coarser subset than was looked at, the coarsest's; null of cells where none were.
     const RungError* find(const Rung& rung) const;
     std::optional<double> of(const Rung& rung) const;  // the whole

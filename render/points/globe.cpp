@@ -66,12 +66,10 @@ bool saysDepth(const Axis& axis) {
 }
 
 // Columns: east, north, up, before anything is turned.
-glm::dmat3 directionsOf(const glm::dvec3& place) {
-    const double sinLon = std::sin(place.x * kPerDegree), cosLon = std::cos(place.x * kPerDegree),
-                 sinLat = std::sin(place.y * kPerDegree), cosLat = std::cos(place.y * kPerDegree);
-    return {{-sinLon, cosLon, 0},
-            {-sinLat * cosLon, -sinLat * sinLon, cosLat},
-            {cosLat * cosLon, cosLat * sinLon, sinLat}};
+glm::dmat3 directionsOf(const Globe::Angle& lon, const Globe::Angle& lat) {
+    return {{-lon.sine, lon.cosine, 0},
+            {-lat.sine * lon.cosine, -lat.sine * lon.sine, lat.cosine},
+            {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine}};
 }
 
 }  // namespace
@@ -102,7 +100,7 @@ Globe::Globe(const Grid& grid, std::optional<double> stretch) {
         const double tilt = 0.5 * (y.most - y.least) * kPerDegree;
         const glm::dmat3 tilted({1, 0, 0}, {0, std::cos(tilt), std::sin(tilt)},
                                 {0, -std::sin(tilt), std::cos(tilt)});
-        turn_ = tilted * glm::transpose(directionsOf(middle));
+        turn_ = tilted * glm::transpose(directionsOf(Angle(middle.x), Angle(middle.y)));
     }
     metres_ = metresOf(axis);
     below_ = metres_ ? (middle.z > 0) == axis.down : isDepth(axis) && saysDepth(axis);
@@ -148,13 +146,16 @@ bool Globe::shows(const Grid& grid) {
     return !isOnePlace && y.least >= -kPole && y.most <= kPole && Globe(grid).isSound();
 }
 
-Globe::Directions Globe::directionsAt(const glm::dvec3& place) const {
-    const glm::dmat3 directions = turn_ * directionsOf(place);
+Globe::Angle::Angle(double degrees)
+    : sine(std::sin(degrees * kPerDegree)), cosine(std::cos(degrees * kPerDegree)) {}
+
+Globe::Directions Globe::directionsAt(const Angle& longitude, const Angle& latitude) const {
+    const glm::dmat3 directions = turn_ * directionsOf(longitude, latitude);
     return {directions[0], directions[1], directions[2]};
 }
 
 glm::dvec3 Globe::at(const glm::dvec3& place) const {
-    return radius(place.z) * (turn_ * directionsOf(place)[2]);
+    return radius(place.z) * (turn_ * directionsOf(Angle(place.x), Angle(place.y))[2]);
 }
 
 glm::dmat3 Globe::waysAt(const glm::dvec3& place) const {

@@ -2,6 +2,7 @@
 // double.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -44,7 +45,15 @@ class Globe {
     struct Directions {
         glm::dvec3 east, north, up;
     };
-    Directions directionsAt(const glm::dvec3& place) const;
+    // The sine and the cosine of degrees, which the points of a meridian or a parallel share.
+    struct Angle {
+        double sine, cosine;
+        explicit Angle(double degrees);
+    };
+    Directions directionsAt(const Angle& longitude, const Angle& latitude) const;
+    Directions directionsAt(const glm::dvec3& place) const {
+        return directionsAt(Angle(place.x), Angle(place.y));
+    }
     double radius(double third) const { return 1 + perUnit_ * (third - surface_); }
     // Columns: the ways of a degree east, a degree north and a unit of the third coordinate.
     glm::dmat3 waysAt(const glm::dvec3& place) const;
@@ -69,9 +78,15 @@ class Globe {
 
     // The grid's points in this space: of upright grids cells have the volumes that they have
     // between spheres, cones and half planes, exactly; at 360 degrees the first and the last points
-    // are one. Made once while somebody holds it. REQUIRES: no more points than that, no latitudes
-    // beyond the poles.
-    std::shared_ptr<const timeseries::Mesh> meshOf(const timeseries::Grid& grid) const;
+    // are one. Made once while somebody holds it; null once it is not wanted any more. Throws
+    // std::invalid_argument when no cell has a volume there. REQUIRES: no more points than that, no
+    // latitudes beyond the poles.
+    std::shared_ptr<const timeseries::Mesh> meshOf(const timeseries::Grid& grid,
+                                                   const std::atomic<bool>& wanted = true) const;
+    // Null where nobody holds one. Never waits.
+    std::shared_ptr<const timeseries::Mesh> meshIfMade(const timeseries::Grid& grid) const {
+        return grid.elsewhereIfMade(perUnit_);
+    }
 
  private:
     glm::dmat3 turn_{1.0};
@@ -82,5 +97,10 @@ class Globe {
     std::optional<double> metres_;  // of a unit
     bool below_ = false;
 };
+
+// Of a stretch of all three axes.
+inline Globe globeOf(const timeseries::Grid& grid, const std::optional<glm::dvec3>& stretch) {
+    return Globe(grid, stretch ? std::optional(stretch->z) : std::nullopt);
+}
 
 }  // namespace render

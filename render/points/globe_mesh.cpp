@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/points/globe.h"
+#include "timeseries/together.h"
 
 namespace render {
 namespace {
@@ -52,6 +53,7 @@ class UprightCells {
             const bool isEnd = i == 0 || i + 1 == size_.x;
             const double wide = axes_[0].width(i) * (halves && isEnd ? 0.5 : 1);
             degreesEast_.push_back(size_.x > 1 ? wide : 1);
+            longitude_.emplace_back(axes_[0].coordinates[i]);
         }
         for (std::size_t j = 0; j < size_.y; ++j) {
             const double sense = axes_[1].width(j) < 0 ? -1 : 1;
@@ -62,6 +64,7 @@ class UprightCells {
             degreesNorth_.push_back(sense * std::max(to - from, 0.0));
             const double sines = std::sin(to * kDegree) - std::sin(from * kDegree);
             cosine_.push_back(to > from ? sines / ((to - from) * kDegree) : 0);
+            latitude_.emplace_back(axes_[1].coordinates[j]);
         }
         double area = 0;
         for (std::size_t j = 0; j < size_.y; ++j)
@@ -75,20 +78,19 @@ class UprightCells {
             double r1 = globe.radius(third.from), r2 = globe.radius(third.to);
             if (size_.z == 1) r1 = middle - thickness_ / 2, r2 = middle + thickness_ / 2;
             outwards_.push_back((axes_[2].width(k) < 0 ? -1 : 1) * (r2 - r1));
-            squared_.push_back((r1 * r1 + r1 * r2 + r2 * r2) / 3);
+            meanRadius_.push_back(std::sqrt((r1 * r1 + r1 * r2 + r2 * r2) / 3));
+            radius_.push_back(middle);
         }
     }
 
     MeshPoint operator()(std::uint64_t index) const {
         const auto at = timeseries::indicesOf(index, size_);
-        const glm::dvec3 place(axes_[0].coordinates[at.x], axes_[1].coordinates[at.y],
-                               axes_[2].coordinates[at.z]);
-        const auto [east, north, up] = globe_.directionsAt(place);
-        const double r = std::sqrt(squared_[at.z]) * kDegree;
+        const auto [east, north, up] = globe_.directionsAt(longitude_[at.x], latitude_[at.y]);
+        const double r = meanRadius_[at.z] * kDegree;
         const glm::dmat3 rows =
             glm::transpose(glm::dmat3(r * cosine_[at.y] * degreesEast_[at.x] * east,
                                       r * degreesNorth_[at.y] * north, outwards_[at.z] * up));
-        return {globe_.at(place), {rows[0], rows[1], rows[2]}};
+        return {radius_[at.z] * up, {rows[0], rows[1], rows[2]}};
     }
     // Neighbours are no farther apart along any coordinate.
     double longestWay() const {
@@ -97,7 +99,7 @@ class UprightCells {
             for (const double each : v) most = std::max(most, std::abs(each));
             return most;
         };
-        const double farthest = std::sqrt(*std::ranges::max_element(squared_));
+        const double farthest = *std::ranges::max_element(meanRadius_);
         // A step between two points is no longer than twice what one of them stands for.
         return 2 * std::max(farthest * 1.1 * kDegree *
                                 std::max(longest(degreesEast_), longest(degreesNorth_)),
@@ -108,52 +110,65 @@ class UprightCells {
     const std::array<Axis, 3>& axes_;
     const Globe& globe_;
     glm::vec<3, std::uint64_t> size_;
+    std::vector<Globe::Angle> longitude_, latitude_;
     // Of each point along its axis: signed along increasing index; the mean cosine of latitude and
-    // the mean square of the radius in its cells.
-    std::vector<double> degreesEast_, degreesNorth_, cosine_, outwards_, squared_;
+    // the root of the mean square of the radius in its cells.
+    std::vector<double> degreesEast_, degreesNorth_, cosine_, outwards_, meanRadius_;
+    std::vector<double> radius_;
     double thickness_ = 0;  // of one level: as thick as its cells are wide
 };
 
+struct NotWanted {};
+
 // Points with neighbours have the cells that lie between these, wherever they are.
-std::shared_ptr<const Mesh> curvilinear(const Mesh& file, const Globe& globe) {
+std::shared_ptr<const Mesh> curvilinear(const Mesh& file, const Globe& globe,
+                                        const std::atomic<bool>& wanted) {
     timeseries::MeshPlaces places{.size = file.size(), .at = {}};
-    places.at.reserve(file.count());
-    for (std::uint64_t i = 0; i < file.count(); ++i)
-        places.at.push_back(globe.at(file.position(i)));
+    places.at.resize(file.count());
+    timeseries::inParts(file.count(), timeseries::threadsFor(file.count(), 1 << 14),
+                        [&](std::size_t first, std::size_t last) {
+                            for (std::size_t i = first; i < last && wanted; ++i)
+                                places.at[i] = globe.at(file.position(i));
+                        });
+    if (!wanted) throw NotWanted();
     return std::make_shared<const Mesh>(places);
 }
 
 // Others the ones of the file, of which the globe turns, shears and stretches each.
-std::shared_ptr<const Mesh> oneByOne(const Mesh& file, const Globe& globe,
-                                     const std::vector<glm::dvec3>& between) {
-    return std::make_shared<const Mesh>(
-        file.count(), between, file.spread(),
-        [&](std::uint64_t i) {
-            const glm::dvec3 place = file.position(i);
-            const auto rows = file.cell(i).rows();
-            const glm::dmat3 sides =
-                glm::transpose(glm::dmat3(rows[0], rows[1], rows[2])) / file.spread();
-            const glm::dmat3 onGlobe = glm::transpose(globe.waysAt(place) * sides);
-            return MeshPoint{globe.at(place), {onGlobe[0], onGlobe[1], onGlobe[2]}};
-        },
-        std::vector<double>{}, file.solids());
+MeshPoint onGlobe(const Mesh& file, const Globe& globe, std::uint64_t i) {
+    const glm::dvec3 place = file.position(i);
+    const auto rows = file.cell(i).rows();
+    const glm::dmat3 sides = glm::transpose(glm::dmat3(rows[0], rows[1], rows[2])) / file.spread();
+    const glm::dmat3 there = glm::transpose(globe.waysAt(place) * sides);
+    return {globe.at(place), {there[0], there[1], there[2]}};
 }
 
 }  // namespace
 
-std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid) const {
-    return grid.elsewhere(perUnit_, [&]() -> std::shared_ptr<const Mesh> {
+std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid, const std::atomic<bool>& wanted) const {
+    const auto goOn = [&] {
+        if (!wanted) throw NotWanted();
+    };
+    const auto make = [&]() -> std::shared_ptr<const Mesh> {
         const Box bounds = box();
         const std::vector between{bounds.lo, bounds.hi};
-        if (!grid.mesh()) {
+        const Mesh* const file = grid.mesh().get();
+        if (file == nullptr) {
             const UprightCells cells(grid, *this);
+            const auto point = [&](std::uint64_t i) { return goOn(), cells(i); };
             return std::make_shared<const Mesh>(grid.size(), between,
-                                                glm::dvec3(cells.longestWay()),
-                                                [&](std::uint64_t index) { return cells(index); });
+                                                glm::dvec3(cells.longestWay()), point);
         }
-        return grid.mesh()->hasNeighbours() ? curvilinear(*grid.mesh(), *this)
-                                            : oneByOne(*grid.mesh(), *this, between);
-    });
+        if (file->hasNeighbours()) return curvilinear(*file, *this, wanted);
+        const auto point = [&](std::uint64_t i) { return goOn(), onGlobe(*file, *this, i); };
+        return std::make_shared<const Mesh>(file->count(), between, file->spread(), point,
+                                            std::vector<double>{}, file->solids());
+    };
+    try {
+        return grid.elsewhere(perUnit_, make);
+    } catch (const NotWanted&) {
+        return nullptr;
+    }
 }
 
 }  // namespace render

@@ -101,15 +101,6 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, 
     mesh_ ? measureMesh() : measureAxes(grid);
 }
 
-namespace {
-
-// Of a stretch its third axis counts.
-Globe globeOf(const Grid& grid, const std::optional<glm::dvec3>& stretch) {
-    return Globe(grid, stretch ? std::optional(stretch->z) : std::nullopt);
-}
-
-}  // namespace
-
 Outline PlacedPoints::outlineOf(const Grid& grid, std::optional<glm::dvec3> stretch, Map map) {
     if (map != Map::Globe || !Globe::shows(grid)) return PlacedPoints(grid, stretch).outline();
     const Globe globe = globeOf(grid, stretch);

@@ -11,7 +11,6 @@
 #include "app/choices/session.h"
 #include "app/choices/sweep_edits.h"
 #include "tests/support/files.h"
-#include "tests/support/scenes.h"
 
 // Programs of a line of shell stand for isochron; tests/gl/export_job_test.cpp has the real one.
 namespace app {
@@ -170,15 +169,11 @@ class AnimationOf : public testing::Test {
         explorer_.layers = {
             {.ranges = timeseries::RangeSet::parse("0:0.25"), .color = {}, .opacity = {}}};
     }
-    Explorer animation() const { return animationOf({explorer_, dataset_, 3, sorted_}); }
+    Explorer animation() const { return animationOf(explorer_, dataset_); }
 
     static constexpr std::size_t kSteps = 10;
     Dataset dataset_;
     Explorer explorer_;
-
- private:
-    std::shared_ptr<const timeseries::SortedStep> sorted_ =
-        std::make_shared<const timeseries::SortedStep>(tests::noise(tests::cube(4)));
 };
 
 TEST_F(AnimationOf, IsWhatPlays) {

@@ -1,6 +1,7 @@
 // The error that the window states.
 #include "app/drawing/picture_error.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,6 +12,7 @@
 #include "app/choices/camera.h"
 #include "app/picture/depth_error.h"
 #include "tests/support/scenes.h"
+#include "tests/support/step_bytes.h"
 
 namespace app {
 namespace {
@@ -39,6 +41,14 @@ double worked(const PictureError::Picture& p) {
     return *depthErrorsOf(p.explorer, *p.sorted, p.view, std::span(&drawn, 1)).of(drawn);
 }
 
+std::optional<DepthErrors> untilTold(PictureError& error, const PictureError::Picture& picture) {
+    std::optional<DepthErrors> told;
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (!(told = error.of(picture)) && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(1ms);
+    return told;
+}
+
 // Figures of the design's table: rho here is 3 and .1.
 TEST(PictureError, OfCellsIsSmallAndOfAThinRangesPointsLarge) {
     EXPECT_LT(worked(waves(Model::Cells, "0.2:0.9")), 0.01);
@@ -63,10 +73,7 @@ TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
     PictureError error;
     for (const char* range : {"0.2:0.9", "0.2:0.5"}) {
         const PictureError::Picture picture = waves(Model::Points, range);
-        std::optional<DepthErrors> told;
-        const auto end = std::chrono::steady_clock::now() + 60s;
-        while (!(told = error.of(picture)) && std::chrono::steady_clock::now() < end)
-            std::this_thread::sleep_for(1ms);
+        const std::optional<DepthErrors> told = untilTold(error, picture);
         ASSERT_TRUE(told);
         // Those of cells are not made for it.
         EXPECT_EQ(told->of({Model::Cells}), std::nullopt);
@@ -74,6 +81,20 @@ TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
         EXPECT_GT(told->of({Model::Points, 8}), told->of({Model::Points, 1}));
         EXPECT_EQ(told->of({Model::Points, 64}), told->of({Model::Points, 16}));
     }
+}
+
+// A step on disk whose points can be read no longer.
+TEST(PictureError, WhyThereIsNoneIsTold) {
+    PictureError::Picture picture = waves(Model::Points, "0.2:0.5");
+    auto bytes = tests::written(*picture.sorted);
+    for (const timeseries::StepBlock& block : tests::opened(bytes)->blocks())
+        bytes[block.idsAt] ^= std::byte{1};
+    picture.sorted = std::make_shared<const timeseries::SortedStep>(
+        timeseries::SortedStep::ofFile(tests::opened(bytes), picture.sorted->sharedGrid(), false));
+    PictureError error;
+    const DepthErrors told = *untilTold(error, picture);
+    EXPECT_TRUE(told.rungs.empty());
+    EXPECT_THAT(told.whyNone, testing::HasSubstr("damaged"));
 }
 
 TEST(PictureError, OfEveryWayToDrawIsWhatEachWouldHave) {

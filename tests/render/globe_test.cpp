@@ -373,6 +373,26 @@ TEST(Globe, IsMadeOnceWhileSomebodyHasIt) {
     EXPECT_EQ(a.mesh(), b.mesh());
     EXPECT_NE(a.mesh(), other.mesh());
     EXPECT_EQ(grid->mesh(), nullptr);
+    // Each is found while it is there, whichever was made last.
+    const Globe globe(*grid);
+    EXPECT_EQ(globe.meshIfMade(*grid), a.mesh());
+    EXPECT_EQ(Globe(*grid, 3).meshIfMade(*grid), other.mesh());
+    EXPECT_EQ(Globe(*grid, 5).meshIfMade(*grid), nullptr);
+    EXPECT_EQ(PlacedPoints(*grid, {}, Map::Globe).mesh(), a.mesh());
+}
+
+TEST(Globe, IsNotMadeForNobody) {
+    const auto upright = gridOf(east(0, 350, 36), north(-85, 85, 18), levels(3));
+    const auto curved = tests::curvilinear(
+        {9, 8, 7}, [](double i, double j, double k) { return glm::dvec3(3 * i + j, 2 * j, k); });
+    for (const auto& grid : {upright, curved}) {
+        const Globe globe(*grid);
+        std::atomic<bool> wanted = false;
+        EXPECT_EQ(globe.meshOf(*grid, wanted), nullptr);
+        EXPECT_EQ(globe.meshIfMade(*grid), nullptr);
+        wanted = true;
+        EXPECT_NE(globe.meshOf(*grid, wanted), nullptr);
+    }
 }
 
 }  // namespace

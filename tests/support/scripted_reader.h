@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -105,6 +106,8 @@ struct World {
     std::vector<double> times = {};                          // counted without
     std::size_t edge = 4;                                    // points along each axis of a cube
     std::shared_ptr<const timeseries::Grid> grid = nullptr;  // instead of the cube
+    // Of steps whose points lie elsewhere.
+    std::map<std::size_t, std::shared_ptr<const timeseries::Grid>> gridsOfSteps = {};
     ValueAt value = [](std::size_t variable, std::size_t step, std::size_t point) {
         return static_cast<float>(1000 * variable + (point * 7 + step * 13) % 64);
     };
@@ -137,9 +140,12 @@ class ScriptedReader : public timeseries::Reader {
     std::span<const timeseries::Variable> variables() const override { return variables_; }
     timeseries::Field read(std::size_t variable, std::size_t step) override {
         script_->read(step);
-        std::vector<float> values(variables_[variable].grid->count());
+        const auto own = world_.gridsOfSteps.find(step);
+        const auto& grid =
+            own != world_.gridsOfSteps.end() ? own->second : variables_[variable].grid;
+        std::vector<float> values(grid->count());
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = world_.value(variable, step, i);
-        return {variables_[variable].grid, std::move(values), {}};
+        return {grid, std::move(values), {}};
     }
 
  private:

@@ -81,9 +81,12 @@ double Axis::width(std::size_t i) const {
 }
 
 struct Grid::Elsewhere {
-    std::mutex guard;
-    double of = 0;
-    std::weak_ptr<const Mesh> mesh;
+    std::mutex making, guard;  // `making` is taken first
+    struct Made {
+        double of;
+        std::weak_ptr<const Mesh> mesh;
+    };
+    std::vector<Made> made;
 };
 
 Grid::Grid(std::array<Axis, 3> axes, CoordinateFrame frame)
@@ -210,14 +213,22 @@ glm::dmat3 Grid::cell(std::uint64_t index) const {
 
 std::shared_ptr<const Mesh> Grid::elsewhere(
     double of, const std::function<std::shared_ptr<const Mesh>()>& make) const {
+    if (auto mesh = elsewhereIfMade(of)) return mesh;
+    const std::scoped_lock making(elsewhere_->making);
+    if (auto mesh = elsewhereIfMade(of)) return mesh;
+    auto mesh = make();
     const std::scoped_lock lock(elsewhere_->guard);
-    std::shared_ptr<const Mesh> mesh = elsewhere_->mesh.lock();
-    if (!mesh || elsewhere_->of != of) {
-        mesh = make();
-        elsewhere_->of = of;
-        elsewhere_->mesh = mesh;
-    }
+    std::erase_if(elsewhere_->made, [](const auto& each) { return each.mesh.expired(); });
+    if (mesh) elsewhere_->made.push_back({of, mesh});
     return mesh;
+}
+
+std::shared_ptr<const Mesh> Grid::elsewhereIfMade(double of) const {
+    const std::scoped_lock lock(elsewhere_->guard);
+    for (const auto& each : elsewhere_->made)
+        if (each.of == of)
+            if (auto mesh = each.mesh.lock()) return mesh;
+    return nullptr;
 }
 
 }  // namespace timeseries

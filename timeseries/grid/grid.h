@@ -111,9 +111,11 @@ class Grid {
     glm::dmat3 cell(std::uint64_t index) const;
 
     // The same points in another space, which `of` tells from others. make() is called once while
-    // somebody holds what it made, and the grid, of which others may ask meanwhile.
+    // somebody holds what it made, of which others may ask meanwhile. Null where it made none.
     std::shared_ptr<const Mesh> elsewhere(
         double of, const std::function<std::shared_ptr<const Mesh>()>& make) const;
+    // What was made, while somebody holds it; else null. Never waits for who makes one.
+    std::shared_ptr<const Mesh> elsewhereIfMade(double of) const;
 
     friend bool operator==(const Grid& a, const Grid& b) {
         const bool sameMesh = a.mesh_ == b.mesh_ || (a.mesh_ && b.mesh_ && *a.mesh_ == *b.mesh_);

@@ -40,6 +40,21 @@ struct LowerTriangle {
     }
 };
 
+// L with L L^T = M M^T, by orthogonal rows. REQUIRES: M is not singular.
+inline LowerTriangle<double> factorOf(std::array<glm::dvec3, 3> rows) {
+    LowerTriangle<double> out;
+    for (int r = 0; r < 3; ++r) {
+        for (int before = 0; before < r; ++before) {
+            const double along = glm::dot(rows[r], rows[before]);
+            rows[r] -= along * rows[before];
+            out.below[before + r - 1] = along;
+        }
+        out.diagonal[r] = glm::length(rows[r]);
+        rows[r] /= out.diagonal[r];
+    }
+    return out;
+}
+
 // L with L L^T = M M^T + grown I, by orthogonal rows instead of squares: those of M and of
 // sqrt(grown) I beside it. Its diagonal is `least` or more.
 inline LowerTriangle<double> factorOf(const std::array<glm::dvec3, 3>& rowsOfM, double grown,

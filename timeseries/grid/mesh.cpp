@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <stdexcept>
@@ -32,7 +33,7 @@ struct Mesh::Sums {
     std::array<double, 2> volume{};
     std::array<std::uint64_t, 2> cells{};
     std::uint64_t flat = 0, absent = 0;
-    glm::dvec3 widest{0};
+    glm::dvec3 widest2{0};  // squares
     glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi = -lo;
 
     void addPlace(const glm::dvec3& at) {
@@ -46,7 +47,7 @@ struct Mesh::Sums {
         }
         volume[turned < 0] += std::abs(turned);
         ++cells[turned < 0];
-        for (int c = 0; c < 3; ++c) widest[c] = std::max(widest[c], glm::length(rows[c]));
+        for (int c = 0; c < 3; ++c) widest2[c] = std::max(widest2[c], glm::dot(rows[c], rows[c]));
     }
     void add(const Sums& other) {
         for (const std::size_t way : {0u, 1u}) {
@@ -55,7 +56,7 @@ struct Mesh::Sums {
         }
         flat += other.flat;
         absent += other.absent;
-        widest = glm::max(widest, other.widest);
+        widest2 = glm::max(widest2, other.widest2);
         lo = glm::min(lo, other.lo);
         hi = glm::max(hi, other.hi);
     }
@@ -149,7 +150,7 @@ void Mesh::takePoints(std::uint64_t count,
         const double turned = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
         sums.addCell(rows, turned);
         if (!(std::abs(turned) > 0)) return {place, {}};
-        auto cell = factorOf(rows, 0, 0);
+        auto cell = factorOf(rows);
         if (turned < 0) {
             cell.diagonal.x = -cell.diagonal.x;
             cell.below.x = -cell.below.x;
@@ -159,7 +160,7 @@ void Mesh::takePoints(std::uint64_t count,
     };
     std::vector<Sums> sums((stored_ + kPiece - 1) / kPiece);
     std::atomic<std::size_t> next = 0;
-    together(threadsFor(sums.size(), 1), [&](unsigned) {
+    sharing(threadsFor(sums.size(), 1), [&](unsigned) {
         for (std::size_t piece = next++; piece < sums.size(); piece = next++)
             for (std::uint64_t i = piece * kPiece; i < std::min(stored_, (piece + 1) * kPiece); ++i)
                 points_.data()[i] = take(i, sums[piece]);
@@ -177,7 +178,7 @@ void Mesh::takeSums(const Sums& sums) {
     if (sums.cells[most] == 0) throw std::invalid_argument("no cell of the points has a volume");
     meanVolume_ = sums.volume[most] / static_cast<double>(sums.cells[most]);
     for (int c = 0; c < 3; ++c) meanVolume_ *= static_cast<long double>(unit_[c] / spread_);
-    widest_ = unit_ * sums.widest;
+    widest_ = unit_ * glm::sqrt(sums.widest2);
     // Cells above each other are as wide, and were looked at on the first level.
     std::uint64_t levels = 1;
     if (levels_.size() > 1) {

@@ -36,9 +36,9 @@ class Mesh {
     Mesh(const std::array<std::size_t, 3>& size, const std::vector<glm::dvec3>& between,
          const glm::dvec3& longestWay, const std::function<MeshPoint(std::uint64_t index)>& point);
     // Points without neighbours, as many as `count`, which lie between these, with splats that are
-    // `spread` times as wide as the cells. `point` is called by several threads at once. With
-    // levels, as MeshPlaces has them, each is the column of points at these, of cells as high as
-    // the levels are apart; those of `point` are as high as the first.
+    // `spread` times as wide as the cells. `point` is called by several threads at once, and what
+    // it throws is thrown. With levels, as MeshPlaces has them, each is the column of points at
+    // these, of cells as high as the levels are apart; those of `point` are as high as the first.
     Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
          const std::function<MeshPoint(std::uint64_t index)>& point,
          const std::vector<double>& levels = {},

@@ -93,7 +93,11 @@ TEST(Figures, PartsOfTheErrorAreTheWholeThenEachOnceItIsKnown) {
         for (const ErrorLine& line : errorPartLines(p)) all.push_back(line.name + " " + line.size);
         return all;
     };
-    EXPECT_THAT(errorPartLines(p).front().what, HasSubstr("not known"));
+    EXPECT_EQ(errorPartLines(p).front().what, "This picture's error is not known yet.");
+    p.errors.emplace().whyNone = "there is not enough memory to work it out";
+    EXPECT_EQ(errorPartLines(p).front().what,
+              "This picture's error is not known: there is not enough memory to work it out.");
+    EXPECT_THAT(errorLines(p), ElementsAre(HasSubstr("not enough memory")));
     p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = 0.03, .order = 0.08}},
                            .ordering = Ordering::Mixed};
     EXPECT_THAT(names(), ElementsAre("whole 3 %", "model …", "subset …", "pixels …", "order …"));
