@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,16 @@ std::string flawOf(const UnstructuredGrid& grid);
 struct UnstructuredShapes {
     // REQUIRES: no flaw.
     explicit UnstructuredShapes(const UnstructuredGrid& grid);
-    std::vector<CellMoments> cells;
+    // Of the cells from `first` on. REQUIRES: the same grid.
+    void measure(const UnstructuredGrid& grid, std::uint64_t first,
+                 std::span<CellMoments> cells) const;
+
     // Irregular cells leave gaps unless their splats are wider than a lattice's (1.5: see
     // tests/render/mesh_splats_test.cpp).
     double spread = 1;
     bool areScattered = false;  // points alone
+    int dimension = 0;          // of the cells that take space
+    double thickness = 0;       // of them along the others
 };
 
 // Throw std::invalid_argument when nothing has a volume.
