@@ -107,7 +107,7 @@ TEST(SolidCells, PartsOfAShapeAreAsLargeAsTheShape) {
                                                          {15, prism(5)},
                                                          {16, prism(6)}}) {
         UnstructuredGrid one;
-        one.points = corners;
+        one.points.assign(corners.begin(), corners.end());
         one.types = {type};
         one.corners.resize(corners.size());
         std::iota(one.corners.begin(), one.corners.end(), 0u);

@@ -23,10 +23,10 @@ namespace {
 // Fewer are not worth a thread.
 constexpr std::size_t kCellsAThread = 1 << 12;
 
-std::span<const std::uint32_t> listOf(const std::vector<std::uint32_t>& all,
-                                      const std::vector<std::uint64_t>& ends, std::size_t cell) {
+std::span<const std::uint32_t> listOf(std::span<const std::uint32_t> all,
+                                      std::span<const std::uint64_t> ends, std::size_t cell) {
     const std::uint64_t first = cell == 0 ? 0 : ends[cell - 1];
-    return {all.data() + first, all.data() + ends[cell]};
+    return all.subspan(first, ends[cell] - first);
 }
 
 // Not finite where there are none.
@@ -265,7 +265,7 @@ std::size_t firstCell(std::size_t cells, const Is& is) {
     return *std::ranges::min_element(found);
 }
 
-std::string flawOfEnds(const std::vector<std::uint64_t>& ends, std::size_t size) {
+std::string flawOfEnds(std::span<const std::uint64_t> ends, std::size_t size) {
     const std::size_t flawed = firstCell(ends.size(), [&](std::size_t cell) {
         return ends[cell] < (cell == 0 ? 0 : ends[cell - 1]) || ends[cell] > size;
     });
@@ -369,14 +369,15 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
             points[i] = prismOf({at, rowsOf(of.second, of.volume)}, of.second, of.volume, levels);
         }
     };
-    return Mesh(cells, grid.points.empty() ? places : grid.points, shapes.spread, tell, levels);
+    const std::span<const glm::dvec3> between =
+        grid.points.empty() ? std::span(places) : grid.points;
+    return Mesh(cells, between, shapes.spread, tell, levels);
 }
 
 Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
                   const std::vector<double>& levels, std::uint64_t count) {
     count = std::min<std::uint64_t>(count, grid.points.size());
-    if (shapes.areScattered)
-        return meshOfScattered({grid.points.begin(), grid.points.begin() + std::ptrdiff_t(count)});
+    if (shapes.areScattered) return meshOfScattered(std::span(grid.points).first(count));
     const Stars stars(grid);
     const auto moments = momentsOf(grid, shapes);
     const auto pointOf = [&](std::uint64_t point) {

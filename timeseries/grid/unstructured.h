@@ -12,6 +12,7 @@
 
 #include "timeseries/grid/cell_moments.h"
 #include "timeseries/grid/mesh.h"
+#include "timeseries/grid/pages.h"
 
 namespace timeseries {
 
@@ -20,10 +21,10 @@ constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
 // Lists of one cell stand behind that of the cell before, and end where `...Ends` says.
 struct UnstructuredGrid {
-    std::vector<glm::dvec3> points;   // in the file's space
-    std::vector<std::uint8_t> types;  // [cell], as in cell_types.h
-    std::vector<std::uint64_t> ends;
-    std::vector<std::uint32_t> corners;  // of each cell: points
+    PageVector<glm::dvec3> points;   // in the file's space
+    PageVector<std::uint8_t> types;  // [cell], as in cell_types.h
+    PageVector<std::uint64_t> ends;
+    PageVector<std::uint32_t> corners;  // of each cell: points
     // Of polyhedra: how many faces, then of each how many corners, and which points. Empty: no
     // cell is one.
     std::vector<std::uint64_t> faceEnds;
