@@ -169,14 +169,15 @@ void Mesh::takePoints(std::uint64_t count, const MeshPoints& pointsOf) {
     stored_ = count;
     points_ = Pages<Point>(stored_);
     const glm::dvec3 below(origin_.x, origin_.y, levels_.empty() ? origin_.z : 0.0);
+    const glm::dvec3 unit = unit_, perUnit = spread_ / unit_;
     const auto take = [&](MeshPoint& point, Sums& sums) -> Point {
         if (!isPlace(point.at)) {
             ++sums.absent;
             return {glm::vec3(std::numeric_limits<float>::quiet_NaN()), {}};
         }
         sums.bounds.add(point.at);
-        const glm::vec3 place((point.at - below) / unit_);
-        for (int c = 0; c < 3; ++c) point.rows[c] *= spread_ / unit_[c];
+        const glm::vec3 place((point.at - below) / unit);
+        for (int c = 0; c < 3; ++c) point.rows[c] *= perUnit[c];
         const auto& rows = point.rows;
         const double turned = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
         sums.addCell(rows, turned);

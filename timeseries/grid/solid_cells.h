@@ -61,9 +61,9 @@ class SolidCells {
     void measure(std::span<const glm::dvec3> points);
 
     // Lists as UnstructuredGrid has them, but that faces are not counted.
-    std::vector<std::uint8_t> types_;
-    std::vector<std::uint64_t> ends_, faceEnds_;
-    std::vector<std::uint32_t> corners_, faces_;
+    PageVector<std::uint8_t> types_;
+    PageVector<std::uint64_t> ends_, faceEnds_;
+    PageVector<std::uint32_t> corners_, faces_;
     glm::dvec3 longest_{0};
     std::uint64_t tets_ = 0;
 };

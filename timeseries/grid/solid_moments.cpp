@@ -1,7 +1,5 @@
 #include "timeseries/grid/solid_moments.h"
 
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "timeseries/grid/solid_moments.cpp"
 #include <hwy/foreach_target.h>  // the first of these
@@ -123,13 +121,6 @@ HWY_EXPORT(MeasureSolids);
 
 void measureSolids(const CellType& type, std::size_t count, SolidColumns& solids) {
     HWY_DYNAMIC_DISPATCH(MeasureSolids)(type, count, solids);
-}
-
-CellMoments SolidColumns::moments(std::size_t solid) const {
-    const auto s = [&](std::size_t i) { return second[i][solid]; };
-    return {volume[solid],
-            {centroid[0][solid], centroid[1][solid], centroid[2][solid]},
-            {s(0), s(1), s(2), s(1), s(3), s(4), s(2), s(4), s(5)}};
 }
 
 }  // namespace timeseries

@@ -16,7 +16,12 @@ struct SolidColumns {
     void setCorner(std::size_t solid, std::size_t corner, const glm::dvec3& at) {
         for (int c = 0; c < 3; ++c) corners[corner][c][solid] = at[c];
     }
-    CellMoments moments(std::size_t solid) const;
+    CellMoments moments(std::size_t solid) const {
+        const auto s = [&](std::size_t i) { return second[i][solid]; };
+        return {volume[solid],
+                {centroid[0][solid], centroid[1][solid], centroid[2][solid]},
+                {s(0), s(1), s(2), s(1), s(3), s(4), s(2), s(4), s(5)}};
+    }
 
     alignas(64) Row corners[kMostCorners][3];
     // What measureSolids() puts there.

@@ -190,42 +190,41 @@ double cubeRoot(double x) {
 }
 
 // The steps whose cell reaches as far as these second moments, and has the volume.
-std::array<glm::dvec3, 3> rowsOf(const glm::dmat3& second, double volume) {
-    std::array<glm::dvec3, 3> rows{};
-    if (!(volume > 0)) return rows;
+void setSteps(const glm::dmat3& second, double volume, MeshPoint& point) {
+    point.rows = {};
+    if (!(volume > 0)) return;
     // 12 M = L L^T, but for what rounding leaves of a flat cell's.
     const glm::dmat3 m = 12.0 * second;
     const double least = 1e-18 * (m[0][0] + m[1][1] + m[2][2]);
-    double product = 1;
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c <= r; ++c) {
-            double rest = m[r][c];
-            for (int k = 0; k < c; ++k) rest -= rows[r][k] * rows[c][k];
-            rows[r][c] = r == c ? std::sqrt(std::max(rest, least)) : rest / rows[c][c];
-            if (r == c) product *= rows[r][r];
-        }
-    const double scale = cubeRoot(volume / product);
-    for (glm::dvec3& row : rows) row *= scale;
-    return rows;
+    const auto root = [&](double square) { return std::sqrt(std::max(square, least)); };
+    const double xx = root(m[0][0]), xy = m[0][1] / xx, xz = m[0][2] / xx;
+    const double yy = root(m[1][1] - xy * xy), yz = (m[1][2] - xy * xz) / yy;
+    const double zz = root(m[2][2] - xz * xz - yz * yz);
+    const double scale = cubeRoot(volume / (xx * yy * zz));
+    point.rows[0].x = scale * xx;
+    point.rows[1].x = scale * xy;
+    point.rows[1].y = scale * yy;
+    point.rows[2].x = scale * xz;
+    point.rows[2].y = scale * yz;
+    point.rows[2].z = scale * zz;
 }
 
 // As high as the first level, with the area that the surface had, as thick as it was taken for.
-MeshPoint prismOf(MeshPoint point, const glm::dmat3& second, double volume,
-                  const std::vector<double>& levels) {
-    if (levels.size() < 2 || !(volume > 0)) return point;
+void makePrism(const glm::dmat3& second, double volume, const std::vector<double>& levels,
+               MeshPoint& point) {
+    if (levels.size() < 2 || !(volume > 0)) return;
     auto& rows = point.rows;
     const double area = volume / std::sqrt(12 * second[2][2]);
     const double scale = std::sqrt(area / (rows[0].x * rows[1].y));
     rows = {scale * glm::dvec3(rows[0].x, 0, 0),
             scale * glm::dvec3(rows[1].x, rows[1].y, 0),
             {0, 0, std::abs(levels[1] - levels[0])}};
-    return point;
 }
 
 // For every point, the cells that it is of: those of point p stand from first[p] to first[p + 1].
 struct Stars {
     std::vector<std::uint64_t> first;
-    std::vector<std::uint32_t> cells;
+    PageVector<std::uint32_t> cells;
     explicit Stars(const UnstructuredGrid& grid) : first(grid.points.size() + 2) {
         for (std::size_t cell = 0; cell < grid.types.size(); ++cell)
             for (const std::uint32_t point : listOf(grid.corners, grid.ends, cell))
@@ -365,8 +364,9 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
         for (std::size_t i = 0; i < points.size(); ++i) {
             const CellMoments& of = moments[i];
             const bool hasPlace = !places.empty() && isPlace(places[first + i]);
-            const glm::dvec3& at = hasPlace ? places[first + i] : of.centroid;
-            points[i] = prismOf({at, rowsOf(of.second, of.volume)}, of.second, of.volume, levels);
+            points[i].at = hasPlace ? places[first + i] : of.centroid;
+            setSteps(of.second, of.volume, points[i]);
+            makePrism(of.second, of.volume, levels, points[i]);
         }
     };
     const std::span<const glm::dvec3> between =
@@ -380,23 +380,27 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
     if (shapes.areScattered) return meshOfScattered(std::span(grid.points).first(count));
     const Stars stars(grid);
     const auto moments = momentsOf(grid, shapes);
-    const auto pointOf = [&](std::uint64_t point) {
-        const glm::dvec3& at = grid.points[point];
+    const auto tellOne = [&](std::uint64_t index, MeshPoint& point) {
+        point.at = grid.points[index];
         double volume = 0, whole = 0;
         glm::dmat3 second(0.0);
-        for (const std::uint32_t cell : stars.of(point)) {
+        for (const std::uint32_t cell : stars.of(index)) {
             const CellMoments& of = moments.data()[cell];
             if (!(of.volume > 0)) continue;
             const std::uint64_t first = cell == 0 ? 0 : grid.ends[cell - 1];
             volume += of.volume / static_cast<double>(grid.ends[cell] - first);
             whole += of.volume;
-            const glm::dvec3 away = of.centroid - at;
+            const glm::dvec3 away = of.centroid - point.at;
             second += of.volume * (of.second + glm::outerProduct(away, away));
         }
         if (whole > 0) second /= whole;
-        return prismOf({at, rowsOf(second, volume)}, second, volume, levels);
+        setSteps(second, volume, point);
+        makePrism(second, volume, levels, point);
     };
-    return Mesh(count, grid.points, shapes.spread, pointOf, levels,
+    const auto tell = [&](std::uint64_t first, std::span<MeshPoint> points) {
+        for (MeshPoint& point : points) tellOne(first++, point);
+    };
+    return Mesh(count, grid.points, shapes.spread, tell, levels,
                 levels.empty() ? SolidCells::of(grid, count) : nullptr);
 }
 
