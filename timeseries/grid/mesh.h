@@ -43,7 +43,7 @@ class Mesh {
          const std::function<MeshPoint(std::uint64_t index)>& point,
          const std::vector<double>& levels = {},
          std::shared_ptr<const SolidCells> solids = nullptr);
-    // The same of a function that tells several at once, from `first` on.
+    // The same of a function that tells several at once, kMostAtOnce or fewer from `first` on.
     using MeshPoints = std::function<void(std::uint64_t first, std::span<MeshPoint> points)>;
     static constexpr std::size_t kMostAtOnce = 64;
     Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
