@@ -61,11 +61,10 @@ TEST(BlockOrder, OfAMeshIsThatOfItsPlaces) {
     const glm::uvec3 size(20, 9, 13);
     const auto index = someOf(size, 2000);
     // Point i of the mesh lies where point index[i] of the grid does; one has no place.
+    const glm::dvec3 lo(-7, 100, 0);
     const timeseries::Mesh mesh(
-        index.size(),
-        {glm::dvec3(-7, 100, 0), glm::dvec3(-7, 100, 0) + 2.0 * glm::dvec3(size - 1u)}, 1,
-        [&](std::uint64_t i) {
-            glm::dvec3 place = glm::dvec3(-7, 100, 0) + 2.0 * glm::dvec3(at(index[i], size));
+        index.size(), std::vector{lo, lo + 2.0 * glm::dvec3(size - 1u)}, 1, [&](std::uint64_t i) {
+            glm::dvec3 place = lo + 2.0 * glm::dvec3(at(index[i], size));
             if (i == 17) place.x = std::nan("");
             return timeseries::MeshPoint{place, {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}}};
         });

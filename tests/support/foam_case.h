@@ -7,6 +7,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -125,7 +126,7 @@ inline FoamLists listsOf(const timeseries::UnstructuredGrid& grid) {
     return lists;
 }
 
-inline void putPoints(const std::filesystem::path& polyMesh, const std::vector<glm::dvec3>& points,
+inline void putPoints(const std::filesystem::path& polyMesh, std::span<const glm::dvec3> points,
                       const Writing& how = {}) {
     std::vector<double> numbers;
     for (const glm::dvec3& at : points) numbers.insert(numbers.end(), {at.x, at.y, at.z});

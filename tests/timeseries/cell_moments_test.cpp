@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <memory>
 #include <random>
 
+#include "tests/support/vector_targets.h"
 #include "timeseries/grid/cell_types.h"
+#include "timeseries/grid/solid_moments.h"
 
 namespace timeseries {
 namespace {
@@ -23,8 +26,10 @@ void expectNear(const CellMoments& found, const CellMoments& expected, double er
 }
 
 CellMoments momentsOf(std::uint8_t type, const std::vector<glm::dvec3>& corners) {
-    const CellType& of = *cellTypeOf(type);
-    return momentsOfSolid(corners, of.faceSizes, of.faces);
+    const auto solids = std::make_unique<SolidColumns>();
+    for (std::size_t i = 0; i < corners.size(); ++i) solids->setCorner(0, i, corners[i]);
+    measureSolids(*cellTypeOf(type), 1, *solids);
+    return solids->moments(0);
 }
 
 // The corners of each solid kind, as "VTK File Formats" draws them; of 15 and 16 prisms over
@@ -104,23 +109,66 @@ TEST(CellMoments, FollowEveryAffineMap) {
         }
 }
 
+// Each with its corners a little elsewhere.
+Kind shaken(Kind kind, std::mt19937& random) {
+    std::uniform_real_distribution<double> some(-0.1, 0.1);
+    for (auto& corner : kind.corners)
+        corner += glm::dvec3(some(random), some(random), some(random));
+    return kind;
+}
+
+// One after the other, and every second one turned.
+std::vector<std::vector<glm::dvec3>> facesOf(const Kind& kind) {
+    const CellType& type = *cellTypeOf(kind.type);
+    std::vector<std::vector<glm::dvec3>> faces;
+    std::size_t next = 0;
+    for (const std::uint8_t size : type.faceSizes) {
+        auto& face = faces.emplace_back();
+        for (std::uint8_t i = 0; i < size; ++i) face.push_back(kind.corners[type.faces[next++]]);
+        if (faces.size() % 2 == 0) std::ranges::reverse(face);
+    }
+    return faces;
+}
+
 TEST(CellMoments, OfAPolyhedronAreThoseOfTheSameSolidHoweverItsFacesAreTurned) {
     std::mt19937 random(3);
-    std::uniform_real_distribution<double> some(-0.1, 0.1);
-    for (Kind kind : kinds()) {
-        for (auto& corner : kind.corners)
-            corner += glm::dvec3(some(random), some(random), some(random));
-        const CellType& type = *cellTypeOf(kind.type);
-        std::vector<std::vector<glm::dvec3>> faces;
-        std::size_t next = 0;
-        for (const std::uint8_t size : type.faceSizes) {
-            auto& face = faces.emplace_back();
-            for (std::uint8_t i = 0; i < size; ++i)
-                face.push_back(kind.corners[type.faces[next++]]);
-            if (faces.size() % 2 == 0) std::ranges::reverse(face);
-        }
-        expectNear(momentsOfPolyhedron(faces), momentsOf(kind.type, kind.corners), 1e-12);
+    for (const Kind& plain : kinds()) {
+        const Kind kind = shaken(plain, random);
+        expectNear(momentsOfPolyhedron(facesOf(kind)), momentsOf(kind.type, kind.corners), 1e-12);
     }
+}
+
+// Also beside solids without a volume, or without a place.
+TEST(CellMoments, OfSolidsSideBySideAreThoseOfEach) {
+    const auto solids = std::make_unique<SolidColumns>();
+    tests::onEachVectorTarget([&] {
+        std::mt19937 random(5);
+        for (const Kind& kind : kinds())
+            for (const std::size_t count : {1u, 3u, 37u, 64u}) {
+                std::vector<Kind> all;
+                for (std::size_t i = 0; i < count; ++i) {
+                    all.push_back(shaken(kind, random));
+                    auto& corners = all.back().corners;
+                    if (i % 7 == 2) std::ranges::fill(corners, corners[1]);
+                    if (i % 7 == 5) corners[0].y = std::nan("");
+                    for (std::size_t k = 0; k < corners.size(); ++k)
+                        solids->setCorner(i, k, corners[k]);
+                }
+                measureSolids(*cellTypeOf(kind.type), count, *solids);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const CellMoments found = solids->moments(i);
+                    if (i % 7 == 5) {
+                        EXPECT_EQ(found.volume, 0);
+                        EXPECT_TRUE(std::isnan(found.centroid.y));
+                        continue;
+                    }
+                    if (i % 7 == 2)
+                        expectNear(found, {0, all[i].corners[1], glm::dmat3(0.0)}, 1e-12);
+                    else
+                        expectNear(found, momentsOfPolyhedron(facesOf(all[i])), 1e-12);
+                }
+            }
+    });
 }
 
 // The mean over a trilinear hexahedron, by Gauss's points: three along each side are exact for it.

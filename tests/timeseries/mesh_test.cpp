@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 
 #include "tests/support/meshes.h"
@@ -97,6 +98,37 @@ TEST(Mesh, TurnedOverItStandsForAsMuch) {
     EXPECT_EQ(mirrored.folded(), 0u);
     for (std::uint64_t i = 0; i < mesh.count(); ++i)
         EXPECT_NEAR(volume(mirrored, i), volume(mesh, i), 1e-12);
+}
+
+// L L^T = J J^T of J = L Q with Q a rotation. Also where L is such that nothing needs to be turned.
+TEST(Mesh, ACellIsTheSameFromSidesThatAreTurned) {
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> some(-2, 2);
+    std::vector<MeshPoint> lower(1000), turned(1000);
+    for (std::size_t i = 0; i < lower.size(); ++i) {
+        const auto at = [&] { return some(random); };
+        lower[i] = {{at(), at(), at()},
+                    {glm::dvec3(at(), 0, 0), {at(), at(), 0}, {at(), at(), at()}}};
+        turned[i] = lower[i];
+        const double angle = at();
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(at(), at(), at()));
+        const auto turn = [&](const glm::dvec3& v) {  // Rodrigues
+            return std::cos(angle) * v + std::sin(angle) * glm::cross(axis, v) +
+                   (1 - std::cos(angle)) * glm::dot(axis, v) * axis;
+        };
+        for (glm::dvec3& row : turned[i].rows) row = turn(row);
+    }
+    const std::vector between{glm::dvec3(-2), glm::dvec3(2)};
+    const auto meshOf = [&](const std::vector<MeshPoint>& points) {
+        return Mesh(points.size(), between, 1, [&](std::uint64_t i) { return points[i]; });
+    };
+    const Mesh a = meshOf(lower), b = meshOf(turned);
+    EXPECT_GT(a.folded(), 300u);
+    EXPECT_EQ(a.folded(), b.folded());
+    for (std::uint64_t i = 0; i < a.count(); ++i) {
+        EXPECT_NEAR(glm::distance(a.cell(i).diagonal, b.cell(i).diagonal), 0, 1e-6);
+        EXPECT_NEAR(glm::distance(a.cell(i).below, b.cell(i).below), 0, 1e-6);
+    }
 }
 
 TEST(Mesh, WhereANeighbourHasNoPlaceTheOtherSideIsTaken) {

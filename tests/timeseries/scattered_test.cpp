@@ -84,7 +84,7 @@ TEST(Scattered, PointsOfALatticeStandForItsCells) {
 }
 
 TEST(Scattered, FewPointsStandForSomething) {
-    EXPECT_NEAR(tests::volume(meshOfScattered({{3, 4, 5}})), 1, 1e-6);
+    EXPECT_NEAR(tests::volume(meshOfScattered(Places{{3, 4, 5}})), 1, 1e-6);
     for (std::size_t count : {2u, 3u, 33u}) {
         const Mesh mesh = meshOfScattered(randomPlaces(count, {0, 0, 0}, {1e-3, 1, 1e3}));
         for (std::uint64_t i = 0; i < count; ++i) EXPECT_GT(tests::volume(mesh, i), 0) << count;
@@ -101,9 +101,9 @@ TEST(Scattered, WhatHasNoSpaceIsNotDrawn) {
     EXPECT_EQ(mesh.absent(), 1u);
     EXPECT_EQ(mesh.flat(), 40u);
     EXPECT_GT(tests::volume(mesh, 8), 0);
-    EXPECT_THROW(meshOfScattered({{nan, 0, 0}}), std::invalid_argument);
+    EXPECT_THROW(meshOfScattered(Places{{nan, 0, 0}}), std::invalid_argument);
     EXPECT_THROW(meshOfScattered(Places(50, glm::dvec3(1))), std::invalid_argument);
-    EXPECT_THROW(meshOfScattered({}), std::invalid_argument);
+    EXPECT_THROW(meshOfScattered(Places{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Cells that name their corners: where they lie and what they stand for.
 #include "timeseries/grid/unstructured.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,6 +83,46 @@ TEST(Unstructured, TheOrderOfCellsAndOfTheirCornersChangesNothing) {
     }
     const Mesh p = tests::atPoints(grid), q = tests::atPoints(other);
     for (std::uint64_t i = 0; i < p.count(); ++i) EXPECT_NEAR(volume(q, i), volume(p, i), 1e-6);
+}
+
+// Cells of one kind, many or few one behind the other, are measured side by side.
+TEST(Unstructured, ACellMeasuresTheSameWhateverStandsBesideIt) {
+    std::mt19937 random(17);
+    const auto lists = [](const auto& all, const auto& ends, std::size_t cell) {
+        const auto begin = all.begin();
+        return std::vector<std::uint32_t>(begin + std::ptrdiff_t(cell == 0 ? 0 : ends[cell - 1]),
+                                          begin + std::ptrdiff_t(ends[cell]));
+    };
+    UnstructuredGrid mixed;
+    mixed.points = bentBricks(Cut::Voxels).points;
+    std::vector<glm::dvec3> places;
+    std::vector<double> volumes;
+    for (int round = 0; round < 300; ++round) {
+        const UnstructuredGrid grid = bentBricks(kCuts[random() % kCuts.size()]);
+        const Mesh alone = tests::atCells(grid);
+        for (auto run = random() % 3 == 0 ? random() % 100 : 1; run > 0; --run) {
+            const std::size_t cell = random() % grid.types.size();
+            const auto corners = lists(grid.corners, grid.ends, cell);
+            mixed.types.push_back(grid.types[cell]);
+            mixed.corners.insert(mixed.corners.end(), corners.begin(), corners.end());
+            mixed.ends.push_back(mixed.corners.size());
+            if (!grid.faces.empty()) {
+                const auto faces = lists(grid.faces, grid.faceEnds, cell);
+                mixed.faces.insert(mixed.faces.end(), faces.begin(), faces.end());
+            }
+            mixed.faceEnds.push_back(mixed.faces.size());
+            places.push_back(alone.position(cell));
+            volumes.push_back(volume(alone, cell));
+        }
+    }
+    ASSERT_EQ(flawOf(mixed), "");
+    ASSERT_GT(mixed.types.size(), 4000u);
+    const Mesh mesh = tests::atCells(mixed);
+    for (std::uint64_t i = 0; i < mesh.count(); ++i) {
+        EXPECT_NEAR(glm::distance(mesh.position(i), places[i]), 0, 1e-6);
+        // Beside bricks splats of irregular cells are wider: the cells are the same.
+        EXPECT_NEAR(volume(mesh, i), volumes[i], 1e-6);
+    }
 }
 
 // Centroids of a layer whose corners lie at -0.05 and 0.05, but for the last bits of these.
@@ -181,6 +222,20 @@ TEST(Unstructured, WhatNamesNothingIsTold) {
     EXPECT_EQ(flawWith([](auto& g) { g.faces[0] = 7; }), "the faces of cell 0 end early");
     EXPECT_EQ(flawWith([](auto& g) { g.faces[1] = 4000000000u; }), "the faces of cell 0 end early");
     EXPECT_EQ(flawWith([](auto& g) { g.faces[2] = 500; }), "a face of cell 0 has point 500 of 120");
+}
+
+TEST(Unstructured, OfManyFlawsTheFirstIsTold) {
+    const UnstructuredGrid good =
+        bricks({40, 40, 40}, Cut::Hexahedra,
+               [](double i, double j, double k) { return glm::dvec3(i, j, k); });
+    for (const std::size_t first : {0u, 777u, 29000u, 59000u}) {
+        UnstructuredGrid grid = good;
+        for (std::size_t cell = first; cell < 59319; cell += 100)
+            grid.corners[8 * cell + 5] = 64000;
+        EXPECT_EQ(flawOf(grid), fmt::format("cell {} has point 64000 of 64000", first));
+        grid.ends[first + 50] = 1;
+        EXPECT_EQ(flawOf(grid), fmt::format("cell {} ends at 1 of 474552 entries", first + 50));
+    }
 }
 
 // Any number anywhere: what has no flaw is measured, and nothing is read that is not there.

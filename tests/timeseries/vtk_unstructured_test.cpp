@@ -119,6 +119,95 @@ TEST(VtkUnstructured, ListsThatNameWhatIsNotThereAreRefused) {
         HasSubstr("expected a DataArray of whole numbers"));
 }
 
+// The grid once a piece, each so far behind the other; places and lists stand there as in memory.
+constexpr double kApart = 32;
+template <typename Place, typename Index>
+std::string rawText(const UnstructuredGrid& grid, int pieces, const char* place,
+                    const char* index) {
+    std::string head, appended;
+    const auto array = [&](const char* type, const char* name, int components, const auto& values) {
+        head += fmt::format(
+            "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
+            "offset=\"{}\"/>\n",
+            type, name, components, appended.size());
+        appended += tests::appendedBlock(values);
+    };
+    std::vector<float> values(grid.types.size());
+    std::iota(values.begin(), values.end(), 0.0f);
+    for (int piece = 0; piece < pieces; ++piece) {
+        head += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<CellData>\n",
+                            grid.points.size(), grid.types.size());
+        array("Float32", "w", 1, values);
+        head += "</CellData>\n<Points>\n";
+        std::vector<Place> places;
+        for (const glm::dvec3& at : grid.points)
+            for (int c = 0; c < 3; ++c)
+                places.push_back(static_cast<Place>(at[c] + (c == 0 ? kApart * piece : 0)));
+        array(place, "p", 3, places);
+        head += "</Points>\n<Cells>\n";
+        array(index, "connectivity", 1,
+              std::vector<Index>(grid.corners.begin(), grid.corners.end()));
+        array(index, "offsets", 1, std::vector<Index>(grid.ends.begin(), grid.ends.end()));
+        array("UInt8", "types", 1, std::vector<std::uint8_t>(grid.types.begin(), grid.types.end()));
+        head += "</Cells>\n</Piece>\n";
+    }
+    return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+           "<UnstructuredGrid>\n" +
+           head + "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" + appended +
+           "\n</AppendedData>\n</VTKFile>\n";
+}
+
+// More numbers than are read at once.
+TEST(VtkUnstructured, WhatIsAppendedAsItIsInMemoryIsReadWhateverItsType) {
+    const UnstructuredGrid grid =
+        tests::bricks({21, 21, 21}, tests::Cut::Wedges, [](double i, double j, double k) {
+            return glm::dvec3(i, j + i * i / 64, k + i * j / 128);
+        });
+    UnstructuredGrid twice = grid;
+    const auto points = static_cast<std::uint32_t>(grid.points.size());
+    for (const glm::dvec3& at : grid.points) twice.points.push_back(at + glm::dvec3(kApart, 0, 0));
+    twice.types.insert(twice.types.end(), grid.types.begin(), grid.types.end());
+    for (const std::uint32_t corner : grid.corners) twice.corners.push_back(corner + points);
+    for (const std::uint64_t end : grid.ends) twice.ends.push_back(end + grid.corners.size());
+    const auto expectTwice = [&](const std::string& text) {
+        const auto reader = open(tests::write("raw.vtu", text));
+        EXPECT_TRUE(*reader->variables()[0].grid->mesh() == tests::atCells(twice));
+        const Field field = reader->read(0, 0);
+        const auto& values = std::get<std::vector<float>>(field.values);
+        ASSERT_EQ(values.size(), twice.types.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            EXPECT_EQ(values[i], static_cast<float>(i % grid.types.size()));
+    };
+    expectTwice(rawText<float, std::int64_t>(grid, 2, "Float32", "Int64"));
+    expectTwice(rawText<double, std::int32_t>(grid, 2, "Float64", "Int32"));
+    expectTwice(rawText<double, std::uint64_t>(grid, 2, "Float64", "UInt64"));
+    expectTwice(rawText<float, std::uint32_t>(grid, 2, "Float32", "UInt32"));
+}
+
+TEST(VtkUnstructured, WhatIsAppendedAndNamesWhatIsNotThereIsRefused) {
+    const UnstructuredGrid good = tests::bentBricks(tests::Cut::Hexahedra);
+    const auto refusalOf = [&](const auto& change) {
+        UnstructuredGrid grid = good;
+        change(grid);
+        return refusal(rawText<double, std::int32_t>(grid, 2, "Float64", "Int32"));
+    };
+    EXPECT_EQ(refusalOf([](const auto&) {}), "");
+    EXPECT_THAT(refusalOf([](auto& grid) { grid.corners[17] = 120; }),
+                HasSubstr("cell 2 has point"))
+        << "the first of the other piece";
+    EXPECT_THAT(refusalOf([](auto& grid) { grid.corners[17] = kNoPoint; }),
+                HasSubstr("cell 2 has point"))
+        << "-1";
+    EXPECT_THAT(refusalOf([](auto& grid) { grid.ends[5] = 200; }),
+                HasSubstr("cell 6 ends at 56 of 960"));
+    EXPECT_THAT(refusalOf([](auto& grid) { grid.ends[59] = 999; }),
+                HasSubstr("cell 59 ends at 999 of 960"));
+    EXPECT_THAT(refusalOf([](auto& grid) { grid.types[0] = 16; }),
+                HasSubstr("cell 0 of type 16 has 8 points"));
+    EXPECT_THAT(refusalOf([](auto& grid) { grid.types[0] = kPolyhedron; }),
+                HasSubstr("cell 0 is a polyhedron without faces"));
+}
+
 TEST(VtkUnstructured, CellsMayComeAndGoFromStepToStep) {
     const Path folder = tests::freshFolder();
     tests::writeBytes(folder / "a.vtu", unstructuredText(kTwelve, kTwo));

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <optional>
 
 namespace timeseries {
 namespace {
@@ -76,43 +74,7 @@ Sum spanned(std::size_t corners, const CornerOf& cornerOf) {
     return sum;
 }
 
-// A parallelepiped's, whose corners are those of a voxel: the same as of its faces, and sooner.
-std::optional<CellMoments> momentsOfBox(std::span<const glm::dvec3> corners, bool isVoxel) {
-    const auto corner = [&](std::size_t n) {
-        return corners[isVoxel ? n : std::array<std::size_t, 8>{0, 1, 3, 2, 4, 5, 7, 6}[n]];
-    };
-    const glm::dvec3 at = corner(0);
-    const glm::dmat3 sides(corner(1) - at, corner(2) - at, corner(4) - at);
-    double longest = 0;
-    for (int a = 0; a < 3; ++a) longest = std::max(longest, glm::dot(sides[a], sides[a]));
-    for (const std::size_t n : {3u, 5u, 6u, 7u}) {
-        const glm::dvec3 along(n & 1u, n >> 1 & 1u, n >> 2 & 1u);
-        const glm::dvec3 beside = corner(n) - at - sides * along;
-        if (!(glm::dot(beside, beside) <= 1e-24 * longest)) return std::nullopt;
-    }
-    const double volume = std::abs(glm::determinant(sides));
-    if (!(volume > 0)) return std::nullopt;
-    return CellMoments{volume, at + 0.5 * (sides[0] + sides[1] + sides[2]),
-                       sides * glm::transpose(sides) / 12.0};
-}
-
 }  // namespace
-
-CellMoments momentsOfSolid(std::span<const glm::dvec3> corners,
-                           std::span<const std::uint8_t> faceSizes,
-                           std::span<const std::uint8_t> faces) {
-    constexpr std::uint8_t kFourthOfVoxel = 2;  // of its first face; a hexahedron's is 3
-    if (corners.size() == 8)
-        if (const auto box = momentsOfBox(corners, faces[3] == kFourthOfVoxel)) return *box;
-    const glm::dvec3 apex = meanOf(corners);
-    Sum sum;
-    std::size_t first = 0;
-    for (const std::uint8_t size : faceSizes) {
-        sum.add(spanned(size, [&](std::size_t i) { return corners[faces[first + i]] - apex; }), 1);
-        first += size;
-    }
-    return sum.moments(apex);
-}
 
 CellMoments momentsOfPolyhedron(std::span<const std::vector<glm::dvec3>> faces) {
     std::vector<glm::dvec3> middles;

@@ -18,12 +18,8 @@ struct CellMoments {
 
 // A face is bounded by straight lines between its corners, round it, and spanned to the mean of
 // these, so that the cells on both of its sides meet there, and a hexahedron takes as much space as
-// the trilinear one of its corners.
+// the trilinear one of its corners. Solids of few corners: solid_moments.h.
 //
-// Of faces one behind the other, each so many of the corners, all outward or all inward.
-CellMoments momentsOfSolid(std::span<const glm::dvec3> corners,
-                           std::span<const std::uint8_t> faceSizes,
-                           std::span<const std::uint8_t> faces);
 // Of faces of any number of corners, each turned either way: star-shaped about their middle.
 CellMoments momentsOfPolyhedron(std::span<const std::vector<glm::dvec3>> faces);
 CellMoments momentsOfPolygon(std::span<const glm::dvec3> corners);

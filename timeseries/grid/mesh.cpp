@@ -26,6 +26,46 @@ double powerOfTwoBeside(double length) {
     return length > 0 ? std::ldexp(1.0, std::ilogb(length)) : 1;
 }
 
+struct Bounds {
+    glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi = -lo;
+    void add(const glm::dvec3& at) {
+        lo = glm::min(lo, at);
+        hi = glm::max(hi, at);
+    }
+    void add(const Bounds& other) {
+        lo = glm::min(lo, other.lo);
+        hi = glm::max(hi, other.hi);
+    }
+};
+
+// Of those that are places.
+Bounds boundsOf(std::span<const glm::dvec3> all) {
+    std::vector<Bounds> bounds(threadsFor(all.size(), 1 << 14));
+    const auto threads = static_cast<unsigned>(bounds.size());
+    together(threads, [&](unsigned k) {
+        Bounds own;
+        for (std::size_t i = all.size() * k / threads; i < all.size() * (k + 1) / threads; ++i)
+            if (isPlace(all[i])) own.add(all[i]);
+        bounds[k] = own;
+    });
+    for (const Bounds& other : bounds) bounds[0].add(other);
+    return bounds[0];
+}
+
+// The L of L L^T = J J^T, of rows of J that need not be orthogonalised where they are such already.
+LowerTriangle<double> shapeOf(const std::array<glm::dvec3, 3>& rows) {
+    if (rows[0].y != 0 || rows[0].z != 0 || rows[1].z != 0) return factorOf(rows);
+    const double first = std::copysign(1, rows[0].x), second = std::copysign(1, rows[1].y);
+    return {{std::abs(rows[0].x), std::abs(rows[1].y), std::abs(rows[2].z)},
+            {first * rows[1].x, first * rows[2].x, second * rows[2].y}};
+}
+
+Mesh::MeshPoints oneByOne(const std::function<MeshPoint(std::uint64_t)>& point) {
+    return [&](std::uint64_t first, std::span<MeshPoint> points) {
+        for (MeshPoint& each : points) each = point(first++);
+    };
+}
+
 }  // namespace
 
 // What a part of the mesh adds up to, in its units: of the cells turned each way.
@@ -33,13 +73,9 @@ struct Mesh::Sums {
     std::array<double, 2> volume{};
     std::array<std::uint64_t, 2> cells{};
     std::uint64_t flat = 0, absent = 0;
-    glm::dvec3 widest2{0};  // squares
-    glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi = -lo;
+    glm::dvec3 widest2{0};  // squared
+    Bounds bounds;
 
-    void addPlace(const glm::dvec3& at) {
-        lo = glm::min(lo, at);
-        hi = glm::max(hi, at);
-    }
     void addCell(const std::array<glm::dvec3, 3>& rows, double turned) {
         if (!(std::abs(turned) > 0)) {
             ++flat;
@@ -57,8 +93,7 @@ struct Mesh::Sums {
         flat += other.flat;
         absent += other.absent;
         widest2 = glm::max(widest2, other.widest2);
-        lo = glm::min(lo, other.lo);
-        hi = glm::max(hi, other.hi);
+        bounds.add(other.bounds);
     }
 };
 
@@ -70,37 +105,41 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size), period_(places.period
         throw std::invalid_argument("a mesh with places of another number of points");
     const CurvilinearCells cells(places);
     longestWay_ = cells.longestWay();
-    takeColumns(stored, places.at, places.levels, [&](std::uint64_t i) {
-        if (!isPlace(places.at[i])) return MeshPoint{places.at[i], {}};
-        const glm::dmat3 rows = glm::transpose(cells(i));
-        return MeshPoint{places.at[i], {rows[0], rows[1], rows[2]}};
-    });
+    takeColumns(stored, places.at, places.levels, oneByOne([&](std::uint64_t i) {
+                    if (!isPlace(places.at[i])) return MeshPoint{places.at[i], {}};
+                    const glm::dmat3 rows = glm::transpose(cells(i));
+                    return MeshPoint{places.at[i], {rows[0], rows[1], rows[2]}};
+                }));
 }
 
-Mesh::Mesh(const std::array<std::size_t, 3>& size, const std::vector<glm::dvec3>& between,
+Mesh::Mesh(const std::array<std::size_t, 3>& size, std::span<const glm::dvec3> between,
            const glm::dvec3& longestWay, const std::function<MeshPoint(std::uint64_t)>& point)
     : size_(size), longestWay_(longestWay) {
-    takeColumns(count(), between, {}, point);
+    takeColumns(count(), between, {}, oneByOne(point));
 }
 
-Mesh::Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
+Mesh::Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
            const std::function<MeshPoint(std::uint64_t)>& point, const std::vector<double>& levels,
+           std::shared_ptr<const SolidCells> solids)
+    : Mesh(count, between, spread, oneByOne(point), levels, std::move(solids)) {}
+
+Mesh::Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
+           const MeshPoints& points, const std::vector<double>& levels,
            std::shared_ptr<const SolidCells> solids)
     : size_{count, 1, std::max<std::size_t>(levels.size(), 1)},
       hasNeighbours_(false),
       solids_(std::move(solids)),
       spread_(spread) {
-    takeColumns(count, between, levels, point);
+    takeColumns(count, between, levels, points);
 }
 
-void Mesh::takeColumns(std::uint64_t stored, const std::vector<glm::dvec3>& between,
-                       const std::vector<double>& levels,
-                       const std::function<MeshPoint(std::uint64_t)>& point) {
+void Mesh::takeColumns(std::uint64_t stored, std::span<const glm::dvec3> between,
+                       const std::vector<double>& levels, const MeshPoints& points) {
     double lowest = 0, highest = 0;
     if (!levels.empty()) std::tie(lowest, highest) = std::minmax(levels.front(), levels.back());
     takeUnits(between, lowest, highest);
     takeLevels(levels);
-    takePoints(stored, point);
+    takePoints(stored, points);
     lo_.z += lowest;
     hi_.z += highest;
 }
@@ -108,14 +147,8 @@ void Mesh::takeColumns(std::uint64_t stored, const std::vector<glm::dvec3>& betw
 std::uint64_t Mesh::count() const { return std::uint64_t{size_[0]} * size_[1] * size_[2]; }
 
 // From the bounds of these, whose third coordinates have so much added to them.
-void Mesh::takeUnits(const std::vector<glm::dvec3>& at, double lowest, double highest) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    glm::dvec3 lo(kInfinity), hi(-kInfinity);
-    for (const glm::dvec3& each : at)
-        if (isPlace(each)) {
-            lo = glm::min(lo, each);
-            hi = glm::max(hi, each);
-        }
+void Mesh::takeUnits(std::span<const glm::dvec3> at, double lowest, double highest) {
+    auto [lo, hi] = boundsOf(at);
     lo.z += lowest;
     hi.z += highest;
     if (!isPlace(lo) || !isPlace(hi) || !isPlace(hi - lo))
@@ -131,26 +164,26 @@ void Mesh::takeLevels(const std::vector<double>& levels) {
 }
 
 // In pieces of one size, added up in their order: the same for any number of threads.
-void Mesh::takePoints(std::uint64_t count,
-                      const std::function<MeshPoint(std::uint64_t index)>& pointOf) {
+void Mesh::takePoints(std::uint64_t count, const MeshPoints& pointsOf) {
     constexpr std::uint64_t kPiece = 1 << 14;
+    static_assert(kPiece % kMostAtOnce == 0);
     stored_ = count;
     points_ = Pages<Point>(stored_);
     const glm::dvec3 below(origin_.x, origin_.y, levels_.empty() ? origin_.z : 0.0);
-    const auto take = [&](std::uint64_t i, Sums& sums) -> Point {
-        MeshPoint point = pointOf(i);
+    const glm::dvec3 unit = unit_, perUnit = spread_ / unit_;
+    const auto take = [&](MeshPoint& point, Sums& sums) -> Point {
         if (!isPlace(point.at)) {
             ++sums.absent;
             return {glm::vec3(std::numeric_limits<float>::quiet_NaN()), {}};
         }
-        sums.addPlace(point.at);
-        const glm::vec3 place((point.at - below) / unit_);
-        for (int c = 0; c < 3; ++c) point.rows[c] *= spread_ / unit_[c];
+        sums.bounds.add(point.at);
+        const glm::vec3 place((point.at - below) / unit);
+        for (int c = 0; c < 3; ++c) point.rows[c] *= perUnit[c];
         const auto& rows = point.rows;
         const double turned = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
         sums.addCell(rows, turned);
         if (!(std::abs(turned) > 0)) return {place, {}};
-        auto cell = factorOf(rows);
+        auto cell = shapeOf(rows);
         if (turned < 0) {
             cell.diagonal.x = -cell.diagonal.x;
             cell.below.x = -cell.below.x;
@@ -158,12 +191,21 @@ void Mesh::takePoints(std::uint64_t count,
         }
         return {place, cell.as<float>()};
     };
+    const auto takePiece = [&](std::uint64_t begin, std::uint64_t end) {
+        Sums sums;
+        std::array<MeshPoint, kMostAtOnce> some;
+        for (std::uint64_t first = begin; first < end; first += kMostAtOnce) {
+            const std::size_t size = std::min<std::uint64_t>(kMostAtOnce, end - first);
+            pointsOf(first, std::span(some).first(size));
+            for (std::size_t i = 0; i < size; ++i) points_.data()[first + i] = take(some[i], sums);
+        }
+        return sums;
+    };
     std::vector<Sums> sums((stored_ + kPiece - 1) / kPiece);
     std::atomic<std::size_t> next = 0;
     sharing(threadsFor(sums.size(), 1), [&](unsigned) {
         for (std::size_t piece = next++; piece < sums.size(); piece = next++)
-            for (std::uint64_t i = piece * kPiece; i < std::min(stored_, (piece + 1) * kPiece); ++i)
-                points_.data()[i] = take(i, sums[piece]);
+            sums[piece] = takePiece(piece * kPiece, std::min(stored_, (piece + 1) * kPiece));
     });
     Sums all;
     for (const Sums& some : sums) all.add(some);
@@ -173,8 +215,8 @@ void Mesh::takePoints(std::uint64_t count,
 void Mesh::takeSums(const Sums& sums) {
     const std::size_t most = sums.cells[1] > sums.cells[0] ? 1 : 0;
     sign_ = most == 1 ? -1 : 1;
-    lo_ = sums.lo;
-    hi_ = sums.hi;
+    lo_ = sums.bounds.lo;
+    hi_ = sums.bounds.hi;
     if (sums.cells[most] == 0) throw std::invalid_argument("no cell of the points has a volume");
     meanVolume_ = sums.volume[most] / static_cast<double>(sums.cells[most]);
     for (int c = 0; c < 3; ++c) meanVolume_ *= static_cast<long double>(unit_[c] / spread_);

@@ -33,15 +33,21 @@ class Mesh {
     explicit Mesh(const MeshPlaces& places);
     // One whose places and cells are known, x fastest, where neighbours are at most `longestWay`
     // apart along each coordinate. `between` and `point` as below.
-    Mesh(const std::array<std::size_t, 3>& size, const std::vector<glm::dvec3>& between,
+    Mesh(const std::array<std::size_t, 3>& size, std::span<const glm::dvec3> between,
          const glm::dvec3& longestWay, const std::function<MeshPoint(std::uint64_t index)>& point);
     // Points without neighbours, as many as `count`, which lie between these, with splats that are
     // `spread` times as wide as the cells. `point` is called by several threads at once, and what
     // it throws is thrown. With levels, as MeshPlaces has them, each is the column of points at
     // these, of cells as high as the levels are apart; those of `point` are as high as the first.
-    Mesh(std::uint64_t count, const std::vector<glm::dvec3>& between, double spread,
+    Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
          const std::function<MeshPoint(std::uint64_t index)>& point,
          const std::vector<double>& levels = {},
+         std::shared_ptr<const SolidCells> solids = nullptr);
+    // The same of a function that tells several at once, kMostAtOnce or fewer from `first` on.
+    using MeshPoints = std::function<void(std::uint64_t first, std::span<MeshPoint> points)>;
+    static constexpr std::size_t kMostAtOnce = 64;
+    Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
+         const MeshPoints& points, const std::vector<double>& levels = {},
          std::shared_ptr<const SolidCells> solids = nullptr);
 
     // Points along the indices i, j and k: those before and after a point are its neighbours, if
@@ -112,13 +118,11 @@ class Mesh {
 
  private:
     struct Sums;
-    void takeColumns(std::uint64_t stored, const std::vector<glm::dvec3>& between,
-                     const std::vector<double>& levels,
-                     const std::function<MeshPoint(std::uint64_t index)>& point);
-    void takeUnits(const std::vector<glm::dvec3>& at, double lowest, double highest);
+    void takeColumns(std::uint64_t stored, std::span<const glm::dvec3> between,
+                     const std::vector<double>& levels, const MeshPoints& points);
+    void takeUnits(std::span<const glm::dvec3> at, double lowest, double highest);
     void takeLevels(const std::vector<double>& levels);
-    void takePoints(std::uint64_t count,
-                    const std::function<MeshPoint(std::uint64_t index)>& point);
+    void takePoints(std::uint64_t count, const MeshPoints& points);
     void takeSums(const Sums& sums);
 
     std::array<std::size_t, 3> size_;

@@ -15,33 +15,35 @@ bool muchIsFree(std::size_t bytes) {
     return sysinfo(&now) == 0 && bytes <= now.freeram * std::size_t{now.mem_unit} / 2;
 }
 
+bool isLarge(std::size_t bytes) { return bytes >= 4 * kLargePage; }
+
+std::align_val_t alignmentOf(std::size_t bytes) {
+    return std::align_val_t{isLarge(bytes) ? kLargePage : 64};
+}
+
 }  // namespace
 
-RawPages::RawPages(std::size_t bytes, Filled filled) {
-    if (bytes == 0) return;
+void* takePages(std::size_t bytes, Filled filled) {
     if (filled == Filled::Sparsely) {
         void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         if (at == MAP_FAILED) throw std::bad_alloc();
-        at_ = at;
-        mapped_ = bytes;
         // A wish: large pages would take memory for what lies beside what is written.
-        (void)madvise(at_, bytes, MADV_NOHUGEPAGE);
-        return;
+        (void)madvise(at, bytes, MADV_NOHUGEPAGE);
+        return at;
     }
-    const bool large = bytes >= 4 * kLargePage;
-    if (large) align_ = std::align_val_t{kLargePage};
-    at_ = ::operator new(bytes, align_);
+    void* const at = ::operator new(bytes, alignmentOf(bytes));
     // A wish; where it is not granted, pages are small.
-    if (large && muchIsFree(bytes))
-        (void)madvise(at_, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
+    if (isLarge(bytes) && muchIsFree(bytes))
+        (void)madvise(at, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
+    return at;
 }
 
-RawPages::~RawPages() {
-    if (at_ != nullptr && mapped_ > 0)
-        munmap(at_, mapped_);
+void givePages(void* at, std::size_t bytes, Filled filled) noexcept {
+    if (filled == Filled::Sparsely)
+        munmap(at, bytes);
     else
-        ::operator delete(at_, align_);
+        ::operator delete(at, alignmentOf(bytes));
 }
 
 }  // namespace timeseries

@@ -1,10 +1,12 @@
-// Memory for a step's columns and a mesh's places: not written when it is made, so that a page that
-// nobody asks for takes no room, and in large pages where that costs nobody else's.
+// Memory for a step's columns, a mesh's places and the lists of cells: not written when it is made,
+// so that a page that nobody asks for takes no room, and in large pages where that costs nobody
+// else's.
 #pragma once
 
 #include <cstddef>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace timeseries {
 
@@ -15,35 +17,52 @@ enum class Filled {
 };
 
 // Aligned to a cache line. Throws std::bad_alloc.
-class RawPages {
- public:
-    explicit RawPages(std::size_t bytes = 0, Filled filled = Filled::Mostly);
-    RawPages(RawPages&& other) noexcept
-        : at_(std::exchange(other.at_, nullptr)), align_(other.align_), mapped_(other.mapped_) {}
-    RawPages& operator=(RawPages&& other) noexcept {
-        std::swap(at_, other.at_);
-        std::swap(align_, other.align_);
-        std::swap(mapped_, other.mapped_);
-        return *this;
-    }
-    ~RawPages();
-    void* data() const { return at_; }
-
- private:
-    void* at_ = nullptr;
-    std::align_val_t align_{64};
-    std::size_t mapped_ = 0;  // bytes, where they are the system's own pages
-};
+void* takePages(std::size_t bytes, Filled filled = Filled::Mostly);
+// As they were taken.
+void givePages(void* at, std::size_t bytes, Filled filled = Filled::Mostly) noexcept;
 
 template <typename T>
 class Pages {
  public:
     explicit Pages(std::size_t count = 0, Filled filled = Filled::Mostly)
-        : pages_(count * sizeof(T), filled) {}
-    T* data() const { return static_cast<T*>(pages_.data()); }
+        : bytes_(count * sizeof(T)),
+          filled_(filled),
+          at_(bytes_ > 0 ? takePages(bytes_, filled) : nullptr) {}
+    Pages(Pages&& other) noexcept
+        : bytes_(other.bytes_), filled_(other.filled_), at_(std::exchange(other.at_, nullptr)) {}
+    Pages& operator=(Pages&& other) noexcept {
+        std::swap(bytes_, other.bytes_);
+        std::swap(filled_, other.filled_);
+        std::swap(at_, other.at_);
+        return *this;
+    }
+    ~Pages() {
+        if (at_ != nullptr) givePages(at_, bytes_, filled_);
+    }
+    T* data() const { return static_cast<T*>(at_); }
 
  private:
-    RawPages pages_;
+    std::size_t bytes_;
+    Filled filled_;
+    void* at_;
 };
+
+template <typename T>
+struct PageAllocator {
+    using value_type = T;
+    PageAllocator() = default;
+    template <typename Other>
+    explicit PageAllocator(const PageAllocator<Other>&) {}
+    T* allocate(std::size_t count) { return static_cast<T*>(takePages(count * sizeof(T))); }
+    void deallocate(T* at, std::size_t count) noexcept { givePages(at, count * sizeof(T)); }
+    template <typename Other>
+    void construct(Other* at) noexcept {
+        ::new (static_cast<void*>(at)) Other;
+    }
+    friend bool operator==(const PageAllocator&, const PageAllocator&) { return true; }
+};
+// What resize() adds to it without a value is anything until it is written.
+template <typename T>
+using PageVector = std::vector<T, PageAllocator<T>>;
 
 }  // namespace timeseries

@@ -52,7 +52,7 @@ std::vector<double> volumesOf(const Places& places) {
 
 }  // namespace
 
-Mesh meshOfScattered(const std::vector<glm::dvec3>& at) {
+Mesh meshOfScattered(std::span<const glm::dvec3> at) {
     Places places;
     for (const glm::dvec3& place : at)
         if (isPlace(place)) places.at.push_back(place);
@@ -66,7 +66,7 @@ Mesh meshOfScattered(const std::vector<glm::dvec3>& at) {
     return meshOfVolumes(at, volumes);
 }
 
-Mesh meshOfVolumes(const std::vector<glm::dvec3>& at, const std::vector<double>& volumes,
+Mesh meshOfVolumes(std::span<const glm::dvec3> at, const std::vector<double>& volumes,
                    double spread) {
     return Mesh(at.size(), at, spread, [&](std::uint64_t i) {
         const bool stands = volumes[i] > 0 && std::isfinite(volumes[i]);

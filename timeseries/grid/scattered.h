@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "timeseries/grid/mesh.h"
@@ -13,7 +14,7 @@ namespace timeseries {
 // by chance sum up unevenly whatever they stand for: tests/bench/NOTES.md. Those that are not
 // finite, or lie where as many others do, stand for none. Throws std::invalid_argument when nothing
 // has a volume.
-Mesh meshOfScattered(const std::vector<glm::dvec3>& at);
+Mesh meshOfScattered(std::span<const glm::dvec3> at);
 
 // Splats are wider than a lattice's: points lie closer in one place than in another.
 constexpr double kScatteredSpread = 1.5;
@@ -21,7 +22,7 @@ constexpr double kScatteredSpread = 1.5;
 // The same of points of which it is known what each stands for. Splats are as wide as cubes of
 // these volumes, times the spread; points whose volume is not finite, or not above 0, stand for
 // nothing.
-Mesh meshOfVolumes(const std::vector<glm::dvec3>& at, const std::vector<double>& volumes,
+Mesh meshOfVolumes(std::span<const glm::dvec3> at, const std::vector<double>& volumes,
                    double spread = kScatteredSpread);
 
 }  // namespace timeseries

@@ -56,7 +56,7 @@ void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint
     if (isPolyhedron) faceEnds_.back() = faces_.size();
 }
 
-void SolidCells::measure(const std::vector<glm::dvec3>& points) {
+void SolidCells::measure(std::span<const glm::dvec3> points) {
     const auto extentOf = [&](std::uint64_t cell) {
         glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
         for (const std::uint32_t corner : corners(cell)) {

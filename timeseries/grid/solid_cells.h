@@ -51,19 +51,19 @@ class SolidCells {
     friend bool operator==(const SolidCells&, const SolidCells&) = default;
 
  private:
-    static std::span<const std::uint32_t> listOf(const std::vector<std::uint32_t>& all,
-                                                 const std::vector<std::uint64_t>& ends,
+    static std::span<const std::uint32_t> listOf(std::span<const std::uint32_t> all,
+                                                 std::span<const std::uint64_t> ends,
                                                  std::uint64_t cell) {
         const std::uint64_t first = cell == 0 ? 0 : ends[cell - 1];
-        return {all.data() + first, all.data() + ends[cell]};
+        return all.subspan(first, ends[cell] - first);
     }
     void add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points);
-    void measure(const std::vector<glm::dvec3>& points);
+    void measure(std::span<const glm::dvec3> points);
 
     // Lists as UnstructuredGrid has them, but that faces are not counted.
-    std::vector<std::uint8_t> types_;
-    std::vector<std::uint64_t> ends_, faceEnds_;
-    std::vector<std::uint32_t> corners_, faces_;
+    PageVector<std::uint8_t> types_;
+    PageVector<std::uint64_t> ends_, faceEnds_;
+    PageVector<std::uint32_t> corners_, faces_;
     glm::dvec3 longest_{0};
     std::uint64_t tets_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -13,6 +14,7 @@
 #include "timeseries/grid/cell_types.h"
 #include "timeseries/grid/scattered.h"
 #include "timeseries/grid/solid_cells.h"
+#include "timeseries/grid/solid_moments.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -21,10 +23,10 @@ namespace {
 // Fewer are not worth a thread.
 constexpr std::size_t kCellsAThread = 1 << 12;
 
-std::span<const std::uint32_t> listOf(const std::vector<std::uint32_t>& all,
-                                      const std::vector<std::uint64_t>& ends, std::size_t cell) {
+std::span<const std::uint32_t> listOf(std::span<const std::uint32_t> all,
+                                      std::span<const std::uint64_t> ends, std::size_t cell) {
     const std::uint64_t first = cell == 0 ? 0 : ends[cell - 1];
-    return {all.data() + first, all.data() + ends[cell]};
+    return all.subspan(first, ends[cell] - first);
 }
 
 // Not finite where there are none.
@@ -34,29 +36,72 @@ glm::dvec3 centreOf(std::span<const glm::dvec3> places) {
     return sum;
 }
 
+using TypeCounts = std::array<std::uint64_t, 256>;
+
+// How many cells have each number of a type.
+TypeCounts typesOf(const UnstructuredGrid& grid) {
+    const std::size_t cells = grid.types.size();
+    std::vector<TypeCounts> counts(threadsFor(cells, kCellsAThread));
+    const auto threads = static_cast<unsigned>(counts.size());
+    together(threads, [&](unsigned k) {
+        for (std::size_t cell = cells * k / threads; cell < cells * (k + 1) / threads; ++cell)
+            ++counts[k][grid.types[cell]];
+    });
+    for (std::size_t k = 1; k < threads; ++k)
+        for (std::size_t type = 0; type < counts[k].size(); ++type)
+            counts[0][type] += counts[k][type];
+    return counts[0];
+}
+
+// Of those whose type this is true.
+template <typename Is>
+std::uint64_t countOf(const TypeCounts& counts, const Is& is) {
+    std::uint64_t count = 0;
+    for (std::size_t number = 0; number < counts.size(); ++number)
+        if (const CellType* type = cellTypeOf(static_cast<std::uint8_t>(number)); type && is(*type))
+            count += counts[number];
+    return count;
+}
+
 // How the cells of a grid measure: those of fewer dimensions than others take no space.
 class Measure {
  public:
-    explicit Measure(const UnstructuredGrid& grid) : grid_(grid) {
-        for (const std::uint8_t number : grid.types)
-            if (const CellType* type = cellTypeOf(number))
-                dimension_ = std::max(dimension_, type->dimension);
-        if (dimension_ == 1 || dimension_ == 2) thickness_ = thickness();
-    }
-    int dimension() const { return dimension_; }
+    Measure(const UnstructuredGrid& grid, int dimension, double thickness)
+        : grid_(grid), dimension_(dimension), thickness_(thickness) {}
+    // Solids from `first` on that are of one type, side by side, and how many they are: none where
+    // this is a cell of another kind.
+    std::size_t solids(std::size_t first, std::span<CellMoments> cells) const;
+    // One of another kind.
     CellMoments operator()(std::size_t cell) const;
+    double thickness() const;
 
  private:
     CellMoments plain(std::size_t cell) const;
     CellMoments polyhedron(std::size_t cell) const;
-    double thickness() const;
     void thicken(CellMoments& moments, std::size_t cell) const;
     std::vector<glm::dvec3>& cornersOf(std::size_t cell, const CellType& type) const;
 
     const UnstructuredGrid& grid_;
-    int dimension_ = 0;
-    double thickness_ = 0;
+    int dimension_;
+    double thickness_;
 };
+
+std::size_t Measure::solids(std::size_t first, std::span<CellMoments> cells) const {
+    const std::uint8_t number = grid_.types[first];
+    const CellType* const type = cellTypeOf(number);
+    if (!type || type->dimension < 3 || number == kPolyhedron) return 0;
+    thread_local SolidColumns columns;
+    const std::size_t most = std::min(cells.size(), SolidColumns::kMost);
+    std::size_t count = 0;
+    for (; count < most && grid_.types[first + count] == number; ++count) {
+        const auto corners = listOf(grid_.corners, grid_.ends, first + count);
+        for (std::size_t i = 0; i < type->corners; ++i)
+            columns.setCorner(count, i, grid_.points[corners[i]]);
+    }
+    measureSolids(*type, count, columns);
+    for (std::size_t i = 0; i < count; ++i) cells[i] = columns.moments(i);
+    return count;
+}
 
 // To be used until it is called again by the same thread.
 std::vector<glm::dvec3>& Measure::cornersOf(std::size_t cell, const CellType& type) const {
@@ -96,7 +141,6 @@ CellMoments Measure::plain(std::size_t cell) const {
     if (grid_.types[cell] == kPolyhedron) return polyhedron(cell);
     const auto& corners = cornersOf(cell, *type);
     if (corners.empty()) return {0, centreOf(corners), glm::dmat3(0.0)};
-    if (type->dimension == 3) return momentsOfSolid(corners, type->faceSizes, type->faces);
     if (type->dimension == 0) return {0, centreOf(corners), glm::dmat3(0.0)};
     return type->dimension == 2 ? momentsOfPolygon(corners) : momentsOfLine(corners);
 }
@@ -136,51 +180,51 @@ CellMoments Measure::operator()(std::size_t cell) const {
     return moments;
 }
 
-double spreadOf(const UnstructuredGrid& grid) {
-    const auto bricks = std::ranges::count_if(grid.types, [](std::uint8_t number) {
-        const CellType* type = cellTypeOf(number);
-        return type && type->isBrick;
-    });
-    return 2 * static_cast<std::size_t>(bricks) > grid.types.size() ? 1 : 1.5;
+// Near 1 sooner than others': its series leaves 4e-6 of it at most, Halley's step the cube of that.
+double cubeRoot(double x) {
+    const double away = x - 1;
+    if (!(std::abs(away) < 0.1)) return std::cbrt(x);
+    const double root = 1 + away * (1.0 / 3 - away * (1.0 / 9 - away * (5.0 / 81)));
+    const double cube = root * root * root;
+    return root * (cube + 2 * x) / (2 * cube + x);
 }
 
 // The steps whose cell reaches as far as these second moments, and has the volume.
-std::array<glm::dvec3, 3> rowsOf(const glm::dmat3& second, double volume) {
-    std::array<glm::dvec3, 3> rows{};
-    if (!(volume > 0)) return rows;
+void setSteps(const glm::dmat3& second, double volume, MeshPoint& point) {
+    point.rows = {};
+    if (!(volume > 0)) return;
     // 12 M = L L^T, but for what rounding leaves of a flat cell's.
     const glm::dmat3 m = 12.0 * second;
     const double least = 1e-18 * (m[0][0] + m[1][1] + m[2][2]);
-    double product = 1;
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c <= r; ++c) {
-            double rest = m[r][c];
-            for (int k = 0; k < c; ++k) rest -= rows[r][k] * rows[c][k];
-            rows[r][c] = r == c ? std::sqrt(std::max(rest, least)) : rest / rows[c][c];
-            if (r == c) product *= rows[r][r];
-        }
-    const double scale = std::cbrt(volume / product);
-    for (glm::dvec3& row : rows) row *= scale;
-    return rows;
+    const auto root = [&](double square) { return std::sqrt(std::max(square, least)); };
+    const double xx = root(m[0][0]), xy = m[0][1] / xx, xz = m[0][2] / xx;
+    const double yy = root(m[1][1] - xy * xy), yz = (m[1][2] - xy * xz) / yy;
+    const double zz = root(m[2][2] - xz * xz - yz * yz);
+    const double scale = cubeRoot(volume / (xx * yy * zz));
+    point.rows[0].x = scale * xx;
+    point.rows[1].x = scale * xy;
+    point.rows[1].y = scale * yy;
+    point.rows[2].x = scale * xz;
+    point.rows[2].y = scale * yz;
+    point.rows[2].z = scale * zz;
 }
 
 // As high as the first level, with the area that the surface had, as thick as it was taken for.
-MeshPoint prismOf(MeshPoint point, const glm::dmat3& second, double volume,
-                  const std::vector<double>& levels) {
-    if (levels.size() < 2 || !(volume > 0)) return point;
+void makePrism(const glm::dmat3& second, double volume, const std::vector<double>& levels,
+               MeshPoint& point) {
+    if (levels.size() < 2 || !(volume > 0)) return;
     auto& rows = point.rows;
     const double area = volume / std::sqrt(12 * second[2][2]);
     const double scale = std::sqrt(area / (rows[0].x * rows[1].y));
     rows = {scale * glm::dvec3(rows[0].x, 0, 0),
             scale * glm::dvec3(rows[1].x, rows[1].y, 0),
             {0, 0, std::abs(levels[1] - levels[0])}};
-    return point;
 }
 
 // For every point, the cells that it is of: those of point p stand from first[p] to first[p + 1].
 struct Stars {
     std::vector<std::uint64_t> first;
-    std::vector<std::uint32_t> cells;
+    PageVector<std::uint32_t> cells;
     explicit Stars(const UnstructuredGrid& grid) : first(grid.points.size() + 2) {
         for (std::size_t cell = 0; cell < grid.types.size(); ++cell)
             for (const std::uint32_t point : listOf(grid.corners, grid.ends, cell))
@@ -196,112 +240,172 @@ struct Stars {
     }
 };
 
+// Of all cells.
+Pages<CellMoments> momentsOf(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
+    const std::size_t cells = grid.types.size();
+    Pages<CellMoments> all(cells);
+    inParts(cells, threadsFor(cells, kCellsAThread), [&](std::size_t first, std::size_t last) {
+        shapes.measure(grid, first, {all.data() + first, all.data() + last});
+    });
+    return all;
+}
+
+// The first cell of which this is true; as many as there are where there is none.
+template <typename Is>
+std::size_t firstCell(std::size_t cells, const Is& is) {
+    std::vector<std::size_t> found(threadsFor(cells, kCellsAThread), cells);
+    const auto threads = static_cast<unsigned>(found.size());
+    together(threads, [&](unsigned k) {
+        const std::size_t end = cells * (k + 1) / threads;
+        std::size_t cell = cells * k / threads;
+        while (cell < end && !is(cell)) ++cell;
+        if (cell < end) found[k] = cell;
+    });
+    return *std::ranges::min_element(found);
+}
+
+std::string flawOfEnds(std::span<const std::uint64_t> ends, std::size_t size) {
+    const std::size_t flawed = firstCell(ends.size(), [&](std::size_t cell) {
+        return ends[cell] < (cell == 0 ? 0 : ends[cell - 1]) || ends[cell] > size;
+    });
+    if (flawed == ends.size()) return "";
+    return fmt::format("cell {} ends at {} of {} entries", flawed, ends[flawed], size);
+}
+
+// REQUIRES: ends without a flaw.
+std::string flawOfCorners(const UnstructuredGrid& grid) {
+    const auto cornersOf = [&](std::size_t cell) { return listOf(grid.corners, grid.ends, cell); };
+    const auto isPoint = [&](std::uint32_t corner) { return corner < grid.points.size(); };
+    const std::size_t flawed = firstCell(grid.types.size(), [&](std::size_t cell) {
+        const CellType* type = cellTypeOf(grid.types[cell]);
+        const auto corners = cornersOf(cell);
+        return !std::ranges::all_of(corners, isPoint) || (type && corners.size() < type->corners);
+    });
+    if (flawed == grid.types.size()) return "";
+    const auto corners = cornersOf(flawed);
+    const auto other = std::ranges::find_if_not(corners, isPoint);
+    if (other != corners.end())
+        return fmt::format("cell {} has point {} of {}", flawed, *other, grid.points.size());
+    return fmt::format("cell {} of type {} has {} points, fewer than {}", flawed,
+                       grid.types[flawed], corners.size(), cellTypeOf(grid.types[flawed])->corners);
+}
+
+std::string flawOfFaces(const UnstructuredGrid& grid, std::size_t cell) {
+    const auto list = listOf(grid.faces, grid.faceEnds, cell);
+    std::size_t next = 1;
+    for (std::uint32_t left = list.empty() ? 0 : list[0]; left > 0; --left) {
+        const std::size_t corners = next < list.size() ? list[next] : list.size();
+        if (corners >= list.size() - std::min(next, list.size()))
+            return fmt::format("the faces of cell {} end early", cell);
+        for (std::size_t i = 0; i < corners; ++i)
+            if (list[next + 1 + i] >= grid.points.size())
+                return fmt::format("a face of cell {} has point {} of {}", cell, list[next + 1 + i],
+                                   grid.points.size());
+        next += 1 + corners;
+    }
+    return "";
+}
+
 }  // namespace
 
 std::string flawOf(const UnstructuredGrid& grid) {
     const std::size_t cells = grid.types.size();
     if (grid.ends.size() != cells) return "cells of other numbers of types and of lists of corners";
-    const auto flawOfEnds = [&](const std::vector<std::uint64_t>& ends, std::size_t size) {
-        for (std::size_t cell = 0; cell < ends.size(); ++cell)
-            if (ends[cell] < (cell == 0 ? 0 : ends[cell - 1]) || ends[cell] > size)
-                return fmt::format("cell {} ends at {} of {} entries", cell, ends[cell], size);
-        return std::string();
-    };
-    if (const std::string flaw = flawOfEnds(grid.ends, grid.corners.size()); !flaw.empty())
-        return flaw;
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        const auto corners = listOf(grid.corners, grid.ends, cell);
-        for (const std::uint32_t point : corners)
-            if (point >= grid.points.size())
-                return fmt::format("cell {} has point {} of {}", cell, point, grid.points.size());
-        const CellType* type = cellTypeOf(grid.types[cell]);
-        if (type && corners.size() < type->corners)
-            return fmt::format("cell {} of type {} has {} points, fewer than {}", cell,
-                               grid.types[cell], corners.size(), type->corners);
-    }
+    if (std::string flaw = flawOfEnds(grid.ends, grid.corners.size()); !flaw.empty()) return flaw;
+    if (std::string flaw = flawOfCorners(grid); !flaw.empty()) return flaw;
     const bool hasFaces = !grid.faceEnds.empty();
     if (hasFaces && grid.faceEnds.size() != cells) return "lists of faces of other cells";
     if (const std::string flaw = flawOfEnds(grid.faceEnds, grid.faces.size()); !flaw.empty())
         return "faces: " + flaw;
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        if (grid.types[cell] != kPolyhedron) continue;
-        if (!hasFaces) return fmt::format("cell {} is a polyhedron without faces", cell);
-        const auto list = listOf(grid.faces, grid.faceEnds, cell);
-        std::size_t next = 1;
-        for (std::uint32_t left = list.empty() ? 0 : list[0]; left > 0; --left) {
-            const std::size_t corners = next < list.size() ? list[next] : list.size();
-            if (corners >= list.size() - std::min(next, list.size()))
-                return fmt::format("the faces of cell {} end early", cell);
-            for (std::size_t i = 0; i < corners; ++i)
-                if (list[next + 1 + i] >= grid.points.size())
-                    return fmt::format("a face of cell {} has point {} of {}", cell,
-                                       list[next + 1 + i], grid.points.size());
-            next += 1 + corners;
-        }
-    }
+    const auto isPolyhedron = [&](std::size_t cell) { return grid.types[cell] == kPolyhedron; };
+    const std::size_t first = firstCell(cells, isPolyhedron);
+    if (first < cells && !hasFaces)
+        return fmt::format("cell {} is a polyhedron without faces", first);
+    for (std::size_t cell = first; cell < cells; ++cell)
+        if (isPolyhedron(cell))
+            if (std::string flaw = flawOfFaces(grid, cell); !flaw.empty()) return flaw;
     return "";
 }
 
-UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid)
-    : cells(grid.types.size()), spread(spreadOf(grid)) {
-    const Measure measure(grid);
-    areScattered =
-        measure.dimension() == 0 &&
-        std::ranges::any_of(grid.types, [](std::uint8_t type) { return cellTypeOf(type); });
-    inParts(cells.size(), threadsFor(cells.size(), kCellsAThread),
-            [&](std::size_t first, std::size_t last) {
-                for (std::size_t cell = first; cell < last; ++cell) cells[cell] = measure(cell);
-            });
+UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid) {
+    const TypeCounts counts = typesOf(grid);
+    const auto some = [&](int least) {
+        return countOf(counts, [&](const CellType& type) { return type.dimension >= least; }) > 0;
+    };
+    while (dimension < 3 && some(dimension + 1)) ++dimension;
+    areScattered = dimension == 0 && some(0);
+    const std::uint64_t bricks = countOf(counts, [](const CellType& type) { return type.isBrick; });
+    spread = 2 * bricks > grid.types.size() ? 1 : 1.5;
+    if (dimension == 1 || dimension == 2) thickness = Measure(grid, dimension, 0).thickness();
+}
+
+void UnstructuredShapes::measure(const UnstructuredGrid& grid, std::uint64_t first,
+                                 std::span<CellMoments> cells) const {
+    const Measure measure(grid, dimension, thickness);
+    for (std::size_t i = 0; i < cells.size();) {
+        const std::size_t solids = measure.solids(first + i, cells.subspan(i));
+        if (solids == 0) cells[i] = measure(first + i);
+        i += std::max<std::size_t>(solids, 1);
+    }
 }
 
 Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
                  const std::vector<double>& levels, const std::vector<glm::dvec3>& places) {
+    const std::size_t cells = grid.types.size();
     if (shapes.areScattered) {
+        const auto moments = momentsOf(grid, shapes);
         std::vector<glm::dvec3> at;
-        for (const CellMoments& cell : shapes.cells) at.push_back(cell.centroid);
+        for (std::size_t i = 0; i < cells; ++i) at.push_back(moments.data()[i].centroid);
         return meshOfScattered(at);
     }
-    const auto point = [&](std::uint64_t cell) {
-        const CellMoments& of = shapes.cells[cell];
-        const bool hasPlace = !places.empty() && isPlace(places[cell]);
-        const glm::dvec3& at = hasPlace ? places[cell] : of.centroid;
-        return prismOf({at, rowsOf(of.second, of.volume)}, of.second, of.volume, levels);
+    const auto tell = [&](std::uint64_t first, std::span<MeshPoint> points) {
+        std::array<CellMoments, Mesh::kMostAtOnce> moments;
+        shapes.measure(grid, first, std::span(moments).first(points.size()));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const CellMoments& of = moments[i];
+            const bool hasPlace = !places.empty() && isPlace(places[first + i]);
+            points[i].at = hasPlace ? places[first + i] : of.centroid;
+            setSteps(of.second, of.volume, points[i]);
+            makePrism(of.second, of.volume, levels, points[i]);
+        }
     };
-    return Mesh(grid.types.size(), grid.points.empty() ? places : grid.points, shapes.spread, point,
-                levels);
+    const std::span<const glm::dvec3> between =
+        grid.points.empty() ? std::span(places) : grid.points;
+    return Mesh(cells, between, shapes.spread, tell, levels);
 }
 
 Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
                   const std::vector<double>& levels, std::uint64_t count) {
     count = std::min<std::uint64_t>(count, grid.points.size());
-    if (shapes.areScattered)
-        return meshOfScattered({grid.points.begin(), grid.points.begin() + std::ptrdiff_t(count)});
+    if (shapes.areScattered) return meshOfScattered(std::span(grid.points).first(count));
     const Stars stars(grid);
-    const auto pointOf = [&](std::uint64_t point) {
-        const glm::dvec3& at = grid.points[point];
+    const auto moments = momentsOf(grid, shapes);
+    const auto tellOne = [&](std::uint64_t index, MeshPoint& point) {
+        point.at = grid.points[index];
         double volume = 0, whole = 0;
         glm::dmat3 second(0.0);
-        for (const std::uint32_t cell : stars.of(point)) {
-            const CellMoments& of = shapes.cells[cell];
+        for (const std::uint32_t cell : stars.of(index)) {
+            const CellMoments& of = moments.data()[cell];
             if (!(of.volume > 0)) continue;
             const std::uint64_t first = cell == 0 ? 0 : grid.ends[cell - 1];
             volume += of.volume / static_cast<double>(grid.ends[cell] - first);
             whole += of.volume;
-            const glm::dvec3 away = of.centroid - at;
+            const glm::dvec3 away = of.centroid - point.at;
             second += of.volume * (of.second + glm::outerProduct(away, away));
         }
         if (whole > 0) second /= whole;
-        return prismOf({at, rowsOf(second, volume)}, second, volume, levels);
+        setSteps(second, volume, point);
+        makePrism(second, volume, levels, point);
     };
-    return Mesh(count, grid.points, shapes.spread, pointOf, levels,
+    const auto tell = [&](std::uint64_t first, std::span<MeshPoint> points) {
+        for (MeshPoint& point : points) tellOne(first++, point);
+    };
+    return Mesh(count, grid.points, shapes.spread, tell, levels,
                 levels.empty() ? SolidCells::of(grid, count) : nullptr);
 }
 
 std::vector<std::string> notesOf(const UnstructuredGrid& grid) {
-    const auto curved = std::ranges::count_if(grid.types, [](std::uint8_t number) {
-        const CellType* type = cellTypeOf(number);
-        return type && type->isCurved;
-    });
+    const auto curved = countOf(typesOf(grid), [](const CellType& type) { return type.isCurved; });
     if (curved == 0) return {};
     return {fmt::format("{} of {} cells are curved: taken as straight between their corners",
                         curved, grid.types.size())};

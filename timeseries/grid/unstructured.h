@@ -6,11 +6,13 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "timeseries/grid/cell_moments.h"
 #include "timeseries/grid/mesh.h"
+#include "timeseries/grid/pages.h"
 
 namespace timeseries {
 
@@ -19,10 +21,10 @@ constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
 // Lists of one cell stand behind that of the cell before, and end where `...Ends` says.
 struct UnstructuredGrid {
-    std::vector<glm::dvec3> points;   // in the file's space
-    std::vector<std::uint8_t> types;  // [cell], as in cell_types.h
-    std::vector<std::uint64_t> ends;
-    std::vector<std::uint32_t> corners;  // of each cell: points
+    PageVector<glm::dvec3> points;   // in the file's space
+    PageVector<std::uint8_t> types;  // [cell], as in cell_types.h
+    PageVector<std::uint64_t> ends;
+    PageVector<std::uint32_t> corners;  // of each cell: points
     // Of polyhedra: how many faces, then of each how many corners, and which points. Empty: no
     // cell is one.
     std::vector<std::uint64_t> faceEnds;
@@ -38,11 +40,16 @@ std::string flawOf(const UnstructuredGrid& grid);
 struct UnstructuredShapes {
     // REQUIRES: no flaw.
     explicit UnstructuredShapes(const UnstructuredGrid& grid);
-    std::vector<CellMoments> cells;
+    // Of the cells from `first` on. REQUIRES: the same grid.
+    void measure(const UnstructuredGrid& grid, std::uint64_t first,
+                 std::span<CellMoments> cells) const;
+
     // Irregular cells leave gaps unless their splats are wider than a lattice's (1.5: see
     // tests/render/mesh_splats_test.cpp).
     double spread = 1;
     bool areScattered = false;  // points alone
+    int dimension = 0;          // of the cells that take space
+    double thickness = 0;       // of them along the others
 };
 
 // Throw std::invalid_argument when nothing has a volume.

@@ -63,7 +63,7 @@ bool bound(std::span<const Face> faces, const CellType& type, Face corners) {
 
 // The corners of the shape in the order of cell_types.h, so many; false where it is none.
 bool cornersOf(std::uint8_t shape, std::span<const Face> faces,
-               std::vector<std::uint32_t>& corners) {
+               PageVector<std::uint32_t>& corners) {
     const CellType& type = *cellTypeOf(shape);
     const std::size_t sides = shape == kTetrahedron || shape == kWedgeCell ? 3 : 4;
     const Face base = *std::ranges::find(faces, sides, &Face::size);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <fstream>
 
 #include "timeseries/readers/vtk_header.h"
@@ -216,6 +217,15 @@ std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
     Source source(file.path, stored.at, stored.check.base64);
     return encoding.compressor.empty() ? stored.check.plain(source)
                                        : stored.check.compressed(source);
+}
+
+std::optional<std::uint64_t> rawVtkValuesAt(const XmlFile& file, const VtkEncoding& encoding,
+                                            const XmlElement& array, std::string_view place) {
+    const Stored stored = storedAt(file, encoding, array, place, 0);
+    const bool isNative = encoding.bigEndian == (std::endian::native == std::endian::big);
+    if (stored.isText || stored.check.base64 || !encoding.compressor.empty() || !isNative)
+        return std::nullopt;
+    return stored.at + encoding.headerBytes;
 }
 
 std::uint64_t countVtkValues(const XmlFile& file, const VtkEncoding& encoding,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,11 @@ VtkEncoding vtkEncodingOf(const XmlFile& file);
 std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
                              const XmlElement& array, std::string_view place, std::uint64_t values,
                              std::size_t valueBytes);
+
+// The byte of the file at which the values begin, where they stand as they are in memory: not in
+// text, not packed, in this machine's order of bytes. Throws FileError when they are not in it.
+std::optional<std::uint64_t> rawVtkValuesAt(const XmlFile& file, const VtkEncoding& encoding,
+                                            const XmlElement& array, std::string_view place);
 
 // How many values of `valueBytes` bytes the DataArray says that it has. Throws FileError when it
 // does not say.

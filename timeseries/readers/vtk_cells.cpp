@@ -1,24 +1,18 @@
 #include "timeseries/readers/vtk_cells.h"
 
-#include <fmt/format.h>
 #include <vtkDataArray.h>
 #include <vtkSmartPointer.h>
 
-#include <limits>
 #include <utility>
+
+#include "timeseries/readers/vtk_xml_cells.h"
 
 namespace timeseries {
 namespace {
 
-std::uint64_t endOf(std::int64_t end, std::uint64_t begin) {
-    // What is beyond all lists is told as such, whatever it is.
-    return end < 0 ? std::numeric_limits<std::uint64_t>::max()
-                   : begin + static_cast<std::uint64_t>(end);
-}
-
 // use(i, number) for each of so many that `read` puts there; for none where it does not.
 template <typename Use, typename Read>
-void forEachOf(vtkAbstractArray* array, const VtkIndices& expected, const Use& use,
+void forEachOf(vtkAbstractArray* array, const VtkNumbers& expected, const Use& use,
                const Read& read) {
     auto* data = vtkDataArray::SafeDownCast(array);
     const auto count = static_cast<vtkIdType>(expected.count);
@@ -38,24 +32,24 @@ void forEachOf(vtkAbstractArray* array, const VtkIndices& expected, const Use& u
 
 // Where they stand in a grid whose cells are of one list, behind those that are there.
 template <typename ForEach>
-void addList(UnstructuredGrid& grid, std::uint64_t count, const VtkIndices& connectivity,
-             const VtkIndices& offsets, std::uint64_t points, std::uint64_t firstPoint,
+void addList(UnstructuredGrid& grid, std::uint64_t count, const VtkNumbers& connectivity,
+             const VtkNumbers& offsets, std::uint64_t points, std::uint64_t firstPoint,
              const ForEach& forEach) {
     const std::uint64_t cells = grid.ends.size(), corners = grid.corners.size();
-    grid.ends.resize(cells + count);
+    grid.ends.resize(cells + count, 0);
     grid.corners.resize(corners + connectivity.count, kNoPoint);
-    forEach("offsets", offsets,
-            [&](std::uint64_t i, std::int64_t end) { grid.ends[cells + i] = endOf(end, corners); });
+    forEach("offsets", offsets, [&](std::uint64_t i, std::int64_t end) {
+        grid.ends[cells + i] = vtkEnd(end, corners);
+    });
     forEach("connectivity", connectivity, [&](std::uint64_t i, std::int64_t point) {
-        if (point >= 0 && static_cast<std::uint64_t>(point) < points)
-            grid.corners[corners + i] = static_cast<std::uint32_t>(firstPoint + point);
+        grid.corners[corners + i] = vtkCorner(point, points, firstPoint);
     });
 }
 
 }  // namespace
 
 template <typename Use>
-void VtkCellReader::forEach(const char* name, const VtkIndices& expected, const Use& use) {
+void VtkCellReader::forEach(const char* name, const VtkNumbers& expected, const Use& use) {
     vtkXMLDataElement* element = FindDataArrayWithName(CellElements[Piece], name);
     const auto array =
         vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
@@ -67,14 +61,12 @@ void VtkCellReader::forEach(const char* name, const VtkIndices& expected, const 
 void VtkCellReader::addCells(const VtkPiece& piece) {
     const std::uint64_t cells = grid_.types.size();
     addList(grid_, piece.cells, piece.connectivity, piece.offsets, piece.points, firstPoint_,
-            [&](const char* name, const VtkIndices& expected, const auto& use) {
+            [&](const char* name, const VtkNumbers& expected, const auto& use) {
                 forEach(name, expected, use);
             });
-    grid_.types.resize(cells + piece.cells);
-    forEach("types", piece.types, [&](std::uint64_t i, std::int64_t type) {
-        // Beyond a byte no shape has a number.
-        grid_.types[cells + i] = type < 0 || type > 255 ? 0 : static_cast<std::uint8_t>(type);
-    });
+    grid_.types.resize(cells + piece.cells, 0);
+    forEach("types", piece.types,
+            [&](std::uint64_t i, std::int64_t type) { grid_.types[cells + i] = vtkShape(type); });
 }
 
 // The lists of a cell are a number of faces, and of each how many points it has, and which.
@@ -117,9 +109,9 @@ void VtkCellReader::addFaces(const VtkPiece& piece) {
 }
 
 int VtkCellReader::ReadPieceData() {
-    if (!vtkXMLUnstructuredDataReader::ReadPieceData()) return 0;
     const VtkPiece* const piece = next();
-    if (!piece) return 1;
+    if (!piece) return vtkXMLDataReader::ReadPieceData();
+    if (!vtkXMLUnstructuredDataReader::ReadPieceData()) return 0;
     if (piece->cells > 0) {
         addCells(*piece);
         addFaces(*piece);
@@ -130,7 +122,7 @@ int VtkCellReader::ReadPieceData() {
 
 template <typename Use>
 void VtkPolygonReader::forEach(vtkXMLDataElement* lists, const char* name,
-                               const VtkIndices& expected, const Use& use) {
+                               const VtkNumbers& expected, const Use& use) {
     vtkXMLDataElement* element = lists ? FindDataArrayWithName(lists, name) : nullptr;
     const auto array =
         vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
@@ -141,15 +133,15 @@ void VtkPolygonReader::forEach(vtkXMLDataElement* lists, const char* name,
 
 int VtkPolygonReader::ReadPieceData() {
     constexpr std::array<std::uint8_t, 3> kShapes{2, 4, 7};  // cell_types.h
-    if (!vtkXMLUnstructuredDataReader::ReadPieceData()) return 0;
     const VtkPiece* const piece = next();
-    if (!piece) return 1;
+    if (!piece) return vtkXMLDataReader::ReadPieceData();
+    if (!vtkXMLUnstructuredDataReader::ReadPieceData()) return 0;
     const std::array elements{VertElements[Piece], LineElements[Piece], PolyElements[Piece]};
     for (std::size_t k = 0; k < kShapes.size(); ++k) {
         const VtkList& list = piece->lists[k];
         if (list.cells == 0) continue;
         addList(grids_[k], list.cells, list.connectivity, list.offsets, piece->points, firstPoint_,
-                [&](const char* name, const VtkIndices& expected, const auto& use) {
+                [&](const char* name, const VtkNumbers& expected, const auto& use) {
                     forEach(elements[k], name, expected, use);
                 });
         grids_[k].types.resize(grids_[k].ends.size(), kShapes[k]);
@@ -166,7 +158,7 @@ UnstructuredGrid VtkPolygonReader::takeCells() {
         all.types.insert(all.types.end(), more.types.begin(), more.types.end());
         all.corners.insert(all.corners.end(), more.corners.begin(), more.corners.end());
         for (const std::uint64_t end : more.ends)
-            all.ends.push_back(endOf(static_cast<std::int64_t>(end), corners));
+            all.ends.push_back(vtkEnd(static_cast<std::int64_t>(end), corners));
     }
     return all;
 }

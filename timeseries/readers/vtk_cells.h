@@ -16,7 +16,8 @@ namespace timeseries {
 class VtkCells {
  public:
     virtual ~VtkCells() = default;
-    // Of which the pieces' cells are read, and none when it is null. To be called before it reads.
+    // Of which the pieces' points and cells are read, and none when it is null. To be called before
+    // it reads.
     void expect(const std::vector<VtkPiece>* pieces) { pieces_ = pieces; }
     // All pieces' one behind the other, but for the points.
     virtual UnstructuredGrid takeCells() = 0;
@@ -43,7 +44,7 @@ class VtkCellReader : public vtkXMLUnstructuredGridReader, public VtkCells {
  private:
     // use(i, number) for each of so many; for none where VTK reads something else.
     template <typename Use>
-    void forEach(const char* name, const VtkIndices& expected, const Use& use);
+    void forEach(const char* name, const VtkNumbers& expected, const Use& use);
     void addCells(const VtkPiece& piece);
     void addFaces(const VtkPiece& piece);
 
@@ -60,7 +61,7 @@ class VtkPolygonReader : public vtkXMLPolyDataReader, public VtkCells {
 
  private:
     template <typename Use>
-    void forEach(vtkXMLDataElement* lists, const char* name, const VtkIndices& expected,
+    void forEach(vtkXMLDataElement* lists, const char* name, const VtkNumbers& expected,
                  const Use& use);
 
     std::array<UnstructuredGrid, 3> grids_;

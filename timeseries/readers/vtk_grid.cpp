@@ -43,7 +43,7 @@ UnstructuredShapes vtkShapesOf(const VtkHeader& header) {
                 "expected cells of points that there are, found that " + flaw);
     UnstructuredShapes shapes(header.unstructured);
     // Points without any cell are as good as points that are one each.
-    if (shapes.cells.empty()) shapes.areScattered = true;
+    if (header.unstructured.types.empty()) shapes.areScattered = true;
     return shapes;
 }
 

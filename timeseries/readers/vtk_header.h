@@ -59,24 +59,25 @@ struct VtkArray {
     bool isEverywhere = true;     // not so when a block has it not
 };
 
-// An array of whole numbers that tells of cells: of this type, so many.
-struct VtkIndices {
+// An array that tells of places, or in whole numbers of cells: of this type, so many.
+struct VtkNumbers {
     ValueType type{};
     std::uint64_t count = 0;
+    std::optional<std::uint64_t> rawAt = std::nullopt;  // as rawVtkValuesAt() says
 };
 
 // Cells of one kind of a piece of polygons.
 struct VtkList {
     std::uint64_t cells = 0;
-    VtkIndices connectivity, offsets;
+    VtkNumbers connectivity, offsets;
 };
 
 // A piece of an unstructured grid, or of polygons: "VTK File Formats", Kitware, "UnstructuredGrid",
 // "PolyData".
 struct VtkPiece {
     std::uint64_t points = 0, cells = 0;
-    VtkIndices connectivity, offsets, types;
-    std::optional<VtkIndices> faces, faceOffsets;  // of polyhedra
+    VtkNumbers places, connectivity, offsets, types;
+    std::optional<VtkNumbers> faces, faceOffsets;  // of polyhedra
     std::array<VtkList, 3> lists;                  // of polygons: points, lines, surfaces
 };
 

@@ -34,6 +34,7 @@
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/readers/vtk_cells.h"
+#include "timeseries/readers/vtk_raw_cells.h"
 
 namespace timeseries {
 namespace {
@@ -332,14 +333,15 @@ std::vector<double> numbersOf(vtkDataArray* array) {
     return numbers;
 }
 
-std::vector<glm::dvec3> placesOf(const VtkHeader& header, vtkPointSet& grid) {
+template <typename Places>
+Places placesOf(const VtkHeader& header, vtkPointSet& grid) {
     const auto count = static_cast<vtkIdType>(header.count(VtkPlace::Points));
     if (count > 0 && !grid.GetPoints())
         failVtk(header.path, "Points", "expected places, but VTK reads none");
     if (grid.GetNumberOfPoints() != count)
         failVtk(header.path, "Points",
                 fmt::format("expected {} of them, but VTK reads something else", count));
-    std::vector<glm::dvec3> places(static_cast<std::size_t>(count));
+    Places places(static_cast<std::size_t>(count));
     for (vtkIdType i = 0; i < count; ++i) grid.GetPoint(i, &places[static_cast<std::size_t>(i)].x);
     return places;
 }
@@ -348,14 +350,17 @@ std::vector<glm::dvec3> placesOf(const VtkHeader& header, vtkPointSet& grid) {
 
 VtkFrame readVtkFrame(const VtkHeader& header) {
     VtkFrame frame;
+    bool isRaw = false;
     const auto output = withVtk(header, "", [&] {
         if (header.kind == VtkKind::LegacyStructured)
             return readLegacy<StructuredReader>(header, nullptr);
         const auto reader = readerOf(header);
         auto* const cells = dynamic_cast<VtkCells*>(reader.Get());
-        if (cells) cells->expect(&header.pieces);
+        auto raw = rawVtkCells(header);
+        isRaw = raw.has_value();
+        if (cells && !raw) cells->expect(&header.pieces);
         const auto found = readBy(reader, nullptr);
-        if (cells) frame.unstructured = cells->takeCells();
+        if (cells) frame.unstructured = raw ? std::move(*raw) : cells->takeCells();
         return found;
     });
     if (!output) failVtk(header.path, "", "expected a grid, but VTK reads none");
@@ -363,9 +368,10 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
         frame.coordinates = {numbersOf(grid->GetXCoordinates()), numbersOf(grid->GetYCoordinates()),
                              numbersOf(grid->GetZCoordinates())};
     if (auto* grid = vtkStructuredGrid::SafeDownCast(output))
-        frame.places = placesOf(header, *grid);
-    if (auto* grid = vtkPointSet::SafeDownCast(output); grid && isUnstructured(header.kind))
-        frame.unstructured.points = placesOf(header, *grid);
+        frame.places = placesOf<std::vector<glm::dvec3>>(header, *grid);
+    if (auto* grid = vtkPointSet::SafeDownCast(output);
+        grid && isUnstructured(header.kind) && !isRaw)
+        frame.unstructured.points = placesOf<PageVector<glm::dvec3>>(header, *grid);
     vtkFieldData* data = output->GetFieldData();
     for (int i = 0; data && i < data->GetNumberOfArrays(); ++i) {
         vtkDataArray* array = data->GetArray(i);

@@ -211,7 +211,8 @@ void listVtkCells(VtkHeader& block, const std::vector<bool>& covered) {
     constexpr std::array<std::uint8_t, 9> kShapes{0, 1, 3, 0, 8, 0, 0, 0, 11};  // by corners
     if (isUnstructured(block.kind)) return;
     UnstructuredGrid& grid = block.unstructured;
-    grid.points = isStructured(block.kind) ? std::move(block.places) : placesOf(block);
+    const auto places = isStructured(block.kind) ? std::move(block.places) : placesOf(block);
+    grid.points.assign(places.begin(), places.end());
     forEachCell(block, [&](std::uint64_t cell, std::span<const std::uint32_t> corners) {
         if (!covered.empty() && covered[cell]) return;
         grid.corners.insert(grid.corners.end(), corners.begin(), corners.end());
@@ -220,6 +221,7 @@ void listVtkCells(VtkHeader& block, const std::vector<bool>& covered) {
     });
     block.pieces = {VtkPiece{.points = grid.points.size(),
                              .cells = grid.types.size(),
+                             .places = {},
                              .connectivity = {},
                              .offsets = {},
                              .types = {},

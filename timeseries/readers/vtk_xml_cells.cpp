@@ -9,7 +9,7 @@ namespace timeseries {
 namespace {
 
 // One that is not there stands for none.
-std::optional<VtkIndices> indicesOf(const XmlFile& file, const VtkEncoding& encoding,
+std::optional<VtkNumbers> indicesOf(const XmlFile& file, const VtkEncoding& encoding,
                                     const XmlElement& cells, std::string_view name,
                                     std::optional<std::uint64_t> count) {
     for (const XmlElement& array : cells.children) {
@@ -20,8 +20,9 @@ std::optional<VtkIndices> indicesOf(const XmlFile& file, const VtkEncoding& enco
         if (array.name != "DataArray" || !whole ||
             countOf(file, array, "NumberOfComponents", 1) != 1)
             failVtk(file.path, place, "expected a DataArray of whole numbers");
-        const VtkIndices found{
-            type->type, count ? *count : countVtkValues(file, encoding, array, place, type->bytes)};
+        const VtkNumbers found{
+            type->type, count ? *count : countVtkValues(file, encoding, array, place, type->bytes),
+            rawVtkValuesAt(file, encoding, array, place)};
         checkVtkValues(file, encoding, array, place, found.count, type->bytes);
         if (!array.notNumber.empty())
             failVtk(file.path, place,
@@ -70,14 +71,9 @@ VtkPiece readVtkPolygons(const XmlFile& file, const VtkEncoding& encoding,
 }
 
 VtkPiece readVtkPiece(const XmlFile& file, const VtkEncoding& encoding, const XmlElement& piece) {
-    VtkPiece found{countOf(file, piece, "NumberOfPoints", 0),
-                   countOf(file, piece, "NumberOfCells", 0),
-                   {},
-                   {},
-                   {},
-                   {},
-                   {},
-                   {}};
+    VtkPiece found;
+    found.points = countOf(file, piece, "NumberOfPoints", 0);
+    found.cells = countOf(file, piece, "NumberOfCells", 0);
     const auto groups = named(piece, "Cells");
     if (groups.size() > 1 || (groups.empty() && found.cells > 0))
         failVtk(file.path, placeOf(piece), "expected one list of Cells");

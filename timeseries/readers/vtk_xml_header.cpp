@@ -91,8 +91,8 @@ std::vector<VtkArray> arraysOf(const Context& context, const XmlElement& piece, 
 }
 
 // Of the coordinates of a grid.
-void checkNumbers(const Context& context, const XmlElement& array, std::uint64_t components,
-                  std::uint64_t tuples) {
+VtkNumbers checkedNumbers(const Context& context, const XmlElement& array, std::uint64_t components,
+                          std::uint64_t tuples) {
     const VtkType* type = vtkXmlType(array.attribute("type"));
     if (array.name != "DataArray" || !type ||
         countOf(context.file, array, "NumberOfComponents", 1) != components)
@@ -104,13 +104,15 @@ void checkNumbers(const Context& context, const XmlElement& array, std::uint64_t
     if (!array.notNumber.empty())
         failVtk(context.file.path, placeOf(array),
                 fmt::format("expected finite numbers of its type, found \"{}\"", array.notNumber));
+    return {type->type, components * tuples,
+            rawVtkValuesAt(context.file, context.encoding, array, placeOf(array))};
 }
 
-void checkPoints(const Context& context, const XmlElement& piece, const VtkHeader& shape) {
+VtkNumbers checkedPoints(const Context& context, const XmlElement& piece, const VtkHeader& shape) {
     const auto groups = named(piece, "Points");
     if (groups.size() != 1 || groups[0]->children.size() != 1)
         failVtk(context.file.path, placeOf(piece), "expected Points of one array");
-    checkNumbers(context, groups[0]->children[0], 3, shape.count(VtkPlace::Points));
+    return checkedNumbers(context, groups[0]->children[0], 3, shape.count(VtkPlace::Points));
 }
 
 void checkCoordinates(const Context& context, const XmlElement& piece, const VtkHeader& shape) {
@@ -119,7 +121,7 @@ void checkCoordinates(const Context& context, const XmlElement& piece, const Vtk
         failVtk(context.file.path, placeOf(piece),
                 "expected Coordinates of three arrays, x, y and z");
     const auto size = shape.size(VtkPlace::Points);
-    for (std::size_t i = 0; i < 3; ++i) checkNumbers(context, groups[0]->children[i], 1, size[i]);
+    for (std::size_t i = 0; i < 3; ++i) checkedNumbers(context, groups[0]->children[i], 1, size[i]);
 }
 
 // VTK 9.1 makes every array of the field data, and crashes when it knows its type not.
@@ -166,14 +168,14 @@ void addPieces(const Context& context, const XmlElement& grid) {
             if (isEmptyVtkPiece(context.file, *piece)) continue;
             const auto read = header.kind == VtkKind::XmlPolygons ? readVtkPolygons : readVtkPiece;
             shape.pieces = {read(context.file, context.encoding, *piece)};
-            checkPoints(context, *piece, shape);
+            shape.pieces[0].places = checkedPoints(context, *piece, shape);
         } else {
             shape.extent = vtkExtentOf(context.file, *piece, "Extent");
             if (isEmptyVtkExtent(shape.extent)) continue;
             checkInside(header, *piece, shape);
         }
         if (header.kind == VtkKind::XmlRectilinear) checkCoordinates(context, *piece, shape);
-        if (header.kind == VtkKind::XmlStructured) checkPoints(context, *piece, shape);
+        if (header.kind == VtkKind::XmlStructured) checkedPoints(context, *piece, shape);
         std::vector<VtkArray> arrays;
         for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells})
             for (VtkArray& array : arraysOf(context, *piece, place, shape.count(place)))

@@ -227,7 +227,8 @@ void VtkHdfLayout::addCells(const Topology& topology, const VtkHdfStep& step, st
 UnstructuredGrid VtkHdfLayout::gridOf(const VtkHdfStep& step) const {
     UnstructuredGrid grid;
     const std::uint64_t points = pointsOf(step);
-    grid.points = placesOf(file_, expected(file_, "VTKHDF/Points"), step.points, points);
+    const auto places = placesOf(file_, expected(file_, "VTKHDF/Points"), step.points, points);
+    grid.points.assign(places.begin(), places.end());
     std::uint64_t firstPoint = 0;
     for (std::uint64_t part = 0; part < step.parts; ++part) {
         const std::uint64_t count =
