@@ -9,6 +9,7 @@
 #include "app/drawing/screen.h"
 #include "app/drawing/telling.h"
 #include "app/picture/still.h"
+#include "render/frame/frame_pace.h"
 #include "render/gl/timer.h"
 #include "render/reference/cell_pick.h"
 #include "render/splat/cell_pieces.h"
@@ -44,20 +45,6 @@ render::Scene byPoints(render::Scene scene) {
 // What a timer keeps of what it times.
 std::uint64_t labelOf(std::uint64_t cost, const render::Scene& drawn) {
     return cost << 1 | (drawn.cells ? 1 : 0);
-}
-
-bool keepsTo(const CanvasLimits& limits, const render::Scene& scene,
-             std::span<const render::View> eyes) {
-    return costOf(scene, eyes) <= static_cast<double>(limits.of(scene));
-}
-
-// The least stride whose frame keeps to the limits.
-void thinOut(render::Scene& scene, std::span<const render::View> eyes, const CanvasLimits& limits) {
-    const render::Footprint whole = scene.footprint;
-    while (scene.stride < render::kMaxStride && !keepsTo(limits, scene, eyes)) {
-        scene.stride *= 2;
-        scene.footprint = standingFor(whole, scene.stride);
-    }
 }
 
 // What is on the screen, being refined.
@@ -96,6 +83,28 @@ struct Canvas::State {
                        std::span<const render::View> moving, render::gl::Timer& of);
     // For a picture that moves: as much as keeps to the limit. Cells have no subsets: where they
     // are too many, points stand for them, if they are there.
+    // What planes cost anyhow is taken from the limit, but of few splats nothing.
+    bool keepsTo(const CanvasLimits& limits, const render::Scene& scene,
+                 std::span<const render::View> eyes) const {
+        const std::uint64_t limit = limits.of(scene), planes = planesCost(scene, eyes);
+        const std::uint64_t least = std::min(limit, render::FramePace::kFewest);
+        return costOf(scene, eyes) <=
+               static_cast<double>(std::max(limit - std::min(limit, planes), least));
+    }
+    // The least stride whose frame keeps to the limits.
+    void thinOut(render::Scene& scene, std::span<const render::View> eyes,
+                 const CanvasLimits& limits) const {
+        const render::Footprint whole = scene.footprint;
+        while (scene.stride < render::kMaxStride && !keepsTo(limits, scene, eyes)) {
+            scene.stride *= 2;
+            scene.footprint = standingFor(whole, scene.stride);
+        }
+    }
+    std::uint64_t planesCost(const render::Scene& scene, std::span<const render::View> eyes) const {
+        double sum = 0;
+        for (const render::View& eye : eyes) sum += renderer.planesCost(scene, eye);
+        return static_cast<std::uint64_t>(std::llround(sum));
+    }
     render::Scene thinned(render::Scene scene, std::span<const render::View> eyes,
                           const CanvasLimits& limits) const;
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
@@ -264,6 +273,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         show(i, state_->renderer.targets());
     }
     report.cost = static_cast<std::uint64_t>(std::llround(cost));
+    report.planesCost = state_->planesCost(drawn, eyes);
     state_->timer.end(labelOf(report.cost, drawn));
     return report;
 }

@@ -26,7 +26,7 @@ namespace app {
 struct Screen;
 
 struct CanvasLimits {
-    // In one frame, all layers and eyes, in ordinary splats (render/splat/splat_cost.h); see
+    // In one frame, all layers and eyes, as render/splat/splat_cost.h counts; see
     // FramePace.
     std::uint64_t splats = 1'000'000;
     // In one frame of cells, whose cost is told less well and learnt apart; absent: as many.

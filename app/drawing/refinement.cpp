@@ -51,8 +51,8 @@ double Refinement::goOn(double cost,
                         const std::function<void(std::size_t eye, render::Targets&)>& show) {
     const double before = drawn_;
     do {
+        const double of = work_ ? work_->cost : 0;
         if (!work_) work_.emplace(renderer_.begin(*frame_, eyes_[eye_]));
-        const double of = work_->cost;
         const bool whole = renderer_.goOn(*work_, cost - (drawn_ - before));
         drawn_ += work_->cost - of;
         if (!whole) break;
@@ -64,7 +64,7 @@ double Refinement::goOn(double cost,
 
 double Refinement::share() const {
     if (!frame_) return ordering_ * order_.share();
-    const double drawn = cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1;
+    const double drawn = !done() && cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1;
     return ordering_ + (1 - ordering_) * drawn;
 }
 

@@ -41,7 +41,9 @@ void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanose
     // A GPU goes on after the calls; what it took is told some frames later.
     if (onProcessor_) render::gl::finishDrawing();
     Governor::FrameCost frame{period, std::chrono::steady_clock::now() - began, {}};
-    const std::uint64_t fewest = report_.cost * report_.stride / render::kMaxStride;
+    const std::uint64_t splats = report_.cost - std::min(report_.cost, report_.planesCost);
+    const std::uint64_t fewest =
+        report_.cost - splats + splats * report_.stride / render::kMaxStride;
     if (onProcessor_ && report_.cost > 0) {
         frame.splats = {report_.cost, fewest, frame.work, report_.cells.has_value()};
     } else if (report_.gpuTime) {

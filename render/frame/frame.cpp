@@ -106,7 +106,9 @@ FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View&
     FlatMesh legend = legendMesh(content.legend, font_, eye.size);
     AxesMeshes axes = axesMeshes(content.grid, content.scene.placed, eye, frame.midEye, font_,
                                  legend, content.background);
-    return {frame, eye, std::move(legend), std::move(axes), splatCosts(frame, eye)};
+    EyeInWork work{frame, eye, std::move(legend), std::move(axes), splatCosts(frame, eye)};
+    work.cost = planesCost(content.scene, eye);
+    return work;
 }
 
 bool FrameRenderer::goOn(EyeInWork& work, double cost) {
@@ -146,7 +148,11 @@ std::vector<double> FrameRenderer::splatCosts(const Prepared& frame, const View&
 }
 
 double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
-    return sceneCost(frame.content.scene, eye);
+    return sceneCost(frame.content.scene, eye) + planesCost(frame.content.scene, eye);
+}
+
+double FrameRenderer::planesCost(const Scene& scene, const View& eye) const {
+    return splatters_.sumsByGl(scene) ? 0 : render::planesCost(scene, eye);
 }
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GlStep& step,

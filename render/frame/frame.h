@@ -82,13 +82,15 @@ class FrameRenderer {
         std::vector<double> splatCosts;
         std::size_t plane = 0;  // to go on with
         std::unique_ptr<PlaneSum> sum = {};
-        double cost = 0;  // of what is drawn so far, in ordinary splats
+        double cost = 0;  // of what is drawn so far (render/splat/splat_cost.h)
     };
     EyeInWork begin(const Prepared& frame, const View& eye);
     // Draws until this cost is reached, or a little more: what a splatter adds at least.
     // True when the light is in targets(); before, there is nothing to see.
     bool goOn(EyeInWork& work, double cost);
     double cost(const Prepared& frame, const View& eye) const;  // of the whole eye
+    // Of it, what remains of however few splats.
+    double planesCost(const Scene& scene, const View& eye) const;
     // Eyes that see nothing but placards, each shown once it is drawn.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                       std::span<const View> eyes,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/model/cell_splat.h"
+#include "render/model/covered.h"
 #include "render/model/footprint.h"
 #include "render/model/rays_across.h"
 #include "render/model/tet_splat.h"
@@ -39,20 +40,22 @@ glm::dvec2 sidesOf(const Seen& s, const PointsView& seen, glm::ivec2 size) {
                     glm::dvec2(0));
 }
 
-// Of a piece of a cell, in ordinary splats: what setting it up takes, and of its rays, which are
-// taken row by row in vectors of eight or so, a vector; less where all of the piece is in the range
-// (tests/bench/NOTES.md).
+// Of a piece of a cell: what setting it up takes, and of its rays, which are taken in blocks, a
+// block; less where all of the piece is in the range. Of a plane, a pixel.
 struct PieceCost {
-    double setUp, crossed, whole;
+    double setUp, crossed, whole, pixel;
 };
-constexpr PieceCost kUnordered{9, 0.5, 0.075}, kOrdered{7.5, 1.5, 1};
+constexpr PieceCost kUnordered{2.4, 0.8, 0.34, 0.13}, kOrdered{1.25, 1.36, 1, 0.08};
+const PieceCost& costsOf(const Scene& scene) {
+    return scene.order == Order::None ? kUnordered : kOrdered;
+}
 
 class CellCosts {
  public:
     CellCosts(const Scene& scene, const View& view)
         : fine_(finer(view, raysAcross(scene, view))),
           seen_(scene.placed, fine_),
-          per_(scene.order == Order::None ? kUnordered : kOrdered) {}
+          per_(costsOf(scene)) {}
 
     double of(const ValuedCell& cell) const { return ofSeen(cellSplatAt<double>(seen_, cell)); }
     double of(const ValuedTet& tet) const { return ofSeen(tetSplatAt<double>(seen_, tet)); }
@@ -61,11 +64,13 @@ class CellCosts {
     template <typename Seen>
     double ofSeen(const Seen& s) const {
         if (!s.visible) return 0;
-        constexpr double kVector = 8;
+        constexpr double kSide = 4;  // of a block, of which the last along a side is part empty
         const glm::dvec2 sides = sidesOf(s, seen_, fine_.size);
-        const double vectors = sides.x > 0 ? sides.y * (1 + sides.x / kVector) : 0;
+        const glm::dvec2 blocks = sides / kSide + (1 - 1 / kSide);
         const bool isWhole = !s.crossesLeast && !s.crossesMost;
-        return per_.setUp + vectors * (isWhole ? per_.whole : per_.crossed);
+        return per_.setUp + (sides.x > 0 && sides.y > 0
+                                 ? blocks.x * blocks.y * (isWhole ? per_.whole : per_.crossed)
+                                 : 0);
     }
 
     View fine_;
@@ -109,12 +114,19 @@ double splatCost(const Scene& scene, std::size_t layer, const View& view) {
             pixels += sides.x * sides.y;
         });
     if (samples == 0) return 1;
-    return std::max(1.0, pixels / static_cast<double>(samples) / kOrdinaryPixels);
+    return 1 + pixels / static_cast<double>(samples) / kPixelsOfASplat;
 }
 
 double layerCost(const Scene& scene, std::size_t layer, const View& view) {
     return splatCost(scene, layer, view) *
            static_cast<double>(drawnCount(scene, scene.layers[layer]));
+}
+
+double planesCost(const Scene& scene, const View& view) {
+    const int rays = scene.cells ? raysAcross(scene, view) : 1;
+    const glm::dvec2 covered(coveredPixels(scene, view).size * rays);
+    return costsOf(scene).pixel * covered.x * covered.y *
+           static_cast<double>(channelsFor(scene).size());
 }
 
 double sceneCost(const Scene& scene, const View& view) {

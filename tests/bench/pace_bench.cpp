@@ -87,7 +87,8 @@ void BM_ForetoldFrame(benchmark::State& state) {
     for (auto _ : state)
         for (Picture& picture : pictures) {
             picture.cost =
-                static_cast<std::uint64_t>(render::sceneCost(picture.scene, picture.view));
+                static_cast<std::uint64_t>(render::sceneCost(picture.scene, picture.view) +
+                                           render::planesCost(picture.scene, picture.view));
             render::PlainFrame frame(picture.view.size, glm::dvec3(0));
             frame.draw(picture.scene, picture.view);  // makes room
             std::vector<double> times;

@@ -34,11 +34,14 @@ double touched(const Scene& scene, const View& view) {
     return sum;
 }
 
-TEST(SplatCost, SmallSplatsCostOneEach) {
+TEST(SplatCost, SmallSplatsCostLittleMoreThanOneEach) {
     const CostlyWorld world(1, "0.2:0.7");
-    EXPECT_EQ(splatCost(world.scene, 0, tests::lookFrom({0, -3, 0}, {40, 30})), 1);
-    EXPECT_EQ(sceneCost(world.scene, tests::lookFrom({0, -3, 0}, {40, 30})),
-              static_cast<double>(pointCount(world.scene.layers[0])));
+    const View view = tests::lookFrom({0, -3, 0}, {40, 30});
+    EXPECT_GT(splatCost(world.scene, 0, view), 1);
+    EXPECT_LT(splatCost(world.scene, 0, view), 1.2);
+    EXPECT_EQ(
+        sceneCost(world.scene, view),
+        splatCost(world.scene, 0, view) * static_cast<double>(pointCount(world.scene.layers[0])));
 }
 
 TEST(SplatCost, LargeOnesCostTheirPixels) {
@@ -49,10 +52,24 @@ TEST(SplatCost, LargeOnesCostTheirPixels) {
             const CostlyWorld world(length);
             const View view = tests::lookFrom(eye, kSize);
             // A square holds 4 / pi times the pixels of its circle; some reach out of the picture.
-            const double pixels = touched(world.scene, view) / kOrdinaryPixels;
-            EXPECT_GE(sceneCost(world.scene, view), 0.7 * pixels) << length;
-            EXPECT_LE(sceneCost(world.scene, view), 2.2 * pixels) << length;
+            const double pixels = touched(world.scene, view) / kPixelsOfASplat;
+            const double cost = sceneCost(world.scene, view) -
+                                static_cast<double>(pointCount(world.scene.layers[0]));
+            EXPECT_GE(cost, 0.7 * pixels) << length;
+            EXPECT_LE(cost, 2.2 * pixels) << length;
         }
+}
+
+TEST(SplatCost, PlanesCostByThePixelsThatTheyCover) {
+    const CostlyWorld world(1);
+    const View far = tests::lookFrom({0, -4, 0}, {400, 300}),
+               fine = tests::lookFrom({0, -4, 0}, {1600, 1200}),
+               within = tests::lookFrom({0, -0.1, 0}, {400, 300});
+    EXPECT_NEAR(planesCost(world.scene, fine) / planesCost(world.scene, far), 16, 4);
+    EXPECT_GT(planesCost(world.scene, within), 5 * planesCost(world.scene, far));
+    CostlyWorld two(1);
+    two.scene.layers.push_back(two.scene.layers[0]);
+    EXPECT_EQ(planesCost(two.scene, within), 2 * planesCost(world.scene, within));
 }
 
 TEST(SplatCost, NothingCostsNothing) {
@@ -81,8 +98,7 @@ TEST(SplatCost, CellsCostByTheRaysThatCrossTheRangesEnds) {
     const double crossed = costOfCells(ramp, "5.2:5.8", view),
                  whole = costOfCells(ramp, "5:6", view);
     EXPECT_GT(crossed, 1.3 * whole);
-    // Twice as many pixels along each side: four times as many in the row's vectors, or twice as
-    // many rows.
+    // Four times as many pixels, and less of them beside the cell.
     const double ofNearer = costOfCells(ramp, "5.2:5.8", nearer);
     EXPECT_GT(ofNearer, 1.3 * crossed);
     EXPECT_LT(ofNearer, 4 * crossed);
