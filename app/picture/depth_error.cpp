@@ -57,10 +57,11 @@ class Ways {
     render::DepthAt depthOf(render::Scene scene) const {
         if (!isByRays(scene))
             return render::depthFrom(opticalDepthOf(scene, view_, wanted_), view_.size);
-        const int rays = render::raysAcross(scene, view_);
-        return [this, scene = std::move(scene), rays](std::span<const glm::ivec2> pixels) {
-            return render::cellDepthAt(scene, view_, pixels, rays, question_.threads);
-        };
+        return byRays(std::move(scene), render::RaysEnd::BehindAll);
+    }
+    // Where that shows something, which is sooner told.
+    render::DepthAt whereIn(const render::Scene& scene, const render::DepthAt& depth) const {
+        return isByRays(scene) ? byRays(scene, render::RaysEnd::WhereSomethingIs) : depth;
     }
     // With as many rays a pixel as the truth.
     std::vector<double> finelyDrawn(Model model, std::span<const glm::ivec2> pixels) const {
@@ -70,12 +71,20 @@ class Ways {
         return render::splatDepthAt(whole, view_, pixels, rays, question_.threads, wanted_);
     }
     bool isWanted() const { return wanted_; }
-    double orderOf(Model model, const render::SampledTruth& truth) const {
-        return orderError(orderedSceneOf(model), *step_.sharedField(), view_, truth.pixels(),
-                          truth.weights(), question_.threads);
+    double orderOf(Model model, const timeseries::Field& field,
+                   const render::SampledTruth& truth) const {
+        return orderError(orderedSceneOf(model), field, view_, truth.pixels(), truth.weights(),
+                          question_.threads);
     }
 
  private:
+    render::DepthAt byRays(render::Scene scene, render::RaysEnd end) const {
+        const int rays = render::raysAcross(scene, view_);
+        return [this, scene = std::move(scene), rays, end](std::span<const glm::ivec2> pixels) {
+            return render::cellDepthAt(scene, view_, pixels, rays, question_.threads, end);
+        };
+    }
+
     const Explorer& explorer_;
     const timeseries::SortedStep& step_;
     render::PlacedPoints placed_;
@@ -95,9 +104,9 @@ struct SeenWhole {
     double order;
     std::vector<double> asDrawn, finely;  // of all its points or cells; where parts are asked for
 
-    SeenWhole(const Ways& ways, Model model, const render::SampledTruth& truth,
-              const ErrorQuestion& question)
-        : order(ways.isWanted() ? ways.orderOf(model, truth) : 0) {
+    SeenWhole(const Ways& ways, Model model, const timeseries::Field& field,
+              const render::SampledTruth& truth, const ErrorQuestion& question)
+        : order(ways.isWanted() ? ways.orderOf(model, field, truth) : 0) {
         if (question.parts == Parts::None || !ways.isWanted()) return;
         const render::DepthAt picture = ways.depthOf(ways.sceneOf({model}));
         if (!ways.isWanted()) return;
@@ -151,13 +160,16 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
     }
     render::Sampling sampling{.threads = question.threads};
     if (ways.isByRays(first)) sampling.asked = kPixelsAsked;
-    const render::SampledTruth truth(first, *step.sharedField(), view, pictures[0], sampling);
+    const std::shared_ptr<const timeseries::Field> field = step.sharedField();
+    const render::SampledTruth truth(first, *field, view, ways.whereIn(first, pictures[0]),
+                                     sampling);
     DepthErrors told{.rungs = {}, .ordering = orderingOf(ways, rungs.front().model)};
     std::map<Model, SeenWhole> whole;
     for (std::size_t i = 0; i < rungs.size(); ++i) {
         const Model model = rungs[i].model;
         const std::vector<double> drawn = pictures[i](truth.pixels());
-        if (!whole.contains(model)) whole.emplace(model, SeenWhole(ways, model, truth, question));
+        if (!whole.contains(model))
+            whole.emplace(model, SeenWhole(ways, model, *field, truth, question));
         if (!wanted) return {};
         const SeenWhole& all = whole.at(model);
         RungError& error = told.rungs.emplace_back(

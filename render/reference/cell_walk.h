@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "render/points/placed_points.h"
@@ -29,7 +30,7 @@ class CellWalk {
         return out;
     }
     // visit(cell, from, to) for every cell that eye + t along passes at t >= near, the nearest
-    // first; from < to.
+    // first; from < to. Where it returns something, as long as that is true.
     template <typename Visit>
     void operator()(const glm::dvec3& eye, const glm::dvec3& along, double near,
                     const Visit& visit) const;
@@ -81,7 +82,12 @@ void CellWalk::operator()(const glm::dvec3& eye, const glm::dvec3& along, double
         const int a =
             leaves.x < leaves.y ? (leaves.x < leaves.z ? 0 : 2) : (leaves.y < leaves.z ? 1 : 2);
         const double to = std::min(leaves[a], end);
-        if (to > at) visit(cell, at, to);
+        if (to > at) {
+            if constexpr (std::is_void_v<decltype(visit(cell, at, to))>)
+                visit(cell, at, to);
+            else if (!visit(cell, at, to))
+                return;
+        }
         if (!(leaves[a] < end) || isLast(a)) return;
         at = std::max(at, to);
         cell[a] += up[static_cast<std::size_t>(a)] ? 1u : -1u;

@@ -36,9 +36,10 @@ std::vector<double> tetDepthAt(const Scene& scene, const View& view,
     return addedUp(parts);
 }
 
-// Of each pixel of this view, by its own ray.
+// Of each pixel of this view, by its own ray; so many of them in a row are of one pixel.
 std::vector<double> depthAt(const Scene& scene, const View& view,
-                            std::span<const glm::ivec2> pixels, unsigned threads) {
+                            std::span<const glm::ivec2> pixels, std::size_t each, unsigned threads,
+                            RaysEnd end) {
     if (scene.placed.isMesh()) return tetDepthAt(scene, view, pixels, threads);
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const PointsView seen(scene.placed, view);
@@ -48,6 +49,9 @@ std::vector<double> depthAt(const Scene& scene, const View& view,
     for (const Layer& layer : scene.layers)
         layers.emplace_back(scene.cells->field(), scene.clip, layer.cells.ranges, 1,
                             IntervalCells::Look::WhenAsked);
+    const auto isEnough = [&](double depth) {
+        return end == RaysEnd::WhereSomethingIs && depth > 0;
+    };
     const auto depthOf = [&](const glm::dvec2& offset) {
         const PixelRays& rays = seen.rays;
         const glm::dvec3 along = rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY;
@@ -66,14 +70,18 @@ std::vector<double> depthAt(const Scene& scene, const View& view,
                                      fragmentOn<double>(seen, s, offset - s.centre, kNever).weight;
                     });
             }
+            return !isEnough(depth);
         });
         return depth;
     };
     std::vector<double> depths(pixels.size());
     std::atomic<std::size_t> next{0};
     together(threads, [&](unsigned) {
-        for (std::size_t i; (i = next++) < pixels.size();)
-            depths[i] = depthOf(glm::dvec2(pixels[i]) + 0.5 - seen.rays.centre);
+        for (std::size_t first; (first = next.fetch_add(each)) < pixels.size();)
+            for (std::size_t i = first; i < first + each; ++i) {
+                depths[i] = depthOf(glm::dvec2(pixels[i]) + 0.5 - seen.rays.centre);
+                if (isEnough(depths[i])) break;
+            }
     });
     return depths;
 }
@@ -82,14 +90,15 @@ std::vector<double> depthAt(const Scene& scene, const View& view,
 
 std::vector<double> cellDepthAt(const Scene& scene, const View& view,
                                 std::span<const glm::ivec2> pixels, int raysAcross,
-                                unsigned threads) {
+                                unsigned threads, RaysEnd end) {
     std::vector<glm::ivec2> rays;
     for (const glm::ivec2& pixel : pixels)
         for (int y = 0; y < raysAcross; ++y)
             for (int x = 0; x < raysAcross; ++x)
                 rays.push_back(raysAcross * pixel + glm::ivec2(x, y));
-    const std::vector<double> depths = depthAt(scene, finer(view, raysAcross), rays, threads);
     const auto each = static_cast<std::size_t>(raysAcross * raysAcross);
+    const std::vector<double> depths =
+        depthAt(scene, finer(view, raysAcross), rays, each, threads, end);
     std::vector<double> means(pixels.size());
     for (std::size_t i = 0; i < depths.size(); ++i)
         means[i / each] += depths[i] / static_cast<double>(each);

@@ -12,11 +12,16 @@
 
 namespace render {
 
+// Where nothing else is asked of a pixel than whether it shows something, one part of a cell tells;
+// of tetrahedra, which rays do not meet one by one, all are summed.
+enum class RaysEnd { BehindAll, WhereSomethingIs };
+
 // The optical depth of all layers, of W as path length, at each of these pixels, the mean of so
 // many rays across each; row 0 is at the bottom. Takes as long as walking through the cells of so
 // many rays. REQUIRES: scene.cells.
 std::vector<double> cellDepthAt(const Scene& scene, const View& view,
                                 std::span<const glm::ivec2> pixels, int raysAcross = 1,
-                                unsigned threads = sharingThreads());
+                                unsigned threads = sharingThreads(),
+                                RaysEnd end = RaysEnd::BehindAll);
 
 }  // namespace render

@@ -106,6 +106,14 @@ IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
     return out;
 }
 
+IntervalCells::Corners IntervalCells::scaledCornersOf(const glm::uvec3& cell) const {
+    Corners corners = cornersOf(cell);
+    if (!(corners.least < corners.greatest)) return corners;
+    const OwnScale scale(corners.least, corners.greatest);
+    for (std::size_t c = 0; c < 8; ++c) corners.scaled[c] = scale(corners.values[c]);
+    return corners;
+}
+
 bool IntervalCells::isBeyond(const glm::uvec3& cell) const {
     if (!field_.missing.empty()) return false;
     const glm::uvec3 points = size_ - 1u;
@@ -143,10 +151,35 @@ IntervalCells::Kind IntervalCells::kindOf(const Corners& corners) const {
     return kind;
 }
 
+const IntervalCells::Met& IntervalCells::meet(const glm::uvec3& cell, Lately& lately) const {
+    const std::size_t number = numberOf(cell);
+    constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15U;  // Knuth's multiplicative hash
+    Met& met = lately.met_[number * kGolden >> (64 - Lately::kBits)];
+    if (met.number == number) return met;
+    met.number = number;
+    met.kind = kind(cell);
+    if (met.kind == Kind::Part) met.corners = scaledCornersOf(cell);
+    return met;
+}
+
+IntervalCells::Kind IntervalCells::kind(const glm::uvec3& cell, Lately& lately) const {
+    return meet(cell, lately).kind;
+}
+
+void IntervalCells::addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                             std::vector<LinePart>& into, Lately& lately) const {
+    const Met& met = meet(cell, lately);
+    if (met.kind == Kind::Part) addParts(met.corners, from, to, into);
+}
+
 void IntervalCells::addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
                              std::vector<LinePart>& into) const {
-    const Corners corners = cornersOf(cell);
-    if (kindOf(corners) == Kind::Nothing) return;
+    const Corners corners = scaledCornersOf(cell);
+    if (kindOf(corners) != Kind::Nothing) addParts(corners, from, to, into);
+}
+
+void IntervalCells::addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
+                             std::vector<LinePart>& into) const {
     if (corners.octants == kAllOctants) return addParts(corners, from, to, {0, 1}, into);
     const Octants pieces(from, to);
     for (std::size_t i = 0; i < pieces.count; ++i) {
@@ -164,10 +197,8 @@ void IntervalCells::addParts(const Corners& corners, const glm::dvec3& from, con
     }
     const std::size_t before = into.size();
     const OwnScale scale(corners.least, corners.greatest);
-    std::array<double, 8> scaled{};
-    for (std::size_t c = 0; c < 8; ++c) scaled[c] = scale(corners.values[c]);
     const Cubic cubic =
-        cubicOnLine(scaled, glm::mix(from, to, piece.from), glm::mix(from, to, piece.to));
+        cubicOnLine(corners.scaled, glm::mix(from, to, piece.from), glm::mix(from, to, piece.to));
     for (const Interval<double>& range : ranges_) {
         if (!(corners.least < range.hi && corners.greatest > range.lo)) continue;
         // An end that no corner is beyond is left out: rounding must not cross it.

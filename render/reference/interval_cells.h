@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,11 @@ class IntervalCells {
         if (!kinds_.empty()) return kinds_[numberOf(cell)];
         return isBeyond(cell) ? Kind::Nothing : kindOf(cornersOf(cell));
     }
+    // What rays of one thread have lately met: rays of a pixel pass the same cells.
+    class Lately;
+    Kind kind(const glm::uvec3& cell, Lately& lately) const;
+    void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                  std::vector<LinePart>& into, Lately& lately) const;
     // Adds the parts, of [0, 1], of the line between two places of the cell (in units of it) on
     // which the field is in the ranges. Disjoint.
     void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
@@ -46,14 +52,21 @@ class IntervalCells {
         std::array<double, 8> values{};  // no NaN unless all are
         double least, greatest;          // of them
         unsigned octants = 0;            // bit c: what is nearest to corner c is somewhere
+        std::array<double, 8> scaled{};  // the values from 0 to 1, of a part
     };
+    struct Met;
+    const Met& meet(const glm::uvec3& cell, Lately& lately) const;
     Corners cornersOf(const glm::uvec3& cell) const;
     // Whether all corners have values, and none reaches into a range: of most cells, and soon told.
     bool isBeyond(const glm::uvec3& cell) const;
+    void addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
+                  std::vector<LinePart>& into) const;
     // Of a piece of the line, [0, 1].
     void addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
                   const LinePart& piece, std::vector<LinePart>& into) const;
     Kind kindOf(const Corners& corners) const;
+    // Of a cell that is a part.
+    Corners scaledCornersOf(const glm::uvec3& cell) const;
     std::size_t numberOf(const glm::uvec3& cell) const {
         return cell.x + std::size_t{size_.x} * (cell.y + std::size_t{size_.y} * cell.z);
     }
@@ -63,6 +76,20 @@ class IntervalCells {
     std::vector<timeseries::Interval<double>> ranges_;
     glm::uvec3 size_{0};  // cells
     std::vector<Kind> kinds_;
+};
+
+struct IntervalCells::Met {
+    std::size_t number = std::numeric_limits<std::size_t>::max();
+    Kind kind = Kind::Nothing;
+    Corners corners{};  // where it is a part
+};
+
+// Of one IntervalCells.
+class IntervalCells::Lately {
+ private:
+    friend class IntervalCells;
+    static constexpr int kBits = 12;  // more than a pixel's rays meet in a large field
+    std::vector<Met> met_ = std::vector<Met>(std::size_t{1} << kBits);
 };
 
 }  // namespace render

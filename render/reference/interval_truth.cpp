@@ -76,17 +76,17 @@ IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::Field& field,
         layers_.emplace_back(field, scene.clip, layer.cells.ranges, threads_, look);
 }
 
-double IntervalTruth::weight(const Ray& ray, std::size_t layer,
-                             std::vector<LinePart>& parts) const {
+double IntervalTruth::weight(const Ray& ray, std::size_t layer, WeightWork& work) const {
+    std::vector<LinePart>& parts = work.parts;
     const IntervalCells& cells = layers_[layer];
     double length = 0;
     (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
-        const Kind kind = cells.kind(cell);
+        const Kind kind = cells.kind(cell, work.lately);
         if (kind == Kind::Whole) length += to - from;
         if (kind != Kind::Part) return;
         parts.clear();
         cells.addParts(cell, walk_->inCell(cell, ray.eye + from * ray.along),
-                       walk_->inCell(cell, ray.eye + to * ray.along), parts);
+                       walk_->inCell(cell, ray.eye + to * ray.along), parts, work.lately);
         for (const LinePart& part : parts) length += (to - from) * (part.to - part.from);
     });
     return length * ray.weight;
@@ -99,8 +99,8 @@ std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer) c
 std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer,
                                           std::span<const glm::ivec2> pixels) const {
     if (!walk_) return meshWeight(scene_, field_, view, layer, pixels, raysAcross_, threads_);
-    return meanOfRays<double, std::vector<LinePart>>(
-        view, pixels, [&](const Ray& ray, auto& parts) { return weight(ray, layer, parts); });
+    return meanOfRays<double, WeightWork>(
+        view, pixels, [&](const Ray& ray, auto& work) { return weight(ray, layer, work); });
 }
 
 std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {

@@ -49,7 +49,11 @@ class IntervalTruth {
     template <typename Pixel, typename Work, typename Sum>
     std::vector<Pixel> meanOfRays(const View& view, std::span<const glm::ivec2> pixels,
                                   const Sum& sum) const;
-    double weight(const Ray& ray, std::size_t layer, std::vector<LinePart>& parts) const;
+    struct WeightWork {
+        std::vector<LinePart> parts;
+        IntervalCells::Lately lately;
+    };
+    double weight(const Ray& ray, std::size_t layer, WeightWork& work) const;
 
     const Scene& scene_;
     const timeseries::Field& field_;

@@ -11,6 +11,9 @@
 namespace render {
 namespace {
 
+// Less is listed before another thread has begun.
+constexpr std::size_t kListedWorthAThread = 1 << 15;
+
 // Before which point of its axis a place lies: the index of the cell that holds it.
 int cellAlong(const std::vector<double>& positions, double place) {
     const bool down = positions.front() > positions.back();
@@ -34,63 +37,109 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
 }
 
 CellList::CellList(const Scene& scene, Channels channels, std::size_t layer,
-                   const CellRank* nearestFirst)
+                   const CellRank* nearestFirst, unsigned threads)
     : scene_(scene),
-      layer_(layersOf(scene.layers.size(), channels, layer).first),
-      count_(cellCount(scene, channels, layer)) {
-    cells_.reserve(count_);
-    if (nearestFirst == nullptr) return;
-    rank_ = *nearestFirst;
-    order_.emplace(*nearestFirst);
-    ordered_.resize(count_);
-    ranks_.reserve(count_);
+      count_(cellCount(scene, channels, layer)),
+      threads_(threadsFor(count_, kListedWorthAThread, threads)),
+      listing_(partsFrom(layersOf(scene.layers.size(), channels, layer).first)),
+      placing_(listing_),
+      rank_(nearestFirst),
+      ranks_(rank_ != nullptr ? count_ : 0, timeseries::Filled::Sparsely),
+      cells_(count_, timeseries::Filled::Sparsely) {
+    if (rank_ != nullptr) orders_.assign(threads_, NearestFirst(*rank_));
+}
+
+std::vector<CellList::Part> CellList::partsFrom(std::size_t layer) const {
+    std::vector<Part> parts;
+    for (unsigned k = 0; k < threads_; ++k) {
+        Part& part =
+            parts.emplace_back(Part{count_ * k / threads_, count_ * (k + 1) / threads_, layer});
+        std::uint64_t before = part.next;
+        const auto left = [&] { return cellCount(scene_.layers[part.layer]); };
+        for (; before > 0 && before >= left(); ++part.layer) before -= left();
+        const auto runOf = [&]() -> const timeseries::Run& {
+            return scene_.layers[part.layer].cells.candidates[part.run];
+        };
+        for (; before > 0 && before >= runOf().count; ++part.run) before -= runOf().count;
+        part.inRun = before;
+    }
+    return parts;
 }
 
 void CellList::goOn(std::uint64_t cells) {
-    cells -= list(cells);
-    if (order_ && listed_ == count_) place(cells);
+    cells -= std::min(cells, list(cells));
+    if (rank_ != nullptr && listed_ == count_) place(cells);
+}
+
+// use(place in the list, cell, part).
+template <typename Use>
+std::uint64_t CellList::pass(std::vector<Part>& parts, std::uint64_t cells, const Use& use) {
+    const auto left = [&] {
+        std::uint64_t sum = 0;
+        for (const Part& part : parts) sum += part.end - part.next;
+        return sum;
+    };
+    const std::uint64_t before = left(), each = std::min(cells, count_) / threads_ + 1;
+    together(threads_, [&](unsigned k) {
+        Part& part = parts[k];
+        pass(part, std::min(each, part.end - part.next),
+             [&](std::uint64_t at, const CellOfLayer& cell) { use(at, cell, k); });
+    });
+    return before - left();
+}
+
+template <typename Use>
+void CellList::pass(Part& part, std::uint64_t cells, const Use& use) const {
+    for (const std::uint64_t end = part.next + cells; part.next < end;) {
+        const std::vector<timeseries::Run>& runs = scene_.layers[part.layer].cells.candidates;
+        if (part.run == runs.size()) {
+            ++part.layer;
+            part.run = 0;
+            continue;
+        }
+        const timeseries::Run& run = runs[part.run];
+        const std::uint64_t some = std::min(run.count - part.inRun, end - part.next);
+        const std::uint64_t first = run.first + part.inRun;
+        for (std::uint64_t i = 0; i < some; ++i)
+            use(part.next + i,
+                {scene_.cells->cell(first + i), static_cast<std::uint8_t>(part.layer)});
+        part.next += some;
+        part.inRun += some;
+        if (part.inRun < run.count) continue;
+        ++part.run;
+        part.inRun = 0;
+    }
 }
 
 std::uint64_t CellList::list(std::uint64_t cells) {
-    const std::uint64_t before = listed_;
-    while (listed_ < count_ && listed_ - before < cells) {
-        const std::vector<timeseries::Run>& runs = scene_.layers[layer_].cells.candidates;
-        if (run_ == runs.size()) {
-            ++layer_;
-            run_ = 0;
-            continue;
-        }
-        const timeseries::Run& run = runs[run_];
-        const std::uint64_t some = std::min(run.count - inRun_, cells - (listed_ - before));
-        for (std::uint64_t i = inRun_; i < inRun_ + some; ++i) {
-            cells_.push_back(
-                {scene_.cells->cell(run.first + i), static_cast<std::uint8_t>(layer_)});
-            if (!order_) continue;
-            ranks_.push_back((*rank_)(cells_.back().cell));
-            order_->count(ranks_.back());
-        }
-        listed_ += some;
-        inRun_ += some;
-        if (inRun_ < run.count) continue;
-        ++run_;
-        inRun_ = 0;
-    }
-    if (order_ && before < count_ && listed_ == count_) order_->allCounted();
-    return listed_ - before;
+    if (listed_ == count_) return 0;
+    const std::uint64_t some =
+        rank_ == nullptr
+            ? pass(listing_, cells,
+                   [&](std::uint64_t at, const CellOfLayer& cell, unsigned) {
+                       cells_.data()[at] = cell;
+                   })
+            : pass(listing_, cells, [&](std::uint64_t at, const CellOfLayer& cell, unsigned k) {
+                  orders_[k].count(ranks_.data()[at] = (*rank_)(cell.cell));
+              });
+    listed_ += some;
+    if (rank_ != nullptr && listed_ == count_) NearestFirst::allCounted(orders_);
+    return some;
 }
 
 std::uint64_t CellList::place(std::uint64_t cells) {
-    const std::uint64_t some = std::min(cells, count_ - placed_);
-    for (std::uint64_t i = placed_; i < placed_ + some; ++i)
-        ordered_[order_->place(ranks_[i])] = cells_[i];
+    const std::uint64_t some =
+        pass(placing_, cells, [&](std::uint64_t at, const CellOfLayer& cell, unsigned k) {
+            cells_.data()[orders_[k].place(ranks_.data()[at])] = cell;
+        });
     placed_ += some;
     return some;
 }
 
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer) {
     CellList list(scene, channels, layer);
-    while (!list.done()) list.goOn(std::numeric_limits<std::uint64_t>::max());
-    return list.cells();
+    while (!list.done()) list.goOn(std::numeric_limits<std::uint32_t>::max());
+    return {list.cells().begin(), list.cells().end()};
 }
 
 CellRank::CellRank(const Scene& scene, const View& view) : size_(scene.cells->size()) {

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,6 +16,8 @@
 #include "render/model/scene.h"
 #include "render/points/view.h"
 #include "render/splat/solid_tets.h"
+#include "render/together.h"
+#include "timeseries/grid/pages.h"
 
 namespace render {
 
@@ -92,9 +93,12 @@ class NearestFirst {
  public:
     explicit NearestFirst(const CellRank& rank) : next_(rank.count()) {}
     void count(std::size_t rank) { ++next_[rank]; }
-    void allCounted() {
+    void allCounted() { allCounted({this, 1}); }
+    // Of one sort, each with some of what is sorted: those of one rank part by part.
+    static void allCounted(std::span<NearestFirst> parts) {
         std::size_t first = 0;
-        for (std::size_t& n : next_) first += std::exchange(n, first);
+        for (std::size_t rank = 0; rank < parts.front().next_.size(); ++rank)
+            for (NearestFirst& part : parts) first += std::exchange(part.next_[rank], first);
     }
     std::size_t place(std::size_t rank) { return next_[rank]++; }
 
@@ -103,28 +107,40 @@ class NearestFirst {
 };
 
 // The cells of a plane, each that is looked at, listed a slice at a time: layer by layer as their
-// candidates lie, or the nearest first. The scene must outlive it.
+// candidates lie, or the nearest first. The scene and the rank must outlive it.
 class CellList {
  public:
     CellList(const Scene& scene, Channels channels, std::size_t layer,
-             const CellRank* nearestFirst = nullptr);
-    // Goes through so many; all are gone through once, or twice to be put in order.
+             const CellRank* nearestFirst = nullptr, unsigned threads = sharingThreads());
+    // Goes through so many, or a few more; all are gone through once, or twice to be put in order.
     void goOn(std::uint64_t cells);
-    bool done() const { return listed_ == count_ && (!order_ || placed_ == count_); }
+    bool done() const { return listed_ == count_ && (rank_ == nullptr || placed_ == count_); }
     // REQUIRES: done().
-    const std::vector<CellOfLayer>& cells() const { return order_ ? ordered_ : cells_; }
+    std::span<const CellOfLayer> cells() const { return {cells_.data(), count_}; }
 
  private:
+    // What a thread goes through: places in the list, and where it has come to.
+    struct Part {
+        std::uint64_t next, end;
+        std::size_t layer, run = 0;
+        std::uint64_t inRun = 0;
+    };
+    std::vector<Part> partsFrom(std::size_t layer) const;
+    template <typename Use>
+    std::uint64_t pass(std::vector<Part>& parts, std::uint64_t cells, const Use& use);
+    template <typename Use>
+    void pass(Part& part, std::uint64_t cells, const Use& use) const;
     std::uint64_t list(std::uint64_t cells);
     std::uint64_t place(std::uint64_t cells);
 
     const Scene& scene_;
-    std::size_t layer_, run_ = 0;  // where listing goes on
-    std::uint64_t inRun_ = 0, count_, listed_ = 0, placed_ = 0;
-    std::vector<CellOfLayer> cells_, ordered_;
-    std::optional<CellRank> rank_;
-    std::optional<NearestFirst> order_;
-    std::vector<std::uint32_t> ranks_;  // of cells_, where they are to be put in order
+    std::uint64_t count_, listed_ = 0, placed_ = 0;
+    unsigned threads_;
+    std::vector<Part> listing_, placing_;
+    const CellRank* rank_;              // where they are to be put in order
+    std::vector<NearestFirst> orders_;  // of each part, then
+    timeseries::Pages<std::uint32_t> ranks_;
+    timeseries::Pages<CellOfLayer> cells_;
 };
 // All of them at once.
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);

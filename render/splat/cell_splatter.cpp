@@ -1,6 +1,7 @@
 #include "render/splat/cell_splatter.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "render/splat/cell_kernels.h"
@@ -98,6 +99,7 @@ struct CellSum::Work {
     unsigned threads;
     CellMemory memory;
     TilePlane plane;
+    std::optional<CellRank> rank;  // where they are passed in order
     CellList list;
     std::size_t passed = 0;  // of its cells
 
@@ -109,14 +111,10 @@ struct CellSum::Work {
           memory(kept.kept ? std::move(kept) : CellMemory()),
           plane(view, opaqueDepth, of.size.x, threads, memory.kept->plane,
                 raysAcross > 1 ? memory.kept->rays : memory.kept->plane),
-          list(listOf(drawn, of, channels, layer)) {
+          rank(channels == Channels::Over ? std::optional<CellRank>(std::in_place, drawn, of)
+                                          : std::nullopt),
+          list(drawn, channels, layer, rank ? &*rank : nullptr, threads) {
         memory.kept->seen.resize(threads);
-    }
-    static CellList listOf(const Scene& scene, const View& of, Channels channels,
-                           std::size_t layer) {
-        if (channels != Channels::Over) return {scene, channels, layer};
-        const CellRank rank(scene, of);
-        return {scene, channels, layer, &rank};
     }
     bool done() const { return list.done() && passed == list.cells().size(); }
     void sum(std::span<const CellOfLayer> part, bool lastOfAll);
@@ -161,7 +159,7 @@ std::uint64_t CellSum::add(std::uint64_t cells) {
             added += count;
             continue;
         }
-        const std::span<const CellOfLayer> all(work.list.cells());
+        const std::span<const CellOfLayer> all = work.list.cells();
         const std::uint64_t count =
             std::min({kAtOnce, cells - added, std::uint64_t{all.size() - work.passed}});
         const std::span<const CellOfLayer> part = all.subspan(work.passed, count);

@@ -45,5 +45,29 @@ TEST(CellsOnRays, HaveWhatIsSummedForAllPixels) {
     }
 }
 
+// Rays that end where something is tell the same pixels from those that show nothing.
+TEST(CellsOnRays, ThatEndWhereSomethingIsTellWherePixelsShowSomething) {
+    const auto grid = tests::cube(15);
+    const CellWorld world(tests::noise(grid), {"0.95:0.96", "0.02:0.03"}, 0.3);
+    const View view = tests::lookFrom({1.2, -2.5, 1}, {80, 60});
+    std::vector<glm::ivec2> pixels;
+    for (int y = 0; y < view.size.y; ++y)
+        for (int x = 0; x < view.size.x; ++x) pixels.emplace_back(x, y);
+    for (const int raysAcross : {1, 2}) {
+        const std::vector<double> depth = cellDepthAt(world.scene, view, pixels, raysAcross, 2);
+        const std::vector<double> some =
+            cellDepthAt(world.scene, view, pixels, raysAcross, 2, RaysEnd::WhereSomethingIs);
+        std::size_t shown = 0, less = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            ASSERT_EQ(some[i] > 0, depth[i] > 0) << i;
+            shown += depth[i] > 0;
+            less += some[i] < depth[i];
+        }
+        EXPECT_GT(shown, 100u);
+        EXPECT_LT(shown, pixels.size() - 100);
+        EXPECT_GT(less, 100u);
+    }
+}
+
 }  // namespace
 }  // namespace render

@@ -44,6 +44,17 @@ void expectExact(const std::string& type, ValueType expected) {
     EXPECT_EQ(valuesOf<T>(*reader), values) << type << " as text";
 }
 
+// So many that threads share them.
+TEST(Nrrd, ManyValuesAreExact) {
+    std::vector<std::uint16_t> values(1000 * 110 * 100);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<std::uint16_t>(i * 40'503 >> 8);
+    const auto reader = openBytes(
+        nrrd("type: uint16\ndimension: 3\nsizes: 1000 110 100\nendian: little\nencoding: raw\n",
+             bytesOf(values, std::endian::little)));
+    EXPECT_TRUE(valuesOf<std::uint16_t>(*reader) == values);
+}
+
 TEST(Nrrd, EveryTypeInEitherByteOrderAndEveryEncodingIsExact) {
     expectExact<std::int8_t>("int8", ValueType::I8);
     expectExact<std::int8_t>("signed char", ValueType::I8);

@@ -3,10 +3,15 @@
 #include <sys/mman.h>
 #include <sys/sysinfo.h>
 
+#include <cstdint>
+
+#include "timeseries/together.h"
+
 namespace timeseries {
 namespace {
 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
+constexpr std::size_t kLargePagesWorthAThread = 8;
 
 // Whether so much is free without taking it from what the system keeps of files: else it would
 // first move memory about to make large pages, for seconds at 512^3 (measured).
@@ -37,6 +42,18 @@ void* takePages(std::size_t bytes, Filled filled) {
     if (isLarge(bytes) && muchIsFree(bytes))
         (void)madvise(at, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
     return at;
+}
+
+void populate(void* at, std::size_t bytes) {
+    const auto from = reinterpret_cast<std::uintptr_t>(at);
+    const std::uintptr_t first = (from + kLargePage - 1) / kLargePage,
+                         end = (from + bytes) / kLargePage;
+    if (first >= end) return;
+    const auto each = [&](std::size_t i, std::size_t last) {
+        (void)madvise(reinterpret_cast<void*>((first + i) * kLargePage), (last - i) * kLargePage,
+                      MADV_POPULATE_WRITE);
+    };
+    inParts(end - first, threadsFor(end - first, kLargePagesWorthAThread), each);
 }
 
 void givePages(void* at, std::size_t bytes, Filled filled) noexcept {

@@ -13,13 +13,25 @@ namespace timeseries {
 // How much of it will be written.
 enum class Filled {
     Mostly,
-    Sparsely  // pages are small, and it may be larger than the machine's memory
+    Sparsely  // or once, which large pages would not be worth; it may be larger than the memory
 };
 
 // Aligned to a cache line. Throws std::bad_alloc.
 void* takePages(std::size_t bytes, Filled filled = Filled::Mostly);
 // As they were taken.
 void givePages(void* at, std::size_t bytes, Filled filled = Filled::Mostly) noexcept;
+
+// Asks the system for memory that will all be written, on all threads: one waits longer for its
+// pages than for what it writes. Small ones: large ones may have to be made first (measured).
+void populate(void* at, std::size_t bytes);
+
+// REQUIRES: it is empty.
+template <typename T>
+void resizePopulated(std::vector<T>& values, std::size_t count) {
+    values.reserve(count);
+    populate(values.data(), count * sizeof(T));
+    values.resize(count);
+}
 
 template <typename T>
 class Pages {

@@ -4,10 +4,13 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
+#include "timeseries/grid/pages.h"
 #include "timeseries/grid/solid_cells.h"
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/ordered_key.h"
@@ -23,16 +26,11 @@ constexpr float kMostFloat = std::numeric_limits<float>::max();
 constexpr int kClassBits = 22;
 constexpr std::size_t kClasses = std::size_t{1} << (31 - kClassBits);
 
-// The least float that is no less; of more than all floats, infinity.
-float roundedUp(double x) {
-    if (x > static_cast<double>(kMostFloat)) return std::numeric_limits<float>::infinity();
-    const auto nearest = static_cast<float>(x);
-    return static_cast<double>(nearest) < x
-               ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
-               : nearest;
-}
+// Of the least float that is no less; of more than all floats, infinity.
 std::size_t classOf(double halfRange) {
-    return std::bit_cast<std::uint32_t>(roundedUp(halfRange)) >> kClassBits;
+    const auto nearest = static_cast<float>(halfRange);
+    const std::uint32_t next = static_cast<double>(nearest) < halfRange ? 1 : 0;
+    return (std::bit_cast<std::uint32_t>(nearest) + next) >> kClassBits;
 }
 // The greatest half range of a class; double's rounding of the halves is in it.
 double mostOf(std::size_t ofClass) {
@@ -84,36 +82,47 @@ std::pair<std::uint32_t, std::uint32_t> keysOf(const Interval<double>& interval,
 
 }  // namespace
 
-// What rows of cells along x take from their four rows of points, one row after another.
+// What rows of cells along x take from their four rows of points, one row after another. Real has
+// each value exactly.
+template <typename Real>
 class CellIndex::Rows {
  public:
     explicit Rows(const Field& field)
-        : field_(field), points_(pointsOf(field)), least_(points_.x), greatest_(points_.x) {}
+        : field_(field),
+          points_(pointsOf(field)),
+          least_(points_.x + 1),
+          greatest_(points_.x + 1) {}
 
     void look(std::uint32_t j, std::uint32_t k) {
         const Pair& one = pairAt(neighbour(j, 0, points_.y), k);
         const Pair& other = pairAt(neighbour(j, 1, points_.y), k);
-        for (std::size_t i = 0; i < least_.size(); ++i) {
-            least_[i] = std::min(one.least[i], other.least[i]);
-            greatest_[i] = std::max(one.greatest[i], other.greatest[i]);
-        }
+        const std::size_t n = points_.x;
+        const auto of = [&](const auto& nearer, const Line& a, const Line& b, Line& to) {
+            to[0] = nearer(a[0], b[0]);
+            for (std::size_t i = 1; i < n; ++i)
+                to[i] = nearer(nearer(a[i - 1], b[i - 1]), nearer(a[i], b[i]));
+            to[n] = nearer(a[n - 1], b[n - 1]);
+        };
+        of([](Real a, Real b) { return a < b ? a : b; }, one.least, other.least, least_);
+        of([](Real a, Real b) { return a > b ? a : b; }, one.greatest, other.greatest, greatest_);
     }
     // Half the range, and the middle, of the cell between two points; false where nothing is
     // finite.
     bool at(std::size_t cell, double& half, double& middle) const {
-        const std::size_t from = cell > 0 ? cell - 1 : 0, to = std::min(cell, least_.size() - 1);
-        const double lo = std::min(least_[from], least_[to]);
-        const double hi = std::max(greatest_[from], greatest_[to]);
+        const auto lo = static_cast<double>(least_[cell]);
+        const auto hi = static_cast<double>(greatest_[cell]);
         half = 0.5 * hi - 0.5 * lo;
         middle = 0.5 * hi + 0.5 * lo;
         return lo <= hi;
     }
 
  private:
+    using Line = std::vector<Real>;
+    static constexpr Real kBeyond = std::numeric_limits<Real>::infinity();
     // Of two rows of points, on both sides of cells along z: what the next cells along y take, too.
     struct Pair {
         std::int64_t y = -1, k = -1;
-        std::vector<double> least, greatest;  // inf, -inf where neither has a value
+        Line least, greatest;  // inf, -inf where neither has a value
     };
 
     const Pair& pairAt(std::uint32_t y, std::uint32_t k) {
@@ -121,8 +130,8 @@ class CellIndex::Rows {
         if (pair.y == y && pair.k == k) return pair;
         pair.y = y;
         pair.k = k;
-        pair.least.assign(points_.x, kInfinite);
-        pair.greatest.assign(points_.x, -kInfinite);
+        pair.least.assign(points_.x, kBeyond);
+        pair.greatest.assign(points_.x, -kBeyond);
         for (const std::uint32_t side : {0u, 1u}) {
             const std::uint64_t z = neighbour(k, side, points_.z);
             const std::uint64_t first = points_.x * (y + std::uint64_t{points_.y} * z);
@@ -133,23 +142,25 @@ class CellIndex::Rows {
     }
     template <typename T>
     void add(const T* values, std::uint64_t first, Pair& to) const {
-        double* const least = to.least.data();
-        double* const greatest = to.greatest.data();
-        const auto take = [&](std::size_t i, double v) {
-            least[i] = v < least[i] ? v : least[i];  // NaN is neither
-            greatest[i] = v > greatest[i] ? v : greatest[i];
+        Real* const least = to.least.data();
+        Real* const greatest = to.greatest.data();
+        const auto take = [&](std::size_t i, bool isThere) {
+            const auto v = static_cast<Real>(values[i]);
+            const bool counts = isThere && v > -kBeyond && v < kBeyond;
+            const Real low = counts ? v : kBeyond, high = counts ? v : -kBeyond;
+            least[i] = low < least[i] ? low : least[i];
+            greatest[i] = high > greatest[i] ? high : greatest[i];
         };
         if (field_.missing.empty())
-            for (std::size_t i = 0; i < points_.x; ++i) take(i, finiteOr(values[i], false));
+            for (std::size_t i = 0; i < points_.x; ++i) take(i, true);
         else
-            for (std::size_t i = 0; i < points_.x; ++i)
-                take(i, finiteOr(values[i], field_.missing[first + i]));
+            for (std::size_t i = 0; i < points_.x; ++i) take(i, !field_.missing[first + i]);
     }
 
     const Field& field_;
     glm::uvec3 points_;
     std::array<Pair, 2> pairs_;
-    std::vector<double> least_, greatest_;
+    Line least_, greatest_;  // of cells
 };
 
 // What solid cells take from their corners.
@@ -186,7 +197,7 @@ class CellIndex::Wanted {
     bool near(double half, double middle) const {
         // A class's greatest half range is less than twice the least; a key is a float.
         const double reach = 2 * half + 1e-6 * std::abs(middle) + 1e-37;
-        return all_ || (middle + reach >= first_ && middle - reach <= last_);
+        return all_ | ((middle + reach >= first_) & (middle - reach <= last_));
     }
     bool operator()(std::size_t ofClass, std::uint32_t key) const {
         return all_ || std::ranges::any_of(keys_[ofClass], [&](const auto& keys) {
@@ -219,10 +230,15 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
     const std::uint64_t rows = std::uint64_t{size_.y} * size_.z;
     threads = std::max(threads, 1u);
     const Wanted wanted(among_);
+    const auto isNear = [&](const auto& cells, std::uint64_t place) {
+        double half = 0, middle = 0;
+        const bool isThere = cells.at(place, half, middle);
+        return isThere & wanted.near(half, middle);  // a branch would be foreseen wrong too often
+    };
     const auto take = [&](const auto& cells, std::uint64_t place, std::uint64_t number,
                           const auto& use) {
         double half = 0, middle = 0;
-        if (!cells.at(place, half, middle) || !wanted.near(half, middle)) return;
+        cells.at(place, half, middle);
         const std::size_t ofClass = classOf(half);
         const std::uint32_t key = keyOf(middle);
         if (wanted(ofClass, key)) use(number, ofClass, key);
@@ -232,45 +248,56 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
             const Solids cells(*field_, *solids);
             for (std::uint64_t i = solids->count() * k / threads;
                  i < solids->count() * (k + 1) / threads; ++i)
-                take(cells, i, i, use);
+                if (isNear(cells, i)) take(cells, i, i, use);
             return;
         }
-        Rows cells(*field_);
-        for (std::uint64_t r = rows * k / threads; r < rows * (k + 1) / threads; ++r) {
-            cells.look(static_cast<std::uint32_t>(r % size_.y),
-                       static_cast<std::uint32_t>(r / size_.y));
-            for (std::uint32_t i = 0; i < size_.x; ++i) take(cells, i, r * size_.x + i, use);
-        }
+        const auto lookAt = [&](auto cells) {
+            std::vector<std::uint32_t> near(size_.x);
+            for (std::uint64_t r = rows * k / threads; r < rows * (k + 1) / threads; ++r) {
+                cells.look(static_cast<std::uint32_t>(r % size_.y),
+                           static_cast<std::uint32_t>(r / size_.y));
+                std::size_t count = 0;
+                for (std::uint32_t i = 0; i < size_.x; ++i) {
+                    near[count] = i;
+                    count += isNear(cells, i);
+                }
+                for (std::size_t i = 0; i < count; ++i)
+                    take(cells, near[i], r * size_.x + near[i], use);
+            }
+        };
+        withType(field_->type(), [&]<typename T>(T) {
+            constexpr bool kFitsFloat = std::is_same_v<T, float> || sizeof(T) <= 2;
+            lookAt(Rows<std::conditional_t<kFitsFloat, float, double>>(*field_));
+        });
     };
     // All of them are looked at twice; of some it is kept which they are, or it would take as long.
     struct Found {
         std::uint32_t cell, key;
         std::uint16_t ofClass;
     };
-    std::vector<std::vector<Found>> found(wanted.isAll() ? 0 : threads);
-    if (!found.empty())
-        sharing(threads, [&](unsigned k) {
-            look(k, [&](std::uint64_t cell, std::size_t of, std::uint32_t key) {
-                found[k].push_back(
-                    {static_cast<std::uint32_t>(cell), key, static_cast<std::uint16_t>(of)});
-            });
-        });
-    const auto forEachCell = [&](unsigned k, const auto& use) {
-        if (found.empty()) return look(k, use);
-        for (const Found& each : found[k]) use(each.cell, each.ofClass, each.key);
-    };
+    std::vector<std::deque<Found>> found(threads);
     // How many of each class a thread has, then where its first goes.
     std::vector<std::vector<std::uint64_t>> next(threads, std::vector<std::uint64_t>(kClasses));
     sharing(threads, [&](unsigned k) {
-        forEachCell(k, [&](std::uint64_t, std::size_t of, std::uint32_t) { ++next[k][of]; });
+        look(k, [&](std::uint64_t cell, std::size_t of, std::uint32_t key) {
+            ++next[k][of];
+            if (wanted.isAll()) return;
+            found[k].push_back(
+                {static_cast<std::uint32_t>(cell), key, static_cast<std::uint16_t>(of)});
+        });
     });
+    const auto forEachCell = [&](unsigned k, const auto& use) {
+        if (wanted.isAll()) return look(k, use);
+        for (const Found& each : found[k]) use(each.cell, each.ofClass, each.key);
+        found[k] = {};
+    };
     std::uint64_t first = 0;
     for (std::size_t c = 0; c < kClasses; ++c) {
         const std::uint64_t begin = first;
         for (auto& counts : next) first += std::exchange(counts[c], first);
         if (first > begin) classes_.push_back({mostOf(c), begin, first - begin});
     }
-    list_.resize(first);
+    resizePopulated(list_, first);
     sharing(threads, [&](unsigned k) {
         forEachCell(k, [&](std::uint64_t cell, std::size_t of, std::uint32_t key) {
             list_[next[k][of]++] = std::uint64_t{key} << 32 | cell;

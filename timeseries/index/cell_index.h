@@ -69,6 +69,7 @@ class CellIndex {
         double halfRange;  // at most, of the cells in it
         std::uint64_t first, count;
     };
+    template <typename Real>
     class Rows;
     class Solids;
     class Wanted;

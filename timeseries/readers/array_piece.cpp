@@ -9,9 +9,12 @@
 #include <array>
 #include <cerrno>
 
+#include "timeseries/together.h"
+
 namespace timeseries {
 namespace {
 
+constexpr std::size_t kBytesWorthAThread = std::size_t{8} << 20;
 constexpr std::size_t kMaxCall = std::size_t{1} << 30;  // zlib counts in int
 
 }  // namespace
@@ -98,7 +101,15 @@ void ArrayStream::Piece::openDecoder() {
     position_ = 0;
 }
 
-void ArrayStream::Piece::readAt(std::uint64_t position, char* out, std::size_t bytes) {
+void ArrayStream::Piece::readAt(std::uint64_t position, char* out, std::size_t bytes) const {
+    const unsigned threads = threadsFor(bytes, kBytesWorthAThread);
+    sharing(threads, [&](unsigned k) {
+        const std::size_t first = bytes * k / threads, last = bytes * (k + 1) / threads;
+        readPart(position + first, out + first, last - first);
+    });
+}
+
+void ArrayStream::Piece::readPart(std::uint64_t position, char* out, std::size_t bytes) const {
     while (bytes > 0) {
         const ssize_t got =
             ::pread(file_, out, std::min(bytes, kMaxCall), static_cast<off_t>(offset_ + position));

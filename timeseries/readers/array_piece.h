@@ -22,7 +22,7 @@ class ArrayStream::Piece {
     Piece& operator=(const Piece&) = delete;
 
     // Raw alone: any place, all of it. Throws FileError.
-    void readAt(std::uint64_t position, char* out, std::size_t bytes);
+    void readAt(std::uint64_t position, char* out, std::size_t bytes) const;
     // The next decoded bytes; fewer at the end. Throws FileError.
     std::size_t next(char* out, std::size_t bytes);
     // Raw, compressed: expects what `next` gives to be there. Throws FileError.
@@ -33,6 +33,7 @@ class ArrayStream::Piece {
     [[noreturn]] void fail(std::string_view what) const;
 
  private:
+    void readPart(std::uint64_t position, char* out, std::size_t bytes) const;
     void skipLines();
     void openDecoder();
     void openGzip();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "timeseries/grid/pages.h"
 #include "timeseries/readers/array_axes.h"
 #include "timeseries/readers/array_stream.h"
 #include "timeseries/readers/array_times.h"
@@ -103,7 +104,7 @@ void ArrayReader::scatter(std::uint64_t first, std::span<const T> from,
 template <typename T>
 void ArrayReader::fill(std::size_t step, std::uint64_t first, std::uint64_t last,
                        std::vector<T>& values) {
-    values.resize(last - first);
+    resizePopulated(values, last - first);
     std::vector<T> part(layout_.turned ? std::min(kTurnCount, layout_.inner) : 0);
     for (std::uint64_t outer = 0; outer < layout_.outer; ++outer) {
         const std::uint64_t at = (outer * layout_.steps + step) * layout_.inner;
