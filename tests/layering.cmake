@@ -64,6 +64,7 @@ macro(rooms folder)
   endforeach()
 endmacro()
 rooms(timeseries grid index readers series ranks)
+rooms(timeseries/readers text cf netcdf arrays xdmf vtk zarr foam amrex)
 rooms(render image gl points model splat reference annotate frame)
 rooms(app choices files picture measure exploration drawing panels desktop headset command)
 

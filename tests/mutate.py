@@ -31,10 +31,10 @@ SUBJECTS = {
     "render/splat/depth_order.cpp": ([], ["render/depth_order"]),
     "render/model/footprint.h": (["render/reference/cpu_splatter.cpp"],
                            ["render/cpu_splatter", "render/footprint"]),
-    "timeseries/readers/cf_axes.cpp": ([], ["timeseries/netcdf_axes", "timeseries/netcdf_reader"]),
-    "timeseries/readers/cf_grid.cpp": ([], ["timeseries/netcdf_axes", "timeseries/netcdf_reader"]),
-    "timeseries/readers/cf_packing.cpp": ([], ["timeseries/cf_packing", "timeseries/netcdf_reader"]),
-    "timeseries/readers/cf_time.cpp": ([], ["timeseries/netcdf_time", "timeseries/time_units",
+    "timeseries/readers/cf/cf_axes.cpp": ([], ["timeseries/netcdf_axes", "timeseries/netcdf_reader"]),
+    "timeseries/readers/cf/cf_grid.cpp": ([], ["timeseries/netcdf_axes", "timeseries/netcdf_reader"]),
+    "timeseries/readers/cf/cf_packing.cpp": ([], ["timeseries/cf_packing", "timeseries/netcdf_reader"]),
+    "timeseries/readers/cf/cf_time.cpp": ([], ["timeseries/netcdf_time", "timeseries/time_units",
                                             "timeseries/calendar"]),
 }
 

@@ -10,7 +10,7 @@
 #include "app/choices/choices.h"
 #include "app/choices/options.h"
 #include "app/choices/paths.h"
-#include "timeseries/readers/shell_word.h"
+#include "timeseries/readers/text/shell_word.h"
 
 namespace app {
 namespace {

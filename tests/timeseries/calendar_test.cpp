@@ -1,4 +1,4 @@
-#include "timeseries/readers/calendar.h"
+#include "timeseries/readers/text/calendar.h"
 
 #include <gtest/gtest.h>
 

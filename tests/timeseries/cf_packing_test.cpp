@@ -1,6 +1,6 @@
 // How stored numbers become values and which are missing, without a file: every type and bound
 // against exact comparison.
-#include "timeseries/readers/cf_packing.h"
+#include "timeseries/readers/cf/cf_packing.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
-#include "timeseries/readers/netcdf_file.h"
+#include "timeseries/readers/netcdf/netcdf_file.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {

@@ -8,7 +8,7 @@
 #include "tests/support/foam_case.h"
 #include "tests/support/read_variables.h"
 #include "timeseries/index/sorted_step.h"
-#include "timeseries/readers/foam_field.h"
+#include "timeseries/readers/foam/foam_field.h"
 #include "timeseries/readers/series_files.h"
 
 namespace timeseries::foam_field {

@@ -6,7 +6,7 @@
 
 #include "tests/support/netcdf_axes.h"
 #include "tests/support/netcdf_builder.h"
-#include "timeseries/readers/cf_axes.h"
+#include "timeseries/readers/cf/cf_axes.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {

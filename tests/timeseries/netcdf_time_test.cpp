@@ -7,8 +7,8 @@
 
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
-#include "timeseries/readers/netcdf_file.h"
-#include "timeseries/readers/netcdf_reader.h"
+#include "timeseries/readers/netcdf/netcdf_file.h"
+#include "timeseries/readers/netcdf/netcdf_reader.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {

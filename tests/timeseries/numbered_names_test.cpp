@@ -1,4 +1,4 @@
-#include "timeseries/readers/numbered_names.h"
+#include "timeseries/readers/text/numbered_names.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "timeseries/readers/time_units.h"
+#include "timeseries/readers/text/time_units.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // OpenVDB files: what OpenVDB writes here is read again, voxel by voxel.
-#include "timeseries/readers/vdb_reader.h"
+#include "timeseries/readers/arrays/vdb_reader.h"
 
 #include <gmock/gmock.h>
 #include <openvdb/openvdb.h>
@@ -11,7 +11,7 @@
 
 #include "tests/support/files.h"
 #include "tests/support/read_variables.h"
-#include "timeseries/readers/vdb_file.h"
+#include "timeseries/readers/arrays/vdb_file.h"
 
 namespace timeseries {
 namespace {

@@ -9,7 +9,7 @@
 #include "tests/support/zarr_store.h"
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/readers/series_files.h"
-#include "timeseries/readers/zarr_hierarchy.h"
+#include "timeseries/readers/zarr/zarr_hierarchy.h"
 
 namespace timeseries::zarr {
 namespace {

@@ -10,9 +10,9 @@
 #include <memory>
 
 #include "timeseries/readers/limits.h"
-#include "timeseries/readers/number_text.h"
 #include "timeseries/readers/reader.h"
-#include "timeseries/readers/words.h"
+#include "timeseries/readers/text/number_text.h"
+#include "timeseries/readers/text/words.h"
 
 namespace timeseries {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 
 #include "timeseries/readers/components.h"
-#include "timeseries/readers/cut_name.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/plot3d_layout.h"
+#include "timeseries/readers/text/cut_name.h"
 
 namespace timeseries {
 namespace {

@@ -6,33 +6,33 @@
 #include <fstream>
 #include <string_view>
 
-#include "timeseries/readers/amrex_header.h"
-#include "timeseries/readers/amrex_reader.h"
-#include "timeseries/readers/array_reader.h"
+#include "timeseries/readers/amrex/amrex_header.h"
+#include "timeseries/readers/amrex/amrex_reader.h"
+#include "timeseries/readers/arrays/array_reader.h"
+#include "timeseries/readers/arrays/fits_reader.h"
+#include "timeseries/readers/arrays/mrc_header.h"
+#include "timeseries/readers/arrays/nifti_header.h"
+#include "timeseries/readers/arrays/nrrd_header.h"
 #include "timeseries/readers/csv_reader.h"
-#include "timeseries/readers/fits_reader.h"
-#include "timeseries/readers/foam_case.h"
-#include "timeseries/readers/foam_reader.h"
-#include "timeseries/readers/mrc_header.h"
-#include "timeseries/readers/netcdf_reader.h"
-#include "timeseries/readers/nifti_header.h"
-#include "timeseries/readers/nrrd_header.h"
+#include "timeseries/readers/foam/foam_case.h"
+#include "timeseries/readers/foam/foam_reader.h"
+#include "timeseries/readers/netcdf/netcdf_reader.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/plot3d_reader.h"
 #include "timeseries/readers/sequence_reader.h"
 #include "timeseries/readers/step_reader.h"
-#include "timeseries/readers/xdmf_reader.h"
-#include "timeseries/readers/zarr_hierarchy.h"
-#include "timeseries/readers/zarr_reader.h"
+#include "timeseries/readers/xdmf/xdmf_reader.h"
+#include "timeseries/readers/zarr/zarr_hierarchy.h"
+#include "timeseries/readers/zarr/zarr_reader.h"
 #ifdef ISOCHRON_VTK
-#include "timeseries/readers/vtk_reader.h"
+#include "timeseries/readers/vtk/vtk_reader.h"
 #endif
 #ifdef ISOCHRON_OPENVDB
-#include "timeseries/readers/vdb_reader.h"
+#include "timeseries/readers/arrays/vdb_reader.h"
 #endif
 #if !defined(ISOCHRON_VTK) || !defined(ISOCHRON_OPENVDB)
-#include "timeseries/readers/shell_word.h"
+#include "timeseries/readers/text/shell_word.h"
 #endif
 
 namespace timeseries {

@@ -7,15 +7,15 @@
 #include <map>
 #include <memory>
 
-#include "timeseries/readers/amrex_header.h"
-#include "timeseries/readers/decimal_names.h"
-#include "timeseries/readers/foam_case.h"
-#include "timeseries/readers/numbered_names.h"
+#include "timeseries/readers/amrex/amrex_header.h"
+#include "timeseries/readers/foam/foam_case.h"
+#include "timeseries/readers/netcdf/snapshot_files.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/series_text.h"
-#include "timeseries/readers/snapshot_files.h"
-#include "timeseries/readers/zarr_hierarchy.h"
+#include "timeseries/readers/text/decimal_names.h"
+#include "timeseries/readers/text/numbered_names.h"
+#include "timeseries/readers/zarr/zarr_hierarchy.h"
 
 namespace timeseries {
 namespace {

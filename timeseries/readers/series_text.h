@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "timeseries/readers/numbered_names.h"
 #include "timeseries/readers/series_files.h"
+#include "timeseries/readers/text/numbered_names.h"
 
 namespace timeseries {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "timeseries/readers/cf_time.h"
+#include "timeseries/readers/cf/cf_time.h"
 #include "timeseries/readers/step_about.h"
 
 namespace timeseries {

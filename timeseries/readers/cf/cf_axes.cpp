@@ -1,0 +1,348 @@
+#include "timeseries/readers/cf/cf_axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "timeseries/readers/text/time_units.h"
+#include "timeseries/readers/text/units.h"
+
+namespace timeseries {
+namespace {
+
+using enum AxisKind;
+
+bool isOneOf(std::string_view text, std::initializer_list<std::string_view> list) {
+    return std::ranges::find(list, text) != list.end();
+}
+
+std::optional<AxisKind> byAxis(const NcVariable& v) {
+    const std::string axis = lower(v.text("axis"));
+    if (axis == "x") return X;
+    if (axis == "y") return Y;
+    if (axis == "z") return Z;
+    if (axis == "t") return T;
+    if (axis == "e") return Other;  // ensemble, as GrADS writes it
+    return std::nullopt;
+}
+
+std::optional<AxisKind> byStandardName(const NcVariable& v) {
+    const std::string all = v.text("standard_name");
+    const std::string name = all.substr(0, all.find(' '));  // modifiers follow a blank
+    if (isOneOf(name, {"longitude", "grid_longitude", "projection_x_coordinate",
+                       "projection_x_angular_coordinate"}))
+        return X;
+    if (isOneOf(name, {"latitude", "grid_latitude", "projection_y_coordinate",
+                       "projection_y_angular_coordinate"}))
+        return Y;
+    if (name == "time") return T;
+    if (isOneOf(name, {"realization", "radiation_wavelength", "radiation_frequency",
+                       "forecast_period", "forecast_reference_time"}))
+        return Other;
+    if (isOneOf(name, {"depth", "altitude", "height", "air_pressure", "air_potential_temperature",
+                       "model_level_number", "sea_water_pressure", "geopotential_height"}) ||
+        name.starts_with("atmosphere_") || name.starts_with("ocean_s_coordinate") ||
+        name.starts_with("ocean_sigma") || name.starts_with("ocean_double_sigma") ||
+        name.starts_with("height_above_") || name.starts_with("depth_below_"))
+        return v.dimensions.size() == 1 ? std::optional(Z) : std::nullopt;
+    return std::nullopt;
+}
+
+std::optional<AxisKind> byUnits(const NcVariable& v) {
+    const std::string units = lower(v.text("units"));
+    // CF 1.10, sections 4.1 and 4.2.
+    if (isOneOf(units,
+                {"degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "degreese"}))
+        return X;
+    if (isOneOf(units,
+                {"degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "degreesn"}))
+        return Y;
+    if (looksLikeTimeUnits(units)) return T;
+    // CF 1.10, section 4.3: pressure is vertical; level, layer and sigma_level are the units of
+    // dimensionless levels.
+    if (isOneOf(units, {"level", "layer", "sigma_level", "hybrid_sigma_pressure"})) return Z;
+    if (sameDimension(v.text("units"), "Pa")) return Z;
+    return std::nullopt;
+}
+
+// A name alone, "depth" also as "depthu" or "depth_2".
+struct NameRule {
+    std::string_view name;
+    AxisKind kind;
+    bool prefix;
+};
+constexpr std::array kNames{
+    NameRule{"time", T, true},
+    NameRule{"t", T, false},
+    NameRule{"ocean_time", T, false},
+    NameRule{"record", T, false},
+    NameRule{"bnds", Other, false},
+    NameRule{"bounds", Other, false},
+    NameRule{"nv", Other, false},
+    NameRule{"nbnd", Other, true},
+    NameRule{"nb2", Other, false},
+    NameRule{"bound", Other, false},
+    NameRule{"tbnds", Other, false},
+    NameRule{"axis_nbounds", Other, false},
+    NameRule{"ncorner", Other, true},
+    NameRule{"corner", Other, true},
+    NameRule{"nvert", Other, true},
+    NameRule{"vertices", Other, false},
+    NameRule{"member", Other, true},
+    NameRule{"ens", Other, true},
+    NameRule{"realization", Other, false},
+    NameRule{"number", Other, false},
+    NameRule{"ncells", List, true},
+    NameRule{"cell", List, false},
+    NameRule{"cells", List, false},
+    NameRule{"node", List, false},
+    NameRule{"nodes", List, false},
+    NameRule{"nod2", List, true},
+    NameRule{"nod3", List, true},
+    NameRule{"nodes_2d", List, false},
+    NameRule{"nodes_3d", List, false},
+    NameRule{"elem", List, false},
+    NameRule{"lon", X, true},
+    NameRule{"rlon", X, false},
+    NameRule{"x", X, false},
+    NameRule{"west_east", X, true},
+    NameRule{"xi_", X, true},
+    NameRule{"ni", X, false},
+    NameRule{"nx", X, false},
+    NameRule{"nlon", X, false},
+    NameRule{"i", X, false},
+    NameRule{"xc", X, false},
+    NameRule{"xh", X, false},
+    NameRule{"xq", X, false},
+    NameRule{"grid_longitude", X, false},
+    NameRule{"lat", Y, true},
+    NameRule{"rlat", Y, false},
+    NameRule{"y", Y, false},
+    NameRule{"south_north", Y, true},
+    NameRule{"eta_rho", Y, false},
+    NameRule{"eta_u", Y, false},
+    NameRule{"eta_v", Y, false},
+    NameRule{"eta_psi", Y, false},
+    NameRule{"nj", Y, false},
+    NameRule{"ny", Y, false},
+    NameRule{"nlat", Y, false},
+    NameRule{"j", Y, false},
+    NameRule{"yc", Y, false},
+    NameRule{"yh", Y, false},
+    NameRule{"yq", Y, false},
+    NameRule{"grid_latitude", Y, false},
+    NameRule{"lev", Z, true},
+    NameRule{"ilev", Z, false},
+    NameRule{"plev", Z, true},
+    NameRule{"mlev", Z, false},
+    NameRule{"z", Z, false},
+    NameRule{"z_", Z, true},
+    NameRule{"zt", Z, false},
+    NameRule{"zl", Z, false},
+    NameRule{"zi", Z, false},
+    NameRule{"depth", Z, true},
+    NameRule{"height", Z, true},
+    NameRule{"alt", Z, false},
+    NameRule{"altitude", Z, false},
+    NameRule{"pressure", Z, true},
+    NameRule{"isobaric", Z, true},
+    NameRule{"sigma", Z, true},
+    NameRule{"s_rho", Z, false},
+    NameRule{"s_w", Z, false},
+    NameRule{"bottom_top", Z, true},
+    NameRule{"model_level", Z, true},
+    NameRule{"layer", Z, true},
+    NameRule{"nz", Z, false},
+    NameRule{"k", Z, false},
+};
+
+bool tellsAnAxis(const NcVariable& variable) {
+    return kindByAttributes(variable).value_or(Other) != Other;
+}
+
+}  // namespace
+
+std::optional<AxisKind> kindByAttributes(const NcVariable& coordinate) {
+    if (const auto kind = byAxis(coordinate)) return kind;
+    if (const auto kind = byStandardName(coordinate)) return kind;
+    if (const auto kind = byUnits(coordinate)) return kind;
+    const std::string positive = lower(coordinate.text("positive"));
+    if (positive == "up" || positive == "down") return Z;
+    return std::nullopt;
+}
+
+std::optional<AxisKind> kindByName(std::string_view name) {
+    const std::string low = lower(name);
+    for (const NameRule& rule : kNames)
+        if (rule.prefix ? low.starts_with(rule.name) : low == rule.name) return rule.kind;
+    return std::nullopt;
+}
+
+// Two dimensions of one kind: the one told by better evidence keeps it, then the one further right.
+struct FileAxes::Claim {
+    std::optional<AxisKind> kind;
+    int evidence;  // 2 by attributes, 1 by name
+};
+
+FileAxes::FileAxes(const NcHeader& header, std::span<const NcVariable* const> fields)
+    : header_(header), dimensions_(header.dimensions.size()) {
+    for (const NcVariable& variable : header.variables) byName_.emplace(variable.name, &variable);
+    findCoordinates();
+    findLists();
+    findTimes(fields);
+}
+
+// As NcHeader::find.
+const NcVariable* FileAxes::find(std::string_view name, std::string_view group) const {
+    while (true) {
+        const std::string path = fmt::format("{}{}{}", group, group.empty() ? "" : "/", name);
+        if (const auto at = byName_.find(path); at != byName_.end()) return at->second;
+        if (group.empty()) return nullptr;
+        const auto slash = group.rfind('/');
+        group = slash == std::string_view::npos ? "" : group.substr(0, slash);
+    }
+}
+
+void FileAxes::findCoordinates() {
+    std::set<std::pair<std::string, std::string>> seen;  // most variables of a file name the same
+    for (const NcVariable& variable : header_.variables) {
+        const std::string names = variable.text("coordinates");
+        if (!names.empty() && seen.emplace(variable.group, names).second)
+            for (const std::string& name : words(names)) {
+                const NcVariable* found = find(name, variable.group);
+                if (!found || found->dimensions.size() != 1 ||
+                    !found->isAlong(found->dimensions[0]) || !tellsAnAxis(*found))
+                    continue;
+                auto& all = dimensions_[found->dimensions[0]].coordinates;
+                if (std::ranges::find(all, found) == all.end()) all.push_back(found);
+            }
+        if (variable.dimensions.size() == 1 && variable.isAlong(variable.dimensions[0]) &&
+            looksLikeTimeUnits(lower(variable.text("units"))) && kindByAttributes(variable) == T)
+            dimensions_[variable.dimensions[0]].times.push_back(&variable);
+    }
+}
+
+// A longitude and a latitude along one dimension place its points one by one, unless these move in
+// time.
+void FileAxes::findLists() {
+    std::vector<bool> own(dimensions_.size()), x = own, y = own;
+    for (const NcVariable& variable : header_.variables) {
+        if (variable.dimensions.size() != 1 || !variable.isAlong(variable.dimensions[0])) continue;
+        const std::size_t d = variable.dimensions[0];
+        const auto kind = kindByAttributes(variable);
+        if (variable.baseName() == header_.dimensions[d].name) own[d] = true;
+        if (kind == X) x[d] = true;
+        if (kind == Y) y[d] = true;
+    }
+    for (std::size_t d = 0; d < dimensions_.size(); ++d)
+        dimensions_[d].list = x[d] && y[d] && !own[d] && dimensions_[d].times.empty() &&
+                              kindByName(header_.dimensions[d].name) != T;
+}
+
+// The first of four dimensions is time when nothing says what it is: in variables without height
+// too.
+void FileAxes::findTimes(std::span<const NcVariable* const> fields) {
+    for (const NcVariable* field : fields) {
+        const Roles roles = rolesOf(*field);
+        if (!roles.t || roles.spatial() < 3 || !roles.extra.empty()) continue;
+        const std::size_t d = field->dimensions[*roles.t];
+        if (header_.dimensions[d].isNamed()) dimensions_[d].time = true;
+    }
+}
+
+const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t position) const {
+    const std::size_t dimension = variable.dimensions[position];
+    const NcVariable* own = find(header_.dimensions[dimension].name, variable.group);
+    if (own && own->isAlong(dimension)) return own;
+    // An auxiliary coordinate (CF 1.10, section 5) stands in, if it tells which axis it is.
+    const Dimension& known = dimensions_[dimension];
+    for (const std::string& name : words(variable.text("coordinates"))) {
+        const NcVariable* auxiliary = find(name, variable.group);
+        if (auxiliary && auxiliary->isAlong(dimension) && tellsAnAxis(*auxiliary)) return auxiliary;
+    }
+    if (known.coordinates.size() == 1) return known.coordinates[0];
+    // Times that nobody names: of scans along y too, where y is told by its name.
+    const bool free = kindByName(header_.dimensions[dimension].name).value_or(T) == T;
+    return free && known.coordinates.empty() && known.times.size() == 1 ? known.times[0] : nullptr;
+}
+
+std::optional<AxisKind> FileAxes::kindFromAttributes(const NcVariable& variable,
+                                                     std::size_t position) const {
+    const Dimension& known = dimensions_[variable.dimensions[position]];
+    if (known.list) return List;
+    if (const NcVariable* coordinate = coordinateOf(variable, position))
+        if (const auto kind = kindByAttributes(*coordinate)) return kind;
+    // Several that agree, though none of them is the one.
+    std::set<AxisKind> kinds;
+    for (const NcVariable* each : known.coordinates) kinds.insert(*kindByAttributes(*each));
+    if (kinds.size() == 1) return *kinds.begin();
+    return std::nullopt;
+}
+
+FileAxes::Claim FileAxes::claimOf(const NcVariable& variable, std::size_t position) const {
+    if (const auto told = kindFromAttributes(variable, position)) return {told, 2};
+    const auto named = kindByName(header_.dimension(variable, position).name);
+    const bool times = !dimensions_[variable.dimensions[position]].times.empty();
+    return {named || !times ? named : T, 1};
+}
+
+// As the first of its dimensions: where it stands elsewhere, it is something else.
+bool FileAxes::isTimeElsewhere(const NcVariable& variable, std::size_t position) const {
+    return position == 0 && dimensions_[variable.dimensions[position]].time;
+}
+
+Roles FileAxes::rolesOf(const NcVariable& variable) const {
+    const std::size_t rank = variable.dimensions.size();
+    std::vector<Claim> claims;
+    for (std::size_t i = 0; i < rank; ++i) claims.push_back(claimOf(variable, i));
+
+    Roles roles;
+    const auto slot = [&](AxisKind kind) -> std::optional<std::size_t>& {
+        return kind == X ? roles.x : kind == Y ? roles.y : kind == Z ? roles.z : roles.t;
+    };
+    for (const int evidence : {2, 1})
+        for (std::size_t i = rank; i-- > 0;) {
+            const Claim& claim = claims[i];
+            if (!claim.kind || *claim.kind == Other || *claim.kind == List ||
+                claim.evidence != evidence)
+                continue;
+            // Of two claims by the same evidence, one that is longer than 1 wins.
+            auto& place = slot(*claim.kind);
+            const bool better = place && claims[*place].evidence == evidence &&
+                                header_.dimension(variable, *place).length == 1 &&
+                                header_.dimension(variable, i).length > 1;
+            if (!place || better) place = i;
+        }
+
+    const auto taken = [&](std::size_t i) {
+        return roles.x == i || roles.y == i || roles.z == i || roles.t == i;
+    };
+    // What is left goes by position: the unlimited dimension is time, the last ones are x, y, z.
+    for (std::size_t i = 0; i < rank; ++i)
+        if (!taken(i) && !claims[i].kind && !roles.t &&
+            (header_.dimension(variable, i).unlimited || isTimeElsewhere(variable, i)))
+            roles.t = i;
+    for (std::size_t i = rank; i-- > 0;) {
+        if (claims[i].kind == List) roles.list = i;
+        if (taken(i) || header_.dimension(variable, i).length == 1) continue;
+        // A second time is no height.
+        if (claims[i].kind == Other || claims[i].kind == List || claims[i].kind == T)
+            roles.extra.push_back(i);
+        else if (!roles.x)
+            roles.x = i;
+        else if (!roles.y)
+            roles.y = i;
+        else if (!roles.z)
+            roles.z = i;
+        else if (!roles.t && i == 0)
+            roles.t = i;
+        else
+            roles.extra.push_back(i);
+    }
+    return roles;
+}
+
+}  // namespace timeseries

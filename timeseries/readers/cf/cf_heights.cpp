@@ -1,0 +1,287 @@
+#include "timeseries/readers/cf/cf_heights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "timeseries/readers/text/units.h"
+
+namespace timeseries {
+namespace {
+
+using Formula = HeightFormula::Kind;
+
+struct Known {
+    Formula kind;
+    std::string_view standardName;
+    // That make it this one, and the one whose units the heights have. Those beside these are 0
+    // where they are not given, as the conventions have it.
+    std::array<std::string_view, 4> terms;
+    std::string_view measure;
+    const char* name;
+    bool down;
+};
+constexpr std::array kKnown{
+    Known{Formula::HybridPressure,
+          "atmosphere_hybrid_sigma_pressure_coordinate",
+          {"b", "ps"},
+          "ps",
+          "air pressure",
+          true},
+    Known{
+        Formula::Sigma, "atmosphere_sigma_coordinate", {"sigma", "ps"}, "ps", "air pressure", true},
+    Known{Formula::HybridHeight,
+          "atmosphere_hybrid_height_coordinate",
+          {"a", "b", "orog"},
+          "orog",
+          "altitude",
+          false},
+    Known{Formula::OceanS2,
+          "ocean_s_coordinate_g2",
+          {"s", "C", "depth", "depth_c"},
+          "depth",
+          "height",
+          false},
+    Known{Formula::OceanS1,
+          "ocean_s_coordinate_g1",
+          {"s", "C", "depth", "depth_c"},
+          "depth",
+          "height",
+          false},
+    Known{
+        Formula::OceanS, "ocean_s_coordinate", {"s", "a", "b", "depth"}, "depth", "height", false},
+    Known{Formula::OceanSigma,
+          "ocean_sigma_coordinate",
+          {"sigma", "depth"},
+          "depth",
+          "height",
+          false},
+};
+
+// "a: hyam b: hybm p0: P0 ps: PS", with or without blanks.
+std::map<std::string, std::string> termsIn(std::string text) {
+    for (std::size_t at = 0; (at = text.find(':', at)) != text.npos; at += 2)
+        text.insert(at + 1, " ");
+    std::map<std::string, std::string> terms;
+    std::string key;
+    for (const std::string& word : words(text)) {
+        if (word.ends_with(':'))
+            key = word.substr(0, word.size() - 1);
+        else if (!key.empty())
+            terms[key] = word;
+    }
+    return terms;
+}
+
+// Of the coordinates of the levels, by the dimension or by the attribute `coordinates`.
+std::vector<const NcVariable*> levelsOf(const NcHeader& header, const NcVariable& variable,
+                                        std::size_t dimension) {
+    std::vector<const NcVariable*> levels;
+    if (const NcVariable* own = header.find(header.dimensions[dimension].name, variable.group);
+        own && own->isAlong(dimension))
+        levels.push_back(own);
+    for (const std::string& name : words(variable.text("coordinates")))
+        if (const NcVariable* other = header.find(name, variable.group);
+            other && other->isAlong(dimension))
+            levels.push_back(other);
+    return levels;
+}
+
+std::optional<HeightFormula> formulaOf(const NcHeader& header, const NcVariable& variable,
+                                       const Roles& roles, const NcVariable& level) {
+    HeightFormula formula;
+    formula.terms = termsIn(level.text("formula_terms"));
+    const std::string kind = level.text("standard_name");
+    const auto known = std::ranges::find(kKnown, kind, &Known::standardName);
+    if (known == kKnown.end()) return std::nullopt;
+    for (const std::string_view term : known->terms)
+        if (!term.empty() && !formula.terms.contains(std::string(term))) return std::nullopt;
+    for (auto& [term, name] : formula.terms) {
+        const NcVariable* const found = header.find(name, level.group);
+        if (!found || !spansNoMore(header, *found, variable, roles)) return std::nullopt;
+        name = found->name;
+        formula.inTime = formula.inTime || hasTime(*found, variable, roles);
+        if (term == known->measure) formula.units = found->text("units");
+    }
+    formula.kind = known->kind;
+    formula.name = known->name;
+    formula.down = known->down;
+    return formula;
+}
+
+// PH and PHB, on levels between those of most variables, and on columns between those of winds.
+const Roles kGeopotentialRoles{.x = 3, .y = 2, .z = 1, .t = 0, .extra = {}, .list = {}};
+
+std::optional<HeightFormula> wrfFormulaOf(const NcHeader& header, const NcVariable& variable,
+                                          const Roles& roles) {
+    const std::array names{"PH", "PHB"};
+    HeightFormula formula;
+    formula.kind = Formula::Wrf;
+    formula.name = "height";
+    formula.units = "m";
+    for (const char* name : names) {
+        const NcVariable* const part = header.find(name, variable.group);
+        if (!part || !part->type || part->dimensions.size() != 4) return std::nullopt;
+        formula.terms[name] = part->name;
+        const std::array positions{roles.x, roles.y, roles.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto without = [](std::string text) {
+                constexpr std::string_view kBetween = "_stag";
+                if (text.ends_with(kBetween)) text.resize(text.size() - kBetween.size());
+                return text;
+            };
+            const NcDimension &own = header.dimension(variable, *positions[axis]),
+                              &its = header.dimension(*part, 3 - axis);
+            const bool isLevel = axis == 2;
+            const bool fits = own.length == its.length || (isLevel ? own.length + 1 == its.length
+                                                                   : own.length == its.length + 1);
+            if (without(own.name) != without(its.name) || !fits) return std::nullopt;
+        }
+        formula.inTime = formula.inTime || roles.t;
+    }
+    return formula;
+}
+
+// Halfway between, where the variable lies there; beside the outermost columns as in these.
+std::vector<double> wrfHeights(const CfFile& file, const HeightFormula& formula,
+                               const std::array<std::size_t, 3>& size, std::size_t step) {
+    constexpr double kGravity = 9.80665;
+    std::array<TermValues, 2> parts;
+    std::array<std::size_t, 3> own{};
+    for (std::size_t n = 0; n < 2; ++n) {
+        const NcVariable* const part =
+            file.header().find(formula.terms.at(n == 0 ? "PH" : "PHB"), "");
+        if (!part || part->dimensions.size() != 4)
+            file.fail(n == 0 ? "PH" : "PHB", "expected it as when the series was opened");
+        parts[n] = termOf(file, *part, *part, kGeopotentialRoles, step);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t length = file.header().dimension(*part, 3 - axis).length;
+            if (n == 1 && own[axis] != length) file.fail("PHB", "expected the lengths that PH has");
+            own[axis] = length;
+        }
+    }
+    // The two that a place lies between, or twice the one where it is.
+    const auto between = [&](std::size_t axis, std::size_t at) -> std::array<std::size_t, 2> {
+        if (size[axis] == own[axis]) return {at, at};
+        if (size[axis] < own[axis]) return {at, at + 1};
+        return {at > 0 ? at - 1 : 0, std::min(at, own[axis] - 1)};
+    };
+    std::vector<double> heights;
+    heights.reserve(size[0] * size[1] * size[2]);
+    for (std::size_t k = 0; k < size[2]; ++k)
+        for (std::size_t j = 0; j < size[1]; ++j)
+            for (std::size_t i = 0; i < size[0]; ++i) {
+                double sum = 0;
+                for (const std::size_t z : between(2, k))
+                    for (const std::size_t y : between(1, j))
+                        for (const std::size_t x : between(0, i))
+                            sum += parts[0].at(x, y, z) + parts[1].at(x, y, z);
+                heights.push_back(sum / 8 / kGravity);
+            }
+    return heights;
+}
+
+// One term in the units of the heights; 0 where the formula has none of it.
+struct Term {
+    TermValues values;
+    double factor = 0;
+    double at(std::size_t i, std::size_t j, std::size_t k) const {
+        return factor == 0 ? 0 : factor * values.at(i, j, k);
+    }
+};
+
+}  // namespace
+
+std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
+                                             const Roles& roles) {
+    for (const NcVariable* level : levelsOf(header, variable, variable.dimensions[*roles.z]))
+        if (auto formula = formulaOf(header, variable, roles, *level)) return formula;
+    return wrfFormulaOf(header, variable, roles);
+}
+
+std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
+                              const HeightFormula& formula, std::size_t step) {
+    const auto term = [&](const char* name) {
+        const auto found = formula.terms.find(name);
+        if (found == formula.terms.end()) return Term{};
+        const NcVariable* const from = file.header().find(found->second, "");
+        if (!from || !spansNoMore(file.header(), *from, variable, roles))
+            file.fail("variable '" + variable.name + "'",
+                      "expected the terms of its heights as when the series was opened");
+        const auto ratio = unitRatio(from->text("units"), formula.units);
+        return Term{termOf(file, *from, variable, roles, step), ratio.value_or(1)};
+    };
+    const std::array size{file.header().dimension(variable, *roles.x).length,
+                          file.header().dimension(variable, *roles.y).length,
+                          file.header().dimension(variable, *roles.z).length};
+    if (formula.kind == Formula::Wrf) return wrfHeights(file, formula, size, step);
+    std::vector<double> heights;
+    heights.reserve(size[0] * size[1] * size[2]);
+    const auto fill = [&](const auto& of) {
+        for (std::size_t k = 0; k < size[2]; ++k)
+            for (std::size_t j = 0; j < size[1]; ++j)
+                for (std::size_t i = 0; i < size[0]; ++i)
+                    heights.push_back(of([&](const Term& t) { return t.at(i, j, k); }));
+    };
+    switch (formula.kind) {
+        case Formula::Wrf:
+            break;
+        case Formula::HybridPressure: {
+            const Term ap = term("ap"), a = term("a"), b = term("b"), p0 = term("p0"),
+                       ps = term("ps");
+            fill([&](const auto& of) { return of(ap) + of(a) * of(p0) + of(b) * of(ps); });
+            break;
+        }
+        case Formula::Sigma: {
+            const Term sigma = term("sigma"), ps = term("ps"), top = term("ptop");
+            fill([&](const auto& of) { return of(top) + of(sigma) * (of(ps) - of(top)); });
+            break;
+        }
+        case Formula::HybridHeight: {
+            const Term a = term("a"), b = term("b"), orog = term("orog");
+            fill([&](const auto& of) { return of(a) + of(b) * of(orog); });
+            break;
+        }
+        case Formula::OceanSigma: {
+            const Term sigma = term("sigma"), eta = term("eta"), depth = term("depth");
+            fill([&](const auto& of) { return of(eta) + of(sigma) * (of(depth) + of(eta)); });
+            break;
+        }
+        case Formula::OceanS: {
+            const Term s = term("s"), eta = term("eta"), depth = term("depth"), a = term("a"),
+                       b = term("b"), critical = term("depth_c");
+            fill([&](const auto& of) {
+                const double steep = of(a), share = of(b), at = of(s);
+                const double surface = std::sinh(steep * at) / std::sinh(steep),
+                             bottom =
+                                 std::tanh(steep * (at + 0.5)) / (2 * std::tanh(steep / 2)) - 0.5;
+                const double c = (1 - share) * surface + share * bottom;
+                return of(eta) * (1 + at) + of(critical) * at + (of(depth) - of(critical)) * c;
+            });
+            break;
+        }
+        case Formula::OceanS1: {
+            const Term s = term("s"), c = term("C"), eta = term("eta"), depth = term("depth"),
+                       critical = term("depth_c");
+            fill([&](const auto& of) {
+                const double still = of(critical) * of(s) + (of(depth) - of(critical)) * of(c);
+                return still + of(eta) * (1 + still / of(depth));
+            });
+            break;
+        }
+        case Formula::OceanS2: {
+            const Term s = term("s"), c = term("C"), eta = term("eta"), depth = term("depth"),
+                       critical = term("depth_c");
+            fill([&](const auto& of) {
+                const double still =
+                    (of(critical) * of(s) + of(depth) * of(c)) / (of(depth) + of(critical));
+                return of(eta) + (of(eta) + of(depth)) * still;
+            });
+            break;
+        }
+    }
+    return heights;
+}
+
+}  // namespace timeseries

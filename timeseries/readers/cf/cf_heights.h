@@ -1,0 +1,43 @@
+// Heights of levels that a formula gives, of each column and step its own: CF 1.10, section 4.3.3
+// and appendix D; and WRF's, whose geopotential stands in two parts (ARW's user's guide, chapter
+// 5).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "timeseries/readers/cf/cf_terms.h"
+
+namespace timeseries {
+
+struct HeightFormula {
+    enum class Kind {
+        HybridPressure,
+        Sigma,
+        HybridHeight,
+        OceanSigma,
+        OceanS,
+        OceanS1,
+        OceanS2,
+        Wrf
+    };
+    Kind kind{};
+    std::map<std::string, std::string> terms;  // the variable of each, "ps": "PS"
+    std::string name, units;                   // of what it gives: "air pressure", "Pa"
+    bool down = false, inTime = false;
+    friend bool operator==(const HeightFormula&, const HeightFormula&) = default;
+};
+
+// That of a coordinate of the variable's levels, or WRF's, whose terms are all there. REQUIRES:
+// roles.x, y and z.
+std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
+                                             const Roles& roles);
+
+// [z][y][x], x fastest, of one step; not a number where a term is none. REQUIRES: heightFormulaOf
+// gave it. Throws FileError, and std::invalid_argument when there is too much of a term.
+std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
+                              const HeightFormula& formula, std::size_t step);
+
+}  // namespace timeseries

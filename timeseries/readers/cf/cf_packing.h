@@ -1,0 +1,44 @@
+// How stored numbers become values: _Unsigned, scale_factor and add_offset, and which stored
+// numbers stand for nothing (CF 1.10, sections 2.5.1 and 8.1; NetCDF User's Guide, "Attribute
+// Conventions").
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "timeseries/grid/field.h"
+#include "timeseries/readers/cf/netcdf_header.h"
+#include "timeseries/readers/strided_layout.h"
+
+namespace timeseries {
+
+struct Packing {
+    ValueType stored{};    // as the file means it: _Unsigned applied
+    ValueType unpacked{};  // what values are after scale and offset
+    bool scaled = false;   // value = stored * scale + offset, computed in the unpacked type
+    double scale = 1, offset = 0;
+
+    std::vector<Number> missing;  // stored numbers, equal to the fill or a missing value
+    std::optional<Number> validMin, validMax;
+    bool validUnpacked = false;  // the valid range is in unpacked values
+
+    std::string storedAs;     // "int16 packed, scale 0.001, offset 15"
+    std::string missingText;  // "_FillValue -32768"
+
+    double unpack(double number) const { return scaled ? number * scale + offset : number; }
+};
+
+// `malformed` is called with what an attribute should have been, and does not return.
+// REQUIRES: variable.type.
+Packing packingOf(const NcVariable& variable,
+                  const std::function<void(const std::string&)>& malformed);
+
+// Fills `field`'s values and mask. `read` puts the stored numbers where it is told: straight into
+// the field's values when they need no unpacking nor turning.
+void unpack(const Packing& packing, const StridedLayout& layout,
+            const std::function<void(void*)>& read, Field& field);
+
+}  // namespace timeseries

@@ -1,0 +1,37 @@
+// What one file of netCDF's data model offers to be drawn, by the CF conventions.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "timeseries/readers/cf/cf_axes.h"
+#include "timeseries/readers/cf/cf_file.h"
+#include "timeseries/readers/cf/cf_grid.h"
+#include "timeseries/readers/cf/cf_packing.h"
+#include "timeseries/readers/cf/cf_time.h"
+
+namespace timeseries {
+
+struct FileVariable {
+    std::string name, longName, units;
+    std::vector<std::uint64_t> lengths;  // of its dimensions, slowest first
+    ValueType type{};                    // in the file
+    bool categories = false;             // as Field::categories
+    Roles roles;
+    Packing packing;
+    VariableAxes axes;
+    StoredTimes times;
+    std::vector<std::string> notes;
+};
+
+struct FileContents {
+    std::vector<FileVariable> variables;   // in the file's order; not empty
+    std::vector<DamagedVariable> damaged;  // for malformed attributes, of coordinates too
+};
+
+// Throws FileError when no variable is left: of one that is damaged, else with those that were
+// passed over and why.
+FileContents contentsOf(const CfFile& file);
+
+}  // namespace timeseries

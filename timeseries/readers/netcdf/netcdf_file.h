@@ -1,0 +1,56 @@
+// One open netCDF file. All calls of the netCDF library are made here, under one lock: neither it
+// nor HDF5 below it may be used by two threads at once, even on different files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "timeseries/readers/cf/cf_file.h"
+
+namespace timeseries {
+
+class NetcdfFile final : public CfFile {
+ public:
+    // A new file's header may crash HDF5 or keep it forever, so that it is read in a copy of this
+    // process first; a known one was read before.
+    enum class Header { New, Known };
+    // Reads the header. Throws FileError, also when a classic file lacks values it declares.
+    NetcdfFile(const std::filesystem::path& path, Header header);
+    ~NetcdfFile() override;
+
+    // A compressed file unpacks to at most about 1032 times its bytes (the limit of deflate; its
+    // format, RFC 1951, spends at least two bits on 258 bytes).
+    std::string tooLarge(const NcVariable& variable, std::uint64_t points) const override;
+    // The same of values of a type for which the file has no array.
+    std::string tooLarge(ValueType type, std::uint64_t points) const {
+        return tooLarge(type, points, 0);
+    }
+    std::vector<Number> numbers(const NcVariable& variable) const override;
+    void read(const NcVariable& variable, std::span<const std::size_t> start,
+              std::span<const std::size_t> count, void* values) const override;
+
+    // The rows of characters of the variable of that name, each up to where it ends; none when
+    // there is none. Throws FileError.
+    std::vector<std::string> lines(std::string_view name) const;
+
+ private:
+    std::string tooLarge(ValueType type, std::uint64_t points, std::uint64_t chunkBytes) const;
+    void open();
+    void readHeader();
+    void readGroup(int group, const std::string& name, int depth);
+    void readVariable(int group, const std::string& groupName, int id);
+    void readGroupAttributes(int group, const std::string& name);
+    std::optional<NcAttribute> readAttribute(int group, int variable, int number,
+                                             const std::string& place) const;
+    void check(int status, std::string_view place, std::string_view expected) const;
+
+    std::uint64_t fileBytes_ = 0;
+    int id_ = -1;
+    std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
+};
+
+}  // namespace timeseries

@@ -1,0 +1,185 @@
+#include "timeseries/readers/netcdf/vtkhdf_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "timeseries/readers/components.h"
+#include "timeseries/readers/netcdf/netcdf_rows.h"
+#include "timeseries/readers/netcdf/vtkhdf_image.h"
+#include "timeseries/readers/netcdf/vtkhdf_mesh.h"
+#include "timeseries/readers/other_formats.h"
+
+namespace timeseries {
+namespace {
+
+// An array at points or cells, or a number of each of its rows.
+struct ArrayOf {
+    const NcVariable* array;
+    std::string name;  // in the file
+    bool atPoints;
+    Component component;
+};
+
+class VtkHdfReader final : public Reader {
+ public:
+    explicit VtkHdfReader(std::unique_ptr<NetcdfFile> opened)
+        : paths_{opened->path()}, opened_(std::move(opened)), layout_(file_) {
+        addTime();
+        for (const bool atPoints : {true, false}) addArrays(atPoints);
+        if (variables_.empty())
+            file_.fail("VTKHDF", "expected an array of numbers at points or cells, found none");
+    }
+
+    std::string format() const override {
+        return layout_.isPolygons() ? "VTKHDF polygons" : "VTKHDF unstructured grid";
+    }
+    std::span<const std::filesystem::path> files() const override { return paths_; }
+    std::span<const Variable> variables() const override { return variables_; }
+    Field read(std::size_t variable, std::size_t step) override;
+
+ private:
+    void addTime();
+    void addArrays(bool atPoints);
+    void add(ArrayOf source, const ComponentVariable& component);
+    void open(std::size_t step);
+    std::shared_ptr<const Grid> gridAt(bool atPoints);
+    const NcVariable* ghostsAt(bool atPoints) const;
+    void markGhosts(const ArrayOf& source, std::size_t step, std::uint64_t count,
+                    Field& field) const;
+
+    std::vector<std::filesystem::path> paths_;
+    std::unique_ptr<NetcdfFile> opened_;
+    const NetcdfFile& file_ = *opened_;
+    VtkHdfLayout layout_;
+    std::shared_ptr<const TimeAxis> time_;
+    // Of the step that is open.
+    std::optional<VtkHdfStep> open_;
+    UnstructuredGrid cells_;
+    std::optional<UnstructuredShapes> shapes_;
+    std::array<std::shared_ptr<const Grid>, 2> grids_;  // at cells, at points
+    std::vector<Variable> variables_;
+    std::vector<ArrayOf> sources_;
+};
+
+void VtkHdfReader::addTime() {
+    auto time = std::make_shared<TimeAxis>();
+    const auto& times = layout_.times();
+    time->counted = times.empty();
+    time->name = times.empty() ? "step" : "time";
+    for (std::size_t i = 0; i < layout_.steps().size(); ++i)
+        time->points.push_back({times.empty() ? static_cast<double>(i) : times[i], ""});
+    time_ = std::move(time);
+}
+
+void VtkHdfReader::open(std::size_t step) {
+    const VtkHdfStep& wanted = layout_.steps()[step];
+    if (open_ == wanted) return;
+    open_.reset();
+    shapes_.reset();
+    grids_ = {};
+    cells_ = layout_.gridOf(wanted);
+    open_ = wanted;
+}
+
+std::shared_ptr<const Grid> VtkHdfReader::gridAt(bool atPoints) {
+    auto& grid = grids_[atPoints ? 1 : 0];
+    if (grid) return grid;
+    if (!shapes_) shapes_.emplace(cells_);
+    try {
+        const auto mesh = std::make_shared<const Mesh>(atPoints ? meshOfPoints(cells_, *shapes_)
+                                                                : meshOfCells(cells_, *shapes_));
+        return grid = std::make_shared<const Grid>(spaceAxes(), mesh);
+    } catch (const std::invalid_argument& flaw) {
+        file_.fail("VTKHDF",
+                   fmt::format("expected cells that take space, found that {}", flaw.what()));
+    }
+}
+
+const NcVariable* VtkHdfReader::ghostsAt(bool atPoints) const {
+    const auto* found = file_.header().find(
+        atPoints ? "VTKHDF/PointData/vtkGhostType" : "VTKHDF/CellData/vtkGhostType", "");
+    return found && found->type ? found : nullptr;
+}
+
+void VtkHdfReader::add(ArrayOf source, const ComponentVariable& component) {
+    Variable variable;
+    variable.name = component.name;
+    variable.type = component.type;
+    variable.storedAs = component.storedAs + (source.atPoints ? "" : ", at cells");
+    if (ghostsAt(source.atPoints)) variable.missing = "ghost and blanked, by vtkGhostType";
+    open(0);
+    variable.grid = gridAt(source.atPoints);
+    variable.time = time_;
+    variable.notes = notesOf(cells_);
+    for (std::string& note : notesOf(*variable.grid->mesh()))
+        variable.notes.push_back(std::move(note));
+    variables_.push_back(std::move(variable));
+    sources_.push_back(std::move(source));
+}
+
+void VtkHdfReader::addArrays(bool atPoints) {
+    const std::string group = atPoints ? "VTKHDF/PointData/" : "VTKHDF/CellData/",
+                      other = atPoints ? "VTKHDF/CellData/" : "VTKHDF/PointData/";
+    for (const NcVariable& array : file_.header().variables) {
+        if (!array.name.starts_with(group) || !array.type) continue;
+        const std::string own = array.name.substr(group.size());
+        const std::size_t rank = array.dimensions.size();
+        if (own == "vtkGhostType" || own.find('/') != own.npos || rank < 1 || rank > 2) continue;
+        const std::uint64_t count = rank == 2 ? file_.header().dimension(array, 1).length : 1;
+        const bool both = file_.header().find(other + own, "") != nullptr;
+        const std::string name = own + (!both ? "" : atPoints ? " (points)" : " (cells)");
+        for (const ComponentVariable& each : componentsOf(name, *array.type, count))
+            add({&array, own, atPoints, each.component}, each);
+    }
+}
+
+// Duplicate and hidden points; duplicate, refined and hidden cells (vtkDataSetAttributes).
+void VtkHdfReader::markGhosts(const ArrayOf& source, std::size_t step, std::uint64_t count,
+                              Field& field) const {
+    const NcVariable* const ghosts = ghostsAt(source.atPoints);
+    if (!ghosts) return;
+    const unsigned bits = source.atPoints ? 1 | 2 : 1 | 8 | 32;
+    const Values flags =
+        rowsOf(file_, *ghosts, layout_.firstValue(step, source.atPoints, "vtkGhostType"), count, 1);
+    field.missing.resize(count);
+    std::visit(
+        [&](const auto& all) {
+            for (std::uint64_t i = 0; i < count; ++i) {
+                const double told = static_cast<double>(all[i]);
+                const double flag = told > 0 ? std::min(told, 255.0) : 0;
+                field.missing[i] = (static_cast<unsigned>(flag) & bits) != 0;
+            }
+        },
+        flags);
+}
+
+Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
+    open(step);
+    const ArrayOf& source = sources_[variable];
+    Field field;
+    field.grid = gridOfStep(variables_[variable].grid, gridAt(source.atPoints));
+    if (!field.grid) file_.fail("VTKHDF", "expected the steps of one series");
+    const std::uint64_t count = field.grid->count();
+    field.values = componentOf(
+        rowsOf(file_, *source.array, layout_.firstValue(step, source.atPoints, source.name), count,
+               source.component.of),
+        source.component);
+    markGhosts(source, step, count, field);
+    return field;
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> openVtkHdf(std::unique_ptr<NetcdfFile> file) {
+    if (isVtkHdfImage(file->header())) return openVtkHdfImage(std::move(file));
+    if (!file->header().find("VTKHDF/Points", ""))
+        throw FileError(notReadSentence(
+            file->path(),
+            "a VTKHDF file of neither an unstructured grid nor polygons nor an image"));
+    return std::make_unique<VtkHdfReader>(std::move(file));
+}
+
+}  // namespace timeseries

@@ -1,0 +1,227 @@
+#include "timeseries/readers/vtk/vtk_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "timeseries/readers/ordinary_file.h"
+#include "timeseries/readers/vtk/vtk_file.h"
+#include "timeseries/readers/vtk/vtk_grid.h"
+#include "timeseries/readers/vtk/vtk_parts.h"
+
+namespace timeseries {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::size_t kMaxVtkVariables = std::size_t{1} << 16;
+
+// JSON, not XML.
+bool isVtkSeries(const Path& path) {
+    std::ifstream file(path, std::ios::binary);
+    char first = 0;
+    return file >> first && first == '{';
+}
+
+// One step, of which all is known but values.
+struct OpenedStep {
+    VtkContents contents;
+    std::array<std::optional<VtkGrid>, 2> grids;  // by VtkPlace, where there is an array
+    const VtkHeader& header() const { return contents.whole; }
+};
+
+OpenedStep frameOf(VtkContents contents) {
+    OpenedStep frame{std::move(contents), {}};
+    VtkHeader& header = frame.contents.whole;
+    std::optional<UnstructuredShapes> shapes;
+    if (isUnstructured(header.kind)) shapes = vtkShapesOf(header);
+    for (const VtkArray& array : header.arrays) {
+        auto& grid = frame.grids[static_cast<std::size_t>(array.place)];
+        if (!grid)
+            grid =
+                shapes ? vtkGridOf(header, array.place, *shapes) : vtkGridOf(header, array.place);
+    }
+    header.places = {};
+    header.unstructured = {};
+    return frame;
+}
+
+class VtkReader final : public Reader {
+ public:
+    // `first` is of the first member.
+    VtkReader(const Path& path, std::vector<VtkMember> members, OpenedStep first, bool collection)
+        : files_{path}, members_(std::move(members)), frame_(std::move(first)) {
+        const VtkHeader& header = frame_.header();
+        if (header.arrays.empty()) {
+            std::string why;
+            for (const std::string& each : header.passedOver) why += "; " + each;
+            failVtk(header.path, "", "expected an array of numbers, found none" + why);
+        }
+        format_ = header.format;
+        if (collection) format_ = "VTK collection of " + format_.substr(4);
+        addTime();
+        for (std::size_t i = 0; i < header.arrays.size(); ++i) addVariables(i);
+    }
+
+    std::string format() const override { return format_; }
+    std::span<const Path> files() const override { return files_; }
+    std::span<const Variable> variables() const override { return variables_; }
+    Field read(std::size_t variable, std::size_t step) override;
+    StepSources sources(std::size_t variable, std::size_t step) override;
+
+ private:
+    struct Source {
+        VtkArray array;
+        VtkPart part;
+    };
+
+    void addTime();
+    void addVariables(std::size_t index);
+    void add(const VtkArray& array, const std::string& name, ValueType type,
+             const std::string& storedAs, VtkPart part);
+    void open(std::size_t step);
+
+    std::vector<Path> files_;
+    std::string format_;
+    std::vector<VtkMember> members_;  // [step]
+    OpenedStep frame_;                // of openStep_
+    std::size_t openStep_ = 0;
+    std::shared_ptr<const TimeAxis> time_;
+    std::vector<std::string> notes_;  // of all variables
+    std::vector<Variable> variables_;
+    std::vector<Source> sources_;  // [variable]
+};
+
+void VtkReader::addTime() {
+    auto axis = std::make_shared<TimeAxis>();
+    axis->name = "step";
+    if (members_[0].time) {
+        axis->name = "time";
+    } else if (members_.size() == 1 && frame_.header().time) {
+        axis->name = frame_.header().time->name;
+        members_[0].time = frame_.header().time->value;
+    }
+    axis->counted = !members_[0].time;
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        axis->points.push_back({members_[i].time.value_or(static_cast<double>(i)), ""});
+    time_ = std::move(axis);
+
+    std::vector<std::string> absent;
+    for (const VtkMember& member : members_)
+        if (!flawOfFile(member.path).empty()) absent.push_back(member.path.filename().string());
+    if (!absent.empty())
+        notes_.push_back(fmt::format("{} of {} files are missing, the first {}", absent.size(),
+                                     members_.size(), absent[0]));
+}
+
+void VtkReader::addVariables(std::size_t index) {
+    const VtkArray& array = frame_.header().arrays[index];
+    const auto& all = frame_.header().arrays;
+    const bool both = std::ranges::any_of(
+        all, [&](const VtkArray& o) { return o.name == array.name && o.place != array.place; });
+    std::string name = array.name;
+    if (both) name += array.place == VtkPlace::Points ? " (points)" : " (cells)";
+    const std::string type(typeName(array.type));
+    const std::string where = array.place == VtkPlace::Points ? "" : ", at cells";
+    if (array.components == 1) return add(array, name, array.type, type + where, {});
+
+    if (variables_.size() + array.components > kMaxVtkVariables)
+        failVtk(frame_.header().path, fmt::format("'{}'", array.name),
+                fmt::format("expected at most {} components of all arrays", kMaxVtkVariables));
+    const std::string stored = fmt::format("{}, {} components{}", type, array.components, where);
+    if (array.components <= 3) {
+        const bool single = array.type == ValueType::F32;
+        add(array, name + " magnitude", single ? ValueType::F32 : ValueType::F64,
+            fmt::format("{}; magnitude in {}", stored, single ? "float32" : "float64"),
+            {VtkPart::Kind::Magnitude, 0});
+    }
+    for (std::size_t i = 0; i < array.components; ++i)
+        add(array, fmt::format("{}[{}]", name, i), array.type, stored,
+            {VtkPart::Kind::Component, i});
+}
+
+void VtkReader::add(const VtkArray& array, const std::string& name, ValueType type,
+                    const std::string& storedAs, VtkPart part) {
+    const std::size_t place = static_cast<std::size_t>(array.place);
+    Variable variable;
+    variable.name = name;
+    variable.type = type;
+    variable.storedAs = storedAs;
+    if (frame_.header().ghosts[place]) variable.missing = "ghost and blanked, by vtkGhostType";
+    if (!array.isEverywhere)
+        variable.missing += std::string(variable.missing.empty() ? "" : "; ") + "blocks without it";
+    variable.grid = frame_.grids[place]->grid;
+    variable.time = time_;
+    variable.notes = frame_.grids[place]->notes;
+    variable.notes.insert(variable.notes.end(), notes_.begin(), notes_.end());
+    variables_.push_back(std::move(variable));
+    sources_.push_back({array, part});
+}
+
+void VtkReader::open(std::size_t step) {
+    if (step == openStep_) return;
+    frame_ = frameOf(vtkContentsOf(members_[step].path));
+    openStep_ = step;
+}
+
+StepSources VtkReader::sources(std::size_t variable, std::size_t step) {
+    open(step);
+    const auto& own = frame_.grids[static_cast<std::size_t>(sources_[variable].array.place)];
+    const auto& grid = variables_[variable].grid;
+    if (!own || gridOfStep(grid, own->grid) != grid) return {};
+    StepSources sources{{members_[step].path}};
+    for (const VtkHeader& part : frame_.contents.parts) sources.files.push_back(part.path);
+    return sources;
+}
+
+Field VtkReader::read(std::size_t variable, std::size_t step) {
+    open(step);
+    const VtkArray& array = sources_[variable].array;
+    const VtkHeader& header = frame_.header();
+    const auto found = std::ranges::find_if(header.arrays, [&](const VtkArray& other) {
+        return other.name == array.name && other.place == array.place;
+    });
+    if (found == header.arrays.end() || found->type != array.type ||
+        found->components != array.components)
+        failVtk(header.path, fmt::format("'{}'", array.name),
+                fmt::format("expected {} of {} components, as in {}", typeName(array.type),
+                            array.components, members_[0].path.filename().string()));
+    if (!found->notNumber.empty())
+        failVtk(header.path, fmt::format("'{}'", array.name),
+                fmt::format("expected finite numbers of type {}, found \"{}\"",
+                            typeName(array.type), found->notNumber));
+    const VtkGrid& grid = *frame_.grids[static_cast<std::size_t>(array.place)];
+    Field field;
+    field.grid = gridOfStep(variables_[variable].grid, grid.grid);
+    if (!field.grid)
+        failVtk(header.path, "", "expected the grid of " + members_[0].path.filename().string());
+    readVtkArray(frame_.contents, array, sources_[variable].part, grid.layout, field);
+    return field;
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
+    if (paths.size() > 1)
+        throw FileError(fmt::format("{}: expected one VTK file, or a collection (.pvd) of several",
+                                    paths[1].string()));
+    const Path& path = paths[0];
+    std::vector<VtkMember> members{{path, std::nullopt}};
+    if (isVtkSeries(path)) {
+        members = readVtkSeries(path);
+    } else if (!isVtkLegacy(path)) {
+        const XmlFile file = readXml(path);
+        if (!isVtkCollection(file))
+            return std::make_unique<VtkReader>(path, std::move(members),
+                                               frameOf(vtkContentsOf(file)), false);
+        members = readVtkCollection(file);
+    } else {
+        return std::make_unique<VtkReader>(path, std::move(members), frameOf(vtkContentsOf(path)),
+                                           false);
+    }
+    auto first = frameOf(vtkContentsOf(members[0].path));
+    return std::make_unique<VtkReader>(path, std::move(members), std::move(first), true);
+}
+
+}  // namespace timeseries
