@@ -11,11 +11,10 @@
 #include "timeseries/readers/components.h"
 #include "timeseries/readers/image_grid.h"
 #include "timeseries/readers/limits.h"
+#include "timeseries/readers/netcdf/vtkhdf_arrays.h"
 
 namespace timeseries {
 namespace {
-
-constexpr std::array kImageGroups{"VTKHDF/CellData/", "VTKHDF/PointData/"};
 
 // An array at points or cells, [step][z][y][x][component], or a number of each of its rows.
 struct ImageArray {
@@ -156,7 +155,7 @@ std::string VtkHdfImageReader::flawOf(const NcVariable& array, bool atPoints) co
 }
 
 void VtkHdfImageReader::addArrays(bool atPoints) {
-    const std::string group = kImageGroups[atPoints];
+    const std::string group = vtkHdfGroup(atPoints);
     for (const NcVariable& array : file_.header().variables) {
         if (!array.name.starts_with(group) || !array.type) continue;
         const std::string own = array.name.substr(group.size());
@@ -165,20 +164,17 @@ void VtkHdfImageReader::addArrays(bool atPoints) {
             damaged_.push_back({own, file_.sentence("variable '" + array.name + "'", flaw)});
             continue;
         }
-        if (own == "vtkGhostType") continue;
+        if (own == kVtkHdfGhosts) continue;
         const std::size_t rank = array.dimensions.size();
         const bool isRow = rank == (inTime_ ? 5 : 4);
-        const bool both = file_.header().find(kImageGroups[!atPoints] + own, "") != nullptr;
-        for (const ComponentVariable& each : componentsOf(
-                 own + (!both      ? ""
-                        : atPoints ? " (points)"
-                                   : " (cells)"),
-                 *array.type, isRow ? file_.header().dimension(array, rank - 1).length : 1)) {
+        const std::uint64_t count = isRow ? file_.header().dimension(array, rank - 1).length : 1;
+        for (const ComponentVariable& each :
+             componentsOf(vtkHdfName(file_.header(), own, atPoints), *array.type, count)) {
             Variable variable;
             variable.name = each.name;
             variable.type = each.type;
             variable.storedAs = each.storedAs + (atPoints ? "" : ", at cells");
-            if (ghostsAt(atPoints)) variable.missing = "ghost and blanked, by vtkGhostType";
+            if (ghostsAt(atPoints)) variable.missing = kVtkHdfMissing;
             variable.grid = placed_[atPoints].grid;
             variable.time = time_;
             variable.notes = placed_[atPoints].notes;
@@ -189,13 +185,10 @@ void VtkHdfImageReader::addArrays(bool atPoints) {
 }
 
 const NcVariable* VtkHdfImageReader::ghostsAt(bool atPoints) const {
-    const NcVariable* const found =
-        file_.header().find(std::string(kImageGroups[atPoints]) + "vtkGhostType", "");
+    const NcVariable* const found = vtkHdfGhosts(file_.header(), atPoints);
     const std::size_t rank = inTime_ ? 4 : 3;
-    return found && found->type && found->dimensions.size() == rank &&
-                   flawOf(*found, atPoints).empty()
-               ? found
-               : nullptr;
+    const bool fits = found && found->dimensions.size() == rank && flawOf(*found, atPoints).empty();
+    return fits ? found : nullptr;
 }
 
 // Where the step stands along the array's first dimension.
@@ -245,19 +238,9 @@ Field VtkHdfImageReader::read(std::size_t variable, std::size_t step) {
                 .values = inOrder(
                     componentOf(rowsAt(*source.array, source.atPoints, step), source.component)),
                 .missing = {}};
-    const NcVariable* const ghosts = ghostsAt(source.atPoints);
-    if (!ghosts) return field;
-    // Duplicate and hidden points; duplicate, refined and hidden cells (vtkDataSetAttributes).
-    const unsigned bits = source.atPoints ? 1 | 2 : 1 | 8 | 32;
-    std::visit(
-        [&](const auto& flags) {
-            for (const auto flag : flags) {
-                const double value = static_cast<double>(flag);
-                const double told = value > 0 ? std::min(value, 255.0) : 0;
-                field.missing.push_back((static_cast<unsigned>(told) & bits) != 0);
-            }
-        },
-        inOrder(rowsAt(*ghosts, source.atPoints, step)));
+    if (const NcVariable* const ghosts = ghostsAt(source.atPoints))
+        field.missing =
+            vtkHdfMissing(inOrder(rowsAt(*ghosts, source.atPoints, step)), source.atPoints);
     return field;
 }
 

@@ -8,6 +8,7 @@
 
 #include "timeseries/readers/components.h"
 #include "timeseries/readers/netcdf/netcdf_rows.h"
+#include "timeseries/readers/netcdf/vtkhdf_arrays.h"
 #include "timeseries/readers/netcdf/vtkhdf_image.h"
 #include "timeseries/readers/netcdf/vtkhdf_mesh.h"
 #include "timeseries/readers/other_formats.h"
@@ -46,9 +47,6 @@ class VtkHdfReader final : public Reader {
     void add(ArrayOf source, const ComponentVariable& component);
     void open(std::size_t step);
     std::shared_ptr<const Grid> gridAt(bool atPoints);
-    const NcVariable* ghostsAt(bool atPoints) const;
-    void markGhosts(const ArrayOf& source, std::size_t step, std::uint64_t count,
-                    Field& field) const;
 
     std::vector<std::filesystem::path> paths_;
     std::unique_ptr<NetcdfFile> opened_;
@@ -98,18 +96,12 @@ std::shared_ptr<const Grid> VtkHdfReader::gridAt(bool atPoints) {
     }
 }
 
-const NcVariable* VtkHdfReader::ghostsAt(bool atPoints) const {
-    const auto* found = file_.header().find(
-        atPoints ? "VTKHDF/PointData/vtkGhostType" : "VTKHDF/CellData/vtkGhostType", "");
-    return found && found->type ? found : nullptr;
-}
-
 void VtkHdfReader::add(ArrayOf source, const ComponentVariable& component) {
     Variable variable;
     variable.name = component.name;
     variable.type = component.type;
     variable.storedAs = component.storedAs + (source.atPoints ? "" : ", at cells");
-    if (ghostsAt(source.atPoints)) variable.missing = "ghost and blanked, by vtkGhostType";
+    if (vtkHdfGhosts(file_.header(), source.atPoints)) variable.missing = kVtkHdfMissing;
     open(0);
     variable.grid = gridAt(source.atPoints);
     variable.time = time_;
@@ -121,39 +113,17 @@ void VtkHdfReader::add(ArrayOf source, const ComponentVariable& component) {
 }
 
 void VtkHdfReader::addArrays(bool atPoints) {
-    const std::string group = atPoints ? "VTKHDF/PointData/" : "VTKHDF/CellData/",
-                      other = atPoints ? "VTKHDF/CellData/" : "VTKHDF/PointData/";
+    const std::string group = vtkHdfGroup(atPoints);
     for (const NcVariable& array : file_.header().variables) {
         if (!array.name.starts_with(group) || !array.type) continue;
         const std::string own = array.name.substr(group.size());
         const std::size_t rank = array.dimensions.size();
-        if (own == "vtkGhostType" || own.find('/') != own.npos || rank < 1 || rank > 2) continue;
+        if (own == kVtkHdfGhosts || own.find('/') != own.npos || rank < 1 || rank > 2) continue;
         const std::uint64_t count = rank == 2 ? file_.header().dimension(array, 1).length : 1;
-        const bool both = file_.header().find(other + own, "") != nullptr;
-        const std::string name = own + (!both ? "" : atPoints ? " (points)" : " (cells)");
+        const std::string name = vtkHdfName(file_.header(), own, atPoints);
         for (const ComponentVariable& each : componentsOf(name, *array.type, count))
             add({&array, own, atPoints, each.component}, each);
     }
-}
-
-// Duplicate and hidden points; duplicate, refined and hidden cells (vtkDataSetAttributes).
-void VtkHdfReader::markGhosts(const ArrayOf& source, std::size_t step, std::uint64_t count,
-                              Field& field) const {
-    const NcVariable* const ghosts = ghostsAt(source.atPoints);
-    if (!ghosts) return;
-    const unsigned bits = source.atPoints ? 1 | 2 : 1 | 8 | 32;
-    const Values flags =
-        rowsOf(file_, *ghosts, layout_.firstValue(step, source.atPoints, "vtkGhostType"), count, 1);
-    field.missing.resize(count);
-    std::visit(
-        [&](const auto& all) {
-            for (std::uint64_t i = 0; i < count; ++i) {
-                const double told = static_cast<double>(all[i]);
-                const double flag = told > 0 ? std::min(told, 255.0) : 0;
-                field.missing[i] = (static_cast<unsigned>(flag) & bits) != 0;
-            }
-        },
-        flags);
 }
 
 Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
@@ -167,7 +137,10 @@ Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
         rowsOf(file_, *source.array, layout_.firstValue(step, source.atPoints, source.name), count,
                source.component.of),
         source.component);
-    markGhosts(source, step, count, field);
+    if (const NcVariable* const ghosts = vtkHdfGhosts(file_.header(), source.atPoints)) {
+        const std::uint64_t first = layout_.firstValue(step, source.atPoints, kVtkHdfGhosts);
+        field.missing = vtkHdfMissing(rowsOf(file_, *ghosts, first, count, 1), source.atPoints);
+    }
     return field;
 }
 
