@@ -15,12 +15,6 @@
 namespace timeseries {
 namespace {
 
-std::optional<std::size_t> positionOf(const NcVariable& variable, std::size_t dimension) {
-    const auto found = std::ranges::find(variable.dimensions, dimension);
-    if (found == variable.dimensions.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - variable.dimensions.begin());
-}
-
 // What is neither time nor the list, and may be a coordinate of space, is the levels.
 Roles rolesOn(const NcHeader& header, const NcVariable& variable, const Roles& before,
               std::size_t list) {
@@ -97,7 +91,7 @@ std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variab
         found.places.edgesTurned = isTurned(header, *edges, mesh->text("edge_dimension"));
         along = edges->dimensions[found.places.edgesTurned ? 1 : 0];
     }
-    const auto list = positionOf(variable, along);
+    const auto list = variable.positionOf(along);
     if (!list) return std::nullopt;
     found.roles = rolesOn(header, variable, roles, *list);
     return found;

@@ -9,6 +9,12 @@ std::string_view NcVariable::baseName() const {
     return group.empty() ? all : all.substr(group.size() + 1);
 }
 
+std::optional<std::size_t> NcVariable::positionOf(std::optional<std::size_t> dimension) const {
+    const auto found = std::ranges::find(dimensions, dimension);
+    if (found == dimensions.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - dimensions.begin());
+}
+
 const NcAttribute* NcAttributes::find(std::string_view attribute) const {
     const auto at = std::ranges::find(attributes, attribute, &NcAttribute::name);
     return at == attributes.end() ? nullptr : &*at;

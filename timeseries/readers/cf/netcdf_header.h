@@ -54,6 +54,8 @@ struct NcVariable : NcAttributes {
     int groupId = 0, id = 0;              // the library's, while the file is open
 
     std::string_view baseName() const;
+    // Of a dimension among its own, the slowest first; nothing where it has no such one.
+    std::optional<std::size_t> positionOf(std::optional<std::size_t> dimension) const;
     // Whether it is numbers, one for each place along that dimension.
     bool isAlong(std::size_t dimension) const {
         return type && dimensions.size() == 1 && dimensions[0] == dimension;

@@ -38,13 +38,6 @@ std::optional<std::size_t> dimensionOf(const NcHeader& header, std::string_view 
     return static_cast<std::size_t>(found - header.dimensions.begin());
 }
 
-std::optional<std::size_t> positionOf(const NcVariable& variable,
-                                      std::optional<std::size_t> dimension) {
-    const auto found = std::ranges::find(variable.dimensions, dimension);
-    if (!dimension || found == variable.dimensions.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - variable.dimensions.begin());
-}
-
 // "fesom" of "temp.fesom.1948.nc", by which the mesh is called, too; the first is what FESOM's
 // tools look for.
 std::vector<std::filesystem::path> meshesBeside(const std::filesystem::path& values) {
@@ -227,8 +220,8 @@ void FesomFile::addDepths(std::string_view name) {
 
 void FesomFile::place(NcVariable& variable) const {
     if (variable.id < 0 || variable.group == kGroup) return;
-    const bool atNodes = positionOf(variable, nodes_).has_value();
-    if (!atNodes && !positionOf(variable, triangles_)) return;
+    const bool atNodes = variable.positionOf(nodes_).has_value();
+    if (!atNodes && !variable.positionOf(triangles_)) return;
     say(variable, "mesh", kGroup + "/topology");
     say(variable, "location", atNodes ? "node" : "face");
 }
@@ -289,12 +282,12 @@ std::optional<T> missingOf(const NcVariable& variable) {
 // What lies below the last level of its place or above its first.
 void FesomFile::hide(const NcVariable& variable, std::span<const std::size_t> start,
                      std::span<const std::size_t> count, void* values) const {
-    auto list = positionOf(variable, nodes_);
+    auto list = variable.positionOf(nodes_);
     const bool atNodes = list.has_value();
-    if (!list) list = positionOf(variable, triangles_);
-    auto vertical = positionOf(variable, dimensionOf(header_, kLevels));
+    if (!list) list = variable.positionOf(triangles_);
+    auto vertical = variable.positionOf(dimensionOf(header_, kLevels));
     const bool areLayers = !vertical;
-    if (!vertical) vertical = positionOf(variable, dimensionOf(header_, kLayers));
+    if (!vertical) vertical = variable.positionOf(dimensionOf(header_, kLayers));
     if (!list || !vertical) return;
     const auto& levels = levelsOf(atNodes);
     const std::vector<double>&first = levels[0], &beyond = levels[1];
