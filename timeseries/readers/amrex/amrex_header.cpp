@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <span>
 
 #include "timeseries/readers/amrex/amrex_text.h"
 #include "timeseries/readers/limits.h"
@@ -40,13 +41,8 @@ bool staysWithin(const fs::path& path) {
            std::ranges::none_of(path, [](const fs::path& part) { return part == ".."; });
 }
 
-// What stands before the levels' own.
-struct Beginning {
-    std::size_t levels = 1;
-    std::vector<glm::dvec3> cells;  // [level]: their sides
-};
-
-Beginning readBeginning(AmrexText& text, AmrexPlotfile& file) {
+// What stands before the levels' own, and how many these are.
+void readBeginning(AmrexText& text, AmrexPlotfile& file) {
     if (!isVersion(text.restOfLine())) text.fail("the name of a plotfile's version");
     const std::int64_t names = text.integer("a number of variables", 1, kMostVariables);
     text.restOfLine();
@@ -61,12 +57,12 @@ Beginning readBeginning(AmrexText& text, AmrexPlotfile& file) {
     file.dimensions = static_cast<std::size_t>(text.integer("a number of dimensions", 1, 3));
     if (file.dimensions == 1) text.fail("a plotfile of 2 or 3 dimensions, found one of 1");
     file.time = text.number("a time");
-    Beginning found;
-    found.levels = static_cast<std::size_t>(text.integer("a finest level", 0, kMostLevels - 1)) + 1;
-    return found;
+    file.lattice.resize(
+        static_cast<std::size_t>(text.integer("a finest level", 0, kMostLevels - 1)) + 1);
 }
 
-void readDomain(AmrexText& text, AmrexPlotfile& file, Beginning& found) {
+// The sides of each level's cells.
+std::vector<glm::dvec3> readDomain(AmrexText& text, AmrexPlotfile& file) {
     const int axes = static_cast<int>(file.dimensions);
     for (int a = 0; a < axes; ++a) file.lo[a] = text.number("an end of the domain");
     for (int a = 0; a < axes; ++a) file.hi[a] = text.number("an end of the domain");
@@ -75,33 +71,33 @@ void readDomain(AmrexText& text, AmrexPlotfile& file, Beginning& found) {
             text.fail("a domain that takes space");
     // The domains tell by how much levels are finer, along each axis.
     while (!text.isNext('(')) text.integer("a ratio of refinement", 1, 1 << 20);
-    file.lattice.resize(found.levels);
     for (LatticeLevel& level : file.lattice) level.domain = text.box(file.dimensions);
-    for (std::size_t l = 0; l < found.levels; ++l) text.word("the step of a level");
-    for (std::size_t l = 0; l < found.levels; ++l) {
-        found.cells.emplace_back(0);
-        for (int a = 0; a < axes; ++a) found.cells[l][a] = text.number("the side of a cell");
-    }
+    for (std::size_t l = 0; l < file.lattice.size(); ++l) text.word("the step of a level");
+    std::vector<glm::dvec3> sides(file.lattice.size(), glm::dvec3(0));
+    for (glm::dvec3& side : sides)
+        for (int a = 0; a < axes; ++a) side[a] = text.number("the side of a cell");
     static constexpr std::array kSystems{"", "of a cylinder (RZ)", "of a sphere"};
     const std::int64_t system = text.integer("a system of coordinates", 0, 2);
     if (system != 0)
         text.fail(fmt::format("Cartesian coordinates, found those {}, which are not read",
                               kSystems[static_cast<std::size_t>(system)]));
     text.integer("a width", -1, 1 << 20);
+    return sides;
 }
 
 // They follow from the domain; written with six digits by some.
-void checkCells(const AmrexText& text, const AmrexPlotfile& file, const Beginning& found) {
-    for (std::size_t l = 0; l < found.levels; ++l)
+void checkCells(const AmrexText& text, const AmrexPlotfile& file,
+                std::span<const glm::dvec3> sides) {
+    for (std::size_t l = 0; l < sides.size(); ++l)
         for (std::size_t a = 0; a < file.dimensions; ++a) {
             const int c = static_cast<int>(a);
             const double side =
                 (file.hi[c] - file.lo[c]) / static_cast<double>(file.lattice[l].domain.size()[a]);
-            if (!(std::abs(found.cells[l][c] - side) <= 1e-3 * side))
+            if (!(std::abs(sides[l][c] - side) <= 1e-3 * side))
                 text.fail(
                     fmt::format("cells of level {} that fill the domain, found sides of {} "
                                 "where {} do",
-                                l, found.cells[l][c], side));
+                                l, sides[l][c], side));
         }
 }
 
@@ -258,7 +254,8 @@ std::size_t amrexLevelsOf(const fs::path& path) {
     std::ifstream stream = openText(header);
     AmrexText text(stream, header.string());
     AmrexPlotfile file;
-    return readBeginning(text, file).levels;
+    readBeginning(text, file);
+    return file.lattice.size();
 }
 
 AmrexPlotfile readAmrexHeader(const fs::path& path) {
@@ -267,9 +264,8 @@ AmrexPlotfile readAmrexHeader(const fs::path& path) {
     file.texts.push_back(file.folder / "Header");
     std::ifstream stream = openText(file.texts[0]);
     AmrexText text(stream, file.texts[0].string());
-    Beginning beginning = readBeginning(text, file);
-    readDomain(text, file, beginning);
-    checkCells(text, file, beginning);
+    readBeginning(text, file);
+    checkCells(text, file, readDomain(text, file));
     readLevels(text, file);
     checkFiles(file);
     file.others = othersIn(file);
