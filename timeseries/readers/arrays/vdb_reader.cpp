@@ -53,8 +53,8 @@ std::vector<T> turned(const std::vector<T>& from, const ArrayLayout& layout) {
 
 class VdbReader final : public Reader {
  public:
-    VdbReader(const Path& path, VdbFile::Header header, const Boxes& boxes)
-        : path_(path), file_(path, header) {
+    VdbReader(const Path& path, VdbFile file, const Boxes& boxes)
+        : path_(path), file_(std::move(file)) {
         for (const VdbGrid& grid : file_.grids()) {
             const auto box = boxes.find(grid.name);
             add(grid, box == boxes.end() ? grid.box : box->second);
@@ -119,11 +119,13 @@ void VdbReader::add(const VdbGrid& grid, const VdbBox& box) {
 
 std::unique_ptr<Reader> openVdb(std::span<const Path> paths) {
     if (paths.size() == 1)
-        return std::make_unique<VdbReader>(paths[0], VdbFile::Header::New, Boxes());
+        return std::make_unique<VdbReader>(paths[0], VdbFile(paths[0], VdbFile::Header::New),
+                                           Boxes());
     Boxes boxes;
+    const auto opened = std::make_shared<std::map<Path, VdbFile>>();  // and not used yet
     for (const Path& path : paths) {
-        const VdbFile file(path, VdbFile::Header::New);
-        for (const VdbGrid& grid : file.grids()) {
+        const auto file = opened->try_emplace(path, path, VdbFile::Header::New).first;
+        for (const VdbGrid& grid : file->second.grids()) {
             const auto [box, isNew] = boxes.emplace(grid.name, grid.box);
             if (!isNew) box->second.add(grid.box);
         }
@@ -135,8 +137,10 @@ std::unique_ptr<Reader> openVdb(std::span<const Path> paths) {
                             "holds all steps, "
                             "found {}",
                             paths[0].string(), name, fmt::join(box.size(), " x ")));
-    return openSequence(paths, [boxes](const Path& path) {
-        return std::make_unique<VdbReader>(path, VdbFile::Header::Known, boxes);
+    return openSequence(paths, [boxes, opened](const Path& path) {
+        auto known = opened->extract(path);
+        return std::make_unique<VdbReader>(
+            path, known ? std::move(known.mapped()) : VdbFile(path, VdbFile::Header::Known), boxes);
     });
 }
 

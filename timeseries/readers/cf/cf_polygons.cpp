@@ -50,7 +50,7 @@ class OwnCorners {
         }
         addPolygon(grid_, indices_);
     }
-    const UnstructuredGrid& grid() const { return grid_; }
+    UnstructuredGrid taken() { return std::move(grid_); }
 
  private:
     double turn_;
@@ -115,7 +115,7 @@ PlacedPolygons polygonsAbout(const PlaneCoordinates& centres, const PlaneCoordin
         polygons.add(centres.x[place], polygon);
         result.places.emplace_back(centres.x[place], centres.y[place], 0);
     }
-    result.grid = polygons.grid();
+    result.grid = polygons.taken();
     return result;
 }
 
@@ -129,7 +129,7 @@ UnstructuredGrid polygonsOfFaces(const PlaneCoordinates& nodes, const NodesOf& f
                 polygon.emplace_back(nodes.x[node], nodes.y[node]);
         polygons.add(std::numeric_limits<double>::quiet_NaN(), polygon);
     }
-    return polygons.grid();
+    return polygons.taken();
 }
 
 UnstructuredGrid polygonsAboutNodes(const PlaneCoordinates& nodes, const NodesOf& faces) {
@@ -197,7 +197,7 @@ PlacedPolygons polygonsAboutEdges(const PlaneCoordinates& nodes, const NodesOf& 
         polygons.add(reference, polygon);
         result.places.push_back(place);
     }
-    result.grid = polygons.grid();
+    result.grid = polygons.taken();
     return result;
 }
 
