@@ -9,5 +9,7 @@ constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 32;  // SortedStep's in
 // A step of so many points needs no longer axis, and an axis costs 8 bytes a point.
 constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 24;
 constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 20;
+// What a byte of deflate unpacks to: 1032 (RFC 1951: two bits for 258 bytes), and some to spare.
+constexpr std::uint64_t kMaxInflated = 1100;
 
 }  // namespace timeseries

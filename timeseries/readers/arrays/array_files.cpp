@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/reader.h"
 
@@ -30,9 +31,8 @@ std::uint64_t sizeOf(const ArrayHeader& header, const std::filesystem::path& pat
 // bzip2 packs megabytes of one value into 50 bytes: so much is believed of any file.
 constexpr double kBzip2FreeBytes = 67108864;
 
-// The fewest bytes that can stand for the values of one piece. Deflate unpacks to at most about
-// 1032 times its bytes (RFC 1951), and so much more is believed of bzip2; text needs a digit and a
-// blank a value.
+// The fewest bytes that can stand for the values of one piece. Of bzip2 as much is believed as of
+// deflate, and more; text needs a digit and a blank a value.
 double leastBytes(const ArrayHeader& header, std::uint64_t count) {
     const double points = static_cast<double>(count);
     const double bytes = points * static_cast<double>(header.valueBytes());
@@ -40,9 +40,9 @@ double leastBytes(const ArrayHeader& header, std::uint64_t count) {
         case ArrayEncoding::Raw:
             return bytes;
         case ArrayEncoding::Gzip:
-            return bytes / 1100;
+            return bytes / kMaxInflated;
         case ArrayEncoding::Bzip2:
-            return std::max(bytes - kBzip2FreeBytes, 0.0) / 1100;
+            return std::max(bytes - kBzip2FreeBytes, 0.0) / kMaxInflated;
         case ArrayEncoding::Ascii:
             return 2 * points - 1;
     }

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
@@ -17,7 +18,7 @@ namespace {
 constexpr int kMostAxes = 9;  // that CFITSIO reads parts of
 constexpr int kMostImages = 4096;
 // More than this, and than its bytes may hold, is believed of no compressed image.
-constexpr double kFreeBytes = 67108864, kMostPacked = 1100;
+constexpr double kFreeBytes = 67108864;
 
 std::mutex& cfitsioMutex() {
     static std::mutex one;
@@ -229,7 +230,7 @@ void FitsFile::Open::expectBytes(const FitsFile& of, const FitsImage& image, dou
     const auto bytes = std::filesystem::file_size(of.path(), error);
     const bool holds =
         image.packed
-            ? std::max(values - kFreeBytes, 0.0) <= kMostPacked * static_cast<double>(bytes)
+            ? std::max(values - kFreeBytes, 0.0) <= kMaxInflated * static_cast<double>(bytes)
             : begin >= 0 && static_cast<std::uint64_t>(begin) <= bytes &&
                   values <= static_cast<double>(bytes) - static_cast<double>(begin);
     if (status != 0 || error || !holds)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/reader.h"
 
@@ -21,11 +22,10 @@ bool isFoamMark(char c) {
 bool isPacked(const std::filesystem::path& path) { return path.extension() == ".gz"; }
 
 std::uint64_t mostBytesOf(const std::filesystem::path& path) {
-    constexpr std::uint64_t kDeflate = 1032;  // RFC 1951: two bits for 258 bytes
     std::error_code ignored;
     const auto size = std::filesystem::file_size(path, ignored);
     if (ignored) return 0;
-    return isPacked(path) ? size * kDeflate : size;
+    return isPacked(path) ? size * kMaxInflated : size;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "timeseries/readers/forked_call.h"
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/netcdf/classic_layout.h"
 #include "timeseries/readers/reader.h"
 
@@ -18,7 +19,6 @@ namespace timeseries {
 namespace {
 
 constexpr int kMaxGroupDepth = 64;
-constexpr std::uint64_t kMaxStepPoints = std::uint64_t{1} << 32;  // SortedStep's indices
 constexpr std::size_t kMaxAttributeBytes = 1 << 20;
 constexpr std::size_t kMaxVariables = NC_MAX_VARS;  // each is looked for among the others
 constexpr std::chrono::seconds kMaxHeaderTime{10};  // that of 8000 variables takes one
@@ -291,10 +291,9 @@ std::string NetcdfFile::tooLarge(const NcVariable& variable, std::uint64_t point
 
 std::string NetcdfFile::tooLarge(ValueType type, std::uint64_t points,
                                  std::uint64_t chunkBytes) const {
-    const double limit = 1100.0 * static_cast<double>(fileBytes_) + 1048576.0;
+    const double limit = kMaxInflated * static_cast<double>(fileBytes_) + 1048576.0;
     const double bytes = static_cast<double>(points) * static_cast<double>(typeBytes(type));
-    if (points > kMaxStepPoints)
-        return fmt::format("expected at most 2^32 points, found {}", points);
+    if (points > kMaxPoints) return fmt::format("expected at most 2^32 points, found {}", points);
     if (std::max(bytes, static_cast<double>(chunkBytes)) > limit)
         return fmt::format(
             "expected values that a file of {} bytes can hold, found {:.0f} bytes "

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/netcdf/netcdf_rows.h"
 
 namespace timeseries {
 namespace {
 
-constexpr std::uint64_t kMost = std::uint64_t{1} << 32;  // points, cells, corners of a step
 constexpr std::uint8_t kVertices = 2, kPolyLine = 4, kPolygon = 7;
 
 const NcVariable& expected(const NetcdfFile& file, const std::string& name) {
@@ -136,7 +136,7 @@ void VtkHdfLayout::readSteps() {
             file_.fail("VTKHDF/Steps",
                        fmt::format("expected {} parts from part {} on, found {} in all", step.parts,
                                    step.firstPart, points_.size()));
-        else if (pointsOf(step) >= kMost || cellsOf(step) >= kMost)
+        else if (pointsOf(step) >= kMaxPoints || cellsOf(step) >= kMaxPoints)
             file_.fail("VTKHDF", "expected fewer than 2^32 points and cells, found more");
 }
 
@@ -157,7 +157,7 @@ std::uint64_t VtkHdfLayout::cellsOf(const VtkHdfStep& step) const {
     std::uint64_t sum = 0;
     for (const Topology& each : topologies_)
         sum = std::min(sum + each.cells[step.firstPart + step.parts] - each.cells[step.firstPart],
-                       kMost);
+                       kMaxPoints);
     return sum;
 }
 
@@ -210,7 +210,7 @@ void VtkHdfLayout::addCells(const Topology& topology, const VtkHdfStep& step, st
             "variable '" + name + "'",
             fmt::format("expected {} cells of part {}, from 0 to {} corners", cells, number, ids));
     const std::uint64_t begin = grid.corners.size();
-    if (begin + ids >= kMost) file_.fail(name, "expected fewer than 2^32 corners, found more");
+    if (begin + ids >= kMaxPoints) file_.fail(name, "expected fewer than 2^32 corners, found more");
     for (std::uint64_t i = 1; i <= cells; ++i) grid.ends.push_back(begin + offsets[i]);
     for (const std::uint64_t point :
          wholeNumbers(file_, topology.group + "Connectivity", corner, ids))

@@ -5,17 +5,18 @@
 #include <bit>
 #include <fstream>
 
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/vtk/vtk_header.h"
 #include "timeseries/readers/vtk/vtk_number.h"
 
 namespace timeseries {
 namespace {
 
-// The most that a byte can unpack to: deflate's limit is 1032 (RFC 1951: two bits for 258 bytes),
-// LZ4's 255 (one length byte); LZMA states none, and 8000 is meant to be beyond what it reaches.
+// The most that a byte can unpack to: LZ4's limit is 255 (one length byte); LZMA states none, and
+// 8000 is meant to be beyond what it reaches.
 std::uint64_t unpackedPerByte(std::string_view compressor) {
     if (compressor == "vtkLZ4DataCompressor") return 256;
-    return compressor == "vtkLZMADataCompressor" ? 8000 : 1100;
+    return compressor == "vtkLZMADataCompressor" ? 8000 : kMaxInflated;
 }
 
 // The bytes of one array where they lie, decoded where they are base64.

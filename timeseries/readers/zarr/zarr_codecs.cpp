@@ -11,6 +11,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "timeseries/readers/limits.h"
+
 namespace timeseries {
 namespace {
 
@@ -37,17 +39,17 @@ std::uint32_t littleEndian32(const std::byte* at) {
     return number;
 }
 
-// The most that a byte unpacks to, beside some for all: of deflate RFC 1951's limit; of Zstandard,
-// which Blosc may hold, a block of 128 KiB in 4 bytes (RFC 8878, section 3.1.1.2); of LZ4 255.
+// The most that a byte unpacks to, beside some for all: of Zstandard, which Blosc may hold, a block
+// of 128 KiB in 4 bytes (RFC 8878, section 3.1.1.2); of LZ4 255.
 // bzip2 packs megabytes of one value into 50 bytes, so that more is believed of any.
 bool canHold(ZarrCodec codec, std::uint64_t packed, std::uint64_t bytes) {
     constexpr std::uint64_t kFree = 1 << 20;
     switch (codec) {
         case ZarrCodec::Zlib:
         case ZarrCodec::Gzip:
-            return bytes <= 1100 * packed + kFree;
+            return bytes <= kMaxInflated * packed + kFree;
         case ZarrCodec::Bzip2:
-            return bytes <= 1100 * packed + 64 * kFree;
+            return bytes <= kMaxInflated * packed + 64 * kFree;
         case ZarrCodec::Lz4:
             return bytes <= 256 * packed + kFree;
         default:

@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "timeseries/readers/limits.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/reader.h"
 
@@ -21,8 +22,8 @@ using Member = std::unique_ptr<zip_file_t, int (*)(zip_file_t*)>;
 
 // Of a deflated member parts are had by unpacking all of it.
 constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 28;
-// The most that a byte of deflate unpacks to (RFC 1951), beside some for all.
-constexpr std::uint64_t kMostPerByte = 1100, kFree = 1 << 20;
+// Beside what its bytes may unpack to.
+constexpr std::uint64_t kFree = 1 << 20;
 
 std::string textOf(zip_error_t* error) {
     std::string text = zip_error_strerror(error);
@@ -174,7 +175,7 @@ std::unique_ptr<ZarrStoreFile> ZarrZip::open(const std::string& name) const {
     // Sizes are but said, and memory shall not be taken for what cannot be there.
     if (member.comp_size > archiveBytes_ ||
         (stored ? member.size != member.comp_size
-                : member.size > kMostPerByte * member.comp_size + kFree))
+                : member.size > kMaxInflated * member.comp_size + kFree))
         throw std::invalid_argument(
             fmt::format("expected a size that {} bytes of a zip file of {} hold, found {}",
                         member.comp_size, archiveBytes_, member.size));
@@ -183,7 +184,7 @@ std::unique_ptr<ZarrStoreFile> ZarrZip::open(const std::string& name) const {
 
 double ZarrZip::bytesBelow(const std::string& folder, double enough) const {
     // Members may lie over each other; all are within the file.
-    const double most = static_cast<double>(archiveBytes_) * kMostPerByte;
+    const double most = static_cast<double>(archiveBytes_) * kMaxInflated;
     double bytes = 0;
     for (auto [at, end] = below(folder); bytes < enough && at != end; ++at) {
         zip_stat_t member;
