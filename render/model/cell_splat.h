@@ -242,7 +242,7 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
         s.lo = Vec2(-std::numeric_limits<Real>::max());
         s.hi = -s.lo;
     }
-    s.ray = Vec3((rays.axis + s.centre.x * rays.perPixelX + s.centre.y * rays.perPixelY) / size);
+    s.ray = Vec3(rays.along(s.centre) / size);
     return s;
 }
 

@@ -51,8 +51,7 @@ class Ray {
  private:
     bool near(const glm::dvec3& world) const {
         const glm::dvec3 away = world - rays_.eye;
-        const glm::dvec3 along = rays_.axis + (window_.x - rays_.centre.x) * rays_.perPixelX +
-                                 (window_.y - rays_.centre.y) * rays_.perPixelY;
+        const glm::dvec3 along = rays_.along(window_ - rays_.centre);
         const double depth = glm::dot(away, rays_.axis) / glm::dot(rays_.axis, rays_.axis);
         const glm::dvec3 across = glm::cross(away, along);
         const double reach = longestSemiAxis(scene_.placed, reach_, depth * reachPerDepth_);
@@ -132,8 +131,7 @@ std::optional<HalfOfLight> atHalfOfLight(const Scene& scene, std::span<const Met
 
 double depthOfBall(const PlacedPoints& placed, const View& view, const glm::dvec2& window) {
     const PixelRays rays = pixelRays(placed.inAxes(view));
-    const glm::dvec2 o = window - rays.centre;
-    return placed.ballOnRay(rays.eye, rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY);
+    return placed.ballOnRay(rays.eye, rays.along(window - rays.centre));
 }
 
 std::optional<Picked> pick(const Scene& scene, const View& view, const glm::dvec2& window) {

@@ -143,7 +143,7 @@ TetSplat<Real> tetSplatAt(const PointsView& view, const ValuedTet& tet) {
         s.lo = Vec2(-std::numeric_limits<Real>::max());
         s.hi = -s.lo;
     }
-    const glm::dvec3 ray = rays.axis + s.centre.x * rays.perPixelX + s.centre.y * rays.perPixelY;
+    const glm::dvec3 ray = rays.along(s.centre);
     double value = 0, alongRay = 0, alongX = 0, alongY = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         const double r = glm::dot(slopes[i], ray), x = glm::dot(slopes[i], rays.perPixelX),

@@ -34,13 +34,16 @@ struct Frustum {
 glm::dmat4 clipFromView(const Frustum& frustum);
 
 // What the pixels of a view see, in world space. Offsets are window positions (in pixels, pixel
-// centres at .5) less `centre`: the ray of offset d leaves `eye` along
-// axis + d.x perPixelX + d.y perPixelY, whose view depth is 1.
+// centres at .5) less `centre`.
 struct PixelRays {
     glm::dvec3 eye, axis, perPixelX, perPixelY;
     glm::dvec2 focal;   // pixels per unit of x / -z and y / -z
     glm::dvec2 centre;  // window position of the view axis
     double near;        // view depth of the near plane
+    // What the ray of an offset leaves `eye` along, of view depth 1.
+    glm::dvec3 along(const glm::dvec2& offset) const {
+        return axis + offset.x * perPixelX + offset.y * perPixelY;
+    }
 };
 PixelRays pixelRays(const View& view);
 

@@ -57,20 +57,15 @@ std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm
     const glm::ivec2 pixel(glm::floor(window));
     const double perDepth = lengthPerDepth(seen, window);
     std::vector<std::vector<PassedTet>> parts(kCellParts);
-    forEachTetBefore(
+    forEachTetSplat(
         scene, scene.cells->field(), seen, PixelBins(std::span(&pixel, 1), view.size),
-        sharingThreads(),
+        sharingThreads(), OpacityPer::Length,
         [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron& tet,
-            std::size_t layer, std::size_t) {
-            for (const auto& range : scene.layers[layer].cells.ranges) {
-                const auto s = tetSplatAt<double>(
-                    seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
-                const auto in = s.visible ? partOnRay(seen, s, window) : std::nullopt;
-                if (!in) continue;
+            const TetSplat<double>& s, std::size_t layer, std::size_t) {
+            if (const auto in = partOnRay(seen, s, window))
                 parts[part].push_back(
                     {partInLayer(scene, layer, cell, *in, perDepth),
                      tet.corners[nearestCorner(seen, s, window, std::midpoint(in->from, in->to))]});
-            }
         });
     std::vector<PassedTet> passed;
     for (const auto& some : parts) passed.insert(passed.end(), some.begin(), some.end());

@@ -19,19 +19,13 @@ std::vector<double> tetDepthAt(const Scene& scene, const View& view,
     const PointsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
-    forEachTetBefore(
-        scene, scene.cells->field(), seen, bins, threads,
-        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet, std::size_t layer,
-            std::size_t pixel) {
-            const Layer& of = scene.layers[layer];
-            for (const auto& range : of.cells.ranges) {
-                const auto s = tetSplatAt<double>(
-                    seen, {tet.at, tet.values, range.lo, range.hi, scene.opacityPer});
-                if (!s.visible) continue;
-                const glm::dvec2 offset = glm::dvec2(pixels[pixel]) + 0.5 - seen.rays.centre;
-                parts[part][pixel] += opticalDepthPerWeight(of.style.opacity) *
-                                      fragmentOn<double>(seen, s, offset - s.centre, kNever).weight;
-            }
+    forEachTetSplat(
+        scene, scene.cells->field(), seen, bins, threads, scene.opacityPer,
+        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron&,
+            const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
+            const glm::dvec2 offset = glm::dvec2(pixels[pixel]) + 0.5 - seen.rays.centre;
+            parts[part][pixel] += opticalDepthPerWeight(scene.layers[layer].style.opacity) *
+                                  fragmentOn<double>(seen, s, offset - s.centre, kNever).weight;
         });
     return addedUp(parts);
 }
@@ -54,7 +48,7 @@ std::vector<double> depthAt(const Scene& scene, const View& view,
     };
     const auto depthOf = [&](const glm::dvec2& offset) {
         const PixelRays& rays = seen.rays;
-        const glm::dvec3 along = rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY;
+        const glm::dvec3 along = rays.along(offset);
         double depth = 0;
         walk(rays.eye, along, rays.near, [&](const glm::uvec3& cell, double, double) {
             for (std::size_t k = 0; k < layers.size(); ++k) {

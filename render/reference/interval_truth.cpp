@@ -44,8 +44,7 @@ std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const g
     constexpr std::size_t kAtOnce = 64;
     const PixelRays rays = pixelRays(scene_.placed.inAxes(view));
     const auto rayAt = [&](const glm::dvec2& at) {
-        const glm::dvec2 o = at - rays.centre;
-        const glm::dvec3 along = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
+        const glm::dvec3 along = rays.along(at - rays.centre);
         return Ray{rays.eye, along, rays.near,
                    glm::length(scene_.placed.worldFromAxes() * along) / scene_.placed.unitLength()};
     };

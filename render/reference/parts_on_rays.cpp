@@ -33,19 +33,14 @@ std::vector<std::vector<PartInLayer>> partsOfMesh(const Scene& scene,
     };
     const PointsView seen(scene.placed, view);
     std::vector<std::vector<OfPixel>> found(kCellParts);
-    forEachTetBefore(
-        scene, field, seen, PixelBins(pixels, view.size), threads,
-        [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron& tet,
-            std::size_t layer, std::size_t pixel) {
+    forEachTetSplat(
+        scene, field, seen, PixelBins(pixels, view.size), threads, OpacityPer::Length,
+        [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron&,
+            const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
             const glm::dvec2 window = glm::dvec2(pixels[pixel]) + 0.5;
-            for (const auto& range : scene.layers[layer].cells.ranges) {
-                const auto s = tetSplatAt<double>(
-                    seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
-                const auto in = s.visible ? partOnRay(seen, s, window) : std::nullopt;
-                if (!in) continue;
+            if (const auto in = partOnRay(seen, s, window))
                 found[part].push_back(
                     {pixel, partInLayer(scene, layer, cell, *in, lengthPerDepth(seen, window))});
-            }
         });
     std::vector<std::vector<PartInLayer>> parts(pixels.size());
     for (const auto& some : found)
@@ -77,8 +72,7 @@ CellRays::CellRays(const Scene& scene, const timeseries::Field& field, const Vie
 }
 
 glm::dvec3 CellRays::alongOf(const glm::dvec2& window) const {
-    const glm::dvec2 o = window - rays_.centre;
-    return rays_.axis + o.x * rays_.perPixelX + o.y * rays_.perPixelY;
+    return rays_.along(window - rays_.centre);
 }
 
 std::vector<PartInLayer> CellRays::partsOn(const glm::dvec2& window) const {

@@ -30,26 +30,20 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
                                  unsigned threads) {
     std::vector<std::vector<PassedPart>> parts(kCellParts);
     const auto across = static_cast<std::uint32_t>(raysAcross);
-    forEachTetBefore(
-        scene, field, seen, PixelBins(pixels, size), threads,
-        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet, std::size_t layer,
-            std::size_t pixel) {
+    forEachTetSplat(
+        scene, field, seen, PixelBins(pixels, size), threads, OpacityPer::Length,
+        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron&,
+            const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
             const double perWeight = opticalDepthPerWeight(scene.layers[layer].style.opacity);
-            for (const auto& range : scene.layers[layer].cells.ranges) {
-                const auto s = tetSplatAt<double>(
-                    seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
-                if (!s.visible) continue;
-                for (std::uint32_t ray = 0; ray < across * across; ++ray) {
-                    const glm::dvec2 window = windowOf(pixels[pixel], ray, raysAcross);
-                    const auto in = partOnRay(seen, s, window);
-                    if (!in) continue;
-                    const double weight = (in->to - in->from) * lengthPerDepth(seen, window);
-                    parts[part].push_back(
-                        {static_cast<std::uint32_t>(pixel) * across * across + ray,
-                         {.layer = static_cast<std::uint32_t>(layer),
-                          .part = *in,
-                          .opticalDepth = perWeight * weight}});
-                }
+            for (std::uint32_t ray = 0; ray < across * across; ++ray) {
+                const glm::dvec2 window = windowOf(pixels[pixel], ray, raysAcross);
+                const auto in = partOnRay(seen, s, window);
+                if (!in) continue;
+                const double weight = (in->to - in->from) * lengthPerDepth(seen, window);
+                parts[part].push_back({static_cast<std::uint32_t>(pixel) * across * across + ray,
+                                       {.layer = static_cast<std::uint32_t>(layer),
+                                        .part = *in,
+                                        .opticalDepth = perWeight * weight}});
             }
         });
     std::vector<PassedPart> all;

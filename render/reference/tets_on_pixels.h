@@ -138,6 +138,23 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
     });
 }
 
+// use(part, cell, tet, seen, layer, pixel) for those and each range of the layer in which a
+// tetrahedron is seen.
+template <typename Use>
+void forEachTetSplat(const Scene& scene, const timeseries::Field& field, const PointsView& view,
+                     const PixelBins& pixels, unsigned threads, OpacityPer opacityPer,
+                     const Use& use) {
+    forEachTetBefore(scene, field, view, pixels, threads,
+                     [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron& tet,
+                         std::size_t layer, std::size_t pixel) {
+                         for (const auto& range : scene.layers[layer].cells.ranges) {
+                             const auto seen = tetSplatAt<double>(
+                                 view, {tet.at, tet.values, range.lo, range.hi, opacityPer});
+                             if (seen.visible) use(part, cell, tet, seen, layer, pixel);
+                         }
+                     });
+}
+
 // What of a ray's way through a tetrahedron lies in the range that it was seen with: view depths,
 // and the field there, linear in between.
 struct PartOnRay {

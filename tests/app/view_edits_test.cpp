@@ -51,7 +51,7 @@ dvec2 windowOf(const ViewChoice& view, const Looking& at, const dvec3& world) {
 dvec3 worldUnder(const ViewChoice& view, const Looking& at, dvec2 cursor) {
     const auto rays = render::pixelRays(eyes(view, {}, at.outline, at.size)[0]);
     const dvec2 offset = dvec2(cursor.x, at.size.y - cursor.y) - rays.centre;
-    const dvec3 ray = rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY;
+    const dvec3 ray = rays.along(offset);
     const double along = glm::dot(view.target - rays.eye, rays.axis) / glm::dot(ray, rays.axis);
     return rays.eye + along * ray;
 }

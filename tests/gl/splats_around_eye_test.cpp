@@ -113,9 +113,7 @@ TEST_F(SplatsAroundTheEye, LeaveAMediumAsManyPercentTooFaintAsIsSaid) {
                 for (int x = 0; x < view.size.x; ++x) {
                     const glm::dvec2 offset = glm::dvec2(x, y) + 0.5 - rays.centre;
                     drawn += depth[static_cast<std::size_t>(y * view.size.x + x)];
-                    exact +=
-                        wayOut(placed, rays.eye,
-                               rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY);
+                    exact += wayOut(placed, rays.eye, rays.along(offset));
                 }
         }
         EXPECT_NEAR(drawn / exact - 1, said, 0.5 * std::abs(said)) << size;

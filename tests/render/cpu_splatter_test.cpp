@@ -53,7 +53,7 @@ TEST(Truth, NearSplatsAreTheKernelsLineIntegralsOnEveryRay) {
     for (int y = 0; y < 50; ++y)
         for (int x = 0; x < 60; ++x) {
             const glm::dvec2 o = glm::dvec2(x + 0.5, y + 0.5) - rays.centre;
-            const glm::dvec3 d = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
+            const glm::dvec3 d = rays.along(o);
             double expected = 0;
             for (std::size_t i = 0; i < world.step.size(); ++i) {
                 const glm::dvec3 cell = world.placed.cell(i), a = kQuarticRadius * cell;

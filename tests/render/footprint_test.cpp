@@ -84,10 +84,8 @@ TEST(SlimFootprint, TheShareOfARayIsTheIntegralOfWhatItPassesInside) {
                 glm::mix(s.lo, s.hi, 0.5 + 0.5 * glm::dvec2(uniform(random), uniform(random)));
             const double q = s.numerator(at) / s.denominator(at);
             if (!(q < 0.98)) continue;
-            const glm::dvec3 along = seen.rays.axis + (s.centre.x + at.x) * seen.rays.perPixelX +
-                                     (s.centre.y + at.y) * seen.rays.perPixelY;
-            const glm::dvec3 toCentre = seen.rays.axis + s.centre.x * seen.rays.perPixelX +
-                                        s.centre.y * seen.rays.perPixelY;
+            const glm::dvec3 along = seen.rays.along(s.centre + at);
+            const glm::dvec3 toCentre = seen.rays.along(s.centre);
             // In kernel space the ray is at off + depth * d, depths counted from the centre's.
             const glm::dvec3 dir = along / d.radii, off = s.depth * (along - toCentre) / d.radii;
             const double middle = -glm::dot(off, dir) / glm::dot(dir, dir);
@@ -163,8 +161,7 @@ TEST(SlimFootprint, MassIsKeptBesideAFaceAndNearlyAtEdgesAndCorners) {
 double pathLength(const PointsView& seen, const glm::dvec2& pixel, double pixels) {
     const glm::dvec3 eye = glm::inverse(seen.placed.worldFromAxes()) *
                            glm::dvec3(glm::inverse(seen.viewFromWorld) * glm::dvec4(0, 0, 0, 1));
-    const glm::dvec2 o = pixel - seen.rays.centre;
-    const glm::dvec3 d = seen.rays.axis + o.x * seen.rays.perPixelX + o.y * seen.rays.perPixelY;
+    const glm::dvec3 d = seen.rays.along(pixel - seen.rays.centre);
     const double middle = glm::length(glm::dvec3(seen.viewFromWorld[3]));
     const glm::dvec3 grown(pixels * middle * seen.smallestRadius / kQuarticRadius);
     const PlacedPoints::Box box = seen.placed.domain();

@@ -41,8 +41,7 @@ std::vector<std::vector<Fragment>> fragmentsOf(const Scene& scene, const View& v
                 const auto weight = weightOn<double>(s, scene.footprint.kernel, offset - s.centre,
                                                      offset / rays.focal, seen.rayLength);
                 if (!weight) continue;
-                const glm::dvec3 along =
-                    rays.axis + offset.x * rays.perPixelX + offset.y * rays.perPixelY;
+                const glm::dvec3 along = rays.along(offset);
                 all[static_cast<std::size_t>(y * view.size.x + x)].push_back(
                     {glm::dot(away, glm::normalize(along)),
                      -std::expm1(-opticalDepthPerWeight(layer.style.opacity) * *weight),

@@ -70,8 +70,7 @@ struct Ray {
 };
 Ray rayOf(const TrueWorld& world, const View& view, double x, double y) {
     const PixelRays rays = pixelRays(world.placed.inAxes(view));
-    const glm::dvec2 o = glm::dvec2(x, y) - rays.centre;
-    const glm::dvec3 along = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
+    const glm::dvec3 along = rays.along(glm::dvec2(x, y) - rays.centre);
     return {rays.eye, along,
             glm::length(world.placed.worldFromAxes() * along) / world.placed.unitLength(),
             rays.near};

@@ -41,9 +41,7 @@ TEST(View, TheRayOfAPointsPixelPassesThroughThePoint) {
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 world(any(random), any(random), any(random));
         const Projected p = project(view, world);
-        const glm::dvec2 offset = p.window - rays.centre;
-        const glm::dvec3 back = rays.eye + p.depth * (rays.axis + offset.x * rays.perPixelX +
-                                                      offset.y * rays.perPixelY);
+        const glm::dvec3 back = rays.eye + p.depth * rays.along(p.window - rays.centre);
         EXPECT_LT(glm::length(back - world), 1e-12) << "point " << i;
     }
 }

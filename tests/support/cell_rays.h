@@ -26,8 +26,7 @@ struct Ray {
 };
 inline Ray rayOf(const CellWorld& world, const View& view, const glm::dvec2& pixel) {
     const PixelRays rays = pixelRays(world.placed.inAxes(view));
-    const glm::dvec2 o = pixel - rays.centre;
-    const glm::dvec3 along = rays.axis + o.x * rays.perPixelX + o.y * rays.perPixelY;
+    const glm::dvec3 along = rays.along(pixel - rays.centre);
     return {rays.eye, along, glm::length(world.placed.worldFromAxes() * along), rays.near};
 }
 

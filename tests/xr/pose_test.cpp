@@ -87,10 +87,7 @@ TEST(ViewOf, TheAnglesOfAnAsymmetricFovMeetTheCornersOfTheImage) {
                 EXPECT_NEAR(at.window.y, along > 0 ? size.y : 0, 1e-7);
                 EXPECT_NEAR(at.depth, depth, 1e-9);
                 const render::PixelRays rays = render::pixelRays(view);
-                const glm::dvec2 off = at.window - rays.centre;
-                const glm::dvec3 onRay =
-                    rays.eye +
-                    (rays.axis + off.x * rays.perPixelX + off.y * rays.perPixelY) * depth;
+                const glm::dvec3 onRay = rays.eye + rays.along(at.window - rays.centre) * depth;
                 EXPECT_LT(glm::distance(onRay, world), 1e-9);
             }
         }
