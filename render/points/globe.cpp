@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,7 +19,6 @@ using timeseries::Grid;
 
 constexpr double kTurn = 360;
 constexpr double kEarth = 6371e3;  // metres: the mean radius (IUGG)
-constexpr double kPerDegree = std::numbers::pi / 180;
 
 std::string lowerCase(std::string text) {
     for (char& c : text)

@@ -8,11 +8,14 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "timeseries/grid/grid.h"
 
 namespace render {
+
+inline constexpr double kPerDegree = std::numbers::pi / 180;  // in radians
 
 // Whether the first two axes are longitude and latitude in degrees (CF 1.10, sections 4.1 and 4.2),
 // at most once round.

@@ -4,7 +4,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <numbers>
 #include <vector>
 
 #include "render/points/globe.h"
@@ -17,8 +16,6 @@ using timeseries::Axis;
 using timeseries::Grid;
 using timeseries::Mesh;
 using timeseries::MeshPoint;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The part of an axis from half the way to the point before to half the way to the one after, at
 // an end as far beyond it.
@@ -62,8 +59,8 @@ class UprightCells {
                             : Stretch{axes_[1].coordinates[j] - 0.5, axes_[1].coordinates[j] + 0.5};
             const double from = std::max(b.from, -90.0), to = std::min(b.to, 90.0);
             degreesNorth_.push_back(sense * std::max(to - from, 0.0));
-            const double sines = std::sin(to * kDegree) - std::sin(from * kDegree);
-            cosine_.push_back(to > from ? sines / ((to - from) * kDegree) : 0);
+            const double sines = std::sin(to * kPerDegree) - std::sin(from * kPerDegree);
+            cosine_.push_back(to > from ? sines / ((to - from) * kPerDegree) : 0);
             latitude_.emplace_back(axes_[1].coordinates[j]);
         }
         double area = 0;
@@ -71,7 +68,7 @@ class UprightCells {
             area += std::abs(degreesNorth_[j] * cosine_[j]) / static_cast<double>(size_.y);
         const double wide = (axes_[0].coordinates.back() - axes_[0].coordinates.front()) /
                             std::max(static_cast<double>(size_.x) - 1, 1.0);
-        thickness_ = std::sqrt(area * std::max(std::abs(wide), 1e-9)) * kDegree;
+        thickness_ = std::sqrt(area * std::max(std::abs(wide), 1e-9)) * kPerDegree;
         for (std::size_t k = 0; k < size_.z; ++k) {
             const Stretch third = aboutPoint(axes_[2], k);
             const double middle = globe.radius(axes_[2].coordinates[k]);
@@ -86,7 +83,7 @@ class UprightCells {
     MeshPoint operator()(std::uint64_t index) const {
         const auto at = timeseries::indicesOf(index, size_);
         const auto [east, north, up] = globe_.directionsAt(longitude_[at.x], latitude_[at.y]);
-        const double r = meanRadius_[at.z] * kDegree;
+        const double r = meanRadius_[at.z] * kPerDegree;
         const glm::dmat3 rows =
             glm::transpose(glm::dmat3(r * cosine_[at.y] * degreesEast_[at.x] * east,
                                       r * degreesNorth_[at.y] * north, outwards_[at.z] * up));
@@ -101,7 +98,7 @@ class UprightCells {
         };
         const double farthest = *std::ranges::max_element(meanRadius_);
         // A step between two points is no longer than twice what one of them stands for.
-        return 2 * std::max(farthest * 1.1 * kDegree *
+        return 2 * std::max(farthest * 1.1 * kPerDegree *
                                 std::max(longest(degreesEast_), longest(degreesNorth_)),
                             longest(outwards_));
     }
