@@ -2,81 +2,19 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <cmath>
-#include <csignal>
-#include <fstream>
-#include <random>
 #include <thread>
 
-#include "tests/support/files.h"
-#include "tests/support/rounds.h"
-#include "tests/support/scenes.h"
-#include "timeseries/readers/reader.h"
-#include "timeseries/series/step_maker.h"
-#include "timeseries/series/whole_file.h"
+#include "tests/support/step_stores.h"
 
 namespace timeseries {
 namespace {
 
-namespace fs = std::filesystem;
-using std::chrono::system_clock;
-using testing::ElementsAre;
+using namespace step_stores;
+using step_stores::StepStores;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-constexpr std::chrono::milliseconds kAtOnce{0};
-
-// An .nrrd of 24^3 floats: f(i) = i mod m.
-fs::path nrrdOf(const fs::path& path, int m) {
-    std::string bytes(24 * 24 * 24 * sizeof(float), '\0');
-    for (int i = 0; i < 24 * 24 * 24; ++i) {
-        const auto value = static_cast<float>(i % m);
-        std::memcpy(bytes.data() + i * sizeof value, &value, sizeof value);
-    }
-    tests::writeBytes(path,
-                      "NRRD0004\ntype: float\ndimension: 3\nsizes: 24 24 24\nendian: little\n"
-                      "encoding: raw\n\n" +
-                          bytes);
-    return path;
-}
-
-class StepStores : public testing::Test {
- protected:
-    fs::path folder = tests::freshFolder();
-    fs::path file = nrrdOf(folder / "field.nrrd", 100);
-    std::shared_ptr<StepStore> store = std::make_shared<StepStore>(
-        folder / "steps", StoreKind::Cache, StepStore::kNoBudget, kAtOnce);
-
-    std::unique_ptr<StepMaker> maker(std::shared_ptr<StepStore> in = nullptr) {
-        if (!in) in = store;
-        auto reader = openReader(std::span(&file, 1));
-        return std::make_unique<StepMaker>(std::move(reader), 0, RangeSet::everything(),
-                                           timeseries::StepStores{{in}, in, 1});
-    }
-    StepOrigin originOf(const fs::path& of) const {
-        return {
-            {of}, 0, of.stem().string(), openReader(std::span(&of, 1))->variables()[0].storedAs};
-    }
-    StepOrigin origin() const { return originOf(file); }
-    std::size_t files() const {
-        std::error_code none;
-        return static_cast<std::size_t>(std::distance(
-            fs::directory_iterator(folder / "steps", none), fs::directory_iterator()));
-    }
-};
-
-void expectField(const SortedStep& step, int m) {
-    const auto values = std::get<std::span<const float>>(step.columns().values);
-    const auto index = step.columns().gridIndex;
-    ASSERT_EQ(values.size(), 24u * 24 * 24);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        ASSERT_EQ(values[i], static_cast<float>(static_cast<int>(index[i]) % m));
-}
 
 TEST_F(StepStores, AStepIsSortedOnceAndThenOpened) {
     EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Written);
@@ -226,40 +164,6 @@ TEST_F(StepStores, SmallStepsAndKeptRangesAreNotWritten) {
     EXPECT_FALSE(kept.make(0)->file());  // also where all of it is there
 }
 
-TEST_F(StepStores, WhatIsDamagedIsRemovedToldAndSortedAnew) {
-    (void)maker()->keep(0);
-    const fs::path path = store->pathOf(origin());
-    std::string bytes = tests::readBytes(path);
-    bytes[100] ^= 1;  // of the header
-    tests::writeBytes(path, bytes);
-    expectField(*maker()->make(0), 100);
-    EXPECT_FALSE(fs::exists(path));
-    EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("damaged")));
-    // Found out later: by then it is shown.
-    (void)maker()->keep(0);
-    bytes = tests::readBytes(path);
-    bytes[5000] ^= 1;
-    tests::writeBytes(path, bytes);
-    const auto step = maker()->make(0);
-    ASSERT_TRUE(step->file());
-    expectField(*step, 100);
-    EXPECT_FALSE(fs::exists(path));
-    EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("block 0")));
-}
-
-// Blocks of before are never joined with what the source is by now.
-TEST_F(StepStores, WhatIsDamagedWhileItsSourceChangedIsToldInsteadOfShown) {
-    (void)maker()->keep(0);
-    const fs::path path = store->pathOf(origin());
-    const auto step = maker()->make(0);
-    std::string bytes = tests::readBytes(path);
-    bytes[5000] ^= 1;
-    std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << bytes;  // in place
-    nrrdOf(file, 50);
-    EXPECT_THAT([&] { (void)step->columns(); },
-                testing::ThrowsMessage<FileError>(HasSubstr("it has changed since")));
-}
-
 // What lies between points is read from the source, without any block, as long as it is the one.
 TEST_F(StepStores, TheFieldIsTheSourcesUnlessItChanged) {
     (void)maker()->keep(0);
@@ -324,102 +228,6 @@ TEST_F(StepStores, BesideTheDataTheyMoveWithThem) {
     EXPECT_FALSE(maker(beside())->make(0)->file());
     fs::last_write_time(file, time);  // as cp -p and rsync -t leave it
     EXPECT_TRUE(maker(beside())->make(0)->file());
-}
-
-TEST_F(StepStores, AFolderThatCannotBeIsToldOnceAndTheProgramGoesOn) {
-    tests::writeBytes(folder / "steps", "a file");
-    const auto one = maker();
-    const auto step = one->make(0);
-    one->writeOne([](double) { return true; });
-    EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("not kept")));
-    const auto again = one->make(0);
-    EXPECT_FALSE(one->hasUnwritten());
-    expectField(*again, 100);
-}
-
-TEST_F(StepStores, AFullDiskLeavesNothing) {
-    // RLIMIT_FSIZE fails a write as a full disk does, at every length.
-    (void)maker()->keep(0);
-    const auto whole = fs::file_size(store->pathOf(origin()));
-    for (const std::uintmax_t most : {std::uintmax_t{1}, whole / 3, whole / 2, whole - 1}) {
-        nrrdOf(file, 100);  // written anew: what is kept is of before
-        const pid_t child = ::fork();
-        if (child == 0) {
-            std::signal(SIGXFSZ, SIG_IGN);
-            const rlimit limit{most, most};
-            ::setrlimit(RLIMIT_FSIZE, &limit);
-            try {
-                (void)maker()->keep(0);
-                ::_exit(1);
-            } catch (const StepFileError&) {
-                ::_exit(0);
-            }
-        }
-        int status = 0;
-        ::waitpid(child, &status, 0);
-        EXPECT_EQ(status, 0) << most;
-        EXPECT_EQ(files(), 1u);  // the one before
-        EXPECT_FALSE(store->find(origin()));
-    }
-}
-
-// Killed at any moment, a writer leaves the old file or the new one, and what it left is removed by
-// the next.
-TEST_F(StepStores, AWriterThatIsKilledLeavesTheOldOrTheNew) {
-    std::mt19937_64 random(1);
-    const auto begin = std::chrono::steady_clock::now();
-    (void)maker()->keep(0);
-    const auto whole = std::chrono::steady_clock::now() - begin;
-    for (int i = 0; i < tests::rounds(60); ++i) {
-        const int m = 20 + i;
-        nrrdOf(file, m);
-        const pid_t child = ::fork();
-        if (child == 0) {
-            (void)maker()->keep(0);
-            ::_exit(0);
-        }
-        std::this_thread::sleep_for(whole * static_cast<double>(random() % 1000) / 500);
-        ::kill(child, SIGKILL);
-        ::waitpid(child, nullptr, 0);
-        expectField(*maker()->make(0), m);
-        EXPECT_THAT(store->takeNotes(), IsEmpty());
-    }
-    (void)maker()->keep(0);
-    EXPECT_EQ(files(), 1u);
-}
-
-TEST_F(StepStores, ManyWritersAndReadersOfOneStepAllHaveIt) {
-    std::vector<std::jthread> users;
-    for (int k = 0; k < 4; ++k)
-        users.emplace_back([&] {
-            for (int i = 0; i < 20; ++i) {
-                if (i % 5 == 4) store->clear();
-                const auto one = maker();
-                (void)one->keep(0);
-                expectField(*one->make(0), 100);
-            }
-        });
-    users.clear();
-    EXPECT_THAT(store->takeNotes(), IsEmpty());
-    EXPECT_LE(files(), 1u);
-}
-
-TEST(WholeFile, LeavesNothingUnlessItIsFinished) {
-    const fs::path folder = tests::freshFolder();
-    {
-        WholeFile file(folder / "a");
-        file.write(5, std::as_bytes(std::span("abc", 3)));
-        removeUnfinished(folder);  // it is being written
-        EXPECT_FALSE(fs::exists(folder / "a"));
-    }
-    EXPECT_TRUE(fs::is_empty(folder));
-    WholeFile file(folder / "a");
-    file.write(2, std::as_bytes(std::span("abc", 3)));
-    file.finish();
-    EXPECT_EQ(tests::readBytes(folder / "a"), std::string("\0\0abc", 5));
-    tests::writeBytes(folder / (std::string("b.1-1") + WholeFile::kSuffix), "left");
-    removeUnfinished(folder);
-    EXPECT_THAT(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
 
 }  // namespace
