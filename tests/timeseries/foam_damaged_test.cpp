@@ -97,7 +97,7 @@ TEST(DamagedFoam, HeadersThatAreNoneAreTold) {
              {header("volScalarField") + "dimensions [0 1 0",
               "expected dimensions between brackets"},
              {header("volScalarField") + "dimensions [];\n", "expected the entry internalField"},
-             {header("volScalarField") + "} " + rest, "expected"}})
+             {header("volScalarField") + "} " + rest, "expected the entry internalField"}})
         EXPECT_THAT(refusalOfRead(caseWithT(file)), AllOf(HasSubstr("case/0/T: "), HasSubstr(told)))
             << file.substr(0, 100);
 }
@@ -117,7 +117,7 @@ TEST(DamagedFoam, MeshesThatAreNoneAreTold) {
              Change{"faces", "\n4(", "\n3{1}\n4(", "expected a list of labels that differ"},
              Change{"faces", "\n11\n", "\n4294967294\n", "expected a list that the file can hold"},
              Change{"faces", "\n11\n", "\n4294967295\n", "expected a list of at most"},
-             Change{"faces", "\n11\n", "\n12\n", "expected"},
+             Change{"faces", "\n11\n", "\n12\n", "expected a number, found ')'"},
              Change{"faces", "faceList", "volScalarField",
                     "expected a faceList, found a volScalarField"},
              Change{"faces", "faceList", "decomposedBlockData", "reconstructPar"},

@@ -120,9 +120,9 @@ TEST(FoamField, TimesAreTheNumbersOfTheirFolders) {
     const Doubles times{-3, 0, 1e-05, 0.1, 0.5, 2, 10};
     EXPECT_EQ(timesOf(*reader), times);
     EXPECT_THAT(reader->variables()[0].notes,
-                Contains(HasSubstr("is left out: its time is that of")));
-    for (const std::size_t step : {0u, 2u, 6u})
-        EXPECT_EQ(valuesOf<double>(*reader, "T", step), Doubles{times[step]});
+                Contains("0.10 is left out: its time is that of 0.1"));
+    for (std::size_t step = 0; step < times.size(); ++step)
+        EXPECT_EQ(valuesOf<double>(*reader, "T", step), Doubles{step == 3 ? 5 : times[step]});
 }
 
 TEST(FoamField, AFieldHasTheTimesAtWhichItIs) {

@@ -18,6 +18,13 @@ const Mesh& meshAt(const Reader& reader, std::string_view name = "T") {
     return *reader.variables()[indexOf(reader, name)].grid->mesh();
 }
 
+// The points as so many bits hold them.
+UnstructuredGrid narrowed(UnstructuredGrid grid, const Writing& how) {
+    if (how.isBinary && how.scalar == 32)
+        for (glm::dvec3& at : grid.points) at = glm::vec3(at);
+    return grid;
+}
+
 void expectSame(const Mesh& found, const Mesh& expected) {
     ASSERT_EQ(found.count(), expected.count());
     EXPECT_EQ(found.spread(), expected.spread());
@@ -44,7 +51,7 @@ TEST(FoamMesh, CellsOfAllShapesAreWhatTheirFacesBound) {
         const auto reader = open(folder);
         expectSame(meshAt(*reader), atCells(grid));
         expectSame(meshAt(*reader, "Tp"), atPoints(grid));
-        EXPECT_NEAR(volume(meshAt(*reader)), 60, 1e-5);
+        EXPECT_NEAR(volume(meshAt(*reader)), 4 * 3 * 5, 1e-5);  // of the box
         EXPECT_EQ(valuesOf<double>(*reader, "T"), countedTo(grid.types.size()));
     }
 }
@@ -74,10 +81,10 @@ TEST(FoamMesh, PyramidsAndPolyhedraAreMeasured) {
     const Mesh& mesh = meshAt(*reader);
     expectSame(mesh, atCells(grid));
     EXPECT_NEAR(volume(mesh, 3), 1. / 6, 1e-6);
-    EXPECT_NEAR(volume(mesh, 7), 3, 1e-5);
+    EXPECT_NEAR(volume(mesh, 7), (1 + 0.5) * (5 - 3), 1e-5);
     expectSame(meshAt(*reader, "Tp"), atPoints(grid));
     ASSERT_TRUE(meshAt(*reader, "Tp").solids());
-    EXPECT_EQ(meshAt(*reader, "Tp").solids()->count(), 8u);
+    EXPECT_EQ(meshAt(*reader, "Tp").solids()->count(), 1u + 6 + 1);
 }
 
 TEST(FoamMesh, FilesOfAllWritingsAreTheSame) {
@@ -91,8 +98,7 @@ TEST(FoamMesh, FilesOfAllWritingsAreTheSame) {
                     const auto folder = caseOf(grid, how);
                     put(folder / "0.5/T", scalars(values, how), how);
                     const auto reader = open(folder);
-                    EXPECT_EQ(meshAt(*reader).count(), values.size());
-                    EXPECT_NEAR(volume(meshAt(*reader)), 60, 1e-4);
+                    expectSame(meshAt(*reader), atCells(narrowed(grid, how)));
                     if (isBinary && scalar == 32) {
                         EXPECT_EQ(valuesOf<float>(*reader, "T"),
                                   std::vector<float>(values.begin(), values.end()));

@@ -22,6 +22,8 @@ using Path = std::filesystem::path;
 // 4 x 3 nodes, two triangles between each four of them; three layers between four levels.
 constexpr int kAlong = 4, kUp = 3, kNodes = kAlong * kUp, kTriangles = 2 * 3 * 2, kLayers = 3;
 const std::vector<double> kLevelsAt{0, 10, 30, 60}, kLayersAt{5, 20, 45};
+// Each reaches half way to its neighbours, the first and the last as far beyond.
+const std::array<double, kLayers> kThick{20 - 5, (45 - 5) / 2, 45 - 20};
 
 double lonOf(int node) { return 10 + 2 * (node % kAlong); }
 double latOf(int node) { return 50 + node / kAlong; }
@@ -141,33 +143,35 @@ bool isThere(const ValuesForm& form, const MeshForm& mesh, int level, int place)
     return !above && (!mesh.hasLevels || level < levelsOf(place) - (areLayers ? 1 : 0));
 }
 
+void expectLevels(const std::vector<float>& values, const ValuesForm& form, const MeshForm& mesh,
+                  int step, int first, int levels) {
+    const int count = form.along == std::string("nod2") ? kNodes : kTriangles;
+    ASSERT_EQ(values.size(), std::size_t(count * levels));
+    for (int k = 0; k < levels; ++k)
+        for (int p = 0; p < count; ++p) {
+            const float value = values[std::size_t(k * count + p)];
+            const bool isValue = value == valueOf(step, first + k, p);
+            EXPECT_TRUE(isThere(form, mesh, first + k, p) ? isValue : std::isnan(value))
+                << first + k << ' ' << p << ": " << value;
+        }
+}
+
 void expectValues(const ValuesForm& form, const MeshForm& mesh) {
     freshFolder();
     const Path meshPath = writeMesh(mesh), path = writeValues(form);
     const auto reader = open(path);
     const std::size_t v = indexOf(*reader, "temp");
-    const int count = form.along == std::string("nod2") ? kNodes : kTriangles;
     const int levels = form.vertical == std::string("nz1") ? 3 : 4;
     for (const int step : {0, 1}) {
         const Field field = reader->read(v, std::size_t(step));
-        const auto& values = std::get<std::vector<float>>(field.values);
-        ASSERT_EQ(values.size(), std::size_t(count * levels));
-        for (int k = 0; k < levels; ++k)
-            for (int p = 0; p < count; ++p) {
-                const float value = values[std::size_t(k * count + p)];
-                const bool isValue = value == valueOf(step, k, p);
-                EXPECT_TRUE(isThere(form, mesh, k, p) ? isValue : std::isnan(value))
-                    << k << ' ' << p << ": " << value;
-            }
+        expectLevels(std::get<std::vector<float>>(field.values), form, mesh, step, 0, levels);
     }
     // A part of it is the same part.
     const Field slab = reader->readSlab(v, 1, {2, 1, 2});
-    for (int p = 0; p < count; ++p) {
-        const float value = std::get<std::vector<float>>(slab.values)[std::size_t(p)];
-        EXPECT_EQ(!std::isnan(value), isThere(form, mesh, 1, p)) << p;
-    }
+    expectLevels(std::get<std::vector<float>>(slab.values), form, mesh, 1, 1, 2);
     EXPECT_EQ(reader->sources(v, 1).files, (std::vector<Path>{path, meshPath}));
-    EXPECT_EQ(reader->variables()[indexOf(*reader, "ssh")].grid->count(), std::uint64_t(count));
+    EXPECT_EQ(reader->variables()[indexOf(*reader, "ssh")].grid->count(),
+              std::uint64_t(form.along == std::string("nod2") ? kNodes : kTriangles));
 }
 
 TEST(NetcdfFesom, ValuesAreTheFilesAboveTheSeaFloor) {
@@ -206,13 +210,12 @@ TEST(NetcdfFesom, NodesStandForAThirdOfTheTrianglesAboutThem) {
                     const glm::dvec3 at = mesh.position(i);
                     EXPECT_NEAR(at.x, lonOf(n), 1e-4);
                     EXPECT_NEAR(at.y, latOf(n), 1e-4);
-                    EXPECT_NEAR(std::abs(at.z), kLayersAt[std::size_t(k)], 1e-4);
+                    EXPECT_NEAR(at.z, (down ? 1 : -1) * kLayersAt[std::size_t(k)], 1e-4);
+                    // A triangle has an area of 1.
+                    EXPECT_NEAR(tests::volume(mesh, i),
+                                about[std::size_t(n)] / 3.0 * kThick[std::size_t(k)], 1e-3)
+                        << k << ' ' << n;
                 }
-            // The middle layer reaches half way to its neighbours; a triangle has an area of 1.
-            for (int n = 0; n < kNodes; ++n)
-                EXPECT_NEAR(tests::volume(mesh, std::uint64_t(kNodes + n)),
-                            about[std::size_t(n)] / 3.0 * (45 - 5) / 2, 1e-3)
-                    << n;
         }
 }
 
@@ -222,14 +225,17 @@ TEST(NetcdfFesom, TrianglesStandForThemselves) {
     const auto reader = open(writeValues({.along = "elem"}));
     const Mesh& mesh = *reader->variables()[indexOf(*reader, "temp")].grid->mesh();
     const auto all = triangles();
-    for (std::size_t e = 0; e < all.size(); ++e) {
-        double lon = 0, lat = 0;
-        for (const int node : all[e]) lon += lonOf(node) / 3, lat += latOf(node) / 3;
-        const auto i = std::uint64_t(kTriangles) + e;
-        EXPECT_NEAR(mesh.position(i).x, lon, 1e-4) << e;
-        EXPECT_NEAR(mesh.position(i).y, lat, 1e-4) << e;
-        EXPECT_NEAR(tests::volume(mesh, i), (45 - 5) / 2, 1e-3) << e;
-    }
+    ASSERT_EQ(mesh.count(), all.size() * kLayers);
+    for (std::size_t k = 0; k < kLayers; ++k)
+        for (std::size_t e = 0; e < all.size(); ++e) {
+            double lon = 0, lat = 0;
+            for (const int node : all[e]) lon += lonOf(node) / 3, lat += latOf(node) / 3;
+            const auto i = std::uint64_t(k * all.size() + e);
+            EXPECT_NEAR(mesh.position(i).x, lon, 1e-4) << e;
+            EXPECT_NEAR(mesh.position(i).y, lat, 1e-4) << e;
+            EXPECT_NEAR(mesh.position(i).z, kLayersAt[k], 1e-4) << e;
+            EXPECT_NEAR(tests::volume(mesh, i), kThick[k], 1e-3) << e;
+        }
 }
 
 TEST(NetcdfFesom, FilesAreASeries) {
@@ -290,11 +296,16 @@ TEST(NetcdfFesom, IntegersNeedAFillForWhatIsBelowTheSeaFloor) {
         return file.close();
     };
     const Field field = open(written(true))->read(0, 0);
-    for (int n = 0; n < kNodes; ++n)
-        EXPECT_EQ(field.missing.empty() ? false : bool(field.missing[std::size_t(kNodes + n)]),
-                  levelsOf(n) < 3)
-            << n;
-    EXPECT_THROW(open(written(false))->read(0, 0), FileError);
+    ASSERT_EQ(field.missing.size(), std::size_t(kNodes * kLayers));
+    for (int k = 0; k < kLayers; ++k)
+        for (int n = 0; n < kNodes; ++n) {
+            const auto i = std::size_t(k * kNodes + n);
+            EXPECT_EQ(field.missing[i], !isThere({}, {}, k, n)) << k << ' ' << n;
+            if (!field.missing[i]) {
+                EXPECT_EQ(std::get<std::vector<std::int16_t>>(field.values)[i], 4);
+            }
+        }
+    EXPECT_THAT(refusalOfRead(written(false)), HasSubstr("below the sea floor"));
 }
 
 }  // namespace
