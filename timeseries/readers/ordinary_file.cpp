@@ -1,8 +1,11 @@
 #include "timeseries/readers/ordinary_file.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
+
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 namespace {
@@ -23,6 +26,11 @@ std::string flawOfFile(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(status)) return "expected an ordinary file";
     if (access(path.c_str(), R_OK) != 0) return notReadable({errno, std::generic_category()});
     return "";
+}
+
+void expectFile(const std::filesystem::path& path) {
+    if (const std::string flaw = flawOfFile(path); !flaw.empty())
+        throw FileError(fmt::format("{}: {}", path.string(), flaw));
 }
 
 }  // namespace timeseries

@@ -11,5 +11,7 @@ namespace timeseries {
 // "expected a file, but there is none", or what the system says against it; "" for an ordinary file
 // that may be read, or a link to one.
 std::string flawOfFile(const std::filesystem::path& path);
+// Throws FileError where it has such a flaw.
+void expectFile(const std::filesystem::path& path);
 
 }  // namespace timeseries

@@ -41,14 +41,12 @@ namespace {
 using namespace std::string_view_literals;
 
 std::string beginning(const std::filesystem::path& path) {
-    const auto fail = [&](std::string_view what) {
-        throw FileError(fmt::format("{}: {}", path.string(), what));
-    };
-    if (const std::string flaw = flawOfFile(path); !flaw.empty()) fail(flaw);
+    expectFile(path);
     std::ifstream file(path, std::ios::binary);
     std::string start(kBeginningBytes, '\0');
     file.read(start.data(), static_cast<std::streamsize>(kBeginningBytes));
-    if (file.bad() || !file.is_open()) fail("expected a file that can be read");
+    if (file.bad() || !file.is_open())
+        throw FileError(fmt::format("{}: expected a file that can be read", path.string()));
     start.resize(static_cast<std::size_t>(file.gcount()));
     return start;
 }

@@ -59,8 +59,7 @@ AmrexFabHeader headerOf(AmrexText& text, std::size_t dimensions) {
 }  // namespace
 
 AmrexFabFile::AmrexFabFile(const std::filesystem::path& path) : path_(path) {
-    if (const std::string flaw = flawOfFile(path); !flaw.empty())
-        throw FileError(fmt::format("{}: {}", path.string(), flaw));
+    expectFile(path);
     file_.open(path, std::ios::binary);
     std::error_code error;
     bytes_ = std::filesystem::file_size(path, error);

@@ -23,8 +23,7 @@ constexpr std::int64_t kMostLevels = 100, kMostVariables = 1 << 16;
 constexpr std::int64_t kMostFabs = std::int64_t{1} << 32;
 
 std::ifstream openText(const fs::path& path) {
-    if (const std::string flaw = flawOfFile(path); !flaw.empty())
-        throw FileError(fmt::format("{}: {}", path.string(), flaw));
+    expectFile(path);
     return std::ifstream(path, std::ios::binary);
 }
 
@@ -176,8 +175,7 @@ void readLevels(AmrexText& text, AmrexPlotfile& file) {
 void checkFiles(const AmrexPlotfile& file) {
     std::uint64_t cells = 0, bytes = 0;
     for (const fs::path& path : file.files) {
-        if (const std::string flaw = flawOfFile(path); !flaw.empty())
-            throw FileError(fmt::format("{}: {}", path.string(), flaw));
+        expectFile(path);
         std::error_code ignored;
         const std::uint64_t size = fs::file_size(path, ignored);
         if (!ignored) bytes += size;

@@ -41,8 +41,7 @@ std::filesystem::path foamPath(const std::filesystem::path& folder, const std::s
 
 FoamFile::FoamFile(std::filesystem::path path)
     : path_(std::move(path)), mostBytes_(0), file_(nullptr, gzclose_r), buffer_(kFoamBuffer) {
-    if (const std::string flaw = flawOfFile(path_); !flaw.empty())
-        throw FileError(fmt::format("{}: {}", path_.string(), flaw));
+    expectFile(path_);
     mostBytes_ = mostBytesOf(path_);
     // What is not packed zlib reads as it is, but of what is packed a name must say so.
     file_.reset(gzopen(path_.c_str(), "rbe"));

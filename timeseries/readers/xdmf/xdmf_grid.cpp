@@ -53,11 +53,6 @@ XdmfElement expected(const XdmfDocument& document, const XdmfElement& grid, cons
     return found;
 }
 
-std::vector<double> doublesOf(const Values& values) {
-    return std::visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); },
-                      values);
-}
-
 }  // namespace
 
 XdmfGrid::XdmfGrid(const XdmfDocument& document, XdmfItems& items, const XdmfStep& step)
@@ -158,7 +153,7 @@ std::vector<glm::dvec3> XdmfGrid::placesOf(const XdmfElement& geometry) {
     std::vector<glm::dvec3> places;
     const auto width = static_cast<std::size_t>(apart ? 1 : along);
     for (std::size_t i = 0; i < items.size(); ++i) {
-        const std::vector<double> all = doublesOf(items_.read(items[i]));
+        const std::vector<double> all = items_.numbers(items[i]);
         if (all.size() % width != 0 || (i > 0 && all.size() != places.size()) ||
             all.size() / width > kMaxPoints)
             document_.fail(items[i], fmt::format("expected {} numbers for each of as many points, "

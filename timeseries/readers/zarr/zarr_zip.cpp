@@ -32,8 +32,7 @@ std::string textOf(zip_error_t* error) {
 }
 
 Archive opened(const fs::path& path) {
-    if (const std::string flaw = flawOfFile(path); !flaw.empty())
-        throw FileError(fmt::format("{}: {}", path.string(), flaw));
+    expectFile(path);
     int code = 0;
     Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &code), zip_discard);
     if (archive) return archive;
