@@ -51,12 +51,6 @@ class SolidCells {
     friend bool operator==(const SolidCells&, const SolidCells&) = default;
 
  private:
-    static std::span<const std::uint32_t> listOf(std::span<const std::uint32_t> all,
-                                                 std::span<const std::uint64_t> ends,
-                                                 std::uint64_t cell) {
-        const std::uint64_t first = cell == 0 ? 0 : ends[cell - 1];
-        return all.subspan(first, ends[cell] - first);
-    }
     void add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points);
     void measure(std::span<const glm::dvec3> points);
 

@@ -31,6 +31,14 @@ struct UnstructuredGrid {
     std::vector<std::uint32_t> faces;
 };
 
+// A cell's part of a list, of cells whose parts end there.
+inline std::span<const std::uint32_t> listOf(std::span<const std::uint32_t> all,
+                                             std::span<const std::uint64_t> ends,
+                                             std::size_t cell) {
+    const std::uint64_t first = cell == 0 ? 0 : ends[cell - 1];
+    return all.subspan(first, ends[cell] - first);
+}
+
 // The first thing that is wrong, in a few words; "" when all cells name points that there are.
 std::string flawOf(const UnstructuredGrid& grid);
 

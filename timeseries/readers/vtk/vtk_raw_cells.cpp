@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstring>
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/readers/vtk/vtk_xml_cells.h"
@@ -63,7 +64,8 @@ void RawNumbers::read(std::uint64_t at, char* out, std::size_t bytes) const {
     while (bytes > 0) {
         const ssize_t got = ::pread(file_, out, bytes, static_cast<off_t>(at));
         if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) failVtk(path_, "Cells", "expected values, but the file ends");
+        if (got < 0) failVtk(path_, "Cells", std::strerror(errno));
+        if (got == 0) failVtk(path_, "Cells", "expected values, but the file ends");
         out += got;
         at += static_cast<std::uint64_t>(got);
         bytes -= static_cast<std::size_t>(got);
