@@ -87,8 +87,8 @@ TEST(PictureError, ComesLaterAndIsOfThePictureAskedForLast) {
 TEST(PictureError, WhyThereIsNoneIsTold) {
     PictureError::Picture picture = waves(Model::Points, "0.2:0.5");
     auto bytes = tests::written(*picture.sorted);
-    for (const timeseries::StepBlock& block : tests::opened(bytes)->blocks())
-        bytes[block.idsAt] ^= std::byte{1};
+    const auto whole = tests::opened(bytes);
+    for (const timeseries::StepBlock& block : whole->blocks()) bytes[block.idsAt] ^= std::byte{1};
     picture.sorted = std::make_shared<const timeseries::SortedStep>(
         timeseries::SortedStep::ofFile(tests::opened(bytes), picture.sorted->sharedGrid(), false));
     PictureError error;
