@@ -30,9 +30,12 @@ using F = hn::Vec<Floats>;
 using I = hn::Vec<Ints>;
 
 using HalfFloats = hn::Rebind<float, Doubles>;
-HWY_INLINE F joined(const D* halves) {
-    return hn::Combine(Floats(), hn::DemoteTo(HalfFloats(), halves[1]),
-                       hn::DemoteTo(HalfFloats(), halves[0]));
+HWY_INLINE F joined(D low, D high) {
+    return hn::Combine(Floats(), hn::DemoteTo(HalfFloats(), high), hn::DemoteTo(HalfFloats(), low));
+}
+HWY_INLINE F joined(const D* halves) { return joined(halves[0], halves[1]); }
+HWY_INLINE I joinedInts(D low, D high) {
+    return hn::Combine(Ints(), hn::DemoteTo(HalfInts(), high), hn::DemoteTo(HalfInts(), low));
 }
 
 HWY_INLINE F f(float x) { return hn::Set(Floats(), x); }
@@ -48,6 +51,53 @@ HWY_INLINE void cross(const V* a, const V* b, V* product) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         product[k] = hn::NegMulAdd(a[j], b[i], hn::Mul(a[i], b[j]));
     }
+}
+
+// Four floats of each lane, as they lie in records of it: row(k) is where lane k's do.
+template <class Lanes, class Row>
+HWY_INLINE hn::Vec<Lanes> everyFourth(Lanes lanes, std::size_t first, const Row& row) {
+    if constexpr (hn::MaxLanes(Lanes()) == 4) {
+        return hn::LoadU(lanes, row(first));
+    } else {
+        const hn::Half<Lanes> half;
+        return hn::Combine(lanes, everyFourth(half, first + hn::MaxLanes(Lanes()) / 2, row),
+                           everyFourth(half, first, row));
+    }
+}
+template <class Lanes, class Row>
+HWY_INLINE void putEveryFourth(Lanes lanes, hn::Vec<Lanes> v, std::size_t first, const Row& row) {
+    if constexpr (hn::MaxLanes(Lanes()) == 4) {
+        hn::StoreU(v, lanes, row(first));
+    } else {
+        const hn::Half<Lanes> half;
+        putEveryFourth(half, hn::LowerHalf(half, v), first, row);
+        putEveryFourth(half, hn::UpperHalf(half, v), first + hn::MaxLanes(Lanes()) / 2, row);
+    }
+}
+// In each block of four lanes: rows become columns.
+HWY_INLINE void transpose(F* v) {
+    const Floats floats;
+    const hn::Repartition<std::uint64_t, Floats> pairs;
+    const auto pair = [&](F x) HWY_ATTR { return hn::BitCast(pairs, x); };
+    const auto low01 = pair(hn::InterleaveLower(floats, v[0], v[1]));
+    const auto low23 = pair(hn::InterleaveLower(floats, v[2], v[3]));
+    const auto high01 = pair(hn::InterleaveUpper(floats, v[0], v[1]));
+    const auto high23 = pair(hn::InterleaveUpper(floats, v[2], v[3]));
+    v[0] = hn::BitCast(floats, hn::InterleaveLower(pairs, low01, low23));
+    v[1] = hn::BitCast(floats, hn::InterleaveUpper(pairs, low01, low23));
+    v[2] = hn::BitCast(floats, hn::InterleaveLower(pairs, high01, high23));
+    v[3] = hn::BitCast(floats, hn::InterleaveUpper(pairs, high01, high23));
+}
+template <class Row>
+HWY_INLINE void loadFours(const Row& row, F* v) {
+    for (std::size_t r = 0; r < 4; ++r) v[r] = everyFourth(Floats(), r, row);
+    transpose(v);
+}
+template <class Row>
+HWY_INLINE void storeFours(const F* v, const Row& row) {
+    F rows[4] = {v[0], v[1], v[2], v[3]};
+    transpose(rows);
+    for (std::size_t r = 0; r < 4; ++r) putEveryFourth(Floats(), rows[r], r, row);
 }
 
 // AVX3's first guess has 14 bits, others' 8 or 12.

@@ -1,7 +1,6 @@
 #include "render/splat/seen_splat.h"
 
-#include <algorithm>
-#include <limits>
+#include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/splat/seen_splat.cpp"
@@ -9,271 +8,293 @@
 //
 #include <hwy/highway.h>
 //
-#include "render/points/grid_indices-inl.h"
-#include "render/splat/lanes-inl.h"
+#include "render/splat/splat_forms-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kAtOnce = hn::MaxLanes(Doubles());
-using DMask = hn::Mask<Doubles>;
+constexpr double kAll = 1e9;  // pixels: nothing beyond is in any picture
 
-// Places and cells of points in the world, one a lane: the factors of LowerTriangle, zero where
-// nothing is drawn.
+// Points and cells as the mesh keeps them, one a lane; cells zero where nothing is drawn.
 struct MeshPoints {
-    alignas(64) double at[3][kAtOnce], diagonal[3][kAtOnce], below[3][kAtOnce];
-    void take(const Scene& scene, std::uint32_t gridIndex, std::size_t lane) {
-        const PlacedPoints& placed = scene.placed;
-        const glm::dvec3 place = placed.position(gridIndex);
-        const bool inside = placed.inside(gridIndex, scene.clip);
-        const auto cell = inside ? placed.meshCell(gridIndex) : timeseries::LowerTriangle<double>{};
+    alignas(64) float at[3][kLanes], diagonal[3][kLanes], below[3][kLanes];
+    alignas(64) double level[kLanes];
+    alignas(64) float height[kLanes];
+
+    void take(const Scene& scene, const timeseries::Mesh::Stored& stored, std::uint32_t gridIndex,
+              std::size_t lane) {
+        const std::size_t count = stored.points.size();
+        const std::size_t k = stored.levels.empty() ? 0 : gridIndex / count;
+        const timeseries::Mesh::Point& point = stored.points[gridIndex - k * count];
+        const bool drawn = stored.sign * static_cast<double>(point.cell.diagonal.x) > 0 &&
+                           scene.placed.inside(gridIndex, scene.clip);
         for (int a = 0; a < 3; ++a) {
-            at[a][lane] = place[a];
-            diagonal[a][lane] = cell.diagonal[a];
-            below[a][lane] = cell.below[a];
+            at[a][lane] = point.at[a];
+            diagonal[a][lane] = drawn ? point.cell.diagonal[a] : 0;
+            below[a][lane] = point.cell.below[a];
         }
+        if (stored.levels.empty()) return;
+        level[lane] = stored.levels[k].at;
+        height[lane] = drawn ? static_cast<float>(stored.levels[k].height) : 0;
     }
 };
 
-HWY_INLINE D determinantOf(const MeshPoints& of) {
-    D product = d(1);
-    for (const auto& a : of.diagonal) product = hn::Mul(product, hn::Load(Doubles(), a));
-    return hn::Abs(product);
-}
-
-struct Triangles {  // LowerTriangle, one a lane
-    D diagonal[3], perDiagonal[3], below[3];
-    HWY_INLINE void solve(const D* v, D* x) const {
+// LowerTriangle, one a lane.
+struct Triangles {
+    F diagonal[3], below[3];
+    F perDiagonal[3];
+    HWY_INLINE void solve(const F* v, F* x) const {
         x[0] = hn::Mul(v[0], perDiagonal[0]);
         x[1] = hn::Mul(hn::NegMulAdd(below[0], x[0], v[1]), perDiagonal[1]);
         x[2] = hn::Mul(hn::NegMulAdd(below[1], x[0], hn::NegMulAdd(below[2], x[1], v[2])),
                        perDiagonal[2]);
     }
+    // The row of the product of a matrix's row with it.
+    HWY_INLINE void times(const F* row, F* out) const {
+        out[0] = hn::MulAdd(row[0], diagonal[0],
+                            hn::MulAdd(row[1], below[0], hn::Mul(row[2], below[1])));
+        out[1] = hn::MulAdd(row[1], diagonal[1], hn::Mul(row[2], below[2]));
+        out[2] = hn::Mul(row[2], diagonal[2]);
+    }
 };
 
-// growthTo() of render/model/ellipsoid.h.
-HWY_INLINE D growthTo(D least, D product, D squares) {
-    const D perRoot = hn::Div(d(1), hn::Sqrt(squares));
-    const D scaled = hn::Mul(hn::Mul(product, perRoot), hn::Mul(perRoot, perRoot));
-    const D k = hn::Mul(d(4), hn::Mul(scaled, scaled));
-    D t = k;
+// growthTo() of render/model/ellipsoid.h, of a matrix without products that leave the floats.
+HWY_INLINE F growthTo(F least, const Triangles& m) {
+    const F squares = hn::Add(dot(m.diagonal, m.diagonal), dot(m.below, m.below));
+    const F perRoot = hn::Div(f(1), hn::Sqrt(squares));
+    F scaled = hn::Mul(m.diagonal[0], perRoot);
+    for (int a = 1; a < 3; ++a) scaled = hn::Mul(scaled, hn::Mul(m.diagonal[a], perRoot));
+    const F k = hn::Mul(f(4), hn::Mul(scaled, scaled));
+    F t = k;
     for (int i = 0; i < 3; ++i) {
-        const D rest = hn::Sub(d(1), t);
+        const F rest = hn::Sub(f(1), t);
         t = hn::Div(k, hn::Mul(rest, rest));
     }
-    return hn::Max(hn::NegMulAdd(t, squares, hn::Mul(least, least)), d(0));
+    return hn::Max(hn::NegMulAdd(t, squares, hn::Mul(least, least)), f(0));
 }
 
-// grownTo() of render/model/ellipsoid.h, of so many times the cells. Their rows, and those of
-// sqrt(g) I beside them, are triangular and stay so.
-HWY_INLINE Triangles grownTo(D least, const MeshPoints& of, double radius) {
-    const Doubles doubles;
-    D diagonal[3], below[3];
-    for (int a = 0; a < 3; ++a) {
-        diagonal[a] = hn::Mul(d(radius), hn::Load(doubles, of.diagonal[a]));
-        below[a] = hn::Mul(d(radius), hn::Load(doubles, of.below[a]));
-    }
-    const D product = hn::Abs(hn::Mul(hn::Mul(diagonal[0], diagonal[1]), diagonal[2]));
-    const D squares = hn::Add(dot(diagonal, diagonal), dot(below, below));
-    const D g = growthTo(least, product, squares), root = hn::Sqrt(g);
-    const D smallest = hn::Mul(d(1e-9), least);
+// factorOf() of timeseries/grid/lower_triangle.h: rows of a triangle, and those of sqrt(g) I beside
+// them, are triangular and stay so.
+HWY_INLINE Triangles factorOf(const Triangles& m, F g, F least) {
+    const F root = hn::Sqrt(g);
     Triangles out;
-    const auto ends = [&](int r, D square) HWY_ATTR {
-        out.diagonal[r] = hn::Max(hn::Sqrt(square), smallest);
-        out.perDiagonal[r] = hn::Div(d(1), out.diagonal[r]);
+    const auto ends = [&](int r, F square) HWY_ATTR {
+        out.diagonal[r] = hn::Max(hn::Sqrt(square), least);
+        out.perDiagonal[r] = hn::Div(f(1), out.diagonal[r]);
     };
-    ends(0, hn::MulAdd(diagonal[0], diagonal[0], g));
+    ends(0, hn::MulAdd(m.diagonal[0], m.diagonal[0], g));
     // Unit rows: of the matrix, and beside it.
-    const D q00 = hn::Mul(diagonal[0], out.perDiagonal[0]);
-    const D b00 = hn::Mul(root, out.perDiagonal[0]);
-    out.below[0] = hn::Mul(below[0], q00);
-    D q10 = hn::NegMulAdd(out.below[0], q00, below[0]), q11 = diagonal[1];
-    D b10 = hn::Neg(hn::Mul(out.below[0], b00)), b11 = root;
-    const D row1[4] = {q10, q11, b10, b11};
-    D square = d(0);
-    for (const D& x : row1) square = hn::MulAdd(x, x, square);
+    const F q00 = hn::Mul(m.diagonal[0], out.perDiagonal[0]);
+    const F b00 = hn::Mul(root, out.perDiagonal[0]);
+    out.below[0] = hn::Mul(m.below[0], q00);
+    F q10 = hn::NegMulAdd(out.below[0], q00, m.below[0]), q11 = m.diagonal[1];
+    F b10 = hn::Neg(hn::Mul(out.below[0], b00)), b11 = root;
+    const F row1[4] = {q10, q11, b10, b11};
+    F square = f(0);
+    for (const F& x : row1) square = hn::MulAdd(x, x, square);
     ends(1, square);
-    for (D* x : {&q10, &q11, &b10, &b11}) *x = hn::Mul(*x, out.perDiagonal[1]);
-    out.below[1] = hn::Mul(below[1], q00);
-    const D r20 = hn::NegMulAdd(out.below[1], q00, below[1]);
-    const D r20beside = hn::Neg(hn::Mul(out.below[1], b00));
-    out.below[2] = hn::MulAdd(r20, q10, hn::MulAdd(below[2], q11, hn::Mul(r20beside, b10)));
-    const D row2[6] = {hn::NegMulAdd(out.below[2], q10, r20),
-                       hn::NegMulAdd(out.below[2], q11, below[2]),
-                       diagonal[2],
+    for (F* x : {&q10, &q11, &b10, &b11}) *x = hn::Mul(*x, out.perDiagonal[1]);
+    out.below[1] = hn::Mul(m.below[1], q00);
+    const F r20 = hn::NegMulAdd(out.below[1], q00, m.below[1]);
+    const F r20beside = hn::Neg(hn::Mul(out.below[1], b00));
+    out.below[2] = hn::MulAdd(r20, q10, hn::MulAdd(m.below[2], q11, hn::Mul(r20beside, b10)));
+    const F row2[6] = {hn::NegMulAdd(out.below[2], q10, r20),
+                       hn::NegMulAdd(out.below[2], q11, m.below[2]),
+                       m.diagonal[2],
                        hn::NegMulAdd(out.below[2], b10, r20beside),
                        hn::Neg(hn::Mul(out.below[2], b11)),
                        root};
-    square = d(0);
-    for (const D& x : row2) square = hn::MulAdd(x, x, square);
+    square = f(0);
+    for (const F& x : row2) square = hn::MulAdd(x, x, square);
     ends(2, square);
     return out;
 }
 
-// A splat in pixels, one a lane, as in Splat.
-struct Seen {
-    D centre[2], lo[2], hi[2], n[3], d[3], l[2], weight;
+// grownTo() of render/model/ellipsoid.h. Few are grown in most pictures, and each is what it is
+// whichever are beside it.
+HWY_INLINE void growTo(F least, Triangles& m) {
+    const F growth = growthTo(least, m);
+    const auto grows = hn::Gt(growth, f(0));
+    for (int a = 0; a < 3; ++a) m.perDiagonal[a] = hn::Div(f(1), m.diagonal[a]);
+    if (hn::AllFalse(Floats(), grows)) return;
+    const Triangles grown = factorOf(m, growth, hn::Mul(f(1e-9f), least));
+    for (int a = 0; a < 3; ++a) {
+        m.diagonal[a] = hn::IfThenElse(grows, grown.diagonal[a], m.diagonal[a]);
+        m.below[a] = hn::IfThenElse(grows, grown.below[a], m.below[a]);
+        m.perDiagonal[a] = hn::IfThenElse(grows, grown.perDiagonal[a], m.perDiagonal[a]);
+    }
+}
+
+// Splats that a view sees, one a lane.
+struct SeenLanes {
+    const TileView& view;
+    const MeshPoints& of;
+    F depth, windowDepth;
+    F centre[2];            // from the view axis
+    F whole[2], within[2];  // the centre's pixel in the box, and where in it
+    hn::Mask<Floats> drawn;
+    F record[kSeenFloats];
+
+    SeenLanes(const TileView& v, const MeshPoints& points) : view(v), of(points) {}
+    HWY_INLINE void put(std::size_t field, I x) { record[field] = hn::BitCast(Floats(), x); }
+
+    HWY_INLINE void findPlaces() {
+        const std::size_t lanes = hn::Lanes(Doubles());
+        SeenHalf half[2];
+        D floors[2][2], parts[2][2];
+        for (std::size_t h = 0; h < 2; ++h) {
+            D along[3];
+            for (std::size_t a = 0; a < 3; ++a) {
+                const auto at = hn::Load(HalfFloats(), of.at[a] + h * lanes);
+                along[a] = hn::MulAdd(hn::PromoteTo(Doubles(), at), d(view.meshScale[a]),
+                                      d(view.meshOffset[a]));
+            }
+            if (view.hasLevels) {
+                const D level = hn::Load(Doubles(), of.level + h * lanes);
+                along[2] = hn::MulAdd(level, d(view.levelScale), along[2]);
+            }
+            half[h] = see(view, along);
+            for (std::size_t k = 0; k < 2; ++k) {
+                const D window = hn::Add(half[h].centre[k], d(view.centre[k]));
+                const auto some = hn::Lt(hn::Abs(window), d(kAll));
+                floors[k][h] = hn::Floor(hn::IfThenElse(some, window, d(-kAll)));
+                parts[k][h] = hn::Sub(window, floors[k][h]);
+            }
+        }
+        depth = joined(half[0].depth, half[1].depth);
+        windowDepth = joined(half[0].windowDepth, half[1].windowDepth);
+        for (std::size_t k = 0; k < 2; ++k) {
+            centre[k] = joined(half[0].centre[k], half[1].centre[k]);
+            whole[k] = joined(floors[k]);
+            within[k] = joined(parts[k]);
+            put(kSeenPixel + k, joinedInts(floors[k][0], floors[k][1]));
+            record[kSeenWithin + k] = within[k];
+        }
+        record[kSeenDepth] = windowDepth;
+    }
+
+    // Of so many times the cell, grown to what a picture can show.
+    HWY_INLINE Triangles factorAndMass(F* mass) {
+        Triangles m;
+        F cell[3];
+        for (std::size_t a = 0; a < 3; ++a) {
+            cell[a] = hn::Mul(hn::Load(Floats(), of.diagonal[a]), f(view.cellScale[a]));
+            const std::size_t row = a == 0 ? 1 : 2;
+            m.below[a] =
+                hn::Mul(hn::Load(Floats(), of.below[a]), f(view.kernel * view.cellScale[row]));
+        }
+        if (view.hasHeights)
+            cell[2] =
+                hn::Mul(hn::Load(Floats(), of.height), f(static_cast<float>(view.levelScale)));
+        drawn = hn::And(hn::Gt(depth, f(view.near)), hn::Le(windowDepth, f(1)));
+        for (std::size_t a = 0; a < 3; ++a) {
+            drawn = hn::And(drawn, hn::Ne(cell[a], f(0)));
+            m.diagonal[a] = hn::Mul(cell[a], f(view.kernel));
+        }
+        growTo(hn::Mul(depth, f(view.least)), m);
+        F share = f(1);
+        for (std::size_t a = 0; a < 3; ++a)
+            share = hn::Mul(share, hn::Mul(cell[a], m.perDiagonal[a]));
+        *mass = hn::Mul(f(view.weight), hn::Abs(share));
+        return m;
+    }
+
+    HWY_INLINE void findForms(const Triangles& factor, F mass) {
+        F ray[3], perX[3], perY[3], c[3], x[3], y[3];
+        for (std::size_t a = 0; a < 3; ++a) {
+            ray[a] = rayOf(view, centre, a);
+            perX[a] = f(view.perPixelX[a]);
+            perY[a] = f(view.perPixelY[a]);
+        }
+        factor.solve(ray, c);
+        factor.solve(perX, x);
+        factor.solve(perY, y);
+        const Forms forms = formsOf(c, x, y, depth);
+        for (std::size_t i = 0; i < 3; ++i) record[kSeenN + i] = forms.n[i];
+        for (std::size_t i = 0; i < 3; ++i) record[kSeenD + i] = forms.d[i];
+        for (std::size_t i = 0; i < 2; ++i) record[kSeenL + i] = forms.l[i];
+        record[kSeenWeight] = hn::Mul(hn::Mul(mass, hn::Sqrt(forms.perC2)), faded(view, depth));
+    }
+
+    HWY_INLINE void findBox(const Triangles& factor, I* first, I* last) const {
+        F row[3][3], lo[2], hi[2];
+        for (std::size_t k = 0; k < 3; ++k) {
+            F inView[3];
+            for (std::size_t a = 0; a < 3; ++a)
+                inView[a] = f(static_cast<float>(view.viewFromAxes[a][k]));
+            factor.times(inView, row[k]);
+        }
+        outlineOf(view, depth, centre, row, lo, hi);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const F limit = f(static_cast<float>(view.box.size[static_cast<int>(k)]));
+            const auto pixel = [&](F offset) HWY_ATTR {
+                const F at = hn::Ceil(hn::Sub(hn::Add(within[k], offset), f(0.5f)));
+                return hn::ConvertTo(Ints(), hn::Min(hn::Max(hn::Add(at, whole[k]), f(0)), limit));
+            };
+            first[k] = pixel(lo[k]);
+            last[k] = pixel(hi[k]);
+        }
+    }
+
+    HWY_INLINE void findAll(std::span<SeenSplat> splats, std::span<TileSpan> spans) {
+        findPlaces();
+        F mass;
+        const Triangles factor = factorAndMass(&mass);
+        findForms(factor, mass);
+        I first[2], last[2];
+        findBox(factor, first, last);
+        for (std::size_t k = 0; k < 2; ++k) {
+            drawn = hn::And(drawn, hn::RebindMask(Floats(), hn::Gt(last[k], first[k])));
+            put(k ? kSeenRows : kSeenColumns, hn::Or(first[k], hn::ShiftLeft<16>(last[k])));
+        }
+        writeSpans(first, last, spans);
+        write(splats);
+    }
+
+    HWY_INLINE void writeSpans(const I* first, const I* last, std::span<TileSpan> spans) const {
+        const Ints ints;
+        alignas(64) std::int32_t from[2][kLanes], to[2][kLanes];
+        for (std::size_t k = 0; k < 2; ++k) {
+            const F perTile = f(1 / static_cast<float>(view.tile[static_cast<int>(k)]));
+            const auto tileOf = [&](I pixel) HWY_ATTR {  // of its middle, far from a tile's edge
+                const F at = hn::Add(hn::ConvertTo(Floats(), pixel), f(0.5f));
+                return hn::ConvertTo(ints, hn::Mul(at, perTile));
+            };
+            const I one = hn::Set(ints, 1), from0 = tileOf(first[k]);
+            const I end = hn::Add(tileOf(hn::Sub(last[k], one)), one);
+            hn::Store(from0, ints, from[k]);
+            hn::Store(hn::IfThenElseZero(hn::RebindMask(ints, drawn), hn::Sub(end, from0)), ints,
+                      to[k]);
+        }
+        for (std::size_t k = 0; k < spans.size(); ++k)
+            spans[k] = {static_cast<std::uint32_t>(from[1][k] * view.tiles.x + from[0][k]),
+                        static_cast<std::uint16_t>(to[0][k]), static_cast<std::uint16_t>(to[1][k])};
+    }
+
+    HWY_INLINE void write(std::span<SeenSplat> splats) const {
+        std::array<SeenSplat, kLanes> beside;  // where there are fewer than lanes
+        SeenSplat* const to = splats.size() == kLanes ? splats.data() : beside.data();
+        for (std::size_t i = 0; i < kSeenFloats; i += 4)
+            storeFours(record + i, [&](std::size_t k) { return floatsOf(to[k]) + i; });
+        if (to != splats.data()) std::copy_n(to, splats.size(), splats.data());
+    }
 };
 
-// sphereExtent(), infinite where the outline reaches behind the eye.
-HWY_INLINE D extentOf(D depth, D radius, D tan) {
-    const D cos = hn::Div(d(1), hn::Sqrt(hn::MulAdd(tan, tan, d(1))));
-    const D sin = hn::Mul(hn::Div(radius, depth), cos);
-    const D sin2 = hn::Mul(sin, sin);
-    const D cosSum = hn::NegMulAdd(hn::Mul(tan, cos), sin,
-                                   hn::Mul(cos, hn::Sqrt(hn::Max(hn::Sub(d(1), sin2), d(0)))));
-    return hn::IfThenElse(hn::And(hn::Lt(sin, d(1)), hn::Gt(cosSum, d(0))),
-                          hn::Div(sin, hn::Mul(cos, cosSum)),
-                          d(std::numeric_limits<double>::infinity()));
-}
-
-// narrow() of render/model/footprint.h.
-HWY_INLINE void narrow(Seen& s) {
-    const D well = d(1e-4), half = d(0.5);
-    D m[3];
-    for (int k = 0; k < 3; ++k) m[k] = hn::Sub(s.n[k], s.d[k]);
-    const D area = hn::Mul(m[0], m[2]), lean = hn::Mul(half, m[1]);
-    const D det = hn::NegMulAdd(lean, lean, area);
-    const DMask tells =
-        hn::And(hn::And(hn::Gt(m[0], hn::Mul(well, s.n[0])), hn::Gt(m[2], hn::Mul(well, s.n[2]))),
-                hn::Gt(det, hn::Mul(well, area)));
-    const D perDet = hn::Div(d(1), det), perTwo = hn::Mul(half, perDet);
-    const D middle[2] = {hn::Mul(hn::NegMulAdd(lean, s.l[1], hn::Mul(m[2], s.l[0])), perTwo),
-                         hn::Mul(hn::NegMulAdd(lean, s.l[0], hn::Mul(m[0], s.l[1])), perTwo)};
-    const D level =
-        hn::MulAdd(half, hn::MulAdd(s.l[0], middle[0], hn::Mul(s.l[1], middle[1])), d(1));
-    for (int k = 0; k < 2; ++k) {
-        const D reach =
-            hn::MulAdd(hn::Sqrt(hn::Mul(hn::Mul(level, perDet), m[2 - 2 * k])), d(1.001), d(0.01));
-        s.lo[k] = hn::IfThenElse(tells, hn::Max(s.lo[k], hn::Sub(middle[k], reach)), s.lo[k]);
-        s.hi[k] = hn::IfThenElse(tells, hn::Min(s.hi[k], hn::Add(middle[k], reach)), s.hi[k]);
-    }
-}
-
-// splatAt() of render/model/footprint.h, the depths of whose centres are known.
-HWY_INLINE Seen see(const PointsView& view, double radius, const MeshPoints& of, const D* inView,
-                    D depth) {
-    const D perDepth = hn::Div(d(1), depth);
-    const Triangles factor = grownTo(hn::Mul(depth, d(view.smallestRadius)), of, radius);
-    Seen s;
-    D ray[3], perX[3], perY[3], c[3], x[3], y[3], across[3], other[3], tan2 = d(0);
-    for (int k = 0; k < 2; ++k) {
-        const D tan = hn::Mul(inView[k], perDepth);
-        tan2 = hn::MulAdd(tan, tan, tan2);
-        s.centre[k] = hn::Mul(tan, d(view.rays.focal[k]));
-    }
-    for (int a = 0; a < 3; ++a) {
-        perX[a] = d(view.rays.perPixelX[a]);
-        perY[a] = d(view.rays.perPixelY[a]);
-        ray[a] = hn::MulAdd(s.centre[0], perX[a],
-                            hn::MulAdd(s.centre[1], perY[a], d(view.rays.axis[a])));
-    }
-    factor.solve(ray, c);
-    factor.solve(perX, x);
-    factor.solve(perY, y);
-    cross(c, x, across);
-    cross(c, y, other);
-    const D perC2 = hn::Div(d(1), dot(c, c)), two = d(2);
-    const D scale = hn::Mul(hn::Mul(depth, depth), perC2);
-    s.n[0] = hn::Mul(scale, dot(across, across));
-    s.n[1] = hn::Mul(hn::Mul(two, scale), dot(across, other));
-    s.n[2] = hn::Mul(scale, dot(other, other));
-    s.d[0] = hn::Mul(perC2, dot(x, x));
-    s.d[1] = hn::Mul(hn::Mul(two, perC2), dot(x, y));
-    s.d[2] = hn::Mul(perC2, dot(y, y));
-    s.l[0] = hn::Mul(hn::Mul(two, perC2), dot(c, x));
-    s.l[1] = hn::Mul(hn::Mul(two, perC2), dot(c, y));
-    const D fade =
-        hn::Min(hn::Max(hn::Sub(hn::Mul(depth, d(1 / view.rays.near)), d(1)), d(0)), d(1));
-    const D perSides =
-        hn::Mul(hn::Mul(factor.perDiagonal[0], factor.perDiagonal[1]), factor.perDiagonal[2]);
-    s.weight = hn::Mul(hn::Mul(hn::Mul(determinantOf(of), perSides), hn::Sqrt(perC2)),
-                       hn::Mul(hn::Mul(fade, fade), hn::NegMulAdd(two, fade, d(3))));
-    const D widest =
-        hn::Sqrt(hn::Add(dot(factor.diagonal, factor.diagonal), dot(factor.below, factor.below)));
-    const D extent = hn::Mul(
-        extentOf(depth, hn::Mul(widest, d(view.lengthening.most / view.rayLength)), hn::Sqrt(tan2)),
-        d(std::max(view.rays.focal.x, view.rays.focal.y)));
-    for (int k = 0; k < 2; ++k) s.lo[k] = hn::Neg(s.hi[k] = extent);
-    narrow(s);
-    return s;
-}
-
-// As they are kept.
-HWY_INLINE void write(const TileLayout& layout, const Seen& s, D weight, D depth, DMask drawn,
-                      std::span<SeenSplat> to) {
-    const HalfInts ints;
-    const hn::Rebind<float, Doubles> floats;
-    // An outline that reaches behind the eye has no bounds; what is as far aside takes nothing.
-    const D far = d(1e9);
-    constexpr std::size_t kFields = sizeof(SeenSplat) / sizeof(float);
-    alignas(64) float field[kFields][kAtOnce];
-    alignas(64) std::int32_t pixel[2][kAtOnce];
-    std::size_t next = 0;
-    const auto keep = [&](D x)
-                          HWY_ATTR { hn::Store(hn::DemoteTo(floats, x), floats, field[next++]); };
-    D within[2];
-    for (std::size_t k = 0; k < 2; ++k) {
-        const D window = hn::Add(s.centre[k], d(layout.centre[k]));
-        drawn = hn::And(drawn, hn::Lt(hn::Abs(window), far));
-        const D whole = hn::Floor(hn::IfThenElseZero(drawn, window));
-        within[k] = hn::Sub(window, whole);
-        hn::Store(hn::DemoteTo(ints, whole), ints, pixel[k]);
-    }
-    for (const D& x : within) keep(x);
-    for (const D& x : s.lo) keep(hn::IfThenElseZero(drawn, hn::Max(x, hn::Neg(far))));
-    for (const D& x : s.hi) keep(hn::IfThenElseZero(drawn, hn::Min(x, far)));
-    for (const D& x : s.n) keep(x);
-    for (const D& x : s.d) keep(x);
-    for (const D& x : s.l) keep(x);
-    keep(weight);
-    keep(depth);
-    for (std::size_t k = 0; k < to.size(); ++k) {
-        const auto of = [&](std::size_t i) { return field[i][k]; };
-        to[k] = {{pixel[0][k], pixel[1][k]},
-                 {of(0), of(1)},
-                 {of(2), of(3)},
-                 {of(4), of(5)},
-                 {of(6), of(7), of(8)},
-                 {of(9), of(10), of(11)},
-                 {of(12), of(13)},
-                 of(14),
-                 of(15)};
-    }
-}
-
-HWY_ATTR void SeeSplats(const Scene& scene, const TileLayout& layout, const PointsView& view,
-                        double factor, std::span<const std::uint32_t> gridIndex,
-                        std::span<SeenSplat> splats) {
-    constexpr std::size_t kAhead = 12;
-    const Doubles doubles;
-    const double radius = kQuarticRadius * scene.footprint.size;
-    const D mass =
-        d(5 / std::numbers::pi / view.unitLength * factor * scene.placed.volumePerDeterminant());
+HWY_ATTR void SeeSplats(const Scene& scene, const TileView& view,
+                        std::span<const std::uint32_t> gridIndex, std::span<SeenSplat> splats,
+                        std::span<TileSpan> spans) {
+    constexpr std::size_t kAhead = 24;
+    const auto stored = scene.placed.mesh()->stored();
     MeshPoints some;
-    for (std::size_t i = 0; i < gridIndex.size(); i += kAtOnce) {
-        const std::size_t count = std::min(kAtOnce, gridIndex.size() - i);
-        for (std::size_t k = 0; k < kAtOnce; ++k) {
+    for (std::size_t i = 0; i < gridIndex.size(); i += kLanes) {
+        const std::size_t count = std::min(kLanes, gridIndex.size() - i);
+        for (std::size_t k = 0; k < kLanes; ++k) {
             if (i + k + kAhead < gridIndex.size()) scene.placed.prefetch(gridIndex[i + k + kAhead]);
-            some.take(scene, gridIndex[i + std::min(k, count - 1)], k);
+            some.take(scene, stored, gridIndex[i + std::min(k, count - 1)], k);
         }
-        D at[3], inView[3];
-        for (int a = 0; a < 3; ++a) at[a] = hn::Load(doubles, some.at[a]);
-        for (int a = 0; a < 3; ++a) {
-            const auto& m = view.viewFromWorld;
-            inView[a] = hn::MulAdd(
-                at[0], d(m[0][a]),
-                hn::MulAdd(at[1], d(m[1][a]), hn::MulAdd(at[2], d(m[2][a]), d(m[3][a]))));
-        }
-        const D depth = hn::Neg(inView[2]);
-        const D windowDepth = hn::Add(hn::Div(d(layout.depthA), depth), d(layout.depthB));
-        const Seen s = see(view, radius, some, inView, depth);
-        const DMask drawn =
-            hn::And(hn::Gt(determinantOf(some), d(0)),
-                    hn::And(hn::Gt(depth, d(view.rays.near)), hn::Le(windowDepth, d(1))));
-        write(layout, s, hn::Mul(s.weight, mass), windowDepth, drawn, splats.subspan(i, count));
+        SeenLanes(view, some).findAll(splats.subspan(i, count), spans.subspan(i, count));
     }
 }
 
@@ -285,9 +306,9 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 HWY_EXPORT(SeeSplats);
 
-void seeSplats(const Scene& scene, const TileLayout& layout, const PointsView& view, double factor,
-               std::span<const std::uint32_t> gridIndex, std::span<SeenSplat> splats) {
-    HWY_DYNAMIC_DISPATCH(SeeSplats)(scene, layout, view, factor, gridIndex, splats);
+void seeSplats(const Scene& scene, const TileView& view, std::span<const std::uint32_t> gridIndex,
+               std::span<SeenSplat> splats, std::span<TileSpan> spans) {
+    HWY_DYNAMIC_DISPATCH(SeeSplats)(scene, view, gridIndex, splats, spans);
 }
 }  // namespace render
 #endif

@@ -3,32 +3,42 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "render/model/footprint.h"
-#include "render/model/scene.h"
-#include "render/splat/tile_layout.h"
+#include "render/splat/tile_bins.h"
 
 namespace render {
 
-// The forms are those of Splat in render/model/footprint.h. Floats and ints alone, which kernels
-// take one field of many at once.
-struct SeenSplat {
+struct Scene;
+struct TileView;
+
+// A line of the caches. The forms are those of Splat in render/model/footprint.h.
+struct alignas(64) SeenSplat {
     // The pixel that the centre lies in, from the corner of the layout's box, and where in it.
     std::array<std::int32_t, 2> pixel;
     std::array<float, 2> within;
-    std::array<float, 2> lo, hi;  // offsets between which the footprint lies; none: not drawn
+    std::uint32_t columns, rows;  // [first, last) in the box: first + 2^16 last
+    float weight, depth;          // depth in the depth buffer
     std::array<float, 3> n, d;
     std::array<float, 2> l;
-    float weight, depth;  // depth in the depth buffer
-    bool isDrawn() const { return lo[0] < hi[0]; }
 };
 
-// Those of the points of these grid indices, whose W is multiplied by `factor`, as splatAt() has
-// them, in double, several at once. REQUIRES: a scene of a mesh, whose splats are no points; as
-// many `splats` as indices.
-void seeSplats(const Scene& scene, const TileLayout& layout, const PointsView& view, double factor,
-               std::span<const std::uint32_t> gridIndex, std::span<SeenSplat> splats);
+// As kernels take it, one field of many at once: where each field is.
+constexpr std::size_t kSeenFloats = sizeof(SeenSplat) / sizeof(float);
+constexpr std::size_t kSeenPixel = 0, kSeenWithin = 2, kSeenColumns = 4, kSeenRows = 5,
+                      kSeenWeight = 6, kSeenDepth = 7, kSeenN = 8, kSeenD = 11, kSeenL = 14;
+inline const float* floatsOf(const SeenSplat& splat) {
+    return reinterpret_cast<const float*>(&splat);
+}
+inline float* floatsOf(SeenSplat& splat) { return reinterpret_cast<float*>(&splat); }
+
+// Those of the points of these grid indices, as splatAt() has them, their places in double, several
+// at once; and the tiles that each touches. REQUIRES: a scene of a mesh, whose splats are no
+// points; as many `splats` and `spans` as indices.
+void seeSplats(const Scene& scene, const TileView& view, std::span<const std::uint32_t> gridIndex,
+               std::span<SeenSplat> splats, std::span<TileSpan> spans);
 
 }  // namespace render

@@ -108,8 +108,9 @@ double splatCost(const Scene& scene, std::size_t layer, const View& view) {
     double pixels = 0;
     const std::uint64_t samples =
         forSome(of.runs, pointCount(of), kSamples, [&](std::uint64_t point) {
-            const auto s = splatAt<double>(seen, scene.step.gridIndex(point), scene.footprint);
+            auto s = splatAt<double>(seen, scene.step.gridIndex(point), scene.footprint);
             if (!s.visible) return;
+            if (scene.footprint.kernel != Kernel::Point) narrow(s);
             const glm::dvec2 sides = sidesOf(s, seen, view.size);
             pixels += sides.x * sides.y;
         });

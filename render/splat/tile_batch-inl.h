@@ -23,15 +23,10 @@ struct Batch {
     // n(o) times what the pixel's ray gives.
     alignas(64) float ox[kLanes], oy[kLanes], nxx[kLanes], nxy[kLanes], nyy[kLanes];
     alignas(64) float dxx[kLanes], dxy[kLanes], dyy[kLanes], lx[kLanes], ly[kLanes];
+    alignas(64) float change[kLanes];  // |d - 1| on its pixels, at most
     alignas(64) float weight[kLanes], depth[kLanes], red[kLanes], green[kLanes], blue[kLanes];
     alignas(64) std::int32_t x[kLanes], y[kLanes], columns[kLanes], rows[kLanes];
 };
-
-HWY_INLINE F faded(const TileView& view, const Points& p) {
-    const F zero = hn::Zero(Floats()), one = f(1);
-    const F t = hn::Min(hn::Max(hn::Sub(hn::Mul(p.depth, f(1 / view.near)), one), zero), one);
-    return hn::Mul(hn::Mul(t, t), hn::NegMulAdd(f(2), t, f(3)));
-}
 
 HWY_INLINE F volume(const TileView& view, const Points& p) {
     F sides[3];
@@ -39,52 +34,68 @@ HWY_INLINE F volume(const TileView& view, const Points& p) {
     return hn::Mul(hn::Mul(sides[0], sides[1]), sides[2]);
 }
 
+// How far from 1 an uneven splat's d comes on its pixels and on those that make a vector whole.
+HWY_INLINE void setUpChange(Batch& out) {
+    const Floats floats;
+    constexpr float kBeside = 16;
+    const auto of = [&](const float* v) HWY_ATTR { return hn::Load(floats, v); };
+    const auto farthest = [&](const float* first, const std::int32_t* count,
+                              float beside) HWY_ATTR {
+        const F last = hn::Add(of(first), hn::ConvertTo(floats, hn::Load(Ints(), count)));
+        return hn::Max(hn::Abs(of(first)), hn::Abs(hn::Add(last, f(beside))));
+    };
+    const F x = farthest(out.ox, out.columns, kBeside), y = farthest(out.oy, out.rows, 0);
+    const F alongX = hn::Mul(x, hn::MulAdd(x, of(out.dxx), hn::Abs(of(out.lx))));
+    const F alongY = hn::Mul(y, hn::MulAdd(y, of(out.dyy), hn::Abs(of(out.ly))));
+    const F both = hn::Mul(hn::Mul(x, y), hn::Abs(of(out.dxy)));
+    hn::Store(hn::Add(both, hn::Add(alongX, alongY)), floats, out.change);
+}
+
+HWY_INLINE void keepForm(const F* n, Batch& out) {
+    float* const to[] = {out.nxx, out.nxy, out.nyy};
+    for (std::size_t i = 0; i < 3; ++i) hn::Store(n[i], Floats(), to[i]);
+}
+HWY_INLINE void keepForms(const Forms& forms, Batch& out) {
+    keepForm(forms.n, out);
+    float* const d[] = {out.dxx, out.dxy, out.dyy};
+    for (std::size_t i = 0; i < 3; ++i) hn::Store(forms.d[i], Floats(), d[i]);
+    hn::Store(forms.l[0], Floats(), out.lx);
+    hn::Store(forms.l[1], Floats(), out.ly);
+    setUpChange(out);
+}
+
 template <bool kEven>
 HWY_INLINE F setUpFootprint(const TileView& view, const Points& p, Batch& out) {
-    const Floats floats;
-    F c[3], x[3], y[3], e[3], g[3];
+    F c[3], x[3], y[3];
     F perSemiAxis[3], weight = f(view.weight), grown = f(1);
     if constexpr (kEven) {
         grown = growth(view, p);
         for (std::size_t a = 0; a < 3; ++a) perSemiAxis[a] = f(1 / view.semiAxes[a]);
     } else {
-        F sides[3];
+        F sides[3], semiAxes[3];
         sidesOf(view, p, sides);
+        semiAxesOf(view, p, semiAxes);
         for (std::size_t a = 0; a < 3; ++a) {
-            weight = hn::Mul(weight, sides[a]);
-            perSemiAxis[a] = hn::Div(
-                f(1), hn::Max(hn::Mul(sides[a], f(view.kernel)), hn::Mul(p.depth, f(view.least))));
-            weight = hn::Mul(weight, perSemiAxis[a]);
+            perSemiAxis[a] = hn::Div(f(1), semiAxes[a]);
+            weight = hn::Mul(weight, hn::Mul(sides[a], perSemiAxis[a]));
         }
     }
     for (std::size_t a = 0; a < 3; ++a) {
-        const F ray = hn::MulAdd(p.centre[0], f(view.perPixelX[a]),
-                                 hn::MulAdd(p.centre[1], f(view.perPixelY[a]), f(view.axis[a])));
-        c[a] = hn::Mul(ray, perSemiAxis[a]);
+        c[a] = hn::Mul(rayOf(view, p.centre, a), perSemiAxis[a]);
         x[a] = hn::Mul(f(view.perPixelX[a]), perSemiAxis[a]);
         y[a] = hn::Mul(f(view.perPixelY[a]), perSemiAxis[a]);
     }
-    cross(c, x, e);
-    cross(c, y, g);
-    const F two = f(2);
-    F scale = hn::Mul(p.depth, p.depth);
     if constexpr (kEven) {
         const F perGrown2 = hn::Div(f(1), hn::Mul(grown, grown));
-        scale = hn::Mul(scale, perGrown2);
+        F n[3];
+        crossForm(c, x, y, hn::Mul(hn::Mul(p.depth, p.depth), perGrown2), n);
+        keepForm(n, out);
         weight = hn::Mul(weight, perGrown2);
     } else {
-        const F perC2 = hn::Div(f(1), dot(c, c));
-        scale = hn::Mul(scale, perC2);
-        weight = hn::Mul(weight, hn::Sqrt(perC2));
-        hn::Store(hn::Mul(perC2, dot(x, x)), floats, out.dxx);
-        hn::Store(hn::Mul(perC2, hn::Mul(two, dot(x, y))), floats, out.dxy);
-        hn::Store(hn::Mul(perC2, dot(y, y)), floats, out.dyy);
-        hn::Store(hn::Mul(perC2, hn::Mul(two, dot(c, x))), floats, out.lx);
-        hn::Store(hn::Mul(perC2, hn::Mul(two, dot(c, y))), floats, out.ly);
+        const Forms forms = formsOf(c, x, y, p.depth);
+        keepForms(forms, out);
+        weight = hn::Mul(weight, hn::Sqrt(forms.perC2));
     }
-    hn::Store(hn::Mul(scale, dot(e, e)), floats, out.nxx);
-    hn::Store(hn::Mul(scale, hn::Mul(two, dot(e, g))), floats, out.nxy);
-    hn::Store(hn::Mul(scale, dot(g, g)), floats, out.nyy);
     return weight;
 }
 
@@ -136,35 +147,39 @@ HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::
                          glm::ivec2 size, Batch& out) {
     const Floats floats;
     const Ints ints;
-    constexpr std::size_t kStride = sizeof(SeenSplat) / sizeof(float);
-    const I first = hn::Mul(hn::LoadU(ints, reinterpret_cast<const std::int32_t*>(index)),
-                            hn::Set(ints, static_cast<std::int32_t>(kStride)));
-    const SeenSplat& base = view.meshSplats.front();
-    const auto of = [&](const float& field)
-                        HWY_ATTR { return hn::GatherIndex(floats, &field, first); };
+    F record[kSeenFloats];
+    for (std::size_t i = 0; i < kSeenFloats; i += 4)
+        loadFours([&](std::size_t k) { return floatsOf(view.meshSplats[index[k]]) + i; },
+                  record + i);
+    const auto whole = [&](std::size_t field) HWY_ATTR { return hn::BitCast(ints, record[field]); };
+    const I columns = whole(kSeenColumns), rows = whole(kSeenRows);
     float* const offset[2] = {out.ox, out.oy};
     std::int32_t* const begin[2] = {out.x, out.y};
     std::int32_t* const count[2] = {out.columns, out.rows};
     for (std::size_t k = 0; k < 2; ++k) {
         const int c = static_cast<int>(k);
-        const F zero = hn::Zero(floats), most = f(static_cast<float>(size[c]));
-        const F whole = hn::ConvertTo(
-            floats, hn::Sub(hn::GatherIndex(ints, &base.pixel[k], first), hn::Set(ints, at[c])));
-        const F within = hn::Sub(of(base.within[k]), f(0.5f));
-        const auto reached = [&](F way) HWY_ATTR {
-            return hn::Min(hn::Max(hn::Add(hn::Ceil(hn::Add(within, way)), whole), zero), most);
+        const auto within = [&](I pixel) HWY_ATTR {
+            return hn::Min(hn::Max(hn::Sub(pixel, hn::Set(ints, at[c])), hn::Zero(ints)),
+                           hn::Set(ints, size[c]));
         };
-        const F from = reached(of(base.lo[k])), to = reached(of(base.hi[k]));
-        hn::Store(hn::ConvertTo(ints, from), ints, begin[k]);
-        hn::Store(hn::ConvertTo(ints, hn::Sub(to, from)), ints, count[k]);
-        hn::Store(hn::Sub(hn::Sub(from, whole), within), floats, offset[k]);
+        const I span = k ? rows : columns;
+        const I first = within(hn::And(span, hn::Set(ints, 0xffff)));
+        const I last = within(hn::ShiftRight<16>(span));
+        hn::Store(first, ints, begin[k]);
+        hn::Store(hn::Sub(last, first), ints, count[k]);
+        const F centre =
+            hn::ConvertTo(floats, hn::Sub(whole(kSeenPixel + k), hn::Set(ints, at[c])));
+        hn::Store(hn::Sub(hn::Sub(hn::ConvertTo(floats, first), centre),
+                          hn::Sub(record[kSeenWithin + k], f(0.5f))),
+                  floats, offset[k]);
     }
-    float* const form[] = {out.nxx, out.nxy, out.nyy, out.dxx, out.dxy, out.dyy, out.lx, out.ly};
-    const float* const field[] = {&base.n[0], &base.n[1], &base.n[2], &base.d[0],
-                                  &base.d[1], &base.d[2], &base.l[0], &base.l[1]};
-    for (std::size_t i = 0; i < std::size(form); ++i) hn::Store(of(*field[i]), floats, form[i]);
-    hn::Store(of(base.weight), floats, out.weight);
-    hn::Store(of(base.depth), floats, out.depth);
+    Forms forms;
+    for (std::size_t i = 0; i < 3; ++i) forms.n[i] = record[kSeenN + i];
+    for (std::size_t i = 0; i < 3; ++i) forms.d[i] = record[kSeenD + i];
+    for (std::size_t i = 0; i < 2; ++i) forms.l[i] = record[kSeenL + i];
+    keepForms(forms, out);
+    hn::Store(record[kSeenWeight], floats, out.weight);
+    hn::Store(record[kSeenDepth], floats, out.depth);
 }
 
 HWY_INLINE void setUp(const TileView& view, const std::uint32_t* index, const float* tints,
@@ -184,7 +199,7 @@ HWY_INLINE void setUp(const TileView& view, const std::uint32_t* index, const fl
     else
         weight =
             view.even ? setUpFootprint<true>(view, p, out) : setUpFootprint<false>(view, p, out);
-    weight = hn::Mul(weight, faded(view, p));
+    weight = hn::Mul(weight, faded(view, p.depth));
     if (tints != nullptr) weight = hn::Mul(weight, setUpTints(view, tints, out));
     hn::Store(weight, Floats(), out.weight);
 }

@@ -39,14 +39,17 @@ HWY_ATTR void FindTiles(const TileView& view, const SplatList& list, std::size_t
         for (std::size_t k = 0; k < kLanes; ++k) some[k] = list.index[i + std::min(k, count - 1)];
         const Points p = seeRoughly(view, some);
         const auto drawn = roughlyDrawn(view, p);
-        const F reach = hn::Add(
-            view.pointSide > 0 ? f(0.5f * static_cast<float>(view.pointSide)) : extent(view, p),
-            f(1));
+        F lo[2], hi[2];
+        lo[0] = lo[1] = f(-0.5f * static_cast<float>(view.pointSide));
+        hi[0] = hi[1] = f(0.5f * static_cast<float>(view.pointSide));
+        if (view.pointSide == 0) extentsOf(view, p, lo, hi);
         for (int k = 0; k < 2; ++k) {
             const F perTile = f(1 / static_cast<float>(view.tile[k]));
             const F tiles = f(static_cast<float>(view.tiles[k]));
-            const F begin = hn::Floor(hn::Mul(hn::Sub(p.window[k], reach), perTile));
-            const F end = hn::Ceil(hn::Mul(hn::Add(p.window[k], reach), perTile));
+            const auto at = [&](F offset, float more) HWY_ATTR {
+                return hn::Mul(hn::Add(hn::Add(p.window[k], offset), f(more)), perTile);
+            };
+            const F begin = hn::Floor(at(lo[k], -1)), end = hn::Ceil(at(hi[k], 1));
             const auto within = [&](F tile) HWY_ATTR {
                 return hn::IfThenElseZero(drawn, hn::Min(hn::Max(tile, hn::Zero(Floats())), tiles));
             };
@@ -72,11 +75,8 @@ HWY_ATTR void SumTile(const TileView& view, std::span<const std::uint32_t> index
         if (view.channels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
         const std::size_t count = std::min(kLanes, index.size() - i);
         if (!view.meshSplats.empty())  // the next ones, which lie anywhere
-            for (std::size_t k = i + kLanes; k < std::min(i + 2 * kLanes, index.size()); ++k) {
-                const char* const at = reinterpret_cast<const char*>(&view.meshSplats[index[k]]);
-                __builtin_prefetch(at);
-                __builtin_prefetch(at + sizeof(SeenSplat) - 1);
-            }
+            for (std::size_t k = i + kLanes; k < std::min(i + 2 * kLanes, index.size()); ++k)
+                __builtin_prefetch(&view.meshSplats[index[k]]);
         const std::uint32_t* someIndex = index.data() + i;
         const float* someTints = tints.empty() ? nullptr : tints.data() + i;
         if (count < kLanes) {
@@ -107,25 +107,6 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 HWY_EXPORT(FindTiles);
 HWY_EXPORT(SumTile);
-
-TileSpan tilesOf(const TileLayout& layout, const SeenSplat& splat) {
-    if (!splat.isDrawn()) return {};
-    glm::ivec2 first, last;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const int c = static_cast<int>(k), tiles = layout.tiles[c];
-        const float perTile = 1 / static_cast<float>(layout.tile[c]);
-        const float window = static_cast<float>(splat.pixel[k]) + splat.within[k];
-        const auto tile = [&](float at) {
-            return static_cast<int>(std::clamp(at * perTile, 0.0f, static_cast<float>(tiles)));
-        };
-        first[c] = tile(window + splat.lo[k] - 1);
-        last[c] = std::min(tile(window + splat.hi[k] + 1) + 1, tiles);
-    }
-    if (first.x >= last.x || first.y >= last.y) return {};
-    return {static_cast<std::uint32_t>(first.y * layout.tiles.x + first.x),
-            static_cast<std::uint16_t>(last.x - first.x),
-            static_cast<std::uint16_t>(last.y - first.y)};
-}
 
 void findTiles(const TileView& view, const SplatList& list, std::size_t first, std::size_t last,
                std::span<TileSpan> spans) {

@@ -21,8 +21,6 @@ struct SplatList {
     std::vector<SeenSplat> seen = {};
 };
 
-// The tiles that a splat of a mesh touches.
-TileSpan tilesOf(const TileLayout& layout, const SeenSplat& splat);
 // Not of a mesh. Of the splats [first, last) of the list, into the same places.
 void findTiles(const TileView& view, const SplatList& list, std::size_t first, std::size_t last,
                std::span<TileSpan> spans);

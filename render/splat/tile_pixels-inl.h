@@ -75,16 +75,22 @@ struct LayUnder {
     }
 };
 
+// The footprints that q = n / d has: of even splats d is the ray's; of splats that are narrow
+// beside their distance it is so near 1 that a series tells 1 / sqrt(d) as well as floats can.
+enum class Form { Even, Narrow, Any };
+constexpr float kNarrow = 1.0f / 32;  // |d - 1|, at most: what is left out is below 3e-7
+
 // What of a splat's weight the pixels of its box take: (1 - q)^4, / sqrt(d) where it is not even,
 // nothing where the opaque scene hides it, and exactly nothing beside the footprint.
-template <bool kEven, bool kHidden, class Lanes, class Sink>
+template <Form kForm, bool kHidden, class Lanes, class Sink>
 HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const TileRoom& room,
                           const Sink& sink) {
     using V = hn::Vec<Lanes>;
     constexpr int kStep = static_cast<int>(hn::MaxLanes(Lanes()));
     const V one = hn::Set(lanes, 1.0f), zero = hn::Zero(lanes);
     const V least = hn::Set(lanes, kLeastDenominator);
-    const V nyy = hn::Set(lanes, b.nyy[k]), dyy = hn::Set(lanes, kEven ? 0.0f : b.dyy[k]);
+    const auto set = [&](float x) HWY_ATTR { return hn::Set(lanes, x); };
+    const V nyy = set(b.nyy[k]), dyy = set(kForm == Form::Even ? 0.0f : b.dyy[k]);
     const V depth = hn::Set(lanes, b.depth[k]);
     const V steps = hn::ConvertTo(lanes, hn::Iota(hn::RebindToSigned<Lanes>(), 0));
     const int columns = b.columns[k], rows = b.rows[k];
@@ -94,27 +100,33 @@ HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const Tile
         const V ox = hn::Add(hn::Set(lanes, b.ox[k] + static_cast<float>(i)), steps);
         const V n0 = hn::Mul(hn::Mul(hn::Set(lanes, b.nxx[k]), ox), ox);
         const V n1 = hn::Mul(hn::Set(lanes, b.nxy[k]), ox);
-        V d0 = one, d1 = zero;
-        if constexpr (!kEven) {
-            d0 = hn::MulAdd(hn::MulAdd(hn::Set(lanes, b.dxx[k]), ox, hn::Set(lanes, b.lx[k])), ox,
-                            one);
-            d1 = hn::MulAdd(hn::Set(lanes, b.dxy[k]), ox, hn::Set(lanes, b.ly[k]));
+        V e0 = zero, e1 = zero;  // of d - 1
+        if constexpr (kForm != Form::Even) {
+            e0 = hn::Mul(hn::MulAdd(set(b.dxx[k]), ox, set(b.lx[k])), ox);
+            e1 = hn::MulAdd(set(b.dxy[k]), ox, set(b.ly[k]));
         }
         auto at = static_cast<std::size_t>(b.y[k] * kTileStride + b.x[k] + i);
         V oy = hn::Set(lanes, b.oy[k]);
         for (int row = 0; row < rows; ++row, at += kTileStride, oy = hn::Add(oy, one)) {
             const V n = hn::MulAdd(hn::MulAdd(nyy, oy, n1), oy, n0);
             V t;
-            if constexpr (kEven) {
+            if constexpr (kForm == Form::Even) {
                 t = hn::Max(hn::NegMulAdd(n, hn::LoadU(lanes, perRay2 + at), one), zero);
                 t = hn::Mul(t, t);
                 t = hn::Mul(t, t);
             } else {
-                const V d = hn::MulAdd(hn::MulAdd(dyy, oy, d1), oy, d0);
-                const V root = reciprocalRoot(lanes, hn::Max(d, least));
+                const V e = hn::MulAdd(hn::MulAdd(dyy, oy, e1), oy, e0), d = hn::Add(e, one);
+                V root;
+                if constexpr (kForm == Form::Narrow)
+                    root = hn::MulAdd(
+                        hn::MulAdd(hn::MulAdd(set(-0.3125f), e, set(0.375f)), e, set(-0.5f)), e,
+                        one);
+                else
+                    root = reciprocalRoot(lanes, hn::Max(d, least));
                 t = hn::Max(hn::NegMulAdd(hn::Mul(n, root), root, one), zero);
                 t = hn::Mul(t, t);
-                t = hn::IfThenElseZero(hn::Gt(d, least), hn::Mul(hn::Mul(t, t), root));
+                t = hn::Mul(hn::Mul(t, t), root);
+                if constexpr (kForm == Form::Any) t = hn::IfThenElseZero(hn::Gt(d, least), t);
             }
             if constexpr (kHidden)
                 t = hn::IfThenElseZero(hn::Le(depth, hn::LoadU(lanes, opaque + at)), t);
@@ -142,16 +154,28 @@ HWY_INLINE void forSquare(Lanes lanes, const Batch& b, std::size_t k, const Tile
     }
 }
 
+template <Form kForm, class Lanes, class Sink>
+HWY_INLINE void addForm(Lanes lanes, const Batch& b, std::size_t k, TileRoom& room,
+                        const Sink& sink) {
+    return b.depth[k] > room.nearestOpaque ? forPixels<kForm, true>(lanes, b, k, room, sink)
+                                           : forPixels<kForm, false>(lanes, b, k, room, sink);
+}
+
 template <class Lanes, class Sink>
 HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std::size_t k,
                          TileRoom& room, const Sink& sink) {
-    const bool hidden = b.depth[k] > room.nearestOpaque;
-    if (view.pointSide > 0) return forSquare(lanes, b, k, room, hidden, sink);
-    if (view.even)
-        return hidden ? forPixels<true, true>(lanes, b, k, room, sink)
-                      : forPixels<true, false>(lanes, b, k, room, sink);
-    return hidden ? forPixels<false, true>(lanes, b, k, room, sink)
-                  : forPixels<false, false>(lanes, b, k, room, sink);
+    if (view.pointSide > 0)
+        return forSquare(lanes, b, k, room, b.depth[k] > room.nearestOpaque, sink);
+    if (view.even) return addForm<Form::Even>(lanes, b, k, room, sink);
+    return b.change[k] <= kNarrow ? addForm<Form::Narrow>(lanes, b, k, room, sink)
+                                  : addForm<Form::Any>(lanes, b, k, room, sink);
+}
+
+// The optical depth that the splat gives a pixel, at most; of an even one t is 1 at most.
+HWY_INLINE float mostDepth(const TileView& view, const Batch& b, std::size_t k,
+                           const TileRoom& room) {
+    const float most = b.weight[k] * room.largestFactor;
+    return view.even ? most : most / std::sqrt(std::max(1 - b.change[k], kLeastDenominator));
 }
 
 template <class Lanes>
@@ -165,8 +189,7 @@ HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std:
         default:
             break;
     }
-    // Of an even splat, t is 1 at most.
-    if (view.even && b.weight[k] * room.largestFactor <= 0.5f)
+    if (mostDepth(view, b, k, room) <= 0.5f)
         return addSplat(lanes, view, b, k, room, LayUnder<Lanes, true>(lanes, b, k, room));
     addSplat(lanes, view, b, k, room, LayUnder<Lanes, false>(lanes, b, k, room));
 }

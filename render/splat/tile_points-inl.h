@@ -13,18 +13,12 @@
 #include <cstdint>
 
 #include "render/points/grid_indices-inl.h"
-#include "render/splat/lanes-inl.h"
-#include "render/splat/tile_view.h"
+#include "render/splat/splat_forms-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-HWY_INLINE I joinedInts(const D* halves) {
-    return hn::Combine(Ints(), hn::DemoteTo(HalfInts(), halves[1]),
-                       hn::DemoteTo(HalfInts(), halves[0]));
-}
 
 // Points of the grid, one a lane.
 struct Points {
@@ -35,47 +29,38 @@ struct Points {
 };
 
 HWY_INLINE Points see(const TileView& view, const std::uint32_t* index, glm::ivec2 tileAt) {
-    D at[3][2], depth[2], perDepth[2], window[2][2], centre[2][2], windowDepth[2];
-    for (int half = 0; half < 2; ++half) {
-        D ijk[3], along[3], seen[3];
-        alongAxes(view.size, index + static_cast<std::size_t>(half) * hn::Lanes(Doubles()), ijk);
-        positionsOf(view.position, ijk, along);
-        for (int a = 0; a < 3; ++a) at[a][half] = ijk[a];
-        for (std::size_t k = 0; k < 3; ++k)
-            seen[k] = hn::MulAdd(along[0], d(view.viewFromAxes[0][k]),
-                                 hn::MulAdd(along[1], d(view.viewFromAxes[1][k]),
-                                            hn::MulAdd(along[2], d(view.viewFromAxes[2][k]),
-                                                       d(view.viewFromAxes[3][k]))));
-        depth[half] = hn::Neg(seen[2]);
-        perDepth[half] = hn::Div(d(1), depth[half]);
-        windowDepth[half] = hn::MulAdd(perDepth[half], d(view.depthA), d(view.depthB));
-        for (std::size_t k = 0; k < 2; ++k) {
-            centre[k][half] = hn::Mul(hn::Mul(seen[k], d(view.focal[k])), perDepth[half]);
-            window[k][half] =
-                hn::Add(centre[k][half], d(view.centre[k] - tileAt[static_cast<int>(k)]));
-        }
+    D at[2][3], window[2][2];
+    SeenHalf half[2];
+    for (std::size_t h = 0; h < 2; ++h) {
+        D along[3];
+        alongAxes(view.size, index + h * hn::Lanes(Doubles()), at[h]);
+        positionsOf(view.position, at[h], along);
+        half[h] = see(view, along);
+        for (std::size_t k = 0; k < 2; ++k)
+            window[h][k] =
+                hn::Add(half[h].centre[k], d(view.centre[k] - tileAt[static_cast<int>(k)]));
     }
-    return {{joinedInts(at[0]), joinedInts(at[1]), joinedInts(at[2])},
-            joined(depth),
-            joined(perDepth),
-            {joined(window[0]), joined(window[1])},
-            {joined(centre[0]), joined(centre[1])},
-            joined(windowDepth)};
+    const auto& [low, high] = half;
+    return {{joinedInts(at[0][0], at[1][0]), joinedInts(at[0][1], at[1][1]),
+             joinedInts(at[0][2], at[1][2])},
+            joined(low.depth, high.depth),
+            joined(low.perDepth, high.perDepth),
+            {joined(window[0][0], window[1][0]), joined(window[0][1], window[1][1])},
+            {joined(low.centre[0], high.centre[0]), joined(low.centre[1], high.centre[1])},
+            joined(low.windowDepth, high.windowDepth)};
 }
 
 // Where points are seen, in float, which is near enough to find tiles.
 HWY_INLINE Points seeRoughly(const TileView& view, const std::uint32_t* index) {
     const Floats floats;
-    D at[3][2];
-    for (int half = 0; half < 2; ++half) {
-        D ijk[3];
-        alongAxes(view.size, index + static_cast<std::size_t>(half) * hn::Lanes(Doubles()), ijk);
-        for (int a = 0; a < 3; ++a) at[a][half] = ijk[a];
+    D at[2][3];
+    for (std::size_t half = 0; half < 2; ++half) {
+        alongAxes(view.size, index + half * hn::Lanes(Doubles()), at[half]);
     }
     Points p;
     F along[3], seen[3];
     for (std::size_t a = 0; a < 3; ++a) {
-        p.at[a] = joinedInts(at[a]);
+        p.at[a] = joinedInts(at[0][a], at[1][a]);
         along[a] = hn::GatherIndex(floats, view.roughPosition[a].data(), p.at[a]);
     }
     for (std::size_t k = 0; k < 3; ++k) {
@@ -106,26 +91,25 @@ HWY_INLINE F growth(const TileView& view, const Points& p) {
     return hn::Max(hn::Mul(p.depth, f(view.least / view.semiAxes[0])), f(1));
 }
 
-HWY_INLINE F largestSemiAxis(const TileView& view, const Points& p) {
-    const float largest = std::max({view.semiAxes[0], view.semiAxes[1], view.semiAxes[2]});
-    if (view.even) return hn::Mul(growth(view, p), f(largest));
+HWY_INLINE void semiAxesOf(const TileView& view, const Points& p, F* semiAxes) {
     F sides[3];
     sidesOf(view, p, sides);
-    const F longest = hn::Max(sides[0], hn::Max(sides[1], sides[2]));
-    return hn::Max(hn::Mul(longest, f(view.kernel)), hn::Mul(p.depth, f(view.least)));
+    for (std::size_t a = 0; a < 3; ++a)
+        semiAxes[a] = hn::Max(hn::Mul(sides[a], f(view.kernel)), hn::Mul(p.depth, f(view.least)));
 }
 
-// No less than sphereExtent() in pixels, and little more where splats are small beside their
-// distance; without bounds where the outline reaches behind the eye. What lies beside a footprint
-// takes nothing, so that more than its outline costs time alone.
-HWY_INLINE F extent(const TileView& view, const Points& p) {
+// No less than sphereExtent() in pixels, of even splats that are spheres, and little more where
+// they are small beside their distance; without bounds where the outline reaches behind the eye.
+// What lies beside a footprint takes nothing, so that more than its outline costs time alone.
+HWY_INLINE F sphereExtent(const TileView& view, const Points& p) {
     const F one = f(1);
     const F tanX = hn::Mul(p.centre[0], f(static_cast<float>(1 / view.focal[0]))),
             tanY = hn::Mul(p.centre[1], f(static_cast<float>(1 / view.focal[1])));
     const F tan2 = hn::MulAdd(tanX, tanX, hn::Mul(tanY, tanY));
     const F tan = hn::Mul(tan2, hn::ApproximateReciprocalSqrt(hn::Max(tan2, f(1e-20f))));
     const F cos = hn::ApproximateReciprocalSqrt(hn::Add(one, tan2));
-    const F radius = hn::Mul(hn::Mul(largestSemiAxis(view, p), f(view.reach)), p.perDepth);
+    const F semiAxis = hn::Mul(growth(view, p), f(view.semiAxes[0]));
+    const F radius = hn::Mul(hn::Mul(semiAxis, f(view.reach)), p.perDepth);
     const F sin = hn::Mul(radius, cos);
     // cos(theta + phi), or less: cos(phi) >= 1 - sin(phi)^2.
     const F cosSum = hn::NegMulAdd(tan, sin, hn::NegMulAdd(sin, sin, one));
@@ -133,14 +117,29 @@ HWY_INLINE F extent(const TileView& view, const Points& p) {
     constexpr float kGuesses = 1.01f;  // at how much approximate reciprocals may be wrong
     const auto most = static_cast<float>(std::max(view.focal[0], view.focal[1]));
     return hn::IfThenElse(hn::Gt(cosSum, f(1e-3f)), hn::Mul(hn::Mul(wide, cos), f(most * kGuesses)),
-                          f(1e9f));
+                          f(kAllPixels));
 }
 
-// Pixels [first, last) of a row or column whose centres an extent about `window` reaches.
-HWY_INLINE void reached(F window, F extent, float limit, F* first, F* last) {
+// Between which offsets from their centres, in pixels, footprints lie.
+HWY_INLINE void extentsOf(const TileView& view, const Points& p, F* lo, F* hi) {
+    if (view.spheres) {
+        hi[0] = hi[1] = sphereExtent(view, p);
+        for (std::size_t k = 0; k < 2; ++k) lo[k] = hn::Neg(hi[k]);
+        return;
+    }
+    F semiAxes[3], row[3][3];
+    semiAxesOf(view, p, semiAxes);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t a = 0; a < 3; ++a)
+            row[k][a] = hn::Mul(semiAxes[a], f(static_cast<float>(view.viewFromAxes[a][k])));
+    outlineOf(view, p.depth, p.centre, row, lo, hi);
+}
+
+// Pixels [first, last) of a row or column whose centres offsets from `window` reach.
+HWY_INLINE void reached(F window, F lo, F hi, float limit, F* first, F* last) {
     const F zero = hn::Zero(Floats()), half = f(0.5f);
-    *first = hn::Min(hn::Max(hn::Ceil(hn::Sub(hn::Sub(window, extent), half)), zero), f(limit));
-    *last = hn::Min(hn::Max(hn::Ceil(hn::Sub(hn::Add(window, extent), half)), zero), f(limit));
+    *first = hn::Min(hn::Max(hn::Ceil(hn::Sub(hn::Add(window, lo), half)), zero), f(limit));
+    *last = hn::Min(hn::Max(hn::Ceil(hn::Sub(hn::Add(window, hi), half)), zero), f(limit));
 }
 HWY_INLINE void square(F window, int side, float limit, F* first, F* last) {
     const F zero = hn::Zero(Floats());
@@ -150,13 +149,14 @@ HWY_INLINE void square(F window, int side, float limit, F* first, F* last) {
     *last = hn::Min(hn::Max(hn::Add(from, f(length)), zero), f(limit));
 }
 HWY_INLINE void boxOf(const TileView& view, const Points& p, glm::ivec2 limit, F* first, F* last) {
-    const F reach = view.pointSide > 0 ? hn::Zero(Floats()) : extent(view, p);
+    F lo[2], hi[2];
+    if (view.pointSide == 0) extentsOf(view, p, lo, hi);
     for (int k = 0; k < 2; ++k) {
         const auto most = static_cast<float>(limit[k]);
         if (view.pointSide > 0)
             square(p.window[k], view.pointSide, most, first + k, last + k);
         else
-            reached(p.window[k], reach, most, first + k, last + k);
+            reached(p.window[k], lo[k], hi[k], most, first + k, last + k);
     }
 }
 

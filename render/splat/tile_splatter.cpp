@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <optional>
+#include <numeric>
 #include <utility>
 
 #include "render/splat/splat_source.h"
@@ -68,8 +68,6 @@ struct TileSum::Work {
     const Scene& scene;
     timeseries::Columns columns;
     TileView view;
-    std::optional<PointsView> ofMesh;  // of a mesh: as the view sees its points
-    double perSplat = 1;               // what its splats stand for, where the tints do not tell
     SplatSource source;
     unsigned threads;
     std::uint64_t pairsAtOnce;
@@ -91,12 +89,6 @@ struct TileSum::Work {
           pairsAtOnce(most),
           memory(kept.kept ? std::move(kept) : TileMemory()),
           plane(view, depth, of.size.x, threads, memory.kept->plane, memory.kept->plane) {
-        if (scene.placed.isMesh()) {
-            ofMesh.emplace(scene.placed, of);
-            perSplat = ofMesh->rayLength;
-            if (channels == Channels::Weight)
-                perSplat *= pointsPerSplat(scene.layers[layer], scene.stride);
-        }
         bins.resize(threads);
         points.point.clear();
         points.layer.clear();
@@ -119,14 +111,13 @@ void TileSum::Work::look(std::size_t first, std::size_t last) {
                                   static_cast<double>(values[points.point[i]]));
             },
             columns.values);
-    if (!ofMesh) return findTiles(view, list, first, last, spans);
+    if (!scene.placed.isMesh()) return findTiles(view, list, first, last, spans);
     const std::size_t count = last - first;
-    seeSplats(scene, view, *ofMesh, perSplat, std::span(list.index).subspan(first, count),
-              std::span(list.seen).subspan(first, count));
-    for (std::size_t i = first; i < last; ++i) {
-        list.index[i] = static_cast<std::uint32_t>(i);
-        spans[i] = tilesOf(view, list.seen[i]);
-    }
+    seeSplats(scene, view, std::span(list.index).subspan(first, count),
+              std::span(list.seen).subspan(first, count), std::span(spans).subspan(first, count));
+    std::iota(list.index.begin() + static_cast<std::ptrdiff_t>(first),
+              list.index.begin() + static_cast<std::ptrdiff_t>(last),
+              static_cast<std::uint32_t>(first));
 }
 
 void TileSum::Work::sumPart(std::size_t first, std::size_t last, bool lastOfAll) {
@@ -154,8 +145,10 @@ void TileSum::Work::sum() {
     list.index.resize(count);
     list.tint.resize(view.channels == Channels::Weight ? 0 : count);
     spans.resize(count);
-    list.seen.resize(ofMesh ? count : 0);
-    view.meshSplats = list.seen;
+    if (scene.placed.isMesh()) {
+        list.seen.resize(std::max(list.seen.size(), count));
+        view.meshSplats = list.seen;
+    }
     inParts(count, threadsFor(count, kSplatsWorthAThread, threads),
             [&](std::size_t first, std::size_t last) { look(first, last); });
     std::size_t first = 0;

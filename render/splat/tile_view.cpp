@@ -42,17 +42,31 @@ TileView::TileView(const Scene& scene, const View& view, const PointsView& seen,
     : TileLayout(scene, view, seen, of) {
     assert(!scene.placed.longCells());
     assert(channels != Channels::Count);
-    if (scene.placed.isMesh()) {
-        pointSide = 0;
-        return;
-    }
-    takeGrid(scene, seen);
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t k = 0; k < 3; ++k)
+            viewFromAxes[column][k] =
+                seen.viewFromAxes[static_cast<int>(column)][static_cast<int>(k)];
+    scene.placed.isMesh() ? takeMesh(scene.placed) : takeGrid(scene);
     takeFootprint(scene, seen, view);
     if (channels == Channels::Weight)
         weight *= static_cast<float>(pointsPerSplat(scene.layers[layer], scene.stride));
 }
 
-void TileView::takeGrid(const Scene& scene, const PointsView& seen) {
+void TileView::takeMesh(const PlacedPoints& placed) {
+    const auto stored = placed.mesh()->stored();
+    const glm::dvec3 scale = placed.scale(), offset = placed.axesFromGrid(stored.origin);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto at = static_cast<int>(a);
+        meshScale[a] = scale[at] * stored.unit[at];
+        meshOffset[a] = offset[at];
+        cellScale[a] = static_cast<float>(meshScale[a]);
+    }
+    levelScale = scale.z;
+    hasLevels = !stored.levels.empty();
+    hasHeights = stored.levels.size() > 1;
+}
+
+void TileView::takeGrid(const Scene& scene) {
     const PlacedPoints& placed = scene.placed;
     clips = false;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -66,10 +80,6 @@ void TileView::takeGrid(const Scene& scene, const PointsView& seen) {
         clipHi[a] = static_cast<std::int32_t>(std::min(scene.clip.hi[at], kMost));
         clips = clips || scene.clip.lo[at] > 0 || scene.clip.hi[at] + 1.0 < size[a];
     }
-    for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t k = 0; k < 3; ++k)
-            viewFromAxes[column][k] =
-                seen.viewFromAxes[static_cast<int>(column)][static_cast<int>(k)];
 }
 
 void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const View& view) {
@@ -78,6 +88,12 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     least = static_cast<float>(seen.smallestRadius);
     reach = static_cast<float>(seen.lengthening.most / seen.rayLength);
     const PlacedPoints& placed = scene.placed;
+    const double perLength = 5 / std::numbers::pi / seen.unitLength * seen.rayLength;
+    if (placed.isMesh()) {
+        pointSide = 0;
+        weight = static_cast<float>(perLength * placed.volumePerDeterminant());
+        return;
+    }
     const glm::dvec3 sides(placed.widths()[0][0], placed.widths()[1][0], placed.widths()[2][0]);
     const double shortest = radius * std::min({sides.x, sides.y, sides.z});
     for (std::size_t a = 0; a < 3; ++a)
@@ -86,7 +102,8 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     even = pointSide == 0 &&
            (placed.cubes() ||
             (sameCells(placed) && farthestDepth(placed, view) * seen.smallestRadius < shortest));
-    double mass = 5 / std::numbers::pi / seen.unitLength * seen.rayLength;
+    spheres = even && placed.cubes();
+    double mass = perLength;
     if (even) mass /= radius * radius * radius;
     if (pointSide > 0)
         mass = seen.cellVolume / (seen.unitLength * seen.pixelArea * pointSide * pointSide);

@@ -25,20 +25,28 @@ struct TileView : TileLayout {
     std::array<std::array<double, 3>, 4> viewFromAxes;  // columns
     std::array<std::int32_t, 3> clipLo, clipHi;
     bool clips;
-    // Semi-axes are `kernel` times a cell's sides, at least `least` a unit of depth; the outline of
-    // the largest reaches as far as that of a sphere of `reach` times as much.
-    float kernel, least, reach;
+    // Semi-axes are `kernel` times a cell's sides, at least `least` a unit of depth.
+    float kernel, least;
+    // All splats are even spheres, which are seen as if `reach` times as large.
+    bool spheres = false;
+    float reach;
     // Of an even splat, or of one whose cell's volume is 1; for Weight, of as many points as it
     // stands for.
     float weight;
     int pointSide;  // 0: no point splats
-    // Of a mesh: the splats among which indices are places, instead of all that the grid tells.
+    // Of a mesh, instead of all that the grid tells: what stands in Mesh::Stored in axis
+    // coordinates, and the splats among which indices are places.
+    std::array<double, 3> meshScale, meshOffset;
+    std::array<float, 3> cellScale;
+    double levelScale;
+    bool hasLevels = false, hasHeights = false;
     std::span<const SeenSplat> meshSplats = {};
 
  private:
     TileView(const Scene& scene, const View& view, const PointsView& seen, Channels channels,
              std::size_t layer);
-    void takeGrid(const Scene& scene, const PointsView& seen);
+    void takeMesh(const PlacedPoints& placed);
+    void takeGrid(const Scene& scene);
     void takeFootprint(const Scene& scene, const PointsView& seen, const View& view);
 };
 
