@@ -142,7 +142,8 @@ std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::siz
     return {list.cells().begin(), list.cells().end()};
 }
 
-CellRank::CellRank(const Scene& scene, const View& view) : size_(scene.cells->size()) {
+CellRank::CellRank(const Scene& scene, const View& view)
+    : size_(scene.cells->size()), along_(size_) {
     if (scene.placed.isMesh())
         takeDistances(scene, view);
     else

@@ -57,8 +57,7 @@ class CellRank {
         return first_[brick] + within;
     }
     std::uint32_t operator()(std::uint32_t cell) const {
-        return scene_ ? ofMiddle(middleOfCell(*scene_, cell))
-                      : (*this)(timeseries::indicesOf(cell, size_));
+        return scene_ ? ofMiddle(middleOfCell(*scene_, cell)) : (*this)(along_(cell));
     }
     // Of a mesh, that of a cell whose middle is there.
     std::uint32_t ofMiddle(const glm::dvec3& middle) const;
@@ -78,6 +77,7 @@ class CellRank {
     };
 
     glm::uvec3 size_;
+    timeseries::IndicesAlong along_;
     glm::ivec3 eye_{0};
     std::array<std::vector<Place>, 3> places_;
     std::vector<std::uint32_t> first_;  // of a brick, its least rank

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "render/splat/cell_batches.h"
 #include "render/splat/cell_kernels.h"
 #include "render/splat/cell_pieces.h"
 #include "render/splat/seen_cells.h"
@@ -14,8 +15,8 @@
 namespace render {
 namespace {
 
-// Looked at before they are summed: 22 MB of them.
-constexpr std::uint64_t kAtOnce = 1 << 17;
+// Looked at before they are summed: 11 MB of them.
+constexpr std::uint64_t kAtOnce = 1 << 16;
 // Listed and put in order in the time that one takes to be summed.
 constexpr std::uint64_t kListedForOne = 64;
 // Less is done before another thread has begun.
@@ -41,7 +42,8 @@ struct CellMemory::Seen {
     TileBins bins;
     std::vector<std::uint32_t> binned;
 
-    void look(const Scene& scene, const CellView& view, std::span<const CellOfLayer> part);
+    void look(const Scene& scene, const CellView& view, const CellBatches& batches,
+              std::span<const CellOfLayer> part);
     void sum(const CellView& view, std::size_t tile, TileRoom& room) const {
         const auto which = std::span(binned).subspan(bins.first(tile), bins.count(tile));
         if (tets.empty())
@@ -51,7 +53,7 @@ struct CellMemory::Seen {
     }
 };
 
-void CellMemory::Seen::look(const Scene& scene, const CellView& view,
+void CellMemory::Seen::look(const Scene& scene, const CellView& view, const CellBatches& batches,
                             std::span<const CellOfLayer> part) {
     cells.clear();
     tets.clear();
@@ -67,15 +69,10 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view,
                        spans.push_back(spanOf(view, seen));
                    });
     } else {
-        const auto seeAll = [&] {
+        batches.forEach(part, pieces, [&] {
             seeCells(view, scene, pieces, cells, spans);
             pieces.count = 0;
-        };
-        forEachPiece(scene, part, [&](const ValuedCell& piece, const CellOfLayer& of, unsigned) {
-            pieces.add(piece, of.layer);
-            if (pieces.isFull()) seeAll();
         });
-        seeAll();
     }
     bins.fill(
         view.count(), view.tiles.x, spans, 0, spans.size(),
@@ -101,6 +98,7 @@ struct CellSum::Work {
     TilePlane plane;
     std::optional<CellRank> rank;  // where they are passed in order
     CellList list;
+    CellBatches batches;
     std::size_t passed = 0;  // of its cells
 
     Work(const Scene& drawn, const View& of, Channels channels, std::size_t layer,
@@ -113,7 +111,8 @@ struct CellSum::Work {
                 raysAcross > 1 ? memory.kept->rays : memory.kept->plane),
           rank(channels == Channels::Over ? std::optional<CellRank>(std::in_place, drawn, of)
                                           : std::nullopt),
-          list(drawn, channels, layer, rank ? &*rank : nullptr, threads) {
+          list(drawn, channels, layer, rank ? &*rank : nullptr, threads),
+          batches(drawn) {
         memory.kept->seen.resize(threads);
     }
     bool done() const { return list.done() && passed == list.cells().size(); }
@@ -125,7 +124,7 @@ void CellSum::Work::sum(std::span<const CellOfLayer> part, bool lastOfAll) {
     const std::span<CellMemory::Seen> seen = std::span(memory.kept->seen).first(shared);
     together(shared, [&](unsigned k) {
         const std::size_t first = part.size() * k / shared, last = part.size() * (k + 1) / shared;
-        seen[k].look(scene, view, part.subspan(first, last - first));
+        seen[k].look(scene, view, batches, part.subspan(first, last - first));
     });
     plane.sum(
         shared, lastOfAll,

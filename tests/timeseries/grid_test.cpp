@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace timeseries {
 namespace {
@@ -247,6 +249,32 @@ TEST(AlignedWith, TellsWhichCoordinateEachAxisRunsAlong) {
     const double angle = 1e-4;
     EXPECT_FALSE(alignedWith({glm::dvec3(std::cos(angle), std::sin(angle), 0),
                               glm::dvec3(-std::sin(angle), std::cos(angle), 0), z}));
+}
+
+// At the ends of rows and slices, where quotients are whole or nearly so, up to the largest index.
+TEST(IndicesAlong, AreThoseOfADivision) {
+    for (const auto& n : {std::array{7u, 5u, 3u},
+                          {1u, 1u, 9u},
+                          {1u, 4294967295u, 1u},
+                          {3u, 1u, 1431655765u},
+                          {65536u, 65536u, 1u},
+                          {4294967295u, 1u, 1u},
+                          {1625u, 1625u, 1626u}}) {
+        const glm::uvec3 size(n[0], n[1], n[2]);
+        const IndicesAlong along(size);
+        const std::uint64_t count =
+            std::min<std::uint64_t>(std::uint64_t{n[0]} * n[1] * n[2], 4294967296);
+        std::vector<std::uint64_t> near{0, count - 1};
+        for (const std::uint64_t step : {std::uint64_t{n[0]}, std::uint64_t{n[0]} * n[1]})
+            for (const std::uint64_t times : {std::uint64_t{1}, count / step / 2, count / step})
+                for (const int beside : {-1, 0, 1})
+                    near.push_back(step * times + std::uint64_t(beside));
+        for (const std::uint64_t i : near) {
+            if (i >= count) continue;
+            const auto index = static_cast<std::uint32_t>(i);
+            EXPECT_EQ(along(index), glm::uvec3(indicesOf(i, glm::u64vec3(size)))) << i;
+        }
+    }
 }
 
 }  // namespace

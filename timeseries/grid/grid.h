@@ -63,6 +63,28 @@ constexpr glm::vec<3, I> indicesOf(I index, const glm::vec<3, I>& size) {
     const I row = index / size.x, slice = row / size.y;
     return {index - row * size.x, row - slice * size.y, slice};
 }
+// The same of many indices below 2^32, without dividing: half a point beyond an index no quotient
+// is so near a whole number that rounding of doubles passes it.
+class IndicesAlong {
+ public:
+    explicit IndicesAlong(const glm::uvec3& size)
+        : row_(size.x),
+          slice_(size.x * size.y),
+          perRow_(1.0 / size.x),
+          perSlice_(perRow_ / size.y) {}
+    glm::uvec3 operator()(std::uint32_t index) const {
+        const auto whole = [](double quotient) {
+            return static_cast<std::uint32_t>(static_cast<std::int64_t>(quotient));
+        };
+        const std::uint32_t z = whole((index + 0.5) * perSlice_), inSlice = index - z * slice_;
+        const std::uint32_t y = whole((inSlice + 0.5) * perRow_);
+        return {inSlice - y * row_, y, z};
+    }
+
+ private:
+    std::uint32_t row_, slice_;  // the latter means nothing where there is only one
+    double perRow_, perSlice_;
+};
 
 // Uniform and rectilinear grids, also rotated and sheared ones, and curvilinear ones, whose points
 // lie where a mesh says. Points are numbered by their places along three indices, the first
