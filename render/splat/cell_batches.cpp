@@ -31,10 +31,12 @@ CellBatches::CellBatches(const Scene& scene) : scene_(scene), indices_(scene.cel
 // Adds none and says so where a corner has no value.
 template <typename T>
 bool CellBatches::addWhole(std::span<const T> values, std::span<const CellOfLayer> cells,
-                           PieceBatch& pieces) const {
+                           std::span<const CellOfLayer> later, PieceBatch& pieces) const {
     std::size_t to = pieces.count;
     double none = 0;  // of values that are none
-    for (const CellOfLayer& of : cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i < later.size()) prefetch(values, later[i].cell);
+        const CellOfLayer& of = cells[i];
         const glm::uvec3 at = indices_(of.cell);
         const Side &x = sides_[0][at.x], &y = sides_[1][at.y], &z = sides_[2][at.z];
         const std::array rows{values.data() + (y.low + z.low), values.data() + (y.high + z.low),
@@ -89,11 +91,9 @@ void CellBatches::forEach(std::span<const CellOfLayer> cells, PieceBatch& pieces
             const std::span values(all);
             for (std::size_t i = 0; i < cells.size(); i += together_) {
                 const std::span some = cells.subspan(i, std::min(together_, cells.size() - i));
-                for (std::size_t k = i + kAhead; k < std::min(i + kAhead + together_, cells.size());
-                     ++k)
-                    prefetch(values, cells[k].cell);
+                const std::span later = cells.subspan(std::min(i + kAhead, cells.size()));
                 if (pieces.count + most_ > PieceBatch::kMost) use();
-                if (!addWhole(values, some, pieces)) addAny(some);
+                if (!addWhole(values, some, later, pieces)) addAny(some);
             }
         },
         scene_.cells->field().values);

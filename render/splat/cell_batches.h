@@ -32,7 +32,7 @@ class CellBatches {
     };
     template <typename T>
     bool addWhole(std::span<const T> values, std::span<const CellOfLayer> cells,
-                  PieceBatch& pieces) const;
+                  std::span<const CellOfLayer> later, PieceBatch& pieces) const;
     template <typename T>
     void prefetch(std::span<const T> values, std::uint32_t cell) const;
 

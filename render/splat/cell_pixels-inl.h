@@ -37,12 +37,13 @@ struct MeetLanes {
         : lanes(l),
           base(hn::Set(l, c.base)),
           before(hn::Set(l, c.base - view.near)),
-          grazes(c.grazes) {
+          grazes(c.grazes()) {
         for (std::size_t a = 0; a < 3; ++a) {
             at[a] = hn::Set(l, c.at[a]);
             ray[a] = hn::Set(l, c.ray[a]);
-            x[a] = hn::Set(l, c.right[a]);
-            y[a] = hn::Set(l, c.up[a]);
+            const V perSize = hn::Set(l, c.perSize[a]);
+            x[a] = hn::Mul(perSize, hn::Set(l, view.perPixelX[a]));
+            y[a] = hn::Mul(perSize, hn::Set(l, view.perPixelY[a]));
         }
     }
 
@@ -74,10 +75,12 @@ struct CellLanes {
     using V = hn::Vec<Lanes>;
     Lanes lanes;
     V base, x[3], y[3], f[8];
-    CellLanes(Lanes l, const SeenCell& c) : lanes(l), base(hn::Set(l, c.base)) {
+    CellLanes(Lanes l, const CellView& view, const SeenCell& c)
+        : lanes(l), base(hn::Set(l, c.base)) {
         for (std::size_t a = 0; a < 3; ++a) {
-            x[a] = hn::Set(l, c.right[a]);
-            y[a] = hn::Set(l, c.up[a]);
+            const V perSize = hn::Set(l, c.perSize[a]);
+            x[a] = hn::Mul(perSize, hn::Set(l, view.perPixelX[a]));
+            y[a] = hn::Mul(perSize, hn::Set(l, view.perPixelY[a]));
         }
         for (std::size_t k = 0; k < 8; ++k) f[k] = hn::Set(l, c.f[k]);
     }
@@ -193,9 +196,9 @@ HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c, c
     constexpr int kRows = static_cast<int>(pixels.kRows);
     const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
     const glm::ivec2 most =
-        glm::min(glm::ivec2(c.x + c.columns, c.y + c.rows), room.at + room.size);
+        glm::min(glm::ivec2(c.x + c.columns(), c.y + c.rows()), room.at + room.size);
     const MeetLanes<Lanes> cell(lanes, view, c);
-    const bool hides = room.nearestOpaque < 1, crosses = c.crossesLeast || c.crossesMost;
+    const bool hides = room.nearestOpaque < 1, crosses = c.crossesLeast() || c.crossesMost();
     const V stepsX = pixels.columns(lanes), stepsY = pixels.rows(lanes);
     for (int x = least.x; x < most.x; x += kColumns) {
         const V ox = hn::Add(hn::Set(lanes, c.ox + static_cast<float>(x - c.x)), stepsX);
@@ -245,7 +248,7 @@ HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& r
     }
     r.length = hn::Load(lanes, block.length);
     r.depth = hn::Load(lanes, block.depth);
-    const CellLanes<Lanes> cell(lanes, c);
+    const CellLanes<Lanes> cell(lanes, view, c);
     cell.lookHalfWay(r);
     hn::Vec<Lanes> values[kPieces + 1];
     cell.follow(r, values);

@@ -39,13 +39,13 @@ struct RangeLanes {
     // What is between these ends is sign * the range + offset.
     V sign, offset;
     RangeLanes(Lanes l, const SeenPiece& c) : lanes(l) {
-        const bool first = c.crossesLeast;
+        const bool first = c.crossesLeast();
         end[0] = hn::Set(l, first ? c.least : c.most);
-        end[1] = hn::Set(l, first && c.crossesMost ? c.most : kBeyond);
+        end[1] = hn::Set(l, first && c.crossesMost() ? c.most : kBeyond);
         sign = hn::Set(l, first ? 1.0f : -1.0f);
         offset = hn::Set(l, first ? 0.0f : 1.0f);
         least = hn::Set(l, first ? std::max(c.least, -1.0f) : -1.0f);
-        most = hn::Set(l, c.crossesMost ? std::min(c.most, 1.0f) : 1.0f);
+        most = hn::Set(l, c.crossesMost() ? std::min(c.most, 1.0f) : 1.0f);
     }
     HWY_INLINE V within(V value) const { return hn::Min(hn::Max(value, least), most); }
     // The ends of the values in the range that a pixel sees of a piece.

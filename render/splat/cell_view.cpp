@@ -67,8 +67,8 @@ bool takePixels(SeenPiece& c, const CellView& view, const Splat& s) {
     if (x.first >= x.last || y.first >= y.last) return false;
     c.x = x.first;
     c.y = y.first;
-    c.columns = x.last - x.first;
-    c.rows = y.last - y.first;
+    c.lastPixels = static_cast<std::uint32_t>(x.last - x.first - 1) |
+                   static_cast<std::uint32_t>(y.last - y.first - 1) << 16;
     c.ox = static_cast<float>(x.first + 0.5 - view.centre[0] - s.centre.x);
     c.oy = static_cast<float>(y.first + 0.5 - view.centre[1] - s.centre.y);
     c.base = s.base;
@@ -79,8 +79,8 @@ template <typename Splat>
 void takeRange(SeenPiece& c, const Splat& s) {
     c.least = s.least;
     c.most = s.most;
-    c.crossesLeast = s.crossesLeast;
-    c.crossesMost = s.crossesMost;
+    c.flags = (s.crossesLeast ? SeenPiece::kCrossesLeast : 0u) |
+              (s.crossesMost ? SeenPiece::kCrossesMost : 0u);
     c.perRange = s.perRange;
 }
 
@@ -101,11 +101,11 @@ void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const Rang
     c.tintPerValue = floatPlace(whole * place.perValue);
 }
 
-SeenTet seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
-                const RangeStyle& style) {
+std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
+                               const RangeStyle& style) {
     SeenTet c;
     const TetSplat<float> s = tetSplatAt<float>(view.seen, tet);
-    if (!takePixels(c, view, s)) return c;
+    if (!takePixels(c, view, s)) return std::nullopt;
     takeRange(c, s);
     takeTints(c, view, layer, style, s.reference, s.extent);
     c.at = s.at;

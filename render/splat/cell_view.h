@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "render/model/cell_splat.h"
 #include "render/model/light.h"
@@ -51,26 +53,40 @@ float floatPlace(double at);
 struct SeenPiece {
     float base = 0;
     float ox = 0, oy = 0;  // of its first pixel's centre from its own
-    float least = 0, most = 0;
-    bool crossesLeast = false, crossesMost = false;
     float perRange = 0;
+    float least = 0, most = 0;
+    std::uint32_t flags = 0;           // of PieceFlag
+    std::int32_t x = 0, y = 0;         // the first pixel, in the layout's box
+    std::uint32_t lastPixels = 0;      // columns - 1 + 2^16 (rows - 1)
     float tint = 0, tintPerValue = 0;  // place among the tints where f = 0, and what f adds to it
     float firstTint = 0, lastTint = 0;
-    // In the layout's box; none where the view does not see it.
-    std::int32_t x = 0, y = 0, columns = 0, rows = 0;
+
+    int columns() const { return static_cast<int>(lastPixels & 0xffff) + 1; }
+    int rows() const { return static_cast<int>(lastPixels >> 16) + 1; }
+    bool crossesLeast() const { return (flags & kCrossesLeast) != 0; }
+    bool crossesMost() const { return (flags & kCrossesMost) != 0; }
+    // Some of its rays may lie along a face.
+    bool grazes() const { return (flags & kGrazes) != 0; }
+    enum PieceFlag : std::uint32_t { kCrossesLeast = 1, kCrossesMost = 2, kGrazes = 4 };
 };
 // Of one of that layer, whose field is reference + extent f.
 void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
                double reference, double extent);
 
-// A CellSplat in a picture.
-struct SeenCell : SeenPiece {
+// A CellSplat in a picture: two lines of the caches.
+struct alignas(128) SeenCell : SeenPiece {
+    float steep = 0;  // CellView::steep as the gradient of f
     std::array<float, 3> at{}, ray{}, perSize{};
-    std::array<float, 3> right{}, up{};  // what a pixel adds to the ray
     std::array<float, 8> f{};
-    float steep = 0;      // CellView::steep as the gradient of f
-    bool grazes = false;  // some of its rays may lie along a face
 };
+// As seeCells() writes it, one field of many at once: where each field is, tints left out.
+namespace seen_cell {
+constexpr std::size_t kFloats = sizeof(SeenCell) / sizeof(float);
+constexpr std::size_t kBase = 0, kOx = 1, kOy = 2, kPerRange = 3, kLeast = 4, kMost = 5, kFlags = 6,
+                      kX = 7, kY = 8, kLastPixels = 9, kSteep = 14, kAt = 15, kRay = 18,
+                      kPerSize = 21, kF = 24;
+static_assert(kF + 8 == kFloats);
+}  // namespace seen_cell
 
 // A TetSplat in a picture.
 struct SeenTet : SeenPiece {
@@ -78,7 +94,8 @@ struct SeenTet : SeenPiece {
     float f = 0, fRay = 0, fRight = 0, fUp = 0, across = 0;  // of a pixel, a unit of depth away
     float perSteepness = 0, certainty = 0;                   // of light
 };
-SeenTet seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
-                const RangeStyle& style);
+// None where the view does not see it.
+std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
+                               const RangeStyle& style);
 
 }  // namespace render

@@ -13,15 +13,14 @@
 namespace render {
 namespace {
 
-// What is found of a PieceBatch, names as in SeenCell and CellSplat.
+// What is found of a PieceBatch: of SeenCells, a row a field, and names as in CellSplat.
 struct SeenRows {
     template <typename T>
     using Row = PieceBatch::Row<T>;
-    Row<float> base, ox, oy, least, most, perRange, steep, crossesLeast, crossesMost, grazes;
-    std::array<Row<float>, 3> at, ray, perSize, right, up;
-    std::array<Row<float>, 8> f;
+    std::array<Row<float>, seen_cell::kFloats> field;
+    Row<float> crossesLeast, crossesMost;
     Row<double> reference, extent;
-    Row<std::int32_t> x, y, columns, rows;  // no columns where nothing is seen
+    Row<std::int32_t> isSeen;
     Row<std::int32_t> tileX, tileY, lastTileX, lastTileY;
 };
 
@@ -98,9 +97,9 @@ struct SeenLanes {
                                      hn::MulAdd(centre[1], d(rays.perPixelY[a]), d(rays.axis[a])));
             const D fromEye = hn::Mul(hn::Sub(d(rays.eye[a]), middle[a]), perSize[a]);
             const auto axis = static_cast<std::size_t>(a);
-            store(hn::IfThenZeroElse(isWhole, fromEye), rows.at[axis], from);
-            store(hn::Mul(ray, perSize[a]), rows.ray[axis], from);
-            store(perSize[a], rows.perSize[axis], from);
+            store(hn::IfThenZeroElse(isWhole, fromEye), rows.field[seen_cell::kAt + axis], from);
+            store(hn::Mul(ray, perSize[a]), rows.field[seen_cell::kRay + axis], from);
+            store(perSize[a], rows.field[seen_cell::kPerSize + axis], from);
         }
     }
     static HWY_INLINE void store(D v, PieceBatch::Row<float>& row, std::size_t to) {
@@ -143,11 +142,11 @@ struct SeenLanes {
         const auto ifMost = hn::And(changes, hn::Or(isThin, hn::Gt(greatest, hi)));
         store(yes(ifLeast), rows.crossesLeast, from);
         store(yes(ifMost), rows.crossesMost, from);
-        store(hn::IfThenElseZero(ifLeast, within(lo)), rows.least, from);
-        store(hn::IfThenElseZero(ifMost, within(hi)), rows.most, from);
-        store(yes(isThin), rows.perRange, from);
+        store(hn::IfThenElseZero(ifLeast, within(lo)), rows.field[seen_cell::kLeast], from);
+        store(hn::IfThenElseZero(ifMost, within(hi)), rows.field[seen_cell::kMost], from);
+        store(yes(isThin), rows.field[seen_cell::kPerRange], from);
         const D steep = hn::Min(hn::Div(d(view.steep), divisor), d(kSteepest));
-        store(hn::IfThenElse(changes, steep, d(kSteepest)), rows.steep, from);
+        store(hn::IfThenElse(changes, steep, d(kSteepest)), rows.field[seen_cell::kSteep], from);
         const auto reaches = hn::And(hn::Lt(least, hi), hn::Gt(greatest, lo));
         const auto touches = hn::And(hn::Le(least, hi), hn::Ge(greatest, lo));
         return yes(hn::Or(reaches, hn::And(hn::Eq(least, greatest), touches)));
@@ -162,21 +161,22 @@ struct SeenLanes {
                     f[i + step] = hn::Sub(b, a);
                 }
         constexpr std::size_t kOrder[] = {0, 1, 2, 4, 3, 5, 6, 7};
-        for (std::size_t c = 0; c < 8; ++c) store(f[kOrder[c]], rows.f[c], from);
+        for (std::size_t c = 0; c < 8; ++c)
+            store(f[kOrder[c]], rows.field[seen_cell::kF + c], from);
     }
 
     // Ranges that are thin beside what a cell changes have two ends.
     HWY_INLINE void widenThin() const {
-        const F isThin = hn::LoadU(Floats(), rows.perRange.data() + at);
+        const F isThin = hn::LoadU(Floats(), rows.field[seen_cell::kPerRange].data() + at);
         const auto thin = hn::Gt(isThin, hn::Zero(Floats()));
         if (hn::AllFalse(Floats(), thin)) return;
-        const F least = hn::LoadU(Floats(), rows.least.data() + at);
-        const F most = hn::LoadU(Floats(), rows.most.data() + at);
+        const F least = hn::LoadU(Floats(), rows.field[seen_cell::kLeast].data() + at);
+        const F most = hn::LoadU(Floats(), rows.field[seen_cell::kMost].data() + at);
         const F middle = hn::Mul(f(0.5f), hn::Add(least, most));
         const F way = hn::Max(hn::Sub(most, middle), f(static_cast<float>(kThinnest / 2)));
-        put(hn::IfThenElse(thin, hn::Sub(middle, way), least), rows.least, at);
-        put(hn::IfThenElse(thin, hn::Add(middle, way), most), rows.most, at);
-        put(hn::IfThenElseZero(thin, hn::Div(f(0.5f), way)), rows.perRange, at);
+        put(hn::IfThenElse(thin, hn::Sub(middle, way), least), rows.field[seen_cell::kLeast], at);
+        put(hn::IfThenElse(thin, hn::Add(middle, way), most), rows.field[seen_cell::kMost], at);
+        put(hn::IfThenElseZero(thin, hn::Div(f(0.5f), way)), rows.field[seen_cell::kPerRange], at);
     }
 
     // Which pixels the corners of each lie between.
@@ -186,7 +186,7 @@ struct SeenLanes {
         const F depth = hn::Neg(joined(seen[2]));
         const auto isWhole = hn::Gt(joined(whole), hn::Zero(Floats()));
         const auto isVisible = hn::Gt(joined(visible), hn::Zero(Floats()));
-        put(hn::IfThenElseZero(isWhole, depth), rows.base, at);
+        put(hn::IfThenElseZero(isWhole, depth), rows.field[seen_cell::kBase], at);
         F centre[2], place[2], half[3][3], least[2], most[2];
         for (int k = 0; k < 2; ++k) {
             place[k] = joined(seen[k]);
@@ -223,9 +223,9 @@ struct SeenLanes {
             const F limit = f(static_cast<float>(view.box.size[k])), zero = hn::Zero(Floats());
             first[k] = hn::Min(hn::Max(hn::Add(from, low), zero), limit);
             last[k] = hn::Min(hn::Max(hn::Add(from, high), zero), limit);
-            put(hn::Sub(hn::Sub(hn::Add(first[k], f(0.5f)), from), part), k ? rows.oy : rows.ox,
-                at);
-            put(hn::ConvertTo(Ints(), first[k]), k ? rows.y : rows.x, at);
+            put(hn::Sub(hn::Sub(hn::Add(first[k], f(0.5f)), from), part),
+                k ? rows.field[seen_cell::kOy] : rows.field[seen_cell::kOx], at);
+            putInts(hn::ConvertTo(Ints(), first[k]), k ? seen_cell::kY : seen_cell::kX);
             const F perTile = f(1 / static_cast<float>(view.tile[k]));
             const auto tileOf = [&](F pixel) HWY_ATTR {  // of its middle, far from a tile's edge
                 return hn::ConvertTo(Ints(), hn::Mul(hn::Add(pixel, f(0.5f)), perTile));
@@ -236,18 +236,35 @@ struct SeenLanes {
         const auto columns = hn::Sub(last[0], first[0]), lines = hn::Sub(last[1], first[1]);
         const auto some = hn::And(isVisible, hn::And(hn::Gt(columns, hn::Zero(Floats())),
                                                      hn::Gt(lines, hn::Zero(Floats()))));
-        put(hn::ConvertTo(Ints(), hn::IfThenElseZero(some, columns)), rows.columns, at);
-        put(hn::ConvertTo(Ints(), lines), rows.rows, at);
-        takeRays(columns, lines);
+        put(hn::ConvertTo(Ints(), hn::IfThenElseZero(some, f(1))), rows.isSeen, at);
+        const I lastColumn = hn::ConvertTo(Ints(), hn::Sub(columns, f(1)));
+        const I lastLine = hn::ConvertTo(Ints(), hn::Sub(lines, f(1)));
+        putInts(hn::Or(lastColumn, hn::ShiftLeft<16>(lastLine)), seen_cell::kLastPixels);
+        takeFlags(grazing(columns, lines));
+    }
+    HWY_INLINE void putInts(I v, std::size_t field) const {
+        put(hn::BitCast(Floats(), v), rows.field[field], at);
+    }
+    HWY_INLINE void takeFlags(hn::Mask<Floats> grazes) const {
+        const auto flag = [&](hn::Mask<Floats> is, SeenPiece::PieceFlag bit) HWY_ATTR {
+            return hn::IfThenElseZero(hn::RebindMask(Ints(), is),
+                                      hn::Set(Ints(), static_cast<std::int32_t>(bit)));
+        };
+        const auto crosses = [&](const PieceBatch::Row<float>& row) HWY_ATTR {
+            return hn::Gt(hn::LoadU(Floats(), row.data() + at), hn::Zero(Floats()));
+        };
+        putInts(hn::Or(flag(crosses(rows.crossesLeast), SeenPiece::kCrossesLeast),
+                       hn::Or(flag(crosses(rows.crossesMost), SeenPiece::kCrossesMost),
+                              flag(grazes, SeenPiece::kGrazes))),
+                seen_cell::kFlags);
     }
 
-    // What a pixel is of a ray, and whether some of these rays, or a little beside them, go along a
-    // face: along an axis of the cell they are what the middle one is, and so much at most more or
-    // less.
-    HWY_INLINE void takeRays(F columns, F lines) const {
+    // Whether some of these rays, or a little beside them, go along a face: along an axis of the
+    // cell they are what the middle one is, and so much at most more or less.
+    HWY_INLINE hn::Mask<Floats> grazing(F columns, F lines) const {
         constexpr float kMore = 8;  // pixels of a vector, and what arithmetic loses
-        const F ox = hn::LoadU(Floats(), rows.ox.data() + at);
-        const F oy = hn::LoadU(Floats(), rows.oy.data() + at);
+        const F ox = hn::LoadU(Floats(), rows.field[seen_cell::kOx].data() + at);
+        const F oy = hn::LoadU(Floats(), rows.field[seen_cell::kOy].data() + at);
         const auto farthest = [&](F first, F count) HWY_ATTR {
             return hn::Max(hn::Abs(hn::Sub(first, f(kMore))),
                            hn::Abs(hn::Add(first, hn::Add(count, f(kMore)))));
@@ -255,22 +272,39 @@ struct SeenLanes {
         const F x = farthest(ox, columns), y = farthest(oy, lines);
         F some = hn::Zero(Floats());
         for (std::size_t a = 0; a < 3; ++a) {
-            const F ray = hn::LoadU(Floats(), rows.ray[a].data() + at);
-            const F perSize = hn::LoadU(Floats(), rows.perSize[a].data() + at);
+            const F ray = hn::LoadU(Floats(), rows.field[seen_cell::kRay + a].data() + at);
+            const F perSize = hn::LoadU(Floats(), rows.field[seen_cell::kPerSize + a].data() + at);
             const F right = hn::Mul(perSize, f(view.perPixelX[a]));
             const F up = hn::Mul(perSize, f(view.perPixelY[a]));
-            put(right, rows.right[a], at);
-            put(up, rows.up[a], at);
             const F shift = hn::MulAdd(x, hn::Abs(right), hn::Mul(y, hn::Abs(up)));
             const F one = f(1), zero = hn::Zero(Floats());
             some = hn::Max(some, hn::IfThenElse(hn::Gt(hn::Abs(ray), shift), zero, one));
         }
-        put(some, rows.grazes, at);
+        return hn::Gt(some, hn::Zero(Floats()));
+    }
+
+    // Those that are seen, from this place on; returns the place behind them.
+    HWY_INLINE SeenCell* write(SeenCell* to) const {
+        SeenCell beside;  // for the others
+        SeenCell* places[kLanes];
+        for (std::size_t k = 0; k < kLanes; ++k) {
+            const bool isSeen = at + k < pieces.count && rows.isSeen[at + k] != 0;
+            places[k] = isSeen ? to++ : &beside;
+        }
+        for (std::size_t i = 0; i < seen_cell::kFloats; i += 4) {
+            F fields[4];
+            for (std::size_t r = 0; r < 4; ++r)
+                fields[r] = hn::LoadU(Floats(), rows.field[i + r].data() + at);
+            storeFours(fields,
+                       [&](std::size_t k) { return reinterpret_cast<float*>(places[k]) + i; });
+        }
+        return to;
     }
 };
 
-HWY_ATTR void FindCells(const CellView& view, bool isPerCrossing, const PieceBatch& pieces,
-                        SeenRows& rows) {
+// Returns the place behind the last.
+HWY_ATTR SeenCell* FindCells(const CellView& view, bool isPerCrossing, const PieceBatch& pieces,
+                             SeenRows& rows, SeenCell* to) {
     static_assert(PieceBatch::kMost % kLanes == 0);
     for (std::size_t i = 0; i < pieces.count; i += kLanes) {
         SeenLanes lanes{view, pieces, rows, i, isPerCrossing};
@@ -278,7 +312,9 @@ HWY_ATTR void FindCells(const CellView& view, bool isPerCrossing, const PieceBat
         lanes.takeHalf(1);
         lanes.widenThin();
         lanes.takePixels();
+        to = lanes.write(to);
     }
+    return to;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -292,44 +328,19 @@ HWY_EXPORT(FindCells);
 void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces,
               std::vector<SeenCell>& cells, std::vector<TileSpan>& spans) {
     SeenRows rows;
-    HWY_DYNAMIC_DISPATCH(FindCells)
-    (view, scene.opacityPer == OpacityPer::Crossing, pieces, rows);
     std::size_t seen = cells.size();
     cells.resize(seen + pieces.count);
-    spans.resize(seen + pieces.count);
+    const SeenCell* const end = HWY_DYNAMIC_DISPATCH(FindCells)(
+        view, scene.opacityPer == OpacityPer::Crossing, pieces, rows, cells.data() + seen);
     for (std::size_t i = 0; i < pieces.count; ++i) {
-        if (rows.columns[i] == 0) continue;
-        spans[seen] = {static_cast<std::uint32_t>(rows.tileY[i] * view.tiles.x + rows.tileX[i]),
-                       static_cast<std::uint16_t>(rows.lastTileX[i] - rows.tileX[i] + 1),
-                       static_cast<std::uint16_t>(rows.lastTileY[i] - rows.tileY[i] + 1)};
-        SeenCell& c = cells[seen++];
-        c.base = rows.base[i];
-        c.ox = rows.ox[i];
-        c.oy = rows.oy[i];
-        c.least = rows.least[i];
-        c.most = rows.most[i];
-        c.crossesLeast = rows.crossesLeast[i] > 0;
-        c.crossesMost = rows.crossesMost[i] > 0;
-        c.perRange = rows.perRange[i];
-        c.x = rows.x[i];
-        c.y = rows.y[i];
-        c.columns = rows.columns[i];
-        c.rows = rows.rows[i];
-        for (std::size_t a = 0; a < 3; ++a) {
-            c.at[a] = rows.at[a][i];
-            c.ray[a] = rows.ray[a][i];
-            c.perSize[a] = rows.perSize[a][i];
-            c.right[a] = rows.right[a][i];
-            c.up[a] = rows.up[a][i];
-        }
-        for (std::size_t k = 0; k < 8; ++k) c.f[k] = rows.f[k][i];
-        c.steep = rows.steep[i];
-        c.grazes = rows.grazes[i] > 0;
-        takeTints(c, view, pieces.layer[i], scene.layers[pieces.layer[i]].style, rows.reference[i],
-                  rows.extent[i]);
+        if (rows.isSeen[i] == 0) continue;
+        spans.push_back({static_cast<std::uint32_t>(rows.tileY[i] * view.tiles.x + rows.tileX[i]),
+                         static_cast<std::uint16_t>(rows.lastTileX[i] - rows.tileX[i] + 1),
+                         static_cast<std::uint16_t>(rows.lastTileY[i] - rows.tileY[i] + 1)});
+        takeTints(cells[seen++], view, pieces.layer[i], scene.layers[pieces.layer[i]].style,
+                  rows.reference[i], rows.extent[i]);
     }
-    cells.resize(seen);
-    spans.resize(seen);
+    cells.resize(static_cast<std::size_t>(end - cells.data()));
 }
 }  // namespace render
 #endif

@@ -49,7 +49,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     const Lanes lanes;
     const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
     const glm::ivec2 most =
-        glm::min(glm::ivec2(c.x + c.columns, c.y + c.rows), room.at + room.size);
+        glm::min(glm::ivec2(c.x + c.columns(), c.y + c.rows()), room.at + room.size);
     const RangeLanes<Lanes> range(lanes, c);
     [[maybe_unused]] const auto color = [&] {
         if constexpr (kColors)
@@ -134,7 +134,7 @@ HWY_INLINE void addTets(const CellView& view, std::span<const SeenTet> tets,
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
         prefetch(tets[which[std::min(i + kAhead, which.size() - 1)]]);
         const SeenTet& c = tets[which[i]];
-        switch (int{c.crossesLeast} + int{c.crossesMost}) {
+        switch (int{c.crossesLeast()} + int{c.crossesMost()}) {
             case 0:
                 addTet<kChannels, kByValue, 0>(view, c, room);
                 break;

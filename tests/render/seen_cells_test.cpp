@@ -48,8 +48,8 @@ struct World {
 
 // Its numbers as those of `is`; `pixels` is a little more than what its outline needs.
 void expectSeen(const SeenCell& is, const CellSplat<double>& of, const CellView& view) {
-    EXPECT_EQ(is.crossesLeast, of.crossesLeast);
-    EXPECT_EQ(is.crossesMost, of.crossesMost);
+    EXPECT_EQ(is.crossesLeast(), of.crossesLeast);
+    EXPECT_EQ(is.crossesMost(), of.crossesMost);
     EXPECT_NEAR(is.base, of.base, 1e-6 * of.base);
     EXPECT_NEAR(is.perRange, of.perRange, 1e-4 * of.perRange);
     const auto expectEnd = [](float end, double expected) {
@@ -63,12 +63,8 @@ void expectSeen(const SeenCell& is, const CellSplat<double>& of, const CellView&
         EXPECT_NEAR(is.at[axis], of.at[a], 1e-5 * (1 + std::abs(of.at[a])));
         EXPECT_NEAR(is.ray[axis], of.ray[a], 1e-6 * (std::abs(of.ray[a]) + glm::length(of.ray)));
         EXPECT_NEAR(is.perSize[axis], of.perSize[a], 1e-6 * std::abs(of.perSize[a]));
-        EXPECT_NEAR(is.right[axis], view.seen.rays.perPixelX[a] * of.perSize[a],
-                    1e-6 * std::abs(of.perSize[a]));
-        EXPECT_NEAR(is.up[axis], view.seen.rays.perPixelY[a] * of.perSize[a],
-                    1e-6 * std::abs(of.perSize[a]));
     }
-    const int first[] = {is.x, is.y}, count[] = {is.columns, is.rows};
+    const int first[] = {is.x, is.y}, count[] = {is.columns(), is.rows()};
     const float offset[] = {is.ox, is.oy};
     for (int k = 0; k < 2; ++k) {
         const double window = of.centre[k] + view.centre[static_cast<std::size_t>(k)];
@@ -132,7 +128,8 @@ Looked look(const View& from, double side, OpacityPer per, int rays = 1) {
             looked.flat += s.extent == 0;
             const glm::ivec2 tile(static_cast<int>(spans[i].first) % view.tiles.x,
                                   static_cast<int>(spans[i].first) / view.tiles.x);
-            const glm::ivec2 last(seen[i].x + seen[i].columns - 1, seen[i].y + seen[i].rows - 1);
+            const glm::ivec2 last(seen[i].x + seen[i].columns() - 1,
+                                  seen[i].y + seen[i].rows() - 1);
             EXPECT_EQ(tile, glm::ivec2(seen[i].x, seen[i].y) / view.tile);
             EXPECT_EQ(tile + glm::ivec2(spans[i].columns, spans[i].rows) - 1, last / view.tile);
         }
@@ -169,7 +166,7 @@ TEST(SeenCells, KnowWhichRaysGoAlongTheirFaces) {
         std::vector<TileSpan> spans;
         seeCells(view, world.scene, pieces, seen, spans);
         EXPECT_EQ(seen.size(), 1u);
-        return !seen.empty() && seen[0].grazes;
+        return !seen.empty() && seen[0].grazes();
     };
     EXPECT_TRUE(grazes({0, 0, 0.5}));
     EXPECT_TRUE(grazes({0.5, 0, 0}));
