@@ -16,10 +16,8 @@ double cellPixels(const Scene& scene, const View& view) {
 }
 
 int raysAcross(const Scene& scene, const View& view) {
-    const double side = std::sqrt(cellPixels(scene, view));
-    int rays = 1;
-    while (rays < kMostRaysAcross && rays * side < kRaysACell) rays *= 2;
-    return rays;
+    const double rays = std::ceil(kRaysACell / std::sqrt(cellPixels(scene, view)));
+    return static_cast<int>(std::clamp<double>(rays, 1, kMostRaysAcross));
 }
 
 }  // namespace render

@@ -20,8 +20,9 @@ TileLayout::TileLayout(const Scene& scene, const View& view, const PointsView& s
       raysAcross(across),
       pixels(coveredPixels(scene, view)),
       box{pixels.at * across, pixels.size * across} {
-    // Sums and tables of a tile stay in the first-level cache.
+    // Sums and tables of a tile stay in the first-level cache. Its pixels have all of their rays.
     tile = {kTileWidth, floatsPerPixel(channels) == 1 ? 48 : 32};
+    tile -= tile % across;
     tiles = (box.size + tile - 1) / tile;
     const PixelRays& rays = seen.rays;
     for (std::size_t k = 0; k < 2; ++k) {

@@ -27,16 +27,15 @@ CellWorld waves(int edge, const std::vector<std::string>& layers) {
 
 View viewOf(int pixels) { return tests::lookFrom({1.2, -2.6, 0.9}, {pixels, pixels}); }
 
-TEST(RaysAcross, AreThreeOrMoreACellWhileEightAPixelSuffice) {
+TEST(RaysAcross, AreThreeACellWhileEightAPixelSuffice) {
     const CellWorld world = waves(32, {"0.2:0.5"});
     bool isOne = false, isMost = false;
     for (int pixels = 2; pixels < 4000; pixels = pixels * 5 / 4 + 1) {
         const View view = viewOf(pixels);
         const double side = std::sqrt(cellPixels(world.scene, view));
         const int rays = raysAcross(world.scene, view);
-        EXPECT_EQ(8 % rays, 0);
         EXPECT_TRUE(rays == 8 || side * rays >= 3) << pixels;
-        EXPECT_TRUE(rays == 1 || side * rays / 2 < 3) << pixels;
+        EXPECT_TRUE(rays == 1 || side * (rays - 1) < 3) << pixels;
         isOne = isOne || rays == 1;
         isMost = isMost || rays == 8;
     }
@@ -62,7 +61,7 @@ TEST(RaysAcross, APixelIsTheMeanOfItsRays) {
     CellWorld ordered = waves(24, {"0.2:0.5", "-0.6:-0.5"});
     ordered.scene.order = Order::BackToFront;
     const View view = viewOf(37);
-    for (const int rays : {2, 4, 8})
+    for (const int rays : {2, 3, 5, 7, 8})
         for (const Channels channels :
              {Channels::Weight, Channels::WeightedColor, Channels::Over, Channels::Count}) {
             const Scene& scene = channels == Channels::Over ? ordered.scene : unordered.scene;
