@@ -3,20 +3,24 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "render/frame/plain_frame.h"
 #include "render/reference/cell_pick.h"
 #include "render/splat/cell_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/turbulence.h"
+#include "tests/support/built_paths.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/index/cell_index.h"
+#include "timeseries/readers/reader.h"
 
 namespace {
 
@@ -133,6 +137,34 @@ BENCHMARK(cellsBesidePoints)
     ->Args({96, 100, 1})
     ->Args({192, 100, 0})
     ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+// Coloured by value and in order, lit beside not: of the fire's 600 to 1000 K, or of turbulence in
+// a tenth of its spread. Whole frames, the light resolved.
+void litBesideUnlit(benchmark::State& state) {
+    const bool isFire = state.range(0) == 0;
+    CellsOfRange cells(isFire ? timeseries::openReader(std::array{tests::demo()})->read(0, 15)
+                              : bench::turbulence<float>(static_cast<std::size_t>(state.range(0))),
+                       100, true);
+    Layer& layer = cells.scene.layers[0];
+    if (isFire) layer.cells.ranges = {{600, 1000}};
+    layer.cells.candidates = cells.scene.cells->select(layer.cells.ranges);
+    layer.style.color = ByValue{{}, layer.cells.ranges[0].lo, layer.cells.ranges[0].hi};
+    PlainFrame frame(cells.view.size, glm::dvec3(0));
+    const auto draw = [&](Light light) {
+        cells.scene.light = light;
+        frame.draw(cells.scene, cells.view);
+    };
+    bench::alternate(
+        state, [&] { draw(Light::Off); }, [&] { draw(Light::Full); });
+    state.counters["cells"] = static_cast<double>(cellCount(layer));
+}
+BENCHMARK(litBesideUnlit)
+    ->ArgName("points")
+    ->Arg(0)
+    ->Arg(96)
+    ->Arg(192)
+    ->Iterations(15)
     ->Unit(benchmark::kMillisecond);
 
 // The points of a lattice placed one by one, neighbours by their indices or corners of hexahedra.

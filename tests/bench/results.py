@@ -275,6 +275,7 @@ def cells_page(part):
     for thousandths in [1000, 100, 10]:
         f = part(f"cellSelect/{thousandths}")
         rows.append([f"{thousandths / 1000:g}", f"{int(f['cells']):,}", time(seconds(f)), digits(f["looked/needed"])])
+        target(f"cells found at 256³, a range of {thousandths / 1000:g}", seconds(f), 30e-6, shown=time)
         target(f"cells looked at / needed, a range of {thousandths / 1000:g}", f["looked/needed"], 1.4)
     text += table(["range", "cells", "`select`", "looked at / needed"], rows)
     rows = []
@@ -284,8 +285,19 @@ def cells_page(part):
                      ms(f, "second_ms"), ms(f, "first_ms"), digits(f["second/first"])])
         if (n, ordered) == (96, 0):
             target(f"a cell / a splat, 96³, a range of {thousandths / 1000:g}", f["second/first"], 3)
+        if n == 192:
+            target("a picture of 192³ by cells, a range of 0.1, at rest", f["second_ms"] * 1e-3, 0.25, shown=time)
     text += ("\nDrawn in 1024 x 1024, one colour, beside as many points of the same field by tiles, by turns.\n\n"
              + table(["points", "range", "order", "cells", "cells drawn", "points drawn", "ratio"], rows))
+    rows = []
+    for n, what in [(0, "the pool fire, 600 to 1000 K"), (96, "96³, a range of 0.1"), (192, "192³, a range of 0.1")]:
+        f = part(f"litBesideUnlit/points:{n}")
+        rows.append([what, f"{int(f['cells']):,}", ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"])])
+        target(f"cells in order, lit / not, {what}", f["second/first"], 1.3)
+        if n == 0:
+            target("a frame of the pool fire's 600 to 1000 K, lit, in order, 1024 x 1024", f["second_ms"] * 1e-3, 0.025, shown=time)
+    text += ("\nWhole frames of 1024 x 1024, coloured by value and in order, lit beside not, by turns.\n\n"
+             + table(["cells of", "cells", "not lit", "lit", "ratio"], rows))
     rows = []
     kinds = ["curvilinear", "hexahedra"]
     for n, thousandths, ordered in [(96, 100, 0), (96, 1000, 0), (96, 100, 1)]:
@@ -445,7 +457,7 @@ def window_page(part):
     rows = re.findall(r"^(.+?) +(\d+) times +median +([\d.]+) ms +longest +([\d.]+) ms", part.figures, re.M)
     asked = {"from a drag's end to all of a million points": 33.3, "from a drag to the changed picture": 33.3, "between frames, turning, the pool fire": 16.7, "between frames, turning, 1 % of 512^3": 33.3,
              "between frames, turning, a million points": 33.3, "between steps, 256^3, read on the way": 100,
-             "between steps, 256^3, from memory": 66.7}
+             "between steps, 256^3, from memory": 66.7, "between windows, a shell swept through the fire": 50}
     for what, _, middle, _ in rows:
         if what.strip() in asked:
             target(f"window: {what.strip().replace('^3', '³')}", float(middle) * 1e-3, asked[what.strip()] * 1e-3, shown=time)
