@@ -44,6 +44,11 @@ glm::ivec2 PictureView::eyeSize(const panels::Rect& place, Stereo mode) {
     return glm::max(glm::ivec2(place.size()) / tiles(mode), glm::ivec2(16));
 }
 
+void PictureView::beginFrom(const DrawingCosts& learnt) {
+    if (learnt.points) pace_.beginFrom(*learnt.points);
+    if (learnt.cells) cellPace_.beginFrom(*learnt.cells);
+}
+
 bool PictureView::isCurrent(const Shown& shown) const {
     return content_ && content_->sorted == shown.sorted &&
            content_->explorer == drawnOf(shown.explorer);
