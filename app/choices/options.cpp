@@ -156,6 +156,7 @@ IndexOptions indexOptions(const IndexText& text) {
 // What `measure` takes beside the choices of a picture.
 struct MeasureText {
     unsigned views = 3, frames = 5, rays = 3;
+    std::vector<std::string> modes;
     bool json = false;
     std::string csv, svg, png;
 };
@@ -169,6 +170,11 @@ void addMeasure(CLI::App& app, MeasureText& into) {
     app.add_option("--rays", into.rays,
                    "The truth is the mean of so many rays across and down a pixel; 3 by default")
         ->check(CLI::Range(1, 32));
+    app.add_option("--modes", into.modes,
+                   "Ways to draw, by the names that the table has, separated by commas; all by "
+                   "default")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app.add_flag("--json", into.json, "Machine-readable");
     app.add_option("--csv", into.csv, "Writes the table into a file");
     app.add_option("--svg", into.svg, "Writes a plot of error against time into a file");
@@ -186,6 +192,7 @@ MeasureOptions measureOptions(Explorer explorer, const MeasureText& text) {
     options.views = text.views;
     options.frames = text.frames;
     options.rays = text.rays;
+    options.modes = text.modes;
     options.json = text.json;
     options.csv = text.csv;
     options.svg = text.svg;

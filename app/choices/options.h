@@ -44,12 +44,13 @@ struct RenderOptions : CommonOptions {
     bool progress = false;  // "picture 3 of 31" on stdout after each
 };
 
-// One step, drawn in every way and held against the truth.
+// One step, drawn in every way, or some, and held against the truth.
 struct MeasureOptions : CommonOptions {
     Explorer explorer;
     unsigned views = 3;
-    unsigned frames = 5;  // timed, of each view
-    unsigned rays = 3;    // of the truth, across a pixel
+    unsigned frames = 5;             // timed, of each view
+    unsigned rays = 3;               // of the truth, across a pixel
+    std::vector<std::string> modes;  // as Mode::name() has them; none: all
     bool json = false;
     std::filesystem::path csv, svg, png;  // empty: not wanted
 };

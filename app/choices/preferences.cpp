@@ -60,6 +60,30 @@ Moving movingIn(const json& name) {
     return static_cast<Moving>(found - kMoving.begin());
 }
 
+// Beyond them nothing that was measured lies: a frame of a minute, a splat of a millisecond.
+constexpr render::FramePace::Cost kMostCost{6e10, 1e6, double{render::FramePace::kMost}};
+
+// None where it cannot be: nobody wrote it by hand, and it is soon learnt anew.
+std::optional<render::FramePace::Cost> costIn(const json& costs, const char* of) {
+    if (!costs.is_object() || !costs.contains(of) || !costs[of].is_object()) return std::nullopt;
+    const auto in = [&](const char* key, double most) {
+        const json value = costs[of].value(key, json());
+        const double number = value.is_number() ? value.get<double>() : -1;
+        return number <= most ? number : -1;
+    };
+    const render::FramePace::Cost cost{in("fixedNanoseconds", kMostCost.fixedNs),
+                                       in("perSplatNanoseconds", kMostCost.perSplatNs),
+                                       in("splats", kMostCost.splats)};
+    const bool isPossible = cost.fixedNs >= 0 && cost.perSplatNs > 0 && cost.splats > 0;
+    return isPossible ? std::optional(cost) : std::nullopt;
+}
+
+json costJson(const render::FramePace::Cost& cost) {
+    return {{"fixedNanoseconds", cost.fixedNs},
+            {"perSplatNanoseconds", cost.perSplatNs},
+            {"splats", cost.splats}};
+}
+
 // Unknown keys may be a later version's.
 Preferences fromJson(const json& object) {
     if (!object.is_object()) throw std::invalid_argument("it is not a JSON object");
@@ -71,6 +95,9 @@ Preferences fromJson(const json& object) {
     if (object.contains("moving")) preferences.moving = movingIn(object["moving"]);
     if (object.contains("movingError"))
         preferences.movingError = number(object, "movingError", 1e-4, 1);
+    if (object.contains("drawingCosts"))
+        preferences.costs = {.points = costIn(object["drawingCosts"], "points"),
+                             .cells = costIn(object["drawingCosts"], "cells")};
     return preferences;
 }
 
@@ -121,6 +148,9 @@ void writePreferences(const Preferences& preferences, const fs::path& file) {
         out["recentFiles"].push_back(named.size() == 1 ? entry.front() : entry);
     }
     if (preferences.uiScale) out["uiScale"] = *preferences.uiScale;
+    if (preferences.costs.points)
+        out["drawingCosts"]["points"] = costJson(*preferences.costs.points);
+    if (preferences.costs.cells) out["drawingCosts"]["cells"] = costJson(*preferences.costs.cells);
     writeWhole(file, jsonText(out, 2) + "\n");
 }
 

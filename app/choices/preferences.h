@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/frame_pace.h"
+
 namespace app {
 
 // What a user named to open one series: a file, a folder, a pattern, or several of them. Not empty.
@@ -17,6 +19,12 @@ std::string shortName(const Named& named);
 // an error allows; or all that it has at rest.
 enum class Moving { Pace, Error, All };
 
+// What drawing was found to cost on this machine, for the next start; absent: not known.
+struct DrawingCosts {
+    std::optional<render::FramePace::Cost> points, cells;
+    friend bool operator==(const DrawingCosts&, const DrawingCosts&) = default;
+};
+
 struct Preferences {
     static constexpr std::size_t kRecent = 10;
 
@@ -25,6 +33,7 @@ struct Preferences {
     double frameMilliseconds = 1000.0 / 60;  // to draw a frame in; 1 .. 1000
     Moving moving = Moving::Pace;
     double movingError = 0.03;  // of optical depth, relative; 1e-4 .. 1
+    DrawingCosts costs = {};
     friend bool operator==(const Preferences&, const Preferences&) = default;
 };
 
@@ -39,7 +48,7 @@ struct ReadPreferences {
     std::string problem;  // one sentence, when the file is damaged: the preferences are the usual
 };
 // A file that is not there is no problem. Recent files that are not there any more are left out,
-// and patterns whose folder is not.
+// and patterns whose folder is not; costs that cannot be are not known.
 ReadPreferences readPreferences(const std::filesystem::path& file);
 // Throws std::runtime_error, one sentence.
 void writePreferences(const Preferences& preferences, const std::filesystem::path& file);

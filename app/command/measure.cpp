@@ -107,6 +107,7 @@ void writeFiles(const MeasureOptions& options, const std::vector<Measured>& mode
 }  // namespace
 
 int measureModes(const MeasureOptions& options) {
+    modesNamed(options.modes, true);  // an unknown one is refused before a file is read
     ChosenData data = openChosen(options.explorer);
     if (data.steps.size() != 1)
         throw ChoiceError(fmt::format("measure draws one step, not {}: name it, --step {}",
@@ -121,10 +122,12 @@ int measureModes(const MeasureOptions& options) {
     std::vector<Measured> modes;
     {
         const Progress progress("mode", 1);
-        modes =
-            measure(data.explorer, *step, placed,
-                    {.views = options.views, .frames = options.frames, .raysAcross = options.rays},
-                    [&](double share) { progress.drawn(share); });
+        modes = measure(data.explorer, *step, placed,
+                        {.views = options.views,
+                         .frames = options.frames,
+                         .raysAcross = options.rays,
+                         .modes = options.modes},
+                        [&](double share) { progress.drawn(share); });
     }
     if (options.json)
         say("{}\n", jsonText(json(subject, modes), 2));

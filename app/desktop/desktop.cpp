@@ -36,6 +36,7 @@ Desktop::Desktop(Exploration& exploration, std::optional<ExportJob>& exporting)
         std::chrono::nanoseconds(std::llround(1e6 * fileActions_.preferences().frameMilliseconds));
     interface_.choices().moving = fileActions_.preferences().moving;
     interface_.choices().movingError = fileActions_.preferences().movingError;
+    picture_.beginFrom(fileActions_.preferences().costs);
 }
 
 Desktop::End Desktop::run() {
@@ -44,12 +45,16 @@ Desktop::End Desktop::run() {
             sleep();
             const Clock::time_point now = Clock::now();
             frame(now - std::exchange(last_, now));
-            if (headsetAnswers()) return End::ToHeadset;
+            if (headsetAnswers()) {
+                fileActions_.keep(picture_.costs());
+                return End::ToHeadset;
+            }
         }
     } catch (...) {
         fileActions_.rescue();
         throw;
     }
+    fileActions_.keep(picture_.costs());
     fileActions_.finish();
     return End::Closed;
 }

@@ -216,6 +216,13 @@ std::optional<std::chrono::nanoseconds> FileActions::untilKept() const {
     return autosave_.untilSaved(exploration_.explorer(), Autosave::Clock::now());
 }
 
+void FileActions::keep(const DrawingCosts& costs) {
+    if (!exploration_.shown()) return;
+    if (costs.points) preferences_.costs.points = costs.points;
+    if (costs.cells) preferences_.costs.cells = costs.cells;
+    keepPreferences();
+}
+
 void FileActions::finish() { autosave_.discard(); }
 
 void FileActions::rescue() {

@@ -43,6 +43,8 @@ class FileActions {
     void goOn();
     // Until goOn() has something to keep, though nothing happens any more.
     std::optional<std::chrono::nanoseconds> untilKept() const;
+    // What a window has learnt, when it closes: until then it changes with every frame.
+    void keep(const DrawingCosts& costs);
     // At a clean end.
     void finish();
     // At an end that nobody asked for: what is to be offered at the next start is kept as it is

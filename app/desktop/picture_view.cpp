@@ -1,6 +1,7 @@
 #include "app/desktop/picture_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <utility>
@@ -12,6 +13,9 @@ using namespace std::chrono_literals;
 
 // A slice of a picture at rest, of frames: the window around it is drawn once for twice as much.
 constexpr int kSlice = 2;
+// Of a frame, what a picture that moves is to fill: the rest is for the interface around it, and
+// for frames that are slower than those before.
+constexpr double kMovingShare = 0.8;
 // What is expected to take no longer is drawn in one slice: one frame's wait seems none.
 constexpr auto kAtOnce = 100ms;
 const glm::vec3 kGroundColor = glm::vec3(13, 17, 23) / 255.0f;
@@ -32,6 +36,11 @@ Explorer selectionOf(Explorer drawn) {
     return drawn;
 }
 
+std::chrono::nanoseconds movingTarget(std::chrono::nanoseconds frame) {
+    return std::chrono::nanoseconds(
+        std::llround(kMovingShare * static_cast<double>(frame.count())));
+}
+
 // How many eyes' pictures stand beside and above each other.
 glm::ivec2 tiles(Stereo mode) {
     if (mode == Stereo::Off) return {1, 1};
@@ -42,6 +51,11 @@ glm::ivec2 tiles(Stereo mode) {
 
 glm::ivec2 PictureView::eyeSize(const panels::Rect& place, Stereo mode) {
     return glm::max(glm::ivec2(place.size()) / tiles(mode), glm::ivec2(16));
+}
+
+void PictureView::beginFrom(const DrawingCosts& learnt) {
+    if (learnt.points) pace_.beginFrom(*learnt.points);
+    if (learnt.cells) cellPace_.beginFrom(*learnt.cells);
 }
 
 bool PictureView::isCurrent(const Shown& shown) const {
@@ -77,7 +91,7 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
         slices_.emplace(kSlice * frameBudget, firstSlice(kSlice * frameBudget));
     render::FramePace& points = slices_ ? *slices_ : pace_;
     for (render::FramePace* pace : {&points, &cellPace_})
-        pace->setTarget(slices_ ? kSlice * frameBudget : frameBudget);
+        pace->setTarget(slices_ ? kSlice * frameBudget : movingTarget(frameBudget));
     const CanvasLimits limits =
         resting ? CanvasLimits{.splats = points.budget(), .cells = cellPace_.budget()}
                 : moving(e, choices);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/choices/preferences.h"
 #include "app/desktop/rest.h"
 #include "app/drawing/canvas.h"
 #include "app/drawing/picture_error.h"
@@ -22,6 +23,10 @@ class PictureView {
  public:
     // How large each eye's picture is in a place: with two eyes, each has half of it.
     static glm::ivec2 eyeSize(const panels::Rect& place, Stereo mode);
+
+    // What drawing was found to cost, by this or, so that its first frames already fit, by another.
+    DrawingCosts costs() const { return {.points = pace_.learnt(), .cells = cellPace_.learnt()}; }
+    void beginFrom(const DrawingCosts& learnt);
 
     // Puts the picture into the window's framebuffer, with ground around it. `shown`: null while
     // there is nothing. `playing`: it will change again at once. `held`: a mouse button is, with

@@ -1,6 +1,7 @@
 #include "app/measure/measurement.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -187,15 +188,17 @@ void compare(const Views& shown, const Views& truth, Measured& into) {
 // Of all modes, those of each order at once.
 void takeParts(const Bench& bench, std::vector<Measured>& all) {
     for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
-        std::vector<Rung> rungs;
+        const auto isOfIt = [&](const Measured& m) { return m.mode.order == order; };
+        if (std::ranges::none_of(all, isOfIt)) continue;
+        // Cells choose the pixels, also where they are not asked for.
+        std::vector<Rung> rungs = {{Model::Cells}};
         for (const Measured& m : all)
-            if (m.mode.order == order) rungs.push_back({m.mode.model, m.mode.stride});
-        if (rungs.empty()) continue;
-        std::ranges::reverse(rungs);  // cells choose the pixels
+            if (isOfIt(m) && m.mode.model == Model::Points)
+                rungs.push_back({Model::Points, m.mode.stride});
         const DepthErrors errors = bench.errorParts(rungs, order);
         for (Measured& m : all) {
             const RungError* const known = errors.find({m.mode.model, m.mode.stride});
-            if (m.mode.order == order && known != nullptr) m.parts = *known;
+            if (isOfIt(m) && known != nullptr) m.parts = *known;
         }
     }
 }
@@ -230,6 +233,21 @@ std::vector<Mode> modesFor(bool severalColors) {
     return modes;
 }
 
+std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors) {
+    std::vector<std::string> known;
+    for (const Mode& mode : modesFor(false)) known.push_back(mode.name());
+    for (const std::string& name : names)
+        if (std::ranges::find(known, name) == known.end())
+            throw ChoiceError(
+                fmt::format("--modes: '{}' is none of {}", name, fmt::join(known, ", ")));
+    std::vector<Mode> modes = modesFor(severalColors);
+    if (!names.empty())
+        std::erase_if(modes, [&](const Mode& mode) {
+            return std::ranges::find(names, mode.name()) == names.end();
+        });
+    return modes;
+}
+
 std::vector<ViewChoice> viewsAbout(const ViewChoice& view, unsigned count) {
     constexpr double kGoldenAngle = 137.50776405003785;
     std::vector<ViewChoice> views(count, view);
@@ -244,7 +262,8 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     Bench bench(explorer, step, placed, how);
     const double beforePoints = bench.prepare(Model::Points);
     const double beforeCells = bench.prepare(Model::Cells);
-    const std::vector<Mode> modes = modesFor(!render::areOneColor(bench.sceneOf({}).layers));
+    const std::vector<Mode> modes =
+        modesNamed(how.modes, !render::areOneColor(bench.sceneOf({}).layers));
     struct TimedScene {
         render::Scene scene;
         Views shown;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct Mode {
 // In which a scene can be drawn: points, subsets of them, cells; both orders where it has more than
 // one colour.
 std::vector<Mode> modesFor(bool severalColors);
+// Those of them with one of the names, in the same order; without names, all. Throws ChoiceError
+// for a name that none has.
+std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors);
 
 // A mass that is more than 5 % off is not to be overlooked beside a short time.
 inline constexpr double kMassTolerance = 0.05;
@@ -57,8 +61,9 @@ struct Measured {
 
 struct Measuring {
     unsigned views = 3;
-    unsigned frames = 5;      // timed, of each view
-    unsigned raysAcross = 3;  // the truth's in a pixel
+    unsigned frames = 5;                  // timed, of each view
+    unsigned raysAcross = 3;              // the truth's in a pixel
+    std::vector<std::string> modes = {};  // names of those to be measured; none: all
 };
 
 // The explorer's view, and others about it: each turned by 137.5 degrees (the golden angle) more,
@@ -68,7 +73,7 @@ std::vector<ViewChoice> viewsAbout(const ViewChoice& view, unsigned count);
 // Draws on the processor, without axes and legend, which all modes share; timed by turns.
 // `progress` is told the share that is done. REQUIRES: a resolved explorer; step.canHaveCells(),
 // and no mode asked for its cells before, or their time is not in `before`. Throws OutsideKeptError
-// as makeScene does.
+// as makeScene does, ChoiceError as modesNamed does.
 std::vector<Measured> measure(const Explorer& explorer, const timeseries::SortedStep& step,
                               const render::PlacedPoints& placed, const Measuring& how,
                               const std::function<void(double)>& progress = {});

@@ -12,6 +12,8 @@ constexpr std::size_t kFrames = 8;
 constexpr double kLeastPerSplatNs = 1e-4;
 // Frames whose splats differ by less say nothing of what a splat costs.
 constexpr double kTellingDifference = 0.05;
+// Where splats take less of a frame, what one costs drowns in what frames differ by.
+constexpr double kTellingShare = 0.1;
 // A model from few frames may promise too much.
 constexpr double kMostGrowth = 3;
 
@@ -30,7 +32,24 @@ FramePace::FramePace(std::chrono::nanoseconds target, std::uint64_t first)
 
 void FramePace::setTarget(std::chrono::nanoseconds target) {
     targetNs_ = ns(target);
-    if (!recent_.empty()) follow();
+    if (knows()) follow();
+}
+
+std::optional<FramePace::Cost> FramePace::learnt() const {
+    const double ofSplats = perSplatNs_ * mostSplats_;
+    if (!isTold_ || mostSplats_ < double{kFewest} ||
+        ofSplats < kTellingShare * (fixedNs_ + ofSplats))
+        return std::nullopt;
+    return Cost{fixedNs_, perSplatNs_, mostSplats_};
+}
+
+void FramePace::beginFrom(const Cost& learnt) {
+    recent_.clear();
+    fixedNs_ = learnt.fixedNs;
+    perSplatNs_ = std::max(learnt.perSplatNs, kLeastPerSplatNs);
+    mostSplats_ = learnt.splats;
+    isTold_ = true;
+    budget_ = static_cast<std::uint64_t>(fittingTarget());
 }
 
 void FramePace::took(std::uint64_t splats, std::chrono::nanoseconds time) {
@@ -49,7 +68,7 @@ std::chrono::nanoseconds FramePace::predicted(std::uint64_t splats) const {
 }
 
 std::uint64_t FramePace::fitting(std::chrono::nanoseconds time) const {
-    if (recent_.empty()) return first_;
+    if (!knows()) return first_;
     return static_cast<std::uint64_t>(
         std::clamp(ns(time) / perSplatNs_, double{kFewest}, static_cast<double>(kMost)));
 }
@@ -63,9 +82,14 @@ void FramePace::fit() {
             if (std::abs(apart) > kTellingDifference * std::max(a.splats, b.splats))
                 slopes.push_back((a.ns - b.ns) / apart);
         }
-    for (const Sample& f : recent_) shares.push_back(f.ns / std::max(f.splats, 1.0));
-    // Nothing tells the two apart in a first frame.
-    if (recent_.size() == 1) perSplatNs_ = shares[0] / 2;
+    mostSplats_ = 0;
+    for (const Sample& f : recent_) {
+        shares.push_back(f.ns / std::max(f.splats, 1.0));
+        mostSplats_ = std::max(mostSplats_, f.splats);
+    }
+    // Nothing tells the two apart in the first frame of all.
+    if (!knows()) perSplatNs_ = shares[0] / 2;
+    isTold_ = isTold_ || !slopes.empty();
     if (!slopes.empty()) perSplatNs_ = median(std::move(slopes));
     perSplatNs_ = std::max(perSplatNs_, kLeastPerSplatNs);
     for (const Sample& f : recent_) fixed.push_back(f.ns - perSplatNs_ * f.splats);
@@ -75,13 +99,15 @@ void FramePace::fit() {
     perSplatNs_ = std::max(median(std::move(shares)), kLeastPerSplatNs);
 }
 
+double FramePace::fittingTarget() const {
+    const double known = std::max(static_cast<double>(first_), kMostGrowth * mostSplats_);
+    const double most = std::min(known, static_cast<double>(kMost));
+    return std::clamp((targetNs_ - fixedNs_) / perSplatNs_, static_cast<double>(kFewest), most);
+}
+
 void FramePace::follow() {
     const auto now = static_cast<double>(budget_);
-    double known = static_cast<double>(first_);
-    for (const Sample& frame : recent_) known = std::max(known, kMostGrowth * frame.splats);
-    const double most = std::min(known, static_cast<double>(kMost));
-    const double wanted =
-        std::clamp((targetNs_ - fixedNs_) / perSplatNs_, static_cast<double>(kFewest), most);
+    const double wanted = fittingTarget();
     if (std::abs(wanted - now) >= 0.1 * now) budget_ = static_cast<std::uint64_t>(wanted);
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 namespace render {
 
@@ -15,6 +16,17 @@ class FramePace {
  public:
     // `first`: the budget before the first frame.
     explicit FramePace(std::chrono::nanoseconds target, std::uint64_t first = kFirst);
+
+    // A frame takes fixedNs and perSplatNs for each splat, as frames of up to `splats` told.
+    struct Cost {
+        double fixedNs, perSplatNs, splats;
+        friend bool operator==(const Cost&, const Cost&) = default;
+    };
+    // None while frames are too few, too small or too much alike to tell what a splat costs.
+    std::optional<Cost> learnt() const;
+    // Forgets its frames for what another learnt, maybe on another machine: what the next ones take
+    // counts as ever. REQUIRES: finite, not negative.
+    void beginFrom(const Cost& learnt);
 
     void setTarget(std::chrono::nanoseconds target);
     // A frame of `splats` splats (all eyes together) took so long.
@@ -38,10 +50,14 @@ class FramePace {
     struct Sample {
         double splats, ns;
     };
+    bool knows() const { return perSplatNs_ > 0; }
     void fit();
     void follow();
+    double fittingTarget() const;
 
     double targetNs_, fixedNs_ = 0, perSplatNs_ = 0;
+    double mostSplats_ = 0;  // of the frames that these are from
+    bool isTold_ = false;    // what a splat costs, by frames that differ
     std::uint64_t first_, budget_;
     std::deque<Sample> recent_;
 };

@@ -171,11 +171,13 @@ HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std:
                                   : addForm<Form::Any>(lanes, b, k, room, sink);
 }
 
-// The optical depth that the splat gives a pixel, at most; of an even one t is 1 at most.
+// The optical depth that the splat gives a pixel, at most; of a point and of an even one t is 1 at
+// most.
 HWY_INLINE float mostDepth(const TileView& view, const Batch& b, std::size_t k,
                            const TileRoom& room) {
     const float most = b.weight[k] * room.largestFactor;
-    return view.even ? most : most / std::sqrt(std::max(1 - b.change[k], kLeastDenominator));
+    const bool isOneAtMost = view.pointSide > 0 || view.even;
+    return isOneAtMost ? most : most / std::sqrt(std::max(1 - b.change[k], kLeastDenominator));
 }
 
 template <class Lanes>

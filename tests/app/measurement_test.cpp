@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/choices/choice_text.h"
 #include "app/measure/report.h"
 #include "app/picture/picture.h"
 #include "tests/support/scenes.h"
@@ -22,15 +23,16 @@ using timeseries::RangeSet;
 // The field is x, 0 to 8, on 9^3 points.
 class MeasuredRamp : public testing::Test {
  protected:
-    std::vector<Measured> measured(const std::vector<const char*>& ranges,
-                                   unsigned raysAcross = 3) {
+    std::vector<Measured> measured(const std::vector<const char*>& ranges, unsigned raysAcross = 3,
+                                   const std::vector<std::string>& names = {}) {
         Explorer e;
         e.size = {80, 60};
         for (const char* range : ranges) {
             const bool isFirst = e.layers.empty();
             e.layers.push_back({RangeSet::parse(range), glm::dvec3(isFirst, 0, !isFirst), 0.3});
         }
-        return measure(e, step_, placed_, {.views = 2, .frames = 3, .raysAcross = raysAcross});
+        return measure(e, step_, placed_,
+                       {.views = 2, .frames = 3, .raysAcross = raysAcross, .modes = names});
     }
 
     std::shared_ptr<const timeseries::Grid> grid_ = tests::cube(9);
@@ -136,6 +138,50 @@ TEST_F(MeasuredRamp, ProgressRisesFromNothing) {
     EXPECT_EQ(told.front(), 0);
     EXPECT_TRUE(std::ranges::is_sorted(told));
     EXPECT_LT(told.back(), 1);
+}
+
+// With the figures that they have beside the others.
+TEST_F(MeasuredRamp, ChosenModesAloneAreMeasured) {
+    const auto all = measured({"2:5"});
+    for (const std::vector<std::string>& names :
+         {std::vector<std::string>{"points"}, {"cells", "points 1/4"}}) {
+        const auto chosen = measured({"2:5"}, 3, names);
+        ASSERT_EQ(chosen.size(), names.size());
+        for (const Measured& m : chosen) {
+            const auto same = std::ranges::find(all, m.mode, &Measured::mode);
+            ASSERT_NE(same, all.end());
+            EXPECT_NE(std::ranges::find(names, m.mode.name()), names.end());
+            EXPECT_EQ(m.depthError, same->depthError);
+            EXPECT_EQ(m.drawn, same->drawn);
+            EXPECT_EQ(m.parts.depth, same->parts.depth);
+            EXPECT_EQ(m.parts.parts, same->parts.parts);
+        }
+    }
+}
+
+TEST(ModesNamed, AreInTheUsualOrderAndOfBothOrders) {
+    const std::vector<std::string> names = {"cells", "points 1/8", "cells"};
+    using render::Order;
+    EXPECT_THAT(modesNamed(names, false),
+                ElementsAre(Mode{Model::Points, 8}, Mode{Model::Cells, 1}));
+    EXPECT_THAT(modesNamed(names, true),
+                ElementsAre(Mode{Model::Points, 8, Order::BackToFront}, Mode{Model::Points, 8},
+                            Mode{Model::Cells, 1, Order::BackToFront}, Mode{Model::Cells, 1}));
+    EXPECT_EQ(modesNamed({}, true), modesFor(true));
+}
+
+TEST(ModesNamed, RefusesAnUnknownOneAndNamesThoseThereAre) {
+    for (const std::string name : {"", "point", "points 1/3", "Cells"}) {
+        const std::vector<std::string> names = {"cells", name};
+        try {
+            modesNamed(names, false);
+            FAIL() << name;
+        } catch (const ChoiceError& error) {
+            EXPECT_EQ(error.what(),
+                      "--modes: '" + name +
+                          "' is none of points 1/8, points 1/4, points 1/2, points, cells");
+        }
+    }
 }
 
 TEST(ModesFor, AreSubsetsPointsAndCells) {

@@ -203,14 +203,15 @@ TEST(Options, CountTakesWhatItSays) {
 
 TEST(Options, MeasureTakesWhatItSays) {
     const auto measure = as<MeasureOptions>(
-        {"measure", "a.nc",    "--range", "0:1",      "--size", "320x240", "--step",
-         "4",       "--views", "2",       "--frames", "7",      "--rays",  "5",
-         "--json",  "--csv",   "t.csv",   "--svg",    "t.svg",  "--png",   "t.png"});
+        {"measure", "a.nc",  "--range",  "0:1",   "--size", "320x240", "--step",          "4",
+         "--views", "2",     "--frames", "7",     "--rays", "5",       "--json",          "--csv",
+         "t.csv",   "--svg", "t.svg",    "--png", "t.png",  "--modes", "cells,points 1/4"});
     EXPECT_EQ(measure.explorer.layers.front().ranges, RangeSet::parse("0:1"));
     EXPECT_EQ(measure.explorer.size, glm::ivec2(320, 240));
     EXPECT_EQ(measure.views, 2u);
     EXPECT_EQ(measure.frames, 7u);
     EXPECT_EQ(measure.rays, 5u);
+    EXPECT_EQ(measure.modes, (std::vector<std::string>{"cells", "points 1/4"}));
     EXPECT_TRUE(measure.json);
     EXPECT_EQ(measure.csv, "t.csv");
     EXPECT_EQ(measure.svg, "t.svg");
@@ -219,6 +220,7 @@ TEST(Options, MeasureTakesWhatItSays) {
     EXPECT_EQ(plain.views, 3u);
     EXPECT_GE(plain.frames, 3u);
     EXPECT_FALSE(plain.json);
+    EXPECT_TRUE(plain.modes.empty());
     EXPECT_TRUE(plain.csv.empty() && plain.svg.empty() && plain.png.empty());
 }
 

@@ -22,7 +22,8 @@ TEST(Preferences, ReadAsTheyWereWritten) {
                             .uiScale = 1.5,
                             .frameMilliseconds = 25,
                             .moving = Moving::Error,
-                            .movingError = 0.25};
+                            .movingError = 0.25,
+                            .costs = {.points = {{1e6 / 3, 0.1, 2e6}}, .cells = {{0, 70, 5e4}}}};
     remember(preferences, {folder / "a.nc"});
     remember(preferences, {folder});
     remember(preferences, {folder / "*.n[co]"});
@@ -95,6 +96,35 @@ TEST(Preferences, ADamagedFileIsToldAndTheUsualOnesHold) {
         EXPECT_THAT(problem, HasSubstr(why)) << text;
         EXPECT_THAT(problem, HasSubstr(file.string())) << text;
     }
+}
+
+TEST(Preferences, CostsThatCannotBeAreNotKnownAndTheOthersHold) {
+    const auto file = tests::freshFolder() / "preferences.json";
+    const auto costs = [&](const std::string& text) {
+        tests::writeBytes(file, R"({"uiScale": 2, "drawingCosts": )" + text + "}");
+        const auto [preferences, problem] = readPreferences(file);
+        EXPECT_EQ(problem, "") << text;
+        EXPECT_EQ(preferences.uiScale, 2) << text;
+        return preferences.costs;
+    };
+    const std::string cells =
+        R"("cells": {"fixedNanoseconds": 1e6, "perSplatNanoseconds": 30, "splats": 40000})";
+    const DrawingCosts known{.points = {}, .cells = {{1e6, 30, 40'000}}};
+    const auto pointsOf = [](const std::string& fixed, const std::string& perSplat,
+                             const std::string& splats) {
+        return R"({"fixedNanoseconds": )" + fixed + R"(, "perSplatNanoseconds": )" + perSplat +
+               R"(, "splats": )" + splats + "}";
+    };
+    ASSERT_TRUE(costs(R"({"points": )" + pointsOf("0", "1", "1") + "}").points);
+    for (const std::string& points :
+         {std::string("3"), std::string("{}"), std::string("null"), std::string("[1, 2, 3]"),
+          std::string(R"({"fixedNanoseconds": 1, "perSplatNanoseconds": 1})"),
+          pointsOf("-1", "1", "1"), pointsOf("1e12", "1", "1"), pointsOf("1", "0", "1"),
+          pointsOf("1", "-5", "1"), pointsOf("1", "1e300", "1"), pointsOf("1", "1", "0"),
+          pointsOf("1", "1", "1e12"), pointsOf("null", "1", "1"), pointsOf("\"1\"", "1", "1")})
+        EXPECT_EQ(costs(R"({"points": )" + points + ", " + cells + "}"), known) << points;
+    for (const char* none : {"3", "{}", "null", "[]", "\"fast\""})
+        EXPECT_EQ(costs(none), DrawingCosts{}) << none;
 }
 
 TEST(Preferences, AKeyOfALaterVersionIsNoDamage) {

@@ -90,5 +90,38 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
     EXPECT_FALSE(view.performance().error());
 }
 
+// The rest of a frame is the interface's.
+TEST(PictureView, WhatMovesFillsFourFifthsOfAFrameAlsoTheFirst) {
+    const render::gl::HeadlessContext context;
+    tests::ShownSteps world(60);
+    panels::Choices choices;
+    choices.frameBudget = 20ms;
+    const glm::ivec2 size = world.explorer.size;
+    PictureView view;
+    Canvas canvas;
+    // What a canvas draws of so many splats, and the view's first frame where each takes so long.
+    const auto strideOf = [&](double splats) {
+        const Shown shown = world.shown();
+        const CanvasLimits limits{.splats = static_cast<std::uint64_t>(splats)};
+        return canvas.draw(shown, canvas.eyesOf(shown), limits, true, [](auto, auto&) {}).stride;
+    };
+    const auto strideAt = [&](double perSplatNs) {
+        view.beginFrom({.points = {{0, perSplatNs, 1e6}}, .cells = {}});
+        world.explorer.view.azimuthDegrees += 1e-3;
+        const Shown shown = world.shown();
+        view.draw(&shown, size, {glm::vec2(0), glm::vec2(size)}, true, false, choices);
+        return view.performance().report.stride;
+    };
+    strideAt(1);
+    strideOf(1);
+    unsigned differ = 0;
+    for (double perSplatNs = 40; perSplatNs < 400; perSplatNs *= 1.1) {
+        EXPECT_EQ(strideAt(perSplatNs), strideOf(0.8 * 20e6 / perSplatNs)) << perSplatNs;
+        differ += strideOf(20e6 / perSplatNs) != strideOf(0.8 * 20e6 / perSplatNs);
+    }
+    EXPECT_GT(differ, 0u);
+    render::gl::takeRecordedError();  // there is no window to show it in
+}
+
 }  // namespace
 }  // namespace app::desktop

@@ -150,6 +150,67 @@ TEST(FramePace, BeginsWhereItIsToldAndLearnsFromThere) {
     EXPECT_NEAR(machine.exactly(pace.budget()), 16e6, 0.2 * 16e6);
 }
 
+// What a machine teaches within ten frames.
+FramePace taughtBy(Machine machine) {
+    FramePace pace(kTarget);
+    for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+    return pace;
+}
+
+TEST(FramePace, BegunFromWhatAnotherLearntItForetellsTheSame) {
+    EXPECT_FALSE(FramePace(kTarget).learnt());
+    const FramePace taught = taughtBy({4e6, 50});
+    ASSERT_TRUE(taught.learnt());
+    EXPECT_NEAR(taught.learnt()->fixedNs, 4e6, 1e3);
+    EXPECT_NEAR(taught.learnt()->perSplatNs, 50, 0.01);
+    FramePace pace(kTarget, 30'000);
+    pace.beginFrom(*taught.learnt());
+    EXPECT_EQ(pace.learnt(), taught.learnt());
+    EXPECT_NEAR(static_cast<double>(pace.budget()), 12e6 / 50, 10);
+    for (const std::uint64_t splats : {0u, 20'000u, 1'000'000u})
+        EXPECT_EQ(pace.predicted(splats), taught.predicted(splats)) << splats;
+    EXPECT_EQ(pace.fitting(100ms), taught.fitting(100ms));
+    pace.setTarget(kTarget / 2);
+    EXPECT_NEAR(static_cast<double>(pace.budget()), 4e6 / 50, 10);
+}
+
+TEST(FramePace, BegunFromAnotherMachineItLearnsItsOwnWithinTenFrames) {
+    const std::vector<Machine> machines = {{0, 1}, {8e6, 1}, {0, 50}, {4e6, 50}, {0, 200}};
+    for (const Machine& other : machines)
+        for (Machine machine : machines) {
+            machine.noise = 0.02;
+            FramePace pace(kTarget);
+            pace.beginFrom({other.fixedNs, other.perSplatNs, other.ideal()});
+            for (int i = 0; i < 10; ++i) pace.took(pace.budget(), machine.frame(pace.budget()));
+            EXPECT_NEAR(machine.exactly(pace.budget()), 16e6, 0.2 * 16e6)
+                << other.fixedNs << ' ' << other.perSplatNs << ", then " << machine.fixedNs << ' '
+                << machine.perSplatNs;
+        }
+}
+
+TEST(FramePace, WhatAnotherLearntTellsNothingOfManyMoreSplats) {
+    FramePace pace(kTarget);
+    pace.beginFrom({0, 0, 50'000});
+    EXPECT_EQ(pace.budget(), 150'000u);
+    pace.beginFrom({0, 0, 10});
+    EXPECT_EQ(pace.budget(), FramePace::kFirst);
+    pace.beginFrom({1e9, 1e6, 50'000});
+    EXPECT_EQ(pace.budget(), FramePace::kFewest);
+}
+
+TEST(FramePace, LearnsNothingThatAnotherCouldUseFromFramesThatDoNotTellWhatASplatCosts) {
+    const auto learnt = [](Machine machine, std::vector<std::uint64_t> frames) {
+        FramePace pace(kTarget);
+        for (const std::uint64_t splats : frames) pace.took(splats, machine.frame(splats));
+        return pace.learnt().has_value();
+    };
+    EXPECT_TRUE(learnt({1e6, 50}, {50'000, 60'000}));
+    EXPECT_FALSE(learnt({1e6, 50}, {60'000})) << "one";
+    EXPECT_FALSE(learnt({1e6, 50}, {60'000, 60'000, 61'000})) << "alike";
+    EXPECT_FALSE(learnt({1e6, 50}, {0, 2, 500})) << "of few splats";
+    EXPECT_FALSE(learnt({7e6, 1}, {50'000, 60'000})) << "whose time is not that of splats";
+}
+
 TEST(FramePace, PredictsFramesOfOtherSizes) {
     Machine machine{3e6, 200};
     FramePace pace(kTarget);
