@@ -79,12 +79,12 @@ struct alignas(128) SeenCell : SeenPiece {
     std::array<float, 3> at{}, ray{}, perSize{};
     std::array<float, 8> f{};
 };
-// As seeCells() writes it, one field of many at once: where each field is, tints left out.
+// As seeCells() writes it, one field of many at once: where each field is; tints come later.
 namespace seen_cell {
 constexpr std::size_t kFloats = sizeof(SeenCell) / sizeof(float);
 constexpr std::size_t kBase = 0, kOx = 1, kOy = 2, kPerRange = 3, kLeast = 4, kMost = 5, kFlags = 6,
-                      kX = 7, kY = 8, kLastPixels = 9, kSteep = 14, kAt = 15, kRay = 18,
-                      kPerSize = 21, kF = 24;
+                      kX = 7, kY = 8, kLastPixels = 9, kTints = 10, kSteep = 14, kAt = 15,
+                      kRay = 18, kPerSize = 21, kF = 24;
 static_assert(kF + 8 == kFloats);
 }  // namespace seen_cell
 

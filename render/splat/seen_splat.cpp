@@ -15,7 +15,7 @@ namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr double kAll = 1e9;  // pixels: nothing beyond is in any picture
+constexpr double kFarthest = 1e9;  // pixels: nothing beyond is in any picture
 
 // Points and cells as the mesh keeps them, one a lane; cells zero where nothing is drawn.
 struct MeshPoints {
@@ -158,8 +158,8 @@ struct SeenLanes {
             half[h] = see(view, along);
             for (std::size_t k = 0; k < 2; ++k) {
                 const D window = hn::Add(half[h].centre[k], d(view.centre[k]));
-                const auto some = hn::Lt(hn::Abs(window), d(kAll));
-                floors[k][h] = hn::Floor(hn::IfThenElse(some, window, d(-kAll)));
+                const auto some = hn::Lt(hn::Abs(window), d(kFarthest));
+                floors[k][h] = hn::Floor(hn::IfThenElse(some, window, d(-kFarthest)));
                 parts[k][h] = hn::Sub(window, floors[k][h]);
             }
         }
@@ -179,11 +179,11 @@ struct SeenLanes {
     HWY_INLINE Triangles factorAndMass(F* mass) {
         Triangles m;
         F cell[3];
+        const auto scale = [&](std::size_t row) { return static_cast<float>(view.meshScale[row]); };
         for (std::size_t a = 0; a < 3; ++a) {
-            cell[a] = hn::Mul(hn::Load(Floats(), of.diagonal[a]), f(view.cellScale[a]));
-            const std::size_t row = a == 0 ? 1 : 2;
-            m.below[a] =
-                hn::Mul(hn::Load(Floats(), of.below[a]), f(view.kernel * view.cellScale[row]));
+            cell[a] = hn::Mul(hn::Load(Floats(), of.diagonal[a]), f(scale(a)));
+            const float ofRow = scale(a == 0 ? 1 : 2);
+            m.below[a] = hn::Mul(hn::Load(Floats(), of.below[a]), f(view.kernel * ofRow));
         }
         if (view.hasHeights)
             cell[2] =
@@ -255,22 +255,24 @@ struct SeenLanes {
 
     HWY_INLINE void writeSpans(const I* first, const I* last, std::span<TileSpan> spans) const {
         const Ints ints;
-        alignas(64) std::int32_t from[2][kLanes], to[2][kLanes];
+        alignas(64) std::int32_t from[2][kLanes], count[2][kLanes];
         for (std::size_t k = 0; k < 2; ++k) {
             const F perTile = f(1 / static_cast<float>(view.tile[static_cast<int>(k)]));
             const auto tileOf = [&](I pixel) HWY_ATTR {  // of its middle, far from a tile's edge
                 const F at = hn::Add(hn::ConvertTo(Floats(), pixel), f(0.5f));
                 return hn::ConvertTo(ints, hn::Mul(at, perTile));
             };
-            const I one = hn::Set(ints, 1), from0 = tileOf(first[k]);
+            // Of what has no place, no number is a tile's.
+            const auto some = hn::RebindMask(ints, drawn);
+            const I one = hn::Set(ints, 1), begin = hn::IfThenElseZero(some, tileOf(first[k]));
             const I end = hn::Add(tileOf(hn::Sub(last[k], one)), one);
-            hn::Store(from0, ints, from[k]);
-            hn::Store(hn::IfThenElseZero(hn::RebindMask(ints, drawn), hn::Sub(end, from0)), ints,
-                      to[k]);
+            hn::Store(begin, ints, from[k]);
+            hn::Store(hn::IfThenElseZero(some, hn::Sub(end, begin)), ints, count[k]);
         }
         for (std::size_t k = 0; k < spans.size(); ++k)
             spans[k] = {static_cast<std::uint32_t>(from[1][k] * view.tiles.x + from[0][k]),
-                        static_cast<std::uint16_t>(to[0][k]), static_cast<std::uint16_t>(to[1][k])};
+                        static_cast<std::uint16_t>(count[0][k]),
+                        static_cast<std::uint16_t>(count[1][k])};
     }
 
     HWY_INLINE void write(std::span<SeenSplat> splats) const {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,7 +19,7 @@ struct alignas(64) SeenSplat {
     // The pixel that the centre lies in, from the corner of the layout's box, and where in it.
     std::array<std::int32_t, 2> pixel;
     std::array<float, 2> within;
-    std::uint32_t columns, rows;  // [first, last) in the box: first + 2^16 last
+    std::uint32_t columns, rows;  // [first, last) in the box, below 2^15: first + 2^16 last
     float weight, depth;          // depth in the depth buffer
     std::array<float, 3> n, d;
     std::array<float, 2> l;
@@ -28,8 +27,15 @@ struct alignas(64) SeenSplat {
 
 // As kernels take it, one field of many at once: where each field is.
 constexpr std::size_t kSeenFloats = sizeof(SeenSplat) / sizeof(float);
-constexpr std::size_t kSeenPixel = 0, kSeenWithin = 2, kSeenColumns = 4, kSeenRows = 5,
-                      kSeenWeight = 6, kSeenDepth = 7, kSeenN = 8, kSeenD = 11, kSeenL = 14;
+constexpr std::size_t kSeenPixel = offsetof(SeenSplat, pixel) / sizeof(float),
+                      kSeenWithin = offsetof(SeenSplat, within) / sizeof(float),
+                      kSeenColumns = offsetof(SeenSplat, columns) / sizeof(float),
+                      kSeenRows = offsetof(SeenSplat, rows) / sizeof(float),
+                      kSeenWeight = offsetof(SeenSplat, weight) / sizeof(float),
+                      kSeenDepth = offsetof(SeenSplat, depth) / sizeof(float),
+                      kSeenN = offsetof(SeenSplat, n) / sizeof(float),
+                      kSeenD = offsetof(SeenSplat, d) / sizeof(float),
+                      kSeenL = offsetof(SeenSplat, l) / sizeof(float);
 inline const float* floatsOf(const SeenSplat& splat) {
     return reinterpret_cast<const float*>(&splat);
 }

@@ -23,7 +23,8 @@ struct Batch {
     // n(o) times what the pixel's ray gives.
     alignas(64) float ox[kLanes], oy[kLanes], nxx[kLanes], nxy[kLanes], nyy[kLanes];
     alignas(64) float dxx[kLanes], dxy[kLanes], dyy[kLanes], lx[kLanes], ly[kLanes];
-    alignas(64) float change[kLanes];  // |d - 1| on its pixels, at most
+    // |d - 1| on its pixels, at most; 0 of points and of even ones.
+    alignas(64) float change[kLanes] = {};
     alignas(64) float weight[kLanes], depth[kLanes], red[kLanes], green[kLanes], blue[kLanes];
     alignas(64) std::int32_t x[kLanes], y[kLanes], columns[kLanes], rows[kLanes];
 };

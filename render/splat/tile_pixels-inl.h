@@ -171,13 +171,10 @@ HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std:
                                   : addForm<Form::Any>(lanes, b, k, room, sink);
 }
 
-// The optical depth that the splat gives a pixel, at most; of a point and of an even one t is 1 at
-// most.
-HWY_INLINE float mostDepth(const TileView& view, const Batch& b, std::size_t k,
-                           const TileRoom& room) {
-    const float most = b.weight[k] * room.largestFactor;
-    const bool isOneAtMost = view.pointSide > 0 || view.even;
-    return isOneAtMost ? most : most / std::sqrt(std::max(1 - b.change[k], kLeastDenominator));
+// The optical depth that the splat gives a pixel, at most.
+HWY_INLINE float mostDepth(const Batch& b, std::size_t k, const TileRoom& room) {
+    return b.weight[k] * room.largestFactor /
+           std::sqrt(std::max(1 - b.change[k], kLeastDenominator));
 }
 
 template <class Lanes>
@@ -191,7 +188,7 @@ HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std:
         default:
             break;
     }
-    if (mostDepth(view, b, k, room) <= 0.5f)
+    if (mostDepth(b, k, room) <= 0.5f)
         return addSplat(lanes, view, b, k, room, LayUnder<Lanes, true>(lanes, b, k, room));
     addSplat(lanes, view, b, k, room, LayUnder<Lanes, false>(lanes, b, k, room));
 }

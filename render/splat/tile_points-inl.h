@@ -54,9 +54,8 @@ HWY_INLINE Points see(const TileView& view, const std::uint32_t* index, glm::ive
 HWY_INLINE Points seeRoughly(const TileView& view, const std::uint32_t* index) {
     const Floats floats;
     D at[2][3];
-    for (std::size_t half = 0; half < 2; ++half) {
+    for (std::size_t half = 0; half < 2; ++half)
         alongAxes(view.size, index + half * hn::Lanes(Doubles()), at[half]);
-    }
     Points p;
     F along[3], seen[3];
     for (std::size_t a = 0; a < 3; ++a) {

@@ -59,7 +59,6 @@ void TileView::takeMesh(const PlacedPoints& placed) {
         const auto at = static_cast<int>(a);
         meshScale[a] = scale[at] * stored.unit[at];
         meshOffset[a] = offset[at];
-        cellScale[a] = static_cast<float>(meshScale[a]);
     }
     levelScale = scale.z;
     hasLevels = !stored.levels.empty();

@@ -37,7 +37,6 @@ struct TileView : TileLayout {
     // Of a mesh, instead of all that the grid tells: what stands in Mesh::Stored in axis
     // coordinates, and the splats among which indices are places.
     std::array<double, 3> meshScale, meshOffset;
-    std::array<float, 3> cellScale;
     double levelScale;
     bool hasLevels = false, hasHeights = false;
     std::span<const SeenSplat> meshSplats = {};
