@@ -141,7 +141,7 @@ BENCHMARK(cellsBesidePoints)
 
 // Coloured by value and in order, lit beside not: of the fire's 600 to 1000 K, or of turbulence in
 // a tenth of its spread. Whole frames, the light resolved.
-void litBesideUnlit(benchmark::State& state) {
+void cellsLitBesideUnlit(benchmark::State& state) {
     const bool isFire = state.range(0) == 0;
     CellsOfRange cells(isFire ? timeseries::openReader(std::array{tests::demo()})->read(0, 15)
                               : bench::turbulence<float>(static_cast<std::size_t>(state.range(0))),
@@ -159,7 +159,7 @@ void litBesideUnlit(benchmark::State& state) {
         state, [&] { draw(Light::Off); }, [&] { draw(Light::Full); });
     state.counters["cells"] = static_cast<double>(cellCount(layer));
 }
-BENCHMARK(litBesideUnlit)
+BENCHMARK(cellsLitBesideUnlit)
     ->ArgName("points")
     ->Arg(0)
     ->Arg(96)

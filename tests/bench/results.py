@@ -291,7 +291,7 @@ def cells_page(part):
              + table(["points", "range", "order", "cells", "cells drawn", "points drawn", "ratio"], rows))
     rows = []
     for n, what in [(0, "the pool fire, 600 to 1000 K"), (96, "96³, a range of 0.1"), (192, "192³, a range of 0.1")]:
-        f = part(f"litBesideUnlit/points:{n}")
+        f = part(f"cellsLitBesideUnlit/points:{n}")
         rows.append([what, f"{int(f['cells']):,}", ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"])])
         target(f"cells in order, lit / not, {what}", f["second/first"], 1.3)
         if n == 0:
