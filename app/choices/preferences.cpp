@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 
+#include "app/choices/choice_text.h"
 #include "app/choices/paths.h"
 #include "app/choices/user_files.h"
 #include "app/json_text.h"
@@ -51,13 +53,29 @@ std::vector<Named> recentIn(const json& list) {
     return recent;
 }
 
-constexpr std::array kMoving = {"pace", "error", "all"};  // as Moving
+constexpr std::array kMoving = {"pace", "error", "fixed", "all"};  // as Moving
 
 Moving movingIn(const json& name) {
     const auto found = std::ranges::find(kMoving, name);
     if (found == kMoving.end())
-        throw std::invalid_argument("moving is none of pace, error and all");
+        throw std::invalid_argument("moving is none of pace, error, fixed and all");
     return static_cast<Moving>(found - kMoving.begin());
+}
+
+Rung rungIn(const json& rung) {
+    if (!rung.is_object() || !rung.contains("model") || !rung["model"].is_string())
+        throw std::invalid_argument("movingRung has no model");
+    const Rung read{parseModel(rung["model"].get<std::string>()),
+                    static_cast<std::uint32_t>(number(rung, "stride", 1, kFewestMoving)),
+                    static_cast<int>(number(rung, "across", 1, kCoarse))};
+    // Others are only reached by hand.
+    return {read.model, read.model == Model::Cells ? 1 : std::bit_floor(read.stride), read.across};
+}
+
+json rungJson(const Rung& rung) {
+    return {{"model", std::string(modelName(rung.model))},
+            {"stride", rung.stride},
+            {"across", rung.across}};
 }
 
 // Beyond them nothing that was measured lies: a frame of a minute, a splat of a millisecond.
@@ -95,6 +113,7 @@ Preferences fromJson(const json& object) {
     if (object.contains("moving")) preferences.moving = movingIn(object["moving"]);
     if (object.contains("movingError"))
         preferences.movingError = number(object, "movingError", 1e-4, 1);
+    if (object.contains("movingRung")) preferences.movingRung = rungIn(object["movingRung"]);
     if (object.contains("drawingCosts"))
         preferences.costs = {.points = costIn(object["drawingCosts"], "points"),
                              .cells = costIn(object["drawingCosts"], "cells")};
@@ -141,7 +160,8 @@ void writePreferences(const Preferences& preferences, const fs::path& file) {
     json out{{"recentFiles", json::array()},
              {"frameMilliseconds", preferences.frameMilliseconds},
              {"moving", kMoving[static_cast<std::size_t>(preferences.moving)]},
-             {"movingError", preferences.movingError}};
+             {"movingError", preferences.movingError},
+             {"movingRung", rungJson(preferences.movingRung)}};
     for (const Named& named : preferences.recent) {
         json entry = json::array();
         for (const fs::path& path : named) entry.push_back(path.string());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/choices/rung.h"
 #include "render/frame/frame_pace.h"
 
 namespace app {
@@ -16,8 +17,8 @@ using Named = std::vector<std::filesystem::path>;
 std::string shortName(const Named& named);
 
 // What a picture keeps while it moves: the pace of frames, and leaves out what does not fit; what
-// an error allows; or all that it has at rest.
-enum class Moving { Pace, Error, All };
+// an error allows; one way to be drawn; or all that it has at rest.
+enum class Moving { Pace, Error, Fixed, All };
 
 // What drawing was found to cost on this machine, for the next start; absent: not known.
 struct DrawingCosts {
@@ -33,6 +34,7 @@ struct Preferences {
     double frameMilliseconds = 1000.0 / 60;  // to draw a frame in; 1 .. 1000
     Moving moving = Moving::Pace;
     double movingError = 0.03;  // of optical depth, relative; 1e-4 .. 1
+    Rung movingRung = {};       // of those that ladder() has, or with all pixels
     DrawingCosts costs = {};
     friend bool operator==(const Preferences&, const Preferences&) = default;
 };

@@ -36,6 +36,7 @@ Desktop::Desktop(Exploration& exploration, std::optional<ExportJob>& exporting)
         std::chrono::nanoseconds(std::llround(1e6 * fileActions_.preferences().frameMilliseconds));
     interface_.choices().moving = fileActions_.preferences().moving;
     interface_.choices().movingError = fileActions_.preferences().movingError;
+    interface_.choices().movingRung = fileActions_.preferences().movingRung;
     picture_.beginFrom(fileActions_.preferences().costs);
 }
 

@@ -189,6 +189,7 @@ void FileActions::prefer(const panels::Choices& choices) {
         std::chrono::duration<double, std::milli>(choices.frameBudget).count();
     preferences_.moving = choices.moving;
     preferences_.movingError = choices.movingError;
+    preferences_.movingRung = choices.movingRung;
 }
 
 void FileActions::goOn() {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <limits>
 #include <utility>
 
 namespace app::desktop {
@@ -123,10 +122,23 @@ std::uint64_t PictureView::firstSlice(std::chrono::nanoseconds slice) const {
 
 CanvasLimits PictureView::moving(const Explorer& explorer, const panels::Choices& choices) const {
     const bool isKnown = errorsOf_ == selectionOf(drawnOf(explorer)) && errors_;
-    if (choices.moving == Moving::Pace || (choices.moving == Moving::Error && !isKnown))
-        return {.splats = pace_.budget(), .cells = cellPace_.budget()};
-    CanvasLimits limits{.splats = std::numeric_limits<std::uint64_t>::max()};
-    if (choices.moving == Moving::Error) limits.rung = errors_->cheapest(choices.movingError);
+    CanvasLimits limits{.splats = pace_.budget(),
+                        .cells = cellPace_.budget(),
+                        .mayBeCoarse = true,
+                        .errors = isKnown ? &*errors_ : nullptr};
+    switch (choices.moving) {
+        case Moving::Pace:
+            break;
+        case Moving::Error:
+            if (isKnown) limits.rung = errors_->cheapest(choices.movingError);
+            break;
+        case Moving::Fixed:
+            limits.rung = choices.movingRung;
+            break;
+        case Moving::All:
+            limits.rung = Rung();
+            break;
+    }
     return limits;
 }
 

@@ -1,6 +1,7 @@
 #include "app/drawing/canvas.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "app/choices/camera.h"
 #include "app/drawing/cell_maker.h"
@@ -42,6 +43,23 @@ render::Scene byPoints(render::Scene scene) {
     return scene;
 }
 
+Rung rungOf(const render::Scene& whole) { return {whole.cells ? Model::Cells : Model::Points}; }
+
+// What is drawn on a rung of a scene that has all of it.
+render::Scene sceneOn(const Rung& rung, const render::Scene& whole) {
+    if (rung.model == Model::Cells) return whole;
+    render::Scene points = byPoints(whole);
+    points.stride = rung.stride;
+    points.footprint = standingFor(points.footprint, rung.stride);
+    return points;
+}
+
+std::vector<render::View> coarser(std::span<const render::View> eyes, int across) {
+    std::vector<render::View> views;
+    for (const render::View& eye : eyes) views.push_back(render::coarser(eye, across));
+    return views;
+}
+
 // What a timer keeps of what it times.
 std::uint64_t labelOf(std::uint64_t cost, const render::Scene& drawn) {
     return cost << 1 | (drawn.cells ? 1 : 0);
@@ -71,8 +89,7 @@ struct Canvas::State {
     GlSteps steps;
     CellMaker cells;
     std::optional<Screen> screen;
-    std::uint32_t stride = 1;        // of what was shown last
-    bool byCells = false;            // it was, not by points
+    Rung rung{Model::Points};        // of what was shown last
     render::DepthOrder order;        // of pictures at rest
     std::optional<Resting> resting;  // uses the renderer alone
     Telling telling;
@@ -81,32 +98,30 @@ struct Canvas::State {
     // which the limits hold.
     CanvasReport begin(const Shown& shown, const CanvasLimits& limits,
                        std::span<const render::View> moving, render::gl::Timer& of);
-    // For a picture that moves: as much as keeps to the limit. Cells have no subsets: where they
-    // are too many, points stand for them, if they are there.
-    // What planes cost anyhow is taken from the limit, but of few splats nothing.
+    // What planes cost anyhow is taken from the limit, but of few splats nothing. `share`: of the
+    // limit.
     bool keepsTo(const CanvasLimits& limits, const render::Scene& scene,
-                 std::span<const render::View> eyes) const {
+                 std::span<const render::View> eyes, double share = 1) const {
         const std::uint64_t limit = limits.of(scene), planes = planesCost(scene, eyes);
         const std::uint64_t least = std::min(limit, render::FramePace::kFewest);
         return costOf(scene, eyes) <=
-               static_cast<double>(std::max(limit - std::min(limit, planes), least));
-    }
-    // The least stride whose frame keeps to the limits.
-    void thinOut(render::Scene& scene, std::span<const render::View> eyes,
-                 const CanvasLimits& limits) const {
-        const render::Footprint whole = scene.footprint;
-        while (scene.stride < render::kMaxStride && !keepsTo(limits, scene, eyes)) {
-            scene.stride *= 2;
-            scene.footprint = standingFor(whole, scene.stride);
-        }
+               share * static_cast<double>(std::max(limit - std::min(limit, planes), least));
     }
     std::uint64_t planesCost(const render::Scene& scene, std::span<const render::View> eyes) const {
         double sum = 0;
         for (const render::View& eye : eyes) sum += renderer.planesCost(scene, eye);
         return static_cast<std::uint64_t>(std::llround(sum));
     }
-    render::Scene thinned(render::Scene scene, std::span<const render::View> eyes,
-                          const CanvasLimits& limits) const;
+    // For a picture that moves: the rung that it is drawn on (app/choices/rung.h), and what is
+    // drawn there.
+    struct Moving {
+        Rung rung;
+        render::Scene scene;
+    };
+    Moving moving(const render::Scene& whole, std::span<const render::View> eyes,
+                  const CanvasLimits& limits) const;
+    Rung truestThatFits(const render::Scene& whole, std::span<const render::View> eyes,
+                        const CanvasLimits& limits) const;
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
     GlSteps::Held& bring(const Shown& shown, const CanvasLimits& limits,
@@ -144,20 +159,40 @@ struct Canvas::State {
     }
 };
 
-render::Scene Canvas::State::thinned(render::Scene scene, std::span<const render::View> eyes,
-                                     const CanvasLimits& limits) const {
-    const bool isWhole = limits.rung ? *limits.rung == (scene.cells ? Rung{} : Rung{Model::Points})
-                                     : keepsTo(limits, scene, eyes) && !listsForLong(scene);
-    if (isWhole) return scene;
-    render::Scene points = byPoints(scene);
-    if (scene.cells && !isThere(*screen->held, points)) return scene;
-    if (!limits.rung) {
-        thinOut(points, eyes, limits);
-    } else if (limits.rung->model == Model::Points) {
-        points.stride = limits.rung->stride;
-        points.footprint = standingFor(points.footprint, points.stride);
+// Climbing wants room to spare: of a limit that swings about what a rung takes, the picture would
+// change all the time.
+Rung Canvas::State::truestThatFits(const render::Scene& whole, std::span<const render::View> eyes,
+                                   const CanvasLimits& limits) const {
+    constexpr double kToClimb = 0.8;
+    const bool hasCells = whole.cells != nullptr;
+    const bool isPointwise = whole.footprint.kernel == render::Kernel::Point;
+    const std::vector<Rung> rungs =
+        ladder({.cells = hasCells && !listsForLong(whole),
+                .coarse = limits.mayBeCoarse && !(isPointwise && !hasCells),
+                .points = !hasCells || isThere(*screen->held, byPoints(whole)),
+                .mostStride = render::kMaxStride});
+    std::optional<Rung> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Rung& each : rungs) {
+        const double share = drawsLess(rung, each) ? kToClimb : 1;
+        const std::vector<render::View> seen = coarser(eyes, each.across);
+        if (!keepsTo(limits, sceneOn(each, whole), seen, share)) continue;
+        const double error = limits.errors ? limits.errors->of(each).value_or(least) : least;
+        if (best && !(error < least)) continue;
+        best = each;
+        least = error;
     }
-    return points;
+    return best.value_or(rungs.empty() ? Rung() : rungs.back());
+}
+
+Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
+                                            std::span<const render::View> eyes,
+                                            const CanvasLimits& limits) const {
+    Rung on = limits.rung ? *limits.rung : truestThatFits(whole, eyes, limits);
+    if (!whole.cells) on.model = Model::Points;
+    if (whole.cells && on.model == Model::Points && !isThere(*screen->held, byPoints(whole)))
+        on = {};
+    return {on, sceneOn(on, whole)};
 }
 
 void Canvas::State::choose(const Explorer& choices) {
@@ -235,11 +270,13 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
 void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const {
     report.selected = drawnSplats(scene.layers, 1);
     report.counts = pointCounts(screen->explorer, *screen->sorted);
-    report.stride = stride;
-    report.drawn = drawnSplats(scene.layers, stride);
-    if (scene.cells && byCells) report.cells = cellCount(scene, render::Channels::Over, 0);
+    report.stride = rung.stride;
+    report.across = rung.across;
+    report.drawn = drawnSplats(scene.layers, rung.stride);
+    if (scene.cells && rung.model == Model::Cells)
+        report.cells = cellCount(scene, render::Channels::Over, 0);
     report.lacksCells = lacksCells(scene);
-    report.whole = stride == 1 && report.uploaded == 1 && !report.lacksCells;
+    report.whole = rung.isWhole() && report.uploaded == 1 && !report.lacksCells;
 }
 
 CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
@@ -257,15 +294,15 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         legend = state_->telling.legend(*screen, whole, !moving);
         report.told = state_->telling.isOf(*screen, whole);
     }
-    const render::Scene drawn = moving ? state_->thinned(whole, eyes, limits) : whole;
+    const auto [rung, drawn] =
+        moving ? state_->moving(whole, eyes, limits) : State::Moving{rungOf(whole), whole};
     if (!drawn.cells) std::erase(legend.notes, kInterpolated);
-    state_->stride = drawn.stride;
-    state_->byCells = drawn.cells != nullptr;
+    state_->rung = rung;
     state_->tell(report, drawn);
 
     state_->timer.begin();
-    const render::FrameContent content{drawn, screen->sorted->grid(), std::move(legend),
-                                       kBackground, scene.placards};
+    const render::FrameContent content{
+        drawn, screen->sorted->grid(), std::move(legend), kBackground, rung.across, scene.placards};
     const auto frame = state_->renderer.prepare(content, screen->held->onGpu, eyes);
     double cost = 0;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
@@ -273,7 +310,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         show(i, state_->renderer.targets());
     }
     report.cost = static_cast<std::uint64_t>(std::llround(cost));
-    report.planesCost = state_->planesCost(drawn, eyes);
+    report.planesCost = state_->planesCost(drawn, coarser(eyes, rung.across));
     state_->timer.end(labelOf(report.cost, drawn));
     return report;
 }
@@ -299,8 +336,7 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     }
     const bool done = refinement.done();
     if (done) {
-        state_->stride = 1;
-        state_->byCells = refinement.scene().cells != nullptr;
+        state_->rung = rungOf(refinement.scene());
     }
     state_->tell(report, refinement.scene());
     // Until they are there nothing is left to refine.
@@ -335,11 +371,8 @@ const Screen* Canvas::screen() const { return state_->screen ? &*state_->screen 
 std::optional<render::Picked> Canvas::State::pick(const render::View& eye,
                                                   const glm::dvec2& window) const {
     const render::Scene scene = sceneOf(*screen);
-    if (scene.cells && byCells) return render::pickCell(scene, eye, window);
-    render::Scene points = byPoints(scene);
-    points.stride = stride;
-    points.footprint = standingFor(screen->explorer.footprint, stride);
-    return render::pick(points, eye, window);
+    if (scene.cells && rung.model == Model::Cells) return render::pickCell(scene, eye, window);
+    return render::pick(sceneOn({Model::Points, rung.stride}, scene), eye, window);
 }
 
 std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& window) const {

@@ -18,7 +18,8 @@ struct CanvasReport {
     // Of that step, under the choices on the screen; none before the first picture.
     std::optional<PointCounts> counts = {};
     std::uint32_t stride = 1;  // one of so many points stands for its neighbours
-    bool whole = false;        // nothing is missing: all points or cells, all uploaded
+    int across = 1;            // so many of the picture's pixels lie across one that is drawn
+    bool whole = false;        // nothing is missing: all points or cells, pixels, all uploaded
     bool lacksCells = false;   // points stand for the cells that were asked for
     bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
     double uploaded = 1;  // share of what the picture asked for needs

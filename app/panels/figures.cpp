@@ -28,6 +28,7 @@ std::string limitText(const Performance& p) {
     if (r.uploaded < 1) return fmt::format("sending to the GPU, {:.0f} %", 100 * r.uploaded);
     if (!r.whole && r.refined > 0) return fmt::format("refining, {:.0f} %", 100 * r.refined);
     if (!r.whole && r.stride > 1) return "a subset while it moves";
+    if (!r.whole && r.across > 1) return "coarse pixels while it moves";
     if (r.lacksCells) return "points stand for cells";
     if (!r.whole) return "a subset while it moves";
     if (p.frame > p.budget) return "all of it drawn";

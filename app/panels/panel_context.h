@@ -30,7 +30,9 @@ struct Performance {
     // Of ways to draw its selection, once they are known, also of another view or step.
     std::optional<DepthErrors> errors = {};
 
-    Rung drawn() const { return {report.cells ? Model::Cells : Model::Points, report.stride}; }
+    Rung drawn() const {
+        return {report.cells ? Model::Cells : Model::Points, report.stride, report.across};
+    }
     // Of what is drawn, null where it is not known.
     const RungError* told() const { return errors ? errors->find(drawn()) : nullptr; }
     std::optional<double> error() const { return errors ? errors->of(drawn()) : std::nullopt; }
@@ -43,6 +45,7 @@ struct Choices {
     std::chrono::nanoseconds frameBudget{33'333'333};
     Moving moving = Moving::Pace;
     double movingError = 0.03;
+    Rung movingRung = {};
     std::optional<double> scale;  // of the interface; absent: the monitor's
     float sideWidth = kSideWidth;
 };

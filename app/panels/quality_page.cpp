@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 
 #include "app/choices/edits.h"
@@ -63,18 +64,38 @@ void errorAllowed(PanelContext& context, Form& form) {
         context.choices.movingError = kErrors[*error];
 }
 
+// One way to draw a picture that moves.
+void rungRows(PanelContext& context, Form& form) {
+    constexpr std::array kModels = {"Points", "Cells"}, kPixels = {"All", "A quarter"};
+    constexpr std::array kStrides = {"All", "1/2", "1/4", "1/8", "1/16"};
+    Rung& rung = context.choices.movingRung;
+    if (const auto model = segmented(context.theme, "moving by", form.row("Moving, draw"), kModels,
+                                     static_cast<std::size_t>(rung.model)))
+        rung = {static_cast<Model>(*model), 1, rung.across};
+    if (rung.model == Model::Points)
+        if (const auto stride =
+                segmented(context.theme, "moving stride", form.row("Of them"), kStrides,
+                          static_cast<std::size_t>(std::countr_zero(rung.stride))))
+            rung.stride = 1u << *stride;
+    if (const auto pixels = segmented(context.theme, "moving pixels", form.row("Pixels"), kPixels,
+                                      rung.across == 1 ? 0 : 1))
+        rung.across = *pixels == 0 ? 1 : kCoarse;
+}
+
 // What a moving picture leaves out.
 void movingRows(PanelContext& context, Form& form) {
-    constexpr std::array kKept = {"Pace", "Error", "All"};
+    constexpr std::array kKept = {"Pace", "Error", "Fixed", "All"};
     if (const auto kept = segmented(context.theme, "moving", form.row("Moving, keep"), kKept,
                                     static_cast<std::size_t>(context.choices.moving)))
         context.choices.moving = static_cast<Moving>(*kept);
     if (context.choices.moving == Moving::Pace) budget(context, form);
     if (context.choices.moving == Moving::Error) errorAllowed(context, form);
+    if (context.choices.moving == Moving::Fixed) rungRows(context, form);
     constexpr std::array kNotes = {
-        "While the picture moves, so many points are drawn as fit this pace; at rest, all.",
+        "While the picture moves, it is as true as fits this pace; at rest, whole.",
         "While the picture moves, as little is drawn as keeps this error, once it is known, "
         "whatever a frame takes.",
+        "While the picture moves, it is drawn this way, whatever a frame takes.",
         "A picture that moves is drawn whole, whatever a frame takes."};
     form.note(kNotes[static_cast<std::size_t>(context.choices.moving)]);
 }

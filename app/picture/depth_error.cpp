@@ -54,14 +54,15 @@ class Ways {
         return scene.cells && render::cellCount(scene, render::Channels::Over, 0) > kFewCells;
     }
     // What is drawn.
-    render::DepthAt depthOf(render::Scene scene) const {
-        if (!isByRays(scene))
-            return render::depthFrom(opticalDepthOf(scene, view_, wanted_), view_.size);
-        return byRays(std::move(scene), render::RaysEnd::BehindAll);
+    render::DepthAt depthOf(const Rung& rung) const {
+        const render::View seen = coarser(view_, rung.across);
+        render::DepthAt depth = depthIn(sceneOf(rung), seen, render::RaysEnd::BehindAll);
+        return rung.across == 1 ? depth
+                                : render::enlarged(std::move(depth), rung.across, seen.size);
     }
     // Where that shows something, which is sooner told.
     render::DepthAt whereIn(const render::Scene& scene, const render::DepthAt& depth) const {
-        return isByRays(scene) ? byRays(scene, render::RaysEnd::WhereSomethingIs) : depth;
+        return isByRays(scene) ? depthIn(scene, view_, render::RaysEnd::WhereSomethingIs) : depth;
     }
     // With as many rays a pixel as the truth.
     std::vector<double> finelyDrawn(Model model, std::span<const glm::ivec2> pixels) const {
@@ -78,11 +79,15 @@ class Ways {
     }
 
  private:
-    render::DepthAt byRays(render::Scene scene, render::RaysEnd end) const {
-        const int rays = render::raysAcross(scene, view_);
-        return [this, scene = std::move(scene), rays, end](std::span<const glm::ivec2> pixels) {
-            return render::cellDepthAt(scene, view_, pixels, rays, question_.threads, end);
-        };
+    render::DepthAt depthIn(render::Scene scene, const render::View& view,
+                            render::RaysEnd end) const {
+        if (!isByRays(scene))
+            return render::depthFrom(opticalDepthOf(scene, view, wanted_), view.size);
+        const int rays = render::raysAcross(scene, view);
+        return
+            [this, scene = std::move(scene), view, rays, end](std::span<const glm::ivec2> pixels) {
+                return render::cellDepthAt(scene, view, pixels, rays, question_.threads, end);
+            };
     }
 
     const Explorer& explorer_;
@@ -104,14 +109,14 @@ struct SeenWhole {
     double order;
     std::vector<double> asDrawn, finely;  // of all its points or cells; where parts are asked for
 
-    SeenWhole(const Ways& ways, Model model, const timeseries::Field& field,
+    SeenWhole(const Ways& ways, const Rung& rung, const timeseries::Field& field,
               const render::SampledTruth& truth, const ErrorQuestion& question)
-        : order(ways.isWanted() ? ways.orderOf(model, field, truth) : 0) {
+        : order(ways.isWanted() ? ways.orderOf(rung.model, field, truth) : 0) {
         if (question.parts == Parts::None || !ways.isWanted()) return;
-        const render::DepthAt picture = ways.depthOf(ways.sceneOf({model}));
+        const render::DepthAt picture = ways.depthOf({rung.model, 1, rung.across});
         if (!ways.isWanted()) return;
         asDrawn = picture(truth.pixels());
-        finely = ways.finelyDrawn(model, truth.pixels());
+        finely = ways.finelyDrawn(rung.model, truth.pixels());
     }
 };
 
@@ -120,9 +125,9 @@ struct SeenWhole {
 const RungError* DepthErrors::find(const Rung& rung) const {
     const RungError* found = nullptr;
     for (const RungError& known : rungs) {
+        const bool isAlike = known.rung.model == rung.model && known.rung.across == rung.across;
         const bool isCoarser = found == nullptr || known.rung.stride > found->rung.stride;
-        if (known.rung.model == rung.model && known.rung.stride <= rung.stride && isCoarser)
-            found = &known;
+        if (isAlike && known.rung.stride <= rung.stride && isCoarser) found = &known;
     }
     return found;
 }
@@ -134,14 +139,11 @@ std::optional<double> DepthErrors::of(const Rung& rung) const {
 
 std::optional<Rung> DepthErrors::cheapest(double error) const {
     const RungError* best = nullptr;
-    const auto draws = [](const RungError& known) {
-        return known.rung.model == Model::Cells ? 2.0 : 1.0 / known.rung.stride;
-    };
     for (const RungError& each : rungs) {
         const bool fits = each.depth <= error;
         const bool isBetter =
-            best == nullptr ||
-            (best->depth <= error ? fits && draws(each) < draws(*best) : each.depth < best->depth);
+            best == nullptr || (best->depth <= error ? fits && drawsLess(each.rung, best->rung)
+                                                     : each.depth < best->depth);
         if (isBetter) best = &each;
     }
     return best != nullptr ? std::optional(best->rung) : std::nullopt;
@@ -155,7 +157,7 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
     if (first.layers.empty()) return {};
     std::vector<render::DepthAt> pictures;
     for (const Rung& rung : rungs) {
-        pictures.push_back(ways.depthOf(ways.sceneOf(rung)));
+        pictures.push_back(ways.depthOf(rung));
         if (!wanted) return {};
     }
     render::Sampling sampling{.threads = question.threads};
@@ -164,14 +166,14 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
     const render::SampledTruth truth(first, *field, view, ways.whereIn(first, pictures[0]),
                                      sampling);
     DepthErrors told{.rungs = {}, .ordering = orderingOf(ways, rungs.front().model)};
-    std::map<Model, SeenWhole> whole;
+    std::map<std::pair<Model, int>, SeenWhole> whole;
     for (std::size_t i = 0; i < rungs.size(); ++i) {
-        const Model model = rungs[i].model;
+        const std::pair alike(rungs[i].model, rungs[i].across);
         const std::vector<double> drawn = pictures[i](truth.pixels());
-        if (!whole.contains(model))
-            whole.emplace(model, SeenWhole(ways, model, *field, truth, question));
+        if (!whole.contains(alike))
+            whole.emplace(alike, SeenWhole(ways, rungs[i], *field, truth, question));
         if (!wanted) return {};
-        const SeenWhole& all = whole.at(model);
+        const SeenWhole& all = whole.at(alike);
         RungError& error = told.rungs.emplace_back(
             RungError{rungs[i], truth.apart(drawn, truth.depth()), all.order});
         if (question.parts == Parts::All)
@@ -183,11 +185,8 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
 }
 
 std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step) {
-    std::vector<Rung> rungs;
-    if (step.cellsIfMade(cellsNeeded(explorer, step.type()))) rungs.push_back({Model::Cells});
-    for (const std::uint32_t stride : {1u, 2u, 4u, 8u, 16u})
-        rungs.push_back({Model::Points, stride});
-    return rungs;
+    return ladder({.cells = step.cellsIfMade(cellsNeeded(explorer, step.type())) != nullptr,
+                   .coarse = explorer.footprint.kernel != render::Kernel::Point});
 }
 
 }  // namespace app

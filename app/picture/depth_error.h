@@ -6,7 +6,7 @@
 // what is drawn, all of optical depth, of lengths in the ranges whatever opacity is of:
 //   whole  |D - T| / |T|
 //   model  |M - T| / |T|   cells or points instead of the interval volume
-//   pixels |P - M| / |T|   few rays a pixel instead of its mean
+//   pixels |P - M| / |T|   few rays a pixel, or one for several pixels, instead of its mean
 //   subset |D - P| / |T|   what is left out while a picture moves
 // The differences add up to the whole one, their sizes do not: they may cancel, so that the whole
 // is at most the sum of the three, and less where they do. Order changes no depth; what it costs is
@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "app/choices/explorer.h"
+#include "app/choices/rung.h"
 #include "render/points/view.h"
 #include "render/together.h"
 #include "timeseries/index/sorted_step.h"
@@ -30,13 +31,6 @@ namespace app {
 
 // Of kept values and of categories nobody knows what lies between.
 inline bool hasDepthError(const timeseries::SortedStep& step) { return step.canHaveCells(); }
-// A way to draw: cells, or one of so many points.
-struct Rung {
-    Model model = Model::Cells;
-    std::uint32_t stride = 1;
-    friend bool operator==(const Rung&, const Rung&) = default;
-};
-
 struct ErrorParts {
     double model = 0, subset = 0, pixels = 0;
     friend bool operator==(const ErrorParts&, const ErrorParts&) = default;
@@ -59,8 +53,8 @@ struct DepthErrors {
     // Of a coarser subset than was looked at, the coarsest's; null of cells where none were.
     const RungError* find(const Rung& rung) const;
     std::optional<double> of(const Rung& rung) const;  // the whole
-    // The one that draws least of those within this error: the coarsest points, then cells. Where
-    // none is, the truest. None where nothing is known.
+    // The one that draws least of those within this error. Where none is, the truest. None where
+    // nothing is known.
     std::optional<Rung> cheapest(double error) const;
 };
 enum class Parts { None, All };

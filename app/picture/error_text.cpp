@@ -19,8 +19,9 @@ std::string orderReason(Ordering ordering) {
 }  // namespace
 
 std::string rungText(const Rung& rung) {
-    if (rung.model == Model::Cells) return "cells";
-    return rung.stride == 1 ? "points" : fmt::format("1 of {} points", rung.stride);
+    const std::string pixels = rung.across == 1 ? "" : ", coarse pixels";
+    if (rung.model == Model::Cells) return "cells" + pixels;
+    return (rung.stride == 1 ? "points" : fmt::format("1 of {} points", rung.stride)) + pixels;
 }
 
 std::string shareText(double error) {
@@ -51,7 +52,9 @@ std::vector<PartLine> partLines(const RungError& error, Ordering ordering) {
     std::vector<PartLine> lines{
         line("model", parts.model, model, "exact here"),
         line("subset", parts.subset, rungText(error.rung) + " for all of them", "all is drawn"),
-        line("pixels", parts.pixels, "few rays a pixel instead of its mean",
+        line("pixels", parts.pixels,
+             error.rung.across == 1 ? "few rays a pixel instead of its mean"
+                                    : "coarse pixels, and few rays in each",
              "as many rays as the truth")};
     switch (ordering) {
         case Ordering::OneColor:

@@ -44,6 +44,24 @@ void FlatMesh::quad(const FlatVertex& a, const FlatVertex& b, const FlatVertex& 
     vertices_.insert(vertices_.end(), {a, b, c, a, c, d});
 }
 
+FlatMesh FlatMesh::coarser(int across, int height) const {
+    const double exact = 1.0 / across;
+    const auto scale = static_cast<float>(exact);
+    // Its last row reaches beyond the upper edge.
+    const int beyondRows = (across - height % across) % across;
+    const auto beyond = static_cast<float>(beyondRows);
+    const glm::dvec2 moved(0, beyondRows);
+    FlatMesh mesh = *this;
+    for (FlatVertex& vertex : mesh.vertices_) {
+        vertex.at.x *= scale;
+        vertex.at.y = (vertex.at.y + beyond) * scale;
+        vertex.edge *= scale;
+    }
+    for (PixelRect& cover : mesh.covers_)
+        cover = PixelRect{exact * (cover.lo + moved), exact * (cover.hi + moved)};
+    return mesh;
+}
+
 void FlatMesh::line(glm::vec3 a, glm::vec3 b, float width, glm::vec4 color) {
     const glm::vec2 along = glm::vec2(b) - glm::vec2(a);
     const float length = glm::length(along);

@@ -59,6 +59,9 @@ class FlatMesh {
     // A ground for text: `color` inside `rect`, less and less of it up to `soft` pixels beyond.
     void plate(const PixelRect& rect, float soft, glm::vec4 color, float depth = 0);
 
+    // In coarser(view, across) of a view as high as that (render/points/view.h).
+    FlatMesh coarser(int across, int height) const;
+
     const std::vector<FlatVertex>& triangles() const { return vertices_; }  // 3 a triangle
     // What texts, rectangles and gradients cover, one of each, in the order in which they came.
     const std::vector<PixelRect>& covers() const { return covers_; }

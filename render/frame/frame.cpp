@@ -79,7 +79,10 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
                                                std::span<const View> eyes, DrawList list,
                                                LightAs as) {
     LightPass& light = lightFor(content, eyes);
-    makeRoom(eyes, light);
+    std::vector<View> views(eyes.begin(), eyes.end());
+    if (content.across > 1)
+        for (const View& eye : eyes) views.push_back(coarser(eye, content.across));
+    makeRoom(views, light);
     ++orders_;
     const Scene& scene = content.scene;
     // The upload of points does it.
@@ -106,8 +109,10 @@ FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View&
     FlatMesh legend = legendMesh(content.legend, font_, eye.size);
     AxesMeshes axes = axesMeshes(content.grid, content.scene.placed, eye, frame.midEye, font_,
                                  legend, content.background);
-    EyeInWork work{frame, eye, std::move(legend), std::move(axes), splatCosts(frame, eye)};
-    work.cost = planesCost(content.scene, eye);
+    const View planes = content.across > 1 ? coarser(eye, content.across) : eye;
+    EyeInWork work{
+        frame, eye, planes, std::move(legend), std::move(axes), splatCosts(frame, planes)};
+    work.cost = planesCost(content.scene, planes);
     return work;
 }
 
@@ -115,6 +120,12 @@ bool FrameRenderer::goOn(EyeInWork& work, double cost) {
     if (!drawSplats(work, cost)) return false;
     const Prepared& frame = work.frame;
     const FrameContent& content = frame.content;
+    if (content.across > 1) {
+        Targets& from = use(work.planes.size, frame.light);
+        Targets& to = use(work.eye.size, frame.light);
+        frame.light.drawDepth(work.axes.behind, content.placards, work.eye, to);
+        frame.light.enlarge(content.scene, work.eye, content.across, from, to);
+    }
     frame.light.drawLight(
         {content.scene, work.eye, content.background, work.axes, work.legend, content.placards},
         frame.as, use(work.eye.size, frame.light));
@@ -148,7 +159,8 @@ std::vector<double> FrameRenderer::splatCosts(const Prepared& frame, const View&
 }
 
 double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
-    return sceneCost(frame.content.scene, eye) + planesCost(frame.content.scene, eye);
+    const View planes = coarser(eye, frame.content.across);
+    return sceneCost(frame.content.scene, planes) + planesCost(frame.content.scene, planes);
 }
 
 double FrameRenderer::planesCost(const Scene& scene, const View& eye) const {
@@ -187,15 +199,18 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
     const FrameContent& content = work.frame.content;
     const std::vector<Channels> channels = channelsFor(content.scene);
     LightPass& light = work.frame.light;
-    Targets& targets = use(work.eye.size, light);
+    Targets& targets = use(work.planes.size, light);
     if (work.plane == 0 && !work.sum)
-        light.drawDepth(work.axes.behind, content.placards, work.eye, targets);
+        light.drawDepth(content.across > 1
+                            ? work.axes.behind.coarser(content.across, work.eye.size.y)
+                            : work.axes.behind,
+                        content.placards, work.planes, targets);
     const double until = work.cost + std::max(cost, 1.0);
     for (; work.plane < channels.size(); ++work.plane, work.sum.reset()) {
         if (work.cost >= until) return false;
         if (!work.sum)
             work.sum =
-                work.frame.splats->begin(work.eye, channels[work.plane], work.plane, targets);
+                work.frame.splats->begin(work.planes, channels[work.plane], work.plane, targets);
         const double each = work.splatCosts[work.plane];
         constexpr double kMost = 1e18;
         while (!work.sum->done() && work.cost < until) {

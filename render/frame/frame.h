@@ -20,6 +20,9 @@ struct FrameContent {
     const timeseries::Grid& grid;  // the scene's, for axes
     Legend legend;
     glm::dvec3 background{0};  // linear
+    // Planes are summed in pixels that have so many of the picture's across; lines and text are
+    // not.
+    int across = 1;
     // Opaque, like the axes; they hide labels.
     std::span<const Placard> placards = {};
 };
@@ -76,6 +79,7 @@ class FrameRenderer {
     struct EyeInWork {
         const Prepared& frame;
         const View& eye;
+        View planes;  // what they are summed in: the eye, or a coarser one
         FlatMesh legend;
         AxesMeshes axes;
         // Of each plane one of what its sum counts; render/splat/splat_cost.h.

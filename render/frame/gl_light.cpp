@@ -43,6 +43,24 @@ void GlLight::drawLight(const EyeContent& content, LightAs, Targets& targets) {
     flat_->draw(content.legend, light, size);
 }
 
+void GlLight::enlarge(const Scene& scene, const View& view, int across, Targets& from,
+                      Targets& to) {
+    if (!enlarge_) enlarge_.emplace("enlarge", shaders::viewport_vert, shaders::enlarge_frag);
+    const PixelBox known = coveredPixels(scene, coarser(view, across));
+    const PixelBox covered = coveredPixels(scene, view);
+    const std::vector<Channels> channels = channelsFor(scene);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const GLuint plane = to.onGl().plane(i, channels[i]);
+        gl::begin({.framebuffer = plane, .size = covered.size, .at = covered.at});
+        glUseProgram(enlarge_->id());
+        glUniform4i(0, known.at.x, known.at.y, known.size.x, known.size.y);
+        glUniform1i(1, across);
+        glBindTextureUnit(0, from.onGl().plane(i).id());
+        glBindVertexArray(noVertices_.id());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+}
+
 void GlLight::drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
                            const View& view, Targets& targets) {
     const GLuint light = targets.onGl().lightFramebuffer();

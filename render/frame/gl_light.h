@@ -20,6 +20,8 @@ class GlLight final : public LightPass {
     std::unique_ptr<Targets> targets(glm::ivec2 size) const override;
     void drawDepth(const FlatMesh& behind, std::span<const Placard> placards, const View& view,
                    Targets& targets) override;
+    void enlarge(const Scene& scene, const View& view, int across, Targets& from,
+                 Targets& to) override;
     void drawLight(const EyeContent& content, LightAs as, Targets& targets) override;
     // Light of placards alone.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
@@ -34,6 +36,7 @@ class GlLight final : public LightPass {
     std::map<int, gl::Program> resolve_;  // by the number of layers; -1 for an ordered scene
     PlacardPass placards_;
     HiddenAreaPass hidden_;
+    std::optional<gl::Program> enlarge_;
     gl::VertexArray noVertices_;
 };
 

@@ -31,6 +31,11 @@ class LightPass {
     // Leaves the targets' depth holding what hides splats, and nothing else.
     virtual void drawDepth(const FlatMesh& behind, std::span<const Placard> placards,
                            const View& view, Targets& targets) = 0;
+    // Planes of the scene that were summed in coarser(view, across), in the view's pixels: between
+    // the middles of coarse ones, what lies around them. REQUIRES of both: this one's targets(),
+    // of these sizes.
+    virtual void enlarge(const Scene& scene, const View& view, int across, Targets& from,
+                         Targets& to) = 0;
     // Makes the light of the planes that channelsFor(scene) names. REQUIRES: drawDepth() before.
     virtual void drawLight(const EyeContent& content, LightAs as, Targets& targets) = 0;
 };

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "render/annotate/flat_raster.h"
+#include "render/frame/enlarge.h"
 #include "render/frame/resolve.h"
 #include "render/image/encode_srgb.h"
 #include "render/splat/memory_targets.h"
@@ -113,6 +114,16 @@ void MemoryLight::drawDepth(const FlatMesh& behind, std::span<const Placard>, co
     if (raster.empty()) return;
     depth.resize(static_cast<std::size_t>(view.size.x) * static_cast<std::size_t>(view.size.y), 1);
     raster.drawDepth({view.size, 0, view.size.y, depth.data()});
+}
+
+void MemoryLight::enlarge(const Scene& scene, const View& view, int across, Targets& from,
+                          Targets& to) {
+    const PixelBox covered = coveredPixels(scene, view);
+    for (std::size_t i = 0; i < channelsFor(scene).size(); ++i) {
+        const MemoryTargets::Plane& coarse = static_cast<MemoryTargets&>(from).plane(i);
+        render::enlarge(coarse, across, covered, enlarged_);
+        to.putPlane(i, coarse.channels, covered, enlarged_);
+    }
 }
 
 void MemoryLight::drawLight(const EyeContent& content, LightAs as, Targets& targets) {

@@ -18,10 +18,13 @@ class MemoryLight final : public LightPass {
     // REQUIRES of both: targets() of this size. Linear may be read, Srgb8 shown.
     void drawDepth(const FlatMesh& behind, std::span<const Placard> placards, const View& view,
                    Targets& targets) override;
+    void enlarge(const Scene& scene, const View& view, int across, Targets& from,
+                 Targets& to) override;
     void drawLight(const EyeContent& content, LightAs as, Targets& targets) override;
 
  private:
     const Font* font_ = nullptr;
+    std::vector<float> enlarged_;
     std::vector<std::vector<float>> rooms_;  // for some rows, one a thread
 };
 

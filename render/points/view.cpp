@@ -18,6 +18,21 @@ glm::dmat4 clipFromView(const Frustum& f) {
     return m;
 }
 
+View coarser(const View& view, int across) {
+    View coarse = view;
+    coarse.size = (view.size + across - 1) / across;
+    // Of normalised device coordinates: the lower left corners meet, and pixels are as many times
+    // as large.
+    const glm::dvec2 scale = glm::dvec2(view.size) / glm::dvec2(across * coarse.size);
+    glm::dmat4 place(1.0);
+    for (int k = 0; k < 2; ++k) {
+        place[k][k] = scale[k];
+        place[3][k] = scale[k] - 1;
+    }
+    coarse.clipFromView = place * view.clipFromView;
+    return coarse;
+}
+
 PixelRays pixelRays(const View& view) {
     const glm::dmat4& p = view.clipFromView;
     const glm::dmat3 worldFromView = glm::inverse(glm::dmat3(view.viewFromWorld));

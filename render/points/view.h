@@ -22,6 +22,9 @@ struct View {
     friend bool operator==(const View&, const View&) = default;
 };
 
+// The same eye's pixels, so many across in one: the last ones of a side may reach beyond the view.
+View coarser(const View& view, int across);
+
 // What GL's depth buffer has for a view depth > 0.
 inline double windowDepth(const View& view, double depth) {
     return (view.clipFromView[3][2] - view.clipFromView[2][2] * depth) / depth;

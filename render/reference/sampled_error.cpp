@@ -32,6 +32,17 @@ std::vector<glm::ivec2> pixelsOf(const PixelBox& box) {
     return all;
 }
 
+// use(coarse pixel, its share) of those around the middle of a pixel.
+template <typename Use>
+void forEachAround(const glm::ivec2& pixel, int across, const Use& use) {
+    const glm::dvec2 place = (glm::dvec2(pixel) + 0.5) / static_cast<double>(across) - 0.5;
+    const glm::dvec2 first = glm::floor(place), share = place - first;
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x)
+            use(glm::ivec2(first) + glm::ivec2(x, y),
+                (x == 0 ? 1 - share.x : share.x) * (y == 0 ? 1 - share.y : share.y));
+}
+
 }  // namespace
 
 DepthAt depthFrom(std::vector<float> depth, glm::ivec2 size) {
@@ -41,6 +52,24 @@ DepthAt depthFrom(std::vector<float> depth, glm::ivec2 size) {
             found.push_back(static_cast<double>(
                 depth[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(size.x) +
                       static_cast<std::size_t>(p.x)]));
+        return found;
+    };
+}
+
+DepthAt enlarged(DepthAt coarse, int across, glm::ivec2 size) {
+    return [coarse = std::move(coarse), across, size](std::span<const glm::ivec2> pixels) {
+        std::vector<glm::ivec2> asked;
+        std::vector<std::pair<std::size_t, double>> parts;  // which pixel takes so much of each
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            forEachAround(pixels[i], across, [&](const glm::ivec2& at, double share) {
+                if (at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y) return;
+                asked.push_back(at);
+                parts.emplace_back(i, share);
+            });
+        const std::vector<double> depth = coarse(asked);
+        std::vector<double> found(pixels.size());
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            found[parts[k].first] += parts[k].second * depth[k];
         return found;
     };
 }

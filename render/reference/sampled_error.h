@@ -22,6 +22,10 @@ using DepthAt = std::function<std::vector<double>(std::span<const glm::ivec2>)>;
 // Of a picture that is there: [y][x].
 DepthAt depthFrom(std::vector<float> depth, glm::ivec2 size);
 
+// Of a picture whose planes are enlarged: `coarse` has them, of a view of this size, whose pixels
+// have so many of the picture's across.
+DepthAt enlarged(DepthAt coarse, int across, glm::ivec2 size);
+
 struct Sampling {
     // Half of them, or more where it is small, from what the picture shows; the others from the
     // rest of what the grid covers, where the truth may have what the picture lacks.

@@ -23,6 +23,7 @@ TEST(Preferences, ReadAsTheyWereWritten) {
                             .frameMilliseconds = 25,
                             .moving = Moving::Error,
                             .movingError = 0.25,
+                            .movingRung = {Model::Points, 8, 2},
                             .costs = {.points = {{1e6 / 3, 0.1, 2e6}}, .cells = {{0, 70, 5e4}}}};
     remember(preferences, {folder / "a.nc"});
     remember(preferences, {folder});
@@ -82,7 +83,10 @@ TEST(Preferences, ADamagedFileIsToldAndTheUsualOnesHold) {
              {R"({"uiScale": 100})", "uiScale"},
              {R"({"frameMilliseconds": 0})", "frameMilliseconds"},
              {R"({"frameMilliseconds": 1e999})", "beyond all doubles"},
-             {R"({"moving": "fast"})", "moving is none of pace, error and all"},
+             {R"({"movingRung": 7})", "movingRung has no model"},
+             {R"({"movingRung": {"model": "cells", "stride": 32}})",
+              "stride is not a number from 1 to 16"},
+             {R"({"moving": "fast"})", "moving is none of pace, error, fixed and all"},
              {R"({"moving": 1})", "moving is none of"},
              {R"({"movingError": 2})", "movingError is not a number from 0.0001 to 1"},
              {R"({"recentFiles": "a.nc"})", "recentFiles is not a list of texts"},

@@ -62,6 +62,68 @@ TEST_F(CanvasOfNoise, AMovingPictureMayBeToldHowItIsDrawn) {
     EXPECT_TRUE(report_.whole);
 }
 
+// By cells, then by coarse ones, then by points, as the limit falls; none where nobody may.
+TEST_F(CanvasOfNoise, AMovingPictureGoesDownTheLadder) {
+    world_.explorer.model = Model::Cells;
+    world_.explorer.size = {401, 301};
+    Canvas inProgram(render::SplatterChoice::Cpu);
+    const auto rungAt = [&](double splats, bool mayBeCoarse) {
+        const auto views = inProgram.eyesOf(world_.shown());
+        report_ = inProgram.draw(
+            world_.shown(), views,
+            {.splats = static_cast<std::uint64_t>(splats), .mayBeCoarse = mayBeCoarse}, true,
+            [](auto, auto&) {});
+        return Rung{report_.cells ? Model::Cells : Model::Points, report_.stride, report_.across};
+    };
+    for (const bool mayBeCoarse : {true, false}) {
+        std::vector<Rung> met;
+        for (double splats = 1e8; splats > 1000; splats *= 0.85) {
+            const Rung rung = rungAt(splats, mayBeCoarse);
+            EXPECT_EQ(report_.whole, rung == Rung());
+            if (met.empty() || met.back() != rung) met.push_back(rung);
+        }
+        EXPECT_EQ(met.front(), Rung());
+        for (std::size_t i = 1; i < met.size(); ++i) EXPECT_FALSE(drawsLess(met[i - 1], met[i]));
+        const bool hasCoarse = std::ranges::count(met, Rung{Model::Cells, 1, kCoarse}) > 0;
+        EXPECT_EQ(hasCoarse, mayBeCoarse);
+        for (const Rung& rung : met) EXPECT_TRUE(mayBeCoarse || rung.across == 1);
+        EXPECT_EQ(met.back().model, Model::Points);
+    }
+}
+
+// Of a limit that swings by a tenth the picture does not change all the time.
+TEST_F(CanvasOfNoise, ClimbingTheLadderWantsRoomToSpare) {
+    world_.explorer.model = Model::Cells;
+    const auto drawAt = [&](double splats) {
+        draw(world_.shown(), {.splats = static_cast<std::uint64_t>(splats), .mayBeCoarse = true},
+             true);
+        return report_.whole;
+    };
+    draw(world_.shown());
+    double fits = 2 * static_cast<double>(report_.cost);  // then the least that all of it keeps to
+    ASSERT_TRUE(drawAt(fits));
+    while (drawAt(0.98 * fits)) fits *= 0.98;
+    EXPECT_FALSE(drawAt(0.95 * fits));
+    EXPECT_FALSE(drawAt(1.05 * fits)) << "it has just fallen";
+    EXPECT_TRUE(drawAt(1.3 * fits));
+    EXPECT_TRUE(drawAt(1.05 * fits)) << "and is there";
+}
+
+// What is known of errors says which of those that fit is the truest.
+TEST_F(CanvasOfNoise, OfWhatFitsTheTruestIsDrawn) {
+    world_.explorer.model = Model::Cells;
+    const Rung points{Model::Points, 1, kCoarse};
+    DepthErrors errors;
+    for (const Rung& rung : ladder({})) errors.rungs.push_back({.rung = rung, .depth = 0.5});
+    for (RungError& error : errors.rungs)
+        if (error.rung == points) error.depth = 0.1;
+    draw(world_.shown());
+    draw(world_.shown(), {.splats = 100'000'000, .mayBeCoarse = true, .errors = &errors}, true);
+    EXPECT_EQ(report_.across, kCoarse);
+    EXPECT_FALSE(report_.cells);
+    EXPECT_FALSE(report_.whole);
+}
+
 // Of a step of which no points were drawn before.
 TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
     world_.explorer.model = Model::Cells;

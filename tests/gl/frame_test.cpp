@@ -97,6 +97,46 @@ TEST_P(Frame, TheLegendStandsOnAGroundBeforeABrightVolume) {
     }
 }
 
+// Lines, labels and the legend stay as they are; where splats are, light is that of the coarse
+// picture, between its pixels.
+TEST_P(Frame, CoarsePlanesAreDrawnUnderTheSameLinesAndText) {
+    const View odd = tests::lookFrom({0.4, -2.7, 0.9}, {201, 161});
+    for (const bool cells : {false, true})
+        for (const Order order : {Order::None, Order::BackToFront}) {
+            scene_.order = order;
+            if (cells) scene_.cells = step_.cells();
+            for (std::size_t k = 0; cells && k < 2; ++k) {
+                Cells& layer = scene_.layers[k].cells;
+                layer.ranges = {{k == 0 ? 0.1 : 0.7, k == 0 ? 0.2 : 0.9}};
+                layer.candidates = scene_.cells->select(layer.ranges);
+            }
+            Scene none = scene_;
+            none.layers.clear();
+            const Legend legend{"Temperature (K)", "step 3 of 9", {}, {"a note below"}};
+            const auto picture = [&](const Scene& scene, int across) {
+                if (renderer_.splatters().takesPointsFromGpu(scene))
+                    onGpu_.upload(scene, neededScale(scene));
+                const FrameContent told{scene, step_.grid(), legend, glm::dvec3(0.02), across};
+                const auto frame = renderer_.prepare(told, onGpu_, std::array{odd});
+                renderer_.drawEye(frame, odd);
+                return renderer_.targets().readLight();
+            };
+            const Image fine = picture(scene_, 1), coarse = picture(scene_, 2);
+            EXPECT_EQ(picture(none, 2), picture(none, 1));
+            EXPECT_NE(fine, coarse);
+            const auto difference = comparePictures(fine, coarse);
+            EXPECT_LT(difference.rmseLinear, 0.04) << cells << static_cast<int>(order);
+            // The same by the mean of the fine one's light, but for what is curved in a pixel.
+            glm::dvec4 sums[2] = {};
+            for (int y = 0; y < odd.size.y; ++y)
+                for (int x = 0; x < odd.size.x; ++x) {
+                    sums[0] += glm::dvec4(fine.at(x, y));
+                    sums[1] += glm::dvec4(coarse.at(x, y));
+                }
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(sums[1][c] / sums[0][c], 1, 0.02);
+        }
+}
+
 // The most that is drawn beyond what was asked for.
 constexpr std::uint64_t kPiece = std::max(kPiecePoints, TileSum::kLeast + kSubsetUnevenness);
 

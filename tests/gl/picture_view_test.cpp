@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
 #include "tests/support/shown_steps.h"
@@ -64,9 +66,8 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
     world.explorer.view.azimuthDegrees += 5;
     draw(true);
     ASSERT_GT(view.performance().report.stride, 1u);
-    EXPECT_EQ(view.performance().error(),
-              told.of({Model::Points, view.performance().report.stride}));
-    EXPECT_GT(view.performance().error(), measured);
+    EXPECT_EQ(view.performance().error(), told.of(view.performance().drawn()));
+    EXPECT_NE(view.performance().error(), measured);
     EXPECT_FALSE(view.errorOf(world.shown())) << "it was not measured";
     // As little as an error allows, or all.
     const auto turned = [&](Moving moving, double error) {
@@ -74,15 +75,22 @@ TEST(PictureView, WaitsWhilePlayStandsInTheWayOfRefining) {
         choices.movingError = error;
         world.explorer.view.azimuthDegrees += 5;
         draw(true);
-        return view.performance().report.stride;
+        return view.performance().drawn();
     };
-    for (const std::uint32_t stride : {2u, 8u}) {
-        const double error = *told.of({Model::Points, stride});
-        EXPECT_EQ(turned(Moving::Error, 1.001 * error), stride);
-        EXPECT_LT(turned(Moving::Error, 0.999 * error), stride);
+    std::set<double> errors;
+    for (const RungError& known : told.rungs) errors.insert(known.depth);
+    for (const double error : errors) {
+        const Rung drawn = turned(Moving::Error, 1.001 * error);
+        EXPECT_LE(told.of(drawn), 1.001 * error);
+        for (const RungError& known : told.rungs)
+            EXPECT_FALSE(known.depth <= 1.001 * error && drawsLess(known.rung, drawn));
     }
-    EXPECT_EQ(turned(Moving::All, 1), 1u);
-    EXPECT_GT(turned(Moving::Pace, 0), 1u);
+    EXPECT_EQ(turned(Moving::All, 1), Rung{Model::Points});
+    EXPECT_NE(turned(Moving::Pace, 0), Rung{Model::Points});
+    for (const Rung& rung : {Rung{Model::Points, 4, 1}, Rung{Model::Points, 1, kCoarse}}) {
+        choices.movingRung = rung;
+        EXPECT_EQ(turned(Moving::Fixed, 0), rung);
+    }
     // Of another selection nothing is known.
     choices.moving = Moving::Error;
     world.explorer.layers[0].ranges = timeseries::RangeSet::parse("0.2:0.3");
@@ -98,26 +106,30 @@ TEST(PictureView, WhatMovesFillsFourFifthsOfAFrameAlsoTheFirst) {
     choices.frameBudget = 20ms;
     const glm::ivec2 size = world.explorer.size;
     PictureView view;
-    Canvas canvas;
+    Canvas canvas, full;
     // What a canvas draws of so many splats, and the view's first frame where each takes so long.
-    const auto strideOf = [&](double splats) {
+    const auto rungOf = [&](Canvas& by, double splats) {
         const Shown shown = world.shown();
-        const CanvasLimits limits{.splats = static_cast<std::uint64_t>(splats)};
-        return canvas.draw(shown, canvas.eyesOf(shown), limits, true, [](auto, auto&) {}).stride;
+        const CanvasLimits limits{.splats = static_cast<std::uint64_t>(splats),
+                                  .mayBeCoarse = true};
+        const CanvasReport report =
+            by.draw(shown, by.eyesOf(shown), limits, true, [](auto, auto&) {});
+        return Rung{Model::Points, report.stride, report.across};
     };
-    const auto strideAt = [&](double perSplatNs) {
+    const auto rungAt = [&](double perSplatNs) {
         view.beginFrom({.points = {{0, perSplatNs, 1e6}}, .cells = {}});
         world.explorer.view.azimuthDegrees += 1e-3;
         const Shown shown = world.shown();
         view.draw(&shown, size, {glm::vec2(0), glm::vec2(size)}, true, false, choices);
-        return view.performance().report.stride;
+        return view.performance().drawn();
     };
-    strideAt(1);
-    strideOf(1);
+    rungAt(1);
+    for (Canvas* each : {&canvas, &full}) rungOf(*each, 20e6);
     unsigned differ = 0;
     for (double perSplatNs = 40; perSplatNs < 400; perSplatNs *= 1.1) {
-        EXPECT_EQ(strideAt(perSplatNs), strideOf(0.8 * 20e6 / perSplatNs)) << perSplatNs;
-        differ += strideOf(20e6 / perSplatNs) != strideOf(0.8 * 20e6 / perSplatNs);
+        const Rung drawn = rungOf(canvas, 0.8 * 20e6 / perSplatNs);
+        EXPECT_EQ(rungAt(perSplatNs), drawn) << perSplatNs;
+        differ += rungOf(full, 20e6 / perSplatNs) != drawn;
     }
     EXPECT_GT(differ, 0u);
     render::gl::takeRecordedError();  // there is no window to show it in

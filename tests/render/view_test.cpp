@@ -55,6 +55,28 @@ TEST(View, ProjectionAgreesWithTheClipMatrix) {
     EXPECT_NEAR(clip.w, project(view, world).depth, 1e-12);
 }
 
+// Whatever is left over beyond the upper and right edges.
+TEST(View, ACoarserOneSeesThePicturesPixelsSoManyAcrossInOne) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (const glm::ivec2 size : {glm::ivec2(640, 360), glm::ivec2(641, 361)})
+        for (const int across : {1, 2, 3}) {
+            View view = skewed();
+            view.size = size;
+            const View coarse = coarser(view, across);
+            EXPECT_EQ(coarse.size.x, (size.x + across - 1) / across);
+            EXPECT_EQ(coarse.size.y, (size.y + across - 1) / across);
+            for (int i = 0; i < 50; ++i) {
+                const glm::dvec3 world(any(random), any(random), any(random));
+                const Projected fine = project(view, world), seen = project(coarse, world);
+                EXPECT_NEAR(seen.depth, fine.depth, 1e-12);
+                EXPECT_LT(glm::length(static_cast<double>(across) * seen.window - fine.window),
+                          1e-9);
+            }
+            EXPECT_NEAR(pixelRays(coarse).near, pixelRays(view).near, 1e-12);
+        }
+}
+
 TEST(View, NearIsReadBackFromTheMatrix) { EXPECT_NEAR(pixelRays(skewed()).near, 0.05, 1e-12); }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#include "app/choices/rung.h"
+
+namespace app {
+
+std::vector<Rung> ladder(const LadderOf& of) {
+    std::vector<Rung> rungs;
+    const auto add = [&](Model model, std::uint32_t stride) {
+        rungs.push_back({model, stride});
+        if (of.coarse) rungs.push_back({model, stride, kCoarse});
+    };
+    if (of.cells) add(Model::Cells, 1);
+    for (std::uint32_t stride = 1; of.points && stride <= of.mostStride; stride *= 2)
+        add(Model::Points, stride);
+    return rungs;
+}
+
+bool drawsLess(const Rung& a, const Rung& b) {
+    if (a.model != b.model) return a.model == Model::Points;
+    const auto share = [](const Rung& rung) {
+        return 1.0 / (rung.stride * static_cast<double>(rung.across));
+    };
+    return share(a) < share(b);
+}
+
+}  // namespace app

@@ -1,0 +1,41 @@
+// The ways to draw a selection among which a picture that moves has to choose. Pure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/choices/explorer.h"
+
+namespace app {
+
+// Cells, or one of so many points; in the picture's pixels, or in so many of them across.
+struct Rung {
+    Model model = Model::Cells;
+    std::uint32_t stride = 1;  // of cells 1: they have no subsets
+    int across = 1;
+    bool isWhole() const { return stride == 1 && across == 1; }
+    friend bool operator==(const Rung&, const Rung&) = default;
+};
+
+// Pixels are at most so coarse: a quarter of the work that grows with them, and text stays as it
+// is.
+constexpr int kCoarse = 2;
+
+// What a user may fix, and whose error is told, are at least one of so many points.
+constexpr std::uint32_t kFewestMoving = 16;
+
+struct LadderOf {
+    bool cells = true;   // they are there to be drawn
+    bool coarse = true;  // pixels may be
+    bool points = true;  // they are, too
+    std::uint32_t mostStride = kFewestMoving;
+};
+// From the truest to the soonest: cells, points, ever fewer of them, each in the picture's pixels,
+// then in coarse ones, which lose less in the time that they save (tests/bench/NOTES.md). Light and order stay on every rung: they cost a tenth, and a picture that
+// changes its colours as it moves is another picture.
+std::vector<Rung> ladder(const LadderOf& of);
+
+// Whether it draws less than the other.
+bool drawsLess(const Rung& a, const Rung& b);
+
+}  // namespace app

@@ -1,0 +1,32 @@
+// The ladder of a picture that moves.
+#include "app/choices/rung.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace app {
+namespace {
+
+TEST(Ladder, DescendsAndHasEveryWayOnce) {
+    for (const bool cells : {true, false})
+        for (const bool coarse : {true, false})
+            for (const bool points : {true, false}) {
+                const std::vector<Rung> rungs =
+                    ladder({.cells = cells, .coarse = coarse, .points = points, .mostStride = 64});
+                const std::size_t sizes = coarse ? 2 : 1;
+                EXPECT_EQ(rungs.size(), sizes * ((cells ? 1 : 0) + (points ? 7 : 0)));
+                for (std::size_t i = 1; i < rungs.size(); ++i) {
+                    EXPECT_FALSE(drawsLess(rungs[i - 1], rungs[i])) << i;
+                    EXPECT_NE(rungs[i - 1], rungs[i]);
+                    // Of one kind of pixels each draws less than the one before.
+                    for (std::size_t k = 0; k < i; ++k)
+                        EXPECT_TRUE(rungs[k].across != rungs[i].across ||
+                                    drawsLess(rungs[i], rungs[k]));
+                }
+                EXPECT_TRUE(rungs.empty() || rungs.front().isWhole());
+            }
+}
+
+}  // namespace
+}  // namespace app
