@@ -308,6 +308,17 @@ render::Light parseLight(std::string_view name) {
 }
 
 std::string_view lightName(render::Light light) { return nameOf<render::Light>(light, kLights); }
+std::optional<LampChoice> parseLamp(std::string_view text) {
+    if (text == "head") return std::nullopt;
+    const auto n = numbers(text);
+    if (!n || n->size() != 2)
+        throw ChoiceError(
+            fmt::format("light from '{}' is neither head nor azimuth,elevation in degrees", text));
+    return LampChoice{(*n)[0], (*n)[1]};
+}
+std::string lampText(const std::optional<LampChoice>& lamp) {
+    return lamp ? fmt::format("{},{}", lamp->azimuthDegrees, lamp->elevationDegrees) : "head";
+}
 render::OpacityPer parseOpacityPer(std::string_view name) {
     return named<render::OpacityPer>("opacity per", name, kOpacityPers);
 }

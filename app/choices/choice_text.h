@@ -65,6 +65,8 @@ Model parseModel(std::string_view name);  // points cells
 std::string_view modelName(Model model);
 render::Light parseLight(std::string_view name);  // off soft full
 std::string_view lightName(render::Light light);
+std::optional<LampChoice> parseLamp(std::string_view text);  // head, or "10,50" degrees
+std::string lampText(const std::optional<LampChoice>& lamp);
 render::OpacityPer parseOpacityPer(std::string_view name);  // length crossing
 std::string_view opacityPerName(render::OpacityPer per);
 render::Kernel parseKernel(std::string_view name);  // kernel point

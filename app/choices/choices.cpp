@@ -181,7 +181,13 @@ constexpr std::array kChoices = {
     Choice{"--light", "light", Form::Text,
            [](const Explorer& e) { return Text(lightName(e.light)); },
            [](Explorer& e, std::string_view t) { e.light = parseLight(t); }, "Splats",
-           "on cells in depth order, from the eye: off, soft (default), or full with highlights"},
+           "on cells in depth order: off, soft (default), or full with highlights"},
+    Choice{
+        "--light-from", "lightFrom", Form::Text,
+        [](const Explorer& e) { return unless(!e.lamp, lampText(e.lamp)); },
+        [](Explorer& e, std::string_view t) { e.lamp = parseLamp(t); }, "Splats",
+        "head (default): from the eye; AZIMUTH,ELEVATION, as --view: from a lamp far away there, "
+        "which stands still in the data's world"},
     Choice{"--opacity-per", "opacityPer", Form::Text,
            [](const Explorer& e) { return Text(opacityPerName(e.opacityPer)); },
            [](Explorer& e, std::string_view t) { e.opacityPer = parseOpacityPer(t); }, "Splats",

@@ -93,6 +93,13 @@ struct PlayChoice {
     friend bool operator==(const PlayChoice&, const PlayChoice&) = default;
 };
 
+// A lamp far away, which stands still in the data's world: turning the volume, by mouse or hand,
+// turns its light with it. Angles as a view's: from where an eye there would look.
+struct LampChoice {
+    double azimuthDegrees = 0, elevationDegrees = 0;
+    friend bool operator==(const LampChoice&, const LampChoice&) = default;
+};
+
 // What of the field is drawn: the points in a range, or the cells between them
 // (render/model/cell_splat.h), where a step has them; else points.
 enum class Model { Points, Cells };
@@ -111,6 +118,7 @@ struct Explorer {
     bool oneTick = false;
     Model model = Model::Cells;
     render::Light light = render::Light::Soft;                     // on cells in depth order
+    std::optional<LampChoice> lamp;                                // absent: light from the eye
     render::OpacityPer opacityPer = render::OpacityPer::Crossing;  // of cells
     render::Footprint footprint;
     render::Order order = render::Order::BackToFront;  // where it shows

@@ -153,6 +153,7 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
         scene.cells = await == Await::Cells ? step.cells(needed) : step.cellsIfMade(needed);
     }
     if (scene.cells && scene.order == render::Order::BackToFront) scene.light = e.light;
+    if (e.lamp) scene.lamp = directionOf(e.lamp->azimuthDegrees, e.lamp->elevationDegrees);
     scene.opacityPer = e.opacityPer;
     for (const LayerChoice& layer : e.layers) {
         if (!layer.visible) continue;

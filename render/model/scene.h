@@ -120,6 +120,7 @@ struct Scene {
     // The step's, where layers are drawn by cells instead of points; all of them then, always.
     std::shared_ptr<const timeseries::CellIndex> cells = {};
     Light light = Light::Off;  // on cells, where they are drawn in order
+    Lamp lamp = {};
     OpacityPer opacityPer = OpacityPer::Length;
 };
 

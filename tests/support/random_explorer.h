@@ -45,6 +45,7 @@ class RandomExplorer {
             e.layers.push_back(styled(random_() % 5 == 0 ? timeseries::RangeSet() : ranges()));
         if (maybe()) e.model = app::Model::Cells;
         e.light = static_cast<render::Light>(random_() % 3);
+        if (maybe()) e.lamp = app::LampChoice{720 * unit() - 360, 180 * unit() - 90};
         if (maybe()) e.opacityPer = render::OpacityPer::Length;
         e.footprint = {maybe() ? render::Kernel::Point : render::Kernel::Quartic,
                        0.001 + 5 * unit()};
