@@ -204,6 +204,7 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
         for (std::size_t i = 0; i < were.size(); ++i)
             if (isThere(were[i]) || !isThere(e.files[i])) e.files[i] = were[i];
     });
+    object.read<double>(kSessionErrorKey, [](double) {});
     object.read<json>("layers", [&](const json& layers) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
         e.noLayers = layers.empty();
