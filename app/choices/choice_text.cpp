@@ -78,8 +78,8 @@ constexpr std::array<std::pair<std::string_view, Stereo>, 5> kStereo = {
      {"top-bottom", Stereo::TopBottom},
      {"multiview", Stereo::MultiView},
      {"left-right", Stereo::LeftRight}}};
-constexpr std::array<std::pair<std::string_view, Model>, 2> kModels = {
-    {{"points", Model::Points}, {"cells", Model::Cells}}};
+constexpr std::array<std::pair<std::string_view, Model>, 3> kModels = {
+    {{"points", Model::Points}, {"cells", Model::Cells}, {"auto", Model::Cells}}};
 constexpr std::array<std::pair<std::string_view, render::Light>, 3> kLights = {
     {{"off", render::Light::Off}, {"soft", render::Light::Soft}, {"full", render::Light::Full}}};
 constexpr std::array<std::pair<std::string_view, render::OpacityPer>, 2> kOpacityPers = {
@@ -301,6 +301,9 @@ std::string_view stereoName(Stereo stereo) { return nameOf<Stereo>(stereo, kSter
 render::Map parseMapKind(std::string_view name) { return named<render::Map>("map", name, kMaps); }
 std::string_view mapKindName(render::Map map) { return nameOf<render::Map>(map, kMaps); }
 Model parseModel(std::string_view name) { return named<Model>("model", name, kModels); }
+std::optional<Model> parseLayerModel(std::string_view name) {
+    return name == "auto" ? std::nullopt : std::optional(parseModel(name));
+}
 std::string_view modelName(Model model) { return nameOf<Model>(model, kModels); }
 
 render::Light parseLight(std::string_view name) {

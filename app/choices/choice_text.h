@@ -61,7 +61,8 @@ timeseries::Ending parseEnding(std::string_view name);  // once loop ping-pong
 std::string_view endingName(timeseries::Ending ending);
 Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multiview left-right
 std::string_view stereoName(Stereo stereo);
-Model parseModel(std::string_view name);  // points cells
+Model parseModel(std::string_view name);                      // points cells
+std::optional<Model> parseLayerModel(std::string_view name);  // auto: as all layers are
 std::string_view modelName(Model model);
 render::Light parseLight(std::string_view name);  // off soft full
 std::string_view lightName(render::Light light);

@@ -175,9 +175,9 @@ constexpr std::array kChoices = {
     Choice{
         "--model", "model", Form::Text, [](const Explorer& e) { return Text(modelName(e.model)); },
         [](Explorer& e, std::string_view t) { e.model = parseModel(t); }, "Splats",
-        "cells (default): what lies in the ranges between points, too, so that thin ranges are "
-        "closed shells; points: those in the ranges, each a splat, as categories and kept values "
-        "always are"},
+        "of all layers: auto or cells (default): what lies in the ranges between points, too, so "
+        "that thin ranges are closed shells; points: those in the ranges, each a splat, as "
+        "categories and kept values always are. Repeated: then of each layer in turn, auto as all"},
     Choice{"--light", "light", Form::Text,
            [](const Explorer& e) { return Text(lightName(e.light)); },
            [](Explorer& e, std::string_view t) { e.light = parseLight(t); }, "Splats",

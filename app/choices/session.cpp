@@ -30,6 +30,7 @@ constexpr int kVersion = 1;
 void writeStyle(json& out, const LayerChoice& layer) {
     if (!layer.visible) out["visible"] = false;
     if (layer.opacity) out["opacity"] = *layer.opacity;
+    if (layer.model) out["model"] = modelName(*layer.model);
     if (!layer.color) return;
     if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
         out["color"] = colorText(*rgb);
@@ -60,6 +61,8 @@ LayerChoice readStyle(JsonObject& object) {
         if (!(a >= 0 && a <= 1)) throw ChoiceError("is not between 0 and 1");
         layer.opacity = a;
     });
+    object.read<std::string>("model",
+                             [&](const std::string& m) { layer.model = parseLayerModel(m); });
     object.read<bool>("visible", [&](bool b) { layer.visible = b; });
     return layer;
 }

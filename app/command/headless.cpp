@@ -61,12 +61,11 @@ std::string whyFlat(const Explorer& e, const timeseries::Grid& grid,
     return flaw.empty() ? kNoVolumeOnGlobe : flaw;
 }
 
-DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-                    const render::PlacedPoints& placed) {
-    const Rung drawn{e.model};
+DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step) {
+    const Rung drawn{modelOf(e)};
+    const auto outline = render::PlacedPoints::outlineOf(step.grid(), e.scale, e.map);
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
-                         eyes(e.view, e.stereo, placed.outline(), e.size).front(),
-                         std::span(&drawn, 1));
+                         eyes(e.view, e.stereo, outline, e.size).front(), std::span(&drawn, 1));
 }
 
 std::string errorText(const DepthErrors& errors) {
@@ -90,9 +89,8 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
     try {
         const auto step = source.get(middle.step, frames.front().step);
         if (!hasDepthError(*step)) return error;
-        const render::PlacedPoints placed(step->grid(), e.scale, e.map);
-        const DepthErrors errors = errorOf(e, middle, *step, placed);
-        error.depth = errors.of({e.model});
+        const DepthErrors errors = errorOf(e, middle, *step);
+        error.depth = errors.of({modelOf(e)});
         error.text = errorText(errors);
     } catch (const timeseries::FileError&) {
         // What cannot be read is told when its turn comes, after the pictures before it.

@@ -140,7 +140,7 @@ void FileActions::screenshot(std::optional<double> error) {
     if (!shown) return;
     telling(exploration_, [&] {
         if (!error && hasDepthError(*shown->sorted)) {
-            const Rung whole{shown->explorer.model};
+            const Rung whole{modelOf(shown->explorer)};
             error = depthErrorsOf(shown->explorer, *shown->sorted, canvas_.eyesOf(*shown).front(),
                                   std::span(&whole, 1))
                         .of(whole);

@@ -137,7 +137,7 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
     // What is saved is drawn whole.
     const auto& errors = error_.errors();
     fileActions_.serve(asked.requests, panel_.interface(),
-                       errors ? errors->of({exploration_.explorer().model}) : std::nullopt);
+                       errors ? errors->of({modelOf(exploration_.explorer())}) : std::nullopt);
 }
 
 // Of now and then: numbers that change with every frame cannot be read, and the panel would be

@@ -93,8 +93,7 @@ class Bench {
     }
 
     render::Scene sceneOf(const Mode& mode) const {
-        Explorer e = explorer_;
-        e.model = mode.model;
+        Explorer e = allBy(mode.model, explorer_);
         e.order = mode.order;
         // What the truth is: lengths, and light that comes from within or as it is given.
         e.opacityPer = render::OpacityPer::Length;
@@ -139,7 +138,7 @@ class Bench {
 
     // As the modes are measured: lengths, and light that comes from within.
     DepthErrors errorParts(std::span<const Rung> rungs, render::Order order) const {
-        Explorer e = explorer_;
+        Explorer e = allBy(Model::Cells, explorer_);
         e.opacityPer = render::OpacityPer::Length;
         e.light = render::Light::Off;
         e.order = order;

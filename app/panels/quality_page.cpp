@@ -157,9 +157,10 @@ void drawQualityPage(PanelContext& context, const Rect& at) {
     constexpr std::array kLights = {"Off", "Soft", "Full"};
     constexpr std::array kPers = {"Length", "Crossing"};
     const std::string_view whyNot = context.exploration.shown()->sorted->whyNoCells();
-    if (e.model == Model::Cells && !whyNot.empty())
+    const bool byCells = modelOf(e) == Model::Cells && whyNot.empty();
+    if (modelOf(e) == Model::Cells && !whyNot.empty())
         form.note(fmt::format("Points are drawn: {}.", whyNot));
-    if (e.model == Model::Cells && whyNot.empty()) {
+    if (byCells) {
         form.note("Between points, too: a thin range is a closed shell.");
         if (const auto light = segmented(context.theme, "light", form.row("Light"), kLights,
                                          static_cast<std::size_t>(e.light)))
@@ -171,9 +172,8 @@ void drawQualityPage(PanelContext& context, const Rect& at) {
             edit(context, {},
                  [&](Explorer& next) { next.opacityPer = static_cast<render::OpacityPer>(*per); });
         form.note("Per crossing, a thin range is as opaque as a wide one.");
-    } else {
-        pointRows(context, form);
     }
+    if (!byCells || mixesModels(e)) pointRows(context, form);
     if (const auto order = segmented(context.theme, "order", form.row("Order"), kOrders,
                                      static_cast<std::size_t>(e.order)))
         edit(context, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });

@@ -94,6 +94,14 @@ void takeRange(SeenPiece& c, const Splat& s) {
 
 }  // namespace
 
+TileSpan spanOf(const CellView& view, const SeenPiece& c) {
+    const glm::ivec2 first = glm::ivec2(c.x, c.y) / view.tile;
+    const glm::ivec2 last = (glm::ivec2(c.x + c.columns(), c.y + c.rows()) - 1) / view.tile;
+    return {static_cast<std::uint32_t>(first.y * view.tiles.x + first.x),
+            static_cast<std::uint16_t>(last.x - first.x + 1),
+            static_cast<std::uint16_t>(last.y - first.y + 1)};
+}
+
 void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
                double reference, double extent) {
     if (view.tintsOf.empty()) return;

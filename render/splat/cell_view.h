@@ -10,6 +10,7 @@
 #include "render/model/cell_splat.h"
 #include "render/model/light.h"
 #include "render/model/tet_splat.h"
+#include "render/splat/tile_bins.h"
 #include "render/splat/tile_layout.h"
 
 namespace render {
@@ -78,6 +79,8 @@ struct SeenPiece {
     bool grazes() const { return (flags & kGrazes) != 0; }
     enum PieceFlag : std::uint32_t { kCrossesLeast = 1, kCrossesMost = 2, kGrazes = 4 };
 };
+// The tiles that its pixels are in.
+TileSpan spanOf(const CellView& view, const SeenPiece& c);
 // Of one of that layer, whose field is reference + extent f.
 void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
                double reference, double extent);

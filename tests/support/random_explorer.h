@@ -108,6 +108,7 @@ class RandomExplorer {
     app::LayerChoice styled(timeseries::RangeSet set) {
         app::LayerChoice layer{std::move(set), {}, {}};
         if (maybe()) layer.opacity = unit();
+        if (random_() % 3 == 0) layer.model = maybe() ? app::Model::Points : app::Model::Cells;
         layer.visible = random_() % 4 != 0;
         switch (random_() % 3) {
             case 0:
