@@ -131,13 +131,18 @@ glm::dvec2 freeAreaOf(glm::ivec2 size) {
     return 1.0 - 2 * line * kLines / glm::dvec2(size);
 }
 
+glm::dvec3 directionOf(double azimuthDegrees, double elevationDegrees) {
+    const double azimuth = glm::radians(azimuthDegrees);
+    const double elevation = glm::radians(elevationDegrees);
+    return {std::sin(azimuth) * std::cos(elevation), -std::cos(azimuth) * std::cos(elevation),
+            std::sin(elevation)};
+}
+
 Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size) {
     const double azimuth = glm::radians(view.azimuthDegrees);
-    const double elevation = glm::radians(view.elevationDegrees);
     // Right comes from the azimuth alone, so that looking straight down is no special case.
     const glm::dvec3 right(std::cos(azimuth), std::sin(azimuth), 0);
-    const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation),
-                          -std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
+    const glm::dvec3 back = directionOf(view.azimuthDegrees, view.elevationDegrees);
     const glm::dmat3 axes(right, glm::cross(back, right), back);
     const double shorter = std::min(size.x, size.y);
     const glm::dvec2 slope = std::tan(kHalfAngle) * glm::dvec2(size) / shorter;

@@ -10,6 +10,9 @@
 
 namespace app {
 
+// From the centre, in the world: azimuth 0 at -y, 90 at +x. Of length 1.
+glm::dvec3 directionOf(double azimuthDegrees, double elevationDegrees);
+
 // How a view looks at its target, whatever its projection and however many its eyes. World units.
 struct Stand {
     glm::dmat3 axes;    // columns: right, up, back (towards the eye)

@@ -78,8 +78,8 @@ constexpr std::array<std::pair<std::string_view, Stereo>, 5> kStereo = {
      {"top-bottom", Stereo::TopBottom},
      {"multiview", Stereo::MultiView},
      {"left-right", Stereo::LeftRight}}};
-constexpr std::array<std::pair<std::string_view, Model>, 2> kModels = {
-    {{"points", Model::Points}, {"cells", Model::Cells}}};
+constexpr std::array<std::pair<std::string_view, Model>, 3> kModels = {
+    {{"points", Model::Points}, {"cells", Model::Cells}, {"auto", Model::Cells}}};
 constexpr std::array<std::pair<std::string_view, render::Light>, 3> kLights = {
     {{"off", render::Light::Off}, {"soft", render::Light::Soft}, {"full", render::Light::Full}}};
 constexpr std::array<std::pair<std::string_view, render::OpacityPer>, 2> kOpacityPers = {
@@ -301,6 +301,9 @@ std::string_view stereoName(Stereo stereo) { return nameOf<Stereo>(stereo, kSter
 render::Map parseMapKind(std::string_view name) { return named<render::Map>("map", name, kMaps); }
 std::string_view mapKindName(render::Map map) { return nameOf<render::Map>(map, kMaps); }
 Model parseModel(std::string_view name) { return named<Model>("model", name, kModels); }
+std::optional<Model> parseLayerModel(std::string_view name) {
+    return name == "auto" ? std::nullopt : std::optional(parseModel(name));
+}
 std::string_view modelName(Model model) { return nameOf<Model>(model, kModels); }
 
 render::Light parseLight(std::string_view name) {
@@ -308,6 +311,17 @@ render::Light parseLight(std::string_view name) {
 }
 
 std::string_view lightName(render::Light light) { return nameOf<render::Light>(light, kLights); }
+std::optional<LampChoice> parseLamp(std::string_view text) {
+    if (text == "head") return std::nullopt;
+    const auto n = numbers(text);
+    if (!n || n->size() != 2)
+        throw ChoiceError(
+            fmt::format("light from '{}' is neither head nor azimuth,elevation in degrees", text));
+    return LampChoice{(*n)[0], (*n)[1]};
+}
+std::string lampText(const std::optional<LampChoice>& lamp) {
+    return lamp ? fmt::format("{},{}", lamp->azimuthDegrees, lamp->elevationDegrees) : "head";
+}
 render::OpacityPer parseOpacityPer(std::string_view name) {
     return named<render::OpacityPer>("opacity per", name, kOpacityPers);
 }

@@ -61,10 +61,13 @@ timeseries::Ending parseEnding(std::string_view name);  // once loop ping-pong
 std::string_view endingName(timeseries::Ending ending);
 Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multiview left-right
 std::string_view stereoName(Stereo stereo);
-Model parseModel(std::string_view name);  // points cells
+Model parseModel(std::string_view name);                      // points cells
+std::optional<Model> parseLayerModel(std::string_view name);  // auto: as all layers are
 std::string_view modelName(Model model);
 render::Light parseLight(std::string_view name);  // off soft full
 std::string_view lightName(render::Light light);
+std::optional<LampChoice> parseLamp(std::string_view text);  // head, or "10,50" degrees
+std::string lampText(const std::optional<LampChoice>& lamp);
 render::OpacityPer parseOpacityPer(std::string_view name);  // length crossing
 std::string_view opacityPerName(render::OpacityPer per);
 render::Kernel parseKernel(std::string_view name);  // kernel point

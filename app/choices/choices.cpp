@@ -175,13 +175,19 @@ constexpr std::array kChoices = {
     Choice{
         "--model", "model", Form::Text, [](const Explorer& e) { return Text(modelName(e.model)); },
         [](Explorer& e, std::string_view t) { e.model = parseModel(t); }, "Splats",
-        "cells (default): what lies in the ranges between points, too, so that thin ranges are "
-        "closed shells; points: those in the ranges, each a splat, as categories and kept values "
-        "always are"},
+        "of all layers: auto or cells (default): what lies in the ranges between points, too, so "
+        "that thin ranges are closed shells; points: those in the ranges, each a splat, as "
+        "categories and kept values always are. Repeated: then of each layer in turn, auto as all"},
     Choice{"--light", "light", Form::Text,
            [](const Explorer& e) { return Text(lightName(e.light)); },
            [](Explorer& e, std::string_view t) { e.light = parseLight(t); }, "Splats",
-           "on cells in depth order, from the eye: off, soft (default), or full with highlights"},
+           "on cells in depth order: off, soft (default), or full with highlights"},
+    Choice{
+        "--light-from", "lightFrom", Form::Text,
+        [](const Explorer& e) { return unless(!e.lamp, lampText(e.lamp)); },
+        [](Explorer& e, std::string_view t) { e.lamp = parseLamp(t); }, "Splats",
+        "head (default): from the eye; AZIMUTH,ELEVATION, as --view: from a lamp far away there, "
+        "which stands still in the data's world"},
     Choice{"--opacity-per", "opacityPer", Form::Text,
            [](const Explorer& e) { return Text(opacityPerName(e.opacityPer)); },
            [](Explorer& e, std::string_view t) { e.opacityPer = parseOpacityPer(t); }, "Splats",

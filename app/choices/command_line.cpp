@@ -56,7 +56,12 @@ void addStyle(const LayerChoice& layer, Arguments& arguments) {
     arguments.number("--opacity", *layer.opacity);
 }
 
+bool hasModel(const LayerChoice& layer) { return layer.model.has_value(); }
+
 void addLayers(const Explorer& e, Arguments& arguments) {
+    if (std::ranges::any_of(e.layers, hasModel))  // after that of all
+        for (const LayerChoice& layer : e.layers)
+            arguments.option("--model", layer.model ? modelName(*layer.model) : "auto");
     for (std::size_t i = 0; i < e.layers.size(); ++i) {
         const LayerChoice& layer = e.layers[i];
         if (!layer.motion) arguments.option("--range", layer.ranges.text());
@@ -76,8 +81,9 @@ void addChoices(const Explorer& e, Arguments& arguments) {
         const auto text = choice.text(e);
         // Splats alone would choose points; and from where it is seen is told of every picture.
         const std::string_view option = choice.option;
-        const bool isTold =
-            option == "--view" || (option == "--model" && e.footprint != plain.footprint);
+        const bool isTold = option == "--view" ||
+                            (option == "--model" && (e.footprint != plain.footprint ||
+                                                     std::ranges::any_of(e.layers, hasModel)));
         if (*choice.option == '\0' || !text || (text == choice.text(plain) && !isTold)) continue;
         if (choice.flag)
             arguments.flag(choice.option, *text == choice.flag);

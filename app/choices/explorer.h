@@ -29,12 +29,17 @@ struct MapChoice {
     friend bool operator==(const MapChoice&, const MapChoice&) = default;
 };
 
+// What of the field is drawn: the points in a range, or the cells between them
+// (render/model/cell_splat.h), where a step has them; else points.
+enum class Model { Points, Cells };
+
 struct LayerChoice {
     timeseries::RangeSet ranges;  // that stand; of a layer that moves none
     // sRGB components as written, #rrggbb / 255; or a map. Absent: chosen by place (see styled()).
     std::optional<std::variant<glm::dvec3, MapChoice>> color;
     std::optional<double> opacity;  // of one unit length of fully selected points, [0, 1]
     bool visible = true;            // a hidden layer is neither drawn nor counted in totals
+    std::optional<Model> model{};   // absent: as all layers are
     // The swept window: the layer shows values that move.
     std::optional<timeseries::SweepSettings> motion{};
     friend bool operator==(const LayerChoice&, const LayerChoice&) = default;
@@ -93,9 +98,12 @@ struct PlayChoice {
     friend bool operator==(const PlayChoice&, const PlayChoice&) = default;
 };
 
-// What of the field is drawn: the points in a range, or the cells between them
-// (render/model/cell_splat.h), where a step has them; else points.
-enum class Model { Points, Cells };
+// A lamp far away, which stands still in the data's world: turning the volume, by mouse or hand,
+// turns its light with it. Angles as a view's: from where an eye there would look.
+struct LampChoice {
+    double azimuthDegrees = 0, elevationDegrees = 0;
+    friend bool operator==(const LampChoice&, const LampChoice&) = default;
+};
 
 struct Explorer {
     std::vector<std::filesystem::path> files;
@@ -109,8 +117,9 @@ struct Explorer {
     // One picture of the sweep, where it stands (play.tick), instead of its whole cycle. A window
     // shows one at a time anyway and has no use for it.
     bool oneTick = false;
-    Model model = Model::Cells;
+    Model model = Model::Cells;                                    // of layers without their own
     render::Light light = render::Light::Soft;                     // on cells in depth order
+    std::optional<LampChoice> lamp;                                // absent: light from the eye
     render::OpacityPer opacityPer = render::OpacityPer::Crossing;  // of cells
     render::Footprint footprint;
     render::Order order = render::Order::BackToFront;  // where it shows
@@ -131,6 +140,33 @@ inline const timeseries::SweepSettings* sweepOf(const Explorer& e) {
 }
 inline timeseries::SweepSettings* sweepOf(Explorer& e) {
     return const_cast<timeseries::SweepSettings*>(sweepOf(std::as_const(e)));
+}
+
+inline Model modelOf(const Explorer& e, const LayerChoice& layer) {
+    return layer.model.value_or(e.model);
+}
+// What is drawn by cells, if the step has them: some layer that is seen. Without layers, as a first
+// one would be.
+inline Model modelOf(const Explorer& e) {
+    bool isAny = false;
+    for (const LayerChoice& layer : e.layers) {
+        if (!layer.visible) continue;
+        if (modelOf(e, layer) == Model::Cells) return Model::Cells;
+        isAny = true;
+    }
+    return isAny ? Model::Points : e.model;
+}
+inline bool mixesModels(const Explorer& e) {
+    bool byCells = false, byPoints = false;
+    for (const LayerChoice& layer : e.layers)
+        if (layer.visible) (modelOf(e, layer) == Model::Cells ? byCells : byPoints) = true;
+    return byCells && byPoints;
+}
+// All layers by one model.
+inline Explorer allBy(Model model, Explorer e) {
+    e.model = model;
+    for (LayerChoice& layer : e.layers) layer.model.reset();
+    return e;
 }
 
 // Whether both are about the same sorted steps.

@@ -16,6 +16,13 @@ namespace app {
 
 using timeseries::RangeSet;
 
+namespace {
+
+// Of all layers, and then of each.
+bool isModel(const Choice& choice) { return choice.option == std::string_view("--model"); }
+
+}  // namespace
+
 void ExplorerOptions::addTo(CLI::App& app) {
     app.add_option("FILE", files_, kFileHelp)->check(notEmpty());
     app.add_option("--session", session_,
@@ -46,8 +53,11 @@ void ExplorerOptions::addTo(CLI::App& app) {
     for (std::size_t i = 0; i < choices().size(); ++i) {
         const Choice& choice = choices()[i];
         if (*choice.option == '\0') continue;
-        auto* option = choice.flag ? app.add_flag(choice.option, choice.help)
-                                   : app.add_option(choice.option, texts_[i], choice.help);
+        auto* option =
+            choice.flag ? app.add_flag(choice.option, choice.help)
+            : isModel(choice)
+                ? app.add_option(choice.option, models_, choice.help)->allow_extra_args(false)
+                : app.add_option(choice.option, texts_[i], choice.help);
         option->group(choice.group);
     }
 }
@@ -74,7 +84,8 @@ void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
             e.layers.push_back({RangeSet::parse(range), {}, {}});
     }
     const auto colors = colorsInOrder(app);
-    const std::size_t styles = std::max(colors.size(), opacities_.size());
+    const std::size_t models = models_.empty() ? 0 : models_.size() - 1;
+    const std::size_t styles = std::max({colors.size(), opacities_.size(), models});
     if (e.layers.empty() && (styles == 1 || !hidden_.empty())) {
         // A style for the first choice, whose range is not known yet.
         e.layers.emplace_back();
@@ -82,11 +93,14 @@ void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
     }
     if (styles > e.layers.size())
         throw ChoiceError(
-            fmt::format("{} colours or opacities for {} layers: give a --range for each", styles,
-                        e.layers.size()));
+            fmt::format("{} colours, opacities or models for {} layers: give a --range for each",
+                        styles, e.layers.size()));
     for (std::size_t i = 0; i < colors.size(); ++i) e.layers[i].color = colors[i];
     for (std::size_t i = 0; i < opacities_.size(); ++i)
         e.layers[i].opacity = parseNumber("opacity", opacities_[i]);
+    if (!models_.empty())
+        for (LayerChoice& layer : e.layers) layer.model.reset();
+    for (std::size_t i = 0; i < models; ++i) e.layers[i].model = parseLayerModel(models_[i + 1]);
     for (const std::size_t number : hidden_) {
         if (number > e.layers.size())
             throw ChoiceError(
@@ -137,7 +151,7 @@ Explorer ExplorerOptions::explorer(const CLI::App& app) const {
         if (choice.group == std::string_view("Sweep") && sweepOf(e) == nullptr &&
             !given(app, "--sweep"))
             throw ChoiceError(fmt::format("{} needs --sweep beside it", choice.option));
-        take(choice, texts_[i], e);
+        take(choice, isModel(choice) ? models_.front() : texts_[i], e);
     }
     // Who chooses splats chooses points.
     if ((given(app, "--splat") || given(app, "--splat-size")) && !given(app, "--model"))

@@ -27,7 +27,7 @@ class ExplorerOptions {
     void applyLayers(const CLI::App& command, Explorer& explorer) const;
 
     std::vector<std::string> texts_;  // of each of choices(), where its option takes one
-    std::vector<std::string> files_, ranges_, colors_, colormaps_, opacities_, axisNames_;
+    std::vector<std::string> files_, ranges_, colors_, colormaps_, opacities_, axisNames_, models_;
     std::vector<std::size_t> hidden_;
     std::string session_;
 };

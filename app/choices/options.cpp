@@ -109,10 +109,10 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     options.portable = text.portable;
     options.progress = text.progress;
     if (options.splatter == render::SplatterChoice::Exact) {
-        if (text.modelGiven && options.explorer.model == Model::Cells)
+        if (text.modelGiven && modelOf(options.explorer) == Model::Cells)
             throw ChoiceError(
                 "--splatter exact draws points: --model cells is drawn by the others");
-        options.explorer.model = Model::Points;
+        options.explorer = allBy(Model::Points, std::move(options.explorer));
     }
     checkOutput(options);
     return options;

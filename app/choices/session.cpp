@@ -30,6 +30,7 @@ constexpr int kVersion = 1;
 void writeStyle(json& out, const LayerChoice& layer) {
     if (!layer.visible) out["visible"] = false;
     if (layer.opacity) out["opacity"] = *layer.opacity;
+    if (layer.model) out["model"] = modelName(*layer.model);
     if (!layer.color) return;
     if (const auto* rgb = std::get_if<glm::dvec3>(&*layer.color)) {
         out["color"] = colorText(*rgb);
@@ -60,6 +61,8 @@ LayerChoice readStyle(JsonObject& object) {
         if (!(a >= 0 && a <= 1)) throw ChoiceError("is not between 0 and 1");
         layer.opacity = a;
     });
+    object.read<std::string>("model",
+                             [&](const std::string& m) { layer.model = parseLayerModel(m); });
     object.read<bool>("visible", [&](bool b) { layer.visible = b; });
     return layer;
 }
@@ -204,6 +207,7 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
         for (std::size_t i = 0; i < were.size(); ++i)
             if (isThere(were[i]) || !isThere(e.files[i])) e.files[i] = were[i];
     });
+    object.read<double>(kSessionErrorKey, [](double) {});
     object.read<json>("layers", [&](const json& layers) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
         e.noLayers = layers.empty();

@@ -26,6 +26,10 @@ Explorer fromJson(const nlohmann::json& json, const std::filesystem::path& folde
 // Under which name a picture carries its session, as JSON text.
 inline constexpr const char* kSessionKey = "isochronSession";
 
+// What a session file may tell beside the choices: the error of the picture that it was saved of
+// (app/picture/depth_error.h). Read over, for whoever draws it works it out.
+inline constexpr const char* kSessionErrorKey = "opticalDepthError";
+
 // Whether a file's name says that it is one that readSession() takes.
 bool holdsSession(const std::filesystem::path& file);
 // A session file, or a picture (.png, .exr) that carries its session; paths are relative to its

@@ -59,6 +59,11 @@ ViewChoice fitted(ViewChoice view) {
     return view;
 }
 
+LampChoice lampBeside(const ViewChoice& view) {
+    return {std::round(wrapped(view.azimuthDegrees - 40)),
+            std::round(std::clamp(view.elevationDegrees + 30, -90.0, 80.0))};
+}
+
 ViewChoice lookedFrom(ViewChoice view, Side side) {
     // Azimuth and elevation, in the order of Side.
     constexpr std::array<std::pair<double, double>, 6> kAngles = {

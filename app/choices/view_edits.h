@@ -28,6 +28,9 @@ ViewChoice zoomed(ViewChoice view, double factor, glm::dvec2 cursor, const Looki
 // All of the box, from where it is looked at.
 ViewChoice fitted(ViewChoice view);
 
+// A lamp above and left of who looks so.
+LampChoice lampBeside(const ViewChoice& view);
+
 // Looking along an axis, towards + or -: "from the right" is from +x.
 enum class Side { Front, Back, Left, Right, Top, Bottom };
 ViewChoice lookedFrom(ViewChoice view, Side side);

@@ -49,11 +49,9 @@ void tellFiles(const FrameFiles& frames, const timeseries::Variable& variable) {
 
 // What is said of the pictures once they are made.
 struct Told {
-    std::size_t mixed = 0;       // how many say that their colours are mixed
-    std::string error{};         // of the one in the middle, as it is said
-    std::filesystem::path of{};  // that one
-    std::size_t flat = 0;        // how many lie flat that were to lie on a globe,
-    std::string whyFlat{};       // and why
+    std::size_t mixed = 0;  // how many say that their colours are mixed
+    std::size_t flat = 0;   // how many lie flat that were to lie on a globe,
+    std::string whyFlat{};  // and why
 };
 
 std::string whyFlat(const Explorer& e, const timeseries::Grid& grid,
@@ -63,19 +61,41 @@ std::string whyFlat(const Explorer& e, const timeseries::Grid& grid,
     return flaw.empty() ? kNoVolumeOnGlobe : flaw;
 }
 
-DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-                    const render::PlacedPoints& placed) {
-    const Rung drawn{e.model};
+DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step) {
+    const Rung drawn{modelOf(e)};
+    const auto outline = render::PlacedPoints::outlineOf(step.grid(), e.scale, e.map);
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
-                         eyes(e.view, e.stereo, placed.outline(), e.size).front(),
-                         std::span(&drawn, 1));
+                         eyes(e.view, e.stereo, outline, e.size).front(), std::span(&drawn, 1));
 }
 
 std::string errorText(const DepthErrors& errors) {
+    if (errors.rungs.empty()) return "";
     const RungError& error = errors.rungs.front();
     const std::string depth = depthErrorText(error.depth);
     if (depth.empty()) return "";
     return depth + " of optical depth" + lightErrorText(error, errors.ordering);
+}
+
+// What all pictures have said of their error: that of the one in the middle, since working it out
+// takes longer than drawing a picture.
+struct MiddleError {
+    std::optional<double> depth;
+    std::string text;          // as it is said
+    std::filesystem::path of;  // that picture
+};
+MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource& source) {
+    const FrameAt middle = frames[frames.size() / 2];
+    MiddleError error{{}, {}, middle.file};
+    try {
+        const auto step = source.get(middle.step, frames.front().step);
+        if (!hasDepthError(*step)) return error;
+        const DepthErrors errors = errorOf(e, middle, *step);
+        error.depth = errors.of({modelOf(e)});
+        error.text = errorText(errors);
+    } catch (const timeseries::FileError&) {
+        // What cannot be read is told when its turn comes, after the pictures before it.
+    }
+    return error;
 }
 
 // Writes a picture while the next one is drawn.
@@ -103,8 +123,8 @@ class WritingBeside {
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
 // the GPU.
 Told drawFrames(const RenderOptions& options, const Explorer& e,
-                const timeseries::Variable& variable, const FrameFiles& frames, StepSource& source,
-                render::FrameRenderer& renderer) {
+                const timeseries::Variable& variable, const FrameFiles& frames,
+                const MiddleError& error, StepSource& source, render::FrameRenderer& renderer) {
     std::shared_ptr<const SortedStep> shown;
     std::optional<render::PlacedPoints> placed;
     std::optional<render::GlStep> onGpu;
@@ -121,13 +141,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
             placed.emplace(step->grid(), e.scale, e.map);
             onGpu.emplace(*step, *placed, onGpu ? onGpu->mesh() : nullptr);
         }
-        std::optional<double> error;
-        if (i == frames.size() / 2 && hasDepthError(*step)) {
-            const DepthErrors errors = errorOf(e, frame, *step, *placed);
-            error = errors.of({e.model});
-            if (error) told.error = errorText(errors);
-            told.of = frame.file;
-        }
+        const bool isOfAnother = frame.file != error.of;
         DrawnStill drawn = drawStill({.explorer = e,
                                       .variable = variable,
                                       .stepIndex = frame.step,
@@ -135,7 +149,8 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
                                       .placed = *placed,
                                       .tick = frame.tick,
                                       .paths = options.portable ? Paths::Relative : Paths::Both,
-                                      .error = error},
+                                      .error = error.depth,
+                                      .errorOf = isOfAnother ? error.of.filename().string() : ""},
                                      renderer, *onGpu,
                                      {.opticalDepth = options.opticalDepth,
                                       .splatCount = options.splatCount,
@@ -188,8 +203,9 @@ int renderHeadless(const RenderOptions& options) {
     const Dataset& dataset = chosen.dataset;
     Drawing drawing(options);
     const FrameFiles frames(options.output, e, chosen.steps);
-    const auto [mixed, error, middle, flat, why] =
-        drawFrames(options, e, dataset.variable, frames, *chosen.source, drawing.renderer());
+    const MiddleError error = errorOfMiddle(e, frames, *chosen.source);
+    const auto [mixed, flat, why] =
+        drawFrames(options, e, dataset.variable, frames, error, *chosen.source, drawing.renderer());
     tellFiles(frames, dataset.variable);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
@@ -203,8 +219,9 @@ int renderHeadless(const RenderOptions& options) {
             inSome(mixed), render::kMixedDepth);
     if (flat > 0) say("  note: what is drawn lies flat{}: {}\n", inSome(flat), why);
     tellStyle(e, dataset.variable);
-    if (!error.empty())
-        say("  {}{}\n", error, frames.size() == 1 ? "" : fmt::format(" in {}", middle.string()));
+    if (!error.text.empty())
+        say("  {}{}\n", error.text,
+            frames.size() == 1 ? "" : fmt::format(" in {}", error.of.string()));
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);

@@ -55,8 +55,9 @@ struct Subject {
 std::string truthText(const MeasureOptions& options) {
     return fmt::format(
         "the field interpolated between its points, exactly, mean of {0} x {0} rays a "
-        "pixel",
-        options.rays);
+        "pixel{1}",
+        options.rays,
+        options.explorer.light == render::Light::Off ? "" : "; of lit cells lit as they are");
 }
 
 ordered_json json(const Subject& subject, const std::vector<Measured>& modes) {
@@ -107,7 +108,8 @@ void writeFiles(const MeasureOptions& options, const std::vector<Measured>& mode
 }  // namespace
 
 int measureModes(const MeasureOptions& options) {
-    modesNamed(options.modes, true);  // an unknown one is refused before a file is read
+    modesNamed(options.modes, true,
+               options.explorer.light);  // an unknown one is refused before a file is read
     ChosenData data = openChosen(options.explorer);
     if (data.steps.size() != 1)
         throw ChoiceError(fmt::format("measure draws one step, not {}: name it, --step {}",

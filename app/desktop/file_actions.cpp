@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/choices/command_line.h"
 #include "app/choices/session.h"
 #include "app/choices/user_files.h"
 #include "app/json_text.h"
+#include "app/picture/depth_error.h"
 #include "app/picture/picture.h"
 
 namespace app::desktop {
@@ -64,7 +66,7 @@ FileActions::FileActions(Exploration& exploration, Canvas& canvas,
 void FileActions::serve(const panels::Requests& requests, panels::Interface& interface,
                         const std::optional<double>& error) {
     if (!requests.open.empty()) open(requests.open);
-    if (requests.save) save(*requests.save);
+    if (requests.save) save(*requests.save, error);
     if (requests.exportTo) exportTo(*requests.exportTo);
     if (requests.cancelExport) cancelExport();
     if (requests.discardLeft) discardLeft();
@@ -124,17 +126,25 @@ void FileActions::discardLeft() {
     if (!left_.empty()) forgetLeft(fs::path(left_.front().file));
 }
 
-void FileActions::save(const fs::path& file) {
+void FileActions::save(const fs::path& file, const std::optional<double>& error) {
     telling(exploration_, [&] {
-        writeWhole(file, jsonText(toJson(exploration_.explorer(), file.parent_path()), 2) + "\n");
+        nlohmann::json session = toJson(exploration_.explorer(), file.parent_path());
+        if (error && std::isfinite(*error)) session[kSessionErrorKey] = *error;
+        writeWhole(file, jsonText(session, 2) + "\n");
         exploration_.tell("Saved " + file.string());
     });
 }
 
-void FileActions::screenshot(const std::optional<double>& error) {
+void FileActions::screenshot(std::optional<double> error) {
     const auto shown = exploration_.shown();
     if (!shown) return;
     telling(exploration_, [&] {
+        if (!error && hasDepthError(*shown->sorted)) {
+            const Rung whole{modelOf(shown->explorer)};
+            error = depthErrorsOf(shown->explorer, *shown->sorted, canvas_.eyesOf(*shown).front(),
+                                  std::span(&whole, 1))
+                        .of(whole);
+        }
         const fs::path file = numbered(fs::path(shown->dataset.name).stem().string());
         canvas_.save(*shown, file, error);
         const bool isAsAsked = shown->explorer.map == exploration_.explorer().map;

@@ -25,14 +25,15 @@ class FileActions {
                 std::function<void(const std::string&)> copy);
 
     // Does what panels ask for, but for readings of the picture, which whoever draws it has.
-    // `error`: of the picture shown (depth_error.h), where it is known.
+    // `error`: of the picture shown (depth_error.h), where it is known, for what is saved.
     void serve(const panels::Requests& requests, panels::Interface& interface,
                const std::optional<double>& error = {});
 
     // A member of a series, a folder, several files; a session, or a picture that carries one.
     void open(const std::vector<std::filesystem::path>& named);
-    void save(const std::filesystem::path& file);
-    void screenshot(const std::optional<double>& error);
+    void save(const std::filesystem::path& file, const std::optional<double>& error = {});
+    // Works the error out where it is not known.
+    void screenshot(std::optional<double> error);
     void copyCommandLine();
     void exportTo(const std::filesystem::path& output);
     void cancelExport();

@@ -144,7 +144,7 @@ CanvasLimits PictureView::moving(const Explorer& explorer, const panels::Choices
 
 bool PictureView::waitsForError() const {
     const bool isTold = measured_ && (parts_ == Parts::None || *measured_ == Parts::All);
-    return content_ && isDone() && !isTold && eyes_.size() == 1 && hasDepthError(*content_->sorted);
+    return content_ && isDone() && !isTold && !eyes_.empty() && hasDepthError(*content_->sorted);
 }
 
 void PictureView::tellError() {

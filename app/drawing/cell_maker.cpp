@@ -8,8 +8,7 @@ namespace app {
 void CellMaker::want(const Screen& screen) {
     constexpr std::uint64_t kAtOnce = 1 << 18;  // 8 ms
     const auto& step = screen.sorted;
-    if (screen.explorer.model != Model::Cells || !step->canHaveCells() || step->cellsIfMade())
-        return;
+    if (!needsCells(screen.explorer, *step, screen.held->placed) || step->cellsIfMade()) return;
     if (step->grid().count() <= kAtOnce) {
         step->cells();
     } else if (!busy_->exchange(true)) {

@@ -119,8 +119,9 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
 }
 
 void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
-    std::string text = readoutText(exploration_, {eyes_.canvas().screen(), eyes_.report().counts},
-                                   interaction_.tip(), eyes_.scale());
+    std::string text = readoutText(
+        exploration_, {eyes_.canvas().screen(), eyes_.report().counts, error_.text(drawn())},
+        interaction_.tip(), eyes_.scale());
     if (const std::string rate = eyes_.refreshRate().loweredText(); !rate.empty())
         text += "\n" + rate;
     readout_.write(text);
@@ -133,7 +134,10 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
                                      .clipsByHand = interaction_.clipsByHand()}};
     const Panel::Asked asked = panel_.draw(exploration_, interaction_.pointer(), around, dt);
     asked_ = asked.interaction;
-    fileActions_.serve(asked.requests, panel_.interface());
+    // What is saved is drawn whole.
+    const auto& errors = error_.errors();
+    fileActions_.serve(asked.requests, panel_.interface(),
+                       errors ? errors->of({modelOf(exploration_.explorer())}) : std::nullopt);
 }
 
 // Of now and then: numbers that change with every frame cannot be read, and the panel would be
@@ -143,12 +147,16 @@ const panels::Performance& Headset::performance(const xr::Session::Frame& frame)
     const bool waits = frame.displayTime() - performanceOf_ < 2s;
     const CanvasReport& told = performance_.report;
     if (waits && told.whole == report.whole && told.step == report.step &&
-        told.selected == report.selected)
+        told.selected == report.selected &&
+        performance_.errors.has_value() == error_.errors().has_value())
         return performance_;
     performanceOf_ = frame.displayTime();
-    performance_ = {eyes_.work(), frame.period(), report};
+    performance_ = {eyes_.work(), frame.period(), report, 0, error_.errors()};
     return performance_;
 }
+
+// As the picture before the eyes has it.
+Rung Headset::drawn() const { return panels::Performance{.report = eyes_.report()}.drawn(); }
 
 std::vector<render::Placard> Headset::placards(const xr::Session::Frame& frame) const {
     Boards boards{
@@ -168,6 +176,8 @@ void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
                Eyes::Splats::Governed,
                [&](render::Targets& light) { graphics_->mirror(eyes_.present(), light); });
     checkDriver(exploration_);
+    if (const Screen* const screen = eyes_.canvas().screen())
+        error_.update(*screen, viewOf(eyes.front(), interaction_.placement()), Clock::now());
     eyes_.took(began, frame.period());
     if (const auto rate = eyes_.refreshRate().wanted()) session_->requestRefreshRate(*rate);
     frame.submit(kNear, kFar);

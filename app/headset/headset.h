@@ -15,6 +15,7 @@
 #include "app/headset/graphics.h"
 #include "app/headset/hand_interaction.h"
 #include "app/headset/panel.h"
+#include "app/headset/seen_error.h"
 #include "app/headset/text_board.h"
 #include "xr/session.h"
 
@@ -52,6 +53,7 @@ class Headset {
     std::chrono::nanoseconds since(std::chrono::nanoseconds displayTime);
     void act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt);
     void drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt);
+    Rung drawn() const;
     const panels::Performance& performance(const xr::Session::Frame& frame);
     std::vector<render::Placard> placards(const xr::Session::Frame& frame) const;
     void drawEyes(xr::Session::Frame& frame, Clock::time_point began);
@@ -65,6 +67,7 @@ class Headset {
     Eyes eyes_;
     Panel panel_;
     TextBoard readout_;
+    SeenError error_;
     desktop::FileActions fileActions_;
     std::optional<std::chrono::nanoseconds> lastDisplay_;
     panels::Performance performance_;

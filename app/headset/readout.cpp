@@ -51,6 +51,7 @@ std::string readoutText(const Exploration& exploration, const SeenPicture& seen,
     if (seen.counts)
         text += fmt::format("\n{} points{}", withCommas(seen.counts->selected),
                             seen.counts->inClipBox ? " in the clip box" : "");
+    if (!seen.error.empty()) text += "\n" + seen.error;
     if (const std::string waiting = exploration.waiting(); !waiting.empty()) text += "\n" + waiting;
     if (exploration.playback().playing) text += "\nplaying";
     if (renderScale < 1) text += fmt::format("\nresolution {} %", std::lround(100 * renderScale));

@@ -19,11 +19,14 @@ std::vector<double> roundLimits(double least, double most) {
 }
 
 std::vector<std::size_t> choicesOf(std::span<const Measured> modes) {
-    const auto isOrdered = [](const Measured& m) { return m.mode.order != render::Order::None; };
+    const auto isLit = [](const Measured& m) { return m.mode.light != render::Light::Off; };
+    const auto isOrdered = [&](const Measured& m) {
+        return m.mode.order != render::Order::None && !isLit(m);
+    };
     const bool someOrdered = std::ranges::any_of(modes, isOrdered);
     std::vector<std::size_t> choices;
     for (std::size_t i = 0; i < modes.size(); ++i)
-        if (!modes[i].massIsOff() && std::isfinite(modes[i].depthError) &&
+        if (!isLit(modes[i]) && !modes[i].massIsOff() && std::isfinite(modes[i].depthError) &&
             isOrdered(modes[i]) == someOrdered)
             choices.push_back(i);
     return choices;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "app/choices/camera.h"
@@ -14,9 +15,12 @@
 #include "app/picture/picture.h"
 #include "app/picture/still.h"
 #include "render/frame/plain_frame.h"
+#include "render/model/rays_across.h"
+#include "render/reference/cells_on_rays.h"
 #include "render/reference/color_difference.h"
 #include "render/reference/image_compare.h"
 #include "render/reference/interval_truth.h"
+#include "render/reference/splats_on_pixels.h"
 
 namespace app {
 namespace {
@@ -89,12 +93,11 @@ class Bench {
     }
 
     render::Scene sceneOf(const Mode& mode) const {
-        Explorer e = explorer_;
-        e.model = mode.model;
+        Explorer e = allBy(mode.model, explorer_);
         e.order = mode.order;
-        // What the truth is: lengths, and light that comes from within.
+        // What the truth is: lengths, and light that comes from within or as it is given.
         e.opacityPer = render::OpacityPer::Length;
-        e.light = render::Light::Off;
+        e.light = mode.light;
         render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
         scene.stride = mode.stride;
         scene.footprint = standingFor(scene.footprint, mode.stride);
@@ -135,7 +138,7 @@ class Bench {
 
     // As the modes are measured: lengths, and light that comes from within.
     DepthErrors errorParts(std::span<const Rung> rungs, render::Order order) const {
-        Explorer e = explorer_;
+        Explorer e = allBy(Model::Cells, explorer_);
         e.opacityPer = render::OpacityPer::Length;
         e.light = render::Light::Off;
         e.order = order;
@@ -148,16 +151,63 @@ class Bench {
     };
     Truth truth() const {
         const render::Scene scene = sceneOf({Model::Cells, 1, render::Order::BackToFront});
-        const render::IntervalTruth truth(scene, scene.cells->field(),
-                                          static_cast<int>(how_.raysAcross));
+        const render::IntervalTruth truth = truthOf(scene);
         Views shown(explorer_.size, views_.size());
         for (std::size_t v = 0; v < views_.size(); ++v)
             shown.add(v, opticalDepth(truth, scene, views_[v]),
                       onBackground(truth.light(views_[v]), explorer_.size));
         return {std::move(shown), opticalDepth(truth, scene, turned_)};
     }
+    // The same, seen in this light.
+    Views lit(const Views& dark, render::Light light) const {
+        const render::Scene scene = sceneOf({Model::Cells, 1, render::Order::BackToFront, light});
+        const render::IntervalTruth truth = truthOf(scene);
+        Views shown(explorer_.size, views_.size());
+        const std::size_t pixels = dark.opticalDepth.size() / views_.size();
+        for (std::size_t v = 0; v < views_.size(); ++v) {
+            const auto first = dark.opticalDepth.begin() + std::ptrdiff_t(v * pixels);
+            shown.add(v, std::vector<double>(first, first + std::ptrdiff_t(pixels)),
+                      onBackground(truth.light(views_[v]), explorer_.size));
+        }
+        return shown;
+    }
+    // Measured::arithmetic, of what the first view shows and has in truth.
+    double arithmetic(const render::Scene& scene, std::span<const double> shown,
+                      std::span<const double> truth) const {
+        const std::vector<std::size_t> some = thinnedOut(shown, truth);
+        const render::View& view = views_.front();
+        std::vector<glm::ivec2> pixels;
+        for (const std::size_t i : some)
+            pixels.emplace_back(static_cast<int>(i) % view.size.x,
+                                static_cast<int>(i) / view.size.x);
+        const std::vector<double> exact =
+            scene.cells ? cellDepthAt(scene, view, pixels, raysAcross(scene, view))
+                        : splatDepthAt(scene, view, pixels, 1);
+        double differences = 0, squares = 0;
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            const double difference = shown[some[k]] - exact[k];
+            differences += difference * difference;
+            squares += truth[some[k]] * truth[some[k]];
+        }
+        return differences == 0 ? 0 : std::sqrt(differences / squares);
+    }
 
  private:
+    // Places of pixels where something is shown or is, no more than take a moment.
+    static std::vector<std::size_t> thinnedOut(std::span<const double> shown,
+                                               std::span<const double> truth) {
+        constexpr std::size_t kMost = 2048;
+        std::vector<std::size_t> all;
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            if (shown[i] > 0 || truth[i] > 0) all.push_back(i);
+        if (all.size() <= kMost) return all;
+        std::vector<std::size_t> some;
+        for (std::size_t k = 0; k < kMost; ++k) some.push_back(all[k * all.size() / kMost]);
+        return some;
+    }
+    render::IntervalTruth truthOf(const render::Scene& scene) const {
+        return {scene, scene.cells->field(), static_cast<int>(how_.raysAcross)};
+    }
     render::View viewOf(const ViewChoice& view) const {
         return eyes(view, {}, placed_.outline(), explorer_.size).front();
     }
@@ -219,10 +269,11 @@ double poppingOf(std::span<const double> shown, std::span<const float> shownTurn
 
 std::string Mode::name() const {
     std::string name(modelName(model));
+    if (light != render::Light::Off) return "lit " + name;
     return stride == 1 ? name : fmt::format("{} 1/{}", name, stride);
 }
 
-std::vector<Mode> modesFor(bool severalColors) {
+std::vector<Mode> modesFor(bool severalColors, render::Light light) {
     std::vector<render::Order> orders = {render::Order::None};
     if (severalColors) orders.insert(orders.begin(), render::Order::BackToFront);
     std::vector<Mode> modes;
@@ -230,17 +281,20 @@ std::vector<Mode> modesFor(bool severalColors) {
         for (const std::uint32_t stride : {8u, 4u, 2u, 1u})
             modes.push_back({Model::Points, stride, order});
     for (const render::Order order : orders) modes.push_back({Model::Cells, 1, order});
+    if (light != render::Light::Off)
+        modes.push_back({Model::Cells, 1, render::Order::BackToFront, light});
     return modes;
 }
 
-std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors) {
+std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors,
+                             render::Light light) {
     std::vector<std::string> known;
-    for (const Mode& mode : modesFor(false)) known.push_back(mode.name());
+    for (const Mode& mode : modesFor(false, light)) known.push_back(mode.name());
     for (const std::string& name : names)
         if (std::ranges::find(known, name) == known.end())
             throw ChoiceError(
                 fmt::format("--modes: '{}' is none of {}", name, fmt::join(known, ", ")));
-    std::vector<Mode> modes = modesFor(severalColors);
+    std::vector<Mode> modes = modesFor(severalColors, light);
     if (!names.empty())
         std::erase_if(modes, [&](const Mode& mode) {
             return std::ranges::find(names, mode.name()) == names.end();
@@ -263,7 +317,7 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     const double beforePoints = bench.prepare(Model::Points);
     const double beforeCells = bench.prepare(Model::Cells);
     const std::vector<Mode> modes =
-        modesNamed(how.modes, !render::areOneColor(bench.sceneOf({}).layers));
+        modesNamed(how.modes, !render::areOneColor(bench.sceneOf({}).layers), explorer.light);
     struct TimedScene {
         render::Scene scene;
         Views shown;
@@ -290,6 +344,7 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     tell(rounds - 1);
     const Bench::Truth truth = bench.truth();
     const std::span first(truth.shown.opticalDepth.data(), truth.turned.size());
+    std::optional<Views> litTruth;
     std::vector<Measured> all;
     for (std::size_t i = 0; i < modes.size(); ++i) {
         Measured& m = all.emplace_back();
@@ -298,8 +353,12 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
         m.before = m.mode.model == Model::Points ? beforePoints : beforeCells;
         for (const render::Layer& layer : drawn[i].scene.layers)
             m.drawn += static_cast<double>(drawnCount(drawn[i].scene, layer));
-        compare(drawn[i].shown, truth.shown, m);
-        m.popping = poppingOf(drawn[i].shown.opticalDepth, drawn[i].turned, first, truth.turned);
+        const bool isLit = m.mode.light != render::Light::Off;
+        if (isLit && !litTruth) litTruth = bench.lit(truth.shown, m.mode.light);
+        compare(drawn[i].shown, isLit ? *litTruth : truth.shown, m);
+        const std::span shown(drawn[i].shown.opticalDepth.data(), first.size());
+        m.arithmetic = bench.arithmetic(drawn[i].scene, shown, first);
+        m.popping = poppingOf(shown, drawn[i].turned, first, truth.turned);
     }
     takeParts(bench, all);
     return all;

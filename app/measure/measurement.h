@@ -21,16 +21,20 @@ struct Mode {
     std::uint32_t stride = 1;  // one of so many points stands for all
     // Front to back or back to front; None mixes colours along the ray.
     render::Order order = render::Order::None;
+    // Of cells by depth alone, and then the truth that they are held against is lit alike. All
+    // others, as points always are, are measured in the light that comes from within.
+    render::Light light = render::Light::Off;
 
-    std::string name() const;  // "points", "points 1/4", "cells"
+    std::string name() const;  // "points", "points 1/4", "cells", "lit cells"
     friend bool operator==(const Mode&, const Mode&) = default;
 };
 // In which a scene can be drawn: points, subsets of them, cells; both orders where it has more than
-// one colour.
-std::vector<Mode> modesFor(bool severalColors);
+// one colour; then cells in this light.
+std::vector<Mode> modesFor(bool severalColors, render::Light light = render::Light::Off);
 // Those of them with one of the names, in the same order; without names, all. Throws ChoiceError
 // for a name that none has.
-std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors);
+std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors,
+                             render::Light light = render::Light::Off);
 
 // A mass that is more than 5 % off is not to be overlooked beside a short time.
 inline constexpr double kMassTolerance = 0.05;
@@ -45,6 +49,9 @@ struct Measured {
     // Of optical depth, all layers together, over all views, against the truth's.
     double depthError = 0;  // relative L2
     double mass = 1;        // its sum over the truth's
+    // What arithmetic alone does to it: as drawn, against the same splats or cells and rays in
+    // double, relative to the truth's depth; at some pixels of the first view.
+    double arithmetic = 0;
     // What the picture changes by and the truth does not when the first view turns by kTurnDegrees:
     // relative to the truth's depth, as depthError is.
     double popping = 0;

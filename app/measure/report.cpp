@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/choices/choice_text.h"
 #include "app/files/dataset.h"
 #include "app/measure/best_modes.h"
 
@@ -31,18 +32,19 @@ std::string orderText(render::Order order) {
 }
 
 std::string table(std::span<const Measured> modes) {
-    std::string text =
-        fmt::format("{:<12} {:<9} {:>9} {:>9} {:>12} {:>8} {:>9}  {:>8} {:>8} {:>6} {:>8} {:>7}\n",
-                    "mode", "order", "frame", "before", "drawn", "depth L2", "mass  ", "popping",
-                    "RMSE", "PSNR", "largest", "dE 95 %");
+    std::string text = fmt::format(
+        "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8} {:>9}  {:>8} {:>8} {:>8} {:>6} {:>8} {:>7}\n",
+        "mode", "order", "frame", "before", "drawn", "depth L2", "mass  ", "in float", "popping",
+        "RMSE", "PSNR", "largest", "dE 95 %");
     bool isOff = false;
     for (const Measured& m : modes) {
         text += fmt::format(
-            "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8.4f} {:>9}{} {:>8.4f} {:>8.2e} {:>6.1f} "
+            "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8.4f} {:>9}{} {:>8.1e} {:>8.4f} {:>8.2e} {:>6.1f} "
             "{:>8.2e} {:>7.2f}\n",
             m.mode.name(), orderText(m.mode.order), timeText(m.frame), timeText(m.before),
             withCommas(static_cast<std::uint64_t>(m.drawn)), m.depthError, massText(m),
-            m.massIsOff() ? "" : "  ", m.popping, m.rmse, m.psnr, m.largest, m.colorDifference);
+            m.massIsOff() ? "" : "  ", m.arithmetic, m.popping, m.rmse, m.psnr, m.largest,
+            m.colorDifference);
         isOff = isOff || m.massIsOff();
     }
     if (isOff)
@@ -88,6 +90,7 @@ ordered_json json(const Measured& m) {
     const ErrorParts parts = m.parts.parts.value_or(ErrorParts());
     return {{"mode", m.mode.name()},
             {"order", orderText(m.mode.order)},
+            {"light", lightName(m.mode.light)},
             {"frame", m.frame},
             {"before", m.before},
             {"drawn", static_cast<std::uint64_t>(m.drawn)},
@@ -97,6 +100,7 @@ ordered_json json(const Measured& m) {
             {"subsetError", finite(parts.subset)},
             {"pixelsError", finite(parts.pixels)},
             {"orderError", finite(m.parts.order)},
+            {"arithmeticError", finite(m.arithmetic)},
             {"mass", finite(m.mass)},
             {"massIsOff", m.massIsOff()},
             {"popping", finite(m.popping)},

@@ -101,7 +101,8 @@ std::vector<PlotLine> joining(std::span<const Measured> modes, std::span<const g
     std::vector<PlotLine> lines;
     for (std::size_t i = 1; i < modes.size(); ++i) {
         const Mode &mode = modes[i].mode, &before = modes[i - 1].mode;
-        if (mode.model != before.model || mode.order != before.order) continue;
+        if (mode.model != before.model || mode.order != before.order || mode.light != before.light)
+            continue;
         PlotLine line{places[i - 1], places[i], colorOf(mode), 1.5};
         if (mode.order == render::Order::None) {
             line.dash = 4;
@@ -139,7 +140,8 @@ struct Box {
 // A subset is told by its share alone, beside the mode that it is of.
 std::string nameOf(const Measured& m, bool severalOrders) {
     std::string name = m.mode.stride > 1 ? fmt::format("1/{}", m.mode.stride) : m.mode.name();
-    if (severalOrders && m.mode.stride == 1) name += ", " + orderText(m.mode.order);
+    if (severalOrders && m.mode.stride == 1 && m.mode.light == render::Light::Off)
+        name += ", " + orderText(m.mode.order);
     if (m.massIsOff() && m.mode.stride == 1)
         name += fmt::format(" (mass {:+.0f} %)", 100 * (m.mass - 1));
     return name;
@@ -222,7 +224,8 @@ Plot tradePlot(std::span<const Measured> modes, const std::string& title) {
     for (const Measured& m : modes) {
         times.push_back(m.frame);
         errors.push_back(m.depthError);
-        severalOrders = severalOrders || m.mode.order != modes.front().mode.order;
+        severalOrders = severalOrders || (m.mode.order != modes.front().mode.order &&
+                                          m.mode.light == modes.front().mode.light);
     }
     const Scale x(times, kLeft, kRight), y(errors, kBottom, kTop);
     std::vector<glm::dvec2> places;

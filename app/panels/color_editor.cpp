@@ -54,7 +54,15 @@ bool ColorEditor::draw(PanelContext& context, LayerChoice& layer) {
             layer.color = kLayerColors[0];
         changed = true;
     }
-    ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 38 * s)));
+    const glm::vec2 below = at + glm::vec2(0, 34 * s);
+    constexpr std::array kModels = {"Auto", "Points", "Cells"};
+    const std::size_t now = layer.model ? 1 + static_cast<std::size_t>(*layer.model) : 0;
+    if (const auto model = segmented(context.theme, "model",
+                                     {below, below + glm::vec2(width, 28 * s)}, kModels, now)) {
+        layer.model = *model == 0 ? std::nullopt : std::optional(static_cast<Model>(*model - 1));
+        changed = true;
+    }
+    ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 72 * s)));
     const bool maps = layer.color && std::holds_alternative<MapChoice>(*layer.color);
     return (maps ? drawMaps(context, layer, width) : drawConstant(context, layer, width)) ||
            changed;

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "app/choices/edits.h"
+#include "app/choices/view_edits.h"
+#include "render/annotate/ticks.h"
 
 namespace app::panels {
 namespace {
@@ -40,6 +42,36 @@ void pointRows(PanelContext& context, Form& form) {
                               .size = *kernel == 0 ? 3.0 : 1.0};
         });
     sizeSlider(context, form);
+}
+
+// An angle from `least` on, over so many degrees.
+void angleSlider(PanelContext& context, Form& form, const char* label, double least, double span,
+                 double LampChoice::*angle) {
+    const Rect row = form.row(label);
+    const float s = context.theme.scale;
+    const double now = (*context.exploration.explorer().lamp).*angle;
+    double fraction = std::clamp((now - least) / span, 0.0, 1.0);
+    if (slider(context.theme, label, {row.min, {row.max.x - 56 * s, row.max.y}}, fraction,
+               5 / span))
+        edit(context, label,
+             [&](Explorer& e) { (*e.lamp).*angle = std::round(least + fraction * span); });
+    text(context.theme, {row.max.x, row.centre().y},
+         render::withMinusSigns(fmt::format("{:.0f}°", now)), kDim, 1, context.theme.small);
+}
+
+// Where light comes from.
+void lampRows(PanelContext& context, Form& form) {
+    constexpr std::array kFrom = {"Eye", "Fixed"};
+    const Explorer& e = context.exploration.explorer();
+    if (const auto from = segmented(context.theme, "lamp", form.row("Light from"), kFrom,
+                                    e.lamp ? std::size_t{1} : 0))
+        edit(context, {}, [&](Explorer& next) {
+            next.lamp = *from == 0 ? std::nullopt : std::optional(lampBeside(next.view));
+        });
+    if (!context.exploration.explorer().lamp) return;
+    angleSlider(context, form, "Around", -180, 360, &LampChoice::azimuthDegrees);
+    angleSlider(context, form, "Above", -90, 180, &LampChoice::elevationDegrees);
+    form.note("The lamp stands still: what is turned shows it another side.");
 }
 
 void budget(PanelContext& context, Form& form) {
@@ -125,22 +157,23 @@ void drawQualityPage(PanelContext& context, const Rect& at) {
     constexpr std::array kLights = {"Off", "Soft", "Full"};
     constexpr std::array kPers = {"Length", "Crossing"};
     const std::string_view whyNot = context.exploration.shown()->sorted->whyNoCells();
-    if (e.model == Model::Cells && !whyNot.empty())
+    const bool byCells = modelOf(e) == Model::Cells && whyNot.empty();
+    if (modelOf(e) == Model::Cells && !whyNot.empty())
         form.note(fmt::format("Points are drawn: {}.", whyNot));
-    if (e.model == Model::Cells && whyNot.empty()) {
+    if (byCells) {
         form.note("Between points, too: a thin range is a closed shell.");
         if (const auto light = segmented(context.theme, "light", form.row("Light"), kLights,
                                          static_cast<std::size_t>(e.light)))
             edit(context, {},
                  [&](Explorer& next) { next.light = static_cast<render::Light>(*light); });
+        if (e.light != render::Light::Off) lampRows(context, form);
         if (const auto per = segmented(context.theme, "per", form.row("Opacity per"), kPers,
                                        static_cast<std::size_t>(e.opacityPer)))
             edit(context, {},
                  [&](Explorer& next) { next.opacityPer = static_cast<render::OpacityPer>(*per); });
         form.note("Per crossing, a thin range is as opaque as a wide one.");
-    } else {
-        pointRows(context, form);
     }
+    if (!byCells || mixesModels(e)) pointRows(context, form);
     if (const auto order = segmented(context.theme, "order", form.row("Order"), kOrders,
                                      static_cast<std::size_t>(e.order)))
         edit(context, {}, [&](Explorer& next) { next.order = static_cast<render::Order>(*order); });

@@ -33,10 +33,9 @@ class Ways {
 
     // For depth alone.
     render::Scene sceneOf(const Rung& rung) const {
-        Explorer e = explorer_;
+        Explorer e = drawnBy(rung.model);
         e.opacityPer = render::OpacityPer::Length;
         e.order = render::Order::None;
-        e.model = rung.model;
         render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
         scene.stride = rung.stride;
         scene.footprint = standingFor(scene.footprint, rung.stride);
@@ -44,14 +43,14 @@ class Ways {
     }
     // As it is drawn, but for its light.
     render::Scene orderedSceneOf(Model model) const {
-        Explorer e = explorer_;
-        e.model = model;
+        Explorer e = drawnBy(model);
         if (model == Model::Points) e.opacityPer = render::OpacityPer::Length;
         return makeScene(e, step_, placed_, e.play.tick);
     }
 
     bool isByRays(const render::Scene& scene) const {
-        return scene.cells && render::cellCount(scene, render::Channels::Over, 0) > kFewCells;
+        return scene.cells && !mixesModels(scene) &&
+               render::cellCount(scene, render::Channels::Over, 0) > kFewCells;
     }
     // What is drawn.
     render::DepthAt depthOf(const Rung& rung) const {
@@ -68,8 +67,18 @@ class Ways {
     std::vector<double> finelyDrawn(Model model, std::span<const glm::ivec2> pixels) const {
         const render::Scene whole = sceneOf({model});
         const int rays = render::Sampling().raysAcross;
-        if (whole.cells) return render::cellDepthAt(whole, view_, pixels, rays, question_.threads);
-        return render::splatDepthAt(whole, view_, pixels, rays, question_.threads, wanted_);
+        const auto ofCells = [&](const render::Scene& scene) {
+            return render::cellDepthAt(scene, view_, pixels, rays, question_.threads);
+        };
+        const auto ofPoints = [&](const render::Scene& scene) {
+            return render::splatDepthAt(scene, view_, pixels, rays, question_.threads, wanted_);
+        };
+        if (!whole.cells) return ofPoints(whole);
+        if (!mixesModels(whole)) return ofCells(whole);
+        std::vector<double> depth = ofCells(onlyCells(whole));
+        const std::vector<double> more = ofPoints(onlyPoints(whole));
+        for (std::size_t i = 0; i < more.size(); ++i) depth[i] += more[i];
+        return depth;
     }
     bool isWanted() const { return wanted_; }
     double orderOf(Model model, const timeseries::Field& field,
@@ -79,6 +88,11 @@ class Ways {
     }
 
  private:
+    // By cells, as it was chosen, if any layer is.
+    Explorer drawnBy(Model model) const {
+        return model == modelOf(explorer_) && model == Model::Cells ? explorer_
+                                                                    : allBy(model, explorer_);
+    }
     render::DepthAt depthIn(render::Scene scene, const render::View& view,
                             render::RaysEnd end) const {
         if (!isByRays(scene))
@@ -185,7 +199,9 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
 }
 
 std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step) {
-    return ladder({.cells = step.cellsIfMade(cellsNeeded(explorer, step.type())) != nullptr,
+    const Explorer byCells =
+        modelOf(explorer) == Model::Cells ? explorer : allBy(Model::Cells, explorer);
+    return ladder({.cells = step.cellsIfMade(cellsNeeded(byCells, step.type())) != nullptr,
                    .coarse = explorer.footprint.kernel != render::Kernel::Point});
 }
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
@@ -17,6 +20,7 @@
 #include "render/annotate/ticks.h"
 #include "render/frame/mean_depth.h"
 #include "render/image/color.h"
+#include "render/splat/mixed_splatter.h"
 
 namespace app {
 namespace {
@@ -132,11 +136,16 @@ std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& e,
                                                       timeseries::ValueType type) {
     std::vector<timeseries::Interval<double>> all;
     for (const LayerChoice& layer : e.layers) {
-        if (!layer.visible) continue;
+        if (!layer.visible || modelOf(e, layer) == Model::Points) continue;
         if (layer.motion) return {timeseries::kAllNumbers};
         std::ranges::copy(timeseries::betweenPoints(layer.ranges, type), std::back_inserter(all));
     }
     return all;
+}
+
+bool needsCells(const Explorer& e, const SortedStep& step, const render::PlacedPoints& placed) {
+    return modelOf(e) == Model::Cells && step.canHaveCells() &&
+           (!mixesModels(e) || render::MixedSum::canSum(placed, e.footprint));
 }
 
 render::Scene makeScene(const Explorer& e, const SortedStep& step,
@@ -148,19 +157,22 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
                         .order = e.order,
                         .clip = {}};
     if (e.clip) scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
-    if (e.model == Model::Cells) {
+    if (needsCells(e, step, placed)) {
         const auto needed = cellsNeeded(e, step.type());
         scene.cells = await == Await::Cells ? step.cells(needed) : step.cellsIfMade(needed);
     }
     if (scene.cells && scene.order == render::Order::BackToFront) scene.light = e.light;
+    if (e.lamp) scene.lamp = directionOf(e.lamp->azimuthDegrees, e.lamp->elevationDegrees);
     scene.opacityPer = e.opacityPer;
     for (const LayerChoice& layer : e.layers) {
         if (!layer.visible) continue;
         const RangeSet ranges = rangesAt(layer, step, tick);
         scene.layers.push_back({step.select(ranges), rangeStyle(layer)});
+        const bool byCells = modelOf(e, layer) == Model::Cells;
+        scene.layers.back().byPoints = scene.cells && !byCells;
         render::Cells& cells = scene.layers.back().cells;
         cells.ranges = timeseries::betweenPoints(ranges, step.type());
-        if (scene.cells) cells.candidates = scene.cells->select(cells.ranges);
+        if (scene.cells && byCells) cells.candidates = scene.cells->select(cells.ranges);
     }
     // The same picture without it.
     if (scene.light == render::Light::Off && render::areOneColor(scene.layers))
@@ -190,6 +202,21 @@ std::vector<std::string> amounts(const render::Scene& scene, bool isClipped) {
             render::withMinusSigns(fmt::format("{:.3g}", percent)), isClipped ? " of all" : ""));
     }
     return texts;
+}
+
+}  // namespace
+
+namespace {
+
+// "layer 2", "layers 1 and 3", counted among those that are seen.
+std::string pointLayers(const render::Scene& scene) {
+    std::vector<std::string> numbers;
+    for (std::size_t k = 0; k < scene.layers.size(); ++k)
+        if (scene.layers[k].byPoints) numbers.push_back(std::to_string(k + 1));
+    if (numbers.size() < 2) return numbers.empty() ? "" : "layer " + numbers.front();
+    const std::string last = std::exchange(numbers.back(), "");
+    numbers.pop_back();
+    return fmt::format("layers {} and {}", fmt::join(numbers, ", "), last);
 }
 
 }  // namespace
@@ -239,10 +266,16 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
     if (const std::string stretch = render::stretchText(scene.step.grid(), scene.placed);
         !stretch.empty())
         legend.notes.push_back(stretch);
-    if (scene.cells && !scene.layers.empty())
+    if (scene.cells && !scene.layers.empty()) {
         legend.notes.emplace_back(kInterpolated);
-    else if (e.model == Model::Cells && !scene.step.canHaveCells())
+        if (const std::string which = pointLayers(scene); !which.empty())
+            legend.notes.push_back(which + " by points alone");
+    } else if (modelOf(e) == Model::Cells && !scene.step.canHaveCells()) {
         legend.notes.push_back(fmt::format("drawn by points: {}", scene.step.whyNoCells()));
+    } else if (mixesModels(e) && !render::MixedSum::canSum(scene.placed, e.footprint)) {
+        legend.notes.emplace_back(
+            "drawn by points: the splats of one layer have no order among another's cells here");
+    }
     if (e.clip) legend.notes.push_back("drawn inside " + clipText(*e.clip) + " only");
     return legend;
 }

@@ -31,6 +31,11 @@ std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick);
 std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& explorer,
                                                       timeseries::ValueType type);
 
+// Whether some of the picture is drawn by cells. Splats that are cut at the domain's faces have no
+// place in order among cells: where a layer is drawn by those, all are drawn by points.
+bool needsCells(const Explorer& explorer, const timeseries::SortedStep& step,
+                const render::PlacedPoints& placed);
+
 // Who does not wait for a step's cells draws points until they are there.
 enum class Await { Cells, Nothing };
 

@@ -27,8 +27,10 @@ DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render
     if (drawn.mixed) picture.legend.notes.emplace_back(kMixedColors);
     drawn.eyes = renderer.render({picture.scene, still.step.grid(), picture.legend, kBackground},
                                  onGpu, views, extras);
-    if (still.error && std::isfinite(*still.error))
+    if (still.error && std::isfinite(*still.error)) {
         drawn.metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
+        if (!still.errorOf.empty()) drawn.metadata[kErrorOfKey] = still.errorOf;
+    }
     const Explorer alone = onlyThis(e, still.stepIndex, still.tick);
     drawn.metadata[kSessionKey] = jsonText(toJson(alone, file.parent_path(), still.paths), -1);
     return drawn;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/choices/explorer.h"
@@ -25,9 +26,10 @@ struct Still {
     const render::PlacedPoints& placed;  // of the explorer's scale
     std::int64_t tick;                   // of the explorer's sweep, if it has one
     Paths paths = Paths::Both;           // that its session keeps
-    // Of its first eye (depth_error.h), where it is known: for its file. Not in sight, or it would
-    // not be the picture that its session makes once more, among others.
+    // Of its first eye (depth_error.h), which stands for both, where it is known: for its file. Not
+    // in sight, or it would not be the picture that its session makes once more, among others.
     std::optional<double> error = {};
+    std::string errorOf = {};  // the picture that this is of, where it is another
 };
 
 // What goes into a file, or two where the stereo mode makes two.

@@ -32,7 +32,7 @@ Splatters::Gl& Splatters::needGl() {
 }
 
 bool Splatters::sumsByGl(const Scene& scene) const {
-    if (!byGl_) return false;
+    if (!byGl_ || mixesModels(scene)) return false;
     if (scene.cells) return GlPieces::bytesOf(scene) <= mostCellBytes_;
     // The clip box is the file's, of which the GPU's mesh knows nothing.
     if (scene.placed.globe() && !scene.clip.holdsAll()) return false;

@@ -59,7 +59,19 @@ double farthestReach(const Scene& scene, const PointsView& view) {
                    corners(scene.placed, scene.placed.pointsBox()), view);
 }
 
+namespace {
+
+PixelBox aroundBoth(const PixelBox& a, const PixelBox& b) {
+    const glm::ivec2 first = glm::min(a.at, b.at);
+    return {first, glm::max(a.at + a.size, b.at + b.size) - first};
+}
+
+}  // namespace
+
 PixelBox coveredPixels(const Scene& scene, const View& view) {
+    if (mixesModels(scene))
+        return aroundBoth(coveredPixels(onlyCells(scene), view),
+                          coveredPixels(onlyPoints(scene), view));
     const PixelBox whole{{0, 0}, view.size};
     const PointsView seen(scene.placed, view);
     // Cells fill the domain; splats of long ones end at the domain's faces, or the least radius

@@ -55,6 +55,25 @@ timeseries::Columns columnsOf(const Scene& scene) {
     return scene.step.columns(runs);
 }
 
+bool mixesModels(const Scene& scene) {
+    const auto byCells = [&](const Layer& layer) { return isByCells(scene, layer); };
+    return scene.cells && !std::ranges::all_of(scene.layers, byCells);
+}
+
+Scene onlyPoints(Scene scene) {
+    for (Layer& layer : scene.layers)
+        if (isByCells(scene, layer)) layer.runs.clear();
+    scene.cells.reset();
+    scene.light = Light::Off;
+    return scene;
+}
+
+Scene onlyCells(Scene scene) {
+    for (Layer& layer : scene.layers)
+        if (layer.byPoints) layer = {{}, layer.style, {}};
+    return scene;
+}
+
 std::vector<Channels> channelsFor(const Scene& scene) {
     if (scene.order == Order::BackToFront) return {Channels::Over};
     std::vector<Channels> channels;

@@ -70,7 +70,8 @@ struct Cells {
 struct Layer {
     std::vector<timeseries::Run> runs;  // as SortedStep::select gives them
     RangeStyle style;
-    Cells cells = {};  // of which there are candidates where the scene is drawn by cells
+    Cells cells = {};       // of which there are candidates where the layer is drawn by cells
+    bool byPoints = false;  // all the same, where the scene has cells
 };
 constexpr std::size_t kMaxLayers = 8;
 
@@ -117,15 +118,26 @@ struct Scene {
     // One of so many points is drawn and stands for its neighbours in value: less to draw, for the
     // same mass. A power of two, at most kMaxStride; which points: render/points/subset.h.
     std::uint32_t stride = 1;
-    // The step's, where layers are drawn by cells instead of points; all of them then, always.
+    // The step's, where layers are drawn by cells instead of points, but for those that are drawn
+    // by points all the same; of both all then, always.
     std::shared_ptr<const timeseries::CellIndex> cells = {};
     Light light = Light::Off;  // on cells, where they are drawn in order
+    Lamp lamp = {};
     OpacityPer opacityPer = OpacityPer::Length;
 };
 
+inline bool isByCells(const Scene& scene, const Layer& layer) {
+    return scene.cells && !layer.byPoints;
+}
+// Some layers are drawn by cells and others by points. REQUIRES then: stride 1.
+bool mixesModels(const Scene& scene);
+// What it has of either: the layers are as many, those of the other show nothing.
+Scene onlyPoints(Scene scene);
+Scene onlyCells(Scene scene);
+
 // Splats or cells that are drawn of a layer.
 inline std::uint64_t drawnCount(const Scene& scene, const Layer& layer) {
-    return scene.cells ? cellCount(layer) : splatCount(layer, scene.stride);
+    return isByCells(scene, layer) ? cellCount(layer) : splatCount(layer, scene.stride);
 }
 
 // What the step knows of its points, of which only those of the scene's runs may be read.

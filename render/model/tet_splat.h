@@ -71,7 +71,8 @@ struct TetSplat {
     Real least{}, most{};
     bool crossesLeast = false, crossesMost = false;
     Real perRange{};
-    double steepness = 0;  // of f, a length of the world
+    glm::dvec3 gradient{0};  // of f, along the axes, which are the world's
+    double steepness = 0;    // its length
 };
 
 namespace tet {
@@ -91,12 +92,11 @@ void seeField(TetSplat<Real>& s, const ValuedTet& tet, double low, double high,
     s.reference = 0.5 * low + 0.5 * high;
     s.extent = 0.5 * high - 0.5 * low;
     if (!(s.extent > 0)) return;
-    glm::dvec3 gradient(0);
     for (std::size_t i = 0; i < 4; ++i) {
         f[i] = (tet.values[i] - s.reference) / s.extent;
-        gradient += f[i] * slopes[i];
+        s.gradient += f[i] * slopes[i];
     }
-    s.steepness = glm::length(gradient);
+    s.steepness = glm::length(s.gradient);
     cell::seeRange(s, tet, low, high, s.steepness * unitLength);
 }
 

@@ -97,6 +97,11 @@ std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::d
 }  // namespace
 
 std::optional<Picked> pickCell(const Scene& scene, const View& view, const glm::dvec2& window) {
+    if (mixesModels(scene)) {
+        const auto cell = pickCell(onlyCells(scene), view, window);
+        const auto point = pick(onlyPoints(scene), view, window);
+        return cell && (!point || cell->depth < point->depth) ? cell : point;
+    }
     if (scene.placed.isMesh()) return pickTet(scene, view, window);
     const CellRays rays(scene, scene.cells->field(), view);
     std::vector<PartInLayer> passed = rays.partsOn(window);

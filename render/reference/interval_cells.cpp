@@ -210,13 +210,35 @@ void IntervalCells::addParts(const Corners& corners, const glm::dvec3& from, con
         into[i] = {piece.from + length * into[i].from, piece.from + length * into[i].to};
 }
 
-double IntervalCells::valueAt(const glm::uvec3& cell, const glm::dvec3& place) const {
+IntervalCells::CellField IntervalCells::fieldIn(const glm::uvec3& cell) const {
     const Corners corners = cornersOf(cell);
+    CellField field;
+    field.values_ = corners.values;
+    field.least_ = corners.least;
+    field.greatest_ = corners.greatest;
+    return field;
+}
+
+double IntervalCells::CellField::valueAt(const glm::dvec3& place) const {
     double sum = 0;
     for (unsigned c = 0; c < 8; ++c)
-        sum += corners.values[c] * (c & 1 ? place.x : 1 - place.x) *
-               (c & 2 ? place.y : 1 - place.y) * (c & 4 ? place.z : 1 - place.z);
-    return std::clamp(sum, corners.least, corners.greatest);
+        sum += values_[c] * (c & 1 ? place.x : 1 - place.x) * (c & 2 ? place.y : 1 - place.y) *
+               (c & 4 ? place.z : 1 - place.z);
+    return std::clamp(sum, least_, greatest_);
+}
+
+glm::dvec3 IntervalCells::CellField::changeAt(const glm::dvec3& place) const {
+    glm::dvec3 change(0);
+    for (unsigned c = 0; c < 8; ++c)
+        for (unsigned a = 0; a < 3; ++a) {
+            double share = c >> a & 1 ? 1 : -1;
+            for (const unsigned b : {(a + 1) % 3, (a + 2) % 3}) {
+                const double at = place[static_cast<int>(b)];
+                share *= c >> b & 1 ? at : 1 - at;
+            }
+            change[static_cast<int>(a)] += values_[c] * share;
+        }
+    return change;
 }
 
 }  // namespace render

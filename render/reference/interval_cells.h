@@ -44,8 +44,22 @@ class IntervalCells {
     // which the field is in the ranges. Disjoint.
     void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
                   std::vector<LinePart>& into) const;
-    // The field there, of a cell that has a point which is not missing.
-    double valueAt(const glm::uvec3& cell, const glm::dvec3& place) const;
+    // The field in a cell that has a point which is not missing, at places in it.
+    class CellField {
+     public:
+        double valueAt(const glm::dvec3& place) const;
+        // How it changes there, a side of the cell along each axis.
+        glm::dvec3 changeAt(const glm::dvec3& place) const;
+
+     private:
+        friend class IntervalCells;
+        std::array<double, 8> values_;
+        double least_, greatest_;
+    };
+    CellField fieldIn(const glm::uvec3& cell) const;
+    double valueAt(const glm::uvec3& cell, const glm::dvec3& place) const {
+        return fieldIn(cell).valueAt(place);
+    }
 
  private:
     struct Corners {

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "render/reference/light_on_ray.h"
 #include "render/reference/tets_light.h"
 #include "render/reference/tets_on_pixels.h"
+#include "render/splat/cell_view.h"
 
 namespace render {
 namespace {
@@ -32,7 +34,8 @@ struct LightWork {
     std::vector<LinePart> parts;
     std::vector<LayerPart> ofLayers;
     std::vector<double> ends;
-    std::vector<std::size_t> in;  // layers, of a piece
+    std::vector<std::size_t> in;                   // layers, of a piece
+    std::vector<IntervalCells::CellField> fields;  // of these
     std::optional<LightOnRay> seen;
 };
 
@@ -120,18 +123,36 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
         }
         std::ranges::sort(work.ends);
     };
+    const double steepness = steepnessOf(scene_);
+    const glm::dmat3& worldFromAxes = scene_.placed.worldFromAxes();
+    const glm::dmat3 gradients = glm::transpose(glm::inverse(worldFromAxes));
+    const auto shadeAt = [&](const IntervalCells::CellField& field, const glm::uvec3& cell,
+                             const glm::dvec3& place, const glm::dvec3& along) {
+        if (scene_.light == Light::Off) return Shade();
+        return shadeOf(scene_.light, scene_.lamp,
+                       gradients * (field.changeAt(place) / walk_->sidesOf(cell)),
+                       worldFromAxes * along, steepness);
+    };
     // All of a piece of the way, in which no layer begins or ends: of W a unit, in the cell.
-    const auto pass = [&](const glm::uvec3& cell, const glm::dvec3& a, const glm::dvec3& b,
-                          LinePart piece, double weight, LightWork& work) {
+    const auto pass = [&](const Ray& ray, const glm::uvec3& cell, const glm::dvec3& a,
+                          const glm::dvec3& b, LinePart piece, double weight, LightWork& work) {
         const double middle = 0.5 * (piece.from + piece.to);
         work.in.clear();
+        work.fields.clear();
         for (const auto& [part, k] : work.ofLayers)
-            if (middle >= part.from && middle <= part.to) work.in.push_back(k);
-        work.seen->pass(work.in, weight * (piece.to - piece.from),
-                        [&](std::size_t i, double share) {
-                            const double t = piece.from + (piece.to - piece.from) * share;
-                            return layers_[work.in[i]].valueAt(cell, glm::mix(a, b, t));
-                        });
+            if (middle >= part.from && middle <= part.to) {
+                work.in.push_back(k);
+                work.fields.push_back(layers_[k].fieldIn(cell));
+            }
+        const auto placeAt = [&](double share) {
+            return glm::mix(a, b, piece.from + (piece.to - piece.from) * share);
+        };
+        work.seen->pass(
+            work.in, weight * (piece.to - piece.from),
+            [&](std::size_t i, double share) { return work.fields[i].valueAt(placeAt(share)); },
+            [&](std::size_t i, double share) {
+                return shadeAt(work.fields[i], cell, placeAt(share), ray.along);
+            });
     };
     return meanOfRays<glm::dvec4, LightWork>(
         view, allPixels(view.size), [&](const Ray& ray, LightWork& work) {
@@ -149,7 +170,7 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
                          collect(cell, a, b, work);
                          for (std::size_t i = 1; i < work.ends.size(); ++i)
                              if (work.ends[i] > work.ends[i - 1])
-                                 pass(cell, a, b, {work.ends[i - 1], work.ends[i]},
+                                 pass(ray, cell, a, b, {work.ends[i - 1], work.ends[i]},
                                       (to - from) * ray.weight, work);
                      });
             return seen.light();

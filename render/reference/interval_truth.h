@@ -37,7 +37,8 @@ class IntervalTruth {
                                std::span<const glm::ivec2> pixels) const;
     // The light of all layers, ordered: emission and absorption along each ray, of optical depth
     // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
-    // there. Premultiplied, linear. [y][x], row 0 at the bottom.
+    // there, lit as its gradient has it where the scene has light, which REQUIRES scene.cells.
+    // Premultiplied, linear. [y][x], row 0 at the bottom.
     std::vector<glm::dvec4> light(const View& view) const;
 
  private:

@@ -25,26 +25,30 @@ class LightOnRay {
         through_ = 1;
     }
     // The next piece of the way, so long in W, on all of which it is in these layers:
-    // valueAt(i, share) is the field's value for the i-th of them at a share of the piece.
-    template <typename ValueAt>
-    void pass(std::span<const std::size_t> in, double weight, const ValueAt& valueAt) {
+    // valueAt(i, share) is the field's value for the i-th of them at a share of the piece, and
+    // shadeAt(i, share) what light makes of its colour there.
+    template <typename ValueAt, typename ShadeAt>
+    void pass(std::span<const std::size_t> in, double weight, const ValueAt& valueAt,
+              const ShadeAt& shadeAt) {
         depths_.clear();
         for (const std::size_t layer : in) depths_.push_back(depthPerWeight_[layer] * weight);
-        pass(in, depths_, valueAt);
+        pass(in, depths_, valueAt, shadeAt);
     }
     // The same where each layer has an optical depth of its own on this piece.
-    template <typename ValueAt>
+    template <typename ValueAt, typename ShadeAt>
     void pass(std::span<const std::size_t> in, std::span<const double> depths,
-              const ValueAt& valueAt) {
+              const ValueAt& valueAt, const ShadeAt& shadeAt) {
         double depth = 0;
         for (const double each : depths) depth += each;
         if (!(depth > 0)) return;
         const double taken = -std::expm1(-depth / kSteps);
         for (int step = 0; step < kSteps; ++step) {
             glm::dvec3 colors(0);
-            for (std::size_t i = 0; i < in.size(); ++i)
-                colors +=
-                    depths[i] * colorOf(layers_[in[i]].style, valueAt(i, (step + 0.5) / kSteps));
+            for (std::size_t i = 0; i < in.size(); ++i) {
+                const double share = (step + 0.5) / kSteps;
+                const Shade shade = shadeAt(i, share);
+                colors += depths[i] * shade.of(colorOf(layers_[in[i]].style, valueAt(i, share)));
+            }
             rgb_ += through_ * taken / depth * colors;
             through_ *= 1 - taken;
         }

@@ -60,8 +60,12 @@ PartInLayer partInLayer(const Scene& scene, std::size_t layer, std::uint32_t cel
         if (width > 0 && std::isfinite(width))
             weight = std::max(weight, std::abs(part.end - part.begin) / width);
     }
-    return {static_cast<std::uint32_t>(layer), static_cast<std::uint32_t>(range), cell, part,
-            opticalDepthPerWeight(of.style.opacity) * weight};
+    return {static_cast<std::uint32_t>(layer),
+            static_cast<std::uint32_t>(range),
+            cell,
+            part,
+            opticalDepthPerWeight(of.style.opacity) * weight,
+            {}};
 }
 
 CellRays::CellRays(const Scene& scene, const timeseries::Field& field, const View& view)
@@ -164,17 +168,22 @@ void LightOfParts::passOpen(double from, double to) {
         in_.push_back(each->layer);
         depths_.push_back(each->opticalDepth * (to - from) / (each->part.to - each->part.from));
     }
-    light_.pass(in_, depths_, [&](std::size_t i, double share) {
-        return valueOn(open_[i]->part, shareAt(open_[i]->part, std::lerp(from, to, share)));
-    });
+    light_.pass(
+        in_, depths_,
+        [&](std::size_t i, double share) {
+            return valueOn(open_[i]->part, shareAt(open_[i]->part, std::lerp(from, to, share)));
+        },
+        [&](std::size_t i, double) { return open_[i]->shade; });
 }
 
 glm::dvec4 LightOfParts::oneByOne(std::span<const PartInLayer> parts) {
     light_.begin();
     for (const PartInLayer& each : parts) {
         const std::size_t layer = each.layer;
-        light_.pass(std::span(&layer, 1), std::span(&each.opticalDepth, 1),
-                    [&](std::size_t, double share) { return valueOn(each.part, share); });
+        light_.pass(
+            std::span(&layer, 1), std::span(&each.opticalDepth, 1),
+            [&](std::size_t, double share) { return valueOn(each.part, share); },
+            [&](std::size_t, double) { return each.shade; });
     }
     return light_.light();
 }
@@ -187,7 +196,8 @@ glm::dvec4 LightOfParts::mixed(std::span<const PartInLayer> parts) const {
         depth += each.opticalDepth;
         for (int step = 0; step < kSteps; ++step)
             rgb += each.opticalDepth / kSteps *
-                   colorOf(layers_[each.layer].style, valueOn(each.part, (step + 0.5) / kSteps));
+                   each.shade.of(colorOf(layers_[each.layer].style,
+                                         valueOn(each.part, (step + 0.5) / kSteps)));
     }
     const double taken = -std::expm1(-depth);
     return depth > 0 ? glm::dvec4(taken / depth * rgb, taken) : glm::dvec4(0);

@@ -24,6 +24,7 @@ struct PartInLayer {
     std::uint32_t cell = 0;  // as CellIndex numbers them
     PartOnRay part{};
     double opticalDepth = 0;
+    Shade shade = {};  // what light makes of its colours; nothing, where nobody asks for light
 };
 // Of a way of so many units of l a unit of view depth; its W is as the scene's opacityPer has it.
 PartInLayer partInLayer(const Scene& scene, std::size_t layer, std::uint32_t cell,

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "render/reference/parts_on_rays.h"
+#include "render/splat/cell_view.h"
 
 namespace render {
 namespace {
@@ -29,6 +30,7 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
                                  std::span<const glm::ivec2> pixels, int raysAcross,
                                  unsigned threads) {
     std::vector<std::vector<PassedPart>> parts(kCellParts);
+    const double steepness = steepnessOf(scene);
     const auto across = static_cast<std::uint32_t>(raysAcross);
     forEachTetSplat(
         scene, field, seen, PixelBins(pixels, size), threads, OpacityPer::Length,
@@ -40,10 +42,14 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
                 const auto in = partOnRay(seen, s, window);
                 if (!in) continue;
                 const double weight = (in->to - in->from) * lengthPerDepth(seen, window);
-                parts[part].push_back({static_cast<std::uint32_t>(pixel) * across * across + ray,
-                                       {.layer = static_cast<std::uint32_t>(layer),
-                                        .part = *in,
-                                        .opticalDepth = perWeight * weight}});
+                const glm::dvec3 way = seen.rays.along(window - seen.rays.centre);
+                parts[part].push_back(
+                    {static_cast<std::uint32_t>(pixel) * across * across + ray,
+                     {.layer = static_cast<std::uint32_t>(layer),
+                      .part = *in,
+                      .opticalDepth = perWeight * weight,
+                      .shade = shadeOf(scene.light, scene.lamp, s.gradient, way,
+                                       s.extent > 0 ? steepness / s.extent : 0)}});
             }
         });
     std::vector<PassedPart> all;

@@ -12,13 +12,14 @@ const int kPieces = 3;
 
 #ifdef OVER
 // What light makes of a colour, where the field has this gradient per length in axis coordinates
-// and changes so along the ray, which is so long.
-vec3 lit(vec3 color, vec3 g, float change, float rayLength) {
+// and changes so along the ray, which is so long and has so much of the way to a lamp in the world.
+vec3 lit(vec3 color, vec3 g, float change, float rayLength, float ofRay) {
     if (view.squares.w == 0.0) return color;
     const float g2 = dot(view.squares.xyz, g * g) +
                      dot(view.products.xyz, vec3(g.x * g.y, g.x * g.z, g.y * g.z));
     const float per = inversesqrt(max(g2, 1e-30));
-    return lit(color, min(1.0, abs(change) * per / rayLength), 1.0 / (1.0 + atAndSteep.w * per));
+    return lit(color, min(1.0, abs(change) * per / rayLength), 1.0 / (1.0 + atAndSteep.w * per),
+               dot(g, view.lamp.xyz) * per, change, ofRay);
 }
 #endif
 
@@ -88,7 +89,8 @@ void main() {
 #else
     const float depthOfLight = layers.style[kind.y].w * w, alpha = opacity(depthOfLight);
     const float seen = seenTo(front, back, depthOfLight, abs(last - first), width);
-    sum = vec4(lit(colorBetween(front, seen), gradient * perSize.xyz, change, view.depths.z * longer) *
-                   alpha, alpha);
+    const float rayLength = view.depths.z * longer;
+    sum = vec4(lit(colorBetween(front, seen), gradient * perSize.xyz, change, rayLength,
+                   lampOfRay(offset, rayLength)) * alpha, alpha);
 #endif
 }

@@ -25,7 +25,7 @@ layout(location = 0) out vec4 sum;
 
 const int kMaxLayers = 8;
 const float kLeastChange = 1e-5, kLeastStep = 1e-12;
-const float kAmbient = 0.25, kEven = 0.625, kSpecular = 0.35;
+const float kAmbient = 0.25, kEven = 0.625, kSpecular = 0.35, kLow = 0.25;
 
 // 1 - e^-x; the series where the difference would cancel (its error there is below 1e-9).
 float opacity(float x) {
@@ -84,11 +84,20 @@ float seenTo(float front, float back, float x, float along, float width) {
     return front + (1.0 + hiding * (2.0 * share - 1.0)) * (back - front);
 }
 
-// What light makes of a colour, where a surface faces the eye so much, as far as there is one.
-vec3 lit(vec3 color, float facing, float certainty) {
-    const float diffuse = kEven + certainty * (kAmbient + (1.0 - kAmbient) * facing - kEven);
+// What light makes of a colour, of a surface, as far as there is one, that faces the eye so much. Of a
+// lamp in the world: the gradient's direction has so much of the way to it, and changes so along the
+// ray, whose own direction has so much of that way.
+vec3 lit(vec3 color, float facing, float certainty, float ofGradient, float change, float ofRay) {
+    float towards = facing, between = facing, low = 1.0;
+    if (view.lamp.w > 0.0) {
+        const float onSide = change > 0.0 ? -ofGradient : ofGradient;
+        towards = clamp(onSide, 0.0, 1.0);
+        between = clamp((onSide + facing) * inversesqrt(max(2.0 - 2.0 * ofRay, 1e-12)), 0.0, 1.0);
+        low = min(towards / kLow, 1.0);
+    }
+    const float diffuse = kEven + certainty * (kAmbient + (1.0 - kAmbient) * towards - kEven);
     const float specular =
-        view.squares.w > 1.0 ? certainty * kSpecular * pow(facing, 30.0) : 0.0;
+        view.squares.w > 1.0 ? certainty * kSpecular * pow(between, 30.0) * low : 0.0;
     return color * diffuse + specular;
 }
 #endif
@@ -98,6 +107,12 @@ vec2 offsetOfPixel() { return gl_FragCoord.xy - view.window.xy - centreAndBase.x
 float longerThanAxis(vec2 offset) {
     const vec2 slope = (offset + centreAndBase.xy) / vec2(view.perPixelX.w, view.perPixelY.w);
     return sqrt(1.0 + dot(slope, slope));
+}
+// What the direction of its ray, which is so long, has of the way to a lamp in the world.
+float lampOfRay(vec2 offset, float rayLength) {
+    const vec2 pixel = offset + centreAndBase.xy;
+    const vec3 ray = view.rayAxis.xyz + pixel.x * view.perPixelX.xyz + pixel.y * view.perPixelY.xyz;
+    return dot(ray, view.lampOfWay.xyz) / rayLength;
 }
 // The depth from the base at which it ends at what is opaque.
 float hiddenFrom() {

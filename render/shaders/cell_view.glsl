@@ -12,6 +12,8 @@ layout(std140, binding = 0) uniform CellView {
     vec4 depths;     // view depth of a window depth w: x / (w - y); z: the ray's length in the world
     vec4 squares;    // of gradients: xx, yy, zz; w: light, 0 off, 1 soft, 2 full
     vec4 products;   // xy, xz, yz
+    vec4 lamp;       // its part of gradients; w: 0 at the eye, 1 in the world
+    vec4 lampOfWay;  // and of ways along the axes
     uvec4 cells;     // along x, y, z
     ivec4 part;      // the picture's pixel that the first is in; z: so many across it
 } view;

@@ -7,7 +7,7 @@ layout(location = 5) flat in vec4 ray;
 layout(location = 6) flat in vec4 right;
 layout(location = 7) flat in vec4 up;
 layout(location = 8) flat in vec4 field;
-layout(location = 9) flat in vec2 light;
+layout(location = 9) flat in vec3 light;
 
 void main() {
     const vec2 offset = offsetOfPixel();
@@ -45,8 +45,10 @@ void main() {
 #else
     const float depthOfLight = layers.style[kind.y].w * w, alpha = opacity(depthOfLight);
     vec3 color = colorBetween(front, seenTo(front, back, depthOfLight, abs(last - first), width));
+    const float rayLength = view.depths.z * longer;
     if (view.squares.w > 0.0)
-        color = lit(color, min(1.0, abs(change) * light.x / (view.depths.z * longer)), light.y);
+        color = lit(color, min(1.0, abs(change) * light.x / rayLength), light.y, light.z, change,
+                    lampOfRay(offset, rayLength));
     sum = vec4(color * alpha, alpha);
 #endif
 }

@@ -18,7 +18,8 @@ layout(location = 5) flat out vec4 ray;
 layout(location = 6) flat out vec4 right;
 layout(location = 7) flat out vec4 up;
 layout(location = 8) flat out vec4 field;
-layout(location = 9) flat out vec2 light;  // per steepness of f; how certain a surface is
+// Per steepness of f; how certain a surface is; the gradient direction's part of the way to the lamp.
+layout(location = 9) flat out vec3 light;
 
 vec4 along(vec3 way, vec3 slopes[3]) {
     const vec3 of = vec3(dot(slopes[0], way), dot(slopes[1], way), dot(slopes[2], way));
@@ -75,6 +76,6 @@ void main() {
     const vec3 gradient = f.y * slopes[0] + f.z * slopes[1] + f.w * slopes[2] -
                           f.x * (slopes[0] + slopes[1] + slopes[2]);
     const float per = 1.0 / max(length(gradient), 1e-30);
-    light = vec2(per, 1.0 / (1.0 + p.steep * per));
+    light = vec3(per, 1.0 / (1.0 + p.steep * per), dot(gradient, view.lamp.xyz) * per);
     putAt(lo, hi);
 }

@@ -15,7 +15,7 @@ namespace render {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <Channels kChannels, bool kByValue, bool kLit>
+template <Channels kChannels, bool kByValue, Lit kLit>
 HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
                          std::span<const std::uint32_t> which, TileRoom& room) {
     SeenBlocks<Floats> blocks;
@@ -32,27 +32,25 @@ HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
 
 HWY_ATTR void SumCells(const CellView& view, std::span<const SeenCell> cells,
                        std::span<const std::uint32_t> which, TileRoom& room) {
-    const auto add = [&]<Channels kChannels>() HWY_ATTR {
+    const auto add = [&]<Channels kChannels, Lit kLit = Lit::No>() HWY_ATTR {
         if (view.byValue)
-            addCells<kChannels, true, false>(view, cells, which, room);
+            addCells<kChannels, true, kLit>(view, cells, which, room);
         else
-            addCells<kChannels, false, false>(view, cells, which, room);
+            addCells<kChannels, false, kLit>(view, cells, which, room);
     };
     switch (view.channels) {
         case Channels::Weight:
-            return addCells<Channels::Weight, false, false>(view, cells, which, room);
+            return addCells<Channels::Weight, false, Lit::No>(view, cells, which, room);
         case Channels::Count:
-            return addCells<Channels::Count, false, false>(view, cells, which, room);
+            return addCells<Channels::Count, false, Lit::No>(view, cells, which, room);
         case Channels::WeightedColor:
             return add.template operator()<Channels::WeightedColor>();
         case Channels::Over:
             break;
     }
     if (view.light == Light::Off) return add.template operator()<Channels::Over>();
-    if (view.byValue)
-        addCells<Channels::Over, true, true>(view, cells, which, room);
-    else
-        addCells<Channels::Over, false, true>(view, cells, which, room);
+    if (!view.lamp) return add.template operator()<Channels::Over, Lit::FromEye>();
+    add.template operator()<Channels::Over, Lit::FromLamp>();
 }
 
 }  // namespace HWY_NAMESPACE

@@ -91,7 +91,8 @@ class CellRank {
 // then placed; those of one rank stay as they come.
 class NearestFirst {
  public:
-    explicit NearestFirst(const CellRank& rank) : next_(rank.count()) {}
+    explicit NearestFirst(std::size_t ranks) : next_(ranks) {}
+    explicit NearestFirst(const CellRank& rank) : NearestFirst(rank.count()) {}
     void count(std::size_t rank) { ++next_[rank]; }
     void allCounted() { allCounted({this, 1}); }
     // Of one sort, each with some of what is sorted: those of one rank part by part.

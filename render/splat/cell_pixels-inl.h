@@ -133,8 +133,10 @@ struct CellLanes {
     }
 };
 
-// What light makes of a colour. At the pixels that begin at `at`, whose rays are `factor` times as
-// long as the view axis'.
+// Where light comes from, if there is some.
+enum class Lit { No, FromEye, FromLamp };
+
+// What light makes of a colour. At pixels whose rays are `factor` times as long as the view axis'.
 template <class Lanes>
 struct LightLanes {
     using V = hn::Vec<Lanes>;
@@ -149,8 +151,9 @@ struct LightLanes {
         for (std::size_t a = 0; a < 3; ++a) perSize[a] = hn::Set(l, c.perSize[a]);
         for (std::size_t k = 0; k < 6; ++k) metric[k] = hn::Set(l, view.metric[k]);
     }
-    HWY_INLINE void shade(const RayParts<Lanes>& r, V change, V factor, V& diffuse,
-                          V& specular) const {
+    template <Lit kLit>
+    HWY_INLINE void shade(const CellView& view, const SeenCell& c, const RayParts<Lanes>& r,
+                          V change, V factor, V& diffuse, V& specular) const {
         const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
         V g[3];
         for (std::size_t a = 0; a < 3; ++a) g[a] = hn::Mul(r.gradient[a], perSize[a]);
@@ -162,9 +165,21 @@ struct LightLanes {
         g2 = hn::MulAdd(hn::Mul(metric[5], g[1]), g[2], g2);
         const V per = reciprocalRoot(lanes, hn::Max(g2, tiny));
         const V certainty = reciprocal(lanes, hn::MulAdd(steep, per, one));
-        const V facing = hn::Min(one, hn::Mul(hn::Mul(hn::Abs(change), per),
-                                              hn::Mul(perUnit, reciprocal(lanes, factor))));
-        lightOf(lanes, light, certainty, facing, diffuse, specular);
+        const V perLength = hn::Mul(perUnit, reciprocal(lanes, factor));
+        const V facing = hn::Min(one, hn::Mul(hn::Mul(hn::Abs(change), per), perLength));
+        if constexpr (kLit == Lit::FromEye) {
+            lightOf(lanes, light, certainty, facing, facing, diffuse, specular);
+        } else {
+            V ofGradient = hn::Zero(lanes), ofRay = ofGradient;
+            for (int a = 0; a < 3; ++a) {
+                const auto axis = static_cast<std::size_t>(a);
+                ofGradient = hn::MulAdd(hn::Set(lanes, view.lamp->ofGradient[a]), g[a], ofGradient);
+                ofRay = hn::MulAdd(hn::Set(lanes, view.lamp->ofWay[a] / c.perSize[axis]),
+                                   r.along[a], ofRay);
+            }
+            lampLightOf(lanes, light, certainty, hn::Mul(ofGradient, per), facing, change,
+                        hn::Mul(ofRay, perLength), diffuse, specular);
+        }
     }
 };
 
@@ -237,7 +252,7 @@ HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c, c
 }
 
 // The field along a block's rays, and its light.
-template <bool kLit, bool kCrossed, class Lanes>
+template <Lit kLit, bool kCrossed, class Lanes>
 HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& room,
                             typename SeenBlocks<Lanes>::Block& block) {
     const SeenCell& c = *block.cell;
@@ -257,12 +272,13 @@ HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& r
         hn::Store(cell.acrossPixel2(r), lanes, block.width);
     else
         hn::Store(r.value, lanes, block.value);
-    if constexpr (kLit) {
+    if constexpr (kLit != Lit::No) {
         const LightLanes<Lanes> light(lanes, view, c);
         constexpr PixelBlock<Lanes, kTileStride> pixels;
         hn::Vec<Lanes> diffuse, specular;
-        light.shade(r, cell.dot(r.gradient, r.along),
-                    pixels.load(lanes, room.factor.data() + block.at), diffuse, specular);
+        light.template shade<kLit>(view, c, r, cell.dot(r.gradient, r.along),
+                                   pixels.load(lanes, room.factor.data() + block.at), diffuse,
+                                   specular);
         hn::Store(diffuse, lanes, block.diffuse);
         hn::Store(specular, lanes, block.specular);
     }
@@ -313,7 +329,7 @@ HWY_INLINE void takeRange(Lanes lanes, const CellView& view, const TileRoom& roo
 }
 
 // Adds them to their pixels, in their order, and leaves none.
-template <Channels kChannels, bool kByValue, bool kLit, class Lanes>
+template <Channels kChannels, bool kByValue, Lit kLit, class Lanes>
 HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
                           SeenBlocks<Lanes>& blocks) {
     using V = hn::Vec<Lanes>;
@@ -322,7 +338,7 @@ HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
         return kColors ? view.tints[static_cast<std::size_t>(c.firstTint)][3] : 1.0f;
     };
     const auto look = [&]<bool kCrossed>(const std::uint8_t* which, std::size_t count) HWY_ATTR {
-        if constexpr (kCrossed || kByValue || kLit)
+        if constexpr (kCrossed || kByValue || kLit != Lit::No)
             for (std::size_t k = 0; k < count; ++k)
                 followField<kLit, kCrossed>(lanes, view, room, blocks.all[which[k]]);
         if constexpr (kCrossed)
@@ -355,7 +371,7 @@ HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
                                      }
                                      color.between(front, back, colors);
                                  }
-                                 if constexpr (kLit) {
+                                 if constexpr (kLit != Lit::No) {
                                      const V diffuse = hn::Load(lanes, block.diffuse);
                                      const V specular = hn::Load(lanes, block.specular);
                                      for (int i = 0; i < 3; ++i)

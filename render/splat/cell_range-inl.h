@@ -200,18 +200,39 @@ HWY_INLINE V seenTo(Lanes lanes, V front, V back, V x, V along, V width) {
     return hn::MulAdd(seen, hn::Sub(back, front), front);
 }
 
-// Of a surface that faces the eye so much, as far as there is one.
+// Of a surface, as far as there is one, whose normal has so much of the ways to the lamp and
+// halfway from there to the eye.
 template <class Lanes, class V = hn::Vec<Lanes>>
-HWY_INLINE void lightOf(Lanes lanes, Light light, V certainty, V facing, V& diffuse, V& specular) {
+HWY_INLINE void lightOf(Lanes lanes, Light light, V certainty, V facing, V half, V& diffuse,
+                        V& specular) {
     const V ambient = hn::Set(lanes, static_cast<float>(kAmbient));
     const V rest = hn::Set(lanes, static_cast<float>(1 - kAmbient));
     const V even = hn::Set(lanes, static_cast<float>(kEven));
     diffuse = hn::MulAdd(certainty, hn::Sub(hn::MulAdd(rest, facing, ambient), even), even);
     specular = hn::Zero(lanes);
     if (light == Light::Soft) return;
-    const V f2 = hn::Mul(facing, facing), f4 = hn::Mul(f2, f2), f8 = hn::Mul(f4, f4);
+    const V f2 = hn::Mul(half, half), f4 = hn::Mul(f2, f2), f8 = hn::Mul(f4, f4);
     const V f30 = hn::Mul(hn::Mul(hn::Mul(f8, f8), f8), hn::Mul(f4, f2));
     specular = hn::Mul(hn::Mul(certainty, hn::Set(lanes, static_cast<float>(kSpecular))), f30);
+}
+// Of a lamp in the world: the gradient's direction has so much of the way to it, faces the eye so
+// much, and changes so along the ray, whose own direction has so much of that way.
+template <class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE void lampLightOf(Lanes lanes, Light light, V certainty, V ofGradient, V facing, V change,
+                            V ofRay, V& diffuse, V& specular) {
+    const V zero = hn::Zero(lanes), one = hn::Set(lanes, 1.0f);
+    // The normal on the eye's side is that in which the field falls along the ray.
+    const V onSide = hn::IfThenElse(hn::Gt(change, zero), hn::Neg(ofGradient), ofGradient);
+    const V towards = hn::Min(hn::Max(onSide, zero), one);
+    V half = zero;
+    if (light == Light::Full) {
+        const V between2 = hn::Sub(hn::Set(lanes, 2.0f), hn::Add(ofRay, ofRay));
+        const V per = reciprocalRoot(lanes, hn::Max(between2, hn::Set(lanes, 1e-12f)));
+        half = hn::Min(hn::Max(hn::Mul(hn::Add(onSide, facing), per), zero), one);
+    }
+    lightOf(lanes, light, certainty, towards, half, diffuse, specular);
+    const V low = hn::Min(hn::Mul(towards, hn::Set(lanes, static_cast<float>(1 / kLow))), one);
+    specular = hn::Mul(specular, low);
 }
 
 // Adds weights W of pixels that begin at `at`, of the colours that paint(colors) tells.

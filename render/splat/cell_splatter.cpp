@@ -22,15 +22,6 @@ constexpr std::uint64_t kListedForOne = 64;
 // Less is done before another thread has begun.
 constexpr std::size_t kCellsWorthAThread = 1 << 9;
 
-// The tiles that a cell's pixels are in.
-TileSpan spanOf(const CellView& view, const SeenPiece& c) {
-    const glm::ivec2 first = glm::ivec2(c.x, c.y) / view.tile;
-    const glm::ivec2 last = (glm::ivec2(c.x + c.columns(), c.y + c.rows()) - 1) / view.tile;
-    return {static_cast<std::uint32_t>(first.y * view.tiles.x + first.x),
-            static_cast<std::uint16_t>(last.x - first.x + 1),
-            static_cast<std::uint16_t>(last.y - first.y + 1)};
-}
-
 }  // namespace
 
 // Pieces of cells that one thread has looked at, and which tiles they touch.

@@ -16,6 +16,13 @@ std::array<float, 6> gradientMetric(const PlacedPoints& placed) {
     return metric;
 }
 
+std::optional<AxisLamp> axisLamp(const Scene& scene, Channels channels) {
+    if (channels != Channels::Over || scene.light == Light::Off || !scene.lamp) return std::nullopt;
+    const glm::dmat3& world = scene.placed.worldFromAxes();
+    return AxisLamp{glm::vec3(glm::inverse(world) * *scene.lamp),
+                    glm::vec3(glm::transpose(world) * *scene.lamp)};
+}
+
 double steepnessOf(const Scene& scene) {
     if (scene.light == Light::Off) return 0;
     double most = 0;
@@ -46,6 +53,7 @@ CellView::CellView(const PointsView& from, const Scene& scene, const View& view,
       weight(static_cast<float>(seen.rayLength / seen.unitLength)),
       rayLength(static_cast<float>(seen.rayLength)),
       light(channels == Channels::Over ? scene.light : Light::Off),
+      lamp(axisLamp(scene, channels)),
       steep(steepnessOf(scene)),
       byValue(std::ranges::any_of(
           scene.layers,
@@ -86,6 +94,14 @@ void takeRange(SeenPiece& c, const Splat& s) {
 
 }  // namespace
 
+TileSpan spanOf(const CellView& view, const SeenPiece& c) {
+    const glm::ivec2 first = glm::ivec2(c.x, c.y) / view.tile;
+    const glm::ivec2 last = (glm::ivec2(c.x + c.columns(), c.y + c.rows()) - 1) / view.tile;
+    return {static_cast<std::uint32_t>(first.y * view.tiles.x + first.x),
+            static_cast<std::uint16_t>(last.x - first.x + 1),
+            static_cast<std::uint16_t>(last.y - first.y + 1)};
+}
+
 void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
                double reference, double extent) {
     if (view.tintsOf.empty()) return;
@@ -121,6 +137,10 @@ std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::
     c.perSteepness = static_cast<float>(1 / steepness);
     c.certainty = static_cast<float>(
         1 / (1 + static_cast<double>(steepnessIn(s.extent, view.steep)) / steepness));
+    if (!view.lamp) return c;
+    c.towards =
+        static_cast<float>(glm::dot(s.gradient, glm::dvec3(view.lamp->ofGradient)) / steepness);
+    c.ofRay = glm::dot(view.lamp->ofWay, glm::vec3(view.seen.rays.along(s.centre)));
     return c;
 }
 

@@ -10,9 +10,18 @@
 #include "render/model/cell_splat.h"
 #include "render/model/light.h"
 #include "render/model/tet_splat.h"
+#include "render/splat/tile_bins.h"
 #include "render/splat/tile_layout.h"
 
 namespace render {
+
+// Of a lamp that stands in the world: its direction's part of a gradient along the axes, and of a
+// way along them.
+struct AxisLamp {
+    glm::vec3 ofGradient, ofWay;
+};
+// None where it is at the eye, or there is no light.
+std::optional<AxisLamp> axisLamp(const Scene& scene, Channels channels);
 
 // The placed points must outlive it.
 struct CellView : TileLayout {
@@ -22,8 +31,9 @@ struct CellView : TileLayout {
     float weight;     // W of a unit of depth along the view axis
     float rayLength;  // of a unit of depth there, in the world
     Light light;      // Off, but for Over
-    double steep;     // what gradients are measured against, of the field a length of the world
-    bool byValue;     // some layer's colours are
+    std::optional<AxisLamp> lamp;
+    double steep;  // what gradients are measured against, of the field a length of the world
+    bool byValue;  // some layer's colours are
     std::array<float, 6> metric;  // gradientMetric()
 
  private:
@@ -69,6 +79,8 @@ struct SeenPiece {
     bool grazes() const { return (flags & kGrazes) != 0; }
     enum PieceFlag : std::uint32_t { kCrossesLeast = 1, kCrossesMost = 2, kGrazes = 4 };
 };
+// The tiles that its pixels are in.
+TileSpan spanOf(const CellView& view, const SeenPiece& c);
 // Of one of that layer, whose field is reference + extent f.
 void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
                double reference, double extent);
@@ -93,6 +105,8 @@ struct SeenTet : SeenPiece {
     std::array<float, 4> at{}, ray{}, right{}, up{};         // the corners' shares
     float f = 0, fRay = 0, fRight = 0, fUp = 0, across = 0;  // of a pixel, a unit of depth away
     float perSteepness = 0, certainty = 0;                   // of light
+    // Of a lamp in the world: its direction's part of the gradient's, and of the ray at the centre.
+    float towards = 0, ofRay = 0;
 };
 // None where the view does not see it.
 std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,

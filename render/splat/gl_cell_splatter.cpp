@@ -19,6 +19,7 @@ namespace {
 struct CellViewBlock {
     glm::mat4 viewFromAxes;
     glm::vec4 eye, rayAxis, perPixelX, perPixelY, window, depths, squares, products;
+    glm::vec4 lamp, lampOfWay;
     glm::uvec4 cells;
     glm::ivec4 part;
 };
@@ -40,6 +41,10 @@ CellViewBlock blockOf(const Scene& scene, const View& view, Channels channels, c
     b.depths = {view.clipFromView[3][2], -view.clipFromView[2][2], seen.rayLength, 0};
     b.squares = {metric[0], metric[1], metric[2], light};
     b.products = {metric[3], metric[4], metric[5], 0};
+    if (const auto lamp = axisLamp(scene, channels)) {
+        b.lamp = {lamp->ofGradient, 1};
+        b.lampOfWay = {lamp->ofWay, 0};
+    }
     b.cells = {scene.cells->size(), 0};
     b.part = {part.at, raysAcross, 0};
     return b;

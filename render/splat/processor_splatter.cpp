@@ -1,11 +1,13 @@
 #include "render/splat/processor_splatter.h"
 
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include "render/model/rays_across.h"
 #include "render/splat/cell_pieces.h"
 #include "render/splat/cell_splatter.h"
+#include "render/splat/mixed_splatter.h"
 #include "render/splat/row_splatter.h"
 
 namespace render {
@@ -42,12 +44,64 @@ class Plane final : public PlaneSum {
     Memory& memory_;
 };
 
+// What two planes of the same channels add up to.
+template <typename First, typename Second>
+class BothPlanes final : public PlaneSum {
+ public:
+    BothPlanes(First first, Second second, glm::ivec2 size, Channels channels, std::size_t plane,
+               Targets& targets)
+        : first_(std::move(first)),
+          second_(std::move(second)),
+          size_(size),
+          channels_(channels),
+          plane_(plane),
+          targets_(targets) {
+        if (done()) write();
+    }
+    std::uint64_t add(std::uint64_t splats) override {
+        const std::uint64_t added = first_.done() ? second_.add(splats) : first_.add(splats);
+        if (done() && added > 0) write();
+        return added;
+    }
+    bool done() const override { return first_.done() && second_.done(); }
+
+ private:
+    void write() {
+        const std::size_t floats = floatsPerPixel(channels_);
+        const auto width = static_cast<std::size_t>(size_.x) * floats;
+        std::vector<float> whole(width * static_cast<std::size_t>(size_.y));
+        const auto put = [&](auto& sum) {
+            const PixelBox& box = sum.box();
+            const auto row = static_cast<std::size_t>(box.size.x) * floats;
+            for (std::size_t y = 0; y < static_cast<std::size_t>(box.size.y); ++y)
+                for (std::size_t i = 0; i < row; ++i)
+                    whole[(static_cast<std::size_t>(box.at.y) + y) * width +
+                          static_cast<std::size_t>(box.at.x) * floats + i] +=
+                        sum.plane()[y * row + i];
+        };
+        put(first_);
+        put(second_);
+        targets_.putPlane(plane_, channels_, {{0, 0}, size_}, whole);
+    }
+
+    First first_;
+    Second second_;
+    glm::ivec2 size_;
+    Channels channels_;
+    std::size_t plane_;
+    Targets& targets_;
+};
+
 class ProcessorFrame final : public SplatFrame {
  public:
     ProcessorFrame(const Scene& scene, DrawList list, ProcessorSplatter::Memory& memory)
-        : scene_(scene), list_(std::move(list)), memory_(memory) {}
+        : scene_(scene),
+          points_(mixesModels(scene) ? std::optional(onlyPoints(scene)) : std::nullopt),
+          list_(std::move(list)),
+          memory_(memory) {}
 
     std::uint64_t splats(Channels channels, std::size_t layer) const override {
+        if (points_) return splatsOfBoth(channels, layer);
         if (scene_.cells) return cellCount(scene_, channels, layer);
         if (const auto* sorted = std::get_if<Sorted>(&list_)) return sorted->point.size();
         return splatCount(scene_.layers[layer], scene_.stride);
@@ -59,22 +113,40 @@ class ProcessorFrame final : public SplatFrame {
             return std::make_unique<Plane<decltype(sum), std::decay_t<decltype(memory)>>>(
                 std::move(sum), channels, layer, targets, memory);
         };
-        if (scene_.cells)
-            return plane(
-                CellSum(scene_, view, channels, layer, opaqueDepth_, raysAcross(scene_, view),
-                        sharingThreads(), std::move(memory_.cells)),
-                memory_.cells);
-        if (TileSum::canSum(scene_, channels))
-            return plane(TileSum(scene_, list_, view, channels, layer, opaqueDepth_,
+        const auto cells = [&] {
+            return CellSum(scene_, view, channels, layer, opaqueDepth_, raysAcross(scene_, view),
+                           sharingThreads(), std::move(memory_.cells));
+        };
+        const auto rows = [&](const Scene& scene) {
+            return RowSum(scene, list_, view, channels, layer, opaqueDepth_, sharingThreads(),
+                          std::move(memory_.rows));
+        };
+        if (points_ && channels == Channels::Over)
+            return plane(MixedSum(scene_, view, opaqueDepth_, raysAcross(scene_, view),
+                                  sharingThreads(), std::move(memory_.mixed)),
+                         memory_.mixed);
+        if (points_ && channels == Channels::Count)
+            return std::make_unique<BothPlanes<CellSum, RowSum>>(cells(), rows(*points_), view.size,
+                                                                 channels, layer, targets);
+        const Scene& scene = points_ && scene_.layers[layer].byPoints ? *points_ : scene_;
+        if (scene.cells) return plane(cells(), memory_.cells);
+        if (TileSum::canSum(scene, channels))
+            return plane(TileSum(scene, list_, view, channels, layer, opaqueDepth_,
                                  sharingThreads(), std::move(memory_.tiles)),
                          memory_.tiles);
-        return plane(RowSum(scene_, list_, view, channels, layer, opaqueDepth_, sharingThreads(),
-                            std::move(memory_.rows)),
-                     memory_.rows);
+        return plane(rows(scene), memory_.rows);
     }
 
  private:
+    std::uint64_t splatsOfBoth(Channels channels, std::size_t layer) const {
+        const auto [first, last] = layersOf(scene_.layers.size(), channels, layer);
+        std::uint64_t count = 0;
+        for (std::size_t k = first; k < last; ++k) count += drawnCount(scene_, scene_.layers[k]);
+        return count;
+    }
+
     const Scene& scene_;
+    const std::optional<Scene> points_;  // of one that has cells beside them
     const DrawList list_;
     ProcessorSplatter::Memory& memory_;
     std::span<const float> opaqueDepth_;

@@ -21,7 +21,7 @@ class ProcessorSplatter final : public Splatter {
 
     // Kept from frame to frame: pages that are new cost more than what is done with them.
     struct Memory {
-        std::vector<float> opaqueDepth, rows;
+        std::vector<float> opaqueDepth, rows, mixed;
         TileMemory tiles;
         CellMemory cells;
     };

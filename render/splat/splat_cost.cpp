@@ -101,7 +101,7 @@ double cellCost(const Scene& scene, std::size_t layer, const View& view) {
 }  // namespace
 
 double splatCost(const Scene& scene, std::size_t layer, const View& view) {
-    if (scene.cells) return cellCost(scene, layer, view);
+    if (isByCells(scene, scene.layers[layer])) return cellCost(scene, layer, view);
     constexpr std::uint64_t kSamples = 32;
     const Layer& of = scene.layers[layer];
     const PointsView seen(scene.placed, view);

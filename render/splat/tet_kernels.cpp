@@ -61,6 +61,11 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     if constexpr (kColors) scale *= color.weight;
     const V weight = set(scale), perRange = set(scale / view.weight * c.perRange);
     const bool hides = room.nearestOpaque < 1, isLit = view.light != Light::Off;
+    float lampRight = 0, lampUp = 0;  // of a ray, a pixel
+    for (int a = 0; view.lamp && a < 3; ++a) {
+        lampRight += view.lamp->ofWay[a] * view.perPixelX[static_cast<std::size_t>(a)];
+        lampUp += view.lamp->ofWay[a] * view.perPixelY[static_cast<std::size_t>(a)];
+    }
     const V depthA = set(static_cast<float>(view.depthA));
     const V depthB = set(static_cast<float>(view.depthB));
     const V base = set(c.base), near = set(view.near - c.base), half = set(0.5f);
@@ -120,7 +125,14 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 const V facing = hn::Min(
                     set(1), hn::Mul(hn::Mul(hn::Abs(change), set(c.perSteepness)), perLength));
                 V diffuse, specular;
-                lightOf(lanes, view.light, set(c.certainty), facing, diffuse, specular);
+                if (view.lamp) {
+                    const V ofRay =
+                        hn::MulAdd(ox, set(lampRight), hn::MulAdd(oy, set(lampUp), set(c.ofRay)));
+                    lampLightOf(lanes, view.light, set(c.certainty), set(c.towards), facing, change,
+                                hn::Mul(ofRay, perLength), diffuse, specular);
+                } else {
+                    lightOf(lanes, view.light, set(c.certainty), facing, facing, diffuse, specular);
+                }
                 for (int k = 0; k < 3; ++k) colors[k] = hn::MulAdd(colors[k], diffuse, specular);
             });
         }

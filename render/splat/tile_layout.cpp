@@ -43,7 +43,7 @@ TileLayout::TileLayout(const Scene& scene, const View& view, const PointsView& s
 void TileLayout::takeTints(const Scene& scene) {
     for (const Layer& layer : scene.layers) {
         const RangeStyle& style = layer.style;
-        double factor = scene.cells ? 1 : pointsPerSplat(layer, scene.stride);
+        double factor = isByCells(scene, layer) ? 1 : pointsPerSplat(layer, scene.stride);
         if (channels == Channels::Over) factor *= opticalDepthPerWeight(style.opacity);
         const auto add = [&](const glm::vec3& c) {
             tints.push_back({c.x, c.y, c.z, static_cast<float>(factor)});

@@ -177,10 +177,9 @@ TileSum::TileSum(const Scene& scene, const DrawList& list, const View& view, Cha
 TileSum::TileSum(TileSum&&) noexcept = default;
 TileSum::~TileSum() = default;
 
-bool TileSum::canSum(const Scene& scene, Channels channels) {
-    const bool squares = scene.footprint.kernel == Kernel::Point;
-    return channels != Channels::Count && !scene.placed.longCells() &&
-           !(scene.placed.isMesh() && squares);
+bool TileSum::canSum(const PlacedPoints& placed, const Footprint& footprint) {
+    const bool squares = footprint.kernel == Kernel::Point;
+    return !placed.longCells() && !(placed.isMesh() && squares);
 }
 
 std::uint64_t TileSum::add(std::uint64_t splats) {

@@ -47,7 +47,10 @@ class TileSum {
     TileSum(TileSum&&) noexcept;
     ~TileSum();
 
-    static bool canSum(const Scene& scene, Channels channels);
+    static bool canSum(const Scene& scene, Channels channels) {
+        return channels != Channels::Count && canSum(scene.placed, scene.footprint);
+    }
+    static bool canSum(const PlacedPoints& placed, const Footprint& footprint);
     // Adds that many splats, or kLeast if that is more, or what is left, give or take the
     // unevenness of a subset (render/points/subset.h). Returns how many.
     std::uint64_t add(std::uint64_t splats);

@@ -34,12 +34,12 @@ bool sameCells(const PlacedPoints& placed) {
 
 }  // namespace
 
-TileView::TileView(const Scene& scene, const View& view, Channels of, std::size_t layer)
-    : TileView(scene, view, PointsView(scene.placed, view), of, layer) {}
+TileView::TileView(const Scene& scene, const View& view, Channels of, std::size_t layer, int rays)
+    : TileView(scene, view, PointsView(scene.placed, finer(view, rays)), of, layer, rays) {}
 
 TileView::TileView(const Scene& scene, const View& view, const PointsView& seen, Channels of,
-                   std::size_t layer)
-    : TileLayout(scene, view, seen, of) {
+                   std::size_t layer, int rays)
+    : TileLayout(scene, view, seen, of, rays) {
     assert(!scene.placed.longCells());
     assert(channels != Channels::Count);
     for (std::size_t column = 0; column < 4; ++column)
@@ -97,7 +97,9 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     const double shortest = radius * std::min({sides.x, sides.y, sides.z});
     for (std::size_t a = 0; a < 3; ++a)
         semiAxes[a] = static_cast<float>(radius * sides[static_cast<int>(a)]);
-    pointSide = scene.footprint.kernel == Kernel::Point ? render::pointSide(scene.footprint) : 0;
+    pointSide = scene.footprint.kernel == Kernel::Point
+                    ? render::pointSide(scene.footprint) * raysAcross
+                    : 0;
     even = pointSide == 0 &&
            (placed.cubes() ||
             (sameCells(placed) && farthestDepth(placed, view) * seen.smallestRadius < shortest));

@@ -16,7 +16,8 @@ namespace render {
 // `layer` is the plane's for Weight and WeightedColor; Over takes them all. REQUIRES: no long cells
 // (PlacedPoints::longCells), not Count. The placed points must outlive it.
 struct TileView : TileLayout {
-    TileView(const Scene& scene, const View& view, Channels channels, std::size_t layer);
+    TileView(const Scene& scene, const View& view, Channels channels, std::size_t layer,
+             int raysAcross = 1);
 
     // The grid: positions and side lengths of cells along each axis, in axis coordinates.
     std::array<double, 3> size;
@@ -43,7 +44,7 @@ struct TileView : TileLayout {
 
  private:
     TileView(const Scene& scene, const View& view, const PointsView& seen, Channels channels,
-             std::size_t layer);
+             std::size_t layer, int raysAcross);
     void takeMesh(const PlacedPoints& placed);
     void takeGrid(const Scene& scene);
     void takeFootprint(const Scene& scene, const PointsView& seen, const View& view);

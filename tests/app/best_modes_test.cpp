@@ -32,6 +32,13 @@ auto at(double limit, int mode) {
     return testing::Pair(testing::DoubleNear(limit, 1e-9 * limit), mode);
 }
 
+// Whose error of depth is that of the others, at a time of its own.
+TEST(BestModes, LitOnesAreNoChoice) {
+    std::vector modes = {mode(0.008, 0.4), mode(0.003, 0.1, 1, render::Order::BackToFront)};
+    modes[1].mode.light = render::Light::Soft;
+    EXPECT_THAT(plain(mostAccurateWithin(modes)), ElementsAre(at(0.01, 0)));
+}
+
 TEST(BestModes, AreTheMostAccurateOfATimeAndTheSoonestOfAnError) {
     const std::vector modes = {mode(0.003, 0.3), mode(0.008, 0.4), mode(0.015, 0.03)};
     EXPECT_THAT(plain(mostAccurateWithin(modes)),

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
 #include "app/measure/report.h"
 #include "app/picture/picture.h"
+#include "render/reference/interval_truth.h"
 #include "tests/support/scenes.h"
 
 namespace app {
@@ -24,9 +26,12 @@ using timeseries::RangeSet;
 class MeasuredRamp : public testing::Test {
  protected:
     std::vector<Measured> measured(const std::vector<const char*>& ranges, unsigned raysAcross = 3,
-                                   const std::vector<std::string>& names = {}) {
+                                   const std::vector<std::string>& names = {},
+                                   render::Light light = render::Light::Off) {
         Explorer e;
         e.size = {80, 60};
+        e.light = light;
+        e.lamp = LampChoice{-10, 50};
         for (const char* range : ranges) {
             const bool isFirst = e.layers.empty();
             e.layers.push_back({RangeSet::parse(range), glm::dvec3(isFirst, 0, !isFirst), 0.3});
@@ -77,6 +82,43 @@ TEST_F(MeasuredRamp, ARangeBetweenPointsIsLostByPointsAndKeptByCells) {
     EXPECT_NEAR(modes[4].mass, 1, 0.01);
     EXPECT_LT(modes[4].depthError, 0.05);
     EXPECT_FALSE(modes[4].massIsOff());
+}
+
+// A picture in float is near the same in double, however far the model is from the truth, and no
+// part of it.
+TEST_F(MeasuredRamp, ArithmeticIsToldApartFromTheModel) {
+    for (const char* range : {"4.2:4.6", "2:5", "min:max"})
+        for (const Measured& m : measured({range}, 1)) {
+            EXPECT_LT(m.arithmetic, 1e-4) << m.mode.name() << ' ' << range;
+            EXPECT_EQ(m.arithmetic > 0, m.drawn > 0) << m.mode.name() << ' ' << range;
+        }
+    EXPECT_EQ(measured({"20:30"})[0].arithmetic, 0);
+}
+
+// The truth is lit as cells are, so that their light is as near to it as what comes from within.
+TEST_F(MeasuredRamp, LitCellsAreHeldAgainstALitTruth) {
+    for (const auto& ranges : {std::vector{"2:5"}, {"0:3", "5:8"}})
+        for (const render::Light light : {render::Light::Soft, render::Light::Full}) {
+            const auto modes = measured(ranges, 3, {"cells", "lit cells"}, light);
+            const Measured &dark = modes.front(), &lit = modes.back();
+            EXPECT_EQ(lit.mode, (Mode{Model::Cells, 1, render::Order::BackToFront, light}));
+            EXPECT_EQ(lit.mode.name(), "lit cells");
+            EXPECT_EQ(lit.depthError, dark.depthError);
+            EXPECT_LT(lit.rmse, 3 * dark.rmse + 1e-3);
+            EXPECT_GT(lit.rmse, 0);
+        }
+    // A lamp from elsewhere is another light.
+    Explorer e;
+    e.size = {80, 60};
+    e.light = render::Light::Soft;
+    e.layers.push_back({RangeSet::parse("2:5"), glm::dvec3(1, 0, 0), 0.9});
+    const render::Scene scene = makeScene(e, step_, placed_);
+    const render::View view = eyes(e.view, {}, placed_.outline(), e.size).front();
+    render::Scene other = scene;
+    other.lamp = glm::dvec3(1, 0, 0);
+    const render::IntervalTruth fromEye(scene, scene.cells->field(), 1),
+        fromSide(other, scene.cells->field(), 1);
+    EXPECT_NE(fromEye.light(view), fromSide.light(view));
 }
 
 // Dots jump from pixel to pixel where the field glides.
@@ -170,6 +212,15 @@ TEST(ModesNamed, AreInTheUsualOrderAndOfBothOrders) {
     EXPECT_EQ(modesNamed({}, true), modesFor(true));
 }
 
+TEST(ModesNamed, LitCellsAreNamedWhereThereIsLight) {
+    const std::vector<std::string> names = {"lit cells"};
+    const Mode lit{Model::Cells, 1, render::Order::BackToFront, render::Light::Soft};
+    for (const bool several : {false, true})
+        EXPECT_THAT(modesNamed(names, several, render::Light::Soft), ElementsAre(lit));
+    EXPECT_EQ(modesFor(false, render::Light::Soft).back(), lit);
+    EXPECT_THROW(modesNamed(names, false), ChoiceError);
+}
+
 TEST(ModesNamed, RefusesAnUnknownOneAndNamesThoseThereAre) {
     for (const std::string name : {"", "point", "points 1/3", "Cells"}) {
         const std::vector<std::string> names = {"cells", name};
@@ -216,6 +267,7 @@ std::vector<Measured> someModes() {
     points.parts.parts = ErrorParts{.model = 0.1875, .subset = 0.125, .pixels = 0.0625};
     points.parts.depth = 0.3125;
     points.parts.order = 0.5;
+    points.arithmetic = 0.03125;
     points.mass = 1.0625;
     points.psnr = 20;
     Measured cells{.mode = {Model::Cells, 1, render::Order::BackToFront}, .frame = 1.5};
@@ -246,12 +298,13 @@ TEST(MeasuredReport, IsOffFromMoreThanFivePercentOnAndWhereItIsNoNumber) {
 TEST(MeasuredReport, CsvHasARowAMode) {
     EXPECT_EQ(
         csv(someModes()),
-        "mode,order,frame,before,drawn,depthError,sampledError,modelError,subsetError,pixelsError,"
-        "orderError,mass,massIsOff,popping,rmse,psnr,largest,colorDifference\n"
+        "mode,order,light,frame,before,drawn,depthError,sampledError,modelError,subsetError,"
+        "pixelsError,orderError,arithmeticError,mass,massIsOff,popping,rmse,psnr,largest,"
+        "colorDifference\n"
         "points "
-        "1/4,mixed,0.002,1e-05,12345,0.25,0.3125,0.1875,0.125,0.0625,0.5,1.0625,true,0.0,0.0,"
-        "20.0,0.0,0.0\n"
-        "cells,by depth,1.5,0.0,0,0.0,0.0,0.0,0.0,0.0,0.0,1.0,false,0.0,0.0,,0.0,0.0\n");
+        "1/4,mixed,off,0.002,1e-05,12345,0.25,0.3125,0.1875,0.125,0.0625,0.5,0.03125,1.0625,true,"
+        "0.0,0.0,20.0,0.0,0.0\n"
+        "cells,by depth,off,1.5,0.0,0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,1.0,false,0.0,0.0,,0.0,0.0\n");
 }
 
 TEST(MeasuredReport, JsonHasNullForTheInfinite) {

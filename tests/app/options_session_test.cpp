@@ -120,6 +120,18 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
         e.model = Model::Points;
     });
     expectOnly({"--model", "points"}, [](Explorer& e) { e.model = Model::Points; });
+    for (const char* word : {"auto", "cells"})
+        expectOnly({"--model", word}, [](Explorer& e) { e.model = Model::Cells; });
+    // The first is of all, whatever they were; further ones of each in turn.
+    saved_.layers[1].model = Model::Points;
+    tests::writeBytes(file_, toJson(saved_, file_.parent_path()).dump());
+    expectOnly({"--model", "cells"}, [](Explorer& e) { e = allBy(Model::Cells, e); });
+    expectOnly({"--model", "points", "--model", "auto", "--model", "points", "--model", "cells"},
+               [](Explorer& e) {
+                   e = allBy(Model::Points, e);
+                   e.layers[1].model = Model::Points;
+                   e.layers[2].model = Model::Cells;
+               });
     expectOnly({"--order", "none"}, [](Explorer& e) { e.order = render::Order::None; });
     expectOnly({"--clip", "1:2,1:2,1:2"}, [](Explorer& e) { e.clip = parseClip("1:2,1:2,1:2"); });
     expectOnly({"--scale", "1,1,1"}, [](Explorer& e) { e.scale = glm::dvec3(1); });

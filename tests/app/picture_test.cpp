@@ -34,6 +34,74 @@ TEST_F(PictureOfARamp, CellsReachIntoTheRangesBetweenPoints) {
     EXPECT_THAT(picture.legend.notes, testing::Contains("interpolated between points"));
 }
 
+// Older sessions say of all layers at once what they are drawn by.
+TEST_F(PictureOfARamp, EachLayerMayHaveAModelOfItsOwn) {
+    Explorer e = withRanges({"100:199", "500:600", "700:800"});
+    e.model = Model::Cells;
+    e.layers[1].model = Model::Points;
+    const Picture picture = pictureOf(e);
+    const auto& layers = picture.scene.layers;
+    ASSERT_NE(picture.scene.cells, nullptr);
+    EXPECT_TRUE(mixesModels(picture.scene));
+    for (const std::size_t k : {0, 1, 2}) {
+        EXPECT_EQ(layers[k].byPoints, k == 1);
+        EXPECT_EQ(layers[k].cells.candidates.empty(), k == 1);
+        EXPECT_FALSE(layers[k].cells.ranges.empty());
+        EXPECT_EQ(drawnCount(picture.scene, layers[k]),
+                  k == 1 ? pointCount(layers[k]) : cellCount(layers[k]));
+    }
+    EXPECT_THAT(picture.legend.notes,
+                testing::ElementsAre("interpolated between points", "layer 2 by points alone"));
+    // What is not seen takes no part.
+    e.layers[1].visible = false;
+    EXPECT_FALSE(mixesModels(pictureOf(e).scene));
+    EXPECT_EQ(pictureOf(e).legend.notes.size(), 1u);
+    // One by cells among points.
+    e = allBy(Model::Points, e);
+    e.layers[1].visible = true;
+    EXPECT_EQ(pictureOf(e).scene.cells, nullptr);
+    e.layers[0].model = Model::Cells;
+    EXPECT_THAT(pictureOf(e).legend.notes, testing::Contains("layers 2 and 3 by points alone"));
+}
+
+// Where a splat ends at the domain's faces, it has no place among cells.
+TEST(NeedsCells, WhereSplatsCannotBePutAmongThemAllIsDrawnByPoints) {
+    const auto grid = std::make_shared<const timeseries::Grid>(
+        std::array{tests::axis(20), tests::axis(20), tests::axis(3, 0, 8)});
+    const SortedStep step =
+        tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); });
+    const render::PlacedPoints placed(*grid);
+    ASSERT_TRUE(placed.longCells());
+    Explorer e;
+    for (const char* range : {"2:5", "8:11"})
+        e.layers.push_back({RangeSet::parse(range), glm::dvec3(1, 0, 0), 0.5});
+    EXPECT_TRUE(needsCells(e, step, placed));
+    e.layers[1].model = Model::Points;
+    EXPECT_FALSE(needsCells(e, step, placed));
+    const render::Scene scene = makeScene(e, step, placed);
+    EXPECT_EQ(scene.cells, nullptr);
+    EXPECT_FALSE(scene.layers[1].byPoints);
+    timeseries::Variable variable;
+    variable.time = std::make_shared<const timeseries::TimeAxis>(
+        timeseries::TimeAxis{"time", "s", "", std::vector(1, timeseries::TimePoint{})});
+    EXPECT_THAT(makeLegend(e, variable, 0, scene).notes,
+                testing::Contains(HasSubstr("drawn by points: the splats of one layer")));
+    e.layers[1].visible = false;
+    EXPECT_TRUE(needsCells(e, step, placed));
+}
+
+TEST_F(PictureOfARamp, OnlyLayersByCellsNeedCells) {
+    Explorer e = withRanges({"100:199", "500:600"});
+    e.layers[0].model = Model::Cells;
+    const auto needed = cellsNeeded(e, step_->type());
+    ASSERT_EQ(needed.size(), 1u);
+    EXPECT_EQ(needed[0].lo, timeseries::betweenPoints(e.layers[0].ranges, step_->type())[0].lo);
+    EXPECT_EQ(modelOf(e), Model::Cells);
+    e.layers[0].visible = false;
+    EXPECT_EQ(modelOf(e), Model::Points);
+    EXPECT_TRUE(cellsNeeded(e, step_->type()).empty());
+}
+
 TEST_F(PictureOfARamp, WithoutAllValuesPointsAreDrawnAndTheLegendSaysSo) {
     step_ = ramp(0, RangeSet::parse("100:900"));
     steps_ = {{1, step_}};

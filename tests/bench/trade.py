@@ -4,9 +4,10 @@
     tests/bench/trade.py                measures with build/release (some minutes), writes the page
     tests/bench/trade.py fire tooth     measures these scenes again; the others stay as last measured
     tests/bench/trade.py --page         writes the page from what was last measured
+    tests/bench/trade.py --plots        draws the plots anew, from the page's own tables
 
 Data lie in ../shared/datasets, or in datasets below $ISOCHRON_SHARED; what is not there is left out.
-What was measured stays in build/trade. On a quiet machine only: what else runs is in the times.
+What was measured stays in build/trade, its plots in tests/bench/trade. On a quiet machine only: what else runs is in the times.
 """
 import datetime
 import json
@@ -15,8 +16,10 @@ import pathlib
 import sys
 
 from pages import ROOT, commit, processor, said, table
+from trade_plot import svg
 
 KEPT = ROOT / "build/trade"
+PAGE, PLOTS = "tests/bench/TRADE.md", "tests/bench/trade"
 PROGRAM = ROOT / "build/release/app/isochron"
 DATA = pathlib.Path(os.environ.get("ISOCHRON_SHARED", ROOT.parent / "shared")) / "datasets"
 FIRE = "pool_fire_T.nc"
@@ -38,7 +41,7 @@ def measure(name):
         print(f"{name}: {file} is not there", file=sys.stderr)
         return
     print(f"{name} ...", file=sys.stderr)
-    about = {"commit": commit("tests/bench/TRADE.md"), "date": datetime.date.today().isoformat(),
+    about = {"commit": commit(PAGE, PLOTS), "date": datetime.date.today().isoformat(),
              "load": os.getloadavg()[0]}
     figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--size", "600x600", "--json"))
     KEPT.mkdir(parents=True, exist_ok=True)
@@ -65,10 +68,19 @@ def popping(mode):
     return f"{mode['popping']:.3f}" if "popping" in mode else ""  # older figures have none
 
 
+def is_lit(mode):
+    return mode.get("light", "off") != "off"  # older figures have none
+
+
+def in_float(mode):
+    return f"{mode['arithmeticError']:.0e}" if mode.get("arithmeticError") is not None else ""
+
+
 def best(figures, limited, limit, wanted):
     """As `isochron measure` tells it: of the modes whose mass is right and whose colours are not mixed."""
     order = figures["modes"][0]["order"]
-    fit = [m for m in figures["modes"] if not m["massIsOff"] and m["order"] == order and m[limited] <= limit]
+    fit = [m for m in figures["modes"] if not m["massIsOff"] and m["order"] == order and not is_lit(m)
+           and m[limited] <= limit]
     if not fit:
         return "none"
     m = min(fit, key=lambda mode: mode[wanted])
@@ -96,7 +108,7 @@ def find(figures, name):
 def rows_of(figures):
     for m in figures["modes"]:
         yield [m["mode"], m["order"], time(m["frame"]), time(m["before"]), f"{m['drawn']:,}",
-               f"{m['depthError']:.3f}", mass(m), popping(m), f"{m['rmse']:.1e}",
+               f"{m['depthError']:.3f}", mass(m), in_float(m), popping(m), f"{m['rmse']:.1e}",
                "" if m["psnr"] is None else f"{m['psnr']:.1f} dB", f"{m['colorDifference']:.1f}"]
 
 
@@ -104,10 +116,13 @@ def summary(scenes):
     rows = []
     for name, data in scenes:
         points, cells = find(data["figures"], "points"), find(data["figures"], "cells")
+        lit = next((m for m in data["figures"]["modes"] if is_lit(m)), None)
         rows.append([SCENES[name][1], f"{points['depthError']:.3f}", mass(points), time(points["frame"]),
                      f"{cells['depthError']:.3f}", mass(cells), time(cells["frame"]),
-                     f"{cells['frame'] / points['frame']:.1f}"])
-    return table(["scene", "points: error", "mass", "frame", "cells: error", "mass", "frame", "cells / points"], rows)
+                     f"{cells['frame'] / points['frame']:.1f}", time(lit["frame"]) if lit else "",
+                     f"{lit['frame'] / cells['frame']:.2f}" if lit else ""])
+    return table(["scene", "points: error", "mass", "frame", "cells: error", "mass", "frame", "cells / points", "lit cells: frame",
+                  "lit / cells"], rows)
 
 
 def reading(scenes):
@@ -136,7 +151,7 @@ def stated(scenes):
     for name, data in scenes:
         figures = data["figures"]
         order = figures["modes"][0]["order"]
-        modes = [m for m in figures["modes"] if m["order"] == order and m.get("sampledError") is not None]
+        modes = [m for m in figures["modes"] if m["order"] == order and not is_lit(m) and m.get("sampledError") is not None]
         ratios += [m["sampledError"] / m["depthError"] for m in modes]
         rows.append([SCENES[name][1], *(f"{m['sampledError']:.3f} ({m['depthError']:.3f})" for m in modes)])
         names = [m["mode"] for m in modes]
@@ -163,7 +178,8 @@ def page():
 without axes and legend. Error is the relative L2 of optical depth, and mass its sum, against the truth: the interval volume of the
 field that is trilinear between its points, exact along each ray, the mean of {first['rays']} x {first['rays']} rays a pixel. RMSE, PSNR and the 95th percentile of
 CIEDE2000 (where something shows; 1 is about what an eye can tell) are of the picture in linear light, against the light of the same
-truth in exact order. Popping is how much the picture's depth changes, and the truth's does not, when the view turns by 0.1 degree.
+truth in exact order, lit as they are where cells are lit. In float is what arithmetic alone does to the depth, against the same splats or
+cells in double: no part of the model's error. Popping is how much the picture's depth changes, and the truth's does not, when the view turns by 0.1 degree.
 
 {reading(scenes)}
 By depth, where a scene has more than one colour:
@@ -171,16 +187,56 @@ By depth, where a scene has more than one colour:
 {summary(scenes)}
 {choices(scenes)}
 {stated(scenes)}"""
-    head = ["mode", "order", "frame", "before", "drawn", "error", "mass", "popping", "RMSE", "PSNR", "ΔE 95 %"]
+    head = ["mode", "order", "frame", "before", "drawn", "error", "mass", "in float", "popping", "RMSE", "PSNR", "ΔE 95 %"]
     for name, data in scenes:
         about, figures = data["about"], data["figures"]
         text += (f"\n## {SCENES[name][1]}\n\n`{SCENES[name][0]}`, step {figures['step']}, {figures['points']:,} points. "
                  f"*Commit {about['commit']}, {about['date']}, load {about['load']:.1f} at its start.*\n\n"
                  + table(head, rows_of(figures)))
-    (ROOT / "tests/bench/TRADE.md").write_text(text)
+        text += plotted(name, figures["modes"])
+    (ROOT / PAGE).write_text(text)
+
+
+def plotted(name, modes):
+    (ROOT / PLOTS).mkdir(exist_ok=True)
+    (ROOT / PLOTS / f"{name}.svg").write_text(svg(SCENES[name][1], modes))
+    return f"\n![{SCENES[name][1]}: error against time]({pathlib.Path(PLOTS).name}/{name}.svg)\n"
+
+
+def seconds(text):
+    number, unit = text.split()
+    return float(number) * {"s": 1, "ms": 1e-3, "µs": 1e-6}[unit]
+
+
+def modes_of(page, name):
+    """As a table of the page tells them."""
+    lines = page.split(f"\n## {SCENES[name][1]}\n", 1)[1].split("\n## ", 1)[0].splitlines()
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+    for row in rows[2:]:
+        of = dict(zip(rows[0], row))
+        mass = of["mass"].strip("*")
+        yield {"mode": of["mode"], "order": of["order"], "frame": seconds(of["frame"]), "depthError": float(of["error"]),
+               "mass": 1 + float(mass.removesuffix(" %")) / 100, "massIsOff": mass != of["mass"]}
+
+
+def plots():
+    """And links them, where a page from before has none."""
+    page = (ROOT / PAGE).read_text()
+    for name, (_, title, _) in SCENES.items():
+        head = f"\n## {title}\n"
+        if head not in page:
+            continue
+        link = plotted(name, list(modes_of(page, name)))
+        if link.strip() not in page:
+            before, after = page.split(head, 1)
+            own, *rest = after.split("\n## ", 1)
+            page = before + head + own.rstrip("\n") + "\n" + link + "".join("\n## " + other for other in rest)
+    (ROOT / PAGE).write_text(page)
 
 
 def main(arguments):
+    if arguments == ["--plots"]:
+        return plots()
     names = [a for a in arguments if a != "--page"]
     if unknown := [n for n in names if n not in SCENES]:
         sys.exit(f"{unknown[0]}: no such scene; there are: {' '.join(SCENES)}")

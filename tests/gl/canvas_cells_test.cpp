@@ -43,6 +43,41 @@ TEST_F(CanvasOfNoise, CellsRestWholeAndPointsStandForThemWhileTheyWouldTakeTooLo
     }
 }
 
+// Points of one layer among the cells of another, which the program draws itself also beside a GPU.
+TEST_F(CanvasOfNoise, LayersOfEitherModelRestWholeTogether) {
+    const auto by = [&](Model first, Model other) {
+        world_.explorer.layers[0].model = first;
+        world_.explorer.layers[1].model = other;
+        const Image image = draw(world_.shown())[0];
+        EXPECT_TRUE(report_.whole);
+        EXPECT_EQ(report_.cells.has_value(), first == Model::Cells || other == Model::Cells);
+        return image;
+    };
+    for (const render::Order order : {render::Order::None, render::Order::BackToFront}) {
+        world_.explorer.order = order;
+        const Image points = by(Model::Points, Model::Points),
+                    cells = by(Model::Cells, Model::Cells);
+        const Image one = by(Model::Points, Model::Cells), other = by(Model::Cells, Model::Points);
+        for (const Image& mixed : {one, other}) {
+            EXPECT_NE(mixed, points);
+            EXPECT_NE(mixed, cells);
+        }
+        EXPECT_NE(one, other);
+        Image refined;
+        int calls = 0;
+        do {
+            const auto views = canvas_.eyesOf(world_.shown());
+            report_ = canvas_.refine(
+                world_.shown(), views, {.splats = 2'000},
+                [&](std::size_t, const render::Targets& light) { refined = light.readLight(); });
+        } while (!report_.whole && ++calls < 1000);
+        EXPECT_GT(calls, 1);
+        EXPECT_EQ(refined, other);
+        draw(world_.shown(), {.splats = 2'000}, true);
+        EXPECT_FALSE(report_.cells) << "points stand for all where they would take too long";
+    }
+}
+
 TEST_F(CanvasOfNoise, AMovingPictureMayBeToldHowItIsDrawn) {
     world_.explorer.model = Model::Cells;
     const Image cells = draw(world_.shown())[0];

@@ -5,8 +5,11 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/choices/session.h"
 #include "app/choices/user_files.h"
 #include "render/gl/headless_context.h"
 #include "tests/support/files.h"
@@ -41,6 +44,25 @@ TEST(FileActions, DiscardTheSessionThatWasLeft) {
     fileActions.serve(requests, interface);
     EXPECT_TRUE(fileActions.offers().autosave.empty());
     EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(FileActions, ASavedSessionTellsTheErrorAndIsReadWithoutIt) {
+    const auto home = tests::freshFolder();
+    setenv("XDG_STATE_HOME", home.c_str(), 1);
+    setenv("XDG_CONFIG_HOME", home.c_str(), 1);
+    const render::gl::HeadlessContext context;
+    Canvas canvas;
+    Exploration exploration({});
+    std::optional<ExportJob> exporting;
+    FileActions fileActions(exploration, canvas, exporting, [](const std::string&) {});
+    for (const std::optional<double> error : {std::optional<double>(), std::optional(0.03125)}) {
+        const auto file = home / "s.json";
+        fileActions.save(file, error);
+        const auto session = nlohmann::json::parse(std::ifstream(file));
+        EXPECT_EQ(session.contains("opticalDepthError"), error.has_value());
+        if (error) EXPECT_EQ(session["opticalDepthError"], *error);
+        EXPECT_EQ(readSession(file), exploration.explorer());
+    }
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ TEST_F(GlCellsOf, EachOfSeveralScenesIsItsOwn) {
     each("order", [](Scene& scene) { scene.order = Order::BackToFront; });
     each("opacity", [](Scene& scene) { scene.layers[0].style.opacity = 0.9; });
     each("light", [](Scene& scene) { scene.light = Light::Full; });
+    each("lamp", [](Scene& scene) { scene.lamp = glm::dvec3(0, 0, 1); });
     // Another step of the same shape.
     const CellWorld other(
         sampled(tests::cube(10), [](const glm::dvec3& p) { return wave(p + 1.0); }),

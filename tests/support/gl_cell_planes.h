@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "render/gl/debug_output.h"
@@ -22,6 +24,9 @@ class GlCellPlanes : public testing::Test {
     static constexpr glm::ivec2 kSize{120, 90};
     static inline const render::View kOutside = lookFrom({1.2, -2.5, 1}, kSize);
     static inline const render::View kInside = lookFrom({0.12, 0.2, -0.15}, kSize, 0.9);
+
+    static inline const std::array<render::Lamp, 2> kLamps = {
+        std::nullopt, glm::normalize(glm::dvec3(-2, -1, 2.5))};
 
     // Of the whole picture, row 0 at the bottom; the opaque scene is a wall at this window depth.
     std::vector<float> plane(const render::Scene& scene, const render::View& view,
@@ -58,20 +63,24 @@ class GlCellPlanes : public testing::Test {
                 drawn(scene, view, planes[k], k, 2, kAllCells, {}, render::raysAcross(scene, view)),
                 error);
     }
-    // From outside and inside, without order and in it with each light.
+    // From outside and inside, without order and in it with each light from each lamp.
     void expectTheProcessorsInEveryLight(render::Scene& scene, double unordered, double ordered) {
         using render::Light, render::Order;
         for (const Order order : {Order::None, Order::BackToFront})
             for (const Light light : {Light::Off, Light::Soft, Light::Full})
-                for (const render::View& view : {kOutside, kInside}) {
-                    if (order == Order::None && light != Light::Off) continue;
-                    scene.order = order;
-                    scene.light = light;
-                    SCOPED_TRACE(testing::Message()
-                                 << static_cast<int>(order) << static_cast<int>(light)
-                                 << view.viewFromWorld[3][2]);
-                    expectTheProcessors(scene, view, order == Order::None ? unordered : ordered);
-                }
+                for (const render::Lamp& lamp : kLamps)
+                    for (const render::View& view : {kOutside, kInside}) {
+                        if (order == Order::None && light != Light::Off) continue;
+                        if (light == Light::Off && lamp) continue;
+                        scene.order = order;
+                        scene.light = light;
+                        scene.lamp = lamp;
+                        SCOPED_TRACE(testing::Message()
+                                     << static_cast<int>(order) << static_cast<int>(light)
+                                     << lamp.has_value() << view.viewFromWorld[3][2]);
+                        expectTheProcessors(scene, view,
+                                            order == Order::None ? unordered : ordered);
+                    }
     }
     // Relative L2.
     static void expectSame(const std::vector<float>& is, const std::vector<float>& expected,

@@ -45,6 +45,7 @@ class RandomExplorer {
             e.layers.push_back(styled(random_() % 5 == 0 ? timeseries::RangeSet() : ranges()));
         if (maybe()) e.model = app::Model::Cells;
         e.light = static_cast<render::Light>(random_() % 3);
+        if (maybe()) e.lamp = app::LampChoice{720 * unit() - 360, 180 * unit() - 90};
         if (maybe()) e.opacityPer = render::OpacityPer::Length;
         e.footprint = {maybe() ? render::Kernel::Point : render::Kernel::Quartic,
                        0.001 + 5 * unit()};
@@ -107,6 +108,7 @@ class RandomExplorer {
     app::LayerChoice styled(timeseries::RangeSet set) {
         app::LayerChoice layer{std::move(set), {}, {}};
         if (maybe()) layer.opacity = unit();
+        if (random_() % 3 == 0) layer.model = maybe() ? app::Model::Points : app::Model::Cells;
         layer.visible = random_() % 4 != 0;
         switch (random_() % 3) {
             case 0:

@@ -39,6 +39,16 @@ TEST(Readout, SaysWhatIsShown) {
     EXPECT_THAT(text, Not(HasSubstr("playing")));
 }
 
+TEST(Readout, SaysTheErrorWhereItIsKnown) {
+    tests::ScriptedExploration world;
+    const Screen screen = screenOf(world.exploration);
+    const auto told = [&](const char* error) {
+        return readoutText(world.exploration, {&screen, *world.exploration.counts(), error}, {}, 1);
+    };
+    EXPECT_THAT(told("error about 3 %"), HasSubstr("points\nerror about 3 %"));
+    EXPECT_THAT(told(""), Not(HasSubstr("error")));
+}
+
 TEST(Readout, FollowsTheSweptWindow) {
     tests::ScriptedExploration world;
     Exploration& e = world.exploration;

@@ -264,6 +264,7 @@ TEST_P(EveryControl, IsOperatedWithMouseAndKeys) {
     Explorer e = desk.exploration.explorer();
     e.layers = {tests::layer("4:20"), tests::layer("30:50")};
     e.layers[1].color = MapChoice{.map = {}, .lo = 0, .hi = 64};
+    e.lamp = LampChoice{-10, 50};
     desk.exploration.edit(e);
     desk.sweep("1:63", 2);
     desk.untilAllSeen();

@@ -1,0 +1,56 @@
+#include "app/headset/seen_error.h"
+
+#include <utility>
+
+#include "app/picture/error_text.h"
+
+namespace app::headset {
+namespace {
+
+// What an error is of, at any step and from wherever it is seen.
+Explorer selectionOf(Explorer e) {
+    e.steps.reset();
+    e.view = {};
+    e.stereo = {};
+    e.size = {};
+    e.play = {};
+    e.light = {};
+    e.lamp = {};
+    return e;
+}
+
+// Cells are looked for by another thread first.
+bool isReady(const Screen& screen) {
+    if (!hasDepthError(*screen.sorted)) return false;
+    return modelOf(screen.explorer) == Model::Points ||
+           screen.sorted->cellsIfMade(cellsNeeded(screen.explorer, screen.sorted->type()));
+}
+
+}  // namespace
+
+void SeenError::update(const Screen& screen, const render::View& view, Clock::time_point now) {
+    Explorer selection = selectionOf(screen.explorer);
+    if (selection != selection_ || since_ == Clock::time_point()) {
+        error_.forget();
+        asked_.reset();
+        errors_.reset();
+        selection_ = std::move(selection);
+        since_ = now;
+    }
+    if (errors_ || now - since_ < kStands || !isReady(screen)) return;
+    if (!asked_) {
+        asked_ = {screen.sorted, screen.explorer, view};
+        asked_->view.hidden.reset();
+    }
+    errors_ = error_.of(*asked_);
+    if (errors_) asked_.reset();
+}
+
+std::string SeenError::text(const Rung& drawn) const {
+    const RungError* const error = errors_ ? errors_->find(drawn) : nullptr;
+    if (error == nullptr) return "";
+    const std::string depth = depthErrorText(error->depth);
+    return depth.empty() ? "" : depth + lightErrorText(*error, errors_->ordering);
+}
+
+}  // namespace app::headset

@@ -1,0 +1,345 @@
+#include "render/splat/mixed_splatter.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "render/splat/cell_batches.h"
+#include "render/splat/cell_kernels.h"
+#include "render/splat/cell_pieces.h"
+#include "render/splat/seen_cells.h"
+#include "render/splat/splat_source.h"
+#include "render/splat/tet_kernels.h"
+#include "render/splat/tile_bins.h"
+#include "render/splat/tile_kernels.h"
+#include "render/splat/tile_plane.h"
+#include "render/splat/tile_splatter.h"
+
+namespace render {
+namespace {
+
+constexpr std::uint64_t kAtOnce = 1 << 16;
+// Less is done before another thread has begun.
+constexpr std::size_t kWorthAThread = 1 << 10;
+
+// A cell, or a point: its position in the sorted step. Which of them, its layer says.
+using Passed = CellOfLayer;
+
+// As CellRank, but without bricks: of an upright grid the sum of distances from the eye's cell,
+// along each axis, for splats reach into cells beside theirs, which are to be about as far away.
+class MixedRank {
+ public:
+    MixedRank(const Scene& scene, const View& view)
+        : scene_(scene), cells_(scene, view), size_(scene.cells->size()) {}
+    std::size_t count() const {
+        return scene_.placed.isMesh() ? cells_.count() : std::size_t{size_.x} + size_.y + size_.z;
+    }
+    std::uint32_t ofCell(std::uint32_t cell) const {
+        if (scene_.placed.isMesh()) return cells_(cell);
+        return distanceTo(timeseries::indicesOf(cell, size_));
+    }
+    // Of an upright grid, that of the farthest of the cells about it.
+    std::uint32_t ofPoint(std::uint32_t index) const {
+        if (scene_.placed.isMesh()) return cells_.ofMiddle(scene_.placed.alongAxes(index));
+        const glm::uvec3 point = scene_.placed.indices(index);
+        glm::uvec3 cell(0);
+        for (int a = 0; a < 3; ++a)
+            cell[a] = point[a] + (cells_.eye()[a] <= static_cast<int>(point[a]) ? 1u : 0u);
+        return distanceTo(cell);
+    }
+
+ private:
+    std::uint32_t distanceTo(const glm::uvec3& cell) const {
+        std::uint32_t sum = 0;
+        for (int a = 0; a < 3; ++a)
+            sum +=
+                static_cast<std::uint32_t>(std::abs(static_cast<int>(cell[a]) - cells_.eye()[a]));
+        return sum;
+    }
+
+    const Scene& scene_;
+    CellRank cells_;
+    glm::uvec3 size_;
+};
+
+// Of those of one rank, points come before cells.
+std::vector<Passed> nearestFirst(const Scene& scene, const View& view,
+                                 const timeseries::Columns& columns) {
+    const MixedRank rank(scene, view);
+    std::vector<Passed> all;
+    std::vector<std::uint32_t> ranks;
+    const Scene points = onlyPoints(scene);
+    SplatPoints some;
+    for (SplatSource source(points); !source.done();) {
+        source.next(kAtOnce, some);
+        for (std::size_t i = 0; i < some.point.size(); ++i) {
+            const std::uint32_t index = columns.gridIndex[some.point[i]];
+            if (!scene.placed.inside(index, scene.clip)) continue;
+            all.push_back({some.point[i], some.layer[i]});
+            ranks.push_back(rank.ofPoint(index));
+        }
+    }
+    CellList cells(scene, Channels::Over, 0);
+    while (!cells.done()) cells.goOn(std::numeric_limits<std::uint32_t>::max());
+    for (const CellOfLayer& cell : cells.cells()) {
+        all.push_back(cell);
+        ranks.push_back(rank.ofCell(cell.cell));
+    }
+    NearestFirst order(rank.count());
+    for (const std::uint32_t r : ranks) order.count(r);
+    order.allCounted();
+    std::vector<Passed> sorted(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) sorted[order.place(ranks[i])] = all[i];
+    return sorted;
+}
+
+// What of several points is drawn, and where: of all threads', in the order of the list.
+struct Points {
+    SplatList list;
+    std::vector<TileSpan> spans;
+    std::vector<std::uint32_t> place;  // in `list`: of a mesh, what its index is then
+
+    void take(std::size_t count, bool isMesh) {
+        list.index.resize(count);
+        list.tint.resize(count);
+        spans.resize(count);
+        if (isMesh) list.seen.resize(std::max(list.seen.size(), count));
+    }
+};
+
+// What one thread looks at, and which tiles that touches.
+class Part {
+ public:
+    // `points`: the first of the list's is at `first` among them.
+    void look(const Scene& scene, const CellView& cells, const TileView& splats,
+              const timeseries::Columns& columns, const CellBatches& batches,
+              std::span<const Passed> passed, Points& points, std::size_t first);
+    bool holds(std::size_t tile) const {
+        return cellBins_.count(tile) + splatBins_.count(tile) > 0;
+    }
+    // `room` is of cells; splats have tables of rays of their own.
+    void sum(const CellView& cells, const TileView& splats, std::size_t tile, TileRoom& room,
+             TileRoom& splatRoom) const;
+
+ private:
+    void lookAtCells(const Scene& scene, const CellView& view, const CellBatches& batches,
+                     std::span<const Passed> some);
+    void bin(const CellView& view, const Points& points, std::size_t first, std::size_t last);
+
+    // Points, then cells, up to these among those that are seen.
+    struct Stretch {
+        std::size_t points, cells;
+    };
+    std::vector<Stretch> stretches_;
+    std::vector<SeenCell> cells_;
+    std::vector<SeenTet> tets_;  // of a mesh, instead of these
+    PieceBatch pieces_;
+    std::vector<TileSpan> cellSpans_;
+    TileBins cellBins_, splatBins_;
+    std::vector<std::uint32_t> binnedCells_, binnedPoints_, binnedIndex_;
+    std::vector<float> binnedTint_;
+};
+
+void Part::lookAtCells(const Scene& scene, const CellView& view, const CellBatches& batches,
+                       std::span<const Passed> some) {
+    if (!scene.placed.isMesh())
+        return batches.forEach(some, pieces_, [&] {
+            seeCells(view, scene, pieces_, cells_, cellSpans_);
+            pieces_.count = 0;
+        });
+    forEachTet(scene, some, &view.seen.rays.eye, [&](const ValuedTet& tet, const CellOfLayer& of) {
+        const auto seen = seenTet(view, tet, of.layer, scene.layers[of.layer].style);
+        if (!seen) return;
+        tets_.push_back(*seen);
+        cellSpans_.push_back(spanOf(view, *seen));
+    });
+}
+
+void Part::look(const Scene& scene, const CellView& cells, const TileView& splats,
+                const timeseries::Columns& columns, const CellBatches& batches,
+                std::span<const Passed> passed, Points& points, std::size_t first) {
+    stretches_.clear();
+    cells_.clear();
+    tets_.clear();
+    cellSpans_.clear();
+    const auto isPoint = [&](const Passed& of) { return scene.layers[of.layer].byPoints; };
+    std::size_t last = first;
+    for (std::size_t i = 0; i < passed.size();) {
+        for (; i < passed.size() && isPoint(passed[i]); ++i, ++last) {
+            const Passed& of = passed[i];
+            points.list.index[last] = columns.gridIndex[of.cell];
+            points.list.tint[last] =
+                tintPlace(splats, of.layer, scene.layers[of.layer].style,
+                          std::visit([&](auto v) { return static_cast<double>(v[of.cell]); },
+                                     columns.values));
+        }
+        const std::size_t from = i;
+        while (i < passed.size() && !isPoint(passed[i])) ++i;
+        lookAtCells(scene, cells, batches, passed.subspan(from, i - from));
+        stretches_.push_back({last, cellSpans_.size()});
+    }
+    if (scene.placed.isMesh()) {
+        const std::size_t count = last - first;
+        seeSplats(scene, splats, std::span(points.list.index).subspan(first, count),
+                  std::span(points.list.seen).subspan(first, count),
+                  std::span(points.spans).subspan(first, count));
+        std::iota(points.list.index.begin() + std::ptrdiff_t(first),
+                  points.list.index.begin() + std::ptrdiff_t(last),
+                  static_cast<std::uint32_t>(first));
+    } else {
+        findTiles(splats, points.list, first, last, points.spans);
+    }
+    bin(cells, points, first, last);
+}
+
+void Part::bin(const CellView& view, const Points& points, std::size_t first, std::size_t last) {
+    cellBins_.fill(
+        view.count(), view.tiles.x, cellSpans_, 0, cellSpans_.size(),
+        [&](std::size_t places) { binnedCells_.resize(places); },
+        [&](std::uint32_t to, std::size_t i) { binnedCells_[to] = static_cast<std::uint32_t>(i); });
+    splatBins_.fill(
+        view.count(), view.tiles.x, points.spans, first, last,
+        [&](std::size_t places) {
+            binnedPoints_.resize(places);
+            binnedIndex_.resize(places);
+            binnedTint_.resize(places);
+        },
+        [&](std::uint32_t to, std::size_t i) {
+            binnedPoints_[to] = static_cast<std::uint32_t>(i);
+            binnedIndex_[to] = points.list.index[i];
+            binnedTint_[to] = points.list.tint[i];
+        });
+}
+
+void Part::sum(const CellView& cells, const TileView& splats, std::size_t tile, TileRoom& room,
+               TileRoom& splatRoom) const {
+    const auto inTile = [&](const auto& binned, const TileBins& bins) {
+        return std::span(binned).subspan(bins.first(tile), bins.count(tile));
+    };
+    const std::span cellsHere = inTile(binnedCells_, cellBins_);
+    const std::span pointsHere = inTile(binnedPoints_, splatBins_);
+    // Places up to which they are of a stretch.
+    const auto upTo = [](std::span<const std::uint32_t> here, std::size_t from, std::size_t end) {
+        const auto rest = here.subspan(from);
+        return from + static_cast<std::size_t>(std::ranges::lower_bound(rest, end) - rest.begin());
+    };
+    std::size_t cell = 0, point = 0;
+    for (const Stretch& stretch : stretches_) {
+        const std::size_t lastPoint = upTo(pointsHere, point, stretch.points);
+        if (lastPoint > point) {
+            std::swap(room.sums, splatRoom.sums);
+            const std::size_t at = splatBins_.first(tile) + point, count = lastPoint - point;
+            sumTile(splats, std::span(binnedIndex_).subspan(at, count),
+                    std::span(binnedTint_).subspan(at, count), splatRoom);
+            std::swap(room.sums, splatRoom.sums);
+            point = lastPoint;
+        }
+        const std::size_t lastCell = upTo(cellsHere, cell, stretch.cells);
+        if (lastCell == cell) continue;
+        const auto some = cellsHere.subspan(cell, lastCell - cell);
+        if (tets_.empty())
+            sumCells(cells, cells_, some, room);
+        else
+            sumTets(cells, tets_, some, room);
+        cell = lastCell;
+    }
+}
+
+}  // namespace
+
+struct MixedSum::Work {
+    const Scene& scene;
+    timeseries::Columns columns;
+    CellView cells;
+    TileView splats;
+    std::span<const float> opaqueDepth;
+    int width;  // of the picture
+    unsigned threads;
+    std::vector<float> kept, rays;
+    TilePlane plane;
+    CellBatches batches;
+    std::vector<Passed> all;
+    std::size_t passed = 0;
+    std::vector<Part> parts;  // one a thread
+    Points points;
+
+    Work(const Scene& drawn, const View& view, std::span<const float> opaque, int raysAcross,
+         unsigned shared, std::vector<float> memory)
+        : scene(drawn),
+          columns(columnsOf(drawn)),
+          cells(drawn, view, Channels::Over, raysAcross),
+          splats(drawn, view, Channels::Over, 0, raysAcross),
+          opaqueDepth(opaque),
+          width(view.size.x),
+          threads(std::max(shared, 1u)),
+          kept(std::move(memory)),
+          plane(cells, opaque, view.size.x, threads, kept, raysAcross > 1 ? rays : kept),
+          batches(drawn),
+          all(nearestFirst(drawn, view, columns)),
+          parts(threads) {}
+    bool done() const { return passed == all.size(); }
+    void sum(std::span<const Passed> some, bool lastOfAll);
+};
+
+void MixedSum::Work::sum(std::span<const Passed> some, bool lastOfAll) {
+    const unsigned shared = threadsFor(some.size(), kWorthAThread, threads);
+    const auto beginOf = [&](unsigned k) { return some.size() * k / shared; };
+    std::vector<std::size_t> firsts{0};  // of each thread's points
+    for (unsigned k = 0; k < shared; ++k)
+        firsts.push_back(firsts.back() +
+                         static_cast<std::size_t>(std::ranges::count_if(
+                             some.subspan(beginOf(k), beginOf(k + 1) - beginOf(k)),
+                             [&](const Passed& of) { return scene.layers[of.layer].byPoints; })));
+    points.take(firsts.back(), scene.placed.isMesh());
+    if (scene.placed.isMesh()) splats.meshSplats = points.list.seen;
+    together(shared, [&](unsigned k) {
+        parts[k].look(scene, cells, splats, columns, batches,
+                      some.subspan(beginOf(k), beginOf(k + 1) - beginOf(k)), points, firsts[k]);
+    });
+    const std::span<const Part> looked = std::span(parts).first(shared);
+    plane.sum(
+        shared, lastOfAll,
+        [&](std::size_t tile) {
+            return std::ranges::any_of(looked, [&](const Part& part) { return part.holds(tile); });
+        },
+        [&](std::size_t tile, TileRoom& room) {
+            TileRoom splatRoom(splats);
+            splatRoom.enter(splats, tile, opaqueDepth, width);
+            for (const Part& part : looked) part.sum(cells, splats, tile, room, splatRoom);
+        });
+}
+
+MixedSum::MixedSum(const Scene& scene, const View& view, std::span<const float> opaqueDepth,
+                   int raysAcross, unsigned threads, std::vector<float> memory)
+    : work_(new Work(scene, view, opaqueDepth, raysAcross, threads, std::move(memory))) {
+    if (done()) work_->sum({}, true);  // nothing, which also is to be written
+}
+MixedSum::MixedSum(MixedSum&&) noexcept = default;
+MixedSum::~MixedSum() = default;
+
+bool MixedSum::canSum(const PlacedPoints& placed, const Footprint& footprint) {
+    return TileSum::canSum(placed, footprint);
+}
+
+std::uint64_t MixedSum::add(std::uint64_t count) {
+    Work& work = *work_;
+    std::uint64_t added = 0;
+    while (!done() && added < count) {
+        const std::uint64_t some =
+            std::min({kAtOnce, count - added, std::uint64_t{work.all.size() - work.passed}});
+        const auto part = std::span<const Passed>(work.all).subspan(work.passed, some);
+        work.passed += some;
+        work.sum(part, done());
+        added += some;
+    }
+    return added;
+}
+
+bool MixedSum::done() const { return work_->done(); }
+const PixelBox& MixedSum::box() const { return work_->cells.pixels; }
+std::vector<float>& MixedSum::plane() { return work_->kept; }
+std::vector<float> MixedSum::takeMemory() { return std::move(work_->kept); }
+
+}  // namespace render

@@ -1,0 +1,98 @@
+// The error that is told at the hand.
+#include "app/headset/seen_error.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "app/choices/camera.h"
+#include "app/picture/error_text.h"
+#include "tests/support/scenes.h"
+
+namespace app::headset {
+namespace seen_error {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = SeenError::Clock;
+
+struct Seen {
+    Screen screen;
+    render::View view;
+};
+Seen ramps(const char* range, Model model) {
+    const auto grid = tests::cube(12);
+    const auto step =
+        std::make_shared<const timeseries::SortedStep>(tests::stepOf(grid, [&](std::size_t i) {
+            return double(grid->indices(i).x) + 0.4 * double(grid->indices(i).y);
+        }));
+    Explorer e;
+    e.model = model;
+    e.size = {120, 90};
+    e.layers = {{.ranges = timeseries::RangeSet::parse(range),
+                 .color = glm::dvec3(1, 0.5, 0),
+                 .opacity = 0.4}};
+    const render::PlacedPoints placed(*grid);
+    return {{step, nullptr, e, {}, 0}, eyes(e.view, {}, placed.outline(), e.size).front()};
+}
+
+std::string toldOf(SeenError& error, const Seen& seen, const Rung& drawn, Clock::time_point from) {
+    const auto end = Clock::now() + 60s;
+    while (error.text(drawn).empty() && Clock::now() < end) {
+        error.update(seen.screen, seen.view, from + SeenError::kStands);
+        std::this_thread::yield();
+    }
+    return error.text(drawn);
+}
+
+TEST(SeenError, IsThatOfWhatIsDrawnOfASelectionThatStands) {
+    const Seen seen = ramps("3:5", Model::Points);
+    SeenError error;
+    const Clock::time_point now = Clock::now();
+    error.update(seen.screen, seen.view, now);
+    const Explorer& e = seen.screen.explorer;
+    const timeseries::SortedStep& step = *seen.screen.sorted;
+    const DepthErrors wanted = depthErrorsOf(e, step, seen.view, rungsOf(e, step));
+    for (const std::uint32_t stride : {1u, 4u}) {
+        const Rung drawn{Model::Points, stride};
+        EXPECT_EQ(toldOf(error, seen, drawn, now), depthErrorText(*wanted.of(drawn))) << stride;
+    }
+}
+
+TEST(SeenError, WaitsUntilTheSelectionStandsAndItsCellsAreThere) {
+    const Seen seen = ramps("3:5", Model::Cells);
+    SeenError error;
+    const Clock::time_point now = Clock::now();
+    for (const auto after : {0ms, 999ms}) {
+        error.update(seen.screen, seen.view, now + after);
+        std::this_thread::sleep_for(20ms);
+    }
+    EXPECT_FALSE(error.errors());
+    for (int i = 0; i < 20; ++i) {
+        error.update(seen.screen, seen.view, now + SeenError::kStands);
+        std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_FALSE(error.errors()) << "no cells are made for it";
+    seen.screen.sorted->cells();
+    EXPECT_NE(toldOf(error, seen, {Model::Cells}, now), "");
+}
+
+// Neither where the head is nor how it is lit changes it; what is selected does.
+TEST(SeenError, IsForgottenWithItsSelection) {
+    Seen seen = ramps("3:5", Model::Points);
+    SeenError error;
+    const Clock::time_point now = Clock::now();
+    error.update(seen.screen, seen.view, now);
+    ASSERT_NE(toldOf(error, seen, {Model::Points}, now), "");
+    seen.screen.explorer.view.azimuthDegrees = 77;
+    seen.screen.explorer.lamp = LampChoice{1, 2};
+    error.update(seen.screen, seen.view, now + 5s);
+    EXPECT_TRUE(error.errors());
+    seen.screen.explorer.layers[0].ranges = timeseries::RangeSet::parse("3:6");
+    error.update(seen.screen, seen.view, now + 5s);
+    EXPECT_FALSE(error.errors());
+}
+
+}  // namespace
+}  // namespace seen_error
+}  // namespace app::headset
