@@ -60,7 +60,9 @@ TEST(FileActions, ASavedSessionTellsTheErrorAndIsReadWithoutIt) {
         fileActions.save(file, error);
         const auto session = nlohmann::json::parse(std::ifstream(file));
         EXPECT_EQ(session.contains("opticalDepthError"), error.has_value());
-        if (error) EXPECT_EQ(session["opticalDepthError"], *error);
+        if (error) {
+            EXPECT_EQ(session["opticalDepthError"], *error);
+        }
         EXPECT_EQ(readSession(file), exploration.explorer());
     }
 }

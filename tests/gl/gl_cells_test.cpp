@@ -8,7 +8,9 @@
 #include <random>
 
 #include "render/model/rays_across.h"
+#include "tests/bench/turbulence.h"
 #include "tests/support/gl_cell_planes.h"
+#include "tests/support/sampled_errors.h"
 
 namespace render {
 namespace {
@@ -208,6 +210,32 @@ TEST_F(GlCellsOf, SmallOnesAreTheProcessorsMeans) {
                 EXPECT_EQ(plane(world.scene, view, channels, 0, 1),
                           plane(world.scene, view, channels));
             }
+}
+
+// Beside the continuous field itself, as the processor is in cell_extremes_test.cpp: ranges as wide
+// as the step between neighbours is, a third of it, and a thirtieth.
+TEST_F(GlCellsOf, TurbulenceIsTrueHoweverThinTheRange) {
+    const timeseries::Field field = bench::turbulence<float>(48);
+    const auto& values = std::get<std::vector<float>>(field.values);
+    double sum = 0, steps = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        sum += static_cast<double>(values[i]);
+        if ((i + 1) % 48 != 0) steps += std::pow(static_cast<double>(values[i + 1] - values[i]), 2);
+    }
+    const auto count = static_cast<double>(values.size());
+    const double mean = sum / count, between = std::sqrt(steps / count);
+    for (const auto& [width, bound] :
+         {std::pair(1.0, 0.01), std::pair(0.3, 0.03), std::pair(0.03, 0.12)}) {
+        const CellWorld world(timeseries::SortedStep::build(timeseries::Field(field)),
+                              {std::to_string(mean) + "~" + std::to_string(width * between / 2)});
+        const View view = lookFrom({1.2, -2.6, 0.9}, {600, 600}, 0.36);
+        std::vector<float> depth = plane(world.scene, view, Channels::Weight);
+        for (float& each : depth)
+            each *= static_cast<float>(opticalDepthPerWeight(world.scene.layers[0].style.opacity));
+        const DepthAt picture = depthFrom(std::move(depth), view.size);
+        EXPECT_LT(tests::sampledError(world, view, picture, {.pixels = 96}).relativeL2, bound)
+            << width;
+    }
 }
 
 }  // namespace
