@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <atomic>
 #include <list>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "timeseries/readers/series_files.h"
 #include "timeseries/together.h"
@@ -41,19 +44,6 @@ std::string commonName(std::span<const Path> paths) {
     return last == common.npos ? "values" : std::string(common.substr(0, last + 1));
 }
 
-// [file], of the first none: a file system may answer several questions in the time of one.
-std::vector<std::optional<Glance>> glancesAt(std::span<const Path> paths,
-                                             const GlanceAt& glanceAt) {
-    constexpr std::size_t kWorthAThread = 32;
-    std::vector<std::optional<Glance>> glances(paths.size());
-    std::atomic<std::size_t> next = 1;
-    if (glanceAt)
-        sharing(threadsFor(paths.size(), kWorthAThread), [&](unsigned) {
-            for (std::size_t f; (f = next++) < paths.size();) glances[f] = glanceAt(paths[f]);
-        });
-    return glances;
-}
-
 class SequenceReader final : public Reader {
  public:
     SequenceReader(std::span<const Path> paths, OpenOne openOne, const GlanceAt& glanceAt)
@@ -65,10 +55,10 @@ class SequenceReader final : public Reader {
         variables_.assign(first->variables().begin(), first->variables().end());
         axes_.resize(variables_.size());
         for (std::size_t v = 0; v < variables_.size(); ++v) axes_[v].push_back(variables_[v].time);
-        const auto glances = glancesAt(paths_, glanceAt);
+        auto glances = glancesAt(glanceAt);
         for (std::size_t f = 1; f < paths_.size(); ++f)
             if (glances[f])
-                add(f, *glances[f]);
+                add(f, std::move(*glances[f]));
             else
                 add(f, *openOne_(paths_[f]));
         for (Variable& variable : variables_)
@@ -109,7 +99,9 @@ class SequenceReader final : public Reader {
     };
 
     void add(std::size_t file, const Reader& reader);
-    void add(std::size_t file, const Glance& glance);
+    std::vector<std::optional<Glance>> glancesAt(const GlanceAt& glanceAt) const;
+    void compare(std::size_t file, Glance& glance) const;
+    void add(std::size_t file, Glance glance);
     void tellLeftOut(const std::string& variable);
     void tellUnfit();
     const Variable& expectSame(const Variable& expected, std::size_t file,
@@ -176,20 +168,42 @@ void SequenceReader::add(std::size_t file, const Reader& reader) {
         if (!placeOf(other, variables_)) tellLeftOut(other.name);
 }
 
-void SequenceReader::add(std::size_t file, const Glance& glance) {
+// [file], of the first none; each compared. On several threads: a file system may answer several
+// questions in the time of one.
+std::vector<std::optional<Glance>> SequenceReader::glancesAt(const GlanceAt& glanceAt) const {
+    constexpr std::size_t kWorthAThread = 32;
+    std::vector<std::optional<Glance>> glances(paths_.size());
+    if (!glanceAt) return glances;
+    std::atomic<std::size_t> next = 1;
+    sharing(threadsFor(paths_.size(), kWorthAThread), [&](unsigned) {
+        for (std::size_t f; (f = next++) < paths_.size();) {
+            glances[f] = glanceAt(paths_[f]);
+            if (glances[f]) compare(f, *glances[f]);
+        }
+    });
+    return glances;
+}
+
+// Leaves the variables that the first file does not have; one that is not there is a flaw.
+void SequenceReader::compare(std::size_t file, Glance& glance) const {
+    auto found = std::exchange(glance.variables, {});
+    if (std::ranges::equal(found, variables_, {}, {}, &Variable::name)) return;
+    const std::set<std::string_view> its(found.begin(), found.end());
+    std::set<std::string_view> ours;
+    for (const Variable& each : variables_) {
+        ours.insert(each.name);
+        if (glance.flaw.empty() && !its.contains(each.name))
+            glance.flaw = withoutVariable(file, each.name);
+    }
+    for (const std::string& name : found)
+        if (!ours.contains(name)) glance.variables.push_back(name);
+}
+
+void SequenceReader::add(std::size_t file, Glance glance) {
     isGlanced_[file] = true;
     for (Axes& axes : axes_) axes.push_back(glance.time);
-    std::string why = glance.flaw;
-    const auto isThere = [](std::span<const std::string> all, const std::string& name) {
-        return std::ranges::find(all, name) != all.end();
-    };
-    for (const Variable& each : variables_)
-        if (why.empty() && !isThere(glance.variables, each.name))
-            why = withoutVariable(file, each.name);
-    for (const std::string& name : glance.variables)
-        if (std::ranges::find(variables_, name, &Variable::name) == variables_.end())
-            tellLeftOut(name);
-    if (!why.empty()) unfit_.push_back(std::move(why));
+    for (const std::string& name : glance.variables) tellLeftOut(name);
+    if (!glance.flaw.empty()) unfit_.push_back(std::move(glance.flaw));
 }
 
 void SequenceReader::tellLeftOut(const std::string& variable) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
 #include <utility>
 
 #include "timeseries/readers/ordinary_file.h"
@@ -18,7 +19,10 @@ struct Seen {
     std::vector<VtkArray> arrays;
 };
 
+// One at a time: its cells may take much memory.
 void seeAll(const std::filesystem::path& path, Seen& seen) {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
     VtkContents contents = vtkContentsOf(path);
     seen = {contents.whole.time, std::move(contents.whole.arrays)};
 }
