@@ -16,6 +16,7 @@ namespace {
 OpenedSeries joinedOrAlone(timeseries::ExpandedSeries series) {
     try {
         auto reader = timeseries::openReader(series.files);
+        if (series.here) reader->expectToFit(*series.here);
         return {std::move(reader), std::move(series)};
     } catch (const FileError& error) {
         if (!series.here) throw;

@@ -78,15 +78,26 @@ class FakeReader final : public Reader {
 
 class Sequence : public testing::Test {
  protected:
-    std::unique_ptr<Reader> open() {
+    std::unique_ptr<Reader> open(const GlanceAt& glanceAt = {}) {
         std::vector<Path> paths;
         for (const auto& [name, content] : files_) paths.emplace_back(name);
-        return openSequence(paths, [this](const Path& path) -> std::unique_ptr<Reader> {
+        const auto openOne = [this](const Path& path) -> std::unique_ptr<Reader> {
             ++opened_;
             if (path == broken_) throw FileError(path.string() + ": expected more bytes");
             auto reader = std::make_unique<FakeReader>(path, files_.at(path.string()), open_);
             mostOpen_ = std::max(mostOpen_, open_);
             return reader;
+        };
+        return openSequence(paths, openOne, glanceAt);
+    }
+    // Of files of one step as they are now; nothing of others.
+    std::unique_ptr<Reader> openAtAGlance() {
+        return open([this](const Path& path) -> std::optional<Glance> {
+            const Content& content = files_.at(path.string());
+            if (content.time.points.size() > 1) return std::nullopt;
+            Glance glance{std::make_shared<const TimeAxis>(content.time), content.variables, ""};
+            if (path == broken_) glance.flaw = path.string() + ": expected more bytes";
+            return glance;
         });
     }
     std::string failure() {
@@ -255,6 +266,73 @@ TEST_F(Sequence, AFileThatChangedIsToldWhenItIsRead) {
     EXPECT_THROW(reader->read(0, 1), FileError);
     files_.at("a_2.f") = {.first = 7};
     EXPECT_EQ(firstValue(*reader, 0, 1), 7);
+}
+
+TEST_F(Sequence, ATimeThatChangedIsToldWhenItIsRead) {
+    files_ = {{"a_1.f", {.time = seconds({1})}}, {"a_2.f", {.time = seconds({2})}}};
+    const auto reader = open();
+    files_.at("a_2.f").time = seconds({3});
+    try {
+        reader->read(0, 1);
+        ADD_FAILURE();
+    } catch (const FileError& error) {
+        EXPECT_STREQ(error.what(),
+                     "a_2.f: expected the time 2 as when the series was opened, found 3");
+    }
+    // Where steps are numbered by names, times are not told.
+    files_.at("a_2.f").time = seconds({1});
+    const auto numbered = open();
+    files_.at("a_2.f").time = seconds({3});
+    EXPECT_EQ(firstValue(*numbered, 0, 1), 0);
+}
+
+TEST_F(Sequence, FilesThatAreGlancedAtAreOpenedWhenTheirStepIsRead) {
+    for (int i = 0; i < 20; ++i)
+        files_[fmt::format("a_{:02}.f", i)] = {.time = seconds({0.5 * i}),
+                                               .first = static_cast<float>(i)};
+    const auto reader = openAtAGlance();
+    EXPECT_EQ(opened_, 1);
+    ASSERT_EQ(timesOf(*reader).size(), 20u);
+    for (std::size_t step = 0; step < 20; ++step) {
+        EXPECT_EQ(timesOf(*reader)[step], 0.5 * static_cast<double>(step));
+        EXPECT_EQ(reader->stepsOf(0, step)->first, step);
+        EXPECT_EQ(firstValue(*reader, 0, step), static_cast<float>(step));
+    }
+    EXPECT_EQ(opened_, 20) << "the first once";
+    EXPECT_LE(mostOpen_, 4);
+}
+
+TEST_F(Sequence, WhatAGlanceShowsOfMisfitsIsTold) {
+    files_ = {{"a_1.f", {}},
+              {"a_2.f", {.variables = {"w"}}},
+              {"a_3.f", {.first = 3}},
+              {"a_4.f", {.variables = {"v", "x"}}},
+              {"a_5.f", {.first = 5}}};
+    broken_ = "a_3.f";
+    const auto reader = openAtAGlance();
+    EXPECT_THAT(reader->variables()[0].notes,
+                ElementsAre("'w' is not in the first file: it is left out",
+                            "'x' is not in the first file: it is left out",
+                            "the steps of 2 of 5 files cannot be read, the first: a_1.f and a_2.f: "
+                            "expected the same variables, but the second has no 'v'"));
+    EXPECT_THROW(reader->read(0, 1), FileError);
+    EXPECT_THROW(reader->read(0, 2), FileError);
+    EXPECT_EQ(firstValue(*reader, 0, 4), 5);
+    broken_ = "";
+    EXPECT_EQ(firstValue(*reader, 0, 2), 3) << "it is whole now";
+    EXPECT_NO_THROW(reader->expectToFit(3));
+    EXPECT_THROW(reader->expectToFit(1), FileError);
+}
+
+TEST_F(Sequence, FilesOfSeveralStepsAreOpenedForThem) {
+    files_ = {{"a_1.f", {.time = seconds({0, 1})}},
+              {"a_2.f", {.time = seconds({2, 3, 4}), .first = 2}},
+              {"a_3.f", {.time = seconds({5}), .first = 5}}};
+    const auto reader = openAtAGlance();
+    EXPECT_EQ(opened_, 2);
+    EXPECT_THAT(timesOf(*reader), ElementsAre(0, 1, 2, 3, 4, 5));
+    for (std::size_t step = 0; step < 6; ++step)
+        EXPECT_EQ(firstValue(*reader, 0, step), static_cast<float>(step));
 }
 
 // NetCDF files joined by their numbers, for they have no times.

@@ -115,7 +115,7 @@ const std::array kFormats = {
                     start.find_first_not_of("\xEF\xBB\xBF \t\r\n"sv) == start.find('<'));
                return vtk && otherVtk(start).empty();
            },
-           openVtk},
+           openVtk, true},
 };
 // Begins with nothing of its own: told by its size, when it is none of the others.
 const Format kPlot3d{nullptr, openPlot3d};

@@ -92,6 +92,9 @@ class Reader {
     // What the values of a step come from; no files where that is not known, or the step's places
     // are not those of variables(). REQUIRES: as read(). Throws FileError.
     virtual StepSources sources(std::size_t, std::size_t) { return {}; }
+    // Throws FileError where files()[file] was not opened with the series, and is now found not to
+    // fit it. REQUIRES: file < files().size().
+    virtual void expectToFit(std::size_t) {}
     // What its files say is of this moment or later; openReader() sets it.
     std::chrono::system_clock::time_point openedAt{};
     // Which steps of a variable files()[file] holds; none where the reader does not know. A reader

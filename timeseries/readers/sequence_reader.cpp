@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <list>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "timeseries/readers/series_files.h"
+#include "timeseries/together.h"
 
 namespace timeseries {
 namespace {
@@ -41,18 +46,27 @@ std::string commonName(std::span<const Path> paths) {
 
 class SequenceReader final : public Reader {
  public:
-    SequenceReader(std::span<const Path> paths, OpenOne openOne)
-        : paths_(paths.begin(), paths.end()), openOne_(std::move(openOne)) {
-        const auto first = openOne_(paths_[0]);
+    SequenceReader(std::span<const Path> paths, OpenOne openOne, const GlanceAt& glanceAt)
+        : paths_(paths.begin(), paths.end()),
+          openOne_(std::move(openOne)),
+          isGlanced_(paths.size()) {
+        auto first = openOne_(paths_[0]);
         format_ = first->format();
         variables_.assign(first->variables().begin(), first->variables().end());
         axes_.resize(variables_.size());
         for (std::size_t v = 0; v < variables_.size(); ++v) axes_[v].push_back(variables_[v].time);
-        for (std::size_t f = 1; f < paths_.size(); ++f) add(f, *openOne_(paths_[f]));
+        auto glances = glancesAt(glanceAt);
+        for (std::size_t f = 1; f < paths_.size(); ++f)
+            if (glances[f])
+                add(f, std::move(*glances[f]));
+            else
+                add(f, *openOne_(paths_[f]));
         for (Variable& variable : variables_)
             if (variable.nameless) variable.name = commonName(paths_);
         for (std::size_t v = 0; v < variables_.size(); ++v) joinTimes(v);
         axes_.clear();
+        tellUnfit();
+        if (glanceAt) open_.push_front({0, std::move(first)});
     }
 
     std::string format() const override { return format_; }
@@ -68,6 +82,9 @@ class SequenceReader final : public Reader {
         return member.reader.sorted(member.variable, member.step);
     }
     StepSources sources(std::size_t variable, std::size_t step) override;
+    void expectToFit(std::size_t file) override {
+        if (isGlanced_[file]) open(file);
+    }
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override {
         const auto& begins = begins_[variable];
         return StepSpan{begins[file], begins[file + 1] - begins[file]};
@@ -82,6 +99,11 @@ class SequenceReader final : public Reader {
     };
 
     void add(std::size_t file, const Reader& reader);
+    std::vector<std::optional<Glance>> glancesAt(const GlanceAt& glanceAt) const;
+    void compare(std::size_t file, Glance& glance) const;
+    void add(std::size_t file, Glance glance);
+    void tellLeftOut(const std::string& variable);
+    void tellUnfit();
     const Variable& expectSame(const Variable& expected, std::size_t file,
                                const Reader& reader) const;
     void joinTimes(std::size_t v);
@@ -93,6 +115,11 @@ class SequenceReader final : public Reader {
         std::size_t variable, step;  // of the member's own
     };
     Member memberOf(std::size_t variable, std::size_t step);
+    void expectThen(std::size_t v, std::size_t file, const TimeAxis& now) const;
+    std::string withoutVariable(std::size_t file, const std::string& name) const {
+        return fmt::format("{} and {}: expected the same variables, but the second has no '{}'",
+                           paths_[0].string(), paths_[file].string(), name);
+    }
     [[noreturn]] void differ(std::size_t a, std::size_t b, const std::string& what) const {
         throw FileError(fmt::format("{} and {}: {}", paths_[a].string(), paths_[b].string(), what));
     }
@@ -103,16 +130,16 @@ class SequenceReader final : public Reader {
     std::vector<Variable> variables_;               // the first file's, with the times of all
     std::vector<Axes> axes_;                        // [variable], while opening
     std::vector<std::vector<std::size_t>> begins_;  // [variable][file]: its first step, and the end
-    std::list<Open> open_;                          // the last used first
+    std::vector<bool> hasOwnTimes_;                 // [variable]: the files' own
+    std::vector<bool> isGlanced_;                   // [file]: it was not opened with the series
+    std::vector<std::string> unfit_;  // while opening, why: of each that is glanced at
+    std::list<Open> open_;            // the last used first
 };
 
 const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t file,
                                            const Reader& reader) const {
     const auto at = placeOf(expected, reader.variables());
-    if (!at)
-        differ(
-            0, file,
-            fmt::format("expected the same variables, but the second has no '{}'", expected.name));
+    if (!at) throw FileError(withoutVariable(file, expected.name));
     const Variable* const found = &reader.variables()[*at];
     const std::string place = fmt::format("variable '{}': expected the same ", expected.name);
     if (found->type != expected.type)
@@ -137,13 +164,61 @@ const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t
 void SequenceReader::add(std::size_t file, const Reader& reader) {
     for (std::size_t v = 0; v < variables_.size(); ++v)
         axes_[v].push_back(expectSame(variables_[v], file, reader).time);
-    for (const Variable& other : reader.variables()) {
-        if (placeOf(other, variables_)) continue;
-        const std::string note =
-            fmt::format("'{}' is not in the first file: it is left out", other.name);
-        auto& notes = variables_.front().notes;
-        if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+    for (const Variable& other : reader.variables())
+        if (!placeOf(other, variables_)) tellLeftOut(other.name);
+}
+
+// [file], of the first none; each compared. On several threads: a file system may answer several
+// questions in the time of one.
+std::vector<std::optional<Glance>> SequenceReader::glancesAt(const GlanceAt& glanceAt) const {
+    constexpr std::size_t kWorthAThread = 32;
+    std::vector<std::optional<Glance>> glances(paths_.size());
+    if (!glanceAt) return glances;
+    std::atomic<std::size_t> next = 1;
+    sharing(threadsFor(paths_.size(), kWorthAThread), [&](unsigned) {
+        for (std::size_t f; (f = next++) < paths_.size();) {
+            glances[f] = glanceAt(paths_[f]);
+            if (glances[f]) compare(f, *glances[f]);
+        }
+    });
+    return glances;
+}
+
+// Leaves the variables that the first file does not have; one that is not there is a flaw.
+void SequenceReader::compare(std::size_t file, Glance& glance) const {
+    auto found = std::exchange(glance.variables, {});
+    if (std::ranges::equal(found, variables_, {}, {}, &Variable::name)) return;
+    const std::set<std::string_view> its(found.begin(), found.end());
+    std::set<std::string_view> ours;
+    for (const Variable& each : variables_) {
+        ours.insert(each.name);
+        if (glance.flaw.empty() && !its.contains(each.name))
+            glance.flaw = withoutVariable(file, each.name);
     }
+    for (const std::string& name : found)
+        if (!ours.contains(name)) glance.variables.push_back(name);
+}
+
+void SequenceReader::add(std::size_t file, Glance glance) {
+    isGlanced_[file] = true;
+    for (Axes& axes : axes_) axes.push_back(glance.time);
+    for (const std::string& name : glance.variables) tellLeftOut(name);
+    if (!glance.flaw.empty()) unfit_.push_back(std::move(glance.flaw));
+}
+
+void SequenceReader::tellLeftOut(const std::string& variable) {
+    const std::string note = fmt::format("'{}' is not in the first file: it is left out", variable);
+    auto& notes = variables_.front().notes;
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+}
+
+void SequenceReader::tellUnfit() {
+    if (unfit_.empty()) return;
+    for (Variable& variable : variables_)
+        variable.notes.push_back(fmt::format("the steps of {} of {} files cannot be read{}: {}",
+                                             unfit_.size(), paths_.size(),
+                                             unfit_.size() > 1 ? ", the first" : "", unfit_[0]));
+    unfit_.clear();
 }
 
 // "" when the files' own times are those of the series.
@@ -194,7 +269,9 @@ void SequenceReader::joinTimes(std::size_t v) {
         single = single && axis->points.size() == 1;
     }
     TimeAxis time{"step", "", "", {}, true};
-    if (const std::string why = ownTimesFail(v); why.empty()) {
+    const std::string why = ownTimesFail(v);
+    hasOwnTimes_.push_back(why.empty());
+    if (why.empty()) {
         time = ownTimes(v);
     } else {
         const auto numbers = single ? ascendingNumbers(paths_) : std::nullopt;
@@ -215,6 +292,24 @@ void SequenceReader::joinTimes(std::size_t v) {
         if (axes_[other] == axes_[v]) variable.time = variables_[other].time;
 }
 
+// Expects the times of a file to be those with which the series was opened.
+void SequenceReader::expectThen(std::size_t v, std::size_t file, const TimeAxis& now) const {
+    const auto& begins = begins_[v];
+    const std::size_t then = begins[file + 1] - begins[file];
+    if (now.points.size() != then)
+        throw FileError(
+            fmt::format("{}: expected {} steps as when the series was opened, "
+                        "found {}",
+                        paths_[file].string(), then, now.points.size()));
+    for (std::size_t i = 0; hasOwnTimes_[v] && i < then; ++i)
+        if (const double told = variables_[v].time->points[begins[file] + i].value;
+            now.counted || now.points[i].value != told)
+            throw FileError(
+                fmt::format("{}: expected the time {} as when the series was opened, found {}",
+                            paths_[file].string(), told,
+                            now.counted ? "none" : fmt::format("{}", now.points[i].value)));
+}
+
 Reader& SequenceReader::open(std::size_t file) {
     const auto found = std::ranges::find(open_, file, &Open::file);
     if (found != open_.end()) {
@@ -224,15 +319,8 @@ Reader& SequenceReader::open(std::size_t file) {
     if (open_.size() == kMostOpen) open_.pop_back();
     auto reader = openOne_(paths_[file]);
     // It may have been written anew since the series was opened.
-    for (std::size_t v = 0; v < variables_.size(); ++v) {
-        const std::size_t then = begins_[v][file + 1] - begins_[v][file];
-        const std::size_t now = expectSame(variables_[v], file, *reader).time->points.size();
-        if (now != then)
-            throw FileError(
-                fmt::format("{}: expected {} steps as when the series was opened, "
-                            "found {}",
-                            paths_[file].string(), then, now));
-    }
+    for (std::size_t v = 0; v < variables_.size(); ++v)
+        expectThen(v, file, *expectSame(variables_[v], file, *reader).time);
     open_.push_front({file, std::move(reader)});
     return *open_.front().reader;
 }
@@ -261,8 +349,9 @@ Field SequenceReader::read(std::size_t variable, std::size_t step) {
 
 }  // namespace
 
-std::unique_ptr<Reader> openSequence(std::span<const Path> paths, OpenOne openOne) {
-    return std::make_unique<SequenceReader>(paths, std::move(openOne));
+std::unique_ptr<Reader> openSequence(std::span<const Path> paths, OpenOne openOne,
+                                     const GlanceAt& glanceAt) {
+    return std::make_unique<SequenceReader>(paths, std::move(openOne), glanceAt);
 }
 
 }  // namespace timeseries

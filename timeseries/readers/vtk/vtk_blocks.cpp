@@ -1,7 +1,10 @@
 #include "timeseries/readers/vtk/vtk_blocks.h"
 
 #include <fmt/format.h>
+#include <lz4.h>
+#include <zlib.h>
 
+#include <array>
 #include <bit>
 #include <fstream>
 
@@ -41,6 +44,14 @@ class Source {
         bits_ -= 8;
         byte = static_cast<unsigned char>(held_ >> bits_);
         return true;
+    }
+
+    // As many of so many bytes as there are.
+    std::string bytes(std::size_t count) {
+        std::string all;
+        for (unsigned char byte = 0; all.size() < count && get(byte);)
+            all += static_cast<char>(byte);
+        return all;
     }
 
     bool number(const VtkEncoding& encoding, std::uint64_t& value) {
@@ -241,6 +252,56 @@ std::uint64_t countVtkValues(const XmlFile& file, const VtkEncoding& encoding,
         stored.check.fail(
             fmt::format("expected values of {} bytes, found {} bytes", valueBytes, bytes));
     return bytes / valueBytes;
+}
+
+namespace {
+
+constexpr std::size_t kMostPackedBytes = 1024;  // of few values
+
+// "" where they unpack to something else than so many bytes.
+std::string unpacked(const std::string& packed, std::size_t bytes, std::string_view compressor) {
+    std::string out(bytes, '\0');
+    uLongf size = bytes;
+    bool done = false;
+    if (compressor == "vtkZLibDataCompressor")
+        done = uncompress(reinterpret_cast<Bytef*>(out.data()), &size,
+                          reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK &&
+               size == bytes;
+    else
+        done = LZ4_decompress_safe(packed.data(), out.data(), static_cast<int>(packed.size()),
+                                   static_cast<int>(bytes)) == static_cast<int>(bytes);
+    return done ? out : "";
+}
+
+// Where they are one block.
+std::optional<std::string> packedValues(const Stored& stored) {
+    const Check& check = stored.check;
+    Source source(check.path, stored.at, check.base64);
+    check.compressed(source);
+    Source header(check.path, stored.at, check.base64);
+    std::array<std::uint64_t, 4> numbers{};  // blocks, bytes of each and of the last, packed bytes
+    for (std::uint64_t& number : numbers) header.number(check.encoding, number);
+    if (numbers[0] != 1 || numbers[3] > kMostPackedBytes) return std::nullopt;
+    // The sizes and the values are encoded apart.
+    Source values(check.path,
+                  stored.at + characters(check.base64, numbers.size() * check.encoding.headerBytes),
+                  check.base64);
+    std::string found = unpacked(values.bytes(numbers[3]), check.bytes, check.encoding.compressor);
+    return found.empty() ? std::nullopt : std::optional(std::move(found));
+}
+
+}  // namespace
+
+std::optional<std::string> readVtkValues(const XmlFile& file, const VtkEncoding& encoding,
+                                         const XmlElement& array, std::string_view place,
+                                         std::size_t bytes) {
+    const Stored stored = storedAt(file, encoding, array, place, bytes);
+    if (stored.isText || encoding.compressor == "vtkLZMADataCompressor") return std::nullopt;
+    if (!encoding.compressor.empty()) return packedValues(stored);
+    Source source(file.path, stored.at, stored.check.base64);
+    stored.check.plain(source);
+    std::string found = source.bytes(bytes);
+    return found.size() == bytes ? std::optional(std::move(found)) : std::nullopt;
 }
 
 }  // namespace timeseries

@@ -38,4 +38,10 @@ std::uint64_t countVtkValues(const XmlFile& file, const VtkEncoding& encoding,
                              const XmlElement& array, std::string_view place,
                              std::size_t valueBytes);
 
+// Few values, of so many bytes in all, in the file's order of bytes. Nothing where they are text,
+// or packed by LZMA or in several blocks. Throws FileError when they are not in the file.
+std::optional<std::string> readVtkValues(const XmlFile& file, const VtkEncoding& encoding,
+                                         const XmlElement& array, std::string_view place,
+                                         std::size_t bytes);
+
 }  // namespace timeseries

@@ -17,6 +17,12 @@ bool isVtkLegacy(const std::filesystem::path& path) {
     return start == "# vtk";
 }
 
+bool isVtkSeries(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    char first = 0;
+    return file >> first && first == '{';
+}
+
 VtkHeader openVtkLegacy(const std::filesystem::path& path) {
     VtkHeader header = readVtkLegacyHeader(path);
     if (isStructured(header.kind)) header.places = readVtkFrame(header).places;

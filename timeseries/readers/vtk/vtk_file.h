@@ -8,6 +8,8 @@
 namespace timeseries {
 
 bool isVtkLegacy(const std::filesystem::path& path);
+// JSON, not XML.
+bool isVtkSeries(const std::filesystem::path& path);
 
 // With the coordinates of a rectilinear grid, the places of a structured one and the cells of an
 // unstructured one. Throws FileError.

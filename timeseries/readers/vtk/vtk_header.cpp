@@ -67,6 +67,11 @@ std::optional<std::string> vtkTimeName(std::string_view arrayName) {
     return std::nullopt;
 }
 
+TimeAxis vtkTimeAxisOf(const std::optional<VtkTime>& time) {
+    if (!time) return {"step", "", "", {{0, ""}}, true};
+    return {time->name, "", "", {{time->value, ""}}};
+}
+
 std::array<std::uint64_t, 3> VtkHeader::size(VtkPlace place) const {
     std::array<std::uint64_t, 3> size{};
     if (isUnstructured(kind)) {

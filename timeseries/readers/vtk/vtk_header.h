@@ -164,5 +164,7 @@ std::array<std::array<std::int64_t, 2>, 3> vtkExtentOf(const XmlFile& file,
 bool isEmptyVtkExtent(const std::array<std::array<std::int64_t, 2>, 3>& extent);
 // The name under which a field data array of one number tells the time; nothing when it does not.
 std::optional<std::string> vtkTimeName(std::string_view arrayName);
+// Of the one step of a file that tells this; of one that tells none it is counted.
+TimeAxis vtkTimeAxisOf(const std::optional<VtkTime>& time);
 
 }  // namespace timeseries

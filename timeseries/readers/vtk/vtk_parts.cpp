@@ -24,27 +24,21 @@ using Path = std::filesystem::path;
 // itself.
 constexpr double kRounding = 1e-6;
 
-// The files that hold the parts; processes that had nothing of a grid leave an empty one.
-std::vector<VtkHeader> partsOf(const XmlFile& file, const XmlElement& grid, std::string_view type) {
+const XmlElement& gridOfParts(const XmlFile& file) {
+    const std::string_view type = rootOf(file).attribute("type");
+    const auto grids = named(file.root, type);
+    if (grids.size() != 1)
+        failVtk(file.path, "VTKFile", fmt::format("expected one {}, found {}", type, grids.size()));
+    return *grids[0];
+}
+
+// Processes that had nothing of a grid leave an empty part.
+std::vector<VtkHeader> partsOf(const XmlFile& file, const XmlElement& grid) {
     std::vector<VtkHeader> parts;
-    std::set<Path> seen;
-    for (const XmlElement* piece : named(grid, "Piece")) {
-        const std::string_view source = piece->attribute("Source");
-        if (source.empty())
-            failVtk(file.path, placeOf(*piece), "expected the name of a file, its Source");
-        const Path path = file.path.parent_path() / source;
-        std::error_code ignored;
-        if (!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
-            failVtk(file.path, placeOf(*piece),
-                    fmt::format("expected files that differ, found {} again", source));
-        if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
-        const XmlFile part = readXml(path);
-        if (const auto found = rootOf(part).attribute("type"); found != type)
-            failVtk(path, "VTKFile",
-                    fmt::format("expected the type {}, as a part of {}, found \"{}\"", type,
-                                file.path.filename().string(), found));
+    forEachVtkPart(file, [&](const XmlFile& part) {
         if (!isEmptyVtkFile(part)) parts.push_back(openVtkXml(part));
-    }
+        return true;
+    });
     if (parts.empty()) failVtk(file.path, placeOf(grid), "expected a Piece that holds points");
     return parts;
 }
@@ -149,15 +143,11 @@ VtkContents joined(VtkHeader whole, std::vector<VtkHeader> parts) {
     return {std::move(whole), std::move(parts), {}};
 }
 
-VtkContents joined(const XmlFile& file, std::string_view type) {
-    const auto grids = named(file.root, file.root.attribute("type"));
-    if (grids.size() != 1)
-        failVtk(file.path, "VTKFile",
-                fmt::format("expected one P{}, found {}", type, grids.size()));
-    const XmlElement& grid = *grids[0];
+VtkContents joined(const XmlFile& file) {
+    const XmlElement& grid = gridOfParts(file);
     VtkHeader whole;
     whole.path = file.path;
-    std::vector<VtkHeader> parts = partsOf(file, grid, type);
+    std::vector<VtkHeader> parts = partsOf(file, grid);
     const VtkHeader& first = parts[0];
     whole.kind = first.kind;
     if (!isUnstructured(whole.kind)) {
@@ -273,6 +263,35 @@ void putUncovered(const std::vector<bool>& covered, VtkPlace place, std::uint64_
 
 }  // namespace
 
+std::string_view vtkTypeOfParts(std::string_view type) {
+    for (const std::string_view each :
+         {"ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid", "PolyData"})
+        if (type.starts_with('P') && type.substr(1) == each) return each;
+    return "";
+}
+
+void forEachVtkPart(const XmlFile& file, const std::function<bool(const XmlFile& part)>& use) {
+    const std::string_view type = vtkTypeOfParts(rootOf(file).attribute("type"));
+    std::set<Path> seen;
+    for (const XmlElement* piece : named(gridOfParts(file), "Piece")) {
+        const std::string_view source = piece->attribute("Source");
+        if (source.empty())
+            failVtk(file.path, placeOf(*piece), "expected the name of a file, its Source");
+        const Path path = file.path.parent_path() / source;
+        std::error_code ignored;
+        if (!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
+            failVtk(file.path, placeOf(*piece),
+                    fmt::format("expected files that differ, found {} again", source));
+        if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
+        const XmlFile part = readXml(path);
+        if (const auto found = rootOf(part).attribute("type"); found != type)
+            failVtk(path, "VTKFile",
+                    fmt::format("expected the type {}, as a part of {}, found \"{}\"", type,
+                                file.path.filename().string(), found));
+        if (!use(part)) return;
+    }
+}
+
 VtkContents vtkContentsOf(const Path& path) {
     if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
     if (isVtkLegacy(path)) return {openVtkLegacy(path), {}, {}};
@@ -281,9 +300,7 @@ VtkContents vtkContentsOf(const Path& path) {
 
 VtkContents vtkContentsOf(const XmlFile& file) {
     const std::string_view type = rootOf(file).attribute("type");
-    for (const std::string_view each :
-         {"ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid", "PolyData"})
-        if (type.starts_with('P') && type.substr(1) == each) return joined(file, each);
+    if (!vtkTypeOfParts(type).empty()) return joined(file);
     if (isVtkMultiBlock(type)) return ofBlocks(file);
     return {openVtkXml(file), {}, {}};
 }

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "timeseries/readers/vtk/vtk_library.h"
@@ -22,6 +24,13 @@ struct VtkContents {
 // unstructured one. Throws FileError.
 VtkContents vtkContentsOf(const std::filesystem::path& path);
 VtkContents vtkContentsOf(const XmlFile& file);
+
+// "ImageData" of "PImageData": of what kind the files are that hold the parts of one grid; "" of
+// another type of file.
+std::string_view vtkTypeOfParts(std::string_view type);
+// use() of each of those files, while it returns true. REQUIRES: the file is of such a type. Throws
+// FileError.
+void forEachVtkPart(const XmlFile& file, const std::function<bool(const XmlFile& part)>& use);
 
 // As readVtkArray of a header; `array` is the whole's. Of points that several parts have, the one
 // that is no ghost counts. Missing are those of a block without it.

@@ -3,26 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "timeseries/readers/ordinary_file.h"
+#include "timeseries/readers/sequence_reader.h"
 #include "timeseries/readers/vtk/vtk_file.h"
+#include "timeseries/readers/vtk/vtk_glance.h"
 #include "timeseries/readers/vtk/vtk_grid.h"
 #include "timeseries/readers/vtk/vtk_parts.h"
+#include "timeseries/readers/vtk/vtk_variables.h"
 
 namespace timeseries {
 namespace {
 
 using Path = std::filesystem::path;
-
-constexpr std::size_t kMaxVtkVariables = std::size_t{1} << 16;
-
-// JSON, not XML.
-bool isVtkSeries(const Path& path) {
-    std::ifstream file(path, std::ios::binary);
-    char first = 0;
-    return file >> first && first == '{';
-}
 
 // One step, of which all is known but values.
 struct OpenedStep {
@@ -61,7 +54,7 @@ class VtkReader final : public Reader {
         format_ = header.format;
         if (collection) format_ = "VTK collection of " + format_.substr(4);
         addTime();
-        for (std::size_t i = 0; i < header.arrays.size(); ++i) addVariables(i);
+        for (VtkVariable& each : vtkVariablesOf(header.path, header.arrays)) add(std::move(each));
     }
 
     std::string format() const override { return format_; }
@@ -71,15 +64,8 @@ class VtkReader final : public Reader {
     StepSources sources(std::size_t variable, std::size_t step) override;
 
  private:
-    struct Source {
-        VtkArray array;
-        VtkPart part;
-    };
-
     void addTime();
-    void addVariables(std::size_t index);
-    void add(const VtkArray& array, const std::string& name, ValueType type,
-             const std::string& storedAs, VtkPart part);
+    void add(VtkVariable of);
     void open(std::size_t step);
 
     std::vector<Path> files_;
@@ -90,22 +76,19 @@ class VtkReader final : public Reader {
     std::shared_ptr<const TimeAxis> time_;
     std::vector<std::string> notes_;  // of all variables
     std::vector<Variable> variables_;
-    std::vector<Source> sources_;  // [variable]
+    std::vector<VtkVariable> sources_;  // [variable]
 };
 
 void VtkReader::addTime() {
-    auto axis = std::make_shared<TimeAxis>();
-    axis->name = "step";
-    if (members_[0].time) {
-        axis->name = "time";
-    } else if (members_.size() == 1 && frame_.header().time) {
-        axis->name = frame_.header().time->name;
-        members_[0].time = frame_.header().time->value;
+    TimeAxis axis = vtkTimeAxisOf(members_.size() == 1 ? frame_.header().time : std::nullopt);
+    if (members_[0].time) axis.name = "time";
+    if (members_[0].time || members_.size() > 1) {
+        axis.counted = !members_[0].time;
+        axis.points.clear();
+        for (std::size_t i = 0; i < members_.size(); ++i)
+            axis.points.push_back({members_[i].time.value_or(static_cast<double>(i)), ""});
     }
-    axis->counted = !members_[0].time;
-    for (std::size_t i = 0; i < members_.size(); ++i)
-        axis->points.push_back({members_[i].time.value_or(static_cast<double>(i)), ""});
-    time_ = std::move(axis);
+    time_ = std::make_shared<const TimeAxis>(std::move(axis));
 
     std::vector<std::string> absent;
     for (const VtkMember& member : members_)
@@ -115,48 +98,21 @@ void VtkReader::addTime() {
                                      members_.size(), absent[0]));
 }
 
-void VtkReader::addVariables(std::size_t index) {
-    const VtkArray& array = frame_.header().arrays[index];
-    const auto& all = frame_.header().arrays;
-    const bool both = std::ranges::any_of(
-        all, [&](const VtkArray& o) { return o.name == array.name && o.place != array.place; });
-    std::string name = array.name;
-    if (both) name += array.place == VtkPlace::Points ? " (points)" : " (cells)";
-    const std::string type(typeName(array.type));
-    const std::string where = array.place == VtkPlace::Points ? "" : ", at cells";
-    if (array.components == 1) return add(array, name, array.type, type + where, {});
-
-    if (variables_.size() + array.components > kMaxVtkVariables)
-        failVtk(frame_.header().path, fmt::format("'{}'", array.name),
-                fmt::format("expected at most {} components of all arrays", kMaxVtkVariables));
-    const std::string stored = fmt::format("{}, {} components{}", type, array.components, where);
-    if (array.components <= 3) {
-        const bool single = array.type == ValueType::F32;
-        add(array, name + " magnitude", single ? ValueType::F32 : ValueType::F64,
-            fmt::format("{}; magnitude in {}", stored, single ? "float32" : "float64"),
-            {VtkPart::Kind::Magnitude, 0});
-    }
-    for (std::size_t i = 0; i < array.components; ++i)
-        add(array, fmt::format("{}[{}]", name, i), array.type, stored,
-            {VtkPart::Kind::Component, i});
-}
-
-void VtkReader::add(const VtkArray& array, const std::string& name, ValueType type,
-                    const std::string& storedAs, VtkPart part) {
-    const std::size_t place = static_cast<std::size_t>(array.place);
+void VtkReader::add(VtkVariable of) {
+    const std::size_t place = static_cast<std::size_t>(of.array.place);
     Variable variable;
-    variable.name = name;
-    variable.type = type;
-    variable.storedAs = storedAs;
+    variable.name = of.name;
+    variable.type = of.type;
+    variable.storedAs = of.storedAs;
     if (frame_.header().ghosts[place]) variable.missing = "ghost and blanked, by vtkGhostType";
-    if (!array.isEverywhere)
+    if (!of.array.isEverywhere)
         variable.missing += std::string(variable.missing.empty() ? "" : "; ") + "blocks without it";
     variable.grid = frame_.grids[place]->grid;
     variable.time = time_;
     variable.notes = frame_.grids[place]->notes;
     variable.notes.insert(variable.notes.end(), notes_.begin(), notes_.end());
     variables_.push_back(std::move(variable));
-    sources_.push_back({array, part});
+    sources_.push_back(std::move(of));
 }
 
 void VtkReader::open(std::size_t step) {
@@ -200,28 +156,32 @@ Field VtkReader::read(std::size_t variable, std::size_t step) {
     return field;
 }
 
-}  // namespace
-
-std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
-    if (paths.size() > 1)
-        throw FileError(fmt::format("{}: expected one VTK file, or a collection (.pvd) of several",
-                                    paths[1].string()));
-    const Path& path = paths[0];
+// A file, or a list of some.
+std::unique_ptr<Reader> openOne(const Path& path) {
+    expectFile(path);
     std::vector<VtkMember> members{{path, std::nullopt}};
+    const auto alone = [&](VtkContents contents) {
+        return std::make_unique<VtkReader>(path, std::move(members), frameOf(std::move(contents)),
+                                           false);
+    };
     if (isVtkSeries(path)) {
         members = readVtkSeries(path);
-    } else if (!isVtkLegacy(path)) {
-        const XmlFile file = readXml(path);
-        if (!isVtkCollection(file))
-            return std::make_unique<VtkReader>(path, std::move(members),
-                                               frameOf(vtkContentsOf(file)), false);
-        members = readVtkCollection(file);
+    } else if (isVtkLegacy(path)) {
+        return alone(vtkContentsOf(path));
     } else {
-        return std::make_unique<VtkReader>(path, std::move(members), frameOf(vtkContentsOf(path)),
-                                           false);
+        const XmlFile file = readXml(path);
+        if (!isVtkCollection(file)) return alone(vtkContentsOf(file));
+        members = readVtkCollection(file);
     }
     auto first = frameOf(vtkContentsOf(members[0].path));
     return std::make_unique<VtkReader>(path, std::move(members), std::move(first), true);
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
+    if (paths.size() == 1) return openOne(paths[0]);
+    return openSequence(paths, openOne, vtkGlanceAt);
 }
 
 }  // namespace timeseries

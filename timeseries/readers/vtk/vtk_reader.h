@@ -10,7 +10,8 @@
 
 namespace timeseries {
 
-// One file, or one collection. REQUIRES: paths not empty. Throws FileError.
+// Several files, or lists of some, are one series: each file is opened when a step of it is read.
+// REQUIRES: paths not empty. Throws FileError.
 std::unique_ptr<Reader> openVtk(std::span<const std::filesystem::path> paths);
 
 }  // namespace timeseries

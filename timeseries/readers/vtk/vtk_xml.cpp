@@ -20,8 +20,6 @@ constexpr std::uint64_t kMaxTokenBytes = std::uint64_t{1} << 20;
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-constexpr std::size_t kMaxXmlWord = 255;
-
 // An element whose end has not come.
 struct Open {
     XmlElement element;
@@ -73,6 +71,7 @@ void endWord(Open& open) {
     if (open.numbers && open.element.notNumber.empty() && !open.word.empty() &&
         !isVtkNumber(open.numbers->type, open.word))
         open.element.notNumber = open.word;
+    if (open.numbers && open.element.firstWord.empty()) open.element.firstWord = open.word;
     open.word.clear();
 }
 
@@ -113,6 +112,33 @@ void doctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int)
     static_cast<Parsing*>(user)->refuse("expected no document type declaration");
 }
 
+// To the end of the file, or to its appended data. Throws FileError.
+void parse(Parsing& parsing, const std::filesystem::path& path, std::ifstream& file) {
+    XML_Parser parser = parsing.parser;
+    std::string buffer(std::size_t{1} << 16, '\0');
+    std::uint64_t given = 0;
+    for (bool more = true; more;) {
+        file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+        more = file.good();
+        const auto status =
+            XML_Parse(parser, buffer.data(), static_cast<int>(file.gcount()), !more);
+        if (parsing.appendedTagEnd != 0) break;
+        const std::string place = fmt::format("line {}", XML_GetCurrentLineNumber(parser));
+        if (status == XML_STATUS_OK) {
+            given += static_cast<std::uint64_t>(file.gcount());
+            const auto seen =
+                static_cast<std::uint64_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser), 0));
+            if (given - seen > kMaxTokenBytes)
+                failVtk(path, place, "expected at most 1 MiB in a tag or a comment");
+            continue;
+        }
+        if (!parsing.refusal.empty()) failVtk(path, place, parsing.refusal);
+        failVtk(path, place,
+                fmt::format("expected well-formed XML, but: {}",
+                            XML_ErrorString(XML_GetErrorCode(parser))));
+    }
+}
+
 // Where the appended values begin: after blanks and one '_'.
 std::uint64_t afterUnderscore(const std::filesystem::path& path, std::ifstream& file,
                               std::uint64_t at) {
@@ -144,6 +170,12 @@ bool XmlElement::has(std::string_view wanted) const {
 }
 
 XmlFile readXml(const std::filesystem::path& path) {
+    XmlSoFar read = readXmlSoFar(path);
+    if (!read.flaw.empty()) throw FileError(read.flaw);
+    return std::move(read.file);
+}
+
+XmlSoFar readXmlSoFar(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) failVtk(path, "", "expected a file that can be read");
     const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
@@ -155,38 +187,25 @@ XmlFile readXml(const std::filesystem::path& path) {
     XML_SetCharacterDataHandler(parser.get(), characterData);
     XML_SetStartDoctypeDeclHandler(parser.get(), doctype);
 
-    std::string buffer(std::size_t{1} << 16, '\0');
-    std::uint64_t given = 0;
-    for (bool more = true; more;) {
-        file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-        more = file.good();
-        const auto status =
-            XML_Parse(parser.get(), buffer.data(), static_cast<int>(file.gcount()), !more);
-        if (parsing.appendedTagEnd != 0) break;
-        const std::string place = fmt::format("line {}", XML_GetCurrentLineNumber(parser.get()));
-        if (status == XML_STATUS_OK) {
-            given += static_cast<std::uint64_t>(file.gcount());
-            const auto seen = static_cast<std::uint64_t>(
-                std::max<XML_Index>(XML_GetCurrentByteIndex(parser.get()), 0));
-            if (given - seen > kMaxTokenBytes)
-                failVtk(path, place, "expected at most 1 MiB in a tag or a comment");
-            continue;
+    XmlSoFar result{{path, {}, std::filesystem::file_size(path), 0, ""}, ""};
+    XmlFile& read = result.file;
+    try {
+        parse(parsing, path, file);
+        read.appendedEncoding = std::move(parsing.appendedEncoding);
+        if (parsing.appendedTagEnd != 0) {
+            if (read.appendedEncoding != "raw" && read.appendedEncoding != "base64")
+                failVtk(path, "AppendedData",
+                        fmt::format("expected the encoding raw or base64, found \"{}\"",
+                                    read.appendedEncoding));
+            read.appendedAt = afterUnderscore(path, file, parsing.appendedTagEnd);
         }
-        if (!parsing.refusal.empty()) failVtk(path, place, parsing.refusal);
-        failVtk(path, place,
-                fmt::format("expected well-formed XML, but: {}",
-                            XML_ErrorString(XML_GetErrorCode(parser.get()))));
+    } catch (const FileError& flaw) {
+        result.flaw = flaw.what();
+        // What has not ended may miss anything, but for the root and the grid around the rest.
+        while (parsing.open.size() > 2) parsing.open.pop_back();
     }
     while (!parsing.open.empty()) close(parsing);  // those around the appended data
-    XmlFile result{path, std::move(parsing.root), std::filesystem::file_size(path), 0,
-                   std::move(parsing.appendedEncoding)};
-    if (parsing.appendedTagEnd != 0) {
-        if (result.appendedEncoding != "raw" && result.appendedEncoding != "base64")
-            failVtk(path, "AppendedData",
-                    fmt::format("expected the encoding raw or base64, found \"{}\"",
-                                result.appendedEncoding));
-        result.appendedAt = afterUnderscore(path, file, parsing.appendedTagEnd);
-    }
+    read.root = std::move(parsing.root);
     return result;
 }
 
