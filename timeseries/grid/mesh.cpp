@@ -276,7 +276,7 @@ std::vector<std::string> notesOf(const Mesh& mesh) {
 
 std::uint64_t Mesh::bytes() const {
     return stored_ * sizeof(Point) + levels_.size() * sizeof(Level) +
-           (solids_ ? solids_->bytes() : 0);
+           (solids_ ? solids_->bytes() : 0) + about_.types.size();
 }
 
 bool operator==(const Mesh& a, const Mesh& b) {
@@ -285,10 +285,10 @@ bool operator==(const Mesh& a, const Mesh& b) {
     };
     const bool sameSolids =
         a.solids_ == b.solids_ || (a.solids_ && b.solids_ && *a.solids_ == *b.solids_);
-    return sameSolids && a.size_ == b.size_ && a.hasNeighbours_ == b.hasNeighbours_ &&
-           a.spread_ == b.spread_ && a.period_ == b.period_ && a.origin_ == b.origin_ &&
-           a.unit_ == b.unit_ && std::ranges::equal(a.levels_, b.levels_, sameLevel) &&
-           a.stored_ == b.stored_ &&
+    return sameSolids && a.about_ == b.about_ && a.size_ == b.size_ &&
+           a.hasNeighbours_ == b.hasNeighbours_ && a.spread_ == b.spread_ &&
+           a.period_ == b.period_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
+           std::ranges::equal(a.levels_, b.levels_, sameLevel) && a.stored_ == b.stored_ &&
            std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }
 

@@ -30,23 +30,6 @@ glm::dvec3 centreOf(std::span<const glm::dvec3> places) {
     return sum;
 }
 
-using TypeCounts = std::array<std::uint64_t, 256>;
-
-// How many cells have each number of a type.
-TypeCounts typesOf(const UnstructuredGrid& grid) {
-    const std::size_t cells = grid.types.size();
-    std::vector<TypeCounts> counts(threadsFor(cells, kCellsAThread));
-    const auto threads = static_cast<unsigned>(counts.size());
-    together(threads, [&](unsigned k) {
-        for (std::size_t cell = cells * k / threads; cell < cells * (k + 1) / threads; ++cell)
-            ++counts[k][grid.types[cell]];
-    });
-    for (std::size_t k = 1; k < threads; ++k)
-        for (std::size_t type = 0; type < counts[k].size(); ++type)
-            counts[0][type] += counts[k][type];
-    return counts[0];
-}
-
 // Of those whose type this is true.
 template <typename Is>
 std::uint64_t countOf(const TypeCounts& counts, const Is& is) {
@@ -244,10 +227,16 @@ Pages<CellMoments> momentsOf(const UnstructuredGrid& grid, const UnstructuredSha
     return all;
 }
 
+MeshAbout aboutOf(const UnstructuredGrid& grid, MeshAbout::Points points) {
+    MeshAbout about = aboutCells(points, grid.types);
+    about.levels = grid.levels;
+    return about;
+}
+
 }  // namespace
 
 UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid) {
-    const TypeCounts counts = typesOf(grid);
+    const TypeCounts counts = countTypes(grid.types);
     const auto some = [&](int least) {
         return countOf(counts, [&](const CellType& type) { return type.dimension >= least; }) > 0;
     };
@@ -290,7 +279,9 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
     };
     const std::span<const glm::dvec3> between =
         grid.points.empty() ? std::span(places) : grid.points;
-    return Mesh(cells, between, shapes.spread, tell, levels);
+    Mesh mesh(cells, between, shapes.spread, tell, levels);
+    mesh.setAbout(aboutOf(grid, MeshAbout::Points::Cells));
+    return mesh;
 }
 
 Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
@@ -319,12 +310,15 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
     const auto tell = [&](std::uint64_t first, std::span<MeshPoint> points) {
         for (MeshPoint& point : points) tellOne(first++, point);
     };
-    return Mesh(count, grid.points, shapes.spread, tell, levels,
-                levels.empty() ? SolidCells::of(grid, count) : nullptr);
+    Mesh mesh(count, grid.points, shapes.spread, tell, levels,
+              levels.empty() ? SolidCells::of(grid, count) : nullptr);
+    mesh.setAbout(aboutOf(grid, MeshAbout::Points::Corners));
+    return mesh;
 }
 
 std::vector<std::string> notesOf(const UnstructuredGrid& grid) {
-    const auto curved = countOf(typesOf(grid), [](const CellType& type) { return type.isCurved; });
+    const auto curved =
+        countOf(countTypes(grid.types), [](const CellType& type) { return type.isCurved; });
     if (curved == 0) return {};
     return {fmt::format("{} of {} cells are curved: taken as straight between their corners",
                         curved, grid.types.size())};
