@@ -178,7 +178,8 @@ TEST(NetcdfColumns, WithoutAPlaceAreNotDrawn) {
     EXPECT_THAT(v.notes, ElementsAre(HasSubstr("3 of 60 points are not drawn: the file gives them "
                                                "no place"),
                                      HasSubstr("3 of 60 points are not drawn: their cells have no "
-                                               "volume")))
+                                               "volume"),
+                                     HasSubstr("9 of 60 points have a neighbour without a place")))
         << "at j = 0 the only neighbour along j is the one without a place";
 }
 

@@ -1,4 +1,5 @@
-// What a mesh's points are in their file: for who tells it. Nothing is drawn by it.
+// What a mesh's points are in their file, and of how many what they stand for is a guess: for who
+// tells it. Nothing is drawn by it.
 #pragma once
 
 #include <array>
@@ -31,6 +32,10 @@ struct MeshAbout {
     // [cell]: where points are cells of several types, each one's.
     PageVector<std::uint8_t> types;
     std::size_t levels = 0;  // of an adaptive mesh, whose leaves the cells are; else 0
+    // Points that have a place, and
+    std::uint64_t apart = 0;     // are corners of no cell
+    std::uint64_t beside = 0;    // of some with a volume, and others without one
+    std::uint64_t oneSided = 0;  // along indices: whose neighbour to one side has no place
     friend bool operator==(const MeshAbout&, const MeshAbout&) = default;
 
     std::uint64_t cellCount() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -290,12 +291,19 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
     if (shapes.areScattered) return meshOfScattered(std::span(grid.points).first(count));
     const Stars stars(grid);
     const auto moments = momentsOf(grid, shapes);
+    std::atomic<std::uint64_t> apart = 0, beside = 0;
+    const auto isFlat = [&](std::uint32_t cell) {
+        const CellType* type = cellTypeOf(grid.types[cell]);
+        return type && type->dimension == shapes.dimension && !(moments.data()[cell].volume > 0);
+    };
     const auto tellOne = [&](std::uint64_t index, MeshPoint& point) {
         point.at = grid.points[index];
         double volume = 0, whole = 0;
+        bool hasFlat = false;
         glm::dmat3 second(0.0);
         for (const std::uint32_t cell : stars.of(index)) {
             const CellMoments& of = moments.data()[cell];
+            hasFlat = hasFlat || isFlat(cell);
             if (!(of.volume > 0)) continue;
             const std::uint64_t first = cell == 0 ? 0 : grid.ends[cell - 1];
             volume += of.volume / static_cast<double>(grid.ends[cell] - first);
@@ -304,6 +312,8 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
             second += of.volume * (of.second + glm::outerProduct(away, away));
         }
         if (whole > 0) second /= whole;
+        if (isPlace(point.at) && stars.of(index).empty()) ++apart;
+        if (isPlace(point.at) && whole > 0 && hasFlat) ++beside;
         setSteps(second, volume, point);
         makePrism(second, volume, levels, point);
     };
@@ -312,7 +322,10 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
     };
     Mesh mesh(count, grid.points, shapes.spread, tell, levels,
               levels.empty() ? SolidCells::of(grid, count) : nullptr);
-    mesh.setAbout(aboutOf(grid, MeshAbout::Points::Corners));
+    MeshAbout about = aboutOf(grid, MeshAbout::Points::Corners);
+    about.apart = apart * mesh.size()[2];
+    about.beside = beside * mesh.size()[2];
+    mesh.setAbout(std::move(about));
     return mesh;
 }
 
