@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 #include "timeseries/grid/cell_types.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
-
-std::uint64_t MeshAbout::cellCount() const {
-    return std::accumulate(cells.begin(), cells.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const Kind& kind) { return sum + kind.count; });
-}
 
 std::optional<std::uint8_t> MeshAbout::typeOf(std::uint64_t cell) const {
     if (points != Points::Cells || cells.empty()) return std::nullopt;

@@ -38,7 +38,6 @@ struct MeshAbout {
     std::uint64_t oneSided = 0;  // along indices: whose neighbour to one side has no place
     friend bool operator==(const MeshAbout&, const MeshAbout&) = default;
 
-    std::uint64_t cellCount() const;
     // Of a point that is a cell.
     std::optional<std::uint8_t> typeOf(std::uint64_t cell) const;
 };
