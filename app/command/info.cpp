@@ -2,11 +2,11 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/command/commands.h"
 #include "app/files/dataset.h"
+#include "app/files/grid_text.h"
 #include "app/files/step_cache.h"
 #include "app/json_text.h"
 #include "app/say.h"
@@ -18,20 +18,6 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 using timeseries::Axis;
 using timeseries::Variable;
-
-std::string kindOf(const timeseries::Grid& grid) {
-    if (grid.mesh()) return grid.mesh()->hasNeighbours() ? "curvilinear" : "unstructured";
-    for (const Axis& axis : grid.axes())
-        if (axis.units == "index") return "index space";
-    const std::string spacing = grid.uniform() ? "uniform" : "rectilinear";
-    if (grid.frame().aligned()) return spacing;
-    constexpr double kRounding = 1e-4;  // directions written in few digits
-    const glm::dmat3& d = grid.frame().directions;
-    bool upright = true;
-    for (int a = 0; a < 3; ++a)
-        upright = upright && std::abs(glm::dot(d[a], d[(a + 1) % 3])) < kRounding;
-    return spacing + (upright ? ", rotated" : ", sheared");
-}
 
 ordered_json frameJson(const timeseries::CoordinateFrame& frame) {
     ordered_json out{{"names", frame.names},
@@ -75,7 +61,7 @@ ordered_json variableJson(const Variable& v) {
                      {"missing", v.missing},
                      {"categories", v.categories},
                      {"notes", v.notes}};
-    out["grid"] = {{"kind", kindOf(*v.grid)}, {"points", v.grid->count()}};
+    out["grid"] = gridJson(*v.grid);
     for (const Axis& axis : v.grid->axes())
         if (v.grid->mesh())
             out["grid"]["coordinates"].push_back(coordinateJson(axis));
@@ -179,11 +165,7 @@ void print(const Variable& v, bool shownFirst) {
     say("  type     {}{}{}\n", timeseries::typeName(v.type), v.categories ? ", categories" : "",
         v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
     if (!v.missing.empty()) say("  missing  {}\n", v.missing);
-    const auto n = v.grid->size();
-    const bool counted = v.grid->mesh() && !v.grid->mesh()->hasNeighbours();
-    say("  grid     {}, {}{} points\n", kindOf(*v.grid),
-        counted ? "" : fmt::format("{} x {} x {} = ", n[0], n[1], n[2]),
-        withCommas(v.grid->count()));
+    say("  grid     {}\n", gridText(*v.grid));
     for (const Axis& axis : v.grid->axes())
         say("           {}\n", axisText(axis, v.grid->mesh() != nullptr));
     if (!v.grid->frame().aligned()) say("           {}\n", frameText(v.grid->frame()));

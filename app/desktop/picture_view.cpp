@@ -203,7 +203,8 @@ std::optional<Reading> PictureView::read(glm::vec2 at, const Explorer& shown) co
                    .between = found->picked.between,
                    .position = found->coordinates,
                    .world = found->picked.world,
-                   .step = report_.step};
+                   .step = report_.step,
+                   .cell = found->cell};
 }
 
 }  // namespace app::desktop

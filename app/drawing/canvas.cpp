@@ -9,6 +9,7 @@
 #include "app/drawing/refinement.h"
 #include "app/drawing/screen.h"
 #include "app/drawing/telling.h"
+#include "app/exploration/reading.h"
 #include "app/picture/still.h"
 #include "render/frame/frame_pace.h"
 #include "render/gl/timer.h"
@@ -381,7 +382,8 @@ std::optional<Probe> Canvas::probe(const render::View& eye, const glm::dvec2& wi
     const timeseries::SortedStep& step = *state_->screen->sorted;
     const std::uint64_t i = picked->gridIndex;
     const auto at = step.grid().indices(i);
-    return Probe{*picked, step.grid().position(i), {at.x, at.y, at.z}};
+    const std::array<std::size_t, 3> index{at.x, at.y, at.z};
+    return Probe{*picked, step.grid().position(i), index, cellText(step.grid(), index)};
 }
 
 void Canvas::save(const Shown& shown, const std::filesystem::path& file,

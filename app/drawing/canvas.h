@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/drawing/canvas_report.h"
@@ -60,6 +61,7 @@ struct Probe {
     render::Picked picked;
     glm::dvec3 coordinates;            // the grid's, in its units
     std::array<std::size_t, 3> index;  // along x, y, z
+    std::string cell;                  // as cellText() has it
 };
 
 // Needs a current GL context, from construction to destruction.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "render/annotate/ticks.h"
+#include "timeseries/grid/cell_types.h"
 
 namespace app {
 
@@ -33,6 +34,14 @@ std::string positionText(const Reading& reading, const Shown& shown, std::size_t
     const auto& mesh = shown.sorted->grid().mesh();
     if (axis > 0 && mesh && !mesh->hasNeighbours()) return at;
     return fmt::format("{}   [{}]", at, reading.index[axis]);
+}
+
+std::string cellText(const timeseries::Grid& grid, const std::array<std::size_t, 3>& index) {
+    const timeseries::Mesh* mesh = grid.mesh().get();
+    const auto type = mesh ? mesh->about().typeOf(index[0]) : std::nullopt;
+    if (!type) return "";
+    const std::string level = mesh->size()[2] > 1 ? fmt::format(", level {}", index[2]) : "";
+    return fmt::format("{}, {}{}", index[0], timeseries::cellName(*type, 1), level);
 }
 
 }  // namespace app

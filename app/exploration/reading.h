@@ -19,6 +19,7 @@ struct Reading {
     glm::dvec3 position{0};           // the grid's
     glm::dvec3 world{0};              // render::PlacedPoints's
     std::size_t step = 0;
+    std::string cell{};  // as cellText() has it
 };
 
 // A number with a unit, where there is one to be shown.
@@ -29,5 +30,8 @@ std::string valueText(const Reading& reading, const Shown& shown);
 std::string betweenText(const Reading& reading, const Shown& shown);
 // "0.125 m   [37]": along an axis (0 x, 1 y, 2 z), with the index.
 std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis);
+// "37, hexahedron", "37, triangle, level 2": which cell a point stands for, where a mesh's values
+// are its cells'; "" elsewhere.
+std::string cellText(const timeseries::Grid& grid, const std::array<std::size_t, 3>& index);
 
 }  // namespace app

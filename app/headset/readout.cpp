@@ -34,6 +34,7 @@ std::string tipText(const TipProbe::At& tip, const Shown& shown) {
     for (std::size_t a = 0; a < 3; ++a)
         text +=
             "\n" + shown.sorted->grid().axes()[a].name + " " + positionText(tip.reading, shown, a);
+    if (!tip.reading.cell.empty()) text += "\ncell " + tip.reading.cell;
     return text + "\n";
 }
 

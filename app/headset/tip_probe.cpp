@@ -78,7 +78,8 @@ Reading placeOf(const Drawn& drawn, const std::array<std::size_t, 3>& index, std
             .value = {},
             .position = drawn.sorted->grid().position(i),
             .world = drawn.placed->position(i),
-            .step = drawn.step};
+            .step = drawn.step,
+            .cell = cellText(drawn.sorted->grid(), index)};
 }
 
 std::uint64_t gridIndexOf(const render::PlacedPoints& placed,

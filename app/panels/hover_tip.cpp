@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <string>
+#include <vector>
 
 #include "app/panels/widgets.h"
 
@@ -57,16 +58,21 @@ void HoverTip::draw(const PanelContext& context) const {
     const float s = theme.scale, line = 19 * s;
     const std::string value =
         fmt::format("{}  {}", shown->dataset.variable.name, valueText(*reading_, *shown));
-    std::array<std::string, 3> places, names;
-    for (std::size_t i = 0; i < 3; ++i) names[i] = shown->sorted->grid().axes()[i].name;
+    std::vector<std::string> places, names;
+    for (std::size_t i = 0; i < 3; ++i) {
+        names.push_back(shown->sorted->grid().axes()[i].name);
+        places.push_back(positionText(*reading_, *shown, i));
+    }
+    if (!reading_->cell.empty()) {
+        names.emplace_back("cell");
+        places.push_back(reading_->cell);
+    }
     const std::string between = betweenText(*reading_, *shown);
     const float column = nameColumn(*theme.small, names, s);
     float width = std::max(widthOf(*theme.strong, value), widthOf(*theme.small, between));
-    for (std::size_t i = 0; i < 3; ++i) {
-        places[i] = positionText(*reading_, *shown, i);
-        width = std::max(width, column + 14 * s + widthOf(*theme.small, places[i]));
-    }
-    const float lines = between.empty() ? 4 : 5;
+    for (const std::string& place : places)
+        width = std::max(width, column + 14 * s + widthOf(*theme.small, place));
+    const auto lines = static_cast<float>(places.size() + (between.empty() ? 1 : 2));
     // Below and right of the pointer; on its other side where the picture ends.
     const Rect& picture = context.layout.picture;
     const glm::vec2 size(width + 22 * s, lines * line + 14 * s), pointer = picture.min + *at_;
@@ -80,7 +86,7 @@ void HoverTip::draw(const PanelContext& context) const {
     glm::vec2 at = corner + glm::vec2(11 * s, 7 * s + 0.5f * line);
     text(theme, at, value, kText, 0, theme.strong);
     if (!between.empty()) text(theme, at += glm::vec2(0, line), between, kDim, 0, theme.small);
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
         at.y += line;
         text(theme, at, fitting(*theme.small, names[i], column), kFaint, 0, theme.small);
         text(theme, at + glm::vec2(size.x - 22 * s, 0), places[i], kDim, 1, theme.small);

@@ -54,6 +54,7 @@ void ProbePage::draw(PanelContext& context, const Rect& at) {
     line(context.theme, form, shown->dataset.variable.name, valueText(r, *shown));
     for (std::size_t i = 0; i < 3; ++i)
         line(context.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
+    if (!r.cell.empty()) line(context.theme, form, "Cell", r.cell);
     line(context.theme, form, "Time", timeText(*shown->dataset.variable.time, r.step));
     if (second_) ruler(context, form, *first_, *second_, grid);
     if (textButton(context.theme, "Clear", part(form.row(), 0, 3, context.theme.scale), "Clear"))

@@ -57,5 +57,23 @@ TEST(ReadingText, APlaceWithoutNeighboursHasOneIndex) {
     EXPECT_EQ(positionText(reading, world.shown(), 2), "0.25 m");
 }
 
+TEST(ReadingText, ACellHasItsNumberInTheFileAndItsKind) {
+    const auto at = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
+    timeseries::UnstructuredGrid cells = tests::bricks({3, 2, 2}, tests::Cut::Hexahedra, at);
+    EXPECT_EQ(cellText(*tests::gridOf(tests::atCells(cells)), {1, 0, 0}), "1, hexahedron");
+    tests::addCell(cells, 13, {0, 1, 3, 6, 7, 9});
+    const auto mixed = tests::gridOf(tests::atCells(cells));
+    EXPECT_EQ(cellText(*mixed, {1, 0, 0}), "1, hexahedron");
+    EXPECT_EQ(cellText(*mixed, {2, 0, 0}), "2, wedge");
+    // Corners are of several cells, and points of a lattice of none that has a number.
+    EXPECT_EQ(cellText(*tests::gridOf(tests::atPoints(cells)), {1, 0, 0}), "");
+    EXPECT_EQ(cellText(*tests::cube(3), {1, 0, 0}), "");
+    timeseries::UnstructuredGrid flat = tests::bricks({3, 3, 1}, tests::Cut::Hexahedra, at);
+    tests::addCell(flat, 5, {0, 1, 3});
+    const auto columns =
+        tests::gridOf(meshOfCells(flat, timeseries::UnstructuredShapes(flat), {0, 10, 30}));
+    EXPECT_EQ(cellText(*columns, {0, 0, 2}), "0, triangle, level 2");
+}
+
 }  // namespace
 }  // namespace app

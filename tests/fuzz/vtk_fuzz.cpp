@@ -1,4 +1,4 @@
-// VTK files: XML, legacy, and collections, whose members may be a whole file beside the input.
+// VTK files: XML, legacy, and those that name others, which are whole files beside the input.
 #include "tests/fuzz/read_all.h"
 #include "timeseries/readers/vtk/vtk_glance.h"
 
@@ -20,14 +20,38 @@ void compareGlance(const std::filesystem::path& path) {
     }
 }
 
-constexpr std::string_view kMember =
-    R"(<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 0 0 0"><Piece Extent="0 1 0 0 0 0">
-<PointData><DataArray type="Int8" Name="v">1 2</DataArray></PointData></Piece></ImageData></VTKFile>)";
+struct Member {
+    const char* name;
+    std::string_view text;
+};
+constexpr Member kMembers[] = {
+    {"member.vti",
+     R"(<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 0 0 0"><Piece Extent="0 1 0 0 0 0">
+<PointData><DataArray type="Int8" Name="v">1 2</DataArray></PointData></Piece></ImageData></VTKFile>)"},
+    {"coarse.vti",
+     R"(<VTKFile type="ImageData"><ImageData WholeExtent="0 2 0 1 0 1"><Piece Extent="0 2 0 1 0 1">
+<CellData><DataArray type="Int8" Name="c">1 2</DataArray></CellData></Piece></ImageData></VTKFile>)"},
+    {"fine.vti",
+     R"(<VTKFile type="ImageData"><ImageData WholeExtent="0 2 0 2 0 2" Spacing=".5 .5 .5"><Piece Extent="0 2 0 2 0 2">
+<CellData><DataArray type="Int8" Name="c">1 2 3 4 5 6 7 8</DataArray></CellData></Piece></ImageData></VTKFile>)"},
+    {"member.vtu",
+     R"(<VTKFile type="UnstructuredGrid"><UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1"><PointData><DataArray type="Int8" Name="v">1 2 3 4</DataArray></PointData>
+<Points><DataArray type="Float32" NumberOfComponents="3">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>
+<Cells><DataArray type="Int32" Name="connectivity">0 1 2 3</DataArray><DataArray type="Int32" Name="offsets">4</DataArray><DataArray type="UInt8" Name="types">10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>)"},
+    {"member.vts",
+     R"(<VTKFile type="StructuredGrid"><StructuredGrid WholeExtent="0 1 0 1 0 0"><Piece Extent="0 1 0 1 0 0"><PointData><DataArray type="Int8" Name="v">1 2 3 4</DataArray></PointData>
+<Points><DataArray type="Float32" NumberOfComponents="3">0 0 0 1 0 0 0 1 0 1 1 1</DataArray></Points></Piece></StructuredGrid></VTKFile>)"},
+};
+
+bool writeMembers() {
+    for (const auto& [name, text] : kMembers) fuzz::write(name, text);
+    return true;
+}
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const auto member = fuzz::write("member.vti", kMember);
+    [[maybe_unused]] static const bool areThere = writeMembers();
     const std::string_view bytes = fuzz::text(data, size);
     if (bytes.starts_with('#') || bytes.starts_with('<')) {
         fuzz::readAll(bytes, "file.vtk");

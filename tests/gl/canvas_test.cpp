@@ -1,4 +1,5 @@
 // What a window draws: the same pictures as files, in time.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include "tests/support/canvas_of_noise.h"
 #include "tests/support/files.h"
 #include "tests/support/shown_steps.h"
+#include "tests/support/unstructured.h"
 
 namespace app {
 namespace {
@@ -230,6 +232,19 @@ TEST_F(CanvasOfNoise, AMapThatMovesALittleUploadsNothing) {
     canvas_.save(world_.shown(), file);
     EXPECT_LE(render::comparePictures(drawn, render::readExr(file).views[0].image).maxAbsolute,
               1e-4);
+}
+
+TEST_F(CanvasOfNoise, ProbesTellTheCellOfAMesh) {
+    const auto cells =
+        tests::bricks({9, 9, 9}, tests::Cut::Hexahedra,
+                      [](double i, double j, double k) { return glm::dvec3(i, j, k); });
+    const auto grid = tests::gridOf(tests::atCells(cells));
+    world_.steps[0] = std::make_shared<const timeseries::SortedStep>(tests::noise(grid, 1));
+    world_.dataset.variable.grid = grid;
+    draw(world_.shown());
+    const auto probe = canvas_.probe(canvas_.eyesOf(world_.shown())[0], {100, 75});
+    ASSERT_TRUE(probe);
+    EXPECT_EQ(probe->cell, fmt::format("{}, hexahedron", probe->picked.gridIndex));
 }
 
 TEST_F(CanvasOfNoise, ProbesTellWhatStandsThere) {

@@ -6,5 +6,5 @@
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libteem.so\nleak:utlex\nleak:vtkLookupTable::New\nleak:vtkArrayIteratorTemplate\n"
-           "leak:vtk*Array::New\nleak:openvdb*readTopology\n";
+           "leak:vtk*Array::New\nleak:libopenvdb.so\n";
 }

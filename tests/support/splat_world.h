@@ -42,6 +42,13 @@ inline std::vector<double> weights(const World& world, const View& view) {
     return sums.planes[0];
 }
 
+// From so far that all rays are upright.
+inline View fromAbove(int pixels) {
+    View view = tests::lookFrom({0, 0, 0}, {pixels, pixels}, 0.001);
+    view.viewFromWorld = glm::lookAt(glm::dvec3(0, 0, 1000), glm::dvec3(0), glm::dvec3(0, 1, 0));
+    return view;
+}
+
 // Sum over pixels of W times the area that a pixel sees at the depth of the points: the mass that
 // was drawn, in units of l. Exact for parallel rays; the views below are nearly that.
 inline double massDrawn(const std::vector<double>& w, const View& view, double depth) {

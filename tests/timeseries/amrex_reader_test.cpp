@@ -8,6 +8,7 @@
 #include "tests/support/plotfile.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/unstructured.h"
+#include "timeseries/grid/cell_types.h"
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/readers/series_files.h"
 
@@ -120,6 +121,9 @@ TEST(Amrex, OfLevelsTheLeavesStay) {
                 // Of 192 cells 4 x 4 x 4 are refined, of their 512 halves 4 x 2 x 4 again.
                 EXPECT_EQ(grid.count(), 192u - 64 + 512 - 32 + 256);
                 EXPECT_NEAR(volume(*grid.mesh()), 8 * 3 * 4, 1e-5);
+                EXPECT_EQ(grid.mesh()->about().levels, 3u);
+                EXPECT_THAT(grid.mesh()->about().cells,
+                            ElementsAre(MeshAbout::Kind{kVoxelCell, grid.count()}));
                 for (const std::size_t v : {0u, 1u}) {
                     if (isSingle)
                         EXPECT_EQ(foundIn<float>(*reader, v), expectedOf<float>(file, v));
@@ -193,6 +197,7 @@ TEST(Amrex, TwoDimensionsAreALayer) {
     EXPECT_EQ(foundIn<double>(*two, 1), expectedOf<double>(file, 1));
     const Mesh& mesh = *two->variables()[0].grid->mesh();
     EXPECT_EQ(mesh.count(), 32u - 8 + 32);
+    EXPECT_THAT(mesh.about().cells, ElementsAre(MeshAbout::Kind{kPixelCell, 56}));
     // As thick as the cells are wide in the mean.
     EXPECT_NEAR(volume(mesh), 8 * std::sqrt(8.0 / 56), 1e-5);
     file.levels.resize(1);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/damage.h"
 #include "tests/support/files.h"
 #include "tests/support/read_variables.h"
 
@@ -103,6 +104,18 @@ TEST(Csv, WhatIsWrongIsToldWithItsRow) {
              {"some words, and more\nx,y,z,T\n1,2,3,4\n", "no format that is known"},
          })
         EXPECT_THAT(refusalOf(table(text)), HasSubstr(told)) << text;
+}
+
+// Also numbers of many digits, quotes, and what is no text.
+TEST(Csv, FilesCutOrDamagedAnywhereAreReadOrRefused) {
+    const auto path =
+        table("\"x\";y;z;T [K]\n0;0;0;1\n1;0;0;2.5e3\n0;1;0;-3\n0;0;1;nan\n1;1;1;1e400\n");
+    damageInRounds(path, path);
+    for (const std::string& text :
+         {std::string("x,y,z,T\n0,0,0,1\n1,0,0,\"2"), std::string("x,y\n") + std::string(9999, ','),
+          "x,y,z,T\n0,0,0," + std::string(1 << 20, '9') + "\n1,1,1,1\n",
+          std::string("x,y,z,T\n0,0,0,1\n\0\0,1,1,1\n", 25), std::string(1 << 20, '"')})
+        isRefusedInOneSentence(table(text));
 }
 
 }  // namespace

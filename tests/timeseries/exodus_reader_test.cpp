@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/damage.h"
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
@@ -237,6 +238,11 @@ TEST(Exodus, FilesMakeASeries) {
     ASSERT_EQ(reader->variables()[0].time->points.size(), 4u);
     EXPECT_EQ(reader->variables()[0].time->points[2].value, 3);
     EXPECT_EQ(std::get<std::vector<float>>(reader->read(0, 3).values)[0], 1000);
+}
+
+TEST(Exodus, FilesCutOrDamagedAnywhereAreReadOrRefused) {
+    const Path path = write({.times = {1, 2}});
+    tests::damageInRounds(path, path);
 }
 
 }  // namespace

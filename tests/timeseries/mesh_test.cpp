@@ -143,9 +143,49 @@ TEST(Mesh, WhereANeighbourHasNoPlaceTheOtherSideIsTaken) {
     EXPECT_EQ(mesh.flat(), 3u) << "those at i = 3, j = 0 and k = 0, whose only one it is";
     EXPECT_FALSE(std::isfinite(mesh.position(2 + 4 * (1 + 4)).x));
     const auto notes = notesOf(mesh);
-    ASSERT_EQ(notes.size(), 2u);
+    ASSERT_EQ(notes.size(), 3u);
     EXPECT_EQ(notes[0], "1 of 64 points are not drawn: the file gives them no place");
     EXPECT_EQ(notes[1], "3 of 64 points are not drawn: their cells have no volume");
+    // i = 1, j = 2 and k = 2 lie beside it, and have another neighbour opposite.
+    EXPECT_EQ(notes[2],
+              "3 of 64 points have a neighbour without a place: their cells are as wide as to its "
+              "other side");
+}
+
+// By brute force: of a lattice with holes at random, also of columns.
+TEST(Mesh, PointsBesideHolesAreCounted) {
+    std::mt19937 random(5);
+    for (int round = 0; round < 200; ++round) {
+        const bool isFlat = round % 2 == 1;
+        MeshPlaces places = placesOf({4, 5, isFlat ? 1u : 3u}, [&](double i, double j, double k) {
+            return random() % 5 == 0 ? glm::dvec3(kNan) : glm::dvec3(i, j, k);
+        });
+        std::uint64_t expected = 0;
+        const auto isThere = [&](const glm::ivec3& at) {
+            return isPlace(places.at[std::size_t(at.x + 4 * (at.y + 5 * at.z))]);
+        };
+        for (int n = 0; n < int(places.at.size()); ++n) {
+            const glm::ivec3 size(4, 5, isFlat ? 1 : 3), at(n % 4, n / 4 % 5, n / 20);
+            int missing = 0, without = 0;
+            for (int a = 0; a < 3; ++a) {
+                int found = 0;
+                for (const int way : {-1, 1}) {
+                    glm::ivec3 beside = at;
+                    beside[a] += way;
+                    if (beside[a] < 0 || beside[a] >= size[a]) continue;
+                    isThere(beside) ? ++found : ++missing;
+                }
+                without += found == 0 && size[a] > 1;
+            }
+            expected += isThere(at) && missing > 0 && without == 0;
+        }
+        if (round % 4 == 3) {
+            places.size[2] = 3;
+            places.levels = {0, 1, 3};
+            expected *= 3;
+        }
+        EXPECT_EQ(Mesh(places).about().oneSided, expected) << round;
+    }
 }
 
 TEST(Mesh, LongitudesAreAsFarApartAsTheShorterWay) {

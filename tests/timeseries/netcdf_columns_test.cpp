@@ -121,6 +121,30 @@ TEST(NetcdfColumns, MoveInTime) {
     EXPECT_EQ(moved->axes(), v.grid->axes()) << "the same box";
 }
 
+// Places that a file gives for each time, and are the same at all.
+TEST(NetcdfColumns, ThatMoveNowhereAreThoseThatStand) {
+    std::vector<std::shared_ptr<const Grid>> grids;
+    for (const bool moves : {false, true}) {
+        Region file(moves ? "moves.nc" : "stands.nc");
+        std::vector<int> along{file.j, file.i};
+        if (moves) along.insert(along.begin(), file.t);
+        const int lon = file.place("XLONG", "degree_east", along),
+                  lat = file.place("XLAT", "degree_north", along);
+        file.variable("v", NC_FLOAT, {file.t, file.k.dimension, file.j, file.i});
+        for (std::size_t t = 0; t < (moves ? kTimes : 1); ++t) {
+            std::vector<std::size_t> first(along.size(), 0), count{kNj, kNi};
+            first[0] = moves ? t : 0;
+            if (moves) count.insert(count.begin(), 1);
+            file.write(lon, first, count, longitudes());
+            file.write(lat, first, count, latitudes());
+        }
+        const auto reader = open(file.closed());
+        for (std::size_t t = 0; t < kTimes; ++t) grids.push_back(reader->read(0, t).grid);
+        EXPECT_EQ(grids.back(), reader->variables()[0].grid) << "kept once";
+    }
+    for (const auto& grid : grids) EXPECT_EQ(*grid, *grids[0]);
+}
+
 TEST(NetcdfColumns, OfEachFileOfASeriesAreItsOwn) {
     std::vector<Path> paths;
     for (std::size_t t = 0; t < 2; ++t) {
@@ -178,7 +202,8 @@ TEST(NetcdfColumns, WithoutAPlaceAreNotDrawn) {
     EXPECT_THAT(v.notes, ElementsAre(HasSubstr("3 of 60 points are not drawn: the file gives them "
                                                "no place"),
                                      HasSubstr("3 of 60 points are not drawn: their cells have no "
-                                               "volume")))
+                                               "volume"),
+                                     HasSubstr("9 of 60 points have a neighbour without a place")))
         << "at j = 0 the only neighbour along j is the one without a place";
 }
 

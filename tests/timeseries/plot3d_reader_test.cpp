@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/damage.h"
 #include "tests/support/files.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
@@ -175,6 +176,17 @@ TEST(Plot3d, IsToldByItsSize) {
     EXPECT_THAT(refusalWith(bytes + std::string(100, '\0')), HasSubstr("no format that is known"));
     EXPECT_THAT(refusalWith(bytes.substr(0, bytes.size() - 1)),
                 HasSubstr("no format that is known"));
+}
+
+// The flow, and the places beside it.
+TEST(Plot3d, FilesCutOrDamagedAnywhereAreReadOrRefused) {
+    for (const How& how : {How{}, How{.swapped = true, .marked = true},
+                           How{.counted = true, .isDouble = true, .blanks = true}}) {
+        const auto folder = freshFolder();
+        const auto at = places("a.xyz", how), q = flow("a.q", how);
+        damageInRounds(q, q);
+        damageInRounds(at, q);
+    }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "timeseries/grid/unstructured.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -155,6 +156,28 @@ TEST(Unstructured, CellsOfFewerDimensionsThanOthersTakeNoSpace) {
     EXPECT_EQ(cells.absent(), 1u) << "the empty one lies nowhere";
     EXPECT_NEAR(volume(cells), 1, 1e-6);
     EXPECT_NEAR(volume(tests::atPoints(grid)), 1, 1e-6);
+}
+
+TEST(Unstructured, PointsWithoutACellOrWithAFlatOneAreTold) {
+    const auto at = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
+    UnstructuredGrid grid = bricks({3, 2, 2}, Cut::Hexahedra, at);
+    ASSERT_TRUE(notesOf(tests::atPoints(grid)).empty());
+    grid.points.push_back({9, 9, 9});
+    grid.points.push_back({9, 9, 9.5});
+    grid.points.push_back({std::nan(""), 0, 0});  // no place, and no cell either
+    grid.points.push_back({4, 0, 0});             // of a flat tetrahedron alone
+    addCell(grid, 10, {0, 1, 3, 15});             // z = 0
+    addCell(grid, 5, {0, 1, 6});                  // a surface beside solids takes no space anyway
+    ASSERT_EQ(flawOf(grid), "");
+    using testing::ElementsAre;
+    EXPECT_THAT(notesOf(tests::atPoints(grid)),
+                ElementsAre("1 of 16 points are not drawn: the file gives them no place",
+                            "2 of 16 points are not drawn: they are corners of no cell",
+                            "1 of 16 points are not drawn: their cells have no volume",
+                            "3 of 16 points are corners of cells without a volume, too: they "
+                            "stand for the others"));
+    EXPECT_THAT(notesOf(tests::atCells(grid)),
+                ElementsAre("2 of 4 points are not drawn: their cells have no volume"));
 }
 
 // Two rectangles of 3 x 2 each: as thick as the root of 6.

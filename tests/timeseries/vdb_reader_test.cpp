@@ -220,6 +220,26 @@ TEST(VdbReader, ABoxThatLiesIsTold) {
 }
 
 // Cut anywhere, or with bytes that are wrong, a file is read or refused in one sentence.
+// Wherever it ends: OpenVDB takes what stands in memory for the last values of a leaf.
+TEST(VdbReader, AFileThatIsCutIsRefused) {
+    const Path path = tests::testFolder() / "cut.vdb";
+    const auto few = openvdb::FloatGrid::create(kBackground);
+    for (int i = 0; i < 40; ++i) few->getAccessor().setValue({i % 8, i / 8, 2}, 1.5f + float(i));
+    few->setName("few");
+    for (const std::uint32_t packing :
+         {0u + openvdb::io::COMPRESS_NONE, 0u + openvdb::io::COMPRESS_ACTIVE_MASK,
+          0u + openvdb::io::COMPRESS_ZIP + openvdb::io::COMPRESS_ACTIVE_MASK}) {
+        openvdb::io::File file((tests::testFolder() / "whole.vdb").string());
+        file.setCompression(packing);
+        file.write(openvdb::GridCPtrVec{few});
+        const std::string whole = tests::readBytes(tests::testFolder() / "whole.vdb");
+        for (std::size_t cut = 1; cut < whole.size(); cut += cut < 40 ? 1 : 997) {
+            tests::writeBytes(path, whole.substr(0, whole.size() - cut));
+            EXPECT_THROW(tests::open(path)->read(0, 0), FileError) << cut << " bytes, " << packing;
+        }
+    }
+}
+
 TEST(VdbReader, DamagedFilesAreRefusedOrRead) {
     const Path whole = written({floats()}), path = tests::testFolder() / "damaged.vdb";
     std::ifstream from(whole, std::ios::binary);

@@ -9,6 +9,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
 #include "tests/support/vtk_grids.h"
+#include "timeseries/grid/cell_types.h"
 
 namespace timeseries::vtk_multiblock {
 namespace {
@@ -123,6 +124,11 @@ TEST(VtkMultiBlock, OfAdaptiveMeshesTheLeavesStay) {
         const std::size_t c = indexOf(*reader, "c"), p = indexOf(*reader, "p");
         EXPECT_NEAR(volumeOf(*reader->variables()[c].grid), 216, 216e-6);
         EXPECT_NEAR(volumeOf(*reader->variables()[p].grid), 216, 216e-6);
+        for (const std::size_t variable : {c, p}) {
+            const MeshAbout& about = reader->variables()[variable].grid->mesh()->about();
+            EXPECT_EQ(about.levels, 3u);
+            EXPECT_THAT(about.cells, ElementsAre(MeshAbout::Kind{kVoxelCell, leaves.size()}));
+        }
         // Points that nothing but covered cells has about it: within the middle 2 x 2 x 2 of 3, and
         // the one of the fine block's own middle; none at the corner that [5, 6] takes but its own.
         const Field field = reader->read(p, 0);

@@ -175,6 +175,8 @@ TEST(Xdmf, StepsMayMoveAndHaveOtherCells) {
     ASSERT_EQ(field.grid->count(), 3u);
     for (std::uint64_t i = 0; i < 3; ++i)
         EXPECT_NEAR(field.grid->position(i).x, 5.5 + double(i), 1e-5);
+    const auto still = open(written(inTime(step(5, 3) + step(5, 3))));
+    EXPECT_EQ(still->read(0, 1).grid, still->variables()[0].grid) << "one that moves nowhere";
 }
 
 TEST(Xdmf, PartsOfACollectionInSpaceStandBehindEachOther) {

@@ -1,5 +1,7 @@
 #include "timeseries/grid/cell_types.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 namespace timeseries {
@@ -28,23 +30,36 @@ constexpr std::array<std::uint8_t, 36> kHexaPrism{0, 5, 4,  3, 2, 1, 6,  7,  8, 
                                                   0, 1, 7,  6, 1, 2, 8,  7,  2, 3, 9,  8,
                                                   3, 4, 10, 9, 4, 5, 11, 10, 5, 0, 6,  11};
 
-constexpr CellType flat(int dimension, std::uint8_t corners, bool brick = false) {
-    return {dimension, corners, false, brick, {}, {}};
+using Name = std::string_view;
+constexpr CellType flat(Name one, Name several, int dimension, std::uint8_t corners,
+                        bool brick = false) {
+    return {one, several, dimension, corners, false, brick, {}, {}};
 }
-constexpr CellType solid(std::uint8_t corners, bool brick, Bytes sizes, Bytes faces) {
-    return {3, corners, false, brick, sizes, faces};
+constexpr CellType solid(Name one, Name several, std::uint8_t corners, bool brick, Bytes sizes,
+                         Bytes faces) {
+    return {one, several, 3, corners, false, brick, sizes, faces};
 }
 constexpr CellType curved(CellType of) {
     of.isCurved = true;
     return of;
 }
 
-constexpr CellType kVertex = flat(0, 0), kLine = flat(1, 2), kPolyLine = flat(1, 0),
-                   kTriangle = flat(2, 3), kQuad = flat(2, 4, true), kPolygon = flat(2, 0),
-                   kTet = solid(4, false, kTetraSizes, kTetra),
-                   kHex = solid(8, true, kBoxSizes, kHexahedron),
-                   kPrism = solid(6, false, kWedgeSizes, kWedge),
-                   kPyr = solid(5, false, kPyramidSizes, kPyramid);
+constexpr CellType kVertex = flat("vertex", "vertices", 0, 0), kLine = flat("line", "lines", 1, 2),
+                   kPolyLine = flat("polyline", "polylines", 1, 0),
+                   kTriangle = flat("triangle", "triangles", 2, 3),
+                   kQuad = flat("quadrilateral", "quadrilaterals", 2, 4, true),
+                   kPolygon = flat("polygon", "polygons", 2, 0),
+                   kFlatPixel{"pixel", "pixels", 2, 4, false, true, kPixelSizes, kPixel},
+                   kTet = solid("tetrahedron", "tetrahedra", 4, false, kTetraSizes, kTetra),
+                   kBox = solid("voxel", "voxels", 8, true, kBoxSizes, kVoxel),
+                   kHex = solid("hexahedron", "hexahedra", 8, true, kBoxSizes, kHexahedron),
+                   kPrism = solid("wedge", "wedges", 6, false, kWedgeSizes, kWedge),
+                   kPyr = solid("pyramid", "pyramids", 5, false, kPyramidSizes, kPyramid),
+                   kPrismOf5 = solid("pentagonal prism", "pentagonal prisms", 10, false,
+                                     kPentaPrismSizes, kPentaPrism),
+                   kPrismOf6 = solid("hexagonal prism", "hexagonal prisms", 12, true,
+                                     kHexaPrismSizes, kHexaPrism),
+                   kAnySolid = solid("polyhedron", "polyhedra", 0, false, {}, {});
 
 struct Numbered {
     std::uint8_t number;
@@ -57,15 +72,15 @@ constexpr std::array kTypes{
     Numbered{4, kPolyLine},
     Numbered{5, kTriangle},
     Numbered{7, kPolygon},
-    Numbered{8, CellType{2, 4, false, true, kPixelSizes, kPixel}},
+    Numbered{8, kFlatPixel},
     Numbered{9, kQuad},
     Numbered{10, kTet},
-    Numbered{11, solid(8, true, kBoxSizes, kVoxel)},
+    Numbered{11, kBox},
     Numbered{12, kHex},
     Numbered{13, kPrism},
     Numbered{14, kPyr},
-    Numbered{15, solid(10, false, kPentaPrismSizes, kPentaPrism)},
-    Numbered{16, solid(12, true, kHexaPrismSizes, kHexaPrism)},
+    Numbered{15, kPrismOf5},
+    Numbered{16, kPrismOf6},
     Numbered{21, curved(kLine)},
     Numbered{22, curved(kTriangle)},
     Numbered{23, curved(kQuad)},
@@ -82,7 +97,7 @@ constexpr std::array kTypes{
     Numbered{34, curved(kTriangle)},
     Numbered{35, curved(kLine)},
     Numbered{37, curved(kPyr)},
-    Numbered{kPolyhedron, solid(0, false, {}, {})},
+    Numbered{kPolyhedron, kAnySolid},
     // Lagrange's and Bezier's.
     Numbered{68, curved(kLine)},
     Numbered{69, curved(kTriangle)},
@@ -112,6 +127,13 @@ constexpr auto kByNumber = [] {
 const CellType* cellTypeOf(std::uint8_t number) {
     const std::uint8_t at = kByNumber[number];
     return at == 0 ? nullptr : &kTypes[at - 1].type;
+}
+
+std::string cellName(std::uint8_t number, std::uint64_t count) {
+    const CellType* type = cellTypeOf(number);
+    if (!type) return fmt::format("{} of type {}", count == 1 ? "cell" : "cells", number);
+    return fmt::format("{}{}", type->isCurved ? "curved " : "",
+                       count == 1 ? type->one : type->several);
 }
 
 }  // namespace timeseries

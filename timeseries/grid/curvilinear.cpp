@@ -95,6 +95,27 @@ glm::dvec3 CurvilinearCells::longestWay() const {
     return most;
 }
 
+std::uint64_t CurvilinearCells::oneSided() const {
+    const glm::vec<3, std::uint64_t> size(places_.size[0], places_.size[1], places_.size[2]);
+    const auto isOneSided = [&](std::uint64_t row) {
+        if (!isPlace(places_.at[row])) return false;
+        const auto at = indicesOf(row, size);
+        bool found = false;
+        for (int a = 0; a < (places_.levels.empty() ? 3 : 2); ++a) {
+            if (size[a] == 1) continue;
+            const std::uint64_t stride = stride_[static_cast<std::size_t>(a)];
+            const bool hasBefore = at[a] > 0, hasAfter = at[a] + 1 < size[a];
+            const bool before = hasBefore && isPlace(places_.at[row - stride]);
+            const bool after = hasAfter && isPlace(places_.at[row + stride]);
+            if (!before && !after) return false;  // no cell at all
+            found = found || before != hasBefore || after != hasAfter;
+        }
+        return found;
+    };
+    return sumOf(places_.at.size(),
+                 [&](std::size_t row) { return std::uint64_t{isOneSided(row)}; });
+}
+
 // The mean of the ways from the point before and to the one after, or the only one of these that
 // leads anywhere.
 glm::dvec3 CurvilinearCells::stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore,

@@ -33,6 +33,8 @@ class CurvilinearCells {
     glm::dmat3 operator()(std::uint64_t row) const;
     // How far neighbours are apart along each coordinate, at most.
     glm::dvec3 longestWay() const;
+    // Points of `at` that have cells, and a neighbour without a place.
+    std::uint64_t oneSided() const;
 
  private:
     // The shorter way round.

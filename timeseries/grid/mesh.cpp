@@ -110,6 +110,7 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size), period_(places.period
                     const glm::dmat3 rows = glm::transpose(cells(i));
                     return MeshPoint{places.at[i], {rows[0], rows[1], rows[2]}};
                 }));
+    if (absent_ > 0) about_.oneSided = cells.oneSided() * (columns ? nk : 1);
 }
 
 Mesh::Mesh(const std::array<std::size_t, 3>& size, std::span<const glm::dvec3> between,
@@ -270,13 +271,22 @@ std::vector<std::string> notesOf(const Mesh& mesh) {
     };
     add(mesh.absent(), "the file gives them no place");
     add(mesh.folded(), "their cells are folded, inside out beside most of the others");
-    add(mesh.flat(), "their cells have no volume");
+    add(mesh.about().apart, "they are corners of no cell");
+    add(mesh.flat() - mesh.about().apart, "their cells have no volume");
+    const auto addGuess = [&](std::uint64_t points, std::string_view what) {
+        if (points > 0)
+            notes.push_back(fmt::format("{} of {} points {}", points, mesh.count(), what));
+    };
+    addGuess(mesh.about().beside,
+             "are corners of cells without a volume, too: they stand for the others");
+    addGuess(mesh.about().oneSided,
+             "have a neighbour without a place: their cells are as wide as to its other side");
     return notes;
 }
 
 std::uint64_t Mesh::bytes() const {
     return stored_ * sizeof(Point) + levels_.size() * sizeof(Level) +
-           (solids_ ? solids_->bytes() : 0);
+           (solids_ ? solids_->bytes() : 0) + about_.types.size();
 }
 
 bool operator==(const Mesh& a, const Mesh& b) {
@@ -285,10 +295,10 @@ bool operator==(const Mesh& a, const Mesh& b) {
     };
     const bool sameSolids =
         a.solids_ == b.solids_ || (a.solids_ && b.solids_ && *a.solids_ == *b.solids_);
-    return sameSolids && a.size_ == b.size_ && a.hasNeighbours_ == b.hasNeighbours_ &&
-           a.spread_ == b.spread_ && a.period_ == b.period_ && a.origin_ == b.origin_ &&
-           a.unit_ == b.unit_ && std::ranges::equal(a.levels_, b.levels_, sameLevel) &&
-           a.stored_ == b.stored_ &&
+    return sameSolids && a.about_ == b.about_ && a.size_ == b.size_ &&
+           a.hasNeighbours_ == b.hasNeighbours_ && a.spread_ == b.spread_ &&
+           a.period_ == b.period_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
+           std::ranges::equal(a.levels_, b.levels_, sameLevel) && a.stored_ == b.stored_ &&
            std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }
 

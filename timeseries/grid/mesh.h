@@ -9,10 +9,12 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "timeseries/grid/curvilinear.h"
 #include "timeseries/grid/lower_triangle.h"
+#include "timeseries/grid/mesh_about.h"
 #include "timeseries/grid/pages.h"
 
 namespace timeseries {
@@ -56,6 +58,9 @@ class Mesh {
     bool hasNeighbours() const { return hasNeighbours_; }
     // Between points without neighbours, where the file says so; null: nothing is known.
     const std::shared_ptr<const SolidCells>& solids() const { return solids_; }
+    // By who made it, before others have it. REQUIRES: `types` of all points, or of none.
+    void setAbout(MeshAbout about) { about_ = std::move(about); }
+    const MeshAbout& about() const { return about_; }
     // As MeshPlaces has it.
     const glm::dvec3& period() const { return period_; }
     std::uint64_t count() const;
@@ -128,6 +133,7 @@ class Mesh {
     std::array<std::size_t, 3> size_;
     bool hasNeighbours_ = true;
     std::shared_ptr<const SolidCells> solids_;
+    MeshAbout about_;
     glm::dvec3 period_{0};
     double spread_ = 1;
     glm::dvec3 origin_{0}, unit_{1};

@@ -50,6 +50,19 @@ std::vector<double> volumesOf(const Places& places) {
     return volumes;
 }
 
+Mesh meshOf(std::span<const glm::dvec3> at, const std::vector<double>& volumes, double spread,
+            MeshAbout::Points points) {
+    Mesh mesh(at.size(), at, spread, [&](std::uint64_t i) {
+        const bool stands = volumes[i] > 0 && std::isfinite(volumes[i]);
+        const double width = stands ? std::cbrt(volumes[i]) : 0;
+        return MeshPoint{at[i], {glm::dvec3(width, 0, 0), {0, width, 0}, {0, 0, width}}};
+    });
+    MeshAbout about;
+    about.points = points;
+    mesh.setAbout(std::move(about));
+    return mesh;
+}
+
 }  // namespace
 
 Mesh meshOfScattered(std::span<const glm::dvec3> at) {
@@ -63,16 +76,12 @@ Mesh meshOfScattered(std::span<const glm::dvec3> at) {
         for (std::size_t i = 0; i < at.size(); ++i)
             if (isPlace(at[i])) volumes[i] = *next++;
     }
-    return meshOfVolumes(at, volumes);
+    return meshOf(at, volumes, kScatteredSpread, MeshAbout::Points::Scattered);
 }
 
 Mesh meshOfVolumes(std::span<const glm::dvec3> at, const std::vector<double>& volumes,
                    double spread) {
-    return Mesh(at.size(), at, spread, [&](std::uint64_t i) {
-        const bool stands = volumes[i] > 0 && std::isfinite(volumes[i]);
-        const double width = stands ? std::cbrt(volumes[i]) : 0;
-        return MeshPoint{at[i], {glm::dvec3(width, 0, 0), {0, width, 0}, {0, 0, width}}};
-    });
+    return meshOf(at, volumes, spread, MeshAbout::Points::Particles);
 }
 
 }  // namespace timeseries

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -28,23 +29,6 @@ glm::dvec3 centreOf(std::span<const glm::dvec3> places) {
     glm::dvec3 sum(places.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0);
     for (const glm::dvec3& place : places) sum += place / static_cast<double>(places.size());
     return sum;
-}
-
-using TypeCounts = std::array<std::uint64_t, 256>;
-
-// How many cells have each number of a type.
-TypeCounts typesOf(const UnstructuredGrid& grid) {
-    const std::size_t cells = grid.types.size();
-    std::vector<TypeCounts> counts(threadsFor(cells, kCellsAThread));
-    const auto threads = static_cast<unsigned>(counts.size());
-    together(threads, [&](unsigned k) {
-        for (std::size_t cell = cells * k / threads; cell < cells * (k + 1) / threads; ++cell)
-            ++counts[k][grid.types[cell]];
-    });
-    for (std::size_t k = 1; k < threads; ++k)
-        for (std::size_t type = 0; type < counts[k].size(); ++type)
-            counts[0][type] += counts[k][type];
-    return counts[0];
 }
 
 // Of those whose type this is true.
@@ -244,10 +228,16 @@ Pages<CellMoments> momentsOf(const UnstructuredGrid& grid, const UnstructuredSha
     return all;
 }
 
+MeshAbout aboutOf(const UnstructuredGrid& grid, MeshAbout::Points points) {
+    MeshAbout about = aboutCells(points, grid.types);
+    about.levels = grid.levels;
+    return about;
+}
+
 }  // namespace
 
 UnstructuredShapes::UnstructuredShapes(const UnstructuredGrid& grid) {
-    const TypeCounts counts = typesOf(grid);
+    const TypeCounts counts = countTypes(grid.types);
     const auto some = [&](int least) {
         return countOf(counts, [&](const CellType& type) { return type.dimension >= least; }) > 0;
     };
@@ -290,7 +280,9 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
     };
     const std::span<const glm::dvec3> between =
         grid.points.empty() ? std::span(places) : grid.points;
-    return Mesh(cells, between, shapes.spread, tell, levels);
+    Mesh mesh(cells, between, shapes.spread, tell, levels);
+    mesh.setAbout(aboutOf(grid, MeshAbout::Points::Cells));
+    return mesh;
 }
 
 Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
@@ -299,12 +291,19 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
     if (shapes.areScattered) return meshOfScattered(std::span(grid.points).first(count));
     const Stars stars(grid);
     const auto moments = momentsOf(grid, shapes);
+    std::atomic<std::uint64_t> apart = 0, beside = 0;
+    const auto isFlat = [&](std::uint32_t cell) {
+        const CellType* type = cellTypeOf(grid.types[cell]);
+        return type && type->dimension == shapes.dimension && !(moments.data()[cell].volume > 0);
+    };
     const auto tellOne = [&](std::uint64_t index, MeshPoint& point) {
         point.at = grid.points[index];
         double volume = 0, whole = 0;
+        bool hasFlat = false;
         glm::dmat3 second(0.0);
         for (const std::uint32_t cell : stars.of(index)) {
             const CellMoments& of = moments.data()[cell];
+            hasFlat = hasFlat || isFlat(cell);
             if (!(of.volume > 0)) continue;
             const std::uint64_t first = cell == 0 ? 0 : grid.ends[cell - 1];
             volume += of.volume / static_cast<double>(grid.ends[cell] - first);
@@ -313,18 +312,26 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
             second += of.volume * (of.second + glm::outerProduct(away, away));
         }
         if (whole > 0) second /= whole;
+        if (isPlace(point.at) && stars.of(index).empty()) ++apart;
+        if (isPlace(point.at) && whole > 0 && hasFlat) ++beside;
         setSteps(second, volume, point);
         makePrism(second, volume, levels, point);
     };
     const auto tell = [&](std::uint64_t first, std::span<MeshPoint> points) {
         for (MeshPoint& point : points) tellOne(first++, point);
     };
-    return Mesh(count, grid.points, shapes.spread, tell, levels,
-                levels.empty() ? SolidCells::of(grid, count) : nullptr);
+    Mesh mesh(count, grid.points, shapes.spread, tell, levels,
+              levels.empty() ? SolidCells::of(grid, count) : nullptr);
+    MeshAbout about = aboutOf(grid, MeshAbout::Points::Corners);
+    about.apart = apart * mesh.size()[2];
+    about.beside = beside * mesh.size()[2];
+    mesh.setAbout(std::move(about));
+    return mesh;
 }
 
 std::vector<std::string> notesOf(const UnstructuredGrid& grid) {
-    const auto curved = countOf(typesOf(grid), [](const CellType& type) { return type.isCurved; });
+    const auto curved =
+        countOf(countTypes(grid.types), [](const CellType& type) { return type.isCurved; });
     if (curved == 0) return {};
     return {fmt::format("{} of {} cells are curved: taken as straight between their corners",
                         curved, grid.types.size())};

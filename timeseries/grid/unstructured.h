@@ -29,6 +29,7 @@ struct UnstructuredGrid {
     // cell is one.
     std::vector<std::uint64_t> faceEnds;
     std::vector<std::uint32_t> faces;
+    std::size_t levels = 0;  // of an adaptive mesh, whose leaves these are; else 0
 };
 
 // A cell's part of a list, of cells whose parts end there.

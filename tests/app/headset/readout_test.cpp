@@ -95,6 +95,8 @@ TEST(Readout, BeginsWithWhatIsAtTheHandsTip) {
     tip.reading.value = 21.5;
     EXPECT_THAT(readout(world.exploration, tip),
                 StartsWith("T 21.5\nx 3 m   [3]\nx 2 m   [2]\nx 1 m   [1]\nT "));
+    tip.reading.cell = "3, wedge";
+    EXPECT_THAT(readout(world.exploration, tip), HasSubstr("\nx 1 m   [1]\ncell 3, wedge\nT "));
     tip.value = TipProbe::Value::None;
     EXPECT_THAT(readout(world.exploration, tip), StartsWith("T: no value\n"));
     tip.value = TipProbe::Value::Sought;

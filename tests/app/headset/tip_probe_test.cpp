@@ -1,5 +1,6 @@
 #include "app/headset/tip_probe.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -193,6 +194,21 @@ TEST_F(ProbeOfTips, ReadsEachPointOfAnObliqueGridWhereItStands) {
         const auto& order = drawn_->sorted->gridIndex();
         const auto at = std::find(order.begin(), order.end(), i) - order.begin();
         EXPECT_EQ(reading->value, drawn_->sorted->value(static_cast<std::uint64_t>(at)));
+    }
+}
+
+TEST_F(ProbeOfTips, TellsTheCellOfAMesh) {
+    auto cells = tests::bricks({4, 3, 3}, tests::Cut::Hexahedra,
+                               [](double i, double j, double k) { return glm::dvec3(i, j, k); });
+    cells.types[7] = 11;  // a voxel of the same corners, whose order tells another shape
+    grid_ = tests::gridOf(tests::atCells(cells));
+    placed_ = render::PlacedPoints(*grid_);
+    drawn_ = Drawn{&placed_, shared(tests::noise(grid_)), 7};
+    for (std::uint64_t i = 0; i < grid_->count(); ++i) {
+        const glm::dvec3 tip = glm::mix(inStage(i), placement_.stageFromVolume.position, 0.01);
+        const auto reading = readingAt(*drawn_, placement_, tip);
+        ASSERT_TRUE(reading) << i;
+        EXPECT_EQ(reading->cell, fmt::format("{}, {}", i, i == 7 ? "voxel" : "hexahedron"));
     }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "timeseries/grid/cell_types.h"
+
 namespace timeseries {
 namespace {
 
@@ -97,8 +99,12 @@ Grid gridOfLeaves(const AmrexPlotfile& file,
         return MeshPoint{lattice.middle(cell),
                          {glm::dvec3(side.x, 0, 0), {0, side.y, 0}, {0, 0, side.z}}};
     };
-    auto mesh =
-        std::make_shared<const Mesh>(leaves.size(), std::vector{file.lo, file.hi}, 1, point);
+    auto mesh = std::make_shared<Mesh>(leaves.size(), std::vector{file.lo, file.hi}, 1, point);
+    MeshAbout about;
+    about.points = MeshAbout::Points::Cells;
+    about.cells = {{file.dimensions == 2 ? kPixelCell : kVoxelCell, leaves.size()}};
+    about.levels = file.lattice.size();
+    mesh->setAbout(std::move(about));
     return Grid(spaceAxes(), std::move(mesh));
 }
 

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <type_traits>
 
+#include "timeseries/readers/arrays/vdb_archive.h"
 #include "timeseries/readers/forked_call.h"
 #include "timeseries/readers/limits.h"
 
@@ -145,6 +146,8 @@ void VdbFile::told(std::string_view place, const std::function<void()>& work) co
     } catch (const openvdb::Exception& error) {
         fail(place,
              fmt::format("expected what OpenVDB can read, but OpenVDB says \"{}\"", saysOf(error)));
+    } catch (const std::ios_base::failure&) {
+        fail(place, "expected what OpenVDB can read, but the file ends before");
     } catch (const std::bad_alloc&) {
         fail(place, "expected what memory holds, but there is not as much of it");
     } catch (const std::length_error& error) {
@@ -154,6 +157,7 @@ void VdbFile::told(std::string_view place, const std::function<void()>& work) co
 }
 
 void VdbFile::readHeader() {
+    VdbArchive archive(path_);
     openvdb::io::File file(path_.string());
     file.open(false);
     const std::uint64_t bytes = file.getSize();
@@ -186,7 +190,7 @@ void VdbFile::readHeader() {
         if (const auto told = toldBox(*grid)) {
             found.box = *told;
         } else {
-            const openvdb::CoordBBox box = file.readGrid(name)->evalActiveVoxelBoundingBox();
+            const openvdb::CoordBBox box = archive.read(name)->evalActiveVoxelBoundingBox();
             found.box = boxOf(box.min(), box.max());
         }
         if (!found.box.count()) {
@@ -217,9 +221,7 @@ Values VdbFile::read(const VdbGrid& of, const VdbBox& box) const {
     Values values;
     const std::uint64_t most = sizeof(double) * of.numbers * *box.count();
     const auto work = [&] {
-        openvdb::io::File file(path_.string());
-        file.open(false);
-        const openvdb::GridBase::Ptr grid = file.readGrid(of.name);
+        const openvdb::GridBase::Ptr grid = VdbArchive(path_).read(of.name);
         // Before so much memory is taken.
         const openvdb::CoordBBox active = grid->evalActiveVoxelBoundingBox();
         if (boxOf(active.min(), active.max()) != of.box)

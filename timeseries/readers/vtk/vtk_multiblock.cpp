@@ -165,7 +165,8 @@ VtkBlocks readVtkBlocks(const XmlFile& file) {
     const Composite& composite = *compositeOf(rootOf(file).attribute("type"));
     std::vector<Named> all;
     addNamed(file, file.root, 0, all);
-    VtkBlocks found{composite.format, {}, {}};
+    VtkBlocks found;
+    found.format = composite.format;
     std::vector<std::uint64_t> levels;
     std::set<Path> seen;
     constexpr std::uint64_t kMostListed = 1 << 27;  // 5 GB
@@ -202,8 +203,10 @@ VtkBlocks readVtkBlocks(const XmlFile& file) {
         cells = coveredCells(found.blocks[i], finer);
         points = coveredPoints(found.blocks[i], cells);
     }
-    if (composite.hasLevels)
-        found.format += fmt::format(", {} levels", std::set(levels.begin(), levels.end()).size());
+    if (composite.hasLevels) {
+        found.levels = std::set(levels.begin(), levels.end()).size();
+        found.format += fmt::format(", {} levels", found.levels);
+    }
     return found;
 }
 

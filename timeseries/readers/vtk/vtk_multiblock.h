@@ -15,6 +15,7 @@ bool isVtkMultiBlock(std::string_view type);
 
 struct VtkBlocks {
     std::string format;             // "VTK multi-block data"
+    std::size_t levels = 0;         // of an adaptive mesh; else 0
     std::vector<VtkHeader> blocks;  // with places, coordinates and cells; none is empty
     // By block and VtkPlace: what finer levels cover. Empty where nothing is.
     std::vector<std::array<std::vector<bool>, 2>> covered;

@@ -228,6 +228,7 @@ VtkContents ofBlocks(const XmlFile& file) {
     for (std::size_t i = 0; i < count; ++i)
         listVtkCells(found.blocks[i], found.covered[i][static_cast<std::size_t>(VtkPlace::Cells)]);
     joinVtkCells(whole, found.blocks);
+    whole.unstructured.levels = found.levels;
     for (VtkHeader& block : found.blocks) {
         block.coordinates = {};
         block.unstructured = {};

@@ -1,0 +1,93 @@
+#include "app/files/grid_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/files/dataset.h"
+#include "timeseries/grid/cell_types.h"
+
+namespace app {
+namespace {
+
+using timeseries::Axis;
+using timeseries::Grid;
+using timeseries::Mesh;
+using timeseries::MeshAbout;
+using Points = MeshAbout::Points;
+
+// "5,000 hexahedra, 200 wedges".
+std::string cellsText(const MeshAbout& about) {
+    constexpr std::size_t kMostTold = 8;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(about.cells.size(), kMostTold); ++i) {
+        const auto& [type, count] = about.cells[i];
+        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", withCommas(count),
+                            timeseries::cellName(type, count));
+    }
+    const std::size_t others = about.cells.size() - std::min(about.cells.size(), kMostTold);
+    return others == 0 ? text : fmt::format("{} and {} other kinds", text, others);
+}
+
+// Of points that lie one by one; "" where nothing is known of them.
+std::string pointsText(const Mesh& mesh) {
+    const MeshAbout& about = mesh.about();
+    if (about.points == Points::Particles) return ", each as large as the file says";
+    if (about.points != Points::Cells && about.points != Points::Corners) return "";
+    const bool atCells = about.points == Points::Cells;
+    std::string what = atCells ? "one a cell" : "corners of cells";
+    if (about.levels > 0)
+        what = fmt::format("{}leaves of {} level{}", atCells ? "" : "corners of ", about.levels,
+                           about.levels == 1 ? "" : "s");
+    if (mesh.size()[2] > 1) what += fmt::format(" on each of {} levels", mesh.size()[2]);
+    return about.cells.empty() ? ", " + what : fmt::format(", {}: {}", what, cellsText(about));
+}
+
+}  // namespace
+
+std::string gridKind(const Grid& grid) {
+    if (const Mesh* mesh = grid.mesh().get()) {
+        if (mesh->hasNeighbours()) return "curvilinear";
+        if (mesh->about().levels > 0) return "adaptive";
+        const Points points = mesh->about().points;
+        const bool apart = points == Points::Scattered || points == Points::Particles;
+        return apart ? "scattered" : "unstructured";
+    }
+    for (const Axis& axis : grid.axes())
+        if (axis.units == "index") return "index space";
+    const std::string spacing = grid.uniform() ? "uniform" : "rectilinear";
+    if (grid.frame().aligned()) return spacing;
+    constexpr double kRounding = 1e-4;  // directions written in few digits
+    const glm::dmat3& d = grid.frame().directions;
+    bool upright = true;
+    for (int a = 0; a < 3; ++a)
+        upright = upright && std::abs(glm::dot(d[a], d[(a + 1) % 3])) < kRounding;
+    return spacing + (upright ? ", rotated" : ", sheared");
+}
+
+std::string gridText(const Grid& grid) {
+    const Mesh* mesh = grid.mesh().get();
+    const std::string kind = gridKind(grid), points = withCommas(grid.count()) + " points";
+    if (mesh && !mesh->hasNeighbours())
+        return fmt::format("{}, {}{}", kind, points, pointsText(*mesh));
+    const auto n = grid.size();
+    return fmt::format("{}, {} x {} x {} = {}", kind, n[0], n[1], n[2], points);
+}
+
+nlohmann::ordered_json gridJson(const Grid& grid) {
+    nlohmann::ordered_json out{{"kind", gridKind(grid)}, {"points", grid.count()}};
+    const Mesh* mesh = grid.mesh().get();
+    if (!mesh || mesh->hasNeighbours()) return out;
+    const MeshAbout& about = mesh->about();
+    if (about.points == Points::Cells || about.points == Points::Corners)
+        out["at"] = about.points == Points::Cells ? "cells" : "corners";
+    for (const auto& [type, count] : about.cells)
+        out["cells"].push_back({{"kind", timeseries::cellName(type, 1)}, {"count", count}});
+    if (about.levels > 0) out["levels"] = about.levels;
+    return out;
+}
+
+}  // namespace app
