@@ -6,7 +6,8 @@ std::vector<Rung> ladder(const LadderOf& of) {
     std::vector<Rung> rungs;
     const auto add = [&](Model model, std::uint32_t stride) {
         rungs.push_back({model, stride});
-        if (of.coarse) rungs.push_back({model, stride, kCoarse});
+        if (of.coarse && (model == Model::Cells || of.coarsePoints))
+            rungs.push_back({model, stride, kCoarse});
     };
     if (of.cells) add(Model::Cells, 1);
     for (std::uint32_t stride = 1; of.points && stride <= of.mostStride; stride *= 2)

@@ -24,10 +24,16 @@ constexpr int kCoarse = 2;
 // What a user may fix, and whose error is told, are at least one of so many points.
 constexpr std::uint32_t kFewestMoving = 16;
 
+// Squares of so many pixels are as large in coarse ones: they would be others.
+inline bool mayBeCoarse(const render::Footprint& footprint) {
+    return footprint.kernel != render::Kernel::Point;
+}
+
 struct LadderOf {
-    bool cells = true;   // they are there to be drawn
-    bool coarse = true;  // pixels may be
-    bool points = true;  // they are, too
+    bool cells = true;         // they are there to be drawn
+    bool points = true;        // they are, too
+    bool coarse = true;        // pixels may be
+    bool coarsePoints = true;  // those of points, too
     std::uint32_t mostStride = kFewestMoving;
 };
 // From the truest to the soonest: cells, points, ever fewer of them, each in the picture's pixels,

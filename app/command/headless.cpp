@@ -11,6 +11,7 @@
 #include "app/exploration/chosen_data.h"
 #include "app/files/dataset.h"
 #include "app/files/frame_files.h"
+#include "app/files/picture_files.h"
 #include "app/files/progress.h"
 #include "app/picture/depth_error.h"
 #include "app/picture/error_text.h"
@@ -142,6 +143,9 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
             onGpu.emplace(*step, *placed, onGpu ? onGpu->mesh() : nullptr);
         }
         const bool isOfAnother = frame.file != error.of;
+        const auto nameOfFirst = [&](const std::filesystem::path& picture) {
+            return filesOf(picture, e.stereo.mode).front().filename().string();
+        };
         DrawnStill drawn = drawStill({.explorer = e,
                                       .variable = variable,
                                       .stepIndex = frame.step,
@@ -150,7 +154,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
                                       .tick = frame.tick,
                                       .paths = options.portable ? Paths::Relative : Paths::Both,
                                       .error = error.depth,
-                                      .errorOf = isOfAnother ? error.of.filename().string() : ""},
+                                      .errorOf = isOfAnother ? nameOfFirst(error.of) : ""},
                                      renderer, *onGpu,
                                      {.opticalDepth = options.opticalDepth,
                                       .splatCount = options.splatCount,
@@ -221,7 +225,9 @@ int renderHeadless(const RenderOptions& options) {
     tellStyle(e, dataset.variable);
     if (!error.text.empty())
         say("  {}{}\n", error.text,
-            frames.size() == 1 ? "" : fmt::format(" in {}", error.of.string()));
+            frames.size() == 1
+                ? ""
+                : fmt::format(" in {}", filesOf(error.of, e.stereo.mode).front().string()));
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);

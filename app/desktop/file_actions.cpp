@@ -135,16 +135,10 @@ void FileActions::save(const fs::path& file, const std::optional<double>& error)
     });
 }
 
-void FileActions::screenshot(std::optional<double> error) {
+void FileActions::screenshot(const std::optional<double>& error) {
     const auto shown = exploration_.shown();
     if (!shown) return;
     telling(exploration_, [&] {
-        if (!error && hasDepthError(*shown->sorted)) {
-            const Rung whole{modelOf(shown->explorer)};
-            error = depthErrorsOf(shown->explorer, *shown->sorted, canvas_.eyesOf(*shown).front(),
-                                  std::span(&whole, 1))
-                        .of(whole);
-        }
         const fs::path file = numbered(fs::path(shown->dataset.name).stem().string());
         canvas_.save(*shown, file, error);
         const bool isAsAsked = shown->explorer.map == exploration_.explorer().map;

@@ -33,7 +33,7 @@ class FileActions {
     void open(const std::vector<std::filesystem::path>& named);
     void save(const std::filesystem::path& file, const std::optional<double>& error = {});
     // Works the error out where it is not known.
-    void screenshot(std::optional<double> error);
+    void screenshot(const std::optional<double>& error);
     void copyCommandLine();
     void exportTo(const std::filesystem::path& output);
     void cancelExport();

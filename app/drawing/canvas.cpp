@@ -165,22 +165,23 @@ Rung Canvas::State::truestThatFits(const render::Scene& whole, std::span<const r
                                    const CanvasLimits& limits) const {
     constexpr double kToClimb = 0.8;
     const bool hasCells = whole.cells != nullptr;
-    const bool isPointwise = whole.footprint.kernel == render::Kernel::Point;
     const std::vector<Rung> rungs =
         ladder({.cells = hasCells && !listsForLong(whole),
-                .coarse = limits.mayBeCoarse && !(isPointwise && !hasCells),
                 .points = !hasCells || isThere(*screen->held, byPoints(whole)),
+                .coarse = limits.mayBeCoarse,
+                .coarsePoints = mayBeCoarse(whole.footprint),
                 .mostStride = render::kMaxStride});
     std::optional<Rung> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Rung& each : rungs) {
+        const double error = limits.errors ? limits.errors->of(each).value_or(least) : least;
+        if (best && !(error < least)) continue;
         const double share = drawsLess(rung, each) ? kToClimb : 1;
         const std::vector<render::View> seen = coarser(eyes, each.across);
         if (!keepsTo(limits, sceneOn(each, whole), seen, share)) continue;
-        const double error = limits.errors ? limits.errors->of(each).value_or(least) : least;
-        if (best && !(error < least)) continue;
         best = each;
         least = error;
+        if (!limits.errors) break;
     }
     return best.value_or(rungs.empty() ? Rung() : rungs.back());
 }
@@ -190,6 +191,7 @@ Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
                                             const CanvasLimits& limits) const {
     Rung on = limits.rung ? *limits.rung : truestThatFits(whole, eyes, limits);
     if (!whole.cells) on.model = Model::Points;
+    if (on.model == Model::Points && !mayBeCoarse(whole.footprint)) on.across = 1;
     if (whole.cells && on.model == Model::Points && !isThere(*screen->held, byPoints(whole)))
         on = {};
     return {on, sceneOn(on, whole)};
@@ -296,7 +298,10 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     }
     const auto [rung, drawn] =
         moving ? state_->moving(whole, eyes, limits) : State::Moving{rungOf(whole), whole};
-    if (!drawn.cells) std::erase(legend.notes, kInterpolated);
+    if (!drawn.cells)
+        std::erase_if(legend.notes, [](const std::string& note) {
+            return note == kInterpolated || note.ends_with(kByPointsAlone);
+        });
     state_->rung = rung;
     state_->tell(report, drawn);
 

@@ -36,6 +36,7 @@ std::string cellsText(const MeshAbout& about) {
 std::string pointsText(const Mesh& mesh) {
     const MeshAbout& about = mesh.about();
     if (about.points == Points::Particles) return ", each as large as the file says";
+    if (about.points == Points::Edges) return ", one an edge";
     if (about.points != Points::Cells && about.points != Points::Corners) return "";
     const bool atCells = about.points == Points::Cells;
     std::string what = atCells ? "one a cell" : "corners of cells";
@@ -84,6 +85,7 @@ nlohmann::ordered_json gridJson(const Grid& grid) {
     const MeshAbout& about = mesh->about();
     if (about.points == Points::Cells || about.points == Points::Corners)
         out["at"] = about.points == Points::Cells ? "cells" : "corners";
+    if (about.points == Points::Edges) out["at"] = "edges";
     for (const auto& [type, count] : about.cells)
         out["cells"].push_back({{"kind", timeseries::cellName(type, 1)}, {"count", count}});
     if (about.levels > 0) out["levels"] = about.levels;

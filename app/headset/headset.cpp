@@ -135,9 +135,7 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
     const Panel::Asked asked = panel_.draw(exploration_, interaction_.pointer(), around, dt);
     asked_ = asked.interaction;
     // What is saved is drawn whole.
-    const auto& errors = error_.errors();
-    fileActions_.serve(asked.requests, panel_.interface(),
-                       errors ? errors->of({modelOf(exploration_.explorer())}) : std::nullopt);
+    fileActions_.serve(asked.requests, panel_.interface(), error_.of(exploration_.explorer()));
 }
 
 // Of now and then: numbers that change with every frame cannot be read, and the panel would be

@@ -22,7 +22,7 @@ Explorer selectionOf(Explorer e) {
 // Cells are looked for by another thread first.
 bool isReady(const Screen& screen) {
     if (!hasDepthError(*screen.sorted)) return false;
-    return modelOf(screen.explorer) == Model::Points ||
+    return !needsCells(screen.explorer, *screen.sorted, screen.held->placed) ||
            screen.sorted->cellsIfMade(cellsNeeded(screen.explorer, screen.sorted->type()));
 }
 
@@ -44,6 +44,11 @@ void SeenError::update(const Screen& screen, const render::View& view, Clock::ti
     }
     errors_ = error_.of(*asked_);
     if (errors_) asked_.reset();
+}
+
+std::optional<double> SeenError::of(const Explorer& explorer) const {
+    if (!errors_ || selectionOf(explorer) != selection_) return std::nullopt;
+    return errors_->of({modelOf(explorer)});
 }
 
 std::string SeenError::text(const Rung& drawn) const {

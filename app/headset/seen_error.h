@@ -22,6 +22,8 @@ class SeenError {
     void update(const Screen& screen, const render::View& view, Clock::time_point now);
     // Of the ways to draw that selection; none while they are not known.
     const std::optional<DepthErrors>& errors() const { return errors_; }
+    // Of all that this selects, drawn whole.
+    std::optional<double> of(const Explorer& explorer) const;
     // Of what is drawn, as it is said: "error about 3 %"; "" where it is not known.
     std::string text(const Rung& drawn) const;
 

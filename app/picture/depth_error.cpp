@@ -202,7 +202,7 @@ std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep
     const Explorer byCells =
         modelOf(explorer) == Model::Cells ? explorer : allBy(Model::Cells, explorer);
     return ladder({.cells = step.cellsIfMade(cellsNeeded(byCells, step.type())) != nullptr,
-                   .coarse = explorer.footprint.kernel != render::Kernel::Point});
+                   .coarsePoints = mayBeCoarse(explorer.footprint)});
 }
 
 }  // namespace app

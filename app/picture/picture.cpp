@@ -269,7 +269,7 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
     if (scene.cells && !scene.layers.empty()) {
         legend.notes.emplace_back(kInterpolated);
         if (const std::string which = pointLayers(scene); !which.empty())
-            legend.notes.push_back(which + " by points alone");
+            legend.notes.push_back(which + kByPointsAlone);
     } else if (modelOf(e) == Model::Cells && !scene.step.canHaveCells()) {
         legend.notes.push_back(fmt::format("drawn by points: {}", scene.step.whyNoCells()));
     } else if (mixesModels(e) && !render::MixedSum::canSum(scene.placed, e.footprint)) {

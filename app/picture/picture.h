@@ -56,6 +56,7 @@ inline constexpr const char* kMixedColors =
     "colours mixed, not in depth order (--order depth, or Quality: By depth)";
 // What the legend says of a scene that is drawn by cells.
 inline constexpr const char* kInterpolated = "interpolated between points";
+inline constexpr const char* kByPointsAlone = " by points alone";  // after which layers are
 struct Picture {
     render::Scene scene;
     render::Legend legend;

@@ -1,5 +1,6 @@
 #include "render/splat/processor_splatter.h"
 
+#include <glm/common.hpp>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -13,13 +14,32 @@
 namespace render {
 namespace {
 
+// What of a part of a picture lies in another is added there.
+void addPart(const std::vector<float>& part, const PixelBox& at, std::size_t floats,
+             std::vector<float>& into, const PixelBox& whole) {
+    const glm::ivec2 lo = glm::max(at.at, whole.at);
+    const glm::ivec2 hi = glm::min(at.at + at.size, whole.at + whole.size);
+    const auto place = [&](const PixelBox& box, int y) {
+        return floats *
+               (static_cast<std::size_t>(y - box.at.y) * static_cast<std::size_t>(box.size.x) +
+                static_cast<std::size_t>(lo.x - box.at.x));
+    };
+    for (int y = lo.y; y < hi.y; ++y)
+        for (std::size_t i = 0; lo.x < hi.x && i < floats * static_cast<std::size_t>(hi.x - lo.x);
+             ++i)
+            into[place(whole, y) + i] += part[place(at, y) + i];
+}
+
 template <typename Sum, typename Memory>
 class Plane final : public PlaneSum {
  public:
-    Plane(Sum sum, Channels channels, std::size_t plane, Targets& targets, Memory& memory)
+    // `into`: the part of the picture that its plane is to have, which holds the sum's.
+    Plane(Sum sum, Channels channels, std::size_t plane, const std::optional<PixelBox>& into,
+          Targets& targets, Memory& memory)
         : sum_(std::move(sum)),
           channels_(channels),
           plane_(plane),
+          into_(into),
           targets_(targets),
           memory_(memory) {
         if (sum_.done()) write();
@@ -35,11 +55,20 @@ class Plane final : public PlaneSum {
     bool done() const override { return sum_.done(); }
 
  private:
-    void write() { targets_.putPlane(plane_, channels_, sum_.box(), sum_.plane()); }
+    void write() {
+        if (!into_ || *into_ == sum_.box())
+            return targets_.putPlane(plane_, channels_, sum_.box(), sum_.plane());
+        std::vector<float> pixels(floatsPerPixel(channels_) *
+                                  static_cast<std::size_t>(into_->size.x) *
+                                  static_cast<std::size_t>(into_->size.y));
+        addPart(sum_.plane(), sum_.box(), floatsPerPixel(channels_), pixels, *into_);
+        targets_.putPlane(plane_, channels_, *into_, pixels);
+    }
 
     Sum sum_;
     Channels channels_;
     std::size_t plane_;
+    std::optional<PixelBox> into_;
     Targets& targets_;
     Memory& memory_;
 };
@@ -68,20 +97,12 @@ class BothPlanes final : public PlaneSum {
  private:
     void write() {
         const std::size_t floats = floatsPerPixel(channels_);
-        const auto width = static_cast<std::size_t>(size_.x) * floats;
-        std::vector<float> whole(width * static_cast<std::size_t>(size_.y));
-        const auto put = [&](auto& sum) {
-            const PixelBox& box = sum.box();
-            const auto row = static_cast<std::size_t>(box.size.x) * floats;
-            for (std::size_t y = 0; y < static_cast<std::size_t>(box.size.y); ++y)
-                for (std::size_t i = 0; i < row; ++i)
-                    whole[(static_cast<std::size_t>(box.at.y) + y) * width +
-                          static_cast<std::size_t>(box.at.x) * floats + i] +=
-                        sum.plane()[y * row + i];
-        };
-        put(first_);
-        put(second_);
-        targets_.putPlane(plane_, channels_, {{0, 0}, size_}, whole);
+        const PixelBox picture{{0, 0}, size_};
+        std::vector<float> whole(floats * static_cast<std::size_t>(size_.x) *
+                                 static_cast<std::size_t>(size_.y));
+        addPart(first_.plane(), first_.box(), floats, whole, picture);
+        addPart(second_.plane(), second_.box(), floats, whole, picture);
+        targets_.putPlane(plane_, channels_, picture, whole);
     }
 
     First first_;
@@ -109,9 +130,11 @@ class ProcessorFrame final : public SplatFrame {
     std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
                                     Targets& targets) override {
         if (layer == 0) opaqueDepth_ = targets.opaqueDepth(memory_.opaqueDepth);
+        // All planes of an eye cover the same part of the picture.
+        const auto into = points_ ? std::optional(coveredPixels(scene_, view)) : std::nullopt;
         const auto plane = [&](auto sum, auto& memory) {
             return std::make_unique<Plane<decltype(sum), std::decay_t<decltype(memory)>>>(
-                std::move(sum), channels, layer, targets, memory);
+                std::move(sum), channels, layer, into, targets, memory);
         };
         const auto cells = [&] {
             return CellSum(scene_, view, channels, layer, opaqueDepth_, raysAcross(scene_, view),

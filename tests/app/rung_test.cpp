@@ -13,7 +13,7 @@ TEST(Ladder, DescendsAndHasEveryWayOnce) {
         for (const bool coarse : {true, false})
             for (const bool points : {true, false}) {
                 const std::vector<Rung> rungs =
-                    ladder({.cells = cells, .coarse = coarse, .points = points, .mostStride = 64});
+                    ladder({.cells = cells, .points = points, .coarse = coarse, .mostStride = 64});
                 const std::size_t sizes = coarse ? 2 : 1;
                 EXPECT_EQ(rungs.size(), sizes * ((cells ? 1 : 0) + (points ? 7 : 0)));
                 for (std::size_t i = 1; i < rungs.size(); ++i) {
@@ -26,6 +26,12 @@ TEST(Ladder, DescendsAndHasEveryWayOnce) {
                 }
                 EXPECT_TRUE(rungs.empty() || rungs.front().isWhole());
             }
+}
+
+TEST(Ladder, OfSquaresHasCoarseCellsAlone) {
+    for (const Rung& rung : ladder({.coarsePoints = false}))
+        EXPECT_TRUE(rung.across == 1 || rung.model == Model::Cells);
+    EXPECT_EQ(ladder({.coarsePoints = false})[1], (Rung{Model::Cells, 1, kCoarse}));
 }
 
 }  // namespace

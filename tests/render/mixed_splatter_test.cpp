@@ -167,6 +167,28 @@ TEST(MixedSum, WithoutOrderEachPlaneIsItsLayersOwn) {
     EXPECT_GT(most, 0.01);
 }
 
+// Squares reach less far than the cells do: planes of different parts of the picture meet in it.
+TEST(MixedSum, WithoutOrderTheLightIsThatOfBothDepths) {
+    for (const std::size_t points : {0, 1})
+        for (const Footprint& footprint : {Footprint{}, Footprint{Kernel::Point, 2}}) {
+            CellWorld world(tests::noise(tests::cube(10)), {"0.2:0.4", "0.6:0.7"}, 0.4);
+            Scene& scene = world.scene;
+            scene.footprint = footprint;
+            for (Layer& layer : scene.layers) layer.style.color = Constant{glm::dvec3(1)};
+            drawByPoints(scene, points);
+            const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
+            const std::vector<float> depth = opticalDepthOf(scene, view);
+            PlainFrame frame(kSize, glm::dvec3(0));
+            frame.draw(scene, view);
+            const Image light = frame.light();
+            for (int y = 0; y < kSize.y; ++y)
+                for (int x = 0; x < kSize.x; ++x)
+                    ASSERT_NEAR(light.at(x, kSize.y - 1 - y).r,
+                                1 - std::exp(-double(depth[std::size_t(y * kSize.x + x)])), 1e-4)
+                        << points << ' ' << x << ' ' << y;
+        }
+}
+
 }  // namespace
 }  // namespace mixed
 }  // namespace render

@@ -112,6 +112,22 @@ TEST(VtkSeries, AFileThatGoesOrChangesIsRefusedUntilItIsAsItWas) {
     expectStep(*reader, 0);
 }
 
+// Also of a file that is open: as the first is with the series, and any that was read.
+TEST(VtkSeries, AnOpenFileThatIsWrittenAnewIsReadAnew) {
+    auto paths = threeCubes(tests::freshFolder());
+    const auto reader = openReader(paths);
+    expectStep(*reader, 1);
+    const std::string other = dataArray("Int32", "p", std::vector<int>(12, 7));
+    for (const int step : {0, 1}) {
+        tests::writeBytes(paths[step], cubesText(timeValue(90), other));
+        EXPECT_THAT(refusalOfStep(*reader, step),
+                    HasSubstr("when the series was opened, found 90"));
+        tests::writeBytes(paths[step], cubesText(timeValue(timeOfStep(step)), other));
+        EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values),
+                  std::vector<std::int32_t>(12, 7));
+    }
+}
+
 // A grid a step, in the box of the first.
 TEST(VtkSeries, CellsMayMoveComeAndGo) {
     const Path folder = tests::freshFolder();

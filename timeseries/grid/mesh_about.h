@@ -17,6 +17,7 @@ struct MeshAbout {
         Lattice,    // along indices
         Cells,      // one a cell, in the order of the file
         Corners,    // of cells
+        Edges,      // of cells, one each
         Scattered,  // by themselves
         Particles   // likewise, each as large as the file says
     };

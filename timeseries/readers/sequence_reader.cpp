@@ -44,12 +44,26 @@ std::string commonName(std::span<const Path> paths) {
     return last == common.npos ? "values" : std::string(common.substr(0, last + 1));
 }
 
+// By which a file that was written anew is told from the one that was opened.
+struct WrittenAt {
+    std::uintmax_t bytes = 0;
+    std::filesystem::file_time_type time = {};
+    friend bool operator==(const WrittenAt&, const WrittenAt&) = default;
+};
+WrittenAt writtenAt(const Path& path) {
+    std::error_code fails;  // what is not there is told by who opens it
+    const std::uintmax_t bytes = std::filesystem::file_size(path, fails);
+    if (fails) return {};
+    return {bytes, std::filesystem::last_write_time(path, fails)};
+}
+
 class SequenceReader final : public Reader {
  public:
     SequenceReader(std::span<const Path> paths, OpenOne openOne, const GlanceAt& glanceAt)
         : paths_(paths.begin(), paths.end()),
           openOne_(std::move(openOne)),
           isGlanced_(paths.size()) {
+        const WrittenAt firstAt = writtenAt(paths_[0]);
         auto first = openOne_(paths_[0]);
         format_ = first->format();
         variables_.assign(first->variables().begin(), first->variables().end());
@@ -66,7 +80,7 @@ class SequenceReader final : public Reader {
         for (std::size_t v = 0; v < variables_.size(); ++v) joinTimes(v);
         axes_.clear();
         tellUnfit();
-        if (glanceAt) open_.push_front({0, std::move(first)});
+        if (glanceAt) open_.push_front({0, firstAt, std::move(first)});
     }
 
     std::string format() const override { return format_; }
@@ -95,6 +109,7 @@ class SequenceReader final : public Reader {
 
     struct Open {
         std::size_t file;
+        WrittenAt at;
         std::unique_ptr<Reader> reader;
     };
 
@@ -301,6 +316,12 @@ void SequenceReader::expectThen(std::size_t v, std::size_t file, const TimeAxis&
             fmt::format("{}: expected {} steps as when the series was opened, "
                         "found {}",
                         paths_[file].string(), then, now.points.size()));
+    const TimeAxis& series = *variables_[v].time;
+    if (hasOwnTimes_[v] && !now.counted &&
+        (now.name != series.name || now.units != series.units || now.calendar != series.calendar))
+        throw FileError(fmt::format(
+            "{}: expected times '{}' in \"{}\" as when the series was opened, found '{}' in \"{}\"",
+            paths_[file].string(), series.name, series.units, now.name, now.units));
     for (std::size_t i = 0; hasOwnTimes_[v] && i < then; ++i)
         if (const double told = variables_[v].time->points[begins[file] + i].value;
             now.counted || now.points[i].value != told)
@@ -311,17 +332,19 @@ void SequenceReader::expectThen(std::size_t v, std::size_t file, const TimeAxis&
 }
 
 Reader& SequenceReader::open(std::size_t file) {
+    const WrittenAt at = writtenAt(paths_[file]);
     const auto found = std::ranges::find(open_, file, &Open::file);
-    if (found != open_.end()) {
+    if (found != open_.end() && found->at == at) {
         open_.splice(open_.begin(), open_, found);
         return *open_.front().reader;
     }
+    if (found != open_.end()) open_.erase(found);
     if (open_.size() == kMostOpen) open_.pop_back();
     auto reader = openOne_(paths_[file]);
     // It may have been written anew since the series was opened.
     for (std::size_t v = 0; v < variables_.size(); ++v)
         expectThen(v, file, *expectSame(variables_[v], file, *reader).time);
-    open_.push_front({file, std::move(reader)});
+    open_.push_front({file, at, std::move(reader)});
     return *open_.front().reader;
 }
 

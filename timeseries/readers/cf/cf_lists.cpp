@@ -232,8 +232,12 @@ std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& p
         ofEdges.faceSizes.clear();
         const auto [grid, at] =
             polygonsAboutEdges(nodes, faces, facesOf(file, ofEdges, nodes.x.size()));
-        return std::make_shared<const Mesh>(
-            meshOfCells(grid, UnstructuredShapes(grid), levels, at));
+        Mesh mesh = meshOfCells(grid, UnstructuredShapes(grid), levels, at);
+        // The polygons about them are no cells of the file.
+        MeshAbout about;
+        about.points = MeshAbout::Points::Edges;
+        mesh.setAbout(std::move(about));
+        return std::make_shared<const Mesh>(std::move(mesh));
     }
     const UnstructuredGrid grid = polygonsAboutNodes(nodes, faces);
     return std::make_shared<const Mesh>(

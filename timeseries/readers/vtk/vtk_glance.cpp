@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "timeseries/readers/ordinary_file.h"
@@ -19,10 +20,14 @@ struct Seen {
     std::vector<VtkArray> arrays;
 };
 
-// One at a time: its cells may take much memory.
-void seeAll(const std::filesystem::path& path, Seen& seen) {
+// Of files that are read whole, one at a time: their cells may take much memory.
+std::unique_lock<std::mutex> alone() {
     static std::mutex mutex;
-    const std::lock_guard lock(mutex);
+    return std::unique_lock(mutex);
+}
+
+void seeAll(const std::filesystem::path& path, Seen& seen) {
+    const auto lock = alone();
     VtkContents contents = vtkContentsOf(path);
     seen = {contents.whole.time, std::move(contents.whole.arrays)};
 }
@@ -65,6 +70,7 @@ std::optional<Glance> vtkGlanceAt(const std::filesystem::path& path) {
         expectFile(path);
         if (isVtkSeries(path)) return std::nullopt;
         if (isVtkLegacy(path)) {
+            const auto lock = alone();
             VtkHeader header = readVtkLegacyHeader(path);
             seen = {header.time, std::move(header.arrays)};
         } else {
@@ -76,6 +82,10 @@ std::optional<Glance> vtkGlanceAt(const std::filesystem::path& path) {
             glance.variables.push_back(std::move(each.name));
     } catch (const FileError& flaw) {
         glance.flaw = flaw.what();
+    } catch (const std::filesystem::filesystem_error& gone) {  // while it was looked at
+        glance.flaw = fmt::format("{}: cannot be read: {}", path.string(), gone.code().message());
+    } catch (const std::bad_alloc&) {
+        glance.flaw = fmt::format("{}: there is not enough memory to read it", path.string());
     }
     glance.time = std::make_shared<const TimeAxis>(vtkTimeAxisOf(seen.time));
     return glance;
