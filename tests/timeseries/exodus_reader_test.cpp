@@ -240,8 +240,9 @@ TEST(Exodus, FilesMakeASeries) {
     EXPECT_EQ(std::get<std::vector<float>>(reader->read(0, 3).values)[0], 1000);
 }
 
+// Of the classic format: netCDF 4.9.0 does not free what it has of an HDF5 file that it refuses.
 TEST(Exodus, FilesCutOrDamagedAnywhereAreReadOrRefused) {
-    const Path path = write({.times = {1, 2}});
+    const Path path = write({.together = true, .times = {1, 2}});
     tests::damageInRounds(path, path);
 }
 
