@@ -1,11 +1,11 @@
 #include "app/drawing/canvas.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "app/choices/camera.h"
 #include "app/drawing/cell_maker.h"
 #include "app/drawing/gl_steps.h"
+#include "app/drawing/moving_rung.h"
 #include "app/drawing/refinement.h"
 #include "app/drawing/screen.h"
 #include "app/drawing/telling.h"
@@ -34,32 +34,6 @@ double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
 }
 
 GlSteps::Places placesOf(const Explorer& e) { return {e.scale, e.map}; }
-
-// The same selection, of which points stand for cells.
-render::Scene byPoints(render::Scene scene) {
-    if (!scene.cells) return scene;
-    scene.cells.reset();
-    scene.light = render::Light::Off;
-    if (render::areOneColor(scene.layers)) scene.order = render::Order::None;
-    return scene;
-}
-
-Rung rungOf(const render::Scene& whole) { return {whole.cells ? Model::Cells : Model::Points}; }
-
-// What is drawn on a rung of a scene that has all of it.
-render::Scene sceneOn(const Rung& rung, const render::Scene& whole) {
-    if (rung.model == Model::Cells) return whole;
-    render::Scene points = byPoints(whole);
-    points.stride = rung.stride;
-    points.footprint = standingFor(points.footprint, rung.stride);
-    return points;
-}
-
-std::vector<render::View> coarser(std::span<const render::View> eyes, int across) {
-    std::vector<render::View> views;
-    for (const render::View& eye : eyes) views.push_back(render::coarser(eye, across));
-    return views;
-}
 
 // What a timer keeps of what it times.
 std::uint64_t labelOf(std::uint64_t cost, const render::Scene& drawn) {
@@ -121,8 +95,6 @@ struct Canvas::State {
     };
     Moving moving(const render::Scene& whole, std::span<const render::View> eyes,
                   const CanvasLimits& limits) const;
-    Rung truestThatFits(const render::Scene& whole, std::span<const render::View> eyes,
-                        const CanvasLimits& limits) const;
     // Uploads a slice of what is shown and, once all that it selects is there, puts it on the
     // screen. Returns the step shown.
     GlSteps::Held& bring(const Shown& shown, const CanvasLimits& limits,
@@ -159,41 +131,24 @@ struct Canvas::State {
     }
 };
 
-// Climbing wants room to spare: of a limit that swings about what a rung takes, the picture would
-// change all the time.
-Rung Canvas::State::truestThatFits(const render::Scene& whole, std::span<const render::View> eyes,
-                                   const CanvasLimits& limits) const {
-    constexpr double kToClimb = 0.8;
-    const bool hasCells = whole.cells != nullptr;
-    const std::vector<Rung> rungs =
-        ladder({.cells = hasCells && !listsForLong(whole),
-                .points = !hasCells || isThere(*screen->held, byPoints(whole)),
-                .coarse = limits.mayBeCoarse,
-                .coarsePoints = mayBeCoarse(whole.footprint),
-                .mostStride = render::kMaxStride});
-    std::optional<Rung> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Rung& each : rungs) {
-        const double error = limits.errors ? limits.errors->of(each).value_or(least) : least;
-        if (best && !(error < least)) continue;
-        const double share = drawsLess(rung, each) ? kToClimb : 1;
-        const std::vector<render::View> seen = coarser(eyes, each.across);
-        if (!keepsTo(limits, sceneOn(each, whole), seen, share)) continue;
-        best = each;
-        least = error;
-        if (!limits.errors) break;
-    }
-    return best.value_or(rungs.empty() ? Rung() : rungs.back());
-}
-
 Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
                                             std::span<const render::View> eyes,
                                             const CanvasLimits& limits) const {
-    Rung on = limits.rung ? *limits.rung : truestThatFits(whole, eyes, limits);
-    if (!whole.cells) on.model = Model::Points;
+    const bool hasCells = whole.cells != nullptr;
+    const bool hasPoints = !hasCells || isThere(*screen->held, byPoints(whole));
+    const auto fits = [&](const Rung& on, double share) {
+        return keepsTo(limits, sceneOn(on, whole), render::coarser(eyes, on.across), share);
+    };
+    Rung on = limits.rung ? *limits.rung
+                          : truestThatFits(ladder({.cells = hasCells && !listsForLong(whole),
+                                                   .points = hasPoints,
+                                                   .coarse = limits.mayBeCoarse,
+                                                   .coarsePoints = mayBeCoarse(whole.footprint),
+                                                   .mostStride = render::kMaxStride}),
+                                           rung, limits.errors, fits);
+    if (!hasCells) on.model = Model::Points;
     if (on.model == Model::Points && !mayBeCoarse(whole.footprint)) on.across = 1;
-    if (whole.cells && on.model == Model::Points && !isThere(*screen->held, byPoints(whole)))
-        on = {};
+    if (on.model == Model::Points && !hasPoints) on = {};
     return {on, sceneOn(on, whole)};
 }
 
@@ -315,7 +270,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         show(i, state_->renderer.targets());
     }
     report.cost = static_cast<std::uint64_t>(std::llround(cost));
-    report.planesCost = state_->planesCost(drawn, coarser(eyes, rung.across));
+    report.planesCost = state_->planesCost(drawn, render::coarser(eyes, rung.across));
     state_->timer.end(labelOf(report.cost, drawn));
     return report;
 }

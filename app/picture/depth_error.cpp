@@ -1,5 +1,6 @@
 #include "app/picture/depth_error.h"
 
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -83,8 +84,9 @@ class Ways {
     bool isWanted() const { return wanted_; }
     double orderOf(Model model, const timeseries::Field& field,
                    const render::SampledTruth& truth) const {
-        return orderError(orderedSceneOf(model), field, view_, truth.pixels(), truth.weights(),
-                          question_.threads);
+        const render::Scene scene = orderedSceneOf(model);
+        if (mixesModels(scene)) return std::numeric_limits<double>::quiet_NaN();
+        return orderError(scene, field, view_, truth.pixels(), truth.weights(), question_.threads);
     }
 
  private:

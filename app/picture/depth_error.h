@@ -38,7 +38,7 @@ struct ErrorParts {
 struct RungError {
     Rung rung;
     double depth = 0;  // the whole
-    double order = 0;  // of light
+    double order = 0;  // of light; not a number of points among cells, whose order nobody tells
     std::optional<ErrorParts> parts = {};
 };
 // How a picture puts together what a ray passes: OneColor is the same in any order.

@@ -56,6 +56,10 @@ std::vector<PartLine> partLines(const RungError& error, Ordering ordering) {
              error.rung.across == 1 ? "few rays a pixel instead of its mean"
                                     : "coarse pixels, and few rays in each",
              "as many rays as the truth")};
+    if (std::isnan(error.order)) {
+        lines.push_back({"order", "not known", "points among cells"});
+        return lines;
+    }
     switch (ordering) {
         case Ordering::OneColor:
             lines.push_back({"order", "none", "one colour"});

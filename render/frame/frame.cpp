@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -81,7 +82,7 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     LightPass& light = lightFor(content, eyes);
     std::vector<View> views(eyes.begin(), eyes.end());
     if (content.across > 1)
-        for (const View& eye : eyes) views.push_back(coarser(eye, content.across));
+        std::ranges::copy(coarser(eyes, content.across), std::back_inserter(views));
     makeRoom(views, light);
     ++orders_;
     const Scene& scene = content.scene;

@@ -33,6 +33,12 @@ View coarser(const View& view, int across) {
     return coarse;
 }
 
+std::vector<View> coarser(std::span<const View> views, int across) {
+    std::vector<View> coarse;
+    for (const View& view : views) coarse.push_back(coarser(view, across));
+    return coarse;
+}
+
 PixelRays pixelRays(const View& view) {
     const glm::dmat4& p = view.clipFromView;
     const glm::dmat3 worldFromView = glm::inverse(glm::dmat3(view.viewFromWorld));

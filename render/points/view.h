@@ -5,6 +5,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace render {
 
@@ -24,6 +26,7 @@ struct View {
 
 // The same eye's pixels, so many across in one: the last ones of a side may reach beyond the view.
 View coarser(const View& view, int across);
+std::vector<View> coarser(std::span<const View> views, int across);
 
 // What GL's depth buffer has for a view depth > 0.
 inline double windowDepth(const View& view, double depth) {

@@ -225,8 +225,15 @@ void Part::sum(const CellView& cells, const TileView& splats, std::size_t tile, 
         const auto rest = here.subspan(from);
         return from + static_cast<std::size_t>(std::ranges::lower_bound(rest, end) - rest.begin());
     };
+    // The first stretch that holds what a tile has next; the others are nothing here.
+    const auto stretchOf = [&](std::span<const std::uint32_t> here, std::size_t next, auto end) {
+        return next == here.size() ? stretches_.end()
+                                   : std::ranges::upper_bound(stretches_, here[next], {}, end);
+    };
     std::size_t cell = 0, point = 0;
-    for (const Stretch& stretch : stretches_) {
+    while (cell < cellsHere.size() || point < pointsHere.size()) {
+        const Stretch& stretch = *std::min(stretchOf(pointsHere, point, &Stretch::points),
+                                           stretchOf(cellsHere, cell, &Stretch::cells));
         const std::size_t lastPoint = upTo(pointsHere, point, stretch.points);
         if (lastPoint > point) {
             std::swap(room.sums, splatRoom.sums);

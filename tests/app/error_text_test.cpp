@@ -50,6 +50,9 @@ TEST(ErrorText, PartsAreFourAndSayWhyTheyAreNone) {
                             part("subset", "40 %", "1 of 8 points"),
                             part("pixels", "below 0.1 %", "few rays"),
                             part("order", "21 %", "colours mixed")));
+    points.order = std::nan("");  // some among cells
+    EXPECT_THAT(partLines(points, Ordering::ByDepth).back(),
+                part("order", "not known", "points among cells"));
     points.order = 1e-9;
     EXPECT_THAT(partLines(points, Ordering::ByDepth).back(),
                 part("order", "none", "points by depth"));

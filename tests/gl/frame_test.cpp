@@ -9,11 +9,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "render/gl/headless_context.h"
 #include "render/image/encode_srgb.h"
 #include "render/reference/cpu_splatter.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/tile_splatter.h"
+#include "tests/support/frame_world.h"
 #include "tests/support/measured_axis.h"
 #include "tests/support/scenes.h"
 
@@ -22,23 +22,7 @@ namespace {
 
 using timeseries::RangeSet;
 
-struct FrameWorld {
-    FrameContent content() { return {scene_, step_.grid(), {}, glm::dvec3(0.02, 0.03, 0.04)}; }
-    gl::HeadlessContext context_;
-    timeseries::SortedStep step_ = tests::noise(tests::cube(20));
-    PlacedPoints placed_{step_.grid()};
-    GlStep onGpu_{step_, placed_};
-    Scene scene_{
-        .step = step_,
-        .placed = placed_,
-        .layers = {{step_.select(RangeSet::parse("0.1:0.2")), {Constant{{1, 0.2, 0}}, 0.2}},
-                   {step_.select(RangeSet::parse("0.7:0.9")), {ByValue{{}, 0.7, 0.9}, 0.3}}},
-        .footprint = {},
-        .order = Order::None,
-        .clip = {}};
-    View left_ = tests::lookFrom({-0.05, -3, 0}, {200, 160});
-    View right_ = tests::lookFrom({0.05, -3, 0}, {200, 160});
-};
+using tests::FrameWorld;
 
 // Drawn by GL, by the program and in double.
 class Frame : public FrameWorld, public testing::TestWithParam<SplatterChoice> {
@@ -95,46 +79,6 @@ TEST_P(Frame, TheLegendStandsOnAGroundBeforeABrightVolume) {
         EXPECT_GT(before, 0.9f) << "or nothing was tested";
         EXPECT_LT(least, 0.15f);
     }
-}
-
-// Lines, labels and the legend stay as they are; where splats are, light is that of the coarse
-// picture, between its pixels.
-TEST_P(Frame, CoarsePlanesAreDrawnUnderTheSameLinesAndText) {
-    const View odd = tests::lookFrom({0.4, -2.7, 0.9}, {201, 161});
-    for (const bool cells : {false, true})
-        for (const Order order : {Order::None, Order::BackToFront}) {
-            scene_.order = order;
-            if (cells) scene_.cells = step_.cells();
-            for (std::size_t k = 0; cells && k < 2; ++k) {
-                Cells& layer = scene_.layers[k].cells;
-                layer.ranges = {{k == 0 ? 0.1 : 0.7, k == 0 ? 0.2 : 0.9}};
-                layer.candidates = scene_.cells->select(layer.ranges);
-            }
-            Scene none = scene_;
-            none.layers.clear();
-            const Legend legend{"Temperature (K)", "step 3 of 9", {}, {"a note below"}};
-            const auto picture = [&](const Scene& scene, int across) {
-                if (renderer_.splatters().takesPointsFromGpu(scene))
-                    onGpu_.upload(scene, neededScale(scene));
-                const FrameContent told{scene, step_.grid(), legend, glm::dvec3(0.02), across};
-                const auto frame = renderer_.prepare(told, onGpu_, std::array{odd});
-                renderer_.drawEye(frame, odd);
-                return renderer_.targets().readLight();
-            };
-            const Image fine = picture(scene_, 1), coarse = picture(scene_, 2);
-            EXPECT_EQ(picture(none, 2), picture(none, 1));
-            EXPECT_NE(fine, coarse);
-            const auto difference = comparePictures(fine, coarse);
-            EXPECT_LT(difference.rmseLinear, 0.04) << cells << static_cast<int>(order);
-            // The same by the mean of the fine one's light, but for what is curved in a pixel.
-            glm::dvec4 sums[2] = {};
-            for (int y = 0; y < odd.size.y; ++y)
-                for (int x = 0; x < odd.size.x; ++x) {
-                    sums[0] += glm::dvec4(fine.at(x, y));
-                    sums[1] += glm::dvec4(coarse.at(x, y));
-                }
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(sums[1][c] / sums[0][c], 1, 0.02);
-        }
 }
 
 // The most that is drawn beyond what was asked for.
@@ -409,11 +353,7 @@ TEST_P(Frame, AGlobeIsTheTruthsAndItsEarthHidesTheFarSide) {
 INSTANTIATE_TEST_SUITE_P(By, Frame,
                          testing::Values(SplatterChoice::Gl, SplatterChoice::Cpu,
                                          SplatterChoice::Exact),
-                         [](const auto& choice) {
-                             return choice.param == SplatterChoice::Gl    ? "Gl"
-                                    : choice.param == SplatterChoice::Cpu ? "Cpu"
-                                                                          : "Exact";
-                         });
+                         [](const auto& choice) { return tests::nameOf(choice.param); });
 
 }  // namespace
 }  // namespace render

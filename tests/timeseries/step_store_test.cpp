@@ -1,5 +1,6 @@
 #include "timeseries/series/step_store.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -184,6 +185,38 @@ TEST_F(StepStores, TheFieldIsTheSourcesUnlessItChanged) {
     EXPECT_GT(step->bytes(), before);
     fs::remove(file);
     expectAll(step->field());
+}
+
+// In a series whose first file has gained a step, as a run that goes on does, the second's are
+// others.
+TEST_F(StepStores, TheFieldOfAStepIsNeverThatOfAnotherStep) {
+    const std::vector<fs::path> both{folder / "f1.nrrd", folder / "f2.nrrd"};
+    const auto write = [&](std::size_t f, int steps, int m) {
+        std::string bytes;
+        for (int i = 0; i < steps * 24 * 24 * 24; ++i) {
+            const auto value = static_cast<float>(i % (24 * 24 * 24) % m);
+            bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+        }
+        tests::writeBytes(both[f], fmt::format("NRRD0004\ntype: float\ndimension: 4\nsizes: 24 "
+                                               "24 24 {}\nendian: little\nencoding: raw\n\n",
+                                               steps) +
+                                       bytes);
+    };
+    write(0, 2, 50);
+    write(1, 2, 100);
+    const auto series = [&] {
+        return StepMaker(openReader(both), 0, RangeSet::everything(),
+                         timeseries::StepStores{{store}, store, 1});
+    };
+    ASSERT_EQ(series().keep(2), StepMaker::Kept::Written);
+    const auto step = series().make(2);  // the second file's first
+    ASSERT_TRUE(step->file());
+    write(0, 3, 50);
+    const Field field = step->field();
+    const auto& values = std::get<std::vector<float>>(field.values);
+    ASSERT_EQ(values.size(), 24u * 24 * 24);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        ASSERT_EQ(values[i], static_cast<float>(i % 100)) << i;
 }
 
 TEST_F(StepStores, AStepStaysReadableWhenItsFileIsRemoved) {

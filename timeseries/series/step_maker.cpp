@@ -28,7 +28,10 @@ struct Reopened {
         const auto variables = reader->variables();
         const auto found = std::ranges::find(variables, variable, &Variable::name);
         if (found == variables.end() || step >= found->time->points.size()) return std::nullopt;
-        Field field = reader->read(static_cast<std::size_t>(found - variables.begin()), step);
+        const auto v = static_cast<std::size_t>(found - variables.begin());
+        // Files before its own may have gained steps.
+        if (originOf(*reader, v, step) != origin) return std::nullopt;
+        Field field = reader->read(v, step);
         return isStill() ? std::optional(std::move(field)) : std::nullopt;
     } catch (const FileError&) {
         return std::nullopt;

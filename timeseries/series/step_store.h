@@ -23,6 +23,7 @@ struct StepOrigin {
     std::vector<std::filesystem::path> files;  // all that its values come from, at least one
     std::size_t step = 0;                      // of those that the files have
     std::string variable, storedAs;            // Variable::name, and what else tells it from others
+    friend bool operator==(const StepOrigin&, const StepOrigin&) = default;
 };
 
 // An origin as it was at a moment: a text that is another one when a file of it has changed.

@@ -1,0 +1,28 @@
+// What a picture that moves draws of a scene on each rung of the ladder (app/choices/rung.h), and
+// which it takes. Pure.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "app/picture/depth_error.h"
+#include "render/model/scene.h"
+
+namespace app {
+
+// The same selection, of which points stand for cells.
+render::Scene byPoints(render::Scene scene);
+// All of it.
+inline Rung rungOf(const render::Scene& whole) {
+    return {whole.cells ? Model::Cells : Model::Points};
+}
+// What is drawn on a rung of a scene that has all of it.
+render::Scene sceneOn(const Rung& rung, const render::Scene& whole);
+
+// Of those that fit the truest, by what is known of errors; without errors the first. Where none
+// fits the last. `fits(rung, share)`: whether it keeps to this share of the limits; `last`: what
+// was drawn before.
+Rung truestThatFits(std::span<const Rung> rungs, const Rung& last, const DepthErrors* errors,
+                    const std::function<bool(const Rung&, double)>& fits);
+
+}  // namespace app
