@@ -108,8 +108,9 @@ void writeFiles(const MeasureOptions& options, const std::vector<Measured>& mode
 }  // namespace
 
 int measureModes(const MeasureOptions& options) {
-    modesNamed(options.modes, true,
-               options.explorer.light);  // an unknown one is refused before a file is read
+    // An unknown one is refused before a file is read.
+    modesNamed(options.modes,
+               {true, mayBeCoarse(options.explorer.footprint), options.explorer.light});
     ChosenData data = openChosen(options.explorer);
     if (data.steps.size() != 1)
         throw ChoiceError(fmt::format("measure draws one step, not {}: name it, --step {}",

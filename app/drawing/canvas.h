@@ -34,7 +34,7 @@ struct CanvasLimits {
     std::optional<std::uint64_t> cells = {};
     // Of a picture that moves, instead of these: drawn so, whatever it takes.
     std::optional<Rung> rung = {};
-    // Pixels may be coarser while it moves, too (app/choices/rung.h): a headset scales its own.
+    // Pixels may be coarser while it moves, too (app/choices/rung.h).
     bool mayBeCoarse = false;
     // What is known of the errors of what is shown: of the rungs that fit, the truest is drawn.
     // Without it the first of the ladder.

@@ -19,7 +19,7 @@ render::View viewOf(const xr::Eye& eye, const xr::Placement& placement) {
 
 void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,
                 std::span<const render::Placard> placards, Splats splats,
-                const std::function<void(render::Targets&)>& mirror) {
+                const std::function<void(render::Targets&)>& mirror, const DepthErrors* errors) {
     eyes_ = eyes.size();
     std::vector<render::View> views;
     for (const xr::Eye& eye : eyes) views.push_back(viewOf(eye, placement));
@@ -32,7 +32,11 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
     report_ = {};
     if (shown != nullptr)
         report_ =
-            canvas_.draw(*shown, views, {.splats = governor_.splats(), .cells = governor_.cells()},
+            canvas_.draw(*shown, views,
+                         {.splats = governor_.splats(),
+                          .cells = governor_.cells(),
+                          .mayBeCoarse = true,
+                          .errors = errors},
                          splats == Splats::Governed, show, {.legend = false, .placards = placards});
     if (!drawn) canvas_.drawPlacards(placards, views, show);
 }

@@ -20,6 +20,7 @@
 #include "render/reference/color_difference.h"
 #include "render/reference/image_compare.h"
 #include "render/reference/interval_truth.h"
+#include "render/reference/sampled_error.h"
 #include "render/reference/splats_on_pixels.h"
 
 namespace app {
@@ -93,14 +94,14 @@ class Bench {
     }
 
     render::Scene sceneOf(const Mode& mode) const {
-        Explorer e = allBy(mode.model, explorer_);
+        Explorer e = allBy(mode.rung.model, explorer_);
         e.order = mode.order;
         // What the truth is: lengths, and light that comes from within or as it is given.
         e.opacityPer = render::OpacityPer::Length;
         e.light = mode.light;
         render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
-        scene.stride = mode.stride;
-        scene.footprint = standingFor(scene.footprint, mode.stride);
+        scene.stride = mode.rung.stride;
+        scene.footprint = standingFor(scene.footprint, mode.rung.stride);
         return scene;
     }
 
@@ -108,30 +109,30 @@ class Bench {
     // the index of cells. The first time; later it is there.
     double prepare(Model model) const {
         const auto start = Clock::now();
-        const render::Scene scene = sceneOf({.model = model});
+        const render::Scene scene = sceneOf({{model}});
         if (!scene.cells) columnsOf(scene);
         return secondsSince(start);
     }
 
-    Views draw(const render::Scene& scene) {
+    Views draw(const render::Scene& scene, int across) {
         Views shown(explorer_.size, views_.size());
         for (std::size_t v = 0; v < views_.size(); ++v) {
-            frame_.draw(scene, views_[v]);
+            frame_.draw(scene, views_[v], across);
             const render::Image light = frame_.light();
-            shown.add(v, opticalDepthOf(scene, views_[v]), light);
+            shown.add(v, render::enlargedDepthOf(scene, views_[v], across), light);
         }
         return shown;
     }
-    std::vector<float> drawTurned(const render::Scene& scene) const {
-        return opticalDepthOf(scene, turned_);
+    std::vector<float> drawTurned(const render::Scene& scene, int across) const {
+        return render::enlargedDepthOf(scene, turned_, across);
     }
 
     // Adds the time of a frame of each view, after one that makes room for them.
-    void time(const render::Scene& scene, std::vector<double>& into) {
-        frame_.draw(scene, views_.front());
+    void time(const render::Scene& scene, int across, std::vector<double>& into) {
+        frame_.draw(scene, views_.front(), across);
         for (const render::View& view : views_) {
             const auto start = Clock::now();
-            frame_.draw(scene, view);
+            frame_.draw(scene, view, across);
             into.push_back(secondsSince(start));
         }
     }
@@ -150,7 +151,7 @@ class Bench {
         std::vector<double> turned;  // optical depth
     };
     Truth truth() const {
-        const render::Scene scene = sceneOf({Model::Cells, 1, render::Order::BackToFront});
+        const render::Scene scene = sceneOf({{Model::Cells}, render::Order::BackToFront});
         const render::IntervalTruth truth = truthOf(scene);
         Views shown(explorer_.size, views_.size());
         for (std::size_t v = 0; v < views_.size(); ++v)
@@ -160,7 +161,7 @@ class Bench {
     }
     // The same, seen in this light.
     Views lit(const Views& dark, render::Light light) const {
-        const render::Scene scene = sceneOf({Model::Cells, 1, render::Order::BackToFront, light});
+        const render::Scene scene = sceneOf({{Model::Cells}, render::Order::BackToFront, light});
         const render::IntervalTruth truth = truthOf(scene);
         Views shown(explorer_.size, views_.size());
         const std::size_t pixels = dark.opticalDepth.size() / views_.size();
@@ -172,7 +173,7 @@ class Bench {
         return shown;
     }
     // Measured::arithmetic, of what the first view shows and has in truth.
-    double arithmetic(const render::Scene& scene, std::span<const double> shown,
+    double arithmetic(const render::Scene& scene, int across, std::span<const double> shown,
                       std::span<const double> truth) const {
         const std::vector<std::size_t> some = thinnedOut(shown, truth);
         const render::View& view = views_.front();
@@ -180,9 +181,13 @@ class Bench {
         for (const std::size_t i : some)
             pixels.emplace_back(static_cast<int>(i) % view.size.x,
                                 static_cast<int>(i) / view.size.x);
+        const render::View planes = coarser(view, across);
+        const render::DepthAt inDouble = [&](std::span<const glm::ivec2> at) {
+            return scene.cells ? cellDepthAt(scene, planes, at, raysAcross(scene, planes))
+                               : splatDepthAt(scene, planes, at, 1);
+        };
         const std::vector<double> exact =
-            scene.cells ? cellDepthAt(scene, view, pixels, raysAcross(scene, view))
-                        : splatDepthAt(scene, view, pixels, 1);
+            (across == 1 ? inDouble : render::enlarged(inDouble, across, planes.size))(pixels);
         double differences = 0, squares = 0;
         for (std::size_t k = 0; k < some.size(); ++k) {
             const double difference = shown[some[k]] - exact[k];
@@ -243,11 +248,10 @@ void takeParts(const Bench& bench, std::vector<Measured>& all) {
         // Cells choose the pixels, also where they are not asked for.
         std::vector<Rung> rungs = {{Model::Cells}};
         for (const Measured& m : all)
-            if (isOfIt(m) && m.mode.model == Model::Points)
-                rungs.push_back({Model::Points, m.mode.stride});
+            if (isOfIt(m) && m.mode.rung != rungs.front()) rungs.push_back(m.mode.rung);
         const DepthErrors errors = bench.errorParts(rungs, order);
         for (Measured& m : all) {
-            const RungError* const known = errors.find({m.mode.model, m.mode.stride});
+            const RungError* const known = errors.find(m.mode.rung);
             if (isOfIt(m) && known != nullptr) m.parts = *known;
         }
     }
@@ -268,33 +272,37 @@ double poppingOf(std::span<const double> shown, std::span<const float> shownTurn
 }  // namespace
 
 std::string Mode::name() const {
-    std::string name(modelName(model));
-    if (light != render::Light::Off) return "lit " + name;
-    return stride == 1 ? name : fmt::format("{} 1/{}", name, stride);
+    const char* const how = light != render::Light::Off ? "lit " : rung.across > 1 ? "coarse " : "";
+    return fmt::format("{}{}{}", how, modelName(rung.model),
+                       rung.stride == 1 ? "" : fmt::format(" 1/{}", rung.stride));
 }
 
-std::vector<Mode> modesFor(bool severalColors, render::Light light) {
+std::vector<Mode> modesFor(const ModesOf& of) {
     std::vector<render::Order> orders = {render::Order::None};
-    if (severalColors) orders.insert(orders.begin(), render::Order::BackToFront);
+    if (of.severalColors) orders.insert(orders.begin(), render::Order::BackToFront);
     std::vector<Mode> modes;
-    for (const render::Order order : orders)
+    const auto addPoints = [&](render::Order order, int across) {
         for (const std::uint32_t stride : {8u, 4u, 2u, 1u})
-            modes.push_back({Model::Points, stride, order});
-    for (const render::Order order : orders) modes.push_back({Model::Cells, 1, order});
-    if (light != render::Light::Off)
-        modes.push_back({Model::Cells, 1, render::Order::BackToFront, light});
+            modes.push_back({{Model::Points, stride, across}, order});
+    };
+    for (const render::Order order : orders) addPoints(order, 1);
+    for (const render::Order order : orders) modes.push_back({{Model::Cells}, order});
+    if (of.coarsePoints) addPoints(orders.front(), kCoarse);
+    modes.push_back({{Model::Cells, 1, kCoarse}, orders.front()});
+    if (of.light != render::Light::Off)
+        modes.push_back({{Model::Cells}, render::Order::BackToFront, of.light});
     return modes;
 }
 
-std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors,
-                             render::Light light) {
+std::vector<Mode> modesNamed(std::span<const std::string> names, const ModesOf& of) {
     std::vector<std::string> known;
-    for (const Mode& mode : modesFor(false, light)) known.push_back(mode.name());
+    for (const Mode& mode : modesFor({.coarsePoints = of.coarsePoints, .light = of.light}))
+        known.push_back(mode.name());
     for (const std::string& name : names)
         if (std::ranges::find(known, name) == known.end())
             throw ChoiceError(
                 fmt::format("--modes: '{}' is none of {}", name, fmt::join(known, ", ")));
-    std::vector<Mode> modes = modesFor(severalColors, light);
+    std::vector<Mode> modes = modesFor(of);
     if (!names.empty())
         std::erase_if(modes, [&](const Mode& mode) {
             return std::ranges::find(names, mode.name()) == names.end();
@@ -317,7 +325,8 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     const double beforePoints = bench.prepare(Model::Points);
     const double beforeCells = bench.prepare(Model::Cells);
     const std::vector<Mode> modes =
-        modesNamed(how.modes, !render::areOneColor(bench.sceneOf({}).layers), explorer.light);
+        modesNamed(how.modes, {!render::areOneColor(bench.sceneOf({}).layers),
+                               mayBeCoarse(explorer.footprint), explorer.light});
     struct TimedScene {
         render::Scene scene;
         Views shown;
@@ -332,14 +341,15 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
     tell(0);
     for (const Mode& mode : modes) {
         render::Scene scene = bench.sceneOf(mode);
-        Views shown = bench.draw(scene);
-        std::vector<float> turned = bench.drawTurned(scene);
+        Views shown = bench.draw(scene, mode.rung.across);
+        std::vector<float> turned = bench.drawTurned(scene, mode.rung.across);
         drawn.push_back({std::move(scene), std::move(shown), std::move(turned), {}});
     }
     // By turns, so that what else the machine does is in the times of all.
     for (unsigned i = 0; i < how.frames; ++i) {
         tell(1.0 + i);
-        for (TimedScene& each : drawn) bench.time(each.scene, each.times);
+        for (std::size_t k = 0; k < modes.size(); ++k)
+            bench.time(drawn[k].scene, modes[k].rung.across, drawn[k].times);
     }
     tell(rounds - 1);
     const Bench::Truth truth = bench.truth();
@@ -350,14 +360,14 @@ std::vector<Measured> measure(const Explorer& explorer, const timeseries::Sorted
         Measured& m = all.emplace_back();
         m.mode = modes[i];
         m.frame = medianOf(std::move(drawn[i].times));
-        m.before = m.mode.model == Model::Points ? beforePoints : beforeCells;
+        m.before = m.mode.rung.model == Model::Points ? beforePoints : beforeCells;
         for (const render::Layer& layer : drawn[i].scene.layers)
             m.drawn += static_cast<double>(drawnCount(drawn[i].scene, layer));
         const bool isLit = m.mode.light != render::Light::Off;
         if (isLit && !litTruth) litTruth = bench.lit(truth.shown, m.mode.light);
         compare(drawn[i].shown, isLit ? *litTruth : truth.shown, m);
         const std::span shown(drawn[i].shown.opticalDepth.data(), first.size());
-        m.arithmetic = bench.arithmetic(drawn[i].scene, shown, first);
+        m.arithmetic = bench.arithmetic(drawn[i].scene, m.mode.rung.across, shown, first);
         m.popping = poppingOf(shown, drawn[i].turned, first, truth.turned);
     }
     takeParts(bench, all);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/choices/explorer.h"
+#include "app/choices/rung.h"
 #include "app/picture/depth_error.h"
 #include "render/model/scene.h"
 #include "timeseries/index/sorted_step.h"
@@ -17,24 +18,27 @@ namespace app {
 
 // One way to draw.
 struct Mode {
-    Model model = Model::Points;
-    std::uint32_t stride = 1;  // one of so many points stands for all
+    Rung rung{Model::Points};
     // Front to back or back to front; None mixes colours along the ray.
     render::Order order = render::Order::None;
     // Of cells by depth alone, and then the truth that they are held against is lit alike. All
     // others, as points always are, are measured in the light that comes from within.
     render::Light light = render::Light::Off;
 
-    std::string name() const;  // "points", "points 1/4", "cells", "lit cells"
+    std::string name() const;  // "points", "coarse points 1/4", "cells", "lit cells"
     friend bool operator==(const Mode&, const Mode&) = default;
 };
+struct ModesOf {
+    bool severalColors = false;
+    bool coarsePoints = true;  // mayBeCoarse() of the footprint
+    render::Light light = render::Light::Off;
+};
 // In which a scene can be drawn: points, subsets of them, cells; both orders where it has more than
-// one colour; then cells in this light.
-std::vector<Mode> modesFor(bool severalColors, render::Light light = render::Light::Off);
+// one colour; the first of them in coarse pixels, too; then cells in this light.
+std::vector<Mode> modesFor(const ModesOf& of);
 // Those of them with one of the names, in the same order; without names, all. Throws ChoiceError
 // for a name that none has.
-std::vector<Mode> modesNamed(std::span<const std::string> names, bool severalColors,
-                             render::Light light = render::Light::Off);
+std::vector<Mode> modesNamed(std::span<const std::string> names, const ModesOf& of);
 
 // A mass that is more than 5 % off is not to be overlooked beside a short time.
 inline constexpr double kMassTolerance = 0.05;

@@ -33,13 +33,13 @@ std::string orderText(render::Order order) {
 
 std::string table(std::span<const Measured> modes) {
     std::string text = fmt::format(
-        "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8} {:>9}  {:>8} {:>8} {:>8} {:>6} {:>8} {:>7}\n",
+        "{:<17} {:<9} {:>9} {:>9} {:>12} {:>8} {:>9}  {:>8} {:>8} {:>8} {:>6} {:>8} {:>7}\n",
         "mode", "order", "frame", "before", "drawn", "depth L2", "mass  ", "in float", "popping",
         "RMSE", "PSNR", "largest", "dE 95 %");
     bool isOff = false;
     for (const Measured& m : modes) {
         text += fmt::format(
-            "{:<12} {:<9} {:>9} {:>9} {:>12} {:>8.4f} {:>9}{} {:>8.1e} {:>8.4f} {:>8.2e} {:>6.1f} "
+            "{:<17} {:<9} {:>9} {:>9} {:>12} {:>8.4f} {:>9}{} {:>8.1e} {:>8.4f} {:>8.2e} {:>6.1f} "
             "{:>8.2e} {:>7.2f}\n",
             m.mode.name(), orderText(m.mode.order), timeText(m.frame), timeText(m.before),
             withCommas(static_cast<std::uint64_t>(m.drawn)), m.depthError, massText(m),
@@ -61,7 +61,7 @@ std::string bestTable(std::span<const Measured> modes) {
         if (best.empty()) return;
         text += fmt::format("\n{}\n", head);
         for (const auto& [limit, mode] : best)
-            text += mode ? fmt::format("  {:<8} {:<12} {:>9}  error {:.4f}\n", limitText(limit),
+            text += mode ? fmt::format("  {:<8} {:<17} {:>9}  error {:.4f}\n", limitText(limit),
                                        modes[*mode].mode.name(), timeText(modes[*mode].frame),
                                        modes[*mode].depthError)
                          : fmt::format("  {:<8} none\n", limitText(limit));

@@ -93,7 +93,7 @@ void addAxes(const Scale& x, const Scale& y, Plot& into) {
 }
 
 PlotColor colorOf(const Mode& mode) {
-    return mode.model == Model::Cells ? kCellsMark : kPointsMark;
+    return mode.rung.model == Model::Cells ? kCellsMark : kPointsMark;
 }
 
 // They join a model's modes of one order.
@@ -101,7 +101,8 @@ std::vector<PlotLine> joining(std::span<const Measured> modes, std::span<const g
     std::vector<PlotLine> lines;
     for (std::size_t i = 1; i < modes.size(); ++i) {
         const Mode &mode = modes[i].mode, &before = modes[i - 1].mode;
-        if (mode.model != before.model || mode.order != before.order || mode.light != before.light)
+        if (mode.rung.model != before.rung.model || mode.rung.across != before.rung.across ||
+            mode.order != before.order || mode.light != before.light)
             continue;
         PlotLine line{places[i - 1], places[i], colorOf(mode), 1.5};
         if (mode.order == render::Order::None) {
@@ -139,10 +140,11 @@ struct Box {
 
 // A subset is told by its share alone, beside the mode that it is of.
 std::string nameOf(const Measured& m, bool severalOrders) {
-    std::string name = m.mode.stride > 1 ? fmt::format("1/{}", m.mode.stride) : m.mode.name();
-    if (severalOrders && m.mode.stride == 1 && m.mode.light == render::Light::Off)
+    const Rung& rung = m.mode.rung;
+    std::string name = rung.stride > 1 ? fmt::format("1/{}", rung.stride) : m.mode.name();
+    if (severalOrders && rung.isWhole() && m.mode.light == render::Light::Off)
         name += ", " + orderText(m.mode.order);
-    if (m.massIsOff() && m.mode.stride == 1)
+    if (m.massIsOff() && rung.stride == 1)
         name += fmt::format(" (mass {:+.0f} %)", 100 * (m.mass - 1));
     return name;
 }

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "render/frame/enlarge.h"
+
 namespace render {
 namespace {
 
@@ -24,12 +26,19 @@ PlainFrame::PlainFrame(glm::ivec2 size, const glm::dvec3& background)
     light_.setFont(font_);
 }
 
-void PlainFrame::draw(const Scene& scene, const View& view) {
+void PlainFrame::draw(const Scene& scene, const View& view, int across) {
+    const View planes = coarser(view, across);
+    if (across > 1 && (!coarse_ || coarse_->size() != planes.size)) coarse_.emplace(planes.size);
+    MemoryTargets& summed = across > 1 ? *coarse_ : targets_;
     const auto splats = splatter_.prepare(scene, splatter_.order(scene, pixelRays(view).eye),
                                           GlStep(scene.step, scene.placed));
-    light_.drawDepth({}, {}, view, targets_);
+    light_.drawDepth({}, {}, planes, summed);
     const std::vector<Channels> channels = channelsFor(scene);
-    for (std::size_t i = 0; i < channels.size(); ++i) sum(*splats, view, channels[i], i, targets_);
+    for (std::size_t i = 0; i < channels.size(); ++i) sum(*splats, planes, channels[i], i, summed);
+    if (across > 1) {
+        light_.drawDepth({}, {}, view, targets_);
+        light_.enlarge(scene, view, across, summed, targets_);
+    }
     const AxesMeshes noAxes;
     const FlatMesh noLegend;
     light_.drawLight({scene, view, background_, noAxes, noLegend, {}}, LightAs::Linear, targets_);
@@ -57,6 +66,16 @@ std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
         for (std::size_t i = 0; i < depth.size(); ++i) depth[i] += perWeight * weight[i];
     }
     return depth;
+}
+
+std::vector<float> enlargedDepthOf(const Scene& scene, const View& view, int across) {
+    const View planes = coarser(view, across);
+    std::vector<float> depth = opticalDepthOf(scene, planes);
+    if (across == 1) return depth;
+    std::vector<float> pixels;
+    enlarge({Channels::Weight, {{0, 0}, planes.size}, std::move(depth)}, across,
+            {{0, 0}, view.size}, pixels);
+    return pixels;
 }
 
 }  // namespace render

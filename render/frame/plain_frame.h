@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "render/frame/memory_light.h"
@@ -17,8 +18,9 @@ class PlainFrame {
     // Of pictures of this size on this background (linear).
     PlainFrame(glm::ivec2 size, const glm::dvec3& background);
 
-    // The whole frame: order, sums, light. REQUIRES of both: view.size is this one's.
-    void draw(const Scene& scene, const View& view);
+    // The whole frame: order, sums, light; the sums in pixels so many times as wide, enlarged.
+    // REQUIRES: view.size is this one's.
+    void draw(const Scene& scene, const View& view, int across = 1);
     // What was drawn last. Linear, premultiplied.
     Image light() const { return targets_.readLight(); }
 
@@ -26,6 +28,7 @@ class PlainFrame {
     Font font_;
     glm::dvec3 background_;
     MemoryTargets targets_;
+    std::optional<MemoryTargets> coarse_;
     MemoryLight light_;
     ProcessorSplatter splatter_;
 };
@@ -34,5 +37,7 @@ class PlainFrame {
 // empty once it is not wanted any more.
 std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
                                   const std::atomic<bool>& wanted = true);
+// Of pixels so many times as wide, in those of the view.
+std::vector<float> enlargedDepthOf(const Scene& scene, const View& view, int across);
 
 }  // namespace render

@@ -16,7 +16,7 @@ double cellPixels(const Scene& scene, const View& view) {
 }
 
 int raysAcross(const Scene& scene, const View& view) {
-    const double rays = std::ceil(kRaysACell / std::sqrt(cellPixels(scene, view)));
+    const double rays = std::ceil(kRaysACell / view.across / std::sqrt(cellPixels(scene, view)));
     return static_cast<int>(std::clamp<double>(rays, 1, kMostRaysAcross));
 }
 

@@ -15,7 +15,8 @@ double cellPixels(const Scene& scene, const View& view);
 // So many rays across a pixel, and as many above each other, have the mean that the pixel shows: as
 // many as leave kRaysACell on a side of such a cell. A ray takes of a cell what a pixel's width of
 // the field about it has, so that fewer would spread a thin range beyond the cell that has it, and
-// count it there again; and cells between them would be missed.
+// count it there again; and cells between them would be missed. A coarse pixel has as many as one
+// of the picture's: it blurs more than fewer rays lose (tests/bench/NOTES.md).
 int raysAcross(const Scene& scene, const View& view);
 inline constexpr double kRaysACell = 3;
 inline constexpr int kMostRaysAcross = 8;

@@ -21,6 +21,7 @@ glm::dmat4 clipFromView(const Frustum& f) {
 View coarser(const View& view, int across) {
     View coarse = view;
     coarse.size = (view.size + across - 1) / across;
+    coarse.across *= across;
     // Of normalised device coordinates: the lower left corners meet, and pixels are as many times
     // as large.
     const glm::dvec2 scale = glm::dvec2(view.size) / glm::dvec2(across * coarse.size);

@@ -21,6 +21,7 @@ struct View {
     // What of the picture nobody sees (render/annotate/hidden_area.h): GL leaves it out. None: all
     // is seen.
     std::shared_ptr<const HiddenArea> hidden = {};
+    int across = 1;  // so many of the picture's pixels across are one of these
     friend bool operator==(const View&, const View&) = default;
 };
 

@@ -1,16 +1,13 @@
 #include "render/splat/mixed_splatter.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "render/splat/cell_batches.h"
 #include "render/splat/cell_kernels.h"
-#include "render/splat/cell_pieces.h"
+#include "render/splat/mixed_list.h"
 #include "render/splat/seen_cells.h"
-#include "render/splat/splat_source.h"
 #include "render/splat/tet_kernels.h"
 #include "render/splat/tile_bins.h"
 #include "render/splat/tile_kernels.h"
@@ -21,79 +18,10 @@ namespace render {
 namespace {
 
 constexpr std::uint64_t kAtOnce = 1 << 16;
+// Listed and put in order, on one thread, in the time that one takes to be summed.
+constexpr std::uint64_t kListedForOne = 16;
 // Less is done before another thread has begun.
 constexpr std::size_t kWorthAThread = 1 << 10;
-
-// A cell, or a point: its position in the sorted step. Which of them, its layer says.
-using Passed = CellOfLayer;
-
-// As CellRank, but without bricks: of an upright grid the sum of distances from the eye's cell,
-// along each axis, for splats reach into cells beside theirs, which are to be about as far away.
-class MixedRank {
- public:
-    MixedRank(const Scene& scene, const View& view)
-        : scene_(scene), cells_(scene, view), size_(scene.cells->size()) {}
-    std::size_t count() const {
-        return scene_.placed.isMesh() ? cells_.count() : std::size_t{size_.x} + size_.y + size_.z;
-    }
-    std::uint32_t ofCell(std::uint32_t cell) const {
-        if (scene_.placed.isMesh()) return cells_(cell);
-        return distanceTo(timeseries::indicesOf(cell, size_));
-    }
-    // Of an upright grid, that of the farthest of the cells about it.
-    std::uint32_t ofPoint(std::uint32_t index) const {
-        if (scene_.placed.isMesh()) return cells_.ofMiddle(scene_.placed.alongAxes(index));
-        const glm::uvec3 point = scene_.placed.indices(index);
-        glm::uvec3 cell(0);
-        for (int a = 0; a < 3; ++a)
-            cell[a] = point[a] + (cells_.eye()[a] <= static_cast<int>(point[a]) ? 1u : 0u);
-        return distanceTo(cell);
-    }
-
- private:
-    std::uint32_t distanceTo(const glm::uvec3& cell) const {
-        std::uint32_t sum = 0;
-        for (int a = 0; a < 3; ++a)
-            sum +=
-                static_cast<std::uint32_t>(std::abs(static_cast<int>(cell[a]) - cells_.eye()[a]));
-        return sum;
-    }
-
-    const Scene& scene_;
-    CellRank cells_;
-    glm::uvec3 size_;
-};
-
-// Of those of one rank, points come before cells.
-std::vector<Passed> nearestFirst(const Scene& scene, const View& view,
-                                 const timeseries::Columns& columns) {
-    const MixedRank rank(scene, view);
-    std::vector<Passed> all;
-    std::vector<std::uint32_t> ranks;
-    const Scene points = onlyPoints(scene);
-    SplatPoints some;
-    for (SplatSource source(points); !source.done();) {
-        source.next(kAtOnce, some);
-        for (std::size_t i = 0; i < some.point.size(); ++i) {
-            const std::uint32_t index = columns.gridIndex[some.point[i]];
-            if (!scene.placed.inside(index, scene.clip)) continue;
-            all.push_back({some.point[i], some.layer[i]});
-            ranks.push_back(rank.ofPoint(index));
-        }
-    }
-    CellList cells(scene, Channels::Over, 0);
-    while (!cells.done()) cells.goOn(std::numeric_limits<std::uint32_t>::max());
-    for (const CellOfLayer& cell : cells.cells()) {
-        all.push_back(cell);
-        ranks.push_back(rank.ofCell(cell.cell));
-    }
-    NearestFirst order(rank.count());
-    for (const std::uint32_t r : ranks) order.count(r);
-    order.allCounted();
-    std::vector<Passed> sorted(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) sorted[order.place(ranks[i])] = all[i];
-    return sorted;
-}
 
 // What of several points is drawn, and where: of all threads', in the order of the list.
 struct Points {
@@ -115,7 +43,7 @@ class Part {
     // `points`: the first of the list's is at `first` among them.
     void look(const Scene& scene, const CellView& cells, const TileView& splats,
               const timeseries::Columns& columns, const CellBatches& batches,
-              std::span<const Passed> passed, Points& points, std::size_t first);
+              std::span<const CellOrPoint> passed, Points& points, std::size_t first);
     bool holds(std::size_t tile) const {
         return cellBins_.count(tile) + splatBins_.count(tile) > 0;
     }
@@ -125,7 +53,7 @@ class Part {
 
  private:
     void lookAtCells(const Scene& scene, const CellView& view, const CellBatches& batches,
-                     std::span<const Passed> some);
+                     std::span<const CellOrPoint> some);
     void bin(const CellView& view, const Points& points, std::size_t first, std::size_t last);
 
     // Points, then cells, up to these among those that are seen.
@@ -143,7 +71,7 @@ class Part {
 };
 
 void Part::lookAtCells(const Scene& scene, const CellView& view, const CellBatches& batches,
-                       std::span<const Passed> some) {
+                       std::span<const CellOrPoint> some) {
     if (!scene.placed.isMesh())
         return batches.forEach(some, pieces_, [&] {
             seeCells(view, scene, pieces_, cells_, cellSpans_);
@@ -159,16 +87,16 @@ void Part::lookAtCells(const Scene& scene, const CellView& view, const CellBatch
 
 void Part::look(const Scene& scene, const CellView& cells, const TileView& splats,
                 const timeseries::Columns& columns, const CellBatches& batches,
-                std::span<const Passed> passed, Points& points, std::size_t first) {
+                std::span<const CellOrPoint> passed, Points& points, std::size_t first) {
     stretches_.clear();
     cells_.clear();
     tets_.clear();
     cellSpans_.clear();
-    const auto isPoint = [&](const Passed& of) { return scene.layers[of.layer].byPoints; };
+    const auto isPoint = [&](const CellOrPoint& of) { return scene.layers[of.layer].byPoints; };
     std::size_t last = first;
     for (std::size_t i = 0; i < passed.size();) {
         for (; i < passed.size() && isPoint(passed[i]); ++i, ++last) {
-            const Passed& of = passed[i];
+            const CellOrPoint& of = passed[i];
             points.list.index[last] = columns.gridIndex[of.cell];
             points.list.tint[last] =
                 tintPlace(splats, of.layer, scene.layers[of.layer].style,
@@ -267,8 +195,8 @@ struct MixedSum::Work {
     std::vector<float> kept, rays;
     TilePlane plane;
     CellBatches batches;
-    std::vector<Passed> all;
-    std::size_t passed = 0;
+    MixedList list;
+    std::size_t passed = 0;   // of it
     std::vector<Part> parts;  // one a thread
     Points points;
 
@@ -284,21 +212,22 @@ struct MixedSum::Work {
           kept(std::move(memory)),
           plane(cells, opaque, view.size.x, threads, kept, raysAcross > 1 ? rays : kept),
           batches(drawn),
-          all(nearestFirst(drawn, view, columns)),
+          list(drawn, view, columns),
           parts(threads) {}
-    bool done() const { return passed == all.size(); }
-    void sum(std::span<const Passed> some, bool lastOfAll);
+    bool done() const { return list.done() && passed == list.all().size(); }
+    void sum(std::span<const CellOrPoint> some, bool lastOfAll);
 };
 
-void MixedSum::Work::sum(std::span<const Passed> some, bool lastOfAll) {
+void MixedSum::Work::sum(std::span<const CellOrPoint> some, bool lastOfAll) {
     const unsigned shared = threadsFor(some.size(), kWorthAThread, threads);
     const auto beginOf = [&](unsigned k) { return some.size() * k / shared; };
     std::vector<std::size_t> firsts{0};  // of each thread's points
     for (unsigned k = 0; k < shared; ++k)
-        firsts.push_back(firsts.back() +
-                         static_cast<std::size_t>(std::ranges::count_if(
-                             some.subspan(beginOf(k), beginOf(k + 1) - beginOf(k)),
-                             [&](const Passed& of) { return scene.layers[of.layer].byPoints; })));
+        firsts.push_back(firsts.back() + static_cast<std::size_t>(std::ranges::count_if(
+                                             some.subspan(beginOf(k), beginOf(k + 1) - beginOf(k)),
+                                             [&](const CellOrPoint& of) {
+                                                 return scene.layers[of.layer].byPoints;
+                                             })));
     points.take(firsts.back(), scene.placed.isMesh());
     if (scene.placed.isMesh()) splats.meshSplats = points.list.seen;
     together(shared, [&](unsigned k) {
@@ -334,9 +263,17 @@ std::uint64_t MixedSum::add(std::uint64_t count) {
     Work& work = *work_;
     std::uint64_t added = 0;
     while (!done() && added < count) {
+        if (!work.list.done()) {
+            const std::uint64_t some = std::min(kAtOnce, count - added);
+            work.list.goOn(kListedForOne * some);
+            added += some;
+            if (done()) work.sum({}, true);  // all are clipped away
+            continue;
+        }
+        const std::span<const CellOrPoint> all = work.list.all();
         const std::uint64_t some =
-            std::min({kAtOnce, count - added, std::uint64_t{work.all.size() - work.passed}});
-        const auto part = std::span<const Passed>(work.all).subspan(work.passed, some);
+            std::min({kAtOnce, count - added, std::uint64_t{all.size() - work.passed}});
+        const auto part = all.subspan(work.passed, some);
         work.passed += some;
         work.sum(part, done());
         added += some;

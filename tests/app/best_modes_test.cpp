@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 Measured mode(double frame, double error, double mass = 1,
               render::Order order = render::Order::None) {
-    Measured m{.mode = {Model::Points, 1, order}, .frame = frame};
+    Measured m{.mode = {{Model::Points}, order}, .frame = frame};
     m.depthError = error;
     m.mass = mass;
     return m;
@@ -67,7 +67,8 @@ TEST(BestModes, AreToldOfWhereErrorsAreNothing) {
 TEST(BestModes, AreToldToPeopleAndPrograms) {
     const std::vector modes = {mode(0.003, 0.3), mode(0.015, 0.03)};
     EXPECT_THAT(bestTable(modes), HasSubstr("within a time a frame:\n  5 ms     points"));
-    EXPECT_THAT(bestTable(modes), HasSubstr("within an error:\n  0.05     points           15 ms"));
+    EXPECT_THAT(bestTable(modes),
+                HasSubstr("within an error:\n  0.05     points                15 ms"));
     EXPECT_EQ(bestJson(modes)["soonest"][0]["mode"], "points");
     EXPECT_EQ(bestJson(modes)["mostAccurate"][0]["frame"], 0.005);
 }

@@ -50,7 +50,7 @@ class MeasuredRamp : public testing::Test {
 // selected, cells are exact for the ray in a pixel's middle.
 TEST_F(MeasuredRamp, WhatIsSelectedWholeHasItsWholeMass) {
     const auto modes = measured({"min:max"}, 1);
-    ASSERT_EQ(modes.size(), 5u);
+    ASSERT_EQ(modes.size(), 10u);
     EXPECT_NEAR(modes[0].drawn, 9 * 9 * 9 / 8.0, double(render::kSubsetUnevenness));
     EXPECT_GT(modes[0].depthError, modes[3].depthError);
     EXPECT_EQ(modes[3].mode.name(), "points");
@@ -84,6 +84,21 @@ TEST_F(MeasuredRamp, ARangeBetweenPointsIsLostByPointsAndKeptByCells) {
     EXPECT_FALSE(modes[4].massIsOff());
 }
 
+// Sums in coarse pixels keep their mass, and are told of the points and cells that they are of.
+TEST_F(MeasuredRamp, CoarsePixelsBlurWhatTheyShow) {
+    const auto modes = measured({"4:4.4"});
+    for (std::size_t i = 0; i < 5; ++i) {
+        const Measured &fine = modes[i], &coarse = modes[i + 5];
+        EXPECT_EQ(coarse.mode.name(), "coarse " + fine.mode.name());
+        EXPECT_EQ(coarse.drawn, fine.drawn);
+        EXPECT_NEAR(coarse.mass, fine.mass, 0.02 * fine.mass) << coarse.mode.name();
+        EXPECT_GT(coarse.parts.parts->pixels, fine.parts.parts->pixels);
+        EXPECT_NEAR(coarse.parts.parts->model, fine.parts.parts->model, 1e-9);
+    }
+    EXPECT_GT(modes[9].depthError, 1.5 * modes[4].depthError);
+    EXPECT_LT(modes[9].depthError, 0.2);
+}
+
 // A picture in float is near the same in double, however far the model is from the truth, and no
 // part of it.
 TEST_F(MeasuredRamp, ArithmeticIsToldApartFromTheModel) {
@@ -101,7 +116,7 @@ TEST_F(MeasuredRamp, LitCellsAreHeldAgainstALitTruth) {
         for (const render::Light light : {render::Light::Soft, render::Light::Full}) {
             const auto modes = measured(ranges, 3, {"cells", "lit cells"}, light);
             const Measured &dark = modes.front(), &lit = modes.back();
-            EXPECT_EQ(lit.mode, (Mode{Model::Cells, 1, render::Order::BackToFront, light}));
+            EXPECT_EQ(lit.mode, (Mode{{Model::Cells}, render::Order::BackToFront, light}));
             EXPECT_EQ(lit.mode.name(), "lit cells");
             EXPECT_EQ(lit.depthError, dark.depthError);
             EXPECT_LT(lit.rmse, 3 * dark.rmse + 1e-3);
@@ -133,10 +148,10 @@ TEST_F(MeasuredRamp, PointsPopMoreThanCells) {
 // Mixed or in order, the optical depth is the same; the light is not.
 TEST_F(MeasuredRamp, SeveralColoursAreDrawnInBothOrders) {
     const auto modes = measured({"0:3", "5:8"});
-    ASSERT_EQ(modes.size(), 10u);
+    ASSERT_EQ(modes.size(), 15u);
     const Measured &ordered = modes[8], &mixed = modes[9];
-    EXPECT_EQ(ordered.mode, (Mode{Model::Cells, 1, render::Order::BackToFront}));
-    EXPECT_EQ(mixed.mode, (Mode{Model::Cells, 1, render::Order::None}));
+    EXPECT_EQ(ordered.mode, (Mode{{Model::Cells}, render::Order::BackToFront}));
+    EXPECT_EQ(mixed.mode, (Mode{{Model::Cells}, render::Order::None}));
     EXPECT_EQ(ordered.depthError, mixed.depthError);
     EXPECT_EQ(ordered.mass, mixed.mass);
     EXPECT_LT(3 * ordered.rmse, mixed.rmse);
@@ -149,11 +164,11 @@ TEST_F(MeasuredRamp, SeveralColoursAreDrawnInBothOrders) {
 
 TEST_F(MeasuredRamp, PartsTellWhatIsLeftOut) {
     const auto modes = measured({"2:5"});
-    ASSERT_EQ(modes.size(), 5u);
+    ASSERT_EQ(modes.size(), 10u);
     for (const Measured& m : modes) {
         ASSERT_TRUE(m.parts.parts) << m.mode.name();
-        EXPECT_EQ(m.parts.rung, (Rung{m.mode.model, m.mode.stride}));
-        EXPECT_EQ(m.parts.parts->subset > 0, m.mode.stride > 1) << m.mode.name();
+        EXPECT_EQ(m.parts.rung, m.mode.rung);
+        EXPECT_EQ(m.parts.parts->subset > 0, m.mode.rung.stride > 1) << m.mode.name();
         EXPECT_EQ(m.parts.order, 0) << "one colour";
     }
     EXPECT_GT(modes[0].parts.parts->subset, modes[2].parts.parts->subset);
@@ -204,42 +219,48 @@ TEST_F(MeasuredRamp, ChosenModesAloneAreMeasured) {
 TEST(ModesNamed, AreInTheUsualOrderAndOfBothOrders) {
     const std::vector<std::string> names = {"cells", "points 1/8", "cells"};
     using render::Order;
-    EXPECT_THAT(modesNamed(names, false),
-                ElementsAre(Mode{Model::Points, 8}, Mode{Model::Cells, 1}));
-    EXPECT_THAT(modesNamed(names, true),
-                ElementsAre(Mode{Model::Points, 8, Order::BackToFront}, Mode{Model::Points, 8},
-                            Mode{Model::Cells, 1, Order::BackToFront}, Mode{Model::Cells, 1}));
-    EXPECT_EQ(modesNamed({}, true), modesFor(true));
+    const Rung points{Model::Points, 8}, cells{Model::Cells};
+    EXPECT_THAT(modesNamed(names, {}), ElementsAre(Mode{points}, Mode{cells}));
+    const ModesOf several{.severalColors = true};
+    EXPECT_THAT(modesNamed(names, several),
+                ElementsAre(Mode{points, Order::BackToFront}, Mode{points},
+                            Mode{cells, Order::BackToFront}, Mode{cells}));
+    EXPECT_EQ(modesNamed({}, several), modesFor(several));
 }
 
 TEST(ModesNamed, LitCellsAreNamedWhereThereIsLight) {
     const std::vector<std::string> names = {"lit cells"};
-    const Mode lit{Model::Cells, 1, render::Order::BackToFront, render::Light::Soft};
+    const Mode lit{{Model::Cells}, render::Order::BackToFront, render::Light::Soft};
     for (const bool several : {false, true})
-        EXPECT_THAT(modesNamed(names, several, render::Light::Soft), ElementsAre(lit));
-    EXPECT_EQ(modesFor(false, render::Light::Soft).back(), lit);
-    EXPECT_THROW(modesNamed(names, false), ChoiceError);
+        EXPECT_THAT(modesNamed(names, {.severalColors = several, .light = render::Light::Soft}),
+                    ElementsAre(lit));
+    EXPECT_EQ(modesFor({.light = render::Light::Soft}).back(), lit);
+    EXPECT_THROW(modesNamed(names, {}), ChoiceError);
 }
 
 TEST(ModesNamed, RefusesAnUnknownOneAndNamesThoseThereAre) {
     for (const std::string name : {"", "point", "points 1/3", "Cells"}) {
         const std::vector<std::string> names = {"cells", name};
         try {
-            modesNamed(names, false);
+            modesNamed(names, {});
             FAIL() << name;
         } catch (const ChoiceError& error) {
             EXPECT_EQ(error.what(),
                       "--modes: '" + name +
-                          "' is none of points 1/8, points 1/4, points 1/2, points, cells");
+                          "' is none of points 1/8, points 1/4, points 1/2, points, cells, "
+                          "coarse points 1/8, coarse points 1/4, coarse points 1/2, coarse points, "
+                          "coarse cells");
         }
     }
 }
 
+// Squares of so many pixels are not drawn in coarse ones.
 TEST(ModesFor, AreSubsetsPointsAndCells) {
     std::vector<std::string> names;
-    for (const Mode& mode : modesFor(false)) names.push_back(mode.name());
-    EXPECT_THAT(names, ElementsAre("points 1/8", "points 1/4", "points 1/2", "points", "cells"));
-    EXPECT_EQ(modesFor(true).size(), 10u);
+    for (const Mode& mode : modesFor({.coarsePoints = false})) names.push_back(mode.name());
+    EXPECT_THAT(names, ElementsAre("points 1/8", "points 1/4", "points 1/2", "points", "cells",
+                                   "coarse cells"));
+    EXPECT_EQ(modesFor({.severalColors = true}).size(), 15u);
 }
 
 TEST(ViewsAbout, BeginWithTheOneChosenAndNoTwoAreAlike) {
@@ -261,7 +282,7 @@ TEST(ViewsAbout, BeginWithTheOneChosenAndNoTwoAreAlike) {
 
 std::vector<Measured> someModes() {
     Measured points{
-        .mode = {Model::Points, 4, render::Order::None}, .frame = 0.002, .before = 1e-5};
+        .mode = {{Model::Points, 4}, render::Order::None}, .frame = 0.002, .before = 1e-5};
     points.drawn = 12345;
     points.depthError = 0.25;
     points.parts.parts = ErrorParts{.model = 0.1875, .subset = 0.125, .pixels = 0.0625};
@@ -270,14 +291,15 @@ std::vector<Measured> someModes() {
     points.arithmetic = 0.03125;
     points.mass = 1.0625;
     points.psnr = 20;
-    Measured cells{.mode = {Model::Cells, 1, render::Order::BackToFront}, .frame = 1.5};
+    Measured cells{.mode = {{Model::Cells}, render::Order::BackToFront}, .frame = 1.5};
     cells.psnr = std::numeric_limits<double>::infinity();
     return {points, cells};
 }
 
 TEST(MeasuredReport, MarksAMassThatIsOff) {
     const auto modes = someModes();
-    EXPECT_THAT(table(modes), HasSubstr("points 1/4   mixed          2 ms   0.01 ms       12,345"));
+    EXPECT_THAT(table(modes),
+                HasSubstr("points 1/4        mixed          2 ms   0.01 ms       12,345"));
     EXPECT_THAT(table(modes), HasSubstr("+6.25 % !"));
     EXPECT_THAT(table(modes), HasSubstr("\n! its mass is more than 5 % off"));
     EXPECT_THAT(table(std::span(modes).subspan(1)), Not(HasSubstr("!")));

@@ -66,7 +66,7 @@ TEST(TradePlot, EscapesText) {
 
 TEST(TradePlot, AModeWhoseMassIsOffIsHollow) {
     const std::string svg = svgOfModes(
-        std::vector{measuredAt(0.01, 0.1, {}, 1.2), measuredAt(0.1, 0.01, {Model::Cells})}, "");
+        std::vector{measuredAt(0.01, 0.1, {}, 1.2), measuredAt(0.1, 0.01, {{Model::Cells}})}, "");
     const auto marks = marksOf(svg);
     EXPECT_EQ(marks[0].fill, "#ffffff");
     EXPECT_NE(marks[1].fill, "#ffffff");
@@ -93,10 +93,10 @@ TEST(TradePlot, WhatHasNoLogarithmStaysInThePicture) {
 }
 
 TEST(TradePlot, JoinsTheSubsetsOfOneOrder) {
-    const std::vector modes = {
-        measuredAt(0.01, 0.3, {Model::Points, 2}), measuredAt(0.02, 0.2, {Model::Points}),
-        measuredAt(0.02, 0.2, {Model::Points, 1, render::Order::BackToFront}),
-        measuredAt(0.1, 0.01, {Model::Cells})};
+    const std::vector modes = {measuredAt(0.01, 0.3, {{Model::Points, 2}}),
+                               measuredAt(0.02, 0.2, {{Model::Points}}),
+                               measuredAt(0.02, 0.2, {{Model::Points}, render::Order::BackToFront}),
+                               measuredAt(0.1, 0.01, {{Model::Cells}})};
     EXPECT_EQ(count(svgOfModes(modes, ""), "stroke-width=\"1.5\""), 1u);
 }
 
@@ -110,7 +110,7 @@ const PlotText& textOf(const Plot& plot, const std::string& begin) {
 // There is no room to the right of a mark at the right end, 696.
 TEST(TradePlot, ANameLeftOfItsMarkEndsTwoRadiiBesideIt) {
     const Plot plot = tradePlot(
-        std::vector{measuredAt(0.001, 0.1), measuredAt(0.1, 0.03, {Model::Cells}, 1.2)}, "");
+        std::vector{measuredAt(0.001, 0.1), measuredAt(0.1, 0.03, {{Model::Cells}}, 1.2)}, "");
     const PlotText& name = textOf(plot, "cells (mass +20 %)");
     const PlotFont font(std::array{name.lettering});
     EXPECT_NEAR(name.at.x + font.width(name.text, name.lettering), 696 - 2 * 5, 1e-6);
@@ -120,7 +120,7 @@ TEST(TradePlot, ANameLeftOfItsMarkEndsTwoRadiiBesideIt) {
 TEST(TradePlot, ANameStandsOnNoLine) {
     for (const double error : {0.03, 0.02}) {
         const Plot plot = tradePlot(
-            std::vector{measuredAt(0.001, 0.03, {Model::Points, 2}), measuredAt(0.1, error)}, "");
+            std::vector{measuredAt(0.001, 0.03, {{Model::Points, 2}}), measuredAt(0.1, error)}, "");
         const PlotText& name = textOf(plot, "1/2");
         const auto joining = std::ranges::find_if(plot.shapes, [](const PlotShape& shape) {
             const auto* line = std::get_if<PlotLine>(&shape);

@@ -4,7 +4,6 @@
     tests/bench/trade.py                measures with build/release (some minutes), writes the page
     tests/bench/trade.py fire tooth     measures these scenes again; the others stay as last measured
     tests/bench/trade.py --page         writes the page from what was last measured
-    tests/bench/trade.py --plots        draws the plots anew, from the page's own tables
 
 Data lie in ../shared/datasets, or in datasets below $ISOCHRON_SHARED; what is not there is left out.
 What was measured stays in build/trade, its plots in tests/bench/trade. On a quiet machine only: what else runs is in the times.
@@ -16,7 +15,6 @@ import pathlib
 import sys
 
 from pages import ROOT, commit, processor, said, table
-from trade_plot import svg
 
 KEPT = ROOT / "build/trade"
 PAGE, PLOTS = "tests/bench/TRADE.md", "tests/bench/trade"
@@ -43,7 +41,8 @@ def measure(name):
     print(f"{name} ...", file=sys.stderr)
     about = {"commit": commit(PAGE, PLOTS), "date": datetime.date.today().isoformat(),
              "load": os.getloadavg()[0]}
-    figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--size", "600x600", "--json"))
+    figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--size", "600x600", "--json",
+                              "--svg", ROOT / PLOTS / f"{name}.svg"))
     KEPT.mkdir(parents=True, exist_ok=True)
     (KEPT / f"{name}.json").write_text(json.dumps({"about": about, "figures": figures}, indent=1))
 
@@ -115,14 +114,14 @@ def rows_of(figures):
 def summary(scenes):
     rows = []
     for name, data in scenes:
-        points, cells = find(data["figures"], "points"), find(data["figures"], "cells")
+        points, cells, coarse = (find(data["figures"], mode) for mode in ("points", "cells", "coarse cells"))
         lit = next((m for m in data["figures"]["modes"] if is_lit(m)), None)
         rows.append([SCENES[name][1], f"{points['depthError']:.3f}", mass(points), time(points["frame"]),
                      f"{cells['depthError']:.3f}", mass(cells), time(cells["frame"]),
-                     f"{cells['frame'] / points['frame']:.1f}", time(lit["frame"]) if lit else "",
+                     f"{cells['frame'] / points['frame']:.1f}", f"{coarse['depthError']:.3f}", time(coarse["frame"]), time(lit["frame"]) if lit else "",
                      f"{lit['frame'] / cells['frame']:.2f}" if lit else ""])
-    return table(["scene", "points: error", "mass", "frame", "cells: error", "mass", "frame", "cells / points", "lit cells: frame",
-                  "lit / cells"], rows)
+    return table(["scene", "points: error", "mass", "frame", "cells: error", "mass", "frame", "cells / points",
+                  "coarse cells: error", "frame", "lit cells: frame", "lit / cells"], rows)
 
 
 def reading(scenes):
@@ -133,13 +132,17 @@ def reading(scenes):
     kept_ = [c["depthError"] for _, c in both]
     slower = [c["frame"] / p["frame"] for p, c in both]
     off = sum(p["massIsOff"] for p, _ in both)
-    coarse = [find(d["figures"], "points 1/8")["depthError"] / find(d["figures"], "points")["depthError"] for _, d in scenes]
+    fewer = [find(d["figures"], "points 1/8")["depthError"] / find(d["figures"], "points")["depthError"] for _, d in scenes]
+    coarse = [find(d["figures"], "coarse cells") for _, d in scenes]
+    sooner = [k["frame"] / c["frame"] for k, (_, c) in zip(coarse, both)]
+    blurred = [100 * k["depthError"] for k in coarse]
     return (f"""A point stands for all that is nearest to it, and is drawn or not as its own value lies in the range or not. Where the range is
 wider than the step from one point to the next, few are wrongly in or out, and points are a fair picture. Where it is thinner, most of
 what lies in the range passes between points: the closed shell becomes dots. Over these scenes what is measured in a picture by points, its optical
 depth, is wrong by {span([100 * e for e in lost], '{:.0f}')} %. In {off} of these {len(both)} scenes its sum is more than 5 % off as well (bold), so that even a mean over the picture misleads.
 Cells take what each ray truly has of the range between the points: {span([100 * e for e in kept_], '{:.1f}')} %, for {span(slower, '{:.1f}')} times the time of a frame.
-Drawing one point of eight, larger, is what a moving picture does: the mass stays that of the points, while the error grows by {span(coarse, '{:.1f}')}
+What a moving picture may leave out, cells first: summed in pixels twice as wide, under lines and text as sharp as ever (coarse), they take {span(sooner, '{:.2f}')} of
+that time at an error of {span(blurred, '{:.1f}')} %. One point of eight, larger: the mass stays that of the points, while the error grows by {span(fewer, '{:.1f}')}
 times. So: points to look around, cells for a thin range or for anything that is read off the picture; and neither tells
 what the field does between its points beyond a linear guess, which is what this truth is.
 """)
@@ -193,50 +196,12 @@ By depth, where a scene has more than one colour:
         text += (f"\n## {SCENES[name][1]}\n\n`{SCENES[name][0]}`, step {figures['step']}, {figures['points']:,} points. "
                  f"*Commit {about['commit']}, {about['date']}, load {about['load']:.1f} at its start.*\n\n"
                  + table(head, rows_of(figures)))
-        text += plotted(name, figures["modes"])
+        if (ROOT / PLOTS / f"{name}.svg").exists():
+            text += f"\n![{SCENES[name][1]}: error against time]({pathlib.Path(PLOTS).name}/{name}.svg)\n"
     (ROOT / PAGE).write_text(text)
 
 
-def plotted(name, modes):
-    (ROOT / PLOTS).mkdir(exist_ok=True)
-    (ROOT / PLOTS / f"{name}.svg").write_text(svg(SCENES[name][1], modes))
-    return f"\n![{SCENES[name][1]}: error against time]({pathlib.Path(PLOTS).name}/{name}.svg)\n"
-
-
-def seconds(text):
-    number, unit = text.split()
-    return float(number) * {"s": 1, "ms": 1e-3, "µs": 1e-6}[unit]
-
-
-def modes_of(page, name):
-    """As a table of the page tells them."""
-    lines = page.split(f"\n## {SCENES[name][1]}\n", 1)[1].split("\n## ", 1)[0].splitlines()
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
-    for row in rows[2:]:
-        of = dict(zip(rows[0], row))
-        mass = of["mass"].strip("*")
-        yield {"mode": of["mode"], "order": of["order"], "frame": seconds(of["frame"]), "depthError": float(of["error"]),
-               "mass": 1 + float(mass.removesuffix(" %")) / 100, "massIsOff": mass != of["mass"]}
-
-
-def plots():
-    """And links them, where a page from before has none."""
-    page = (ROOT / PAGE).read_text()
-    for name, (_, title, _) in SCENES.items():
-        head = f"\n## {title}\n"
-        if head not in page:
-            continue
-        link = plotted(name, list(modes_of(page, name)))
-        if link.strip() not in page:
-            before, after = page.split(head, 1)
-            own, *rest = after.split("\n## ", 1)
-            page = before + head + own.rstrip("\n") + "\n" + link + "".join("\n## " + other for other in rest)
-    (ROOT / PAGE).write_text(page)
-
-
 def main(arguments):
-    if arguments == ["--plots"]:
-        return plots()
     names = [a for a in arguments if a != "--page"]
     if unknown := [n for n in names if n not in SCENES]:
         sys.exit(f"{unknown[0]}: no such scene; there are: {' '.join(SCENES)}")

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "render/frame/enlarge.h"
 #include "render/frame/plain_frame.h"
 #include "render/reference/image_compare.h"
 #include "tests/support/frame_world.h"
@@ -45,10 +44,7 @@ TEST_P(CoarsePlanes, HaveTheDepthOfTheCoarsePictureBetweenItsPixels) {
                 return drawn({scene, step_.grid(), {}, glm::dvec3(0), across}, view);
             };
             const Image light = on(white), lines = on(none);
-            const View coarse = coarser(view, across);
-            std::vector<float> depth;
-            enlarge({Channels::Weight, {{0, 0}, coarse.size}, opticalDepthOf(white, coarse)},
-                    across, {{0, 0}, size}, depth);
+            const std::vector<float> depth = enlargedDepthOf(white, view, across);
             double most = 0;
             for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) {
@@ -86,14 +82,15 @@ TEST_P(CoarsePlanes, AreDrawnUnderTheSameLinesAndText) {
             EXPECT_NE(fine, coarse);
             const auto difference = comparePictures(fine, coarse);
             EXPECT_LT(difference.rmseLinear, 0.04) << cells << static_cast<int>(order);
-            // The same by the mean of the fine one's light, but for what is curved in a pixel.
+            // The same by the mean of the fine one's light, but for what is curved in a pixel, and
+            // for noise in cells two coarse pixels wide, in each of which one ray is.
             glm::dvec4 sums[2] = {};
             for (int y = 0; y < odd.size.y; ++y)
                 for (int x = 0; x < odd.size.x; ++x) {
                     sums[0] += glm::dvec4(fine.at(x, y));
                     sums[1] += glm::dvec4(coarse.at(x, y));
                 }
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(sums[1][c] / sums[0][c], 1, 0.02);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(sums[1][c] / sums[0][c], 1, 0.05);
         }
 }
 

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/headset/standing.h"
+#include "app/picture/picture.h"
 #include "app/picture/still.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
@@ -173,6 +174,26 @@ TEST_F(HeadsetEyes, WithoutDataThereIsStillARoom) {
         EXPECT_EQ(image.pixels(kDrawn)[0].r,
                   render::srgb8FromLinear(static_cast<double>(kBackground.r)));
     }
+}
+
+// Between all of its cells and points that stand for them: of what fits the pace the truest is
+// drawn.
+TEST_F(HeadsetEyes, DrawCellsInCoarsePixelsWhereFinerOnesDoNotFit) {
+    tests::ShownSteps cells(8, 1);
+    cells.explorer.model = Model::Cells;
+    (void)cells.steps[0]->cells(cellsNeeded(cells.explorer, cells.steps[0]->type()));
+    const Shown shown = cells.shown();
+    for (xr::Eye& eye : eyes_) eye.size = glm::ivec2(400);
+    const auto drawn = [&](const DepthErrors* errors) {
+        view_.draw(&shown, eyes_, placement_, {}, Eyes::Splats::Governed, {}, errors);
+        const CanvasReport& report = view_.report();
+        return Rung{report.cells ? Model::Cells : Model::Points, report.stride, report.across};
+    };
+    EXPECT_EQ(drawn(nullptr), (Rung{Model::Cells, 1, kCoarse}));
+    DepthErrors errors;
+    for (const Rung& rung : ladder({})) errors.rungs.push_back({.rung = rung, .depth = 0.5});
+    errors.rungs[2].depth = 0.1;
+    EXPECT_EQ(drawn(&errors), errors.rungs[2].rung) << "whose error is less";
 }
 
 TEST_F(HeadsetEyes, KeepTheDisplaysPaceWithFewerSplatsThenFewerPixels) {

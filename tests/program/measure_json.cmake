@@ -11,12 +11,12 @@ expectMembers("${out}" file STRING variable STRING units STRING step NUMBER rang
               views ARRAY modes ARRAY best OBJECT)
 string(JSON views LENGTH "${out}" views)
 string(JSON modes LENGTH "${out}" modes)
-if(NOT views EQUAL 2 OR NOT modes EQUAL 6)
-  fail("${views} views and ${modes} modes, expected 2 and 6")
+if(NOT views EQUAL 2 OR NOT modes EQUAL 11)
+  fail("${views} views and ${modes} modes, expected 2 and 11")
 endif()
 string(JSON view GET "${out}" views 1)
 expectMembers("${view}" azimuth NUMBER elevation NUMBER)
-foreach(i RANGE 5)
+foreach(i RANGE 10)
   string(JSON mode GET "${out}" modes ${i})
   expectMembers("${mode}" mode STRING order STRING light STRING frame NUMBER before NUMBER drawn NUMBER
                 depthError NUMBER sampledError NUMBER modelError NUMBER

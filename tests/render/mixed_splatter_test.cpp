@@ -9,6 +9,7 @@
 #include "render/frame/plain_frame.h"
 #include "render/model/rays_across.h"
 #include "render/splat/depth_order.h"
+#include "render/splat/mixed_list.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/meshes.h"
@@ -127,6 +128,40 @@ TEST(MixedSum, IsTheSameInSlicesAndOnAnyThreads) {
         EXPECT_EQ(mixed(world.scene, view, rays, 3), is);
         EXPECT_EQ(mixed(world.scene, view, rays, 2, 700), is);
     }
+}
+
+// Listing, too, is done in slices: none takes the time of all.
+TEST(MixedSum, IsListedInSlices) {
+    CellWorld world(tests::noise(tests::cube(24)), {"0.2:0.4", "0.6:0.7"}, 0.7);
+    world.scene.order = Order::BackToFront;
+    drawByPoints(world.scene, 1);
+    const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
+    MixedList list(world.scene, view, columnsOf(world.scene));
+    std::size_t slices = 0;
+    for (; !list.done(); ++slices) list.goOn(100);
+    std::uint64_t count = 0;
+    for (const Layer& layer : world.scene.layers) count += drawnCount(world.scene, layer);
+    ASSERT_EQ(list.all().size(), count);
+    EXPECT_GT(slices, 2 * count / 100);
+    EXPECT_LT(slices, 4 * count / 100);
+    const MixedRank rank(world.scene, view);
+    const auto columns = columnsOf(world.scene);
+    const auto rankOf = [&](const CellOrPoint& of) {
+        return world.scene.layers[of.layer].byPoints ? rank.ofPoint(columns.gridIndex[of.cell])
+                                                     : rank.ofCell(of.cell);
+    };
+    for (std::size_t i = 1; i < count; ++i)
+        ASSERT_LE(rankOf(list.all()[i - 1]), rankOf(list.all()[i])) << i;
+}
+
+TEST(MixedSum, WhereAllIsClippedAwayNothingIsDrawn) {
+    CellWorld world(tests::noise(tests::cube(8)), {"0.2:0.4", "0.6:0.7"}, 0.7);
+    world.scene.order = Order::BackToFront;
+    drawByPoints(world.scene, 1);
+    world.scene.layers[0].cells.candidates.clear();
+    world.scene.clip.lo = world.scene.clip.hi = glm::dvec3(1e6);
+    for (const float part : mixed(world.scene, tests::lookFrom({0.7, -3, 1.1}, kSize)))
+        ASSERT_EQ(part, 0);
 }
 
 // By several rays a pixel both are a finer picture's means.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/reference/accumulator.h"
@@ -62,6 +63,26 @@ TEST(PlainFrame, IsTheTruthsLightOnTheBackground) {
     world.scene.order = Order::BackToFront;
     const View view = tests::lookFrom({0.7, -3, 1.1}, kPicture);
     expectTheTruth(world.scene, orderExactly(world.scene, pixelRays(view).eye));
+}
+
+// White light of optical depth t on black is 1 - e^-t.
+TEST(PlainFrame, InCoarsePixelsShowsTheirDepthEnlarged) {
+    PlainWorld world;
+    for (Layer& layer : world.scene.layers) layer.style.color = Constant{glm::dvec3(1)};
+    for (const glm::ivec2 size : {kPicture, glm::ivec2(49, 37)})
+        for (const int across : {1, 2, 3}) {
+            const View view = tests::lookFrom({0.7, -3, 1.1}, size);
+            PlainFrame frame(size, glm::dvec3(0));
+            frame.draw(world.scene, view, across);
+            const Image light = frame.light();
+            const std::vector<float> depth = enlargedDepthOf(world.scene, view, across);
+            EXPECT_GT(*std::ranges::max_element(depth), 0.5);
+            for (int y = 0; y < size.y; ++y)
+                for (int x = 0; x < size.x; ++x)
+                    ASSERT_NEAR(light.at(x, size.y - 1 - y).r,
+                                1 - std::exp(-depth[std::size_t(y * size.x + x)]), 1e-4)
+                        << x << ' ' << y << ' ' << across;
+        }
 }
 
 TEST(PlainFrame, NothingSelectedIsTheBackground) {

@@ -42,6 +42,19 @@ TEST(RaysAcross, AreThreeACellWhileEightAPixelSuffice) {
     EXPECT_TRUE(isOne && isMost);
 }
 
+TEST(RaysAcross, OfACoarsePixelAreThoseOfOneOfThePicture) {
+    const CellWorld world = waves(32, {"0.2:0.5"});
+    bool areSeveral = false;
+    for (const int pixels : {17, 101, 333, 1000})
+        for (const int across : {2, 3}) {
+            const View view = viewOf(pixels), coarse = coarser(view, across);
+            EXPECT_EQ(raysAcross(world.scene, coarse), raysAcross(world.scene, view)) << pixels;
+            EXPECT_EQ(raysAcross(world.scene, coarser(coarse, 2)), raysAcross(world.scene, view));
+            areSeveral = areSeveral || raysAcross(world.scene, view) > 1;
+        }
+    EXPECT_TRUE(areSeveral);
+}
+
 // Seen along an axis, a cube of the unit length in the box's middle is a square of so many pixels.
 TEST(RaysAcross, ACellsPixelsAreThoseOfItsSquare) {
     const CellWorld world = waves(11, {"0.2:0.5"});
