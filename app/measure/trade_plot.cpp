@@ -138,7 +138,11 @@ struct Box {
     }
 };
 
-// A subset is told by its share alone, beside the mode that it is of.
+// A subset is told by its share alone, beside the mode that it is of: of those of one order in the
+// picture's own pixels, which the others are beside.
+bool isNamed(const Mode& mode, render::Order first) {
+    return mode.rung.stride == 1 || (mode.rung.across == 1 && mode.order == first);
+}
 std::string nameOf(const Measured& m, bool severalOrders) {
     const Rung& rung = m.mode.rung;
     std::string name = rung.stride > 1 ? fmt::format("1/{}", rung.stride) : m.mode.name();
@@ -207,6 +211,7 @@ void addNames(std::span<const Measured> modes, std::span<const glm::dvec2> place
               bool severalOrders, const PlotFont& font, std::vector<Box> taken, Plot& into) {
     constexpr double kBelow = 4;
     for (std::size_t i = 0; i < modes.size(); ++i) {
+        if (!isNamed(modes[i].mode, modes.front().mode.order)) continue;
         std::string name = nameOf(modes[i], severalOrders);
         const Box box = freePlace(places[i], font.width(name, kSmall), taken);
         taken.push_back(box);

@@ -107,6 +107,18 @@ const PlotText& textOf(const Plot& plot, const std::string& begin) {
     throw std::runtime_error("no such text: " + begin);
 }
 
+// A name each would hide what they tell.
+TEST(TradePlot, SubsetsOfOneOrderAloneAreNamed) {
+    std::vector<Measured> modes;
+    for (const Mode& mode : modesFor({.severalColors = true}))
+        modes.push_back(measuredAt(0.01, 0.1, mode));
+    const std::string svg = svgOfModes(modes, "");
+    for (const char* share : {"1/2", "1/4", "1/8"})
+        EXPECT_EQ(count(svg, std::string(">") + share + "<"), 1u) << share;
+    for (const char* name : {"points, by depth", "points, mixed", "coarse points", "coarse cells"})
+        EXPECT_EQ(count(svg, std::string(">") + name + "<"), 1u) << name;
+}
+
 // There is no room to the right of a mark at the right end, 696.
 TEST(TradePlot, ANameLeftOfItsMarkEndsTwoRadiiBesideIt) {
     const Plot plot = tradePlot(
