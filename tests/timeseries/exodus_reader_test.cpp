@@ -1,4 +1,5 @@
 // Results of finite elements at nodes and elements, in files as Exodus II's library writes them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +32,17 @@ struct Written {
     std::vector<double> times{0.5, 2};
     std::vector<std::int32_t> cube{1, 2, 5, 4, 7, 8, 11, 10};
     std::string kind = "HEX8";
+    std::vector<std::string> atNodes{"T", "p"};
 };
+
+// Of a node, an element's corner.
+float valueOf(std::size_t step, std::size_t variable, std::size_t node) {
+    return static_cast<float>(1000 * step + 100 * variable + node);
+}
+// What is added to each of its coordinates.
+float displacementOf(std::size_t step, std::size_t node) {
+    return 0.25f * static_cast<float>(step * node);
+}
 
 void names(NetcdfBuilder& file, int variable, const std::vector<std::string>& all) {
     std::string text;
@@ -52,7 +63,7 @@ Path write(const Written& what, const std::string& name = "a.e") {
     const int one = file.dimension("num_el_in_blk1", 1),
               eight = file.dimension("num_nod_per_el1", 8),
               two = file.dimension("num_el_in_blk2", 2), six = file.dimension("num_nod_per_el2", 6),
-              ofNodes = file.dimension("num_nod_var", 2),
+              ofNodes = file.dimension("num_nod_var", what.atNodes.size()),
               ofElements = file.dimension("num_elem_var", 2);
     const int time = file.variable("time_whole", NC_DOUBLE, {steps});
     std::vector<int> coordinates;
@@ -71,8 +82,9 @@ Path write(const Written& what, const std::string& name = "a.e") {
     if (what.together)
         values = {file.variable("vals_nod_var", NC_FLOAT, {steps, ofNodes, nodes})};
     else
-        for (const char* each : {"vals_nod_var1", "vals_nod_var2"})
-            values.push_back(file.variable(each, NC_FLOAT, {steps, nodes}));
+        for (std::size_t v = 0; v < what.atNodes.size(); ++v)
+            values.push_back(
+                file.variable(fmt::format("vals_nod_var{}", v + 1), NC_FLOAT, {steps, nodes}));
     const int first = file.variable("vals_elem_var1eb1", NC_DOUBLE, {steps, one}),
               second = file.variable("vals_elem_var1eb2", NC_DOUBLE, {steps, two}),
               other = file.variable("vals_elem_var2eb2", NC_DOUBLE, {steps, two});
@@ -93,23 +105,21 @@ Path write(const Written& what, const std::string& name = "a.e") {
     if (what.together) file.write(coordinates[0], all);
     file.write(cube, what.cube);
     file.write(wedges, std::vector<std::int32_t>{2, 3, 5, 8, 9, 11, 3, 6, 5, 9, 12, 11});
-    names(file, nodeNames, {"T", "p"});
+    names(file, nodeNames, what.atNodes);
     names(file, elementNames, {"p", "q"});
-    std::vector<float> both;
+    const auto atNode = [&](std::size_t step, std::size_t v, std::size_t n) {
+        return v < 2 ? valueOf(step, v, n) : displacementOf(step, n);
+    };
+    std::vector<float> together;
     for (std::size_t step = 0; step < what.times.size(); ++step)
-        for (std::size_t v = 0; v < 2; ++v)
-            for (std::size_t n = 0; n < 12; ++n)
-                both.push_back(static_cast<float>(1000 * step + 100 * v + n));
-    if (what.together) {
-        file.write(values[0], both);
-    } else {
-        for (std::size_t v = 0; v < 2; ++v) {
-            std::vector<float> own;
-            for (std::size_t step = 0; step < what.times.size(); ++step)
-                own.insert(own.end(), both.begin() + std::ptrdiff_t(24 * step + 12 * v),
-                           both.begin() + std::ptrdiff_t(24 * step + 12 * v + 12));
-            file.write(values[v], own);
-        }
+        for (std::size_t v = 0; v < what.atNodes.size(); ++v)
+            for (std::size_t n = 0; n < 12; ++n) together.push_back(atNode(step, v, n));
+    if (what.together) file.write(values[0], together);
+    for (std::size_t v = 0; !what.together && v < what.atNodes.size(); ++v) {
+        std::vector<float> own;
+        for (std::size_t step = 0; step < what.times.size(); ++step)
+            for (std::size_t n = 0; n < 12; ++n) own.push_back(atNode(step, v, n));
+        file.write(values[v], own);
     }
     file.write(first, std::vector<double>{5, 6});
     file.write(second, std::vector<double>{7, 8, 9, 10});
@@ -134,8 +144,7 @@ TEST(Exodus, ResultsAtNodesAndAtElementsInBothLayouts) {
             for (std::size_t step : {1u, 0u}) {
                 const auto values = std::get<std::vector<float>>(reader->read(v, step).values);
                 ASSERT_EQ(values.size(), 12u);
-                for (std::size_t n = 0; n < 12; ++n)
-                    EXPECT_EQ(values[n], static_cast<float>(1000 * step + 100 * v + n));
+                for (std::size_t n = 0; n < 12; ++n) EXPECT_EQ(values[n], valueOf(step, v, n));
             }
         EXPECT_EQ(std::get<std::vector<double>>(reader->read(2, 1).values),
                   (std::vector<double>{6, 9, 10}));
@@ -161,6 +170,44 @@ TEST(Exodus, NodesLieWhereTheFileSaysAndElementsInTheirMiddles) {
             EXPECT_NEAR(tests::volume(elements, i), i == 0 ? 1 : 0.5, 1e-6);
         }
     }
+}
+
+// Each coordinate grows by step / 4 (x + 3 y + 6 z): of a volume, by det(I + step / 4 (1 1 1)^T (1
+// 3 6)) = 1 + step / 4 * 10.
+TEST(Exodus, DisplacementsMoveNodesAndElementsInEachStep) {
+    for (const bool together : {false, true})
+        for (const std::string name : {"DISPL", "disp_"}) {
+            Written what{.together = together, .times = {0, 1, 2}};
+            for (const char* axis : {"X", "Y", "Z"}) what.atNodes.push_back(name + axis);
+            const auto reader = open(write(what));
+            const auto variables = reader->variables();
+            ASSERT_EQ(variables.size(), 7u);
+            EXPECT_EQ(variables[0].notes[0],
+                      fmt::format("nodes are moved by {0}X, {0}Y, {0}Z", name));
+            const std::size_t elements = 5;  // p (cells)
+            ASSERT_EQ(variables[elements].name, "p (cells)");
+            for (const std::size_t step : {2u, 0u, 1u, 1u}) {
+                const Field field = reader->read(0, step);
+                EXPECT_EQ(std::get<std::vector<float>>(field.values)[7], valueOf(step, 0, 7));
+                for (std::size_t n = 0; n < 12; ++n) {
+                    const glm::dvec3 wanted = glm::dvec3(n % 3, n / 3 % 2, n / 6) +
+                                              glm::dvec3(double(displacementOf(step, n)));
+                    const glm::dvec3 is = field.grid->position(n);
+                    for (int c = 0; c < 3; ++c) EXPECT_NEAR(is[c], wanted[c], 1e-5) << n;
+                }
+                const Field cells = reader->read(elements, step);
+                EXPECT_NEAR(tests::volume(*cells.grid->mesh(), 0), 1 + 2.5 * double(step), 1e-4);
+                EXPECT_EQ(field.grid == variables[0].grid, step == 0);
+            }
+        }
+}
+
+TEST(Exodus, NodesStandStillWithoutAWholeDisplacement) {
+    Written what{.times = {0, 1}};
+    what.atNodes.insert(what.atNodes.end(), {"DISPLX", "DISPLY", "distance"});
+    const auto reader = open(write(what));
+    EXPECT_EQ(reader->read(0, 1).grid, reader->variables()[0].grid);
+    EXPECT_EQ(reader->variables()[0].grid->position(4), glm::dvec3(1, 1, 0));
 }
 
 TEST(Exodus, KindsThatAreNotKnownAreTold) {
@@ -242,8 +289,12 @@ TEST(Exodus, FilesMakeASeries) {
 
 // Of the classic format: netCDF 4.9.0 does not free what it has of an HDF5 file that it refuses.
 TEST(Exodus, FilesCutOrDamagedAnywhereAreReadOrRefused) {
-    const Path path = write({.together = true, .times = {1, 2}});
-    tests::damageInRounds(path, path);
+    for (const auto& more : {std::vector<std::string>{}, {"DISPLX", "DISPLY", "DISPLZ"}}) {
+        Written what{.together = true, .times = {1, 2}};
+        what.atNodes.insert(what.atNodes.end(), more.begin(), more.end());
+        const Path path = write(what);
+        tests::damageInRounds(path, path);
+    }
 }
 
 }  // namespace

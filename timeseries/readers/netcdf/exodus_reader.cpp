@@ -10,6 +10,7 @@
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/readers/netcdf/exodus_mesh.h"
+#include "timeseries/readers/text/words.h"
 
 namespace timeseries {
 namespace {
@@ -27,8 +28,12 @@ class ExodusReader final : public Reader {
     explicit ExodusReader(std::unique_ptr<NetcdfFile> opened)
         : paths_{opened->path()}, opened_(std::move(opened)), mesh_(exodusMeshOf(file_)) {
         addTime();
+        addDisplacements();
         addVariables();
-        mesh_.grid = {};
+        if (displacements_.empty()) {
+            mesh_.grid = {};
+            shapes_.reset();
+        }
         if (variables_.empty()) file_.fail("", "expected results at nodes or elements, found none");
     }
 
@@ -39,10 +44,16 @@ class ExodusReader final : public Reader {
 
  private:
     void addTime();
+    void addDisplacements();
     void addVariables();
     std::vector<BlockPart> partsOf(bool atNodes, std::size_t index) const;
     void add(const std::string& name, bool atNodes, std::vector<BlockPart> parts);
+    // Moves the nodes to where they are in a step.
+    void move(std::size_t step);
+    // Of the step that they are moved to.
     std::shared_ptr<const Grid> gridOf(bool atNodes);
+    template <typename T>
+    void read(const BlockPart& part, std::size_t step, T* into) const;
 
     std::vector<std::filesystem::path> paths_;
     std::unique_ptr<NetcdfFile> opened_;
@@ -53,7 +64,13 @@ class ExodusReader final : public Reader {
     std::optional<UnstructuredShapes> shapes_;
     std::array<std::shared_ptr<const Grid>, 2> grids_;  // at elements, at nodes
     std::vector<Variable> variables_;
-    std::vector<std::vector<BlockPart>> parts_;  // [variable]
+    struct Source {
+        bool atNodes;
+        std::vector<BlockPart> parts;
+    };
+    std::vector<Source> sources_;           // [variable]
+    std::vector<BlockPart> displacements_;  // along x, y, z; none where nodes stand still
+    PageVector<glm::dvec3> still_;          // the nodes without them, then
 };
 
 void ExodusReader::addTime() {
@@ -70,6 +87,48 @@ void ExodusReader::addTime() {
         time->points.push_back({value, ""});
     }
     time_ = std::move(time);
+}
+
+// As those who draw Exodus's results do: a vector at nodes whose name begins with "dis" says how
+// far each has moved.
+void ExodusReader::addDisplacements() {
+    const std::vector<std::string> names = file_.lines("name_nod_var");
+    const std::uint64_t dimensions = exodusLength(file_.header(), "num_dim");
+    for (const std::string& first : names) {
+        const std::string name = lower(first);
+        if (!name.starts_with("dis") || !name.ends_with("x")) continue;
+        std::vector<BlockPart> parts;
+        std::vector<std::string> all;
+        for (std::uint64_t axis = 0; axis < dimensions; ++axis) {
+            const std::string wanted = name.substr(0, name.size() - 1) + "xyz"[axis];
+            const auto found = std::ranges::find(names, wanted, [](auto& n) { return lower(n); });
+            if (found == names.end()) break;
+            const auto part = partsOf(true, static_cast<std::size_t>(found - names.begin()));
+            parts.insert(parts.end(), part.begin(), part.end());
+            all.push_back(*found);
+        }
+        if (parts.size() != dimensions) continue;
+        displacements_ = std::move(parts);
+        still_ = mesh_.grid.points;
+        mesh_.notes.push_back(fmt::format("nodes are moved by {}", fmt::join(all, ", ")));
+        return move(0);
+    }
+}
+
+void ExodusReader::move(std::size_t step) {
+    if (displacements_.empty()) return;
+    PageVector<glm::dvec3> moved = still_;
+    for (std::size_t axis = 0; axis < displacements_.size(); ++axis)
+        withType(*displacements_[axis].variable->type, [&]<typename T>(T) {
+            std::vector<T> by(moved.size());
+            read(displacements_[axis], step, by.data());
+            for (std::size_t i = 0; i < by.size(); ++i)
+                moved[i][static_cast<int>(axis)] += static_cast<double>(by[i]);
+        });
+    if (moved == mesh_.grid.points) return;
+    mesh_.grid.points = std::move(moved);
+    shapes_.reset();
+    grids_ = {};
 }
 
 std::vector<BlockPart> ExodusReader::partsOf(bool atNodes, std::size_t index) const {
@@ -129,7 +188,7 @@ void ExodusReader::add(const std::string& name, bool atNodes, std::vector<BlockP
     for (std::string& note : notesOf(*variable.grid->mesh()))
         variable.notes.push_back(std::move(note));
     variables_.push_back(std::move(variable));
-    parts_.push_back(std::move(parts));
+    sources_.push_back({atNodes, std::move(parts)});
 }
 
 void ExodusReader::addVariables() {
@@ -145,20 +204,32 @@ void ExodusReader::addVariables() {
             partsOf(false, i));
 }
 
+template <typename T>
+void ExodusReader::read(const BlockPart& part, std::size_t step, T* into) const {
+    if (part.among)
+        file_.read(*part.variable, std::array<std::size_t, 3>{step, *part.among, 0},
+                   std::array<std::size_t, 3>{1, 1, part.count}, into);
+    else
+        file_.read(*part.variable, std::array<std::size_t, 2>{step, 0},
+                   std::array<std::size_t, 2>{1, part.count}, into);
+}
+
 Field ExodusReader::read(std::size_t variable, std::size_t step) {
     Field field;
+    const Source& source = sources_[variable];
     field.grid = variables_[variable].grid;
+    if (!displacements_.empty()) {
+        move(step);
+        field.grid = gridOfStep(field.grid, gridOf(source.atNodes));
+        if (!field.grid) file_.fail("", "expected the steps of one series");
+    }
     withType(variables_[variable].type, [&]<typename T>(T) {
         auto& values = field.values.emplace<std::vector<T>>(field.grid->count());
         std::uint64_t at = 0;
-        for (const BlockPart& part : parts_[variable]) {
-            if (part.variable && part.among)
-                file_.read(*part.variable, std::array<std::size_t, 3>{step, *part.among, 0},
-                           std::array<std::size_t, 3>{1, 1, part.count}, values.data() + at);
-            else if (part.variable)
-                file_.read(*part.variable, std::array<std::size_t, 2>{step, 0},
-                           std::array<std::size_t, 2>{1, part.count}, values.data() + at);
-            else if (part.count > 0) {
+        for (const BlockPart& part : source.parts) {
+            if (part.variable) {
+                read(part, step, values.data() + at);
+            } else if (part.count > 0) {
                 field.missing.resize(values.size());
                 std::fill_n(field.missing.begin() + static_cast<std::ptrdiff_t>(at), part.count,
                             true);
