@@ -134,6 +134,12 @@ Mesh::Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spre
     takeColumns(count, between, levels, points);
 }
 
+Mesh::Mesh(std::uint64_t columns, std::size_t levels, std::span<const glm::dvec3> between,
+           double spread, const std::function<MeshPoint(std::uint64_t)>& point)
+    : size_{columns, 1, levels}, hasNeighbours_(false), spread_(spread) {
+    takeColumns(count(), between, {}, oneByOne(point));
+}
+
 void Mesh::takeColumns(std::uint64_t stored, std::span<const glm::dvec3> between,
                        const std::vector<double>& levels, const MeshPoints& points) {
     double lowest = 0, highest = 0;

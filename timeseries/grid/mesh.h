@@ -45,6 +45,9 @@ class Mesh {
          const std::function<MeshPoint(std::uint64_t index)>& point,
          const std::vector<double>& levels = {},
          std::shared_ptr<const SolidCells> solids = nullptr);
+    // As many levels of so many columns, each point of which is told: index % columns is its column.
+    Mesh(std::uint64_t columns, std::size_t levels, std::span<const glm::dvec3> between,
+         double spread, const std::function<MeshPoint(std::uint64_t index)>& point);
     // The same of a function that tells several at once, kMostAtOnce or fewer from `first` on.
     using MeshPoints = std::function<void(std::uint64_t first, std::span<MeshPoint> points)>;
     static constexpr std::size_t kMostAtOnce = 64;

@@ -95,6 +95,7 @@ void takeHeights(const CfFile& file, const FileAxes& fileAxes, const NcVariable&
     if (!formula) return;
     std::uint64_t points = 1;
     for (const auto& position : {roles.x, roles.y, roles.z}) {
+        if (!position) continue;  // of a list
         const std::uint64_t length = header.dimension(variable, *position).length;
         if (length == 0 || points > kMost / length) {
             notes.push_back("its heights by formula are not worked out for more than 2^26 points");
@@ -129,7 +130,7 @@ VariableAxes axesOf(const CfFile& file, const FileAxes& fileAxes, const NcVariab
         notes.push_back("drawn in index space: 2-D coordinates " + found.told);
 
     const bool upright = !found.places && found.told.empty();
-    if (roles.x && roles.y && roles.z && !list && (found.places || upright))
+    if (roles.x && roles.z && (list || (roles.y && (found.places || upright))))
         takeHeights(file, fileAxes, variable, roles, upright, found, notes);
     const bool hasHeights = found.places && found.places->heights;
     std::vector<std::string> ofLevels;  // which place nothing then

@@ -74,18 +74,53 @@ std::map<std::string, std::string> termsIn(std::string text) {
     return terms;
 }
 
-// Of the coordinates of the levels, by the dimension or by the attribute `coordinates`.
+bool has(const NcVariable& variable, std::size_t dimension) {
+    return std::ranges::find(variable.dimensions, dimension) != variable.dimensions.end();
+}
+
+// Of the coordinates of the levels, by the dimension or by the attribute `coordinates`; above
+// places in a list each may have its own.
 std::vector<const NcVariable*> levelsOf(const NcHeader& header, const NcVariable& variable,
-                                        std::size_t dimension) {
+                                        const Roles& roles) {
+    const std::size_t dimension = variable.dimensions[*roles.z];
     std::vector<const NcVariable*> levels;
-    if (const NcVariable* own = header.find(header.dimensions[dimension].name, variable.group);
-        own && own->isAlong(dimension))
-        levels.push_back(own);
-    for (const std::string& name : words(variable.text("coordinates")))
-        if (const NcVariable* other = header.find(name, variable.group);
-            other && other->isAlong(dimension))
-            levels.push_back(other);
+    const auto add = [&](const std::string& name) {
+        const NcVariable* const level = header.find(name, variable.group);
+        if (!level) return;
+        const bool ofEach =
+            roles.list && has(*level, dimension) && spansNoMore(header, *level, variable, roles);
+        if (level->isAlong(dimension) || ofEach) levels.push_back(level);
+    };
+    add(header.dimensions[dimension].name);
+    for (const std::string& name : words(variable.text("coordinates"))) add(name);
     return levels;
+}
+
+// Of each place and level, above places in a list.
+std::optional<HeightFormula> givenHeightsOf(const NcHeader& header, const NcVariable& variable,
+                                            const Roles& roles) {
+    if (!roles.list) return std::nullopt;
+    const auto heightsIn = [&](const std::string& name,
+                               bool mustSay) -> std::optional<HeightFormula> {
+        const NcVariable* const found = header.find(name, variable.group);
+        if (!found || !has(*found, variable.dimensions[*roles.z]) ||
+            !has(*found, variable.dimensions[*roles.list]) ||
+            !spansNoMore(header, *found, variable, roles))
+            return std::nullopt;
+        if (mustSay && kindByAttributes(*found) != AxisKind::Z) return std::nullopt;
+        HeightFormula formula;
+        formula.kind = Formula::Given;
+        formula.terms["z"] = found->name;
+        formula.name = found->baseName();
+        formula.units = found->text("units");
+        if (formula.units.empty() && !mustSay) formula.units = "m";  // as SCHISM's are
+        formula.down = lower(found->text("positive")) == "down";
+        formula.inTime = hasTime(*found, variable, roles);
+        return formula;
+    };
+    for (const std::string& name : words(variable.text("coordinates")))
+        if (auto given = heightsIn(name, true)) return given;
+    return heightsIn("zcor", false);
 }
 
 std::optional<HeightFormula> formulaOf(const NcHeader& header, const NcVariable& variable,
@@ -195,9 +230,10 @@ struct Term {
 
 std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
                                              const Roles& roles) {
-    for (const NcVariable* level : levelsOf(header, variable, variable.dimensions[*roles.z]))
+    if (auto given = givenHeightsOf(header, variable, roles)) return given;
+    for (const NcVariable* level : levelsOf(header, variable, roles))
         if (auto formula = formulaOf(header, variable, roles, *level)) return formula;
-    return wrfFormulaOf(header, variable, roles);
+    return roles.y ? wrfFormulaOf(header, variable, roles) : std::nullopt;
 }
 
 std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
@@ -212,9 +248,10 @@ std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, co
         const auto ratio = unitRatio(from->text("units"), formula.units);
         return Term{termOf(file, *from, variable, roles, step), ratio.value_or(1)};
     };
-    const std::array size{file.header().dimension(variable, *roles.x).length,
-                          file.header().dimension(variable, *roles.y).length,
-                          file.header().dimension(variable, *roles.z).length};
+    const std::array size{
+        file.header().dimension(variable, *roles.x).length,
+        roles.y ? file.header().dimension(variable, *roles.y).length : std::size_t{1},
+        file.header().dimension(variable, *roles.z).length};
     if (formula.kind == Formula::Wrf) return wrfHeights(file, formula, size, step);
     std::vector<double> heights;
     heights.reserve(size[0] * size[1] * size[2]);
@@ -227,6 +264,11 @@ std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, co
     switch (formula.kind) {
         case Formula::Wrf:
             break;
+        case Formula::Given: {
+            const Term z = term("z");
+            fill([&](const auto& of) { return of(z); });
+            break;
+        }
         case Formula::HybridPressure: {
             const Term ap = term("ap"), a = term("a"), b = term("b"), p0 = term("p0"),
                        ps = term("ps");

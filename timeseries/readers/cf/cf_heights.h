@@ -21,7 +21,8 @@ struct HeightFormula {
         OceanS,
         OceanS1,
         OceanS2,
-        Wrf
+        Wrf,
+        Given  // in a variable of its own
     };
     Kind kind{};
     std::map<std::string, std::string> terms;  // the variable of each, "ps": "PS"
@@ -30,13 +31,15 @@ struct HeightFormula {
     friend bool operator==(const HeightFormula&, const HeightFormula&) = default;
 };
 
-// That of a coordinate of the variable's levels, or WRF's, whose terms are all there. REQUIRES:
-// roles.x, y and z.
+// That of a coordinate of the variable's levels, or WRF's, whose terms are all there; above places
+// in a list also heights that a variable has: one that the attribute `coordinates` names and that
+// says it is vertical, or SCHISM's `zcor`. REQUIRES: roles.x and z, and y of what is no list.
 std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
                                              const Roles& roles);
 
-// [z][y][x], x fastest, of one step; not a number where a term is none. REQUIRES: heightFormulaOf
-// gave it. Throws FileError, and std::invalid_argument when there is too much of a term.
+// [z][y][x], x fastest, of one step, without y of a list; not a number where a term is none.
+// REQUIRES: heightFormulaOf gave it. Throws FileError, and std::invalid_argument when there is too
+// much of a term.
 std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
                               const HeightFormula& formula, std::size_t step);
 

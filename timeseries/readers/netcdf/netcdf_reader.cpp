@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "timeseries/readers/cf/cf_lists.h"
+#include "timeseries/readers/cf/cf_meshes.h"
 #include "timeseries/readers/netcdf/cf_fesom.h"
 #include "timeseries/readers/netcdf/netcdf_contents.h"
 #include "timeseries/readers/netcdf/netcdf_others.h"
@@ -86,6 +86,7 @@ class CfReader final : public Reader {
     std::vector<std::vector<Segment>> segments_;  // [variable]
     std::unique_ptr<CfFile> file_;  // one at a time: a series may have more files than handles
     std::size_t openIndex_ = 0;
+    CfMeshes meshes_;
 };
 
 CfFile& CfReader::open(std::size_t index) {
@@ -206,11 +207,8 @@ std::shared_ptr<const Mesh> CfReader::meshAt(std::size_t f, std::size_t v, std::
     const NcVariable* const found = file.header().find(source.name, "");
     if (!found)
         file.fail("variable '" + source.name + "'", "expected it, but the file has changed");
-    const ColumnPlaces& columns = *source.axes.columns;
-    const Axis& z = source.axes.axes[2];
-    if (columns.by != ColumnPlaces::By::Neighbours)
-        return meshOfList(file, columns, source.roles.z ? z.coordinates : std::vector<double>());
-    return meshOf(file, *found, source.roles, columns, z, step);
+    return meshes_.of(file, f, *found, source.roles, *source.axes.columns, source.axes.axes[2],
+                      step);
 }
 
 // One whose places make no cells costs no other.
