@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -121,9 +122,15 @@ Path write(const Written& what, const std::string& name = "a.e") {
             for (std::size_t n = 0; n < 12; ++n) own.push_back(atNode(step, v, n));
         file.write(values[v], own);
     }
-    file.write(first, std::vector<double>{5, 6});
-    file.write(second, std::vector<double>{7, 8, 9, 10});
-    file.write(other, std::vector<double>{1, 2, 3, 4});
+    // 5, 6, ...; 7, 8, ...; 1, 2, ...: of so many elements in each step.
+    const auto from = [&](double begin, std::size_t elements) {
+        std::vector<double> all(elements * what.times.size());
+        std::iota(all.begin(), all.end(), begin);
+        return all;
+    };
+    file.write(first, from(5, 1));
+    file.write(second, from(7, 2));
+    file.write(other, from(1, 2));
     return file.close();
 }
 

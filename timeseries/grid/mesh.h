@@ -45,7 +45,8 @@ class Mesh {
          const std::function<MeshPoint(std::uint64_t index)>& point,
          const std::vector<double>& levels = {},
          std::shared_ptr<const SolidCells> solids = nullptr);
-    // As many levels of so many columns, each point of which is told: index % columns is its column.
+    // As many levels of so many columns, each point of which is told: index % columns is its
+    // column.
     Mesh(std::uint64_t columns, std::size_t levels, std::span<const glm::dvec3> between,
          double spread, const std::function<MeshPoint(std::uint64_t index)>& point);
     // The same of a function that tells several at once, kMostAtOnce or fewer from `first` on.
