@@ -9,6 +9,7 @@
 #include "tests/support/array_builder.h"
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
+#include "tests/support/ugrid.h"
 #include "tests/support/unstructured.h"
 
 namespace timeseries {
@@ -63,14 +64,7 @@ std::filesystem::path written(const Layers& what) {
     const int n = file.dimension("node", kLatticeNodes), f = file.dimension("face", kFaces),
               three = file.dimension("three", 3), layer = file.dimension("layer", kLayers);
     const auto time = file.coordinate("time", kSteps, "s");
-    const int mesh = file.variable("mesh", NC_INT, {});
-    file.text(mesh, "cf_role", "mesh_topology");
-    file.text(mesh, "node_coordinates", "x y");
-    file.text(mesh, "face_node_connectivity", "nodes");
-    const int x = file.variable("x", NC_DOUBLE, {n}), y = file.variable("y", NC_DOUBLE, {n}),
-              list = file.variable("nodes", NC_INT, {f, three});
-    file.text(x, "units", "m");
-    file.text(y, "units", "m");
+    const auto [x, y, list] = declareUgrid(file, n, f, three, "m", "m");
     const int place = what.atNodes ? n : f;
     const std::vector<int> all = what.layersFastest ? std::vector{time.dimension, place, layer}
                                                     : std::vector{time.dimension, layer, place};
@@ -87,7 +81,10 @@ std::filesystem::path written(const Layers& what) {
             sigma = file.variable("layer", NC_DOUBLE, {layer});
             break;
         case By::SigmaOfEach:
+            // Named as FVCOM names it: a coordinate that says it is vertical, and is no height.
             sigma = file.variable("layer", NC_DOUBLE, {layer, place});
+            file.text(sigma, "positive", "up");
+            file.text(t, "coordinates", "layer x y");
             break;
         case By::Zcor:
             given = file.variable("zcor", NC_DOUBLE, all);

@@ -11,6 +11,7 @@
 #include "tests/support/lon_lat_belt.h"
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/ugrid.h"
 #include "tests/support/unstructured.h"
 
 namespace timeseries {
@@ -225,14 +226,7 @@ std::filesystem::path smallMesh(const std::vector<std::pair<double, double>>& no
     const int n = file.dimension("node", nodes.size()),
               f = file.dimension("face", connectivity.size() / 3),
               three = file.dimension("three", 3);
-    const int mesh = file.variable("mesh", NC_INT, {});
-    file.text(mesh, "cf_role", "mesh_topology");
-    file.text(mesh, "node_coordinates", "x y");
-    file.text(mesh, "face_node_connectivity", "nodes");
-    const int x = file.variable("x", NC_DOUBLE, {n}), y = file.variable("y", NC_DOUBLE, {n}),
-              list = file.variable("nodes", NC_INT, {f, three});
-    file.text(x, "units", "degrees_east");
-    file.text(y, "units", "degrees_north");
+    const auto [x, y, list] = declareUgrid(file, n, f, three, "degrees_east", "degrees_north");
     file.text(list, "cf_role", "face_node_connectivity");
     file.number(list, "_FillValue", std::int32_t{-1});
     const int t = file.variable("T", NC_FLOAT, {location == "node" ? n : f});

@@ -107,13 +107,15 @@ std::optional<HeightFormula> givenHeightsOf(const NcHeader& header, const NcVari
             !has(*found, variable.dimensions[*roles.list]) ||
             !spansNoMore(header, *found, variable, roles))
             return std::nullopt;
-        if (mustSay && kindByAttributes(*found) != AxisKind::Z) return std::nullopt;
+        const std::string units = found->text("units");
+        const bool says = kindByAttributes(*found) == AxisKind::Z &&
+                          (sameDimension(units, "m") || sameDimension(units, "Pa"));
+        if (mustSay && !says) return std::nullopt;
         HeightFormula formula;
         formula.kind = Formula::Given;
         formula.terms["z"] = found->name;
         formula.name = found->baseName();
-        formula.units = found->text("units");
-        if (formula.units.empty() && !mustSay) formula.units = "m";  // as SCHISM's are
+        formula.units = units.empty() ? "m" : units;  // as SCHISM's are
         formula.down = lower(found->text("positive")) == "down";
         formula.inTime = hasTime(*found, variable, roles);
         return formula;

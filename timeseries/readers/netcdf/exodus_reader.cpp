@@ -71,6 +71,7 @@ class ExodusReader final : public Reader {
     std::vector<Source> sources_;           // [variable]
     std::vector<BlockPart> displacements_;  // along x, y, z; none where nodes stand still
     PageVector<glm::dvec3> still_;          // the nodes without them, then
+    std::optional<std::size_t> movedTo_;    // the step
 };
 
 void ExodusReader::addTime() {
@@ -116,7 +117,7 @@ void ExodusReader::addDisplacements() {
 }
 
 void ExodusReader::move(std::size_t step) {
-    if (displacements_.empty()) return;
+    if (displacements_.empty() || movedTo_ == step) return;
     PageVector<glm::dvec3> moved = still_;
     for (std::size_t axis = 0; axis < displacements_.size(); ++axis)
         withType(*displacements_[axis].variable->type, [&]<typename T>(T) {
@@ -125,6 +126,7 @@ void ExodusReader::move(std::size_t step) {
             for (std::size_t i = 0; i < by.size(); ++i)
                 moved[i][static_cast<int>(axis)] += static_cast<double>(by[i]);
         });
+    movedTo_ = step;
     if (moved == mesh_.grid.points) return;
     mesh_.grid.points = std::move(moved);
     shapes_.reset();
