@@ -124,9 +124,9 @@ Path write(const Written& what, const std::string& name = "a.e") {
     }
     // 5, 6, ...; 7, 8, ...; 1, 2, ...: of so many elements in each step.
     const auto from = [&](double begin, std::size_t elements) {
-        std::vector<double> all(elements * what.times.size());
-        std::iota(all.begin(), all.end(), begin);
-        return all;
+        std::vector<double> counted(elements * what.times.size());
+        std::iota(counted.begin(), counted.end(), begin);
+        return counted;
     };
     file.write(first, from(5, 1));
     file.write(second, from(7, 2));

@@ -143,14 +143,15 @@ std::filesystem::path written(const Layers& what) {
 double areaOf(const Layers& what, int place) {
     if (!what.atNodes) return 0.5;
     double area = 0;
-    for (const auto& face : faces()) area += std::ranges::count(face, place) * 0.5 / 3;
+    for (const auto& face : faces()) area += double(std::ranges::count(face, place)) * 0.5 / 3;
     return area;
 }
 
 glm::dvec2 planeOf(const Layers& what, int place) {
     if (what.atNodes) return {place % kLatticeSide, place / kLatticeSide};
     glm::dvec2 sum(0);
-    for (const int node : faces()[std::size_t(place)])
+    const auto face = faces()[std::size_t(place)];
+    for (const int node : face)
         sum += glm::dvec2(node % kLatticeSide, node / kLatticeSide);
     return sum / 3.0;
 }
