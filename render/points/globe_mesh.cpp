@@ -158,8 +158,9 @@ std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid, const std::atomic<bo
         }
         if (file->hasNeighbours()) return curvilinear(*file, *this, wanted);
         const auto point = [&](std::uint64_t i) { return goOn(), onGlobe(*file, *this, i); };
-        return std::make_shared<const Mesh>(file->count(), between, file->spread(), point,
-                                            std::vector<double>{}, file->solids());
+        auto mesh = std::make_shared<Mesh>(file->count(), between, file->spread(), point);
+        mesh->setSolids(file->solids());
+        return mesh;
     };
     try {
         return grid.elsewhere(perUnit_, make);

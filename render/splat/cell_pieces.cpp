@@ -167,10 +167,14 @@ void CellRank::takeDistances(const Scene& scene, const View& view) {
 glm::dvec3 middleOfCell(const Scene& scene, std::uint32_t cell) {
     const PlacedPoints& placed = scene.placed;
     if (const auto& solids = placed.mesh()->solids()) {
-        const auto corners = solids->corners(cell);
+        timeseries::SolidCells::Room room;
+        const auto corners = solids->corners(cell, room);
+        const glm::dvec3 first = placed.alongAxes(corners.front()),
+                         period = placed.mesh()->period() * glm::abs(placed.scale());
         glm::dvec3 sum(0);
-        for (const std::uint32_t corner : corners) sum += placed.alongAxes(corner);
-        return sum / static_cast<double>(corners.size());
+        for (const std::uint32_t corner : corners)
+            sum += timeseries::shorterWay(placed.alongAxes(corner) - first, period);
+        return first + sum / static_cast<double>(corners.size());
     }
     const timeseries::CellCorners& corners = scene.cells->cornersOf();
     const glm::uvec3 at = timeseries::indicesOf(cell, scene.cells->size());

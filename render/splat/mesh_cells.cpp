@@ -66,10 +66,7 @@ glm::dvec3 MeshCells::placeOf(const glm::uvec3& point) const {
 }
 
 glm::dvec3 MeshCells::way(const glm::dvec3& from, const glm::dvec3& to) const {
-    glm::dvec3 along = to - from;
-    for (int c = 0; c < 3; ++c)
-        if (period_[c] > 0) along[c] -= period_[c] * std::round(along[c] / period_[c]);
-    return along;
+    return timeseries::shorterWay(to - from, period_);
 }
 
 // Along the third direction of the point's cell, of which the other two and the volume are known.

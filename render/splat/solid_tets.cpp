@@ -9,6 +9,8 @@ unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron
     double sum = 0;
     for (unsigned i = 0; i < 4; ++i) {
         tet.at[i] = placed_.alongAxes(points[i]);
+        if (i > 0 && comesRound_)
+            tet.at[i] = tet.at[0] + timeseries::shorterWay(tet.at[i] - tet.at[0], period_);
         if (!timeseries::isPlace(tet.at[i])) return 0;
         tet.corners[i] = points[i];
         tet.values[i] = timeseries::finiteValue(field_, points[i]);

@@ -1,12 +1,15 @@
 // The tetrahedra of an unstructured grid's solid cells (timeseries/grid/solid_cells.h), in the
-// place of MeshCells (render/splat/mesh_cells.h).
+// place of MeshCells (render/splat/mesh_cells.h). One that lies across where coordinates begin anew
+// is drawn whole on one side, that of its first corner.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -28,12 +31,15 @@ class SolidTets {
           field_(field),
           clip_(clip),
           clips_(!clip.holdsAll()),
-          reach_(MeshCells::reachOf(placed, cells_.longest())) {}
+          period_(placed.mesh()->period() * glm::abs(placed.scale())),
+          comesRound_(period_ != glm::dvec3(0)),
+          reach_(placed.globe() ? glm::dvec3(std::numeric_limits<double>::infinity())
+                                : MeshCells::reachOf(placed, cells_.longest())) {}
 
     std::uint64_t count() const { return cells_.count(); }
     // As MeshCells has them.
     glm::dvec3 about(std::uint32_t cell) const {
-        return placed_.alongAxes(cells_.corners(cell).front());
+        return placed_.alongAxes(cells_.firstCorner(cell));
     }
     const glm::dvec3& reach() const { return reach_; }
     template <typename CellAhead>
@@ -41,10 +47,11 @@ class SolidTets {
         constexpr std::uint64_t kAhead = 16;
         if (const auto cell = cellAhead(3 * kAhead)) cells_.prefetchEnds(*cell);
         if (const auto cell = cellAhead(2 * kAhead)) cells_.prefetchCorners(*cell);
-        if (const auto cell = cellAhead(kAhead)) placed_.prefetch(cells_.corners(*cell).front());
+        if (const auto cell = cellAhead(kAhead)) placed_.prefetch(cells_.firstCorner(*cell));
     }
     std::pair<double, double> extentOf(std::uint32_t cell) const {
-        return timeseries::finiteExtent(field_, cells_.corners(cell));
+        timeseries::SolidCells::Room room;
+        return timeseries::finiteExtent(field_, cells_.corners(cell, room));
     }
     std::uint64_t pointOf(std::uint32_t, unsigned corner) const { return corner; }
     template <typename MayBeSeen, typename Use>
@@ -65,6 +72,8 @@ class SolidTets {
     const timeseries::Field& field_;
     const IndexBox& clip_;
     bool clips_;
+    glm::dvec3 period_;
+    bool comesRound_;
     glm::dvec3 reach_;
 };
 

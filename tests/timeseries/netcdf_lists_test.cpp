@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "tests/support/array_builder.h"
@@ -13,6 +14,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/ugrid.h"
 #include "tests/support/unstructured.h"
+#include "timeseries/grid/solid_cells.h"
 
 namespace timeseries {
 namespace {
@@ -20,6 +22,7 @@ namespace {
 using namespace tests;
 using testing::HasSubstr;
 
+constexpr double kAllRound = 360;
 constexpr double kAside = 2;  // of places from the middles of their bounds
 const std::vector<double> kLevels{0, 10, 30};
 const std::vector<double> kHeights{10, 15, 20};
@@ -134,9 +137,26 @@ std::filesystem::path withMesh(const Ugrid& what) {
     return file.close();
 }
 
-// The variable of three levels: at each place of each level `at(place)` and this area.
+// What lies between the columns, in the file's coordinates, the shorter way round.
+double volumeBetween(const Mesh& mesh) {
+    const SolidCells& solids = *mesh.solids();
+    double sum = 0;
+    for (std::uint64_t cell = 0; cell < solids.count(); ++cell)
+        solids.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
+            const auto way = [&](std::size_t i) {
+                const glm::dvec3 along = mesh.position(points[i]) - mesh.position(points[0]);
+                return glm::dvec3(wrapped(along.x), along.y, along.z);
+            };
+            sum += std::abs(glm::dot(way(1), glm::cross(way(2), way(3)))) / 6;
+        });
+    return sum;
+}
+
+// The variable of three levels: at each place of each level `at(place)` and this area; between
+// columns is so much of the area of all.
 template <typename At, typename Area>
-void expectPrisms(const std::filesystem::path& path, int places, const At& at, const Area& area) {
+void expectPrisms(const std::filesystem::path& path, int places, double between, const At& at,
+                  const Area& area) {
     const auto reader = open(path);
     const Variable& variable = reader->variables()[0];
     ASSERT_EQ(variable.name, "T");
@@ -154,6 +174,8 @@ void expectPrisms(const std::filesystem::path& path, int places, const At& at, c
             EXPECT_NEAR(tests::volume(mesh, index), volume, 1e-5 * volume) << p << ' ' << k;
             whole += volume;
         }
+    const double height = kLevels.back() - kLevels.front();
+    EXPECT_NEAR(volumeBetween(mesh), between * height, 1e-6 * between * height);
     EXPECT_NEAR(double(mesh.meanVolume()), whole / (3 * places), 1e-6 * whole);
     for (const std::size_t step : {0u, 1u}) {
         std::vector<std::int32_t> expected(static_cast<std::size_t>(3 * places));
@@ -176,7 +198,8 @@ TEST(NetcdfLists, BoundsAreTheCellsOfTheirPlaces) {
     for (const std::string units : {"degrees_east", "radian"}) {
         const auto path = withBounds(units);
         const auto at = [](int p) { return cellAt(p) + glm::dvec3(kAside, -kAside, 0); };
-        expectPrisms(path, kCells, at, [](int) { return kWide * kHigh; });
+        expectPrisms(path, kCells, kAllRound * kHigh * (kUp - 1), at,
+                     [](int) { return kWide * kHigh; });
         const auto reader = open(path);
         const auto& axes = reader->variables()[0].grid->axes();
         EXPECT_EQ(axes[0].name, "clon");
@@ -190,9 +213,11 @@ TEST(NetcdfLists, BoundsAreTheCellsOfTheirPlaces) {
 TEST(NetcdfLists, FacesOfAMeshAreCells) {
     const auto at = [](int p) { return cellAt(p) + glm::dvec3(kWide / 2, 0, 0); };
     for (const Ugrid& what : {Ugrid{}, Ugrid{.first = 1}, Ugrid{.transposed = true}})
-        expectPrisms(withMesh(what), kCells, at, [](int) { return kWide * kHigh; });
+        expectPrisms(withMesh(what), kCells, kAllRound * kHigh * (kUp - 1), at,
+                     [](int) { return kWide * kHigh; });
+    // The lowest and the highest middles are a third of a row from its sides.
     expectPrisms(
-        withMesh({.triangles = true}), 2 * kCells,
+        withMesh({.triangles = true}), 2 * kCells, kAllRound * kHigh * (kUp - 2.0 / 3),
         [&](int p) {
             const double side = p % 2 == 0 ? 1.0 / 6 : -1.0 / 6;
             return at(p / 2) + glm::dvec3(side * kWide, -side * kHigh, 0);
@@ -203,7 +228,7 @@ TEST(NetcdfLists, FacesOfAMeshAreCells) {
 TEST(NetcdfLists, NodesOfAMeshHaveTheirSharesOfTheFacesAboutThem) {
     for (const bool triangles : {false, true})
         expectPrisms(
-            withMesh({.location = "node", .triangles = triangles}), kNodes,
+            withMesh({.location = "node", .triangles = triangles}), kNodes, kAllRound * kHigh * kUp,
             [](int p) { return glm::dvec3(lonOf(p % kAround), latOf(p / kAround), 0); },
             [](int p) {
                 const int row = p / kAround;

@@ -81,6 +81,47 @@ TEST(SolidCells, PartsOfEveryShapeFillTheirGridAndMeetFaceToFace) {
         }
 }
 
+// As an unstructured grid has them that lists each, and parted alike.
+TEST(SolidCells, BetweenColumnsArePrisms) {
+    const UnstructuredGrid grid = tests::bentBricks(Cut::Wedges);
+    constexpr std::uint64_t kColumns = 5 * 4, kLevels = 6;
+    auto feet = std::make_shared<std::vector<SolidCells::Foot>>();
+    const std::uint64_t each = grid.types.size() / (kLevels - 1);
+    for (std::uint64_t cell = 0; cell < each; ++cell) {
+        const auto corners = listOf(grid.corners, grid.ends, cell);
+        feet->push_back({corners[0], corners[1], corners[2]});
+    }
+    const auto at = [&](std::uint64_t point) { return grid.points[point]; };
+    const auto prisms = SolidCells::ofColumns(feet, kColumns, kLevels, {at});
+    const auto solids = SolidCells::of(grid, grid.points.size());
+    ASSERT_TRUE(prisms);
+    ASSERT_EQ(prisms->count(), solids->count());
+    EXPECT_EQ(prisms->longest(), solids->longest());
+    EXPECT_EQ(prisms->tets(), solids->tets());
+    for (std::uint64_t cell = 0; cell < solids->count(); ++cell) {
+        SolidCells::Room room, none;
+        EXPECT_TRUE(std::ranges::equal(prisms->corners(cell, room), solids->corners(cell, none)));
+        EXPECT_EQ(prisms->firstCorner(cell), std::ranges::min(prisms->corners(cell, room)));
+        std::vector<std::array<std::uint32_t, 4>> one, other;
+        prisms->forEachTet(cell, [&](const auto& tet) { one.push_back(tet); });
+        solids->forEachTet(cell, [&](const auto& tet) { other.push_back(tet); });
+        EXPECT_EQ(one, other);
+    }
+    // On a ring of so many degrees the way from the last column to the first is short.
+    const auto around = [](std::uint64_t point) {
+        return glm::dvec3(90.0 * double(point % 4), double(point % 4 / 2), 5.0 * double(point / 4));
+    };
+    feet = std::make_shared<std::vector<SolidCells::Foot>>(1, SolidCells::Foot{0, 1, 3});
+    const auto seam = SolidCells::ofColumns(feet, 4, 2, {around, {360, 0, 0}});
+    EXPECT_EQ(seam->longest(), glm::dvec3(180, 1, 5));
+    EXPECT_EQ(*seam, *SolidCells::ofColumns(feet, 4, 2, {around, {360, 0, 0}}));
+    EXPECT_NE(*seam, *SolidCells::ofColumns(feet, 4, 2, {around}));
+    // One level has nothing between; numbers of points and of cells have 32 bits.
+    EXPECT_FALSE(SolidCells::ofColumns(feet, 4, 1, {around}));
+    EXPECT_FALSE(SolidCells::ofColumns(feet, std::uint64_t{1} << 31, 3, {around}));
+    EXPECT_FALSE(SolidCells::ofColumns(nullptr, 4, 2, {around}));
+}
+
 // Each shape by itself, in every numbering of its corners: as large as its moments say.
 TEST(SolidCells, PartsOfAShapeAreAsLargeAsTheShape) {
     const auto ring = [](int corners, double z) {
@@ -134,7 +175,8 @@ TEST(SolidCells, CornersOfAPolyhedronAreThoseOfItsFaces) {
     ASSERT_EQ(flawOf(grid), "");
     const auto solids = SolidCells::of(grid, grid.points.size());
     ASSERT_TRUE(solids);
-    const auto corners = solids->corners(0);
+    SolidCells::Room room;
+    const auto corners = solids->corners(0, room);
     EXPECT_EQ(std::vector(corners.begin(), corners.end()),
               (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
     double volume = 0;
@@ -156,7 +198,7 @@ TEST(SolidCells, SurfacesAndPointsBesideThemAreLeftOut) {
     const auto solids = SolidCells::of(grid, 8);
     ASSERT_TRUE(solids);
     ASSERT_EQ(solids->count(), 2u);
-    EXPECT_EQ(solids->corners(0).front(), 4u);
+    EXPECT_EQ(solids->firstCorner(0), 4u);
     // One that has no values at all of its corners is no cell.
     EXPECT_EQ(SolidCells::of(grid, 7)->count(), 1u);
 }

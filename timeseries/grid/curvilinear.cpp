@@ -41,6 +41,12 @@ bool isPlace(const glm::dvec3& at) {
     return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
 }
 
+glm::dvec3 shorterWay(glm::dvec3 along, const glm::dvec3& period) {
+    for (int c = 0; c < 3; ++c)
+        if (period[c] > 0) along[c] -= period[c] * std::round(along[c] / period[c]);
+    return along;
+}
+
 CurvilinearCells::CurvilinearCells(const MeshPlaces& places)
     : places_(places),
       stride_{1, places.size[0], std::uint64_t{places.size[0]} * places.size[1]},
@@ -66,11 +72,7 @@ double CurvilinearCells::meanWidth() const {
 }
 
 glm::dvec3 CurvilinearCells::way(std::uint64_t from, std::uint64_t to) const {
-    glm::dvec3 along = places_.at[to] - places_.at[from];
-    for (int c = 0; c < 3; ++c)
-        if (const double period = places_.period[c]; period > 0)
-            along[c] -= period * std::round(along[c] / period);
-    return along;
+    return shorterWay(places_.at[to] - places_.at[from], places_.period);
 }
 
 glm::dvec3 CurvilinearCells::longestWay() const {

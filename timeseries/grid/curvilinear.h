@@ -22,6 +22,8 @@ struct MeshPlaces {
 };
 
 bool isPlace(const glm::dvec3& at);
+// Of ways that coordinates with these periods may go, the shortest.
+glm::dvec3 shorterWay(glm::dvec3 along, const glm::dvec3& period);
 
 // Looks at `places`, which must outlive it, and be as many as their size says.
 class CurvilinearCells {
@@ -37,7 +39,7 @@ class CurvilinearCells {
     std::uint64_t oneSided() const;
 
  private:
-    // The shorter way round.
+    // The shorter one.
     glm::dvec3 way(std::uint64_t from, std::uint64_t to) const;
     glm::dmat3 stepsAt(std::uint64_t row) const;
     glm::dvec3 stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore, bool hasAfter) const;

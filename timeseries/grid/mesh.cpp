@@ -120,16 +120,13 @@ Mesh::Mesh(const std::array<std::size_t, 3>& size, std::span<const glm::dvec3> b
 }
 
 Mesh::Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
-           const std::function<MeshPoint(std::uint64_t)>& point, const std::vector<double>& levels,
-           std::shared_ptr<const SolidCells> solids)
-    : Mesh(count, between, spread, oneByOne(point), levels, std::move(solids)) {}
+           const std::function<MeshPoint(std::uint64_t)>& point, const std::vector<double>& levels)
+    : Mesh(count, between, spread, oneByOne(point), levels) {}
 
 Mesh::Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
-           const MeshPoints& points, const std::vector<double>& levels,
-           std::shared_ptr<const SolidCells> solids)
+           const MeshPoints& points, const std::vector<double>& levels)
     : size_{count, 1, std::max<std::size_t>(levels.size(), 1)},
       hasNeighbours_(false),
-      solids_(std::move(solids)),
       spread_(spread) {
     takeColumns(count, between, levels, points);
 }

@@ -43,8 +43,7 @@ class Mesh {
     // these, of cells as high as the levels are apart; those of `point` are as high as the first.
     Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
          const std::function<MeshPoint(std::uint64_t index)>& point,
-         const std::vector<double>& levels = {},
-         std::shared_ptr<const SolidCells> solids = nullptr);
+         const std::vector<double>& levels = {});
     // As many levels of so many columns, each point of which is told: index % columns is its
     // column.
     Mesh(std::uint64_t columns, std::size_t levels, std::span<const glm::dvec3> between,
@@ -53,8 +52,7 @@ class Mesh {
     using MeshPoints = std::function<void(std::uint64_t first, std::span<MeshPoint> points)>;
     static constexpr std::size_t kMostAtOnce = 64;
     Mesh(std::uint64_t count, std::span<const glm::dvec3> between, double spread,
-         const MeshPoints& points, const std::vector<double>& levels = {},
-         std::shared_ptr<const SolidCells> solids = nullptr);
+         const MeshPoints& points, const std::vector<double>& levels = {});
 
     // Points along the indices i, j and k: those before and after a point are its neighbours, if
     // there are neighbours.
@@ -62,7 +60,14 @@ class Mesh {
     bool hasNeighbours() const { return hasNeighbours_; }
     // Between points without neighbours, where the file says so; null: nothing is known.
     const std::shared_ptr<const SolidCells>& solids() const { return solids_; }
-    // By who made it, before others have it. REQUIRES: `types` of all points, or of none.
+    // By who made it, before others have it. REQUIRES: no neighbours. `period` as MeshPlaces has
+    // it.
+    void setSolids(std::shared_ptr<const SolidCells> solids,
+                   const glm::dvec3& period = glm::dvec3(0)) {
+        solids_ = std::move(solids);
+        period_ = period;
+    }
+    // Likewise. REQUIRES: `types` of all points, or of none.
     void setAbout(MeshAbout about) { about_ = std::move(about); }
     const MeshAbout& about() const { return about_; }
     // As MeshPlaces has it.

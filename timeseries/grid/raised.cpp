@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "timeseries/grid/solid_cells.h"
+
 namespace timeseries {
 
 Mesh raised(const Mesh& prisms, std::span<const double> heights) {
@@ -44,6 +46,12 @@ Mesh raised(const Mesh& prisms, std::span<const double> heights) {
     for (std::uint64_t* const points : {&about.apart, &about.beside})
         *points = *points / prisms.size()[2] * levels;
     mesh.setAbout(std::move(about));
+    if (prisms.solids()) {
+        const auto at = [&](std::uint64_t index) { return mesh.position(index); };
+        mesh.setSolids(
+            SolidCells::ofColumns(prisms.solids()->feet(), places, levels, {at, prisms.period()}),
+            prisms.period());
+    }
     return mesh;
 }
 

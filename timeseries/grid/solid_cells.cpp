@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "timeseries/together.h"
 
@@ -19,7 +20,21 @@ std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
         if (type && type->dimension == 3) solids->add(grid, cell, points);
     }
     if (solids->types_.empty()) return nullptr;
-    solids->measure(grid.points);
+    solids->measure([&](std::uint64_t point) { return grid.points[point]; }, glm::dvec3(0));
+    return solids;
+}
+
+std::shared_ptr<const SolidCells> SolidCells::ofColumns(Feet feet, std::uint64_t columns,
+                                                        std::size_t levels, const Places& places) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (!feet || feet->empty() || levels < 2 || columns > kMost / levels ||
+        feet->size() > kMost / (levels - 1))
+        return nullptr;
+    auto solids = std::make_shared<SolidCells>();
+    solids->feet_ = std::move(feet);
+    solids->columns_ = columns;
+    solids->layers_ = levels - 1;
+    solids->measure(places.at, places.period);
     return solids;
 }
 
@@ -56,12 +71,18 @@ void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint
     if (isPolyhedron) faceEnds_.back() = faces_.size();
 }
 
-void SolidCells::measure(std::span<const glm::dvec3> points) {
+template <typename At>
+void SolidCells::measure(const At& at, const glm::dvec3& period) {
+    // Of those of its corners that have a place.
     const auto extentOf = [&](std::uint64_t cell) {
-        glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
-        for (const std::uint32_t corner : corners(cell)) {
-            lo = glm::min(lo, points[corner]);
-            hi = glm::max(hi, points[corner]);
+        glm::dvec3 lo(0), hi(0);
+        Room room;
+        const auto all = corners(cell, room);
+        const glm::dvec3 first = at(all.front());
+        for (const std::uint32_t corner : all) {
+            const glm::dvec3 way = shorterWay(at(corner) - first, period);
+            lo = glm::min(lo, way);
+            hi = glm::max(hi, way);
         }
         return hi - lo;
     };
@@ -72,16 +93,26 @@ void SolidCells::measure(std::span<const glm::dvec3> points) {
         for (std::uint64_t cell = count() * k / threads; cell < count() * (k + 1) / threads;
              ++cell) {
             longest[k] = glm::max(longest[k], extentOf(cell));
-            forEachTet(cell, [&](const auto&) { ++tets[k]; });
+            if (!feet_) forEachTet(cell, [&](const auto&) { ++tets[k]; });
         }
     });
     for (const glm::dvec3& of : longest) longest_ = glm::max(longest_, of);
-    tets_ = std::accumulate(tets.begin(), tets.end(), std::uint64_t{0});
+    constexpr std::uint64_t kOfAPrism = 3;
+    tets_ =
+        feet_ ? kOfAPrism * count() : std::accumulate(tets.begin(), tets.end(), std::uint64_t{0});
 }
 
 std::uint64_t SolidCells::bytes() const {
     return types_.size() + (ends_.size() + faceEnds_.size()) * sizeof(std::uint64_t) +
-           (corners_.size() + faces_.size()) * sizeof(std::uint32_t);
+           (corners_.size() + faces_.size()) * sizeof(std::uint32_t) +
+           (feet_ ? feet_->size() * sizeof(Foot) : 0);
+}
+
+bool operator==(const SolidCells& a, const SolidCells& b) {
+    const bool sameFeet = a.feet_ == b.feet_ || (a.feet_ && b.feet_ && *a.feet_ == *b.feet_);
+    return sameFeet && a.columns_ == b.columns_ && a.layers_ == b.layers_ && a.types_ == b.types_ &&
+           a.ends_ == b.ends_ && a.faceEnds_ == b.faceEnds_ && a.corners_ == b.corners_ &&
+           a.faces_ == b.faces_ && a.longest_ == b.longest_ && a.tets_ == b.tets_;
 }
 
 }  // namespace timeseries

@@ -1,10 +1,12 @@
-// The solid cells of an unstructured grid whose points have the values, and how they are parted
-// into tetrahedra, between whose corners the field is linear.
+// The solid cells of an unstructured grid whose points have the values, or the prisms between
+// columns of points, and how they are parted into tetrahedra, between whose corners the field is
+// linear.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -25,20 +27,47 @@ class SolidCells {
     // left out, as is a cell with a corner beyond the first `points`. REQUIRES: no flaw.
     static std::shared_ptr<const SolidCells> of(const UnstructuredGrid& grid, std::uint64_t points);
 
-    std::uint64_t count() const { return types_.size(); }
-    // Of a cell, the points at its corners: those of all of its tetrahedra.
-    std::span<const std::uint32_t> corners(std::uint64_t cell) const {
-        return listOf(corners_, ends_, cell);
+    // Three columns that stand beside each other, the least first.
+    using Foot = std::array<std::uint32_t, 3>;
+    using Feet = std::shared_ptr<const std::vector<Foot>>;
+    // Where a point lies, called by several threads at once; and after how much each coordinate
+    // comes round to where it began, 0: never.
+    struct Places {
+        std::function<glm::dvec3(std::uint64_t point)> at;
+        glm::dvec3 period{0};
+    };
+    // A prism above each foot between one level of so many columns and the next: the point of a
+    // column at level k has the number k * columns + column. Null where there is none, or more than
+    // numbers of 32 bits tell.
+    static std::shared_ptr<const SolidCells> ofColumns(Feet feet, std::uint64_t columns,
+                                                       std::size_t levels, const Places& places);
+    // Null where they are no prisms between columns.
+    const Feet& feet() const { return feet_; }
+
+    std::uint64_t count() const { return feet_ ? feet_->size() * layers_ : types_.size(); }
+    // Of a cell, the points at its corners: those of all of its tetrahedra. It may be `room` that
+    // holds them.
+    using Room = std::array<std::uint32_t, 6>;
+    std::span<const std::uint32_t> corners(std::uint64_t cell, Room& room) const {
+        return feet_ ? prism(cell, room) : listOf(corners_, ends_, cell);
+    }
+    // The first of them, which of a prism is the least, too.
+    std::uint32_t firstCorner(std::uint64_t cell) const {
+        Room room;
+        return corners(cell, room).front();
     }
     // Begin to load where its corners stand, and then these: cells that are asked for by value lie
     // anywhere.
     void prefetchEnds(std::uint64_t cell) const {
         asm volatile("");  // or compilers take this for a function without an effect
-        __builtin_prefetch(ends_.data() + (cell == 0 ? 0 : cell - 1));
+        if (feet_)
+            __builtin_prefetch(feet_->data() + cell % feet_->size());
+        else
+            __builtin_prefetch(ends_.data() + (cell == 0 ? 0 : cell - 1));
     }
     void prefetchCorners(std::uint64_t cell) const {
         asm volatile("");
-        __builtin_prefetch(corners(cell).data());
+        if (!feet_) __builtin_prefetch(listOf(corners_, ends_, cell).data());
     }
     // use(std::array<std::uint32_t, 4>): the points at a tetrahedron's corners, the cell's least
     // first.
@@ -48,23 +77,36 @@ class SolidCells {
     const glm::dvec3& longest() const { return longest_; }
     std::uint64_t tets() const { return tets_; }  // of all cells
     std::uint64_t bytes() const;
-    friend bool operator==(const SolidCells&, const SolidCells&) = default;
+    friend bool operator==(const SolidCells& a, const SolidCells& b);
 
  private:
     void add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points);
-    void measure(std::span<const glm::dvec3> points);
+    template <typename At>
+    void measure(const At& at, const glm::dvec3& period);
+    std::span<const std::uint32_t> prism(std::uint64_t cell, Room& room) const {
+        const std::uint64_t layer = cell / feet_->size();
+        const Foot& foot = (*feet_)[cell % feet_->size()];
+        for (std::size_t i = 0; i < 3; ++i) {
+            room[i] = static_cast<std::uint32_t>(layer * columns_ + foot[i]);
+            room[i + 3] = static_cast<std::uint32_t>((layer + 1) * columns_ + foot[i]);
+        }
+        return room;
+    }
 
     // Lists as UnstructuredGrid has them, but that faces are not counted.
     PageVector<std::uint8_t> types_;
     PageVector<std::uint64_t> ends_, faceEnds_;
     PageVector<std::uint32_t> corners_, faces_;
+    Feet feet_;
+    std::uint64_t columns_ = 0, layers_ = 0;
     glm::dvec3 longest_{0};
     std::uint64_t tets_ = 0;
 };
 
 template <typename Use>
 void SolidCells::forEachTet(std::uint64_t cell, const Use& use) const {
-    const auto all = corners(cell);
+    Room room;
+    const auto all = corners(cell, room);
     const std::uint32_t apex = *std::ranges::min_element(all);
     // The points of a face, so many, round it.
     const auto overFace = [&](std::size_t size, const auto& pointAt) {
@@ -77,7 +119,8 @@ void SolidCells::forEachTet(std::uint64_t cell, const Use& use) const {
             use(std::array{apex, pointAt(least), pointAt((least + i) % size),
                            pointAt((least + i + 1) % size)});
     };
-    if (types_[cell] == kPolyhedron) {
+    const std::uint8_t ofType = feet_ ? kWedgeCell : types_[cell];
+    if (ofType == kPolyhedron) {
         const auto list = listOf(faces_, faceEnds_, cell);
         std::size_t at = 0;
         while (at < list.size()) {
@@ -86,7 +129,7 @@ void SolidCells::forEachTet(std::uint64_t cell, const Use& use) const {
         }
         return;
     }
-    const CellType& type = *cellTypeOf(types_[cell]);
+    const CellType& type = *cellTypeOf(ofType);
     std::size_t at = 0;
     for (const std::uint8_t size : type.faceSizes) {
         overFace(size, [&](std::size_t i) { return all[type.faces[at + i]]; });

@@ -320,8 +320,8 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
     const auto tell = [&](std::uint64_t first, std::span<MeshPoint> points) {
         for (MeshPoint& point : points) tellOne(first++, point);
     };
-    Mesh mesh(count, grid.points, shapes.spread, tell, levels,
-              levels.empty() ? SolidCells::of(grid, count) : nullptr);
+    Mesh mesh(count, grid.points, shapes.spread, tell, levels);
+    if (levels.empty()) mesh.setSolids(SolidCells::of(grid, count));
     MeshAbout about = aboutOf(grid, MeshAbout::Points::Corners);
     about.apart = apart * mesh.size()[2];
     about.beside = beside * mesh.size()[2];

@@ -169,7 +169,8 @@ class CellIndex::Solids {
     Solids(const Field& field, const SolidCells& cells) : field_(field), cells_(cells) {}
     // As Rows::at().
     bool at(std::uint64_t cell, double& half, double& middle) const {
-        const auto [lo, hi] = finiteExtent(field_, cells_.corners(cell));
+        SolidCells::Room room;
+        const auto [lo, hi] = finiteExtent(field_, cells_.corners(cell, room));
         half = 0.5 * hi - 0.5 * lo;
         middle = 0.5 * hi + 0.5 * lo;
         return lo <= hi;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
 #include "timeseries/grid/unstructured.h"
 #include "timeseries/readers/cf/cf_mpas.h"
 #include "timeseries/readers/cf/cf_polygons.h"
+#include "timeseries/readers/cf/cf_triangles.h"
 #include "timeseries/readers/cf/cf_values.h"
 
 namespace timeseries {
@@ -133,18 +135,23 @@ const NcVariable& boundsOf(const CfFile& file, const NcVariable& coordinate) {
     return *bounds;
 }
 
-PlacedPolygons polygonsOfBounds(const CfFile& file, const ColumnPlaces& places) {
+// `each`: so many corners has a place.
+struct BoundedPlaces {
+    PlaneCoordinates centres, corners;
+    std::size_t each;
+};
+BoundedPlaces boundedPlaces(const CfFile& file, const ColumnPlaces& places) {
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
     // Bounds have the units of what they bound.
     const std::string units = x.text("units");
-    const PlaneCoordinates centres = coordinatesOf(file, x, y, units);
-    const PlaneCoordinates corners =
-        coordinatesOf(file, boundsOf(file, x), boundsOf(file, y), units);
-    const std::size_t count = centres.x.size(), each = count > 0 ? corners.x.size() / count : 0;
-    if (corners.x.size() != corners.y.size() || count != centres.y.size() ||
-        each * count != corners.x.size())
+    BoundedPlaces all{coordinatesOf(file, x, y, units),
+                      coordinatesOf(file, boundsOf(file, x), boundsOf(file, y), units), 0};
+    const std::size_t count = all.centres.x.size(), corners = all.corners.x.size();
+    all.each = count > 0 ? corners / count : 0;
+    if (corners != all.corners.y.size() || count != all.centres.y.size() ||
+        all.each * count != corners)
         throw std::invalid_argument("its bounds are of other places");
-    return polygonsAbout(centres, corners);
+    return all;
 }
 
 // Of each face its nodes, without those that there are not.
@@ -183,6 +190,20 @@ NodesOf facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t node
     return result;
 }
 
+// Between columns that have several levels, above the triangles that `feet` tells.
+std::shared_ptr<const Mesh> withPrisms(Mesh mesh, std::size_t levels, double turn,
+                                       const std::function<std::vector<SolidCells::Foot>()>& feet) {
+    if (levels > 1) {
+        const glm::dvec3 period(turn, 0, 0);
+        const auto at = [&](std::uint64_t point) { return mesh.position(point); };
+        mesh.setSolids(
+            SolidCells::ofColumns(std::make_shared<const std::vector<SolidCells::Foot>>(feet()),
+                                  mesh.size()[0], levels, {at, period}),
+            period);
+    }
+    return std::make_shared<const Mesh>(std::move(mesh));
+}
+
 }  // namespace
 
 bool saysMesh(const NcHeader& header, const NcVariable& variable) {
@@ -211,9 +232,14 @@ std::optional<FoundList> listOf(const NcHeader& header, const NcVariable& variab
 std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& places,
                                        const std::vector<double>& levels) {
     if (places.by == ColumnPlaces::By::Bounds) {
-        const auto [grid, at] = polygonsOfBounds(file, places);
-        return std::make_shared<const Mesh>(
-            meshOfCells(grid, UnstructuredShapes(grid), levels, at));
+        const BoundedPlaces all = boundedPlaces(file, places);
+        const auto [grid, at] = polygonsAbout(all.centres, all.corners);
+        return withPrisms(meshOfCells(grid, UnstructuredShapes(grid), levels, at), levels.size(),
+                          all.centres.turn, [&] {
+                              NodesOf polygons;
+                              const auto nodes = nodesAtCorners(all.corners, all.each, polygons);
+                              return trianglesOfFaces(polygons, nodes);
+                          });
     }
     const NcVariable &x = found(file, places.x), &y = found(file, places.y);
     const PlaneCoordinates nodes =
@@ -223,7 +249,8 @@ std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& p
     const NodesOf faces = facesOf(file, places, nodes.x.size());
     if (places.by == ColumnPlaces::By::Faces) {
         const UnstructuredGrid grid = polygonsOfFaces(nodes, faces);
-        return std::make_shared<const Mesh>(meshOfCells(grid, UnstructuredShapes(grid), levels));
+        return withPrisms(meshOfCells(grid, UnstructuredShapes(grid), levels), levels.size(),
+                          nodes.turn, [&] { return trianglesOfFaces(faces, nodes.x.size()); });
     }
     if (places.by == ColumnPlaces::By::Edges) {
         ColumnPlaces ofEdges = places;
@@ -240,8 +267,8 @@ std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& p
         return std::make_shared<const Mesh>(std::move(mesh));
     }
     const UnstructuredGrid grid = polygonsAboutNodes(nodes, faces);
-    return std::make_shared<const Mesh>(
-        meshOfPoints(grid, UnstructuredShapes(grid), levels, nodes.x.size()));
+    return withPrisms(meshOfPoints(grid, UnstructuredShapes(grid), levels, nodes.x.size()),
+                      levels.size(), nodes.turn, [&] { return trianglesOfNodes(faces); });
 }
 
 }  // namespace timeseries

@@ -14,7 +14,7 @@ namespace {
 
 using Face = std::span<const std::uint32_t>;
 
-constexpr std::uint8_t kTetrahedron = 10, kHexahedronCell = 12, kWedgeCell = 13, kPyramidCell = 14;
+constexpr std::uint8_t kTetrahedron = 10, kHexahedronCell = 12, kPyramidCell = 14;
 
 bool isIn(Face face, std::uint32_t point) { return std::ranges::find(face, point) != face.end(); }
 
