@@ -176,9 +176,9 @@ glm::dvec2 placeOf(double frame, double error) {
 
 class TradePicture : public testing::Test {
  protected:
-    const std::vector<Measured> modes{measuredAt(0.001, 0.8, {Model::Points, 4}),
+    const std::vector<Measured> modes{measuredAt(0.001, 0.8, {{Model::Points, 4}}),
                                       measuredAt(0.004, 0.3, {}, 1.2),
-                                      measuredAt(0.09, 0.012, {Model::Cells})};
+                                      measuredAt(0.09, 0.012, {{Model::Cells}})};
     const Image picture = plotPicture(tradePlot(modes, "fire.nc: T, 1 to 2 K"));
     PlotColor atMark(const Measured& m, double right) const {
         const glm::dvec2 place = placeOf(m.frame, m.depthError);
