@@ -12,9 +12,12 @@
 #include "render/reference/cells_on_rays.h"
 #include "render/reference/interval_truth.h"
 #include "render/reference/tets_on_pixels.h"
+#include "render/splat/cell_pieces.h"
 #include "tests/support/cell_rays.h"
+#include "tests/support/lon_lat_belt.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/grid/raised.h"
+#include "timeseries/readers/cf/cf_triangles.h"
 
 namespace render {
 namespace solid_tets {
@@ -168,6 +171,69 @@ TEST(SolidTets, AreFoundByTheirValues) {
         }
         EXPECT_GT(needed, 10u);
         EXPECT_LT(count, 2 * needed + 20);
+    }
+}
+
+// Columns all about a sphere: where longitudes begin anew the last are beside the first.
+std::shared_ptr<const Grid> belt() {
+    timeseries::PlaneCoordinates nodes{{}, {}, 360};
+    for (int n = 0; n < tests::kNodes; ++n) {
+        nodes.x.push_back(tests::lonOf(n % tests::kAround));
+        nodes.y.push_back(tests::latOf(n / tests::kAround));
+    }
+    timeseries::NodesOf faces;
+    for (int j = 0; j < tests::kUp; ++j)
+        for (int i = 0; i < tests::kAround; ++i) {
+            const auto node = [&](int di, int dj) {
+                return static_cast<std::uint32_t>((i + di) % tests::kAround +
+                                                  tests::kAround * (j + dj));
+            };
+            faces.push_back({node(0, 0), node(1, 0), node(1, 1), node(0, 1)});
+        }
+    const auto polygons = polygonsAboutNodes(nodes, faces);
+    auto mesh = std::make_shared<timeseries::Mesh>(meshOfPoints(
+        polygons, timeseries::UnstructuredShapes(polygons), {0, 10, 30}, nodes.x.size()));
+    const auto at = [&](std::uint64_t point) { return mesh->position(point); };
+    const glm::dvec3 period(360, 0, 0);
+    mesh->setSolids(timeseries::SolidCells::ofColumns(
+                        std::make_shared<const std::vector<timeseries::SolidCells::Foot>>(
+                            timeseries::trianglesOfNodes(faces)),
+                        nodes.x.size(), 3, {at, period}),
+                    period);
+    return std::make_shared<Grid>(
+        std::array{timeseries::Axis{"lon", "degrees_east", {}},
+                   timeseries::Axis{"lat", "degrees_north", {}}, timeseries::Axis{"z", "m", {}}},
+        mesh);
+}
+
+TEST(SolidTets, ComeRoundWithTheirCoordinates) {
+    const auto grid = belt();
+    const auto byLatitude = [](const auto& p) { return p.y; };
+    const CellWorld flat(stepOfPlaces(grid, byLatitude), {"min:max"});
+    const double all = 360 * tests::kHigh * tests::kUp * 30;
+    EXPECT_NEAR(volumeOf(flat), all, 1e-5 * all);
+    // None is wider than its columns are apart, on the map as on the globe, and in order each is
+    // where its middle is.
+    const CellWorld globe(stepOfPlaces(grid, byLatitude), {"min:max"}, 0.5, Map::Globe);
+    for (const CellWorld* world : {&flat, &globe}) {
+        const glm::dvec3 map =
+            glm::dvec3(tests::kWide, tests::kHigh, 20) * glm::abs(world->placed.scale());
+        // Radii are at most 1.1, and the way goes along both angles.
+        const glm::dvec3 step =
+            world->placed.globe()
+                ? glm::dvec3(1.1 * kPerDegree * std::hypot(tests::kWide, tests::kHigh) + 0.1)
+                : map;
+        const SolidTets solids(world->placed, world->scene.cells->field(), world->scene.clip);
+        forEachTetOf(*world, [&](std::uint32_t cell, const MeshCells::Tetrahedron& tet) {
+            for (const glm::dvec3& corner : tet.at) {
+                const glm::dvec3 way = glm::abs(corner - tet.at[0]);
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(way, 1.0001 * step)));
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(
+                    glm::abs(corner - middleOfCell(world->scene, cell)), 1.0001 * step)));
+                EXPECT_TRUE(glm::all(
+                    glm::lessThanEqual(glm::abs(corner - solids.about(cell)), solids.reach())));
+            }
+        });
     }
 }
 
