@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <string>
 
 #include "timeseries/grid/cell_types.h"
 #include "timeseries/grid/grid.h"
+#include "timeseries/grid/solid_cells.h"
 #include "timeseries/grid/unstructured.h"
 
 namespace tests {
@@ -99,6 +101,21 @@ inline double volume(const timeseries::Mesh& mesh, std::uint64_t index) {
 inline double volume(const timeseries::Mesh& mesh) {
     double sum = 0;
     for (std::uint64_t i = 0; i < mesh.count(); ++i) sum += volume(mesh, i);
+    return sum;
+}
+
+// Of what lies between its points, the shorter way round.
+inline double volumeBetween(const timeseries::Mesh& mesh) {
+    const timeseries::SolidCells& solids = *mesh.solids();
+    double sum = 0;
+    for (std::uint64_t cell = 0; cell < solids.count(); ++cell)
+        solids.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
+            const auto way = [&](std::size_t i) {
+                return timeseries::shorterWay(mesh.position(points[i]) - mesh.position(points[0]),
+                                              mesh.period());
+            };
+            sum += std::abs(glm::dot(way(1), glm::cross(way(2), way(3)))) / 6;
+        });
     return sum;
 }
 

@@ -151,8 +151,7 @@ glm::dvec2 planeOf(const Layers& what, int place) {
     if (what.atNodes) return {place % kLatticeSide, place / kLatticeSide};
     glm::dvec2 sum(0);
     const auto face = faces()[std::size_t(place)];
-    for (const int node : face)
-        sum += glm::dvec2(node % kLatticeSide, node / kLatticeSide);
+    for (const int node : face) sum += glm::dvec2(node % kLatticeSide, node / kLatticeSide);
     return sum / 3.0;
 }
 
@@ -191,6 +190,14 @@ void expectColumns(const Layers& what) {
                 const double volume = areaOf(what, p) * 0.5 * (below + above);
                 EXPECT_NEAR(tests::volume(mesh, index), volume, 1e-5 * volume) << k << ' ' << p;
             }
+        // Between nodes are the faces' prisms, as high as their columns are on average.
+        if (what.atNodes && what.by != By::Zcor) {
+            double expected = 0;
+            for (const auto& face : faces())
+                for (const int p : face)
+                    expected += 0.5 / 3 * (heightOf(step, kLayers - 1, p) - heightOf(step, 0, p));
+            EXPECT_NEAR(tests::volumeBetween(mesh), expected, 1e-5 * expected);
+        }
     }
 }
 
@@ -204,6 +211,79 @@ TEST(NetcdfListHeights, AreThoseOfAVariable) {
     for (const bool atNodes : {true, false})
         for (const bool fastest : {false, true})
             for (const By by : {By::Zcor, By::Coordinates}) expectColumns({by, atNodes, fastest});
+}
+
+// As FVCOM writes them: the corners of faces before the faces, counted from one, and nobody says
+// so; layers of each place by CF's formula.
+std::filesystem::path fvcom() {
+    NetcdfBuilder file("fvcom.nc");
+    const int n = file.dimension("node", kLatticeNodes), f = file.dimension("nele", kFaces),
+              three = file.dimension("three", 3), layer = file.dimension("siglay", kLayers);
+    const auto time = file.coordinate("time", kSteps, "s");
+    const int mesh = file.variable("fvcom_mesh", NC_INT, {}),
+              x = file.variable("lon", NC_FLOAT, {n}), y = file.variable("lat", NC_FLOAT, {n}),
+              list = file.variable("nv", NC_INT, {three, f}),
+              sigma = file.variable("siglay", NC_FLOAT, {layer, n}),
+              depth = file.variable("h", NC_FLOAT, {n}),
+              eta = file.variable("zeta", NC_FLOAT, {time.dimension, n}),
+              t = file.variable("temp", NC_FLOAT, {time.dimension, layer, n});
+    file.text(mesh, "cf_role", "mesh_topology");
+    file.text(mesh, "node_coordinates", "lon lat");
+    file.text(mesh, "face_node_connectivity", "nv");
+    file.text(x, "units", "degrees_east");
+    file.text(y, "units", "degrees_north");
+    file.text(depth, "units", "m");
+    file.text(eta, "units", "m");
+    file.text(sigma, "standard_name", "ocean_sigma_coordinate");
+    file.text(sigma, "positive", "up");
+    file.text(sigma, "formula_terms", "sigma: siglay eta: zeta depth: h");
+    for (const int on : {eta, t}) {
+        file.text(on, "mesh", "fvcom_mesh");
+        file.text(on, "location", "node");
+    }
+    file.text(t, "coordinates", "time siglay lat lon");
+    file.write(time.variable, std::vector<double>{0, 10});
+    std::vector<float> xs, ys, sigmas, depths, surfaces, values;
+    for (int p = 0; p < kLatticeNodes; ++p) {
+        xs.push_back(float(p % kLatticeSide));
+        ys.push_back(float(p / kLatticeSide));
+        depths.push_back(float(depthOf(p)));
+    }
+    for (std::size_t k = 0; k < kLayers; ++k)
+        for (int p = 0; p < kLatticeNodes; ++p) sigmas.push_back(float(sigmaOf(k)));
+    for (std::size_t s = 0; s < kSteps; ++s)
+        for (int p = 0; p < kLatticeNodes; ++p) surfaces.push_back(float(surfaceOf(s, p)));
+    for (std::size_t i = 0; i < kSteps * kLayers * kLatticeNodes; ++i) values.push_back(float(i));
+    std::vector<std::int32_t> corners;
+    for (std::size_t corner = 0; corner < 3; ++corner)
+        for (const auto& face : faces()) corners.push_back(1 + face[corner]);
+    file.write(x, xs);
+    file.write(y, ys);
+    file.write(list, corners);
+    file.write(sigma, sigmas);
+    file.write(depth, depths);
+    file.write(eta, surfaces);
+    file.write(t, values);
+    return file.close();
+}
+
+TEST(NetcdfListHeights, OfFvcomWhichSaysLittle) {
+    const auto reader = open(fvcom());
+    const std::size_t v = tests::indexOf(*reader, "temp");
+    for (const std::size_t step : {0u, 1u}) {
+        const Field field = reader->read(v, step);
+        const Mesh& mesh = *field.grid->mesh();
+        ASSERT_EQ(mesh.count(), std::uint64_t{kLayers * kLatticeNodes});
+        EXPECT_EQ(std::get<std::vector<float>>(field.values)[5],
+                  float(step * kLayers * kLatticeNodes + 5));
+        for (std::size_t k = 0; k < kLayers; ++k)
+            for (int p = 0; p < kLatticeNodes; ++p) {
+                const std::uint64_t index = k * kLatticeNodes + std::uint64_t(p);
+                EXPECT_NEAR(mesh.position(index).z, heightOf(step, k, p), 1e-4);
+                EXPECT_GT(tests::volume(mesh, index), 0) << k << ' ' << p;
+            }
+        EXPECT_EQ(mesh.solids()->count(), std::uint64_t{(kLayers - 1) * kFaces});
+    }
 }
 
 // Also where they themselves are drawn.

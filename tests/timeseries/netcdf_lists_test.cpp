@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "tests/support/array_builder.h"
@@ -14,7 +13,6 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/ugrid.h"
 #include "tests/support/unstructured.h"
-#include "timeseries/grid/solid_cells.h"
 
 namespace timeseries {
 namespace {
@@ -137,21 +135,6 @@ std::filesystem::path withMesh(const Ugrid& what) {
     return file.close();
 }
 
-// What lies between the columns, in the file's coordinates, the shorter way round.
-double volumeBetween(const Mesh& mesh) {
-    const SolidCells& solids = *mesh.solids();
-    double sum = 0;
-    for (std::uint64_t cell = 0; cell < solids.count(); ++cell)
-        solids.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
-            const auto way = [&](std::size_t i) {
-                const glm::dvec3 along = mesh.position(points[i]) - mesh.position(points[0]);
-                return glm::dvec3(wrapped(along.x), along.y, along.z);
-            };
-            sum += std::abs(glm::dot(way(1), glm::cross(way(2), way(3)))) / 6;
-        });
-    return sum;
-}
-
 // The variable of three levels: at each place of each level `at(place)` and this area; between
 // columns is so much of the area of all.
 template <typename At, typename Area>
@@ -175,7 +158,7 @@ void expectPrisms(const std::filesystem::path& path, int places, double between,
             whole += volume;
         }
     const double height = kLevels.back() - kLevels.front();
-    EXPECT_NEAR(volumeBetween(mesh), between * height, 1e-6 * between * height);
+    EXPECT_NEAR(tests::volumeBetween(mesh), between * height, 1e-6 * between * height);
     EXPECT_NEAR(double(mesh.meanVolume()), whole / (3 * places), 1e-6 * whole);
     for (const std::size_t step : {0u, 1u}) {
         std::vector<std::int32_t> expected(static_cast<std::size_t>(3 * places));

@@ -55,9 +55,14 @@ std::optional<FoundList> byBounds(const NcHeader& header, const NcVariable& vari
     return found;
 }
 
-// Whether what a connectivity counts is its second dimension: the one that says so, else the first.
+// Whether what a connectivity counts is its second dimension: the one that says so, else the first;
+// but where that is as long as triangles and squares have corners, as FVCOM writes nv(three, nele).
 bool isTurned(const NcHeader& header, const NcVariable& connectivity, const std::string& counted) {
-    return header.dimension(connectivity, 1).name == counted;
+    constexpr std::uint64_t kCorners = 4;
+    const NcDimension &first = header.dimension(connectivity, 0),
+                      &second = header.dimension(connectivity, 1);
+    if (!counted.empty()) return second.name == counted;
+    return first.length <= kCorners && second.length > 2 * first.length;
 }
 
 std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variable,
@@ -162,10 +167,12 @@ NodesOf facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t node
     const std::vector<double> all = allOf(file, faces);
     const NcAttribute* const start = faces.find("start_index");
     double first = places.firstNode;
-    if (start)
-        if (const auto* numbers = std::get_if<std::vector<Number>>(&start->value);
-            numbers && !numbers->empty())
-            first = toDouble(numbers->front());
+    const auto* const numbers = start ? std::get_if<std::vector<Number>>(&start->value) : nullptr;
+    if (numbers && !numbers->empty())
+        first = toDouble(numbers->front());
+    else if (const auto has = [&](double node) { return std::ranges::count(all, node) > 0; };
+             first == 0 && has(double(nodes)) && !has(0))
+        first = 1;  // nobody says so, but there is no such node where they count from 0
     const std::size_t rows = file.header().dimension(faces, 0).length,
                       columns = file.header().dimension(faces, 1).length;
     const std::size_t count = places.turned ? columns : rows;
