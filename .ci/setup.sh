@@ -75,6 +75,12 @@ installPackages() {
     quietly "Downloading and installing" "${install[@]}"
 }
 
+# skipsIn PRESET: why tests that share a process were skipped by the last run of ctest, and how many; others ctest names.
+skipsIn() {
+    awk '/: Skipped$/ { getline; why[$0]++ } END { for (each in why) printf "%d skipped: %s\n", why[each], each }' \
+        "build/$1/Testing/Temporary/LastTest.log" 2>/dev/null | sort
+}
+
 # configure PRESET -DNAME=VALUE...: nothing when build/PRESET is configured with these values.
 configure() {
     local preset=$1 flag configured=1; shift

@@ -84,15 +84,15 @@ TEST(SolidCells, PartsOfEveryShapeFillTheirGridAndMeetFaceToFace) {
 // As an unstructured grid has them that lists each, and parted alike.
 TEST(SolidCells, BetweenColumnsArePrisms) {
     const UnstructuredGrid grid = tests::bentBricks(Cut::Wedges);
-    constexpr std::uint64_t kColumns = 5 * 4, kLevels = 6;
+    const std::uint64_t columns = 5 * 4, levels = 6;
     auto feet = std::make_shared<std::vector<SolidCells::Foot>>();
-    const std::uint64_t each = grid.types.size() / (kLevels - 1);
+    const std::uint64_t each = grid.types.size() / (levels - 1);
     for (std::uint64_t cell = 0; cell < each; ++cell) {
         const auto corners = listOf(grid.corners, grid.ends, cell);
         feet->push_back({corners[0], corners[1], corners[2]});
     }
     const auto at = [&](std::uint64_t point) { return grid.points[point]; };
-    const auto prisms = SolidCells::ofColumns(feet, kColumns, kLevels, {at});
+    const auto prisms = SolidCells::ofColumns(feet, columns, levels, {at});
     const auto solids = SolidCells::of(grid, grid.points.size());
     ASSERT_TRUE(prisms);
     ASSERT_EQ(prisms->count(), solids->count());

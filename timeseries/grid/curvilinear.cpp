@@ -41,12 +41,6 @@ bool isPlace(const glm::dvec3& at) {
     return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
 }
 
-glm::dvec3 shorterWay(glm::dvec3 along, const glm::dvec3& period) {
-    for (int c = 0; c < 3; ++c)
-        if (period[c] > 0) along[c] -= period[c] * std::round(along[c] / period[c]);
-    return along;
-}
-
 CurvilinearCells::CurvilinearCells(const MeshPlaces& places)
     : places_(places),
       stride_{1, places.size[0], std::uint64_t{places.size[0]} * places.size[1]},

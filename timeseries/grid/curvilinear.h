@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -23,7 +24,11 @@ struct MeshPlaces {
 
 bool isPlace(const glm::dvec3& at);
 // Of ways that coordinates with these periods may go, the shortest.
-glm::dvec3 shorterWay(glm::dvec3 along, const glm::dvec3& period);
+inline glm::dvec3 shorterWay(glm::dvec3 along, const glm::dvec3& period) {
+    for (int c = 0; c < 3; ++c)
+        if (period[c] > 0) along[c] -= period[c] * std::round(along[c] / period[c]);
+    return along;
+}
 
 // Looks at `places`, which must outlive it, and be as many as their size says.
 class CurvilinearCells {
