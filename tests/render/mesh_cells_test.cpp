@@ -356,7 +356,7 @@ TEST(MeshCells, LightIsThatOfAnUprightGridWhereTheFieldIs) {
             if (byValue) world->scene.layers[0].style.color = ByValue{{}, 1, 5};
         }
         for (const glm::dvec3& from : kFrom) {
-            const View view = tests::lookFrom(from, {40, 34}, 0.3);
+            const View view = tests::lookFrom(from, {28, 24}, 0.3);
             const auto lightOf = [&](const CellWorld& world, unsigned threads) {
                 return IntervalTruth(world.scene, world.scene.cells->field(), 2, threads)
                     .light(view);

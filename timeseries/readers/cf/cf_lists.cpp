@@ -56,13 +56,15 @@ std::optional<FoundList> byBounds(const NcHeader& header, const NcVariable& vari
 }
 
 // Whether what a connectivity counts is its second dimension: the one that says so, else the first;
-// but where that is as long as triangles and squares have corners, as FVCOM writes nv(three, nele).
-bool isTurned(const NcHeader& header, const NcVariable& connectivity, const std::string& counted) {
-    constexpr std::uint64_t kCorners = 4;
+// but where that is as long as those have corners, and the second longer by far, as FVCOM writes
+// nv(three, nele).
+bool isTurned(const NcHeader& header, const NcVariable& connectivity, const std::string& counted,
+              std::uint64_t leastCorners, std::uint64_t mostCorners) {
     const NcDimension &first = header.dimension(connectivity, 0),
                       &second = header.dimension(connectivity, 1);
     if (!counted.empty()) return second.name == counted;
-    return first.length <= kCorners && second.length > 2 * first.length;
+    return first.length >= leastCorners && first.length <= mostCorners &&
+           second.length >= 2 * mostCorners;
 }
 
 std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variable,
@@ -82,7 +84,7 @@ std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variab
         return std::nullopt;
     if (kindByAttributes(*x) == AxisKind::Y) std::swap(x, y);
     FoundList found{{.x = x->name, .y = y->name, .faces = faces->name}, {}};
-    found.places.turned = isTurned(header, *faces, mesh->text("face_dimension"));
+    found.places.turned = isTurned(header, *faces, mesh->text("face_dimension"), 3, 4);
     std::size_t along = x->dimensions[0];
     if (location == "node") {
         found.places.by = By::Nodes;
@@ -95,7 +97,7 @@ std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variab
         if (!edges || !edges->type || edges->dimensions.size() != 2) return std::nullopt;
         found.places.by = By::Edges;
         found.places.edges = edges->name;
-        found.places.edgesTurned = isTurned(header, *edges, mesh->text("edge_dimension"));
+        found.places.edgesTurned = isTurned(header, *edges, mesh->text("edge_dimension"), 2, 2);
         along = edges->dimensions[found.places.edgesTurned ? 1 : 0];
     }
     const auto list = variable.positionOf(along);
