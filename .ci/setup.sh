@@ -77,8 +77,11 @@ installPackages() {
 
 # skipsIn PRESET: why tests that share a process were skipped by the last run of ctest, and how many; others ctest names.
 skipsIn() {
-    awk '/: Skipped$/ { getline; why[$0]++ } END { for (each in why) printf "%d skipped: %s\n", why[each], each }' \
-        "build/$1/Testing/Temporary/LastTest.log" 2>/dev/null | sort
+    local log=build/$1/Testing/Temporary/LastTest.log
+    if [[ ! -f $log ]]; then return; fi
+    awk '/ Testing: / { shared = /_tests\.[0-9]+$/ }
+         shared && /: Skipped$/ { getline; why[$0]++ }
+         END { for (each in why) printf "%d skipped: %s\n", why[each], each }' "$log" | sort
 }
 
 # configure PRESET -DNAME=VALUE...: nothing when build/PRESET is configured with these values.

@@ -7,6 +7,8 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 
+#include "timeseries/grid/solid_cells.h"
+
 namespace render {
 namespace {
 
@@ -43,11 +45,15 @@ double reachOf(double widest, const Corners& centres, const PointsView& view) {
 namespace {
 
 // What a scene's cells fill: of a mesh the outermost reach half a cell beyond its points, at most
-// as far as its widest cell is wide.
+// as far as its widest cell is wide; or where coordinates begin anew as far as a prism reaches.
 PlacedPoints::Box boxOfCells(const PointsView& seen) {
     if (!seen.placed.isMesh()) return seen.domain;
     PlacedPoints::Box box = seen.placed.pointsBox();
-    const glm::dvec3 more = seen.placed.mesh()->widest() * glm::abs(seen.placed.scale());
+    const timeseries::Mesh& mesh = *seen.placed.mesh();
+    glm::dvec3 more = mesh.widest();
+    if (mesh.solids() && mesh.period() != glm::dvec3(0))
+        more = glm::max(more, mesh.solids()->longest());
+    more *= glm::abs(seen.placed.scale());
     return {box.lo - more, box.hi + more};
 }
 

@@ -1,8 +1,17 @@
 #include "render/splat/solid_tets.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace render {
+
+glm::dvec3 SolidTets::longestOn(const Globe& globe) const {
+    const glm::dvec3 farthest =
+        glm::max(glm::abs(placed_.mesh()->lo()), glm::abs(placed_.mesh()->hi()));
+    const glm::dvec3& along = cells_.longest();
+    return glm::dvec3(glm::length(farthest) * kPerDegree * (along.x + along.y) +
+                      std::abs(globe.radius(along.z) - globe.radius(0)));
+}
 
 unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const {
     unsigned seen = 0, there = 0;
@@ -21,6 +30,10 @@ unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron
     }
     for (double& value : tet.values)
         if (std::isnan(value)) value = sum * (4.0 / there);
+    if (comesRound_) {
+        const auto [least, most] = std::ranges::minmax(tet.at, {}, &glm::dvec3::x);
+        if (timeseries::SolidCells::isAboutPole(most.x - least.x, period_.x)) return 0;
+    }
     return seen;
 }
 

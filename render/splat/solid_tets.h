@@ -1,6 +1,6 @@
 // The tetrahedra of an unstructured grid's solid cells (timeseries/grid/solid_cells.h), in the
 // place of MeshCells (render/splat/mesh_cells.h). One that lies across where coordinates begin anew
-// is drawn whole on one side, that of its first corner.
+// is drawn whole on one side, that of its first corner; one about a pole only on a globe.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -33,8 +32,8 @@ class SolidTets {
           clips_(!clip.holdsAll()),
           period_(placed.mesh()->period() * glm::abs(placed.scale())),
           comesRound_(period_ != glm::dvec3(0)),
-          reach_(placed.globe() ? glm::dvec3(std::numeric_limits<double>::infinity())
-                                : MeshCells::reachOf(placed, cells_.longest())) {}
+          reach_(MeshCells::reachOf(
+              placed, placed.globe() ? longestOn(*placed.globe()) : cells_.longest())) {}
 
     std::uint64_t count() const { return cells_.count(); }
     // As MeshCells has them.
@@ -60,6 +59,8 @@ class SolidTets {
 
  private:
     using Tetrahedron = MeshCells::Tetrahedron;
+    // In whatever direction degrees and heights lead there.
+    glm::dvec3 longestOn(const Globe& globe) const;
     // use(tet) for what is seen of it; a bit of `seen` for each corner.
     template <typename Use>
     static void forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dvec3* eye,

@@ -13,6 +13,7 @@
 #include "app/choices/user_files.h"
 #include "render/gl/headless_context.h"
 #include "tests/support/files.h"
+#include "tests/support/variable.h"
 
 namespace app::desktop {
 namespace {
@@ -20,8 +21,7 @@ namespace {
 // For the window and for the headset's panel: one function serves both.
 TEST(FileActions, DiscardTheSessionThatWasLeft) {
     const auto home = tests::freshFolder();
-    setenv("XDG_STATE_HOME", home.c_str(), 1);
-    setenv("XDG_CONFIG_HOME", home.c_str(), 1);
+    const tests::Variable state("XDG_STATE_HOME", home), config("XDG_CONFIG_HOME", home);
     const pid_t child = fork();
     if (child == 0) {
         Explorer left;
@@ -48,8 +48,7 @@ TEST(FileActions, DiscardTheSessionThatWasLeft) {
 
 TEST(FileActions, ASavedSessionTellsTheErrorAndIsReadWithoutIt) {
     const auto home = tests::freshFolder();
-    setenv("XDG_STATE_HOME", home.c_str(), 1);
-    setenv("XDG_CONFIG_HOME", home.c_str(), 1);
+    const tests::Variable state("XDG_STATE_HOME", home), config("XDG_CONFIG_HOME", home);
     const render::gl::HeadlessContext context;
     Canvas canvas;
     Exploration exploration({});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/vector_relational.hpp>
 #include <random>
+#include <set>
 
 #include "render/reference/cell_pick.h"
 #include "render/reference/cells_on_rays.h"
@@ -53,8 +54,7 @@ std::shared_ptr<const Grid> bentColumns() {
             feet->push_back({first, first + 6, first + 5});
         }
     auto prisms = meshOfPoints(squares, timeseries::UnstructuredShapes(squares), {0, 1});
-    const auto at = [&](std::uint64_t point) { return prisms.position(point); };
-    prisms.setSolids(timeseries::SolidCells::ofColumns(feet, 20, 2, {at}));
+    prisms.setSolids(timeseries::SolidCells::ofColumns(feet, 20, 2, {1, 1, 1}));
     std::vector<double> heights;
     for (int k = 0; k < 6; ++k)
         for (int c = 0; c < 20; ++c) heights.push_back(tests::bent(c % 5, c / 5, k).z);
@@ -174,6 +174,23 @@ TEST(SolidTets, AreFoundByTheirValues) {
     }
 }
 
+std::shared_ptr<const Grid> onSphere(const timeseries::PlaneCoordinates& nodes,
+                                     const timeseries::NodesOf& faces) {
+    const auto polygons = polygonsAboutNodes(nodes, faces);
+    auto mesh = std::make_shared<timeseries::Mesh>(meshOfPoints(
+        polygons, timeseries::UnstructuredShapes(polygons), {0, 10, 30}, nodes.x.size()));
+    const auto feet = std::make_shared<const std::vector<timeseries::SolidCells::Foot>>(
+        timeseries::trianglesOfNodes(faces));
+    const auto at = [&](std::uint32_t column) { return glm::dvec2(mesh->position(column)); };
+    const glm::dvec3 longest(timeseries::SolidCells::longestOf(*feet, nodes.turn, at), 20);
+    mesh->setSolids(timeseries::SolidCells::ofColumns(feet, nodes.x.size(), 3, longest),
+                    {nodes.turn, 0, 0});
+    return std::make_shared<Grid>(
+        std::array{timeseries::Axis{"lon", "degrees_east", {}},
+                   timeseries::Axis{"lat", "degrees_north", {}}, timeseries::Axis{"z", "m", {}}},
+        mesh);
+}
+
 // Columns all about a sphere: where longitudes begin anew the last are beside the first.
 std::shared_ptr<const Grid> belt() {
     timeseries::PlaneCoordinates nodes{{}, {}, 360};
@@ -190,20 +207,7 @@ std::shared_ptr<const Grid> belt() {
             };
             faces.push_back({node(0, 0), node(1, 0), node(1, 1), node(0, 1)});
         }
-    const auto polygons = polygonsAboutNodes(nodes, faces);
-    auto mesh = std::make_shared<timeseries::Mesh>(meshOfPoints(
-        polygons, timeseries::UnstructuredShapes(polygons), {0, 10, 30}, nodes.x.size()));
-    const auto at = [&](std::uint64_t point) { return mesh->position(point); };
-    const glm::dvec3 period(360, 0, 0);
-    mesh->setSolids(timeseries::SolidCells::ofColumns(
-                        std::make_shared<const std::vector<timeseries::SolidCells::Foot>>(
-                            timeseries::trianglesOfNodes(faces)),
-                        nodes.x.size(), 3, {at, period}),
-                    period);
-    return std::make_shared<Grid>(
-        std::array{timeseries::Axis{"lon", "degrees_east", {}},
-                   timeseries::Axis{"lat", "degrees_north", {}}, timeseries::Axis{"z", "m", {}}},
-        mesh);
+    return onSphere(nodes, faces);
 }
 
 TEST(SolidTets, ComeRoundWithTheirCoordinates) {
@@ -235,6 +239,25 @@ TEST(SolidTets, ComeRoundWithTheirCoordinates) {
             }
         });
     }
+}
+
+// What is about a pole is one cell on the globe; on a map it would lie over all longitudes.
+TEST(SolidTets, AboutAPoleAreDrawnOnTheGlobeAlone) {
+    const auto grid = onSphere({{0, 120, 240, 60}, {80, 82, 84, 70}, 360}, {{0, 1, 2}, {0, 1, 3}});
+    const auto step = stepOfPlaces(grid, [](const auto& p) { return p.z; });
+    const CellWorld flat(step, {"min:max"}), globe(step, {"min:max"}, 0.5, Map::Globe);
+    std::set<std::uint32_t> onMap, onGlobe;
+    forEachTetOf(flat, [&](std::uint32_t cell, const auto&) { onMap.insert(cell); });
+    const SolidTets solids(globe.placed, globe.scene.cells->field(), globe.scene.clip);
+    forEachTetOf(globe, [&](std::uint32_t cell, const MeshCells::Tetrahedron& tet) {
+        onGlobe.insert(cell);
+        for (const glm::dvec3& corner : tet.at)
+            EXPECT_TRUE(glm::all(
+                glm::lessThanEqual(glm::abs(corner - solids.about(cell)), solids.reach())));
+    });
+    EXPECT_TRUE(onMap.empty());
+    EXPECT_EQ(onGlobe.size(), 4u);
+    EXPECT_LT(solids.reach().x, 2);  // the globe is as wide
 }
 
 // A linear field is so between the corners of any cell: a range of it is a slab of the box, as deep

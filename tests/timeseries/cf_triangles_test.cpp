@@ -179,6 +179,47 @@ TEST(CfTriangles, CornersAtOnePlaceAreOneNode) {
               6u);
 }
 
+// As floats have them, whose longitudes differ where they begin anew.
+TEST(CfTriangles, CornersThatFloatsTellApartAreOneNode) {
+    PlaneCoordinates corners{{}, {}, 360};
+    for (int i = 0; i < 6; ++i)
+        for (const auto& [di, y] : {std::pair(0, 10.f), {1, 10.f}, {1, 20.1f}, {0, 20.1f}}) {
+            const double x = 60 * (i + di) + 0.02 - 180;
+            corners.x.push_back(float(i == 5 ? x - 360 : x));
+            corners.y.push_back(y);
+        }
+    NodesOf faces;
+    EXPECT_EQ(nodesAtCorners(corners, 4, faces), 12u);
+    for (double& x : corners.x) x = x > 0 ? x - 0.02 : x - 0.02 + 360 - 1e-5;  // about 0 and 360
+    for (const std::size_t left : {12u, 15u}) corners.x[left] = 360 - 1e-5;  // of the one from 0 on
+    EXPECT_EQ(nodesAtCorners(corners, 4, faces), 12u);
+    corners.x[0] = 1e300;  // a number, but none of degrees
+    EXPECT_EQ(nodesAtCorners(corners, 4, faces), 13u);
+}
+
+// Triangles among squares may have a corner twice.
+TEST(CfTriangles, CornersThatAreThereTwiceAreOne) {
+    std::mt19937 random(5);
+    Lattice lattice(random, true);
+    const Feet byNodes = trianglesOfNodes(lattice.faces),
+               byFaces = trianglesOfFaces(lattice.faces, lattice.nodes.size());
+    for (auto& face : lattice.faces)
+        if (face.size() == 3) face.push_back(random() % 2 == 0 ? face.back() : face.front());
+    EXPECT_EQ(trianglesOfNodes(lattice.faces), byNodes);
+    EXPECT_EQ(trianglesOfFaces(lattice.faces, lattice.nodes.size()), byFaces);
+}
+
+// Faces that are all alike have no edge that two of them share; a square of their number would
+// take hours.
+TEST(CfTriangles, AnyNumberOfEqualFacesIsSoonDone) {
+    EXPECT_TRUE(trianglesOfFaces(NodesOf(300'000, {0, 1, 2}), 3).empty());
+    NodesOf polygons;
+    const std::vector<double> zero(1'200'000);
+    const std::size_t nodes = nodesAtCorners({zero, zero, 360}, 4, polygons);
+    EXPECT_EQ(nodes, 1u);
+    EXPECT_TRUE(trianglesOfFaces(polygons, nodes).empty());
+}
+
 TEST(CfTriangles, OfWhatIsNoMeshThereAreNone) {
     EXPECT_TRUE(trianglesOfNodes({}).empty());
     EXPECT_TRUE(trianglesOfNodes({{}, {0}, {0, 1}, {2, 2, 2, 2}}).empty());

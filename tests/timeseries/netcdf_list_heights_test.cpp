@@ -190,6 +190,9 @@ void expectColumns(const Layers& what) {
                 const double volume = areaOf(what, p) * 0.5 * (below + above);
                 EXPECT_NEAR(tests::volume(mesh, index), volume, 1e-5 * volume) << k << ' ' << p;
             }
+        // Between faces' middles are a ring of six about the node within, and three at each of the
+        // lattice's four sides: as many triangles as faces.
+        EXPECT_EQ(mesh.solids()->count(), std::uint64_t{(kLayers - 1) * kFaces});
         // Between nodes are the faces' prisms, as high as their columns are on average.
         if (what.atNodes && what.by != By::Zcor) {
             double expected = 0;

@@ -91,12 +91,10 @@ TEST(SolidCells, BetweenColumnsArePrisms) {
         const auto corners = listOf(grid.corners, grid.ends, cell);
         feet->push_back({corners[0], corners[1], corners[2]});
     }
-    const auto at = [&](std::uint64_t point) { return grid.points[point]; };
-    const auto prisms = SolidCells::ofColumns(feet, columns, levels, {at});
     const auto solids = SolidCells::of(grid, grid.points.size());
+    const auto prisms = SolidCells::ofColumns(feet, columns, levels, solids->longest());
     ASSERT_TRUE(prisms);
     ASSERT_EQ(prisms->count(), solids->count());
-    EXPECT_EQ(prisms->longest(), solids->longest());
     EXPECT_EQ(prisms->tets(), solids->tets());
     for (std::uint64_t cell = 0; cell < solids->count(); ++cell) {
         SolidCells::Room room, none;
@@ -107,19 +105,22 @@ TEST(SolidCells, BetweenColumnsArePrisms) {
         solids->forEachTet(cell, [&](const auto& tet) { other.push_back(tet); });
         EXPECT_EQ(one, other);
     }
-    // On a ring of so many degrees the way from the last column to the first is short.
-    const auto around = [](std::uint64_t point) {
-        return glm::dvec3(90.0 * double(point % 4), double(point % 4 / 2), 5.0 * double(point / 4));
-    };
-    feet = std::make_shared<std::vector<SolidCells::Foot>>(1, SolidCells::Foot{0, 1, 3});
-    const auto seam = SolidCells::ofColumns(feet, 4, 2, {around, {360, 0, 0}});
-    EXPECT_EQ(seam->longest(), glm::dvec3(180, 1, 5));
-    EXPECT_EQ(*seam, *SolidCells::ofColumns(feet, 4, 2, {around, {360, 0, 0}}));
-    EXPECT_NE(*seam, *SolidCells::ofColumns(feet, 4, 2, {around}));
+    EXPECT_EQ(*prisms, *SolidCells::ofColumns(feet, columns, levels, solids->longest()));
+    EXPECT_NE(*prisms, *SolidCells::ofColumns(feet, columns, levels - 1, solids->longest()));
     // One level has nothing between; numbers of points and of cells have 32 bits.
-    EXPECT_FALSE(SolidCells::ofColumns(feet, 4, 1, {around}));
-    EXPECT_FALSE(SolidCells::ofColumns(feet, std::uint64_t{1} << 31, 3, {around}));
-    EXPECT_FALSE(SolidCells::ofColumns(nullptr, 4, 2, {around}));
+    EXPECT_FALSE(SolidCells::ofColumns(feet, columns, 1, {}));
+    EXPECT_FALSE(SolidCells::ofColumns(feet, std::uint64_t{1} << 31, 3, {}));
+    EXPECT_FALSE(SolidCells::ofColumns(nullptr, columns, 2, {}));
+}
+
+// The way from 350 to 10 degrees is short, and that about a pole goes across it.
+TEST(SolidCells, ColumnsAreApartTheShorterWay) {
+    const std::vector<glm::dvec2> at{{350, 10}, {10, 12}, {0, 20}, {5, 88}, {125, 87}, {245, 89}};
+    const auto placeOf = [&](std::uint32_t column) { return at[column]; };
+    const std::vector<SolidCells::Foot> beside{{0, 1, 2}}, about{{3, 4, 5}};
+    EXPECT_EQ(SolidCells::longestOf(beside, 360, placeOf), glm::dvec2(20, 10));
+    EXPECT_EQ(SolidCells::longestOf(beside, 0, placeOf), glm::dvec2(350, 10));
+    EXPECT_EQ(SolidCells::longestOf(about, 360, placeOf), glm::dvec2(0, 2 + 3));
 }
 
 // Each shape by itself, in every numbering of its corners: as large as its moments say.

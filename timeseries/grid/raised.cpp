@@ -1,12 +1,39 @@
 #include "timeseries/grid/raised.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
 #include <utility>
 #include <vector>
 
 #include "timeseries/grid/solid_cells.h"
+#include "timeseries/together.h"
 
 namespace timeseries {
+namespace {
+
+// Of the prisms between levels, from their lowest corner to their highest.
+double highest(std::span<const SolidCells::Foot> feet, std::uint64_t places,
+               std::span<const double> heights) {
+    const std::uint64_t cells = feet.size() * (heights.size() / places - 1);
+    const unsigned threads = threadsFor(cells, 1 << 14);
+    std::vector<double> of(threads);
+    together(threads, [&](unsigned k) {
+        for (std::uint64_t cell = cells * k / threads; cell < cells * (k + 1) / threads; ++cell) {
+            double lo = INFINITY, hi = -INFINITY;
+            for (const std::uint32_t column : feet[cell % feet.size()])
+                for (const std::uint64_t level : {cell / feet.size(), cell / feet.size() + 1}) {
+                    const double at = heights[level * places + column];
+                    lo = at < lo ? at : lo;  // not where there is none
+                    hi = at > hi ? at : hi;
+                }
+            of[k] = std::max(of[k], hi - lo);
+        }
+    });
+    return std::ranges::max(of);
+}
+
+}  // namespace
 
 Mesh raised(const Mesh& prisms, std::span<const double> heights) {
     const std::uint64_t places = prisms.size()[0], levels = heights.size() / places;
@@ -47,10 +74,10 @@ Mesh raised(const Mesh& prisms, std::span<const double> heights) {
         *points = *points / prisms.size()[2] * levels;
     mesh.setAbout(std::move(about));
     if (prisms.solids()) {
-        const auto at = [&](std::uint64_t index) { return mesh.position(index); };
-        mesh.setSolids(
-            SolidCells::ofColumns(prisms.solids()->feet(), places, levels, {at, prisms.period()}),
-            prisms.period());
+        const auto& feet = prisms.solids()->feet();
+        const glm::dvec3 longest(glm::dvec2(prisms.solids()->longest()),
+                                 highest(*feet, places, heights));
+        mesh.setSolids(SolidCells::ofColumns(feet, places, levels, longest), prisms.period());
     }
     return mesh;
 }

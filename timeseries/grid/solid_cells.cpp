@@ -1,5 +1,6 @@
 #include "timeseries/grid/solid_cells.h"
 
+#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <numeric>
@@ -20,12 +21,13 @@ std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
         if (type && type->dimension == 3) solids->add(grid, cell, points);
     }
     if (solids->types_.empty()) return nullptr;
-    solids->measure([&](std::uint64_t point) { return grid.points[point]; }, glm::dvec3(0));
+    solids->measure(grid.points);
     return solids;
 }
 
 std::shared_ptr<const SolidCells> SolidCells::ofColumns(Feet feet, std::uint64_t columns,
-                                                        std::size_t levels, const Places& places) {
+                                                        std::size_t levels,
+                                                        const glm::dvec3& longest) {
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     if (!feet || feet->empty() || levels < 2 || columns > kMost / levels ||
         feet->size() > kMost / (levels - 1))
@@ -34,8 +36,23 @@ std::shared_ptr<const SolidCells> SolidCells::ofColumns(Feet feet, std::uint64_t
     solids->feet_ = std::move(feet);
     solids->columns_ = columns;
     solids->layers_ = levels - 1;
-    solids->measure(places.at, places.period);
+    constexpr std::uint64_t kTetsOfAPrism = 3;
+    solids->tets_ = kTetsOfAPrism * solids->count();
+    solids->longest_ = longest;
     return solids;
+}
+
+glm::dvec2 SolidCells::longestOf(std::span<const Foot> feet, double turn,
+                                 const std::function<glm::dvec2(std::uint32_t)>& at) {
+    glm::dvec2 longest(0);
+    for (const Foot& foot : feet)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec2 from = at(foot[i]), to = at(foot[(i + 1) % 3]);
+            glm::dvec2 way(glm::abs(shorterWay(glm::dvec3(to - from, 0), glm::dvec3(turn, 0, 0))));
+            if (isAboutPole(way.x, turn)) way = {0, turn / 2 - std::abs(from.y + to.y)};
+            longest = glm::max(longest, way);
+        }
+    return longest;
 }
 
 void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points) {
@@ -71,18 +88,12 @@ void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint
     if (isPolyhedron) faceEnds_.back() = faces_.size();
 }
 
-template <typename At>
-void SolidCells::measure(const At& at, const glm::dvec3& period) {
-    // Of those of its corners that have a place.
+void SolidCells::measure(std::span<const glm::dvec3> points) {
     const auto extentOf = [&](std::uint64_t cell) {
-        glm::dvec3 lo(0), hi(0);
-        Room room;
-        const auto all = corners(cell, room);
-        const glm::dvec3 first = at(all.front());
-        for (const std::uint32_t corner : all) {
-            const glm::dvec3 way = shorterWay(at(corner) - first, period);
-            lo = glm::min(lo, way);
-            hi = glm::max(hi, way);
+        glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
+        for (const std::uint32_t corner : listOf(corners_, ends_, cell)) {
+            lo = glm::min(lo, points[corner]);
+            hi = glm::max(hi, points[corner]);
         }
         return hi - lo;
     };
@@ -93,7 +104,7 @@ void SolidCells::measure(const At& at, const glm::dvec3& period) {
         for (std::uint64_t cell = count() * k / threads; cell < count() * (k + 1) / threads;
              ++cell) {
             longest[k] = glm::max(longest[k], extentOf(cell));
-            if (!feet_) forEachTet(cell, [&](const auto&) { ++tets[k]; });
+            forEachTet(cell, [&](const auto&) { ++tets[k]; });
         }
     });
     for (const glm::dvec3& of : longest) longest_ = glm::max(longest_, of);

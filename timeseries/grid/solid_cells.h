@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -30,17 +31,22 @@ class SolidCells {
     // Three columns that stand beside each other, the least first.
     using Foot = std::array<std::uint32_t, 3>;
     using Feet = std::shared_ptr<const std::vector<Foot>>;
-    // Where a point lies, called by several threads at once; and after how much each coordinate
-    // comes round to where it began, 0: never.
-    struct Places {
-        std::function<glm::dvec3(std::uint64_t point)> at;
-        glm::dvec3 period{0};
-    };
     // A prism above each foot between one level of so many columns and the next: the point of a
-    // column at level k has the number k * columns + column. Null where there is none, or more than
-    // numbers of 32 bits tell.
+    // column at level k has the number k * columns + column. `longest` as below, of who knows the
+    // places. Null where there is none, or more than numbers of 32 bits tell.
     static std::shared_ptr<const SolidCells> ofColumns(Feet feet, std::uint64_t columns,
-                                                       std::size_t levels, const Places& places);
+                                                       std::size_t levels,
+                                                       const glm::dvec3& longest);
+    // How far a foot's columns are apart along the first two coordinates, at most; of those that
+    // are about a pole, where the first is a longitude that comes round after `turn`, across that.
+    static glm::dvec2 longestOf(std::span<const Foot> feet, double turn,
+                                const std::function<glm::dvec2(std::uint32_t column)>& at);
+    // Whether columns so far apart along the first coordinate are on two sides of a pole: on a
+    // flat map nothing is between them.
+    static bool isAboutPole(double way, double turn) {
+        constexpr double kMost = 0.26;
+        return turn > 0 && way > kMost * turn;
+    }
     // Null where they are no prisms between columns.
     const Feet& feet() const { return feet_; }
 
@@ -81,8 +87,7 @@ class SolidCells {
 
  private:
     void add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points);
-    template <typename At>
-    void measure(const At& at, const glm::dvec3& period);
+    void measure(std::span<const glm::dvec3> points);
     std::span<const std::uint32_t> prism(std::uint64_t cell, Room& room) const {
         const std::uint64_t layer = cell / feet_->size();
         const Foot& foot = (*feet_)[cell % feet_->size()];

@@ -56,8 +56,8 @@ std::optional<FoundList> byBounds(const NcHeader& header, const NcVariable& vari
 }
 
 // Whether what a connectivity counts is its second dimension: the one that says so, else the first;
-// but where that is as long as those have corners, and the second longer by far, as FVCOM writes
-// nv(three, nele).
+// but where that is as long as what is counted has corners, which are so many, and the second
+// longer by far, as FVCOM writes nv(three, nele).
 bool isTurned(const NcHeader& header, const NcVariable& connectivity, const std::string& counted,
               std::uint64_t leastCorners, std::uint64_t mostCorners) {
     const NcDimension &first = header.dimension(connectivity, 0),
@@ -200,15 +200,17 @@ NodesOf facesOf(const CfFile& file, const ColumnPlaces& places, std::size_t node
 }
 
 // Between columns that have several levels, above the triangles that `feet` tells.
-std::shared_ptr<const Mesh> withPrisms(Mesh mesh, std::size_t levels, double turn,
+std::shared_ptr<const Mesh> withPrisms(Mesh mesh, const std::vector<double>& levels, double turn,
                                        const std::function<std::vector<SolidCells::Foot>()>& feet) {
-    if (levels > 1) {
-        const glm::dvec3 period(turn, 0, 0);
-        const auto at = [&](std::uint64_t point) { return mesh.position(point); };
-        mesh.setSolids(
-            SolidCells::ofColumns(std::make_shared<const std::vector<SolidCells::Foot>>(feet()),
-                                  mesh.size()[0], levels, {at, period}),
-            period);
+    if (levels.size() > 1) {
+        double apart = 0;
+        for (std::size_t k = 1; k < levels.size(); ++k)
+            apart = std::max(apart, std::abs(levels[k] - levels[k - 1]));
+        const auto all = std::make_shared<const std::vector<SolidCells::Foot>>(feet());
+        const auto at = [&](std::uint32_t column) { return glm::dvec2(mesh.position(column)); };
+        const glm::dvec3 longest(SolidCells::longestOf(*all, turn, at), apart);
+        mesh.setSolids(SolidCells::ofColumns(all, mesh.size()[0], levels.size(), longest),
+                       {turn, 0, 0});
     }
     return std::make_shared<const Mesh>(std::move(mesh));
 }
@@ -243,7 +245,7 @@ std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& p
     if (places.by == ColumnPlaces::By::Bounds) {
         const BoundedPlaces all = boundedPlaces(file, places);
         const auto [grid, at] = polygonsAbout(all.centres, all.corners);
-        return withPrisms(meshOfCells(grid, UnstructuredShapes(grid), levels, at), levels.size(),
+        return withPrisms(meshOfCells(grid, UnstructuredShapes(grid), levels, at), levels,
                           all.centres.turn, [&] {
                               NodesOf polygons;
                               const auto nodes = nodesAtCorners(all.corners, all.each, polygons);
@@ -258,8 +260,8 @@ std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& p
     const NodesOf faces = facesOf(file, places, nodes.x.size());
     if (places.by == ColumnPlaces::By::Faces) {
         const UnstructuredGrid grid = polygonsOfFaces(nodes, faces);
-        return withPrisms(meshOfCells(grid, UnstructuredShapes(grid), levels), levels.size(),
-                          nodes.turn, [&] { return trianglesOfFaces(faces, nodes.x.size()); });
+        return withPrisms(meshOfCells(grid, UnstructuredShapes(grid), levels), levels, nodes.turn,
+                          [&] { return trianglesOfFaces(faces, nodes.x.size()); });
     }
     if (places.by == ColumnPlaces::By::Edges) {
         ColumnPlaces ofEdges = places;
@@ -276,8 +278,8 @@ std::shared_ptr<const Mesh> meshOfList(const CfFile& file, const ColumnPlaces& p
         return std::make_shared<const Mesh>(std::move(mesh));
     }
     const UnstructuredGrid grid = polygonsAboutNodes(nodes, faces);
-    return withPrisms(meshOfPoints(grid, UnstructuredShapes(grid), levels, nodes.x.size()),
-                      levels.size(), nodes.turn, [&] { return trianglesOfNodes(faces); });
+    return withPrisms(meshOfPoints(grid, UnstructuredShapes(grid), levels, nodes.x.size()), levels,
+                      nodes.turn, [&] { return trianglesOfNodes(faces); });
 }
 
 }  // namespace timeseries

@@ -13,6 +13,7 @@ namespace timeseries {
 namespace {
 
 using Feet = std::vector<SolidCells::Foot>;
+constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
 // Round the least of a ring's places.
 void addFan(Feet& feet, std::span<const std::uint32_t> ring) {
@@ -32,7 +33,8 @@ struct Around {
     std::array<std::uint32_t, 2> beside;
 };
 
-// The faces at a node put into rings and open chains of faces that share an edge.
+// The faces at a node put into rings and open chains of faces that share an edge, which no third
+// one has.
 class Rings {
  public:
     // use(faces of a ring or a chain).
@@ -40,42 +42,44 @@ class Rings {
     void forEach(std::span<const Around> around, const Use& use) {
         edges_.clear();
         for (std::uint32_t i = 0; i < around.size(); ++i)
-            for (const std::uint32_t node : around[i].beside) edges_.emplace_back(node, i);
-        std::ranges::sort(edges_);
+            for (const std::uint32_t node : around[i].beside) edges_.push_back({node, i});
+        std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
+            return std::tie(a.node, a.place) < std::tie(b.node, b.place);
+        });
         taken_.assign(around.size(), false);
         // Chains from their ends, then rings from anywhere.
         for (const bool closed : {false, true})
             for (std::uint32_t i = 0; i < around.size(); ++i) {
-                if (taken_[i]) continue;
                 const auto open = std::ranges::find_if(
-                    around[i].beside, [&](std::uint32_t node) { return at(node).size() == 1; });
-                if (!closed && open == around[i].beside.end()) continue;
-                const std::uint32_t last = closed ? around[i].beside[0] : *open;
-                walk(around, i, last);
+                    around[i].beside, [&](std::uint32_t node) { return at(node).size() != 2; });
+                if (taken_[i] || (!closed && open == around[i].beside.end())) continue;
+                walk(around, i, closed ? around[i].beside[0] : *open);
                 use(std::span<const std::uint32_t>(ring_));
             }
     }
 
  private:
-    using Edge = std::pair<std::uint32_t, std::uint32_t>;  // a node, and a face at it
+    struct Edge {  // to a node, of a face at a place in the list
+        std::uint32_t node, place;
+    };
     std::span<const Edge> at(std::uint32_t node) const {
-        const auto [first, last] = std::ranges::equal_range(edges_, node, {}, &Edge::first);
-        return {first, last};
+        const auto [first, last] =
+            std::equal_range(edges_.begin(), edges_.end(), Edge{node, 0},
+                             [](const Edge& a, const Edge& b) { return a.node < b.node; });
+        return {edges_.data() + (first - edges_.begin()), std::size_t(last - first)};
     }
-    // From a face on, away from that node beside.
-    void walk(std::span<const Around> around, std::uint32_t face, std::uint32_t from) {
+    // From a place on, away from that node beside.
+    void walk(std::span<const Around> around, std::uint32_t place, std::uint32_t from) {
         ring_.clear();
-        for (bool goesOn = true; goesOn;) {
-            taken_[face] = true;
-            ring_.push_back(around[face].face);
-            const auto& beside = around[face].beside;
+        for (;;) {
+            taken_[place] = true;
+            ring_.push_back(around[place].face);
+            const auto& beside = around[place].beside;
             from = beside[0] == from ? beside[1] : beside[0];
-            goesOn = false;
-            for (const auto& [node, next] : at(from))
-                if (!taken_[next] && !goesOn) {
-                    face = next;
-                    goesOn = true;
-                }
+            const auto both = at(from);
+            if (both.size() != 2) return;
+            place = both[both[0].place == place ? 1 : 0].place;
+            if (taken_[place]) return;
         }
     }
 
@@ -83,6 +87,13 @@ class Rings {
     std::vector<bool> taken_;
     std::vector<std::uint32_t> ring_;
 };
+
+// Without corners that are the one before again, as triangles among squares are written.
+std::vector<std::uint32_t> cornersOf(std::vector<std::uint32_t> face) {
+    face.erase(std::unique(face.begin(), face.end()), face.end());
+    while (face.size() > 1 && face.front() == face.back()) face.pop_back();
+    return face;
+}
 
 }  // namespace
 
@@ -93,17 +104,23 @@ Feet trianglesOfNodes(const NodesOf& faces) {
 }
 
 Feet trianglesOfFaces(const NodesOf& faces, std::size_t nodes) {
-    std::vector<std::size_t> ends(nodes + 1);
-    for (const auto& face : faces)
-        for (const std::uint32_t node : face) ++ends[node + 1];
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Around> around(ends.back());
-    std::vector<std::size_t> next(ends.begin(), ends.end() - 1);
+    struct AtNode {
+        std::uint32_t node;
+        Around around;
+    };
+    std::vector<AtNode> all;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
-        const auto& face = faces[f];
-        for (std::size_t i = 0, n = face.size(); i < n; ++i)
-            around[next[face[i]]++] = {f, {face[(i + n - 1) % n], face[(i + 1) % n]}};
+        const auto face = cornersOf(faces[f]);
+        const std::size_t n = face.size();
+        for (std::size_t i = 0; n >= 3 && i < n; ++i)
+            all.push_back({face[i], {f, {face[(i + n - 1) % n], face[(i + 1) % n]}}});
     }
+    std::vector<std::size_t> ends(nodes + 1);
+    for (const AtNode& each : all) ++ends[each.node + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Around> around(all.size());
+    std::vector<std::size_t> free(ends.begin(), ends.end() - 1);
+    for (const AtNode& each : all) around[free[each.node]++] = each.around;
     Feet feet;
     Rings rings;
     for (std::size_t node = 0; node < nodes; ++node)
@@ -112,9 +129,10 @@ Feet trianglesOfFaces(const NodesOf& faces, std::size_t nodes) {
     return feet;
 }
 
+// Corners by latitude, then longitude, of which those that lie nearer to each other than floats
+// tell, or on two sides of where longitudes begin anew, are one node.
 std::size_t nodesAtCorners(const PlaneCoordinates& corners, std::size_t each, NodesOf& polygons) {
-    constexpr double kPerDegree = 1e9;  // nearer to each other they are one place
-    constexpr double kPole = 90 - 1e-6;
+    constexpr double kPole = 90, kPoles = 1e-6, kNear = 4e-5;  // degrees
     const std::size_t count = each > 0 ? corners.x.size() / each : 0;
     struct Corner {
         double x, y;
@@ -122,36 +140,36 @@ std::size_t nodesAtCorners(const PlaneCoordinates& corners, std::size_t each, No
     };
     std::vector<Corner> all;
     for (std::size_t i = 0; i < count * each; ++i) {
-        double x = corners.x[i], y = corners.y[i];
-        if (!std::isfinite(x) || !std::isfinite(y)) continue;
+        Corner corner{corners.x[i], corners.y[i], i};
+        if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) continue;
         if (corners.turn > 0) {
-            const double steps = corners.turn * kPerDegree;
-            const double turned = std::fmod(std::round(x * kPerDegree), steps);
-            x = std::abs(y) > kPole ? 0 : turned < 0 ? turned + steps : turned;
-            y = std::round(y * kPerDegree);
+            corner.x = std::fmod(corner.x, corners.turn);
+            if (corner.x < 0) corner.x += corners.turn;
+            if (std::abs(corner.y) > kPole - kPoles)
+                corner = {0, std::copysign(kPole, corner.y), i};
         }
-        all.push_back({x, y, i});
+        all.push_back(corner);
     }
-    const auto place = [](const Corner& corner) { return std::tie(corner.x, corner.y); };
-    std::ranges::sort(all, [&](const Corner& a, const Corner& b) {
-        return std::tuple(place(a), a.at) < std::tuple(place(b), b.at);
+    std::sort(all.begin(), all.end(), [](const Corner& a, const Corner& b) {
+        return std::tie(a.y, a.x, a.at) < std::tie(b.y, b.x, b.at);
     });
-    std::vector<std::uint32_t> nodeOf(count * each);
-    std::vector<bool> isThere(count * each);
-    std::size_t nodes = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (i == 0 || place(all[i]) != place(all[i - 1])) ++nodes;
-        nodeOf[all[i].at] = static_cast<std::uint32_t>(nodes - 1);
-        isThere[all[i].at] = true;
+    const double near = corners.turn > 0 ? kNear : 0;
+    std::vector<std::uint32_t> nodeOf(count * each, kNone);
+    std::uint32_t nodes = 0;
+    for (std::size_t i = 0, first = 0; i < all.size(); ++i) {
+        const bool isFirst = i == 0 || all[i].y != all[i - 1].y;  // there
+        if (isFirst) first = i;
+        const bool isAsBefore = !isFirst && all[i].x - all[i - 1].x <= near;
+        const bool isAsFirst =
+            !isFirst && near > 0 && all[first].x + corners.turn - all[i].x <= near;
+        nodeOf[all[i].at] = isAsFirst    ? nodeOf[all[first].at]
+                            : isAsBefore ? nodeOf[all[i - 1].at]
+                                         : nodes++;
     }
     polygons.assign(count, {});
-    for (std::size_t i = 0; i < count * each; ++i) {
-        auto& polygon = polygons[i / each];
-        if (isThere[i] && (polygon.empty() || polygon.back() != nodeOf[i]))
-            polygon.push_back(nodeOf[i]);
-    }
-    for (auto& polygon : polygons)
-        if (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+    for (std::size_t i = 0; i < count * each; ++i)
+        if (nodeOf[i] != kNone) polygons[i / each].push_back(nodeOf[i]);
+    for (auto& polygon : polygons) polygon = cornersOf(std::move(polygon));
     return nodes;
 }
 

@@ -13,7 +13,8 @@ namespace timeseries {
 // Between nodes: each face parted from the least of its own.
 std::vector<SolidCells::Foot> trianglesOfNodes(const NodesOf& faces);
 // Between faces: about each of so many nodes the ring of those that have it, each beside the next
-// at an edge; at the mesh's end from the last of them to the first, if there are three.
+// at an edge; at the mesh's end from the last of them to the first, if there are three: by a
+// straight line, which at a corner of the mesh may lie up to half a face beyond it.
 std::vector<SolidCells::Foot> trianglesOfFaces(const NodesOf& faces, std::size_t nodes);
 
 // The nodes of polygons that have as many corners each, which are told by where they lie: corners
