@@ -59,8 +59,8 @@ struct Lattice {
 
  private:
     void add(std::vector<std::uint32_t> face, std::mt19937& random) {
-        std::ranges::rotate(face, face.begin() + int(random() % face.size()));
-        if (random() % 2 == 0) std::ranges::reverse(face);
+        std::rotate(face.begin(), face.begin() + int(random() % face.size()), face.end());
+        if (random() % 2 == 0) std::reverse(face.begin(), face.end());
         faces.push_back(std::move(face));
     }
 };

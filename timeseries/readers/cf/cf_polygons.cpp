@@ -14,12 +14,9 @@ namespace {
 // As VTK numbers them (cell_types.h).
 constexpr std::uint8_t kTriangle = 5, kPolygon = 7, kQuad = 9;
 
-constexpr double kPole = 90 - 1e-6;
-
 // As near to the reference as whole turns bring it. At a pole every longitude is the same.
 glm::dvec3 unwound(double x, double y, double reference, double turn) {
-    if (turn > 0)
-        x = std::abs(y) > kPole ? reference : x + turn * std::round((reference - x) / turn);
+    if (turn > 0) x = isPole(y, turn) ? reference : x + turn * std::round((reference - x) / turn);
     return {x, y, 0};
 }
 
@@ -29,8 +26,6 @@ void addPolygon(UnstructuredGrid& grid, std::vector<std::uint32_t>& corners) {
     std::ranges::copy(corners, std::back_inserter(grid.corners));
     grid.ends.push_back(grid.corners.size());
 }
-
-bool isPole(double y, double turn) { return turn > 0 && std::abs(y) > kPole; }
 
 // A polygon a place, with corners of its own.
 class OwnCorners {

@@ -3,6 +3,7 @@
 // whole, also where longitudes begin anew.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -16,6 +17,12 @@ struct PlaneCoordinates {
     std::vector<double> x, y;
     double turn = 0;  // after which x comes round to itself; 0: never
 };
+
+// Whether a latitude is that of a pole, where every longitude is the same place.
+inline bool isPole(double y, double turn) {
+    constexpr double kPole = 90 - 1e-6;
+    return turn > 0 && std::abs(y) > kPole;
+}
 
 // Of each face or edge the nodes that it has.
 using NodesOf = std::vector<std::vector<std::uint32_t>>;

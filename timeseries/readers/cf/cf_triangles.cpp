@@ -132,7 +132,7 @@ Feet trianglesOfFaces(const NodesOf& faces, std::size_t nodes) {
 // Corners by latitude, then longitude, of which those that lie nearer to each other than floats
 // tell, or on two sides of where longitudes begin anew, are one node.
 std::size_t nodesAtCorners(const PlaneCoordinates& corners, std::size_t each, NodesOf& polygons) {
-    constexpr double kPole = 90, kPoles = 1e-6, kNear = 4e-5;  // degrees
+    constexpr double kNear = 4e-5;  // degrees
     const std::size_t count = each > 0 ? corners.x.size() / each : 0;
     struct Corner {
         double x, y;
@@ -145,8 +145,7 @@ std::size_t nodesAtCorners(const PlaneCoordinates& corners, std::size_t each, No
         if (corners.turn > 0) {
             corner.x = std::fmod(corner.x, corners.turn);
             if (corner.x < 0) corner.x += corners.turn;
-            if (std::abs(corner.y) > kPole - kPoles)
-                corner = {0, std::copysign(kPole, corner.y), i};
+            if (isPole(corner.y, corners.turn)) corner = {0, std::copysign(90, corner.y), i};
         }
         all.push_back(corner);
     }
