@@ -42,6 +42,8 @@ struct Layers {
     By by;
     bool atNodes = true;
     bool layersFastest = false;  // as SCHISM writes them
+    // Of the faces' nodes, which are counted from one, and nobody says so, as FVCOM writes them.
+    bool cornersFirst = false;
     int places() const { return atNodes ? kLatticeNodes : kFaces; }
 };
 
@@ -59,12 +61,13 @@ bool isThere(By by, std::size_t layer, int place) {
 }
 
 std::filesystem::path written(const Layers& what) {
-    NetcdfBuilder file(fmt::format("layers{}{}{}.nc", static_cast<int>(what.by), what.atNodes,
-                                   what.layersFastest));
+    NetcdfBuilder file(fmt::format("layers{}{}{}{}.nc", static_cast<int>(what.by), what.atNodes,
+                                   what.cornersFirst, what.layersFastest));
     const int n = file.dimension("node", kLatticeNodes), f = file.dimension("face", kFaces),
               three = file.dimension("three", 3), layer = file.dimension("layer", kLayers);
     const auto time = file.coordinate("time", kSteps, "s");
-    const auto [x, y, list] = declareUgrid(file, n, f, three, "m", "m");
+    const auto [x, y, list] = what.cornersFirst ? declareUgrid(file, n, three, f, "m", "m")
+                                                : declareUgrid(file, n, f, three, "m", "m");
     const int place = what.atNodes ? n : f;
     const std::vector<int> all = what.layersFastest ? std::vector{time.dimension, place, layer}
                                                     : std::vector{time.dimension, layer, place};
@@ -109,7 +112,9 @@ std::filesystem::path written(const Layers& what) {
     for (int p = 0; p < kLatticeNodes; ++p)
         xs.push_back(p % kLatticeSide), ys.push_back(p / kLatticeSide);
     std::vector<std::int32_t> corners;
-    for (const auto& face : faces()) corners.insert(corners.end(), face.begin(), face.end());
+    for (std::size_t i = 0; i < 3 * faces().size(); ++i)
+        corners.push_back(what.cornersFirst ? 1 + faces()[i % kFaces][i / kFaces]
+                                            : faces()[i / 3][i % 3]);
     for (int p = 0; p < what.places(); ++p) depths.push_back(depthOf(p));
     for (std::size_t s = 0; s < kSteps; ++s)
         for (int p = 0; p < what.places(); ++p) surfaces.push_back(surfaceOf(s, p));
@@ -216,77 +221,9 @@ TEST(NetcdfListHeights, AreThoseOfAVariable) {
             for (const By by : {By::Zcor, By::Coordinates}) expectColumns({by, atNodes, fastest});
 }
 
-// As FVCOM writes them: the corners of faces before the faces, counted from one, and nobody says
-// so; layers of each place by CF's formula.
-std::filesystem::path fvcom() {
-    NetcdfBuilder file("fvcom.nc");
-    const int n = file.dimension("node", kLatticeNodes), f = file.dimension("nele", kFaces),
-              three = file.dimension("three", 3), layer = file.dimension("siglay", kLayers);
-    const auto time = file.coordinate("time", kSteps, "s");
-    const int mesh = file.variable("fvcom_mesh", NC_INT, {}),
-              x = file.variable("lon", NC_FLOAT, {n}), y = file.variable("lat", NC_FLOAT, {n}),
-              list = file.variable("nv", NC_INT, {three, f}),
-              sigma = file.variable("siglay", NC_FLOAT, {layer, n}),
-              depth = file.variable("h", NC_FLOAT, {n}),
-              eta = file.variable("zeta", NC_FLOAT, {time.dimension, n}),
-              t = file.variable("temp", NC_FLOAT, {time.dimension, layer, n});
-    file.text(mesh, "cf_role", "mesh_topology");
-    file.text(mesh, "node_coordinates", "lon lat");
-    file.text(mesh, "face_node_connectivity", "nv");
-    file.text(x, "units", "degrees_east");
-    file.text(y, "units", "degrees_north");
-    file.text(depth, "units", "m");
-    file.text(eta, "units", "m");
-    file.text(sigma, "standard_name", "ocean_sigma_coordinate");
-    file.text(sigma, "positive", "up");
-    file.text(sigma, "formula_terms", "sigma: siglay eta: zeta depth: h");
-    for (const int on : {eta, t}) {
-        file.text(on, "mesh", "fvcom_mesh");
-        file.text(on, "location", "node");
-    }
-    file.text(t, "coordinates", "time siglay lat lon");
-    file.write(time.variable, std::vector<double>{0, 10});
-    std::vector<float> xs, ys, sigmas, depths, surfaces, values;
-    for (int p = 0; p < kLatticeNodes; ++p) {
-        xs.push_back(float(p % kLatticeSide));
-        ys.push_back(float(p / kLatticeSide));
-        depths.push_back(float(depthOf(p)));
-    }
-    for (std::size_t k = 0; k < kLayers; ++k)
-        for (int p = 0; p < kLatticeNodes; ++p) sigmas.push_back(float(sigmaOf(k)));
-    for (std::size_t s = 0; s < kSteps; ++s)
-        for (int p = 0; p < kLatticeNodes; ++p) surfaces.push_back(float(surfaceOf(s, p)));
-    for (std::size_t i = 0; i < kSteps * kLayers * kLatticeNodes; ++i) values.push_back(float(i));
-    std::vector<std::int32_t> corners;
-    for (std::size_t corner = 0; corner < 3; ++corner)
-        for (const auto& face : faces()) corners.push_back(1 + face[corner]);
-    file.write(x, xs);
-    file.write(y, ys);
-    file.write(list, corners);
-    file.write(sigma, sigmas);
-    file.write(depth, depths);
-    file.write(eta, surfaces);
-    file.write(t, values);
-    return file.close();
-}
-
-TEST(NetcdfListHeights, OfFvcomWhichSaysLittle) {
-    const auto reader = open(fvcom());
-    const std::size_t v = tests::indexOf(*reader, "temp");
-    for (const std::size_t step : {0u, 1u}) {
-        const Field field = reader->read(v, step);
-        const Mesh& mesh = *field.grid->mesh();
-        ASSERT_EQ(mesh.count(), std::uint64_t{kLayers * kLatticeNodes});
-        EXPECT_EQ(std::get<std::vector<float>>(field.values)[5],
-                  float(step * kLayers * kLatticeNodes + 5));
-        for (std::size_t k = 0; k < kLayers; ++k)
-            for (int p = 0; p < kLatticeNodes; ++p) {
-                const std::uint64_t index = k * kLatticeNodes + std::uint64_t(p);
-                EXPECT_NEAR(mesh.position(index).z, heightOf(step, k, p), 1e-4);
-                EXPECT_GT(tests::volume(mesh, index), 0) << k << ' ' << p;
-            }
-        EXPECT_EQ(mesh.solids()->count(), std::uint64_t{(kLayers - 1) * kFaces});
-    }
+TEST(NetcdfListHeights, AreThoseOfFvcomWhichSaysLittle) {
+    for (const bool atNodes : {true, false})
+        expectColumns({.by = By::SigmaOfEach, .atNodes = atNodes, .cornersFirst = true});
 }
 
 // Also where they themselves are drawn.

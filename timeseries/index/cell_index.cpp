@@ -13,6 +13,7 @@
 #include "timeseries/grid/pages.h"
 #include "timeseries/grid/solid_cells.h"
 #include "timeseries/grid/with_type.h"
+#include "timeseries/index/cell_extents.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/value_sort.h"
 
@@ -49,15 +50,6 @@ std::uint32_t keyOf(double middle) {
 double below(double x) { return x - std::abs(x) * 4 * std::numeric_limits<double>::epsilon(); }
 double above(double x) { return x + std::abs(x) * 4 * std::numeric_limits<double>::epsilon(); }
 
-std::uint32_t neighbour(std::uint32_t cell, std::uint32_t side, std::uint32_t points) {
-    return std::min(cell + side > 0 ? cell + side - 1 : 0, points - 1);
-}
-
-glm::uvec3 pointsOf(const Field& field) {
-    const auto size = field.grid->size();
-    return {size[0], size[1], size[2]};
-}
-
 // Ascending and disjoint, what any of them holds.
 std::vector<Interval<double>> joined(std::vector<Interval<double>> all) {
     std::ranges::sort(all, {}, &Interval<double>::lo);
@@ -81,105 +73,6 @@ std::pair<std::uint32_t, std::uint32_t> keysOf(const Interval<double>& interval,
 }
 
 }  // namespace
-
-// What rows of cells along x take from their four rows of points, one row after another. Real has
-// each value exactly.
-template <typename Real>
-class CellIndex::Rows {
- public:
-    explicit Rows(const Field& field)
-        : field_(field),
-          points_(pointsOf(field)),
-          least_(points_.x + 1),
-          greatest_(points_.x + 1) {}
-
-    void look(std::uint32_t j, std::uint32_t k) {
-        const Pair& one = pairAt(neighbour(j, 0, points_.y), k);
-        const Pair& other = pairAt(neighbour(j, 1, points_.y), k);
-        const std::size_t n = points_.x;
-        const auto of = [&](const auto& nearer, const Line& a, const Line& b, Line& to) {
-            to[0] = nearer(a[0], b[0]);
-            for (std::size_t i = 1; i < n; ++i)
-                to[i] = nearer(nearer(a[i - 1], b[i - 1]), nearer(a[i], b[i]));
-            to[n] = nearer(a[n - 1], b[n - 1]);
-        };
-        of([](Real a, Real b) { return a < b ? a : b; }, one.least, other.least, least_);
-        of([](Real a, Real b) { return a > b ? a : b; }, one.greatest, other.greatest, greatest_);
-    }
-    // Half the range, and the middle, of the cell between two points; false where nothing is
-    // finite.
-    bool at(std::size_t cell, double& half, double& middle) const {
-        const auto lo = static_cast<double>(least_[cell]);
-        const auto hi = static_cast<double>(greatest_[cell]);
-        half = 0.5 * hi - 0.5 * lo;
-        middle = 0.5 * hi + 0.5 * lo;
-        return lo <= hi;
-    }
-
- private:
-    using Line = std::vector<Real>;
-    static constexpr Real kBeyond = std::numeric_limits<Real>::infinity();
-    // Of two rows of points, on both sides of cells along z: what the next cells along y take, too.
-    struct Pair {
-        std::int64_t y = -1, k = -1;
-        Line least, greatest;  // inf, -inf where neither has a value
-    };
-
-    const Pair& pairAt(std::uint32_t y, std::uint32_t k) {
-        Pair& pair = pairs_[y & 1];
-        if (pair.y == y && pair.k == k) return pair;
-        pair.y = y;
-        pair.k = k;
-        pair.least.assign(points_.x, kBeyond);
-        pair.greatest.assign(points_.x, -kBeyond);
-        for (const std::uint32_t side : {0u, 1u}) {
-            const std::uint64_t z = neighbour(k, side, points_.z);
-            const std::uint64_t first = points_.x * (y + std::uint64_t{points_.y} * z);
-            std::visit([&](const auto& values) { add(&values[first], first, pair); },
-                       field_.values);
-        }
-        return pair;
-    }
-    template <typename T>
-    void add(const T* values, std::uint64_t first, Pair& to) const {
-        Real* const least = to.least.data();
-        Real* const greatest = to.greatest.data();
-        const auto take = [&](std::size_t i, bool isThere) {
-            const auto v = static_cast<Real>(values[i]);
-            const bool counts = isThere && v > -kBeyond && v < kBeyond;
-            const Real low = counts ? v : kBeyond, high = counts ? v : -kBeyond;
-            least[i] = low < least[i] ? low : least[i];
-            greatest[i] = high > greatest[i] ? high : greatest[i];
-        };
-        if (field_.missing.empty())
-            for (std::size_t i = 0; i < points_.x; ++i) take(i, true);
-        else
-            for (std::size_t i = 0; i < points_.x; ++i) take(i, !field_.missing[first + i]);
-    }
-
-    const Field& field_;
-    glm::uvec3 points_;
-    std::array<Pair, 2> pairs_;
-    Line least_, greatest_;  // of cells
-};
-
-// What solid cells take from their corners.
-class CellIndex::Solids {
- public:
-    Solids(const Field& field, const SolidCells& cells) : field_(field), cells_(cells) {}
-    // As Rows::at().
-    bool at(std::uint64_t cell, double& half, double& middle) const {
-        SolidCells::Room room;
-        const auto [lo, hi] = finiteExtent(field_, cells_.corners(cell, room));
-        half = 0.5 * hi - 0.5 * lo;
-        middle = 0.5 * hi + 0.5 * lo;
-        return lo <= hi;
-    }
-
- private:
-    const Field& field_;
-    const SolidCells& cells_;
-};
 
 // What of each class is kept.
 class CellIndex::Wanted {
@@ -246,7 +139,7 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
     };
     const auto look = [&](unsigned k, const auto& use) {
         if (solids) {
-            const Solids cells(*field_, *solids);
+            const SolidExtents cells(*field_, *solids);
             for (std::uint64_t i = solids->count() * k / threads;
                  i < solids->count() * (k + 1) / threads; ++i)
                 if (isNear(cells, i)) take(cells, i, i, use);
@@ -268,7 +161,7 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
         };
         withType(field_->type(), [&]<typename T>(T) {
             constexpr bool kFitsFloat = std::is_same_v<T, float> || sizeof(T) <= 2;
-            lookAt(Rows<std::conditional_t<kFitsFloat, float, double>>(*field_));
+            lookAt(RowExtents<std::conditional_t<kFitsFloat, float, double>>(*field_));
         });
     };
     // All of them are looked at twice; of some it is kept which they are, or it would take as long.

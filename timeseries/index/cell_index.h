@@ -69,9 +69,6 @@ class CellIndex {
         double halfRange;  // at most, of the cells in it
         std::uint64_t first, count;
     };
-    template <typename Real>
-    class Rows;
-    class Solids;
     class Wanted;
 
     std::shared_ptr<const Field> field_;
