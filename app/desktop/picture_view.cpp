@@ -52,11 +52,6 @@ glm::ivec2 PictureView::eyeSize(const panels::Rect& place, Stereo mode) {
     return glm::max(glm::ivec2(place.size()) / tiles(mode), glm::ivec2(16));
 }
 
-void PictureView::beginFrom(const DrawingCosts& learnt) {
-    if (learnt.points) pace_.beginFrom(*learnt.points);
-    if (learnt.cells) cellPace_.beginFrom(*learnt.cells);
-}
-
 bool PictureView::isCurrent(const Shown& shown) const {
     return content_ && content_->sorted == shown.sorted &&
            content_->explorer == drawnOf(shown.explorer);
@@ -88,12 +83,10 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
         slices_.reset();
     else if (!slices_)
         slices_.emplace(kSlice * frameBudget, firstSlice(kSlice * frameBudget));
-    render::FramePace& points = slices_ ? *slices_ : pace_;
-    for (render::FramePace* pace : {&points, &cellPace_})
-        pace->setTarget(slices_ ? kSlice * frameBudget : movingTarget(frameBudget));
-    const CanvasLimits limits =
-        resting ? CanvasLimits{.splats = points.budget(), .cells = cellPace_.budget()}
-                : moving(e, choices);
+    governor_.setTarget(slices_ ? kSlice * frameBudget : movingTarget(frameBudget));
+    if (slices_) slices_->setTarget(kSlice * frameBudget);
+    CanvasLimits limits = moving(e, choices);
+    if (slices_) limits.splats = slices_->budget();
     eyes_ = canvas_.eyesOf(shown);
     grid_ = grid;
     const auto show = [&](std::size_t eye, render::Targets& light) {
@@ -106,8 +99,10 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
                       : canvas_.draw(shown, eyes_, limits, true, show);
     // What is told is of an earlier frame: one that drew nothing says nothing of this one.
     timed_ = report_.gpuTime && report_.gpuSplats > 0;
-    if (report_.gpuTime)
-        (report_.gpuCells ? cellPace_ : points).took(report_.gpuSplats, *report_.gpuTime);
+    if (report_.gpuTime && slices_ && !report_.gpuCells)
+        slices_->took(report_.gpuSplats, *report_.gpuTime);
+    else if (report_.gpuTime)
+        governor_.took({report_.gpuSplats, report_.gpuCells}, *report_.gpuTime);
     if (timed_) performance_.frame = *report_.gpuTime;
     performance_ = {performance_.frame, frameBudget, report_, performance_.picture + 1};
     content_ = Content{drawnOf(e), shown.sorted};
@@ -116,16 +111,14 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
 }
 
 std::uint64_t PictureView::firstSlice(std::chrono::nanoseconds slice) const {
-    const std::uint64_t atOnce = pace_.fitting(kAtOnce);
-    return report_.selected * eyes_.size() <= atOnce ? atOnce : pace_.fitting(slice);
+    const std::uint64_t atOnce = governor_.pace(false).fitting(kAtOnce);
+    return report_.selected * eyes_.size() <= atOnce ? atOnce
+                                                     : governor_.pace(false).fitting(slice);
 }
 
 CanvasLimits PictureView::moving(const Explorer& explorer, const panels::Choices& choices) const {
     const bool isKnown = errorsOf_ == selectionOf(drawnOf(explorer)) && errors_;
-    CanvasLimits limits{.splats = pace_.budget(),
-                        .cells = cellPace_.budget(),
-                        .mayBeCoarse = true,
-                        .errors = isKnown ? &*errors_ : nullptr};
+    CanvasLimits limits = governor_.limits(isKnown ? &*errors_ : nullptr);
     switch (choices.moving) {
         case Moving::Pace:
             break;

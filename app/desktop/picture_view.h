@@ -10,9 +10,9 @@
 #include "app/choices/preferences.h"
 #include "app/desktop/rest.h"
 #include "app/drawing/canvas.h"
+#include "app/drawing/governor.h"
 #include "app/drawing/picture_error.h"
 #include "app/panels/panel_context.h"
-#include "render/frame/frame_pace.h"
 #include "render/frame/kept_picture.h"
 #include "render/frame/present.h"
 
@@ -25,8 +25,8 @@ class PictureView {
     static glm::ivec2 eyeSize(const panels::Rect& place, Stereo mode);
 
     // What drawing was found to cost, by this or, so that its first frames already fit, by another.
-    DrawingCosts costs() const { return {.points = pace_.learnt(), .cells = cellPace_.learnt()}; }
-    void beginFrom(const DrawingCosts& learnt);
+    DrawingCosts costs() const { return governor_.costs(); }
+    void beginFrom(const DrawingCosts& learnt) { governor_.beginFrom(learnt); }
 
     // Puts the picture into the window's framebuffer, with ground around it. `shown`: null while
     // there is nothing. `playing`: it will change again at once. `held`: a mouse button is, with
@@ -82,8 +82,7 @@ class PictureView {
 
     Canvas canvas_{render::SplatterChoice::ByDevice, render::LightAs::Srgb8};
     render::Present present_;
-    render::FramePace pace_{std::chrono::milliseconds(16)};
-    render::FramePace cellPace_{std::chrono::milliseconds(16)};  // also of slices
+    Governor governor_;  // of cells also of slices
     // While points are refined: a slice of them has no axes to draw, and its splats are others.
     std::optional<render::FramePace> slices_;
     std::optional<render::KeptPicture> kept_;

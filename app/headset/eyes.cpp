@@ -9,7 +9,7 @@
 namespace app::headset {
 
 Eyes::Eyes(std::vector<double> refreshRates)
-    : governor_(std::move(refreshRates)), onProcessor_(render::gl::drawsOnProcessor()) {}
+    : pace_(std::move(refreshRates)), onProcessor_(render::gl::drawsOnProcessor()) {}
 
 render::View viewOf(const xr::Eye& eye, const xr::Placement& placement) {
     render::View view = xr::viewOf(eye.stageFromEye, eye.fov, placement, kNear, kFar, eye.size);
@@ -32,19 +32,15 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
     report_ = {};
     if (shown != nullptr)
         report_ =
-            canvas_.draw(*shown, views,
-                         {.splats = governor_.splats(),
-                          .cells = governor_.cells(),
-                          .mayBeCoarse = true,
-                          .errors = errors},
-                         splats == Splats::Governed, show, {.legend = false, .placards = placards});
+            canvas_.draw(*shown, views, pace_.governor().limits(errors), splats == Splats::Governed,
+                         show, {.legend = false, .placards = placards});
     if (!drawn) canvas_.drawPlacards(placards, views, show);
 }
 
 void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanoseconds period) {
     // A GPU goes on after the calls; what it took is told some frames later.
     if (onProcessor_) render::gl::finishDrawing();
-    Governor::FrameCost frame{period, std::chrono::steady_clock::now() - began, {}};
+    DisplayPace::FrameCost frame{period, std::chrono::steady_clock::now() - began, {}};
     const std::uint64_t splats = report_.cost - std::min(report_.cost, report_.planesCost);
     const std::uint64_t fewest =
         report_.cost - splats + splats * report_.stride / render::kMaxStride;
@@ -55,7 +51,7 @@ void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanose
         frame.work = std::max(frame.work, *report_.gpuTime);
     }
     work_ = frame.work;
-    governor_.took(frame);
+    pace_.took(frame);
 }
 
 }  // namespace app::headset

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/drawing/canvas.h"
-#include "app/headset/governor.h"
+#include "app/headset/display_pace.h"
 #include "render/frame/present.h"
 #include "xr/session.h"
 
@@ -40,8 +40,10 @@ class Eyes {
     void took(std::chrono::steady_clock::time_point began, std::chrono::nanoseconds period);
 
     std::chrono::nanoseconds work() const { return work_; }  // of the last frame, with its GPU's
-    double scale() const { return governor_.scale(); }       // of the recommended resolution
-    const xr::RefreshRate& refreshRate() const { return governor_.refreshRate(); }
+    double scale() const { return pace_.scale(); }           // of the recommended resolution
+    const xr::RefreshRate& refreshRate() const { return pace_.refreshRate(); }
+    // What another found drawing to cost here, so that the first frames already fit.
+    void beginFrom(const DrawingCosts& learnt) { pace_.governor().beginFrom(learnt); }
     Canvas& canvas() { return canvas_; }
     const render::Present& present() const { return present_; }
     const CanvasReport& report() const { return report_; }
@@ -49,7 +51,7 @@ class Eyes {
  private:
     Canvas canvas_;
     render::Present present_;
-    Governor governor_;
+    DisplayPace pace_;
     bool onProcessor_;  // drawing is, so that its end can be waited for
     CanvasReport report_;
     std::chrono::nanoseconds work_{0};

@@ -45,7 +45,9 @@ Headset::Headset(Exploration& exploration, std::optional<ExportJob>& exporting,
                        if (desktop::Window* window = graphics_->window())
                            window->setClipboard(text);
                    }),
-      signals_([this] { stopped_ = true; }) {}
+      signals_([this] { stopped_ = true; }) {
+    eyes_.beginFrom(fileActions_.preferences().costs);
+}
 
 void Headset::run() {
     try {

@@ -1,5 +1,5 @@
 // Modelled machines and displays: what frames cost in, what the next ones may hold out.
-#include "app/headset/governor.h"
+#include "app/headset/display_pace.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,9 @@ namespace {
 
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
+
+// What the next frame may hold.
+std::uint64_t splats(const DisplayPace& pace) { return pace.governor().limits(nullptr).splats; }
 
 // A frame takes `fixed` ms and `perPixels` more at full resolution; each splat `perSplat` ns, and
 // more where it stands for others, since it is larger. Noise of a twentieth.
@@ -38,28 +41,27 @@ struct Loop {
     double points;
     nanoseconds display = 50ms;
 
-    Governor governor = Governor();
+    DisplayPace pace = DisplayPace();
     xr::DisplayPeriod period = {};
     int frames = 0, missed = 0, changes = 0;
     double stride = 0, time = 0, predicted = 1;
 
     double drawn() const { return 2 * points / stride; }
-    double work() const { return machine.exactly(drawn(), stride, governor.scale()); }
+    double work() const { return machine.exactly(drawn(), stride, pace.scale()); }
     static double ms(nanoseconds t) { return std::chrono::duration<double, std::milli>(t).count(); }
 
     void frame() {
         double next = 1;  // as Canvas chooses it
-        while (next < 256 && 2 * points / next > static_cast<double>(governor.splats())) next *= 2;
+        while (next < 256 && 2 * points / next > static_cast<double>(splats(pace))) next *= 2;
         changes += stride != 0 && next != stride ? 1 : 0;
         stride = next;
-        const double took = machine.frame(drawn(), stride, governor.scale());
+        const double took = machine.frame(drawn(), stride, pace.scale());
         period.predicted(static_cast<int>(predicted) * display);
         const double periods = predicted = std::max(1.0, std::ceil(took / ms(display)));
         const nanoseconds work(std::llround(1e6 * took));
-        governor.took(
-            {period.now(), work,
-             Governor::FrameCost::Splats{static_cast<std::uint64_t>(drawn()),
-                                         static_cast<std::uint64_t>(points / 128), work}});
+        pace.took({period.now(), work,
+                   DisplayPace::FrameCost::Splats{static_cast<std::uint64_t>(drawn()),
+                                                  static_cast<std::uint64_t>(points / 128), work}});
         ++frames;
         missed += static_cast<int>(periods) - 1;
         time += periods * ms(display) / 1000;
@@ -105,7 +107,7 @@ TEST_P(GovernedLoop, ComesToRestWhereFramesAreInTimeAndDoesNotSwing) {
     loop_.run(60);
     EXPECT_LE(loop_.missedShare(), 0.01);
     EXPECT_LE(loop_.changes, 4) << "of the stride, in a minute";
-    EXPECT_EQ(loop_.governor.scale(), 1) << "fewer splats come before fewer pixels";
+    EXPECT_EQ(loop_.pace.scale(), 1) << "fewer splats come before fewer pixels";
 }
 
 TEST_P(GovernedLoop, DrawsWhatThereIsTimeFor) {
@@ -121,64 +123,53 @@ TEST_P(GovernedLoop, IsBackFiveSecondsAfterEightOfForeignLoad) {
         loop_.machine.load = 1;
         loop_.run(5);
         EXPECT_TRUE(loop_.isFull()) << load << ", stride " << loop_.stride;
-        EXPECT_EQ(loop_.governor.scale(), 1) << load;
+        EXPECT_EQ(loop_.pace.scale(), 1) << load;
         loop_.run(10);
         EXPECT_LE(loop_.missedShare(), 0.01) << load;
     }
 }
 
 // What cost is left with the fewest splats is for the pixels to lower, and only that.
-TEST(Governor, LowersTheResolutionWhereNotEvenTheFewestSplatsFit) {
+TEST(DisplayPace, LowersTheResolutionWhereNotEvenTheFewestSplatsFit) {
     Loop loop{{5, 60, 50}, 1e6};
     loop.run(20);
-    EXPECT_LT(loop.governor.scale(), 1);
+    EXPECT_LT(loop.pace.scale(), 1);
     EXPECT_LT(loop.work(), 50);
     loop.run(60);
     EXPECT_LE(loop.missedShare(), 0.01);
     loop.machine.perPixels = 5;
     loop.run(10);
-    EXPECT_EQ(loop.governor.scale(), 1);
+    EXPECT_EQ(loop.pace.scale(), 1);
 }
 
 // Of a machine that is late at every rate, then of one that is not, and fills its splats' share of
 // each period.
-TEST(Governor, ASlowerDisplayIsTheLastResortAndNoneForLong) {
+TEST(DisplayPace, ASlowerDisplayIsTheLastResortAndNoneForLong) {
     Loop loop{{14, 0, 5}, 1e6};
-    loop.governor = Governor({90, 72});
+    loop.pace = DisplayPace({90, 72});
     for (int i = 0; i < 2000; ++i) {
-        const double rate = *loop.governor.refreshRate().wanted();
+        const double rate = *loop.pace.refreshRate().wanted();
         loop.display = nanoseconds(std::llround(1e9 / rate));
         loop.period.told(rate);
         loop.frame();
     }
-    EXPECT_EQ(loop.governor.refreshRate().wanted(), 72);
+    EXPECT_EQ(loop.pace.refreshRate().wanted(), 72);
     loop.machine.fixed = 2;
     for (int i = 0; i < 4000; ++i) {
-        const double rate = *loop.governor.refreshRate().wanted();
+        const double rate = *loop.pace.refreshRate().wanted();
         loop.display = nanoseconds(std::llround(1e9 / rate));
         loop.period.told(rate);
         loop.frame();
     }
-    EXPECT_EQ(loop.governor.refreshRate().wanted(), 90);
+    EXPECT_EQ(loop.pace.refreshRate().wanted(), 90);
 }
 
-// What cells take says nothing of splats.
-TEST(Governor, CellsAreLearntApart) {
-    Governor governor;
-    const std::uint64_t splats = governor.splats(), cells = governor.cells();
-    for (int i = 0; i < 20; ++i)
-        governor.took({20ms, 30ms, Governor::FrameCost::Splats{governor.cells(), 100, 30ms, true}});
-    EXPECT_EQ(governor.splats(), splats);
-    EXPECT_LT(governor.cells(), cells / 2);
-}
-
-TEST(Governor, WithoutAPeriodNothingIsLearnt) {
-    Governor governor;
-    const std::uint64_t first = governor.splats();
-    for (int i = 0; i < 100; ++i)
-        governor.took({0ns, 1s, Governor::FrameCost::Splats{1000, 0, 1s}});
-    EXPECT_EQ(governor.splats(), first);
-    EXPECT_EQ(governor.scale(), 1);
+TEST(DisplayPace, WithoutAPeriodNothingIsLearnt) {
+    DisplayPace pace;
+    const std::uint64_t first = splats(pace);
+    for (int i = 0; i < 100; ++i) pace.took({0ns, 1s, DisplayPace::FrameCost::Splats{1000, 0, 1s}});
+    EXPECT_EQ(splats(pace), first);
+    EXPECT_EQ(pace.scale(), 1);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+#include "app/drawing/governor.h"
+
+#include <algorithm>
+
+namespace app {
+
+void Governor::setTarget(std::chrono::nanoseconds target) {
+    points_.setTarget(target);
+    cells_.setTarget(target);
+}
+
+void Governor::beginFrom(const DrawingCosts& learnt) {
+    if (learnt.points) points_.beginFrom(*learnt.points);
+    if (learnt.cells) cells_.beginFrom(*learnt.cells);
+    proven_ = points_.budget();
+}
+
+void Governor::took(const Drawn& drawn, std::chrono::nanoseconds time,
+                    std::chrono::nanoseconds since) {
+    pace(drawn.areCells).took(drawn.splats, time);
+    if (!drawn.areCells) follow(drawn.splats, since);
+}
+
+CanvasLimits Governor::limits(const DepthErrors* errors) const {
+    return {.splats = rise_ == Rise::Proven ? proven_ : points_.budget(),
+            .cells = cells_.budget(),
+            .mayBeCoarse = true,
+            .errors = errors};
+}
+
+// A subset draws half as many splats as the next finer one. A rise too much is a fall at once, and
+// so a swing: after one, the next rise has to wait longer.
+void Governor::follow(std::uint64_t drawn, std::chrono::nanoseconds since) {
+    const std::uint64_t fit = points_.budget();
+    sinceRise_ += since;
+    if (sinceRise_ > kCalm) wait_ = kWait;
+    if (fit < drawn && fit < proven_ && sinceRise_ < kCalm)
+        wait_ = std::min(2 * wait_, kLongestWait);
+    proven_ = std::min(proven_, fit);
+    if (fit < 2 * drawn) {
+        fits_ = {};
+        return;
+    }
+    risen_ = fits_.count() == 0 ? fit : std::min(risen_, fit);
+    fits_ += since;
+    if (fits_ < wait_ || risen_ <= proven_) return;
+    proven_ = risen_;
+    fits_ = sinceRise_ = {};
+}
+
+}  // namespace app

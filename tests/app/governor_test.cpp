@@ -1,0 +1,84 @@
+// What frames cost in, what the next ones may hold out; of modelled machines.
+#include "app/drawing/governor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+// 100 ns a splat, beside nothing.
+nanoseconds taking(std::uint64_t splats) { return nanoseconds(100 * splats); }
+
+// All that it may draw and a little less by turns, which tells what a splat costs; so many frames,
+// 10 ms apart.
+void draw(Governor& governor, unsigned frames, bool cells = false) {
+    for (unsigned i = 0; i < frames; ++i) {
+        const CanvasLimits limits = governor.limits(nullptr);
+        const std::uint64_t most = cells ? *limits.cells : limits.splats;
+        const std::uint64_t splats = most - i % 2 * (most / 4);
+        governor.took({splats, cells}, taking(splats), 10ms);
+    }
+}
+
+TEST(Governor, FillsItsTimeWithPointsOrCellsWhichAreLearntApart) {
+    Governor governor;
+    governor.setTarget(10ms);
+    draw(governor, 20, true);
+    EXPECT_NEAR(static_cast<double>(*governor.limits(nullptr).cells), 1e5, 1e4);
+    EXPECT_EQ(governor.limits(nullptr).splats, render::FramePace::kFirst);
+    governor.setTarget(5ms);
+    EXPECT_NEAR(static_cast<double>(*governor.limits(nullptr).cells), 5e4, 5e3);
+    EXPECT_EQ(governor.limits(nullptr).splats, render::FramePace::kFirst);
+}
+
+// Four times as much fits from now on. A hand that drags gets it in the next frames, a picture
+// that never rests once twice as much has fitted for half a second; both fall at once.
+TEST(Governor, RisesAtOnceOrWhereAWhileHasShownThatMoreFits) {
+    for (const auto rise : {Governor::Rise::AtOnce, Governor::Rise::Proven}) {
+        Governor governor(rise);
+        const auto splats = [&] { return governor.limits(nullptr).splats; };
+        governor.setTarget(5ms);
+        draw(governor, 300);
+        const std::uint64_t before = splats();
+        EXPECT_GT(before, 22'500) << "half, and a tenth of hysteresis";
+        EXPECT_LT(before, 55'000);
+        governor.setTarget(20ms);
+        draw(governor, 30);  // 0.3 s
+        if (rise == Governor::Rise::AtOnce)
+            EXPECT_GT(splats(), 180'000);
+        else
+            EXPECT_EQ(splats(), before);
+        draw(governor, 300);
+        EXPECT_GT(splats(), 90'000);
+        EXPECT_LT(splats(), 220'000);
+        governor.setTarget(5ms);
+        draw(governor, 2);
+        EXPECT_LT(splats(), 55'000);
+    }
+}
+
+TEST(Governor, BegunFromWhatAnotherLearntItsFirstFramesFit) {
+    Governor taught;
+    taught.setTarget(20ms);
+    for (std::uint64_t splats = 30'000; splats < 200'000; splats += 30'000) {
+        taught.took({splats, false}, taking(splats), 10ms);
+        taught.took({splats, true}, 2 * taking(splats), 10ms);
+    }
+    ASSERT_TRUE(taught.costs().points && taught.costs().cells);
+    for (const auto rise : {Governor::Rise::AtOnce, Governor::Rise::Proven}) {
+        Governor governor(rise);
+        governor.setTarget(20ms);
+        governor.beginFrom(taught.costs());
+        const CanvasLimits limits = governor.limits(nullptr);
+        EXPECT_NEAR(static_cast<double>(limits.splats), 2e5, 2e4);
+        EXPECT_NEAR(static_cast<double>(*limits.cells), 1e5, 1e4);
+    }
+}
+
+}  // namespace
+}  // namespace app
