@@ -197,8 +197,13 @@ struct SeenBlocks {
         std::size_t at;
     };
     Block all[kMost];
-    std::uint8_t crossed[kMost], whole[kMost];
-    std::size_t count = 0, crossedCount = 0, wholeCount = 0;
+    std::size_t count = 0;
+    // Those of cells that cross so many ends of their range.
+    struct Crossing {
+        std::uint8_t places[kMost];
+        std::size_t count = 0;
+    };
+    std::array<Crossing, 3> crossing;
 };
 
 // Where rays are inside: full blocks are passed to use().
@@ -213,7 +218,8 @@ HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c, c
     const glm::ivec2 most =
         glm::min(glm::ivec2(c.x + c.columns(), c.y + c.rows()), room.at + room.size);
     const MeetLanes<Lanes> cell(lanes, view, c);
-    const bool hides = room.nearestOpaque < 1, crosses = c.crossesLeast() || c.crossesMost();
+    const bool hides = room.nearestOpaque < 1;
+    const std::size_t ends = std::size_t{c.crossesLeast()} + std::size_t{c.crossesMost()};
     const V stepsX = pixels.columns(lanes), stepsY = pixels.rows(lanes);
     for (int x = least.x; x < most.x; x += kColumns) {
         const V ox = hn::Add(hn::Set(lanes, c.ox + static_cast<float>(x - c.x)), stepsX);
@@ -241,11 +247,10 @@ HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c, c
             block.at = at;
             // Whether any ray is inside nobody foresees: no branch asks.
             const bool some = !hn::AllFalse(lanes, hn::Gt(r.length, hn::Zero(lanes)));
-            const auto place = static_cast<std::uint8_t>(blocks.count);
-            blocks.crossed[blocks.crossedCount] = blocks.whole[blocks.wholeCount] = place;
+            auto& alike = blocks.crossing[ends];
+            alike.places[alike.count] = static_cast<std::uint8_t>(blocks.count);
             blocks.count += some;
-            blocks.crossedCount += some && crosses;
-            blocks.wholeCount += some && !crosses;
+            alike.count += some;
             if (blocks.count == blocks.kMost) use();
         }
     }
@@ -285,11 +290,12 @@ HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& r
 }
 
 // What of a block's rays lies in the range, and which values are seen.
-template <Channels kChannels, bool kByValue, bool kCrossed, class Lanes>
+template <Channels kChannels, bool kByValue, int kEnds, class Lanes>
 HWY_INLINE void takeRange(Lanes lanes, const CellView& view, const TileRoom& room, float scale,
                           typename SeenBlocks<Lanes>::Block& block) {
     using V = hn::Vec<Lanes>;
     constexpr PixelBlock<Lanes, kTileStride> pixels;
+    constexpr bool kCrossed = kEnds > 0;
     const SeenCell& c = *block.cell;
     const V zero = hn::Zero(lanes);
     const V length = hn::Load(lanes, block.length);
@@ -301,7 +307,7 @@ HWY_INLINE void takeRange(Lanes lanes, const CellView& view, const TileRoom& roo
         V mean = kCrossed ? zero : hn::Load(lanes, block.value),
           low = hn::Min(values[0], values[kPieces]), high = hn::Max(values[0], values[kPieces]);
         if constexpr (kCrossed) {
-            const RangeLanes<Lanes> range(lanes, c);
+            const RangeLanes<Lanes, kEnds> range(lanes, c);
             V crossing;
             width = hn::Load(lanes, block.width);
             const V perWidth = hn::Load(lanes, block.perWidth);
@@ -337,30 +343,34 @@ HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
     const auto scaleOf = [&](const SeenCell& c) {
         return kColors ? view.tints[static_cast<std::size_t>(c.firstTint)][3] : 1.0f;
     };
-    const auto look = [&]<bool kCrossed>(const std::uint8_t* which, std::size_t count) HWY_ATTR {
-        if constexpr (kCrossed || kByValue || kLit != Lit::No)
+    const auto look = [&]<int kEnds>() HWY_ATTR {
+        const auto& [places, count] = blocks.crossing[kEnds];
+        if constexpr (kEnds > 0 || kByValue || kLit != Lit::No)
             for (std::size_t k = 0; k < count; ++k)
-                followField<kLit, kCrossed>(lanes, view, room, blocks.all[which[k]]);
-        if constexpr (kCrossed)
+                followField<kLit, (kEnds > 0)>(lanes, view, room, blocks.all[places[k]]);
+        if constexpr (kEnds > 0)
             for (std::size_t k = 0; k < count; ++k) {
-                auto& block = blocks.all[which[k]];
+                auto& block = blocks.all[places[k]];
                 const V width2 = hn::Load(lanes, block.width);
                 const V perWidth = reciprocalRoot(lanes, width2);
                 hn::Store(perWidth, lanes, block.perWidth);
                 hn::Store(hn::Mul(width2, perWidth), lanes, block.width);
             }
         for (std::size_t k = 0; k < count; ++k) {
-            auto& block = blocks.all[which[k]];
-            takeRange<kChannels, kByValue, kCrossed>(lanes, view, room, scaleOf(*block.cell),
-                                                     block);
+            auto& block = blocks.all[places[k]];
+            takeRange<kChannels, kByValue, kEnds>(lanes, view, room, scaleOf(*block.cell), block);
         }
     };
-    look.template operator()<true>(blocks.crossed, blocks.crossedCount);
-    look.template operator()<false>(blocks.whole, blocks.wholeCount);
+    look.template operator()<0>();
+    look.template operator()<1>();
+    look.template operator()<2>();
     for (std::size_t k = 0; k < blocks.count; ++k) {
         const auto& block = blocks.all[k];
-        addWeight<kChannels>(PixelBlock<Lanes, kTileStride>(), lanes, hn::Load(lanes, block.weight),
-                             room, block.at, [&](V* colors) HWY_ATTR {
+        const V weight = hn::Load(lanes, block.weight);
+        // A ray passes many cells that reach into the range elsewhere.
+        if (hn::AllFalse(lanes, hn::Gt(weight, hn::Zero(lanes)))) continue;
+        addWeight<kChannels>(PixelBlock<Lanes, kTileStride>(), lanes, weight, room, block.at,
+                             [&](V* colors) HWY_ATTR {
                                  if constexpr (kColors) {
                                      const ColorLanes<kByValue, Lanes> color(lanes, view,
                                                                              *block.cell);
@@ -379,7 +389,8 @@ HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
                                  }
                              });
     }
-    blocks.count = blocks.crossedCount = blocks.wholeCount = 0;
+    blocks.count = 0;
+    for (auto& each : blocks.crossing) each.count = 0;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -50,7 +50,6 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     const glm::ivec2 least = glm::max(glm::ivec2(c.x, c.y), room.at);
     const glm::ivec2 most =
         glm::min(glm::ivec2(c.x + c.columns(), c.y + c.rows()), room.at + room.size);
-    const RangeLanes<Lanes> range(lanes, c);
     [[maybe_unused]] const auto color = [&] {
         if constexpr (kColors)
             return ColorLanes<kByValue, Lanes>(lanes, view, c);
@@ -101,7 +100,8 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 if (c.perRange > 0)
                     t = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),
                                            hn::Abs(hn::Sub(last, first))));
-                V before[2];
+                const RangeLanes<Lanes, kEnds> range(lanes, c);
+                V before[kEnds];
                 range.ramps(width, before);
                 const V share = range.share(range.passed(first, before, width),
                                             range.passed(last, before, width), hn::Sub(last, first),

@@ -5,6 +5,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/rounds.h"
+
 namespace app {
 namespace {
 
@@ -45,7 +47,7 @@ struct Mirror {
 TEST(History, IsTwoStacksForAnySequenceOfEdits) {
     const char* const gestures[] = {"", "", "drag", "slider", "pan"};
     std::mt19937 random(2);
-    for (int run = 0; run < 40; ++run) {
+    for (int run = 0; run < tests::rounds(40); ++run) {
         History history(state(0));
         Mirror model{{}, {}, state(0), {}};
         // Long runs of edits reach the limit, long runs of undo the beginning.

@@ -10,6 +10,7 @@
 #include "render/image/png.h"
 #include "tests/support/files.h"
 #include "tests/support/random_explorer.h"
+#include "tests/support/rounds.h"
 
 namespace app {
 namespace {
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 
 TEST(Session, EveryExplorerComesBackAsItWas) {
     RandomExplorer next(20);
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < tests::rounds(600); ++i) {
         const Explorer e = next();
         for (const char* folder : {"/data/run", "/", "/data/run/deeper/still", "/elsewhere"}) {
             // Through text, as a file would hold it.
