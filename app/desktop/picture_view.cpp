@@ -83,10 +83,15 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
         slices_.reset();
     else if (!slices_)
         slices_.emplace(kSlice * frameBudget, firstSlice(kSlice * frameBudget));
-    governor_.setTarget(slices_ ? kSlice * frameBudget : movingTarget(frameBudget));
-    if (slices_) slices_->setTarget(kSlice * frameBudget);
-    CanvasLimits limits = moving(e, choices);
-    if (slices_) limits.splats = slices_->budget();
+    if (slices_) {
+        slices_->setTarget(kSlice * frameBudget);
+        governor_.cells().setTarget(kSlice * frameBudget);
+    } else {
+        governor_.setTarget(movingTarget(frameBudget));
+    }
+    const CanvasLimits limits =
+        slices_ ? CanvasLimits{.splats = slices_->budget(), .cells = governor_.cells().budget()}
+                : moving(e, choices);
     eyes_ = canvas_.eyesOf(shown);
     grid_ = grid;
     const auto show = [&](std::size_t eye, render::Targets& light) {
@@ -111,9 +116,8 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
 }
 
 std::uint64_t PictureView::firstSlice(std::chrono::nanoseconds slice) const {
-    const std::uint64_t atOnce = governor_.pace(false).fitting(kAtOnce);
-    return report_.selected * eyes_.size() <= atOnce ? atOnce
-                                                     : governor_.pace(false).fitting(slice);
+    const std::uint64_t atOnce = governor_.points().fitting(kAtOnce);
+    return report_.selected * eyes_.size() <= atOnce ? atOnce : governor_.points().fitting(slice);
 }
 
 CanvasLimits PictureView::moving(const Explorer& explorer, const panels::Choices& choices) const {

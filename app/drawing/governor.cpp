@@ -17,8 +17,8 @@ void Governor::beginFrom(const DrawingCosts& learnt) {
 
 void Governor::took(const Drawn& drawn, std::chrono::nanoseconds time,
                     std::chrono::nanoseconds since) {
-    pace(drawn.areCells).took(drawn.splats, time);
-    if (!drawn.areCells) follow(drawn.splats, since);
+    (drawn.areCells ? cells_ : points_).took(drawn.splats, time);
+    if (!drawn.areCells && rise_ == Rise::Proven) follow(drawn.splats, since);
 }
 
 CanvasLimits Governor::limits(const DepthErrors* errors) const {

@@ -29,14 +29,18 @@ class Governor {
         std::uint64_t splats;
         bool areCells = false;
     };
-    // `since`: how long after the frame before it.
+    // `since`: how long after the frame before it; for rises that are to be proven.
     void took(const Drawn& drawn, std::chrono::nanoseconds time,
               std::chrono::nanoseconds since = {});
 
     // For the next frame, all eyes together. Fewer at once.
     CanvasLimits limits(const DepthErrors* errors) const;
-    render::FramePace& pace(bool ofCells) { return ofCells ? cells_ : points_; }
-    const render::FramePace& pace(bool ofCells) const { return ofCells ? cells_ : points_; }
+    // What so many of them take more than none, as is known so far.
+    std::chrono::nanoseconds costOf(const Drawn& drawn) const {
+        return (drawn.areCells ? cells_ : points_).costOf(drawn.splats);
+    }
+    const render::FramePace& points() const { return points_; }
+    render::FramePace& cells() { return cells_; }
 
     // What drawing was found to cost, by this or, so that its first frames already fit, by another.
     DrawingCosts costs() const { return {.points = points_.learnt(), .cells = cells_.learnt()}; }

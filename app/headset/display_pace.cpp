@@ -15,7 +15,7 @@ void DisplayPace::took(const FrameCost& frame) {
         const auto& [count, fewest, took, areCells] = *frame.splats;
         governor_.took({count, areCells}, took, frame.period);
         const std::uint64_t left = std::max(render::FramePace::kFewest, fewest);
-        if (count > left) least -= std::min(least, governor_.pace(areCells).costOf(count - left));
+        if (count > left) least -= std::min(least, governor_.costOf({count - left, areCells}));
     }
     scale_.took(least, frame.period);
     rate_.took(least, scale_);

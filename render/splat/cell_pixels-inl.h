@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 
 #include "render/splat/cell_range-inl.h"
 #include "render/splat/cell_view.h"

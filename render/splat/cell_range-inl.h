@@ -173,8 +173,8 @@ struct ColorLanes {
     HWY_INLINE V placeOf(V value) const {
         return hn::Min(hn::Max(hn::MulAdd(value, perValue, place), first), last);
     }
-    // Entries are read whole, four lanes' by four, and their colours put beside each other:
-    // gathering each of six numbers takes five times as long with AVX2.
+    // Entries are read whole, four lanes' by four, and their colours put beside each other: to
+    // gather number by number takes a frame by value 1.4 times as long with AVX2.
     HWY_INLINE void entry(const float* of, V at, V* is) const {
         const V below = hn::Min(hn::Floor(at), lastWhole), share = hn::Sub(at, below);
         constexpr hn::RebindToSigned<Lanes> whole;

@@ -147,20 +147,18 @@ TEST(DisplayPace, LowersTheResolutionWhereNotEvenTheFewestSplatsFit) {
 TEST(DisplayPace, ASlowerDisplayIsTheLastResortAndNoneForLong) {
     Loop loop{{14, 0, 5}, 1e6};
     loop.pace = DisplayPace({90, 72});
-    for (int i = 0; i < 2000; ++i) {
-        const double rate = *loop.pace.refreshRate().wanted();
-        loop.display = nanoseconds(std::llround(1e9 / rate));
-        loop.period.told(rate);
-        loop.frame();
-    }
+    const auto run = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            const double rate = *loop.pace.refreshRate().wanted();
+            loop.display = nanoseconds(std::llround(1e9 / rate));
+            loop.period.told(rate);
+            loop.frame();
+        }
+    };
+    run(2000);
     EXPECT_EQ(loop.pace.refreshRate().wanted(), 72);
     loop.machine.fixed = 2;
-    for (int i = 0; i < 4000; ++i) {
-        const double rate = *loop.pace.refreshRate().wanted();
-        loop.display = nanoseconds(std::llround(1e9 / rate));
-        loop.period.told(rate);
-        loop.frame();
-    }
+    run(4000);
     EXPECT_EQ(loop.pace.refreshRate().wanted(), 90);
 }
 
