@@ -83,6 +83,8 @@ class PlacedPoints {
     timeseries::LowerTriangle<double> meshCell(std::uint64_t index) const;
     // What that determinant is to be multiplied by, for splats may be wider than their cells.
     double volumePerDeterminant() const { return mesh_->volumePerDeterminant(); }
+    // Along each axis, after how much a mesh's coordinates come again; 0: never.
+    glm::dvec3 period() const { return mesh_->period() * glm::abs(scale()); }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
     const std::shared_ptr<const timeseries::Mesh>& mesh() const { return mesh_; }  // none: null
 

@@ -169,8 +169,7 @@ glm::dvec3 middleOfCell(const Scene& scene, std::uint32_t cell) {
     if (const auto& solids = placed.mesh()->solids()) {
         timeseries::SolidCells::Room room;
         const auto corners = solids->corners(cell, room);
-        const glm::dvec3 first = placed.alongAxes(corners.front()),
-                         period = placed.mesh()->period() * glm::abs(placed.scale());
+        const glm::dvec3 first = placed.alongAxes(corners.front()), period = placed.period();
         glm::dvec3 sum(0);
         for (const std::uint32_t corner : corners)
             sum += timeseries::shorterWay(placed.alongAxes(corner) - first, period);

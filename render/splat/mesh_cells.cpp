@@ -39,7 +39,7 @@ MeshCells::MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& 
     : placed_(placed), corners_(corners), clip_(clip), points_(placed.size()) {
     const glm::dvec3 scale = placed.scale();
     const timeseries::Mesh& mesh = *placed.mesh();
-    period_ = mesh.period() * glm::abs(scale);
+    period_ = placed.period();
     reach_ = reachOf(placed, kSteps * mesh.longestWay());
     if (points_.x == 1 || points_.y == 1 || points_.z == 1)
         reach_ = glm::dvec3(std::numeric_limits<double>::infinity());

@@ -30,7 +30,7 @@ class SolidTets {
           field_(field),
           clip_(clip),
           clips_(!clip.holdsAll()),
-          period_(placed.mesh()->period() * glm::abs(placed.scale())),
+          period_(placed.period()),
           comesRound_(period_ != glm::dvec3(0)),
           reach_(MeshCells::reachOf(
               placed, placed.globe() ? longestOn(*placed.globe()) : cells_.longest())) {}

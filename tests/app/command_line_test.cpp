@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <random>
 
@@ -13,6 +12,7 @@
 #include "tests/support/files.h"
 #include "tests/support/random_explorer.h"
 #include "tests/support/rounds.h"
+#include "tests/support/variable.h"
 
 namespace app {
 namespace {
@@ -112,25 +112,16 @@ std::vector<std::string> throughTheShell(const std::string& line) {
 // What the shell calls by these words, in a folder where PATH is this.
 class CallOfProgram : public testing::Test {
  protected:
-    CallOfProgram() {
-        const char* const path = std::getenv("PATH");
-        path_ = path == nullptr ? "" : path;
-        unsetenv("ISOCHRON_RUN");
-    }
-    ~CallOfProgram() override {
-        setenv("PATH", path_.c_str(), 1);
-        unsetenv("ISOCHRON_RUN");
-    }
     const fs::path program_ = fs::read_symlink("/proc/self/exe");
 
  private:
-    std::string path_;
+    const tests::Variable byNoScript_{"ISOCHRON_RUN", std::nullopt};
 };
 
 TEST_F(CallOfProgram, IsTheScriptThatStartedItAsTheUsersShellSeesIt) {
-    setenv("ISOCHRON_RUN", "./run", 1);
+    const tests::Variable here("ISOCHRON_RUN", "./run");
     EXPECT_EQ(callOfProgram(), "./run");
-    setenv("ISOCHRON_RUN", "../my isochron/run", 1);
+    const tests::Variable above("ISOCHRON_RUN", "../my isochron/run");
     EXPECT_EQ(callOfProgram(), "'../my isochron/run'");
 }
 
@@ -138,7 +129,7 @@ TEST_F(CallOfProgram, IsItsNameWherePathHasItAndElseItsPath) {
     const fs::path folder = tests::freshFolder() / "bin";
     fs::create_directory(folder);
     const std::string name = program_.filename(), paths = "/none::" + folder.string() + ":/usr/bin";
-    setenv("PATH", paths.c_str(), 1);
+    const tests::Variable searched("PATH", paths);
     EXPECT_EQ(callOfProgram(), program_.string());
     fs::create_symlink(program_, folder / name);
     EXPECT_EQ(callOfProgram(), name);
@@ -146,7 +137,7 @@ TEST_F(CallOfProgram, IsItsNameWherePathHasItAndElseItsPath) {
     fs::remove(folder / name);
     tests::writeBytes(folder / name, "#!/bin/sh");
     EXPECT_EQ(callOfProgram(), program_.string());
-    unsetenv("PATH");
+    const tests::Variable nowhere("PATH", std::nullopt);
     EXPECT_EQ(callOfProgram(), program_.string());
 }
 

@@ -3,10 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "app/choices/user_files.h"
 #include "tests/support/files.h"
+#include "tests/support/variable.h"
 
 namespace app {
 namespace {
@@ -138,36 +137,20 @@ TEST(Preferences, AKeyOfALaterVersionIsNoDamage) {
     EXPECT_EQ(readPreferences(file).preferences.uiScale, 2);
 }
 
-// The environment of one test.
-class Environment {
- public:
-    Environment(const char* name, const char* value) : name_(name) {
-        if (const char* before = std::getenv(name)) before_ = before;
-        value == nullptr ? unsetenv(name) : setenv(name, value, 1);
-    }
-    ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
-
- private:
-    const char* name_;
-    std::optional<std::string> before_;
-};
-
 TEST(UserFiles, AreWhereTheEnvironmentSays) {
-    const Environment home("HOME", "/home/ann");
+    const tests::Variable home("HOME", "/home/ann");
     {
-        const Environment config("XDG_CONFIG_HOME", "/c"), state("XDG_STATE_HOME", "/s");
+        const tests::Variable config("XDG_CONFIG_HOME", "/c"), state("XDG_STATE_HOME", "/s");
         EXPECT_EQ(configFolder(), "/c/isochron");
         EXPECT_EQ(stateFolder(), "/s/isochron");
     }
     {
         // What is not absolute counts as unset.
-        const Environment config("XDG_CONFIG_HOME", "c"), state("XDG_STATE_HOME", "");
+        const tests::Variable config("XDG_CONFIG_HOME", "c"), state("XDG_STATE_HOME", "");
         EXPECT_EQ(configFolder(), "/home/ann/.config/isochron");
         EXPECT_EQ(stateFolder(), "/home/ann/.local/state/isochron");
     }
-    const Environment config("XDG_CONFIG_HOME", nullptr), nowhere("HOME", nullptr);
+    const tests::Variable config("XDG_CONFIG_HOME", std::nullopt), nowhere("HOME", std::nullopt);
     EXPECT_EQ(configFolder(), "");
 }
 
