@@ -48,6 +48,20 @@ TEST(Csv, ColumnsAreCoordinatesAndVariables) {
     EXPECT_EQ(heat.grid->position(3), glm::dvec3(0, 0, -3));
 }
 
+// By its name a variable is chosen, and found in other files.
+TEST(Csv, ColumnsOfOneNameAreToldApart) {
+    const std::string head = "x,y,z,T,T (2),T\n";
+    writeBytes(freshFolder() / "t1.csv", head + "0,0,0,1,2,3\n1,0,0,1,2,4\n");
+    writeBytes(testFolder() / "t2.csv", head + "0,0,0,5,6,7\n1,0,0,5,6,8\n");
+    const std::vector paths{testFolder() / "t1.csv", testFolder() / "t2.csv"};
+    const auto reader = openReader(paths);
+    ASSERT_THAT(namesOf(*reader), ElementsAre("T", "T (2)", "T (3)"));
+    for (std::size_t step = 0; step < 2; ++step)
+        for (std::size_t v = 0; v < 3; ++v)
+            EXPECT_EQ(std::get<std::vector<double>>(reader->read(v, step).values)[0],
+                      1 + double(v) + 4 * double(step));
+}
+
 TEST(Csv, NumbersBeyondDoubleAreInfiniteOrZero) {
     const auto reader = open(table("x,y,z,T\n0,0,0,1e400\n1,0,0,-1e400\n0,1,0,1e-400\n0,0,1,5\n"));
     EXPECT_THAT(valuesOf<double>(*reader, "T"), ElementsAre(HUGE_VAL, -HUGE_VAL, 0, 5));

@@ -284,6 +284,13 @@ TEST(RealExodus, SharesAreThoseOfTheNodesOfEachBlock) {
     }
 }
 
+TEST(Exodus, VariablesOfOneNameAreToldApart) {
+    const auto reader = open(write({.atNodes = {"T", "T"}}));
+    const auto first = valuesOf<float>(*reader, "T"), second = valuesOf<float>(*reader, "T (2)");
+    EXPECT_EQ(first[3], valueOf(0, 0, 3));
+    EXPECT_EQ(second[3], valueOf(0, 1, 3));
+}
+
 // A file a step, whose times are its own.
 TEST(Exodus, FilesMakeASeries) {
     const std::vector<Path> paths{write({.times = {1, 2}}, "a1.e"),

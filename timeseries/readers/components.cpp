@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -51,6 +53,18 @@ Values componentOf(Values rows, const Component& component) {
             return values;
         },
         rows);
+}
+
+void tellApart(std::span<Variable> variables) {
+    std::set<std::string> names;
+    std::map<std::string, std::size_t> last;
+    for (Variable& variable : variables) {
+        const std::string called = variable.name;
+        while (!names.insert(variable.name).second) {
+            std::size_t& number = last.try_emplace(called, 1).first->second;
+            variable.name = fmt::format("{} ({})", called, ++number);
+        }
+    }
 }
 
 }  // namespace timeseries

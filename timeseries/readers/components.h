@@ -1,12 +1,15 @@
-// Arrays of several numbers a point, as variables: each number, and of few the magnitude.
+// What a file calls its arrays, as variables: of several numbers a point each number, and of few
+// the magnitude; of one name each.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "timeseries/grid/field.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 
@@ -28,5 +31,9 @@ std::vector<ComponentVariable> componentsOf(const std::string& name, ValueType t
 
 // Of each row, one behind the other.
 Values componentOf(Values rows, const Component& component);
+
+// A variable that has the name of one before it has another: "T (2)". For by its name a variable is
+// chosen, found in the other files of a series, and kept on disk.
+void tellApart(std::span<Variable> variables);
 
 }  // namespace timeseries

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "timeseries/grid/scattered.h"
+#include "timeseries/readers/components.h"
 #include "timeseries/readers/csv_table.h"
 #include "timeseries/readers/other_formats.h"
 
@@ -70,6 +71,7 @@ class CsvReader final : public Reader {
             variables_.push_back(std::move(variable));
             sources_.push_back(i);
         }
+        tellApart(variables_);
     }
 
     std::vector<std::filesystem::path> paths_;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/components.h"
 #include "timeseries/readers/netcdf/exodus_mesh.h"
 #include "timeseries/readers/text/words.h"
 
@@ -204,6 +205,7 @@ void ExodusReader::addVariables() {
     for (std::size_t i = 0; i < atElements.size(); ++i)
         add(atElements[i] + (isIn(atNodes, atElements[i]) ? " (cells)" : ""), false,
             partsOf(false, i));
+    tellApart(variables_);
 }
 
 template <typename T>

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include "timeseries/readers/components.h"
 #include "timeseries/readers/text/words.h"
@@ -34,6 +36,7 @@ class XdmfReader final : public Reader {
           items_(document_),
           series_(xdmfSeriesOf(document_, items_)) {
         for (std::size_t i = 0; i < series_.size(); ++i) addSeries(i);
+        tellApart(variables_);
         if (!variables_.empty()) return;
         if (!damaged_.empty()) throw FileError(damaged_.front().why);
         document_.fail(document_.root(), "expected an Attribute at nodes or cells, found none");
@@ -86,6 +89,7 @@ XdmfGrid& XdmfReader::open(const XdmfStep& step) {
 void XdmfReader::addSeries(std::size_t series) {
     const auto time = timeOf(series_[series]);
     const auto attributes = document_.children(series_[series].steps[0].parts[0], "Attribute");
+    std::set<std::pair<std::string, std::string>> found;
     for (const XdmfElement& attribute : attributes) {
         const std::string name = attribute.attribute("Name"), centre = centreOf(attribute);
         if (centre == "grid") continue;  // one number for all
@@ -94,6 +98,10 @@ void XdmfReader::addSeries(std::size_t series) {
         });
         const std::string told = name + (!both ? "" : centre == "node" ? " (points)" : " (cells)");
         try {
+            if (!found.insert({name, centre}).second)  // steps have theirs by their names
+                document_.fail(attribute, fmt::format("expected names that differ, found the "
+                                                      "Attribute '{}' again",
+                                                      name));
             addAttribute(series, attribute, told, time);
         } catch (const FileError& error) {
             damaged_.push_back({told, error.what()});
