@@ -105,14 +105,6 @@ TEST(Amrex, BoxesThatTileARectangleAreAnUprightGrid) {
         }
 }
 
-TEST(Amrex, VariablesOfOneNameAreToldApart) {
-    Plotfile file = threeLevels();
-    file.names = {"T", "T"};
-    const auto reader = open(writtenAs(file));
-    EXPECT_EQ(reader->variables()[0].name, "T");
-    EXPECT_EQ(reader->variables()[1].name, "T (2)");
-}
-
 TEST(Amrex, OfLevelsTheLeavesStay) {
     for (const bool isSingle : {false, true})
         for (const std::int64_t ghosts : {0, 1})

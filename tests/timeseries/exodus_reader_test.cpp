@@ -286,7 +286,8 @@ TEST(RealExodus, SharesAreThoseOfTheNodesOfEachBlock) {
 
 TEST(Exodus, VariablesOfOneNameAreToldApart) {
     const auto reader = open(write({.atNodes = {"T", "T"}}));
-    const auto first = valuesOf<float>(*reader, "T"), second = valuesOf<float>(*reader, "T (2)");
+    const auto first = tests::valuesOf<float>(*reader, "T"),
+               second = tests::valuesOf<float>(*reader, "T (2)");
     EXPECT_EQ(first[3], valueOf(0, 0, 3));
     EXPECT_EQ(second[3], valueOf(0, 1, 3));
 }

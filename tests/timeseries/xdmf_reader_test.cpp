@@ -51,7 +51,7 @@ TEST(Xdmf, ASecondAttributeOfOneNameIsLeftOutAndSeriesOfOneNameAreToldApart) {
                 HasSubstr("expected names that differ, found the Attribute 'p' again"));
 
     const auto single = [](const std::string& values) {
-        return grid(kImage + attribute("p", "Node", item("2 3 4", values)));
+        return inTime(grid(kImage + attribute("p", "Node", item("2 3 4", values))));
     };
     const auto two = open(written(single(numbersTo(24)) + single(others)));
     EXPECT_EQ(valuesOf<float>(*two, "p"), ramp<float>(24));

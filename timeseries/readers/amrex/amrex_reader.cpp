@@ -8,7 +8,6 @@
 
 #include "timeseries/readers/amrex/amrex_fab.h"
 #include "timeseries/readers/amrex/amrex_grid.h"
-#include "timeseries/readers/components.h"
 #include "timeseries/readers/sequence_reader.h"
 
 namespace timeseries {
@@ -88,7 +87,6 @@ void AmrexReader::addVariables() {
                 others > kMostTold ? fmt::format(" and {} more", others - kMostTold) : ""));
         variables_.push_back(std::move(variable));
     }
-    tellApart(variables_);
 }
 
 AmrexFabHeader AmrexReader::headerOf(AmrexFabFile& from, std::size_t level, std::size_t box) const {
