@@ -36,26 +36,28 @@ TEST(Xdmf, AnImageLiesWhereItsOriginAndStepsSay) {
     EXPECT_TRUE(reader->variables()[0].time->counted);
 }
 
+// 24, 25, ...: not what the first one has.
+std::string otherNumbers() { return numbersTo(48).substr(numbersTo(24).size()); }
+std::string attributeOf(const std::string& values) {
+    return attribute("p", "Node", item("2 3 4", values));
+}
+
 // Steps have theirs by their names: a second one of one name would have the first one's values.
-TEST(Xdmf, ASecondAttributeOfOneNameIsLeftOutAndSeriesOfOneNameAreToldApart) {
-    const auto with = [](const char* values) {
-        return attribute("p", "Node", item("2 3 4", numbersTo(24))) +
-               attribute("p", "Node", item("2 3 4", values));
-    };
-    const std::string others = numbersTo(48).substr(numbersTo(24).size());
-    const auto reader = open(written(grid(kImage + with(others.c_str()))));
+TEST(Xdmf, ASecondAttributeOfOneNameIsLeftOut) {
+    const auto reader =
+        open(written(grid(kImage + attributeOf(numbersTo(24)) + attributeOf(otherNumbers()))));
     EXPECT_EQ(reader->variables().size(), 1u);
     EXPECT_EQ(valuesOf<float>(*reader, "p"), ramp<float>(24));
     ASSERT_EQ(reader->damaged().size(), 1u);
     EXPECT_THAT(reader->damaged()[0].why,
                 HasSubstr("expected names that differ, found the Attribute 'p' again"));
+}
 
-    const auto single = [](const std::string& values) {
-        return inTime(grid(kImage + attribute("p", "Node", item("2 3 4", values))));
-    };
-    const auto two = open(written(single(numbersTo(24)) + single(others)));
-    EXPECT_EQ(valuesOf<float>(*two, "p"), ramp<float>(24));
-    EXPECT_EQ(valuesOf<float>(*two, "p (2)")[0], 24);
+TEST(Xdmf, SeriesOfOneNameAreToldApart) {
+    const auto reader = open(written(inTime(grid(kImage + attributeOf(numbersTo(24)))) +
+                                     inTime(grid(kImage + attributeOf(otherNumbers())))));
+    EXPECT_EQ(valuesOf<float>(*reader, "p"), ramp<float>(24));
+    EXPECT_EQ(valuesOf<float>(*reader, "p (2)")[0], 24);
 }
 
 // What programs print of numbers that a type does not hold.

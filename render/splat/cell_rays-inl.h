@@ -1,0 +1,187 @@
+// What rays have in a cell, side by side in vectors: the way through it, the field along it, and
+// light. Compiled once for each of Highway's targets, so not guarded as other headers are.
+#if defined(RENDER_CELL_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_CELL_RAYS_INL_H_
+#undef RENDER_CELL_RAYS_INL_H_
+#else
+#define RENDER_CELL_RAYS_INL_H_
+#endif
+
+#include "render/splat/cell_range-inl.h"
+#include "render/splat/cell_view.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// What rays of a vector of pixels have in a cell, in its units. Names as in fragmentOn().
+template <class Lanes>
+struct RayParts {
+    using V = hn::Vec<Lanes>;
+    V length, depth;  // of the way through it, and where its middle is
+    V middle[3], along[3], mixed[3], gradient[3], value;
+};
+
+// Where a cell lies, the same in every lane.
+template <class Lanes>
+struct MeetLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    V base, before, at[3], ray[3], x[3], y[3];
+    bool grazes;
+    MeetLanes(Lanes l, const CellView& view, const SeenCell& c)
+        : lanes(l),
+          base(hn::Set(l, c.base)),
+          before(hn::Set(l, c.base - view.near)),
+          grazes(c.grazes()) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            at[a] = hn::Set(l, c.at[a]);
+            ray[a] = hn::Set(l, c.ray[a]);
+            const V perSize = hn::Set(l, c.perSize[a]);
+            x[a] = hn::Mul(perSize, hn::Set(l, view.perPixelX[a]));
+            y[a] = hn::Mul(perSize, hn::Set(l, view.perPixelY[a]));
+        }
+    }
+
+    // Where rays at these offsets are inside, as far as `beyond`.
+    HWY_INLINE void meet(V ox, V oy, V beyond, RayParts<Lanes>& r) const {
+        const V half = hn::Set(lanes, 0.5f);
+        V front = before, back = beyond;  // from where places are counted, towards the eye and away
+        for (std::size_t a = 0; a < 3; ++a) {
+            const V shift = hn::MulAdd(ox, x[a], hn::Mul(oy, y[a]));
+            r.middle[a] = hn::MulAdd(base, shift, at[a]);  // of the ray at the base, as yet
+            r.along[a] = hn::Add(ray[a], shift);
+            V step = r.along[a];
+            if (grazes) {
+                const V least = hn::Set(lanes, static_cast<float>(kLeastStep));
+                step = hn::CopySign(hn::Max(hn::Abs(step), least), step);
+            }
+            const V per = reciprocal(lanes, step), way = hn::Mul(half, hn::Abs(per));
+            front = hn::Min(front, hn::MulAdd(r.middle[a], per, way));
+            back = hn::Min(back, hn::NegMulAdd(r.middle[a], per, way));
+        }
+        r.length = hn::Add(front, back);
+        r.depth = hn::Mul(half, hn::Sub(back, front));
+    }
+};
+
+// The field in it.
+template <class Lanes>
+struct CellLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    V base, x[3], y[3], f[8];
+    CellLanes(Lanes l, const CellView& view, const SeenCell& c)
+        : lanes(l), base(hn::Set(l, c.base)) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            const V perSize = hn::Set(l, c.perSize[a]);
+            x[a] = hn::Mul(perSize, hn::Set(l, view.perPixelX[a]));
+            y[a] = hn::Mul(perSize, hn::Set(l, view.perPixelY[a]));
+        }
+        for (std::size_t k = 0; k < 8; ++k) f[k] = hn::Set(l, c.f[k]);
+    }
+
+    // The field half way through, and how it changes there.
+    HWY_INLINE void lookHalfWay(RayParts<Lanes>& r) const {
+        for (std::size_t a = 0; a < 3; ++a)
+            r.middle[a] = hn::MulAdd(r.depth, r.along[a], r.middle[a]);
+        const V* m = r.middle;
+        for (std::size_t a = 0; a < 3; ++a) r.mixed[a] = hn::MulAdd(f[7], m[a], f[6 - a]);
+        r.gradient[0] = hn::MulAdd(r.mixed[2], m[1], hn::MulAdd(f[5], m[2], f[1]));
+        r.gradient[1] = hn::MulAdd(r.mixed[2], m[0], hn::MulAdd(f[6], m[2], f[2]));
+        r.gradient[2] = hn::MulAdd(r.mixed[1], m[0], hn::MulAdd(f[6], m[1], f[3]));
+        const V slice =
+            hn::MulAdd(m[1], hn::MulAdd(f[4], m[0], f[2]), hn::MulAdd(f[1], m[0], f[0]));
+        r.value = hn::MulAdd(m[2], r.gradient[2], slice);
+    }
+    // The field at the ends of its pieces.
+    HWY_INLINE void follow(const RayParts<Lanes>& r, V* values) const {
+        static_assert(kPieces == 3);
+        const V half = hn::Mul(hn::Set(lanes, 0.5f), r.length);
+        V d[3];  // half of the way
+        for (std::size_t a = 0; a < 3; ++a) d[a] = hn::Mul(half, r.along[a]);
+        const V xy = hn::Mul(d[0], d[1]);
+        const V mixed = hn::MulAdd(d[0], r.mixed[1], hn::Mul(d[1], r.mixed[0]));
+        const V first = dot(r.gradient, d);
+        const V second = hn::MulAdd(xy, r.mixed[2], hn::Mul(d[2], mixed));
+        const V third = hn::Mul(hn::Mul(xy, d[2]), f[7]);
+        const auto ends = [&](float way, V& fromFront, V& fromBack) HWY_ATTR {
+            const V even = hn::MulAdd(hn::Set(lanes, way * way), second, r.value);
+            const V odd =
+                hn::Mul(hn::Set(lanes, way), hn::MulAdd(hn::Set(lanes, way * way), third, first));
+            fromFront = hn::Sub(even, odd);
+            fromBack = hn::Add(even, odd);
+        };
+        ends(1, values[0], values[3]);
+        ends(1 / 3.0f, values[1], values[2]);
+    }
+    // The square of the width of the ramp that a pixel makes of an end of the range.
+    HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r) const {
+        constexpr float kLeast = static_cast<float>(2 * kLeastChange);
+        const V alongX = dot(r.gradient, x), alongY = dot(r.gradient, y);
+        const V depth = hn::Add(base, r.depth);
+        const V change2 =
+            hn::Mul(hn::Mul(depth, depth), hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));
+        return hn::Max(change2, hn::Set(lanes, kLeast * kLeast));
+    }
+    HWY_INLINE V dot(const V* a, const V* b) const {
+        return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
+    }
+};
+
+// Where light comes from, if there is some.
+enum class Lit { No, FromEye, FromLamp };
+
+// What light makes of a colour. At pixels whose rays are `factor` times as long as the view axis'.
+template <class Lanes>
+struct LightLanes {
+    using V = hn::Vec<Lanes>;
+    Lanes lanes;
+    V perSize[3], metric[6], steep, perUnit;
+    Light light;
+    LightLanes(Lanes l, const CellView& view, const SeenCell& c)
+        : lanes(l),
+          steep(hn::Set(l, c.steep)),
+          perUnit(hn::Set(l, 1 / view.rayLength)),
+          light(view.light) {
+        for (std::size_t a = 0; a < 3; ++a) perSize[a] = hn::Set(l, c.perSize[a]);
+        for (std::size_t k = 0; k < 6; ++k) metric[k] = hn::Set(l, view.metric[k]);
+    }
+    template <Lit kLit>
+    HWY_INLINE void shade(const CellView& view, const SeenCell& c, const RayParts<Lanes>& r,
+                          V change, V factor, V& diffuse, V& specular) const {
+        const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
+        V g[3];
+        for (std::size_t a = 0; a < 3; ++a) g[a] = hn::Mul(r.gradient[a], perSize[a]);
+        V g2 = hn::Mul(hn::Mul(metric[0], g[0]), g[0]);
+        g2 = hn::MulAdd(hn::Mul(metric[1], g[1]), g[1], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[2], g[2]), g[2], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[3], g[0]), g[1], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[4], g[0]), g[2], g2);
+        g2 = hn::MulAdd(hn::Mul(metric[5], g[1]), g[2], g2);
+        const V per = reciprocalRoot(lanes, hn::Max(g2, tiny));
+        const V certainty = reciprocal(lanes, hn::MulAdd(steep, per, one));
+        const V perLength = hn::Mul(perUnit, reciprocal(lanes, factor));
+        const V facing = hn::Min(one, hn::Mul(hn::Mul(hn::Abs(change), per), perLength));
+        if constexpr (kLit == Lit::FromEye) {
+            lightOf(lanes, light, certainty, facing, facing, diffuse, specular);
+        } else {
+            V ofGradient = hn::Zero(lanes), ofRay = ofGradient;
+            for (int a = 0; a < 3; ++a) {
+                const auto axis = static_cast<std::size_t>(a);
+                ofGradient = hn::MulAdd(hn::Set(lanes, view.lamp->ofGradient[a]), g[a], ofGradient);
+                ofRay = hn::MulAdd(hn::Set(lanes, view.lamp->ofWay[a] / c.perSize[axis]),
+                                   r.along[a], ofRay);
+            }
+            lampLightOf(lanes, light, certainty, hn::Mul(ofGradient, per), facing, change,
+                        hn::Mul(ofRay, perLength), diffuse, specular);
+        }
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#endif
