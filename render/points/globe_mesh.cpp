@@ -62,6 +62,8 @@ class UprightCells {
             const double sines = std::sin(to * kPerDegree) - std::sin(from * kPerDegree);
             cosine_.push_back(to > from ? sines / ((to - from) * kPerDegree) : 0);
             latitude_.emplace_back(axes_[1].coordinates[j]);
+            const double distance = std::cos(axes_[1].coordinates[j] * kPerDegree) / kPerDegree;
+            fromAxis_.push_back({distance, b.length()});
         }
         double area = 0;
         for (std::size_t j = 0; j < size_.y; ++j)
@@ -84,10 +86,13 @@ class UprightCells {
         const auto at = timeseries::indicesOf(index, size_);
         const auto [east, north, up] = globe_.directionsAt(longitude_[at.x], latitude_[at.y]);
         const double r = meanRadius_[at.z] * kPerDegree;
+        const double wide = cosine_[at.y] * degreesEast_[at.x];
+        const unsigned widened = timeseries::wideningAbout(std::abs(wide), fromAxis_[at.y].step,
+                                                           fromAxis_[at.y].distance);
         const glm::dmat3 rows =
-            glm::transpose(glm::dmat3(r * cosine_[at.y] * degreesEast_[at.x] * east,
+            glm::transpose(glm::dmat3(r * std::ldexp(wide, static_cast<int>(widened)) * east,
                                       r * degreesNorth_[at.y] * north, outwards_[at.z] * up));
-        return {radius_[at.z] * up, {rows[0], rows[1], rows[2]}};
+        return {radius_[at.z] * up, {rows[0], rows[1], rows[2]}, widened};
     }
     // Neighbours are no farther apart along any coordinate.
     double longestWay() const {
@@ -112,6 +117,12 @@ class UprightCells {
     // the root of the mean square of the radius in its cells.
     std::vector<double> degreesEast_, degreesNorth_, cosine_, outwards_, meanRadius_;
     std::vector<double> radius_;
+    // Of each latitude, in degrees of a great circle: how far from the poles' axis, and the step
+    // across it.
+    struct FromAxis {
+        double distance, step;
+    };
+    std::vector<FromAxis> fromAxis_;
     double thickness_ = 0;  // of one level: as thick as its cells are wide
 };
 
@@ -137,7 +148,7 @@ MeshPoint onGlobe(const Mesh& file, const Globe& globe, std::uint64_t i) {
     const auto rows = file.cell(i).rows();
     const glm::dmat3 sides = glm::transpose(glm::dmat3(rows[0], rows[1], rows[2])) / file.spread();
     const glm::dmat3 there = glm::transpose(globe.waysAt(place) * sides);
-    return {globe.at(place), {there[0], there[1], there[2]}};
+    return {globe.at(place), {there[0], there[1], there[2]}, file.widened(i)};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -81,8 +82,10 @@ class PlacedPoints {
     // REQUIRES: isMesh(). The shape in the world of the cell that the point stands for, its
     // determinant zero where nothing is drawn.
     timeseries::LowerTriangle<double> meshCell(std::uint64_t index) const;
-    // What that determinant is to be multiplied by, for splats may be wider than their cells.
-    double volumePerDeterminant() const { return mesh_->volumePerDeterminant(); }
+    // Of the cell; splats may be wider.
+    double meshVolume(std::uint64_t index) const {
+        return mesh_->volume(index) * std::abs(meshScale_.x * meshScale_.y * meshScale_.z);
+    }
     // Along each axis, after how much a mesh's coordinates come again; 0: never.
     glm::dvec3 period() const { return mesh_->period() * glm::abs(scale()); }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }

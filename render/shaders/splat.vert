@@ -200,12 +200,14 @@ void main() {
     const vec2 ofLevel = texelFetch(axisPoints, level).xy;
     const vec3 diagonal = texelFetch(meshPoints, texel + 1).xyz;
     const bool none = !(view.meshScale.w * diagonal.x > 0.0);
-    Triangle cell = Triangle(by * diagonal, by.yzz * texelFetch(meshPoints, texel + 2).xyz);
+    const vec3 below = texelFetch(meshPoints, texel + 2).xyz;
+    const float share = exp2(-float(floatBitsToUint(below.x) & 31u));  // kMostWidened
+    Triangle cell = Triangle(by * diagonal, by.yzz * below);
     if (ofLevel.y > 0.0) cell.diagonal.z = ofLevel.y;
     const vec3 at = by * kept + view.meshOffset.xyz + vec3(0.0, 0.0, ofLevel.x);
     const bool clipped = none || any(lessThan(kept, view.meshFrom.xyz)) || any(greaterThan(kept, view.meshTo.xyz)) ||
                          uint(level) < view.clipLo.z || uint(level) > view.clipHi.z;
-    const float volume = abs(cell.diagonal.x * cell.diagonal.y * cell.diagonal.z) * view.meshOffset.w;
+    const float volume = share * abs(cell.diagonal.x * cell.diagonal.y * cell.diagonal.z) * view.meshOffset.w;
 #else
     const uvec3 n = view.placed.xyz;
     const uvec3 ijk = uvec3(gridIndex % n.x, gridIndex / n.x % n.y, gridIndex / n.x / n.y);

@@ -41,7 +41,7 @@ void placeMesh(SplatViewBlock& b, const Scene& scene) {
     const MeshBounds bounds = boundsIn(mesh, scene.clip);
     b.meshScale = glm::vec4(glm::dvec4(stored.unit * scene.placed.scale(), stored.sign));
     b.meshOffset = glm::vec4(
-        glm::dvec4(scene.placed.axesFromGrid(stored.origin), scene.placed.volumePerDeterminant()));
+        glm::dvec4(scene.placed.axesFromGrid(stored.origin), mesh.volumePerDeterminant()));
     b.meshFrom = glm::vec4(bounds.lo, 0);
     b.meshTo = glm::vec4(bounds.hi, 0);
     b.placed.w = static_cast<std::uint32_t>(stored.points.size());

@@ -79,9 +79,7 @@ glm::dvec3 MeshCells::acrossLayer(const glm::uvec3& point, int axis) const {
     };
     const glm::dvec3 normal = glm::cross(stepAlong((axis + 1) % 3), stepAlong((axis + 2) % 3));
     const double area2 = glm::dot(normal, normal);
-    const auto diagonal = placed_.meshCell(corners_.indexOf(point)).diagonal;
-    const double volume =
-        std::abs(diagonal.x * diagonal.y * diagonal.z) * placed_.volumePerDeterminant();
+    const double volume = placed_.meshVolume(corners_.indexOf(point));
     // In a mirrored space the third direction is the other one.
     return area2 > 0 ? normal * ((isLeft_ ? -volume : volume) / area2) : glm::dvec3(0);
 }

@@ -194,11 +194,20 @@ struct SeenLanes {
             m.diagonal[a] = hn::Mul(cell[a], f(view.kernel));
         }
         growTo(hn::Mul(depth, f(view.least)), m);
-        F share = f(1);
+        F share = volumeShare();
         for (std::size_t a = 0; a < 3; ++a)
             share = hn::Mul(share, hn::Mul(cell[a], m.perDiagonal[a]));
         *mass = hn::Mul(f(view.weight), hn::Abs(share));
         return m;
+    }
+
+    // 2^-widened, of timeseries::Mesh::Point.
+    HWY_INLINE F volumeShare() const {
+        const Ints ints;
+        const I steps = hn::And(hn::BitCast(ints, hn::Load(Floats(), of.below[0])),
+                                hn::Set(ints, static_cast<std::int32_t>(timeseries::kMostWidened)));
+        const I exponent = hn::Sub(hn::Set(ints, 127), steps);
+        return hn::BitCast(Floats(), hn::ShiftLeft<23>(exponent));
     }
 
     HWY_INLINE void findForms(const Triangles& factor, F mass) {

@@ -90,7 +90,7 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     const double perLength = 5 / std::numbers::pi / seen.unitLength * seen.rayLength;
     if (placed.isMesh()) {
         pointSide = 0;
-        weight = static_cast<float>(perLength * placed.volumePerDeterminant());
+        weight = static_cast<float>(perLength * placed.mesh()->volumePerDeterminant());
         return;
     }
     const glm::dvec3 sides(placed.widths()[0][0], placed.widths()[1][0], placed.widths()[2][0]);

@@ -49,8 +49,8 @@ const std::array kEyes{glm::dvec3(1.5, -2, 1), glm::dvec3(0.2, -0.3, 0.1), glm::
 
 TEST_F(GlMeshes, AreTheTruths) {
     for (const auto& grid :
-         {tests::twisted(), columns({1000, 850, 700, 500}), columns({3}), columns({0, 1}),
-          columns({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}),
+         {tests::twisted(), tests::rings(4, 0.5), columns({1000, 850, 700, 500}), columns({3}),
+          columns({0, 1}), columns({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}),
           tests::gridOf(tests::atCells(tests::bricks(
               {6, 5, 4}, tests::Cut::Tetrahedra,
               [](double i, double j, double k) { return glm::dvec3(i, j + 0.1 * i * k, k); })))})

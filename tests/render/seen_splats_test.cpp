@@ -144,8 +144,9 @@ Looked look(const World& world, const View& from, double error) {
 TEST(SeenSplats, AreWhatDoublesHave) {
     tests::onEachVectorTarget([] {
         Looked sum;
-        for (const auto& [thinnest, error] : {std::pair(1.0, 2e-6), {1e-2, 2e-5}}) {
-            const World world(tests::stepOf(shaken(thinnest), [](std::size_t i) { return i; }));
+        for (const auto& [grid, error] :
+             {std::pair(shaken(1), 2e-6), {shaken(1e-2), 2e-5}, {tests::rings(3, 0.5), 2e-6}}) {
+            const World world(tests::stepOf(grid, [](std::size_t i) { return i; }));
             for (const auto& from :
                  {glm::dvec3(1.5, -2, 1), {0.2, -0.3, 0.1}, {30, -40, 10}, {0, 0, 0}}) {
                 const Looked one = look(world, tests::lookFrom(from, {150, 110}, 0.7), error);

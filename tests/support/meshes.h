@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "timeseries/grid/grid.h"
@@ -44,6 +45,15 @@ inline std::shared_ptr<const timeseries::Grid> columns(std::vector<double> level
     places.size[2] = levels.size();
     places.levels = std::move(levels);
     return gridOf(std::move(places));
+}
+
+// Rings of 36 points about an axis, as far apart from each other as the first is from 1, a disk of
+// three layers.
+inline std::shared_ptr<const timeseries::Grid> rings(std::size_t count, double first) {
+    return curvilinear({36, count, 3}, [&](double i, double j, double k) {
+        const double angle = i * std::numbers::pi / 18, r = first + j;
+        return glm::dvec3(r * std::cos(angle), r * std::sin(angle), k);
+    });
 }
 
 // Twisted, stretched, and with a hole.

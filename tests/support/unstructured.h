@@ -96,7 +96,7 @@ inline timeseries::Mesh atPoints(const timeseries::UnstructuredGrid& grid) {
 
 // Of the cell that a point stands for.
 inline double volume(const timeseries::Mesh& mesh, std::uint64_t index) {
-    return std::abs(mesh.cell(index).determinant()) * mesh.volumePerDeterminant();
+    return mesh.volume(index);
 }
 inline double volume(const timeseries::Mesh& mesh) {
     double sum = 0;

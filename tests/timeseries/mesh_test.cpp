@@ -131,6 +131,40 @@ TEST(Mesh, ACellIsTheSameFromSidesThatAreTurned) {
     }
 }
 
+// Rings about an axis are widened where a splat's width away from it they are needles, and have the
+// volume of their steps for all that. A line that bends elsewhere is not, nor is a thin layer.
+TEST(Mesh, CellsBesideAnAxisAreWiderThanTheirVolume) {
+    for (const double first : {0.0, 0.5}) {
+        const auto grid = tests::rings(6, first);
+        const Mesh& mesh = *grid->mesh();
+        const double angle = std::numbers::pi / 18;
+        for (std::uint64_t i = 0; i < mesh.count(); ++i) {
+            const double r = first + static_cast<double>(i / 36 % 6);
+            const bool isEnd = i % 36 == 0 || i % 36 == 35;  // the way to the only neighbour
+            const double side = r * (isEnd ? 2 * std::sin(angle / 2) : std::sin(angle));
+            const bool isBeside = 0 < r && r < 1.2;
+            EXPECT_EQ(mesh.widened(i) > 0, isBeside) << i;
+            EXPECT_NEAR(mesh.volume(i), side * (isEnd ? std::cos(angle / 2) : 1), 1e-6) << i;
+            EXPECT_NEAR(std::abs(mesh.cell(i).determinant()),
+                        std::exp2(mesh.widened(i)) * mesh.volume(i), 1e-6);
+            if (!isBeside) continue;
+            const double wide = std::exp2(mesh.widened(i)) * side, wanted = 1.5 - r * r;
+            EXPECT_LT(std::abs(std::log2(wide / wanted)), 0.6) << i;
+        }
+        EXPECT_EQ(mesh.flat(), first == 0 ? 36u * 3 : 0u);
+    }
+    const auto expectNone = [](const MeshPlaces& places) {
+        const Mesh mesh(places);
+        for (std::uint64_t i = 0; i < mesh.count(); ++i) EXPECT_EQ(mesh.widened(i), 0u) << i;
+    };
+    expectNone(placesOf({9, 5, 5}, [](double i, double j, double k) {  // a corner
+        return i < 4 ? glm::dvec3(i, j - 10, k) : glm::dvec3(4, j - 14 + i, k);
+    }));
+    expectNone(placesOf({9, 9, 9}, [](double i, double j, double k) {  // over a mountain
+        return glm::dvec3(1000 * i, 1000 * j, 300 * std::sin(i) * std::cos(j) + k);
+    }));
+}
+
 TEST(Mesh, WhereANeighbourHasNoPlaceTheOtherSideIsTaken) {
     const Mesh mesh(placesOf({4, 4, 4}, [](double i, double j, double k) {
         if (i == 2 && j == 1 && k == 1) return glm::dvec3(kNan);

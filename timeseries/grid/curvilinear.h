@@ -36,8 +36,13 @@ class CurvilinearCells {
     explicit CurvilinearCells(const MeshPlaces& places);
     // Columns: the steps along i, j and k that this point of `at` stands for, half the way between
     // its neighbours, or the whole way to the only one that has a place; of columns, on the first
-    // level. An index of one point is as thick as the mean of the cells is wide.
-    glm::dmat3 operator()(std::uint64_t row) const;
+    // level. An index of one point is as thick as the mean of the cells is wide. Where lines turn
+    // about an axis they are widened (timeseries/grid/widened.h).
+    struct Cell {
+        glm::dmat3 steps;
+        unsigned widened;
+    };
+    Cell operator()(std::uint64_t row) const;
     // How far neighbours are apart along each coordinate, at most.
     glm::dvec3 longestWay() const;
     // Points of `at` that have cells, and a neighbour without a place.
@@ -46,8 +51,13 @@ class CurvilinearCells {
  private:
     // The shorter one.
     glm::dvec3 way(std::uint64_t from, std::uint64_t to) const;
-    glm::dmat3 stepsAt(std::uint64_t row) const;
-    glm::dvec3 stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore, bool hasAfter) const;
+    // Of a point along one index: the step, and how much more the way after it is than the one
+    // before.
+    struct Step {
+        glm::dvec3 along{0}, bend{0};
+    };
+    std::array<Step, 3> stepsAt(std::uint64_t row) const;
+    Step stepAlong(std::uint64_t row, std::size_t axis, std::uint64_t at) const;
     double meanWidth() const;
 
     const MeshPlaces& places_;

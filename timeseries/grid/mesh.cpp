@@ -107,8 +107,9 @@ Mesh::Mesh(const MeshPlaces& places) : size_(places.size), period_(places.period
     longestWay_ = cells.longestWay();
     takeColumns(stored, places.at, places.levels, oneByOne([&](std::uint64_t i) {
                     if (!isPlace(places.at[i])) return MeshPoint{places.at[i], {}};
-                    const glm::dmat3 rows = glm::transpose(cells(i));
-                    return MeshPoint{places.at[i], {rows[0], rows[1], rows[2]}};
+                    const CurvilinearCells::Cell cell = cells(i);
+                    const glm::dmat3 rows = glm::transpose(cell.steps);
+                    return MeshPoint{places.at[i], {rows[0], rows[1], rows[2]}, cell.widened};
                 }));
     if (absent_ > 0) about_.oneSided = cells.oneSided() * (columns ? nk : 1);
 }
@@ -148,6 +149,14 @@ void Mesh::takeColumns(std::uint64_t stored, std::span<const glm::dvec3> between
     hi_.z += highest;
 }
 
+void Mesh::Point::setWidened(unsigned steps) {
+    constexpr float kLeast = 0x1p-100f;  // bits of less may be lost where it is computed with
+    float& below = cell.below.x;
+    if (std::abs(below) < kLeast) below = kLeast;
+    const std::uint32_t rounded = std::bit_cast<std::uint32_t>(below) + (kMostWidened + 1) / 2;
+    below = std::bit_cast<float>((rounded & ~kMostWidened) | steps);
+}
+
 std::uint64_t Mesh::count() const { return std::uint64_t{size_[0]} * size_[1] * size_[2]; }
 
 // From the bounds of these, whose third coordinates have so much added to them.
@@ -185,7 +194,7 @@ void Mesh::takePoints(std::uint64_t count, const MeshPoints& pointsOf) {
         for (int c = 0; c < 3; ++c) point.rows[c] *= perUnit[c];
         const auto& rows = point.rows;
         const double turned = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
-        sums.addCell(rows, turned);
+        sums.addCell(rows, std::ldexp(turned, -static_cast<int>(point.widened)));
         if (!(std::abs(turned) > 0)) return {place, {}};
         auto cell = shapeOf(rows);
         if (turned < 0) {
@@ -193,7 +202,9 @@ void Mesh::takePoints(std::uint64_t count, const MeshPoints& pointsOf) {
             cell.below.x = -cell.below.x;
             cell.below.y = -cell.below.y;
         }
-        return {place, cell.as<float>()};
+        Point kept{place, cell.as<float>()};
+        kept.setWidened(point.widened);
+        return kept;
     };
     const auto takePiece = [&](std::uint64_t begin, std::uint64_t end) {
         Sums sums;
@@ -259,6 +270,11 @@ LowerTriangle<double> Mesh::cell(std::uint64_t index) const {
     // The steps to the sides lead along all coordinates, those to the levels along the third.
     if (columns) cell.diagonal.z = levels_[index / stored_].height;
     return cell;
+}
+
+double Mesh::volume(std::uint64_t index) const {
+    return std::ldexp(std::abs(cell(index).determinant()) * volumePerDeterminant(),
+                      -static_cast<int>(widened(index)));
 }
 
 Mesh::Stored Mesh::stored() const {

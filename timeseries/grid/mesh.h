@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <glm/mat3x3.hpp>
@@ -16,6 +18,7 @@
 #include "timeseries/grid/lower_triangle.h"
 #include "timeseries/grid/mesh_about.h"
 #include "timeseries/grid/pages.h"
+#include "timeseries/grid/widened.h"
 
 namespace timeseries {
 
@@ -23,9 +26,11 @@ class SolidCells;  // timeseries/grid/solid_cells.h
 
 // Where a point lies, and the rows of any J whose columns are the sides of its cell: one along each
 // coordinate of the file's space.
+// Its volume is |det J| / 2^widened: timeseries/grid/widened.h.
 struct MeshPoint {
     glm::dvec3 at;
     std::array<glm::dvec3, 3> rows;
+    unsigned widened = 0;
 };
 
 class Mesh {
@@ -78,9 +83,13 @@ class Mesh {
     // The shape of the cell that the point stands for, `spread` times as wide. Zero where nothing
     // is drawn: no place, no volume, or folded, turned inside out beside most of the others.
     LowerTriangle<double> cell(std::uint64_t index) const;
+    double volume(std::uint64_t index) const;
+    unsigned widened(std::uint64_t index) const {  // as MeshPoint has it
+        return points_.data()[levels_.empty() ? index : index % stored_].widened();
+    }
     double spread() const { return spread_; }
-    // A cell's volume over its determinant: columns of several levels are as high as these are
-    // apart.
+    // The volume of a cell that is not widened over its determinant: columns of several levels are
+    // as high as these are apart.
     double volumePerDeterminant() const {
         return 1 / (spread_ * spread_ * (levels_.size() > 1 ? 1 : spread_));
     }
@@ -113,10 +122,15 @@ class Mesh {
     // As it is kept, for who works position() and cell() out elsewhere.
     // 36 bytes. Relative to the origin, in the mesh's units, powers of two near the extent: floats
     // keep what they can. Of columns the cells of all levels are alike but for their height. The
-    // first column of a cell's shape is negative where it is turned over.
+    // first column of a cell's shape is negative where it is turned over. The last bits of
+    // below.x, which is never smaller than a 2^100th, are how much the cell is widened.
     struct Point {
         glm::vec3 at;
         LowerTriangle<float> cell;
+        unsigned widened() const {
+            return std::bit_cast<std::uint32_t>(cell.below.x) & kMostWidened;
+        }
+        void setWidened(unsigned steps);
     };
     // In the file's units, from the origin.
     struct Level {
