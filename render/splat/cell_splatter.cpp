@@ -15,8 +15,8 @@
 namespace render {
 namespace {
 
-// Looked at before they are summed: 8 MB of them.
-constexpr std::uint64_t kAtOnce = 1 << 16;
+// Looked at before they are summed: 16 MB of them.
+constexpr std::uint64_t kAtOnce = 1 << 17;
 // Listed and put in order in the time that one takes to be summed.
 constexpr std::uint64_t kListedForOne = 64;
 // Less is done before another thread has begun.
@@ -26,7 +26,7 @@ constexpr std::size_t kCellsWorthAThread = 1 << 9;
 
 // Pieces of cells that one thread has looked at, and which tiles they touch.
 struct CellMemory::Seen {
-    std::vector<SeenCell> cells;
+    timeseries::PageVector<SeenCell> cells;
     std::vector<SeenTet> tets;  // of a mesh, instead of these
     PieceBatch pieces;
     std::vector<TileSpan> spans;

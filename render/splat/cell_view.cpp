@@ -119,7 +119,7 @@ void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const Rang
 
 std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
                                const RangeStyle& style) {
-    SeenTet c;
+    SeenTet c{};
     const TetSplat<float> s = tetSplatAt<float>(view.seen, tet);
     if (!takePixels(c, view, s)) return std::nullopt;
     takeRange(c, s);

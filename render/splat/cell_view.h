@@ -61,15 +61,15 @@ float floatPlace(double at);
 
 // What a cell and a tetrahedron have alike in a picture.
 struct SeenPiece {
-    float base = 0;
-    float ox = 0, oy = 0;  // of its first pixel's centre from its own
-    float perRange = 0;
-    float least = 0, most = 0;
-    std::uint32_t flags = 0;           // of PieceFlag
-    std::int32_t x = 0, y = 0;         // the first pixel, in the layout's box
-    std::uint32_t lastPixels = 0;      // columns - 1 + 2^16 (rows - 1)
-    float tint = 0, tintPerValue = 0;  // place among the tints where f = 0, and what f adds to it
-    float firstTint = 0, lastTint = 0;
+    float base;
+    float ox, oy;  // of its first pixel's centre from its own
+    float perRange;
+    float least, most;
+    std::uint32_t flags;       // of PieceFlag
+    std::int32_t x, y;         // the first pixel, in the layout's box
+    std::uint32_t lastPixels;  // columns - 1 + 2^16 (rows - 1)
+    float tint, tintPerValue;  // place among the tints where f = 0, and what f adds to it
+    float firstTint, lastTint;
 
     int columns() const { return static_cast<int>(lastPixels & 0xffff) + 1; }
     int rows() const { return static_cast<int>(lastPixels >> 16) + 1; }
@@ -87,9 +87,9 @@ void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const Rang
 
 // A CellSplat in a picture: two lines of the caches.
 struct alignas(128) SeenCell : SeenPiece {
-    float steep = 0;  // CellView::steep as the gradient of f
-    std::array<float, 3> at{}, ray{}, perSize{};
-    std::array<float, 8> f{};
+    float steep;  // CellView::steep as the gradient of f
+    std::array<float, 3> at, ray, perSize;
+    std::array<float, 8> f;
 };
 // As seeCells() writes it, one field of many at once: where each field is; tints come later.
 namespace seen_cell {
@@ -102,11 +102,11 @@ static_assert(kF + 8 == kFloats);
 
 // A TetSplat in a picture.
 struct SeenTet : SeenPiece {
-    std::array<float, 4> at{}, ray{}, right{}, up{};         // the corners' shares
-    float f = 0, fRay = 0, fRight = 0, fUp = 0, across = 0;  // of a pixel, a unit of depth away
-    float perSteepness = 0, certainty = 0;                   // of light
+    std::array<float, 4> at, ray, right, up;  // the corners' shares
+    float f, fRay, fRight, fUp, across;       // of a pixel, a unit of depth away
+    float perSteepness, certainty;            // of light
     // Of a lamp in the world: its direction's part of the gradient's, and of the ray at the centre.
-    float towards = 0, ofRay = 0;
+    float towards, ofRay;
 };
 // None where the view does not see it.
 std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,

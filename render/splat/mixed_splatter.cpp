@@ -61,7 +61,7 @@ class Part {
         std::size_t points, cells;
     };
     std::vector<Stretch> stretches_;
-    std::vector<SeenCell> cells_;
+    timeseries::PageVector<SeenCell> cells_;
     std::vector<SeenTet> tets_;  // of a mesh, instead of these
     PieceBatch pieces_;
     std::vector<TileSpan> cellSpans_;

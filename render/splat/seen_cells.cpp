@@ -326,7 +326,7 @@ namespace render {
 HWY_EXPORT(FindCells);
 
 void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces,
-              std::vector<SeenCell>& cells, std::vector<TileSpan>& spans) {
+              timeseries::PageVector<SeenCell>& cells, std::vector<TileSpan>& spans) {
     SeenRows rows;
     for (std::size_t k = seen_cell::kTints; k < seen_cell::kSteep; ++k) rows.field[k].fill(0);
     std::size_t seen = cells.size();

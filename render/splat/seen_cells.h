@@ -11,6 +11,7 @@
 #include "render/model/scene.h"
 #include "render/splat/cell_view.h"
 #include "render/splat/tile_bins.h"
+#include "timeseries/grid/pages.h"
 
 namespace render {
 
@@ -43,6 +44,6 @@ struct PieceBatch {
 // What cellSplatAt() of render/model/cell_splat.h says of each: those that the view sees something
 // of are added to `cells`, and the tiles that they touch to `spans`.
 void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces,
-              std::vector<SeenCell>& cells, std::vector<TileSpan>& spans);
+              timeseries::PageVector<SeenCell>& cells, std::vector<TileSpan>& spans);
 
 }  // namespace render

@@ -114,7 +114,7 @@ Looked look(const View& from, double side, OpacityPer per, int rays = 1) {
             pieces.add(cell, 0);
             if (isSeen) expected.push_back(s);
         }
-        std::vector<SeenCell> seen;
+        timeseries::PageVector<SeenCell> seen;
         std::vector<TileSpan> spans;
         seeCells(view, world.scene, pieces, seen, spans);
         EXPECT_EQ(seen.size(), expected.size());
@@ -162,7 +162,7 @@ TEST(SeenCells, KnowWhichRaysGoAlongTheirFaces) {
         ValuedCell cell{.from = at - 0.01, .to = at + 0.01, .corners = {}, .lo = -1, .hi = 1};
         PieceBatch pieces;
         pieces.add(cell, 0);
-        std::vector<SeenCell> seen;
+        timeseries::PageVector<SeenCell> seen;
         std::vector<TileSpan> spans;
         seeCells(view, world.scene, pieces, seen, spans);
         EXPECT_EQ(seen.size(), 1u);

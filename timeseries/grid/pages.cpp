@@ -23,7 +23,7 @@ bool muchIsFree(std::size_t bytes) {
 bool isLarge(std::size_t bytes) { return bytes >= 4 * kLargePage; }
 
 std::align_val_t alignmentOf(std::size_t bytes) {
-    return std::align_val_t{isLarge(bytes) ? kLargePage : 64};
+    return std::align_val_t{isLarge(bytes) ? kLargePage : 128};
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ enum class Filled {
     Sparsely  // or once, which large pages would not be worth; it may be larger than the memory
 };
 
-// Aligned to a cache line. Throws std::bad_alloc.
+// Aligned to two cache lines. Throws std::bad_alloc.
 void* takePages(std::size_t bytes, Filled filled = Filled::Mostly);
 // As they were taken.
 void givePages(void* at, std::size_t bytes, Filled filled = Filled::Mostly) noexcept;
