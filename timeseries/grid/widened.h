@@ -1,7 +1,7 @@
 // Cells whose lines close about an axis, as those of longitude do about a pole. Their splats would
 // be needles that all reach across it, and add up to twenty times what they should there. Such a
-// cell is drawn wider along its line, by a power of two, and keeps its volume: with cells that
-// begin at the axis 7 % rms are left within three of them, and 9 % with points on it.
+// cell is drawn wider along its line, by a power of two, and keeps its volume: less than a tenth
+// rms is left within three cells of the axis.
 #pragma once
 
 #include <algorithm>
