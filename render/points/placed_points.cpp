@@ -282,6 +282,10 @@ timeseries::LowerTriangle<double> PlacedPoints::meshCell(std::uint64_t index) co
     return mesh_->cell(index).scaled(meshScale_);
 }
 
+double PlacedPoints::meshVolume(std::uint64_t index) const {
+    return mesh_->volumeOf(meshCell(index), index);
+}
+
 glm::dvec3 PlacedPoints::position(std::uint64_t index) const {
     return worldFromAxes_ * alongAxes(index);
 }

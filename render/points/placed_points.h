@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -83,9 +82,7 @@ class PlacedPoints {
     // determinant zero where nothing is drawn.
     timeseries::LowerTriangle<double> meshCell(std::uint64_t index) const;
     // Of the cell; splats may be wider.
-    double meshVolume(std::uint64_t index) const {
-        return mesh_->volume(index) * std::abs(meshScale_.x * meshScale_.y * meshScale_.z);
-    }
+    double meshVolume(std::uint64_t index) const;
     // Along each axis, after how much a mesh's coordinates come again; 0: never.
     glm::dvec3 period() const { return mesh_->period() * glm::abs(scale()); }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }

@@ -272,11 +272,6 @@ LowerTriangle<double> Mesh::cell(std::uint64_t index) const {
     return cell;
 }
 
-double Mesh::volume(std::uint64_t index) const {
-    return std::ldexp(std::abs(cell(index).determinant()) * volumePerDeterminant(),
-                      -static_cast<int>(widened(index)));
-}
-
 Mesh::Stored Mesh::stored() const {
     return {{points_.data(), stored_}, levels_, origin_, unit_, sign_};
 }

@@ -83,7 +83,12 @@ class Mesh {
     // The shape of the cell that the point stands for, `spread` times as wide. Zero where nothing
     // is drawn: no place, no volume, or folded, turned inside out beside most of the others.
     LowerTriangle<double> cell(std::uint64_t index) const;
-    double volume(std::uint64_t index) const;
+    double volume(std::uint64_t index) const { return volumeOf(cell(index), index); }
+    // The same of that cell in other units: volumes of small and large extents leave the doubles.
+    double volumeOf(const LowerTriangle<double>& cell, std::uint64_t index) const {
+        return std::ldexp(std::abs(cell.determinant()) * volumePerDeterminant(),
+                          -static_cast<int>(widened(index)));
+    }
     unsigned widened(std::uint64_t index) const {  // as MeshPoint has it
         return points_.data()[levels_.empty() ? index : index % stored_].widened();
     }
