@@ -283,7 +283,7 @@ Ellipsoid<Real> ellipsoidOf(const PointsView& view, std::uint64_t index, const F
     }
     const double radius = kQuarticRadius * footprint.size;
     const auto cell = view.placed.meshCell(index);
-    e.sides = view.placed.meshVolume(index);
+    e.sides = view.placed.mesh()->volumeOf(cell, index);
     if (!(e.sides > 0)) return e;
     e.factor = grownTo(least, cell.scaled(glm::dvec3(radius))).template as<Real>();
     const auto &a = e.factor.diagonal, &b = e.factor.below;

@@ -36,6 +36,12 @@ bool comesRound(const Axis& longitude) {
     return c.size() > 2 && beyond < kOnePlace * std::abs(longitude.width(0));
 }
 
+bool goesRound(const Axis& longitude) {
+    constexpr double kAll = 359.9;
+    const auto& c = longitude.coordinates;
+    return std::abs(c.back() - c.front()) + std::abs(longitude.width(0)) > kAll;
+}
+
 // Cells of an upright grid: between two meridians, two parallels and two spheres, whose volume is
 // (sin b2 - sin b1) (a2 - a1) (r2^3 - r1^3) / 3.
 class UprightCells {
@@ -62,8 +68,10 @@ class UprightCells {
             const double sines = std::sin(to * kPerDegree) - std::sin(from * kPerDegree);
             cosine_.push_back(to > from ? sines / ((to - from) * kPerDegree) : 0);
             latitude_.emplace_back(axes_[1].coordinates[j]);
-            const double distance = std::cos(axes_[1].coordinates[j] * kPerDegree) / kPerDegree;
-            fromAxis_.push_back({distance, b.length()});
+            // Where longitudes go round, in degrees of a great circle.
+            const double away = std::cos(axes_[1].coordinates[j] * kPerDegree) / kPerDegree;
+            ring_.push_back(goesRound(axes_[0]) ? timeseries::AxisRing{away, b.length()}
+                                                : timeseries::AxisRing{});
         }
         double area = 0;
         for (std::size_t j = 0; j < size_.y; ++j)
@@ -87,8 +95,7 @@ class UprightCells {
         const auto [east, north, up] = globe_.directionsAt(longitude_[at.x], latitude_[at.y]);
         const double r = meanRadius_[at.z] * kPerDegree;
         const double wide = cosine_[at.y] * degreesEast_[at.x];
-        const unsigned widened = timeseries::wideningAbout(std::abs(wide), fromAxis_[at.y].step,
-                                                           fromAxis_[at.y].distance);
+        const unsigned widened = timeseries::wideningOn(ring_[at.y], std::abs(wide));
         const glm::dmat3 rows =
             glm::transpose(glm::dmat3(r * std::ldexp(wide, static_cast<int>(widened)) * east,
                                       r * degreesNorth_[at.y] * north, outwards_[at.z] * up));
@@ -117,13 +124,8 @@ class UprightCells {
     // the root of the mean square of the radius in its cells.
     std::vector<double> degreesEast_, degreesNorth_, cosine_, outwards_, meanRadius_;
     std::vector<double> radius_;
-    // Of each latitude, in degrees of a great circle: how far from the poles' axis, and the step
-    // across it.
-    struct FromAxis {
-        double distance, step;
-    };
-    std::vector<FromAxis> fromAxis_;
-    double thickness_ = 0;  // of one level: as thick as its cells are wide
+    std::vector<timeseries::AxisRing> ring_;  // of each latitude, about the poles' axis
+    double thickness_ = 0;                    // of one level: as thick as its cells are wide
 };
 
 struct NotWanted {};
@@ -148,7 +150,7 @@ MeshPoint onGlobe(const Mesh& file, const Globe& globe, std::uint64_t i) {
     const auto rows = file.cell(i).rows();
     const glm::dmat3 sides = glm::transpose(glm::dmat3(rows[0], rows[1], rows[2])) / file.spread();
     const glm::dmat3 there = glm::transpose(globe.waysAt(place) * sides);
-    return {globe.at(place), {there[0], there[1], there[2]}, file.widened(i)};
+    return {globe.at(place), {there[0], there[1], there[2]}};
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ void main() {
     const vec3 diagonal = texelFetch(meshPoints, texel + 1).xyz;
     const bool none = !(view.meshScale.w * diagonal.x > 0.0);
     const vec3 below = texelFetch(meshPoints, texel + 2).xyz;
-    const float share = exp2(-float(floatBitsToUint(below.x) & 31u));  // kMostWidened
+    const float share = uintBitsToFloat((127u - (floatBitsToUint(below.x) & 31u)) << 23);  // 2^-widened
     Triangle cell = Triangle(by * diagonal, by.yzz * below);
     if (ofLevel.y > 0.0) cell.diagonal.z = ofLevel.y;
     const vec3 at = by * kept + view.meshOffset.xyz + vec3(0.0, 0.0, ofLevel.x);

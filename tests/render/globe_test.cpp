@@ -281,6 +281,20 @@ TEST(Globe, AboutAPoleSplatsAddUpToNearlyOne) {
     }
 }
 
+// Of a sector, which no pole's other side is beside, cells are what they stand for.
+TEST(Globe, CellsOfASectorBesideAPoleAreNoWider) {
+    const auto whole = gridOf(east(0, 355, 72), north(62.5, 87.5, 6), levels(2));
+    const auto sector = gridOf(east(0, 60, 13), north(62.5, 87.5, 6), levels(2));
+    const auto widened = [](const Grid& grid) {
+        const auto mesh = Globe(grid).meshOf(grid);
+        std::uint64_t count = 0;
+        for (std::uint64_t i = 0; i < mesh->count(); ++i) count += mesh->widened(i) > 0;
+        return count;
+    };
+    EXPECT_EQ(widened(*whole), 72u * 2);
+    EXPECT_EQ(widened(*sector), 0u);
+}
+
 // The cells before the first and beyond the last longitude meet: every corner between them is one.
 TEST(Globe, CellsBetweenPointsAreClosedAtTheSeam) {
     const auto grid = gridOf(east(5, 355, 36), north(-85, 85, 18), levels(3));

@@ -132,7 +132,7 @@ TEST(Mesh, ACellIsTheSameFromSidesThatAreTurned) {
 }
 
 // Rings about an axis are widened where a splat's width away from it they are needles, and have the
-// volume of their steps for all that. A line that bends elsewhere is not, nor is a thin layer.
+// volume of their steps for all that.
 TEST(Mesh, CellsBesideAnAxisAreWiderThanTheirVolume) {
     for (const double first : {0.0, 0.5}) {
         const auto grid = tests::rings(6, first);
@@ -153,16 +153,42 @@ TEST(Mesh, CellsBesideAnAxisAreWiderThanTheirVolume) {
         }
         EXPECT_EQ(mesh.flat(), first == 0 ? 36u * 3 : 0u);
     }
+}
+
+// However lines bend, close or come near to each other.
+TEST(Mesh, CellsOnNoRingAboutAnAxisAreAsWideAsTheirSteps) {
     const auto expectNone = [](const MeshPlaces& places) {
         const Mesh mesh(places);
-        for (std::uint64_t i = 0; i < mesh.count(); ++i) EXPECT_EQ(mesh.widened(i), 0u) << i;
+        for (std::uint64_t i = 0; i < mesh.count(); ++i) ASSERT_EQ(mesh.widened(i), 0u) << i;
     };
+    const auto ring = [](double angle, double r, double k) {
+        return glm::dvec3(r * std::cos(angle), r * std::sin(angle), k);
+    };
+    expectNone(placesOf({9, 6, 3}, [&](double i, double j, double k) {  // half of one
+        return ring(i * std::numbers::pi / 8, j + 0.5, k);
+    }));
+    expectNone(placesOf({36, 6, 3}, [&](double i, double j, double k) {  // with a hole
+        return ring(i * std::numbers::pi / 18, j + 2, k);
+    }));
+    expectNone(placesOf({36, 6, 3}, [&](double i, double j, double k) {  // round a wall, as floats
+        const double r = 1 + 1e-6 * std::expm1(0.2 * j);
+        return glm::dvec3(glm::vec3(ring(i * std::numbers::pi / 18, r, k)));
+    }));
     expectNone(placesOf({9, 5, 5}, [](double i, double j, double k) {  // a corner
         return i < 4 ? glm::dvec3(i, j - 10, k) : glm::dvec3(4, j - 14 + i, k);
     }));
-    expectNone(placesOf({9, 9, 9}, [](double i, double j, double k) {  // over a mountain
-        return glm::dvec3(1000 * i, 1000 * j, 300 * std::sin(i) * std::cos(j) + k);
+    expectNone(placesOf({9, 9, 9}, [](double i, double j, double k) {  // layers over a mountain
+        return glm::dvec3(1000 * i, 1000 * j, 300 * std::sin(i) * std::cos(j) + std::exp2(k));
     }));
+    expectNone(placesOf({9, 9, 9}, [](double i, double j, double k) {  // growing, beside a wall
+        return glm::dvec3(0.01 * i + 0.05 * std::exp2(k) * 1e-4, 0.01 * j, std::exp2(k) * 1e-4);
+    }));
+    auto degrees =
+        placesOf({36, 9, 5}, [](double i, double j, double k) {  // and hundreds of metres
+            return glm::dvec3(10 * i, j, 300 * k + 150 * std::abs(std::sin(i / 12)));
+        });
+    degrees.period = {360, 0, 0};
+    expectNone(degrees);
 }
 
 TEST(Mesh, WhereANeighbourHasNoPlaceTheOtherSideIsTaken) {

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "timeseries/grid/grid.h"
-#include "timeseries/grid/widened.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -36,20 +35,6 @@ void thicken(glm::dmat3& cell, const std::array<std::size_t, 3>& size, double th
     }
 }
 
-// Of the column a, along a line that bends so much from one step to the next: by the circle through
-// three points of it, whose middle may lie along another column.
-unsigned wideningOf(const glm::dmat3& sides, int a, const glm::dvec3& bend) {
-    const double side2 = glm::dot(sides[a], sides[a]), side = std::sqrt(side2);
-    unsigned most = 0;
-    for (const int b : {(a + 1) % 3, (a + 2) % 3}) {
-        const double across = glm::length(sides[b]);
-        const double towards = std::abs(glm::dot(bend, sides[b]));  // times what is across
-        if (towards > 0)
-            most = std::max(most, wideningAbout(side, across, side2 * across / towards));
-    }
-    return most;
-}
-
 }  // namespace
 
 bool isPlace(const glm::dvec3& at) {
@@ -58,6 +43,7 @@ bool isPlace(const glm::dvec3& at) {
 
 CurvilinearCells::CurvilinearCells(const MeshPlaces& places)
     : places_(places),
+      rings_(places),
       stride_{1, places.size[0], std::uint64_t{places.size[0]} * places.size[1]},
       firstHeight_(places.levels.size() > 1 ? places.levels[1] - places.levels[0] : 0) {
     const auto thin = std::ranges::count(places.size, 1u);
@@ -69,10 +55,11 @@ double CurvilinearCells::meanWidth() const {
     const bool isSurface = std::ranges::count(places_.size, 1u) == 1;
     const auto widthOf = [&](std::size_t row) {
         if (!isPlace(places_.at[row])) return 0.0;
-        const std::array<Step, 3> steps = stepsAt(row);
+        const glm::dmat3 steps = stepsAt(row);
         glm::dvec3 one(0), other(0);  // the columns that are not 0
-        for (std::size_t a = 0; a < 3; ++a)
-            if (places_.size[a] > 1) (one == glm::dvec3(0) ? one : other) = steps[a].along;
+        for (int a = 0; a < 3; ++a)
+            if (places_.size[static_cast<std::size_t>(a)] > 1)
+                (one == glm::dvec3(0) ? one : other) = steps[a];
         return glm::length(isSurface ? glm::cross(one, other) : one);
     };
     const auto placed = std::ranges::count_if(places_.at, isPlace);
@@ -128,41 +115,39 @@ std::uint64_t CurvilinearCells::oneSided() const {
 
 // The mean of the ways from the point before and to the one after, or the only one of these that
 // leads anywhere.
-CurvilinearCells::Step CurvilinearCells::stepAlong(std::uint64_t row, std::size_t axis,
-                                                   std::uint64_t at) const {
-    const std::uint64_t stride = stride_[axis], behind = places_.size[axis] - 1 - at;
+glm::dvec3 CurvilinearCells::stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore,
+                                       bool hasAfter) const {
     glm::dvec3 before(0), after(0);
-    const bool hasBefore = at > 0 && isPlace(before = way(row - stride, row));
-    const bool hasAfter = behind > 0 && isPlace(after = way(row, row + stride));
-    if (hasBefore && hasAfter) return {0.5 * (before + after), after - before};
-    // At an end the line bends as it does one point before that.
-    if (hasBefore && at > 1) return {before, before - way(row - 2 * stride, row - stride)};
-    if (hasAfter && behind > 1) return {after, way(row + stride, row + 2 * stride) - after};
-    return {hasBefore ? before : hasAfter ? after : glm::dvec3(0)};
+    if (hasBefore) hasBefore = isPlace(before = way(row - stride_[axis], row));
+    if (hasAfter) hasAfter = isPlace(after = way(row, row + stride_[axis]));
+    if (hasBefore && hasAfter) return 0.5 * (before + after);
+    return hasBefore ? before : hasAfter ? after : glm::dvec3(0);
 }
 
-std::array<CurvilinearCells::Step, 3> CurvilinearCells::stepsAt(std::uint64_t row) const {
+glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {
     const auto& size = places_.size;
     const auto at = indicesOf(row, glm::vec<3, std::uint64_t>(size[0], size[1], size[2]));
-    std::array<Step, 3> steps;
+    glm::dmat3 steps(0.0);
     for (int a = 0; a < 3; ++a) {
         const auto axis = static_cast<std::size_t>(a);
         if (size[axis] == 1) continue;
         if (a == 2 && !places_.levels.empty())
-            steps[axis].along.z = firstHeight_;
+            steps[2].z = firstHeight_;
         else
-            steps[axis] = stepAlong(row, axis, at[a]);
+            steps[a] = stepAlong(row, axis, at[a] > 0, at[a] + 1 < size[axis]);
     }
     return steps;
 }
 
 CurvilinearCells::Cell CurvilinearCells::operator()(std::uint64_t row) const {
-    const std::array<Step, 3> steps = stepsAt(row);
-    Cell cell{{steps[0].along, steps[1].along, steps[2].along}, 0};
+    Cell cell{stepsAt(row), 0};
     if (thickness_ > 0) thicken(cell.steps, places_.size, thickness_);
-    const glm::dmat3 sides = cell.steps;
+    if (rings_.empty()) return cell;
+    const auto& size = places_.size;
+    const auto at = indicesOf(row, glm::vec<3, std::uint64_t>(size[0], size[1], size[2]));
     for (int a = 0; a < 3; ++a) {
-        const unsigned wider = wideningOf(sides, a, steps[static_cast<std::size_t>(a)].bend);
+        const unsigned wider = std::min(rings_.widening(at, a, glm::length(cell.steps[a])),
+                                        kMostWidened - cell.widened);
         cell.steps[a] *= std::ldexp(1.0, static_cast<int>(wider));
         cell.widened += wider;
     }

@@ -8,6 +8,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "timeseries/grid/axis_rings.h"
+
 namespace timeseries {
 
 // What is known of each point; a coordinate that is not finite says that it has no place.
@@ -36,8 +38,8 @@ class CurvilinearCells {
     explicit CurvilinearCells(const MeshPlaces& places);
     // Columns: the steps along i, j and k that this point of `at` stands for, half the way between
     // its neighbours, or the whole way to the only one that has a place; of columns, on the first
-    // level. An index of one point is as thick as the mean of the cells is wide. Where lines turn
-    // about an axis they are widened (timeseries/grid/widened.h).
+    // level. An index of one point is as thick as the mean of the cells is wide. On rings about an
+    // axis they are widened (timeseries/grid/axis_rings.h).
     struct Cell {
         glm::dmat3 steps;
         unsigned widened;
@@ -51,16 +53,12 @@ class CurvilinearCells {
  private:
     // The shorter one.
     glm::dvec3 way(std::uint64_t from, std::uint64_t to) const;
-    // Of a point along one index: the step, and how much more the way after it is than the one
-    // before.
-    struct Step {
-        glm::dvec3 along{0}, bend{0};
-    };
-    std::array<Step, 3> stepsAt(std::uint64_t row) const;
-    Step stepAlong(std::uint64_t row, std::size_t axis, std::uint64_t at) const;
+    glm::dmat3 stepsAt(std::uint64_t row) const;
+    glm::dvec3 stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore, bool hasAfter) const;
     double meanWidth() const;
 
     const MeshPlaces& places_;
+    AxisRings rings_;
     std::array<std::uint64_t, 3> stride_;
     double firstHeight_;  // the step along levels on the first one
     double thickness_ = 0;

@@ -193,8 +193,9 @@ void Mesh::takePoints(std::uint64_t count, const MeshPoints& pointsOf) {
         const glm::vec3 place((point.at - below) / unit);
         for (int c = 0; c < 3; ++c) point.rows[c] *= perUnit[c];
         const auto& rows = point.rows;
-        const double turned = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
-        sums.addCell(rows, std::ldexp(turned, -static_cast<int>(point.widened)));
+        const double wide = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
+        const double turned = std::ldexp(wide, -static_cast<int>(point.widened));
+        sums.addCell(rows, turned);
         if (!(std::abs(turned) > 0)) return {place, {}};
         auto cell = shapeOf(rows);
         if (turned < 0) {

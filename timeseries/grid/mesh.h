@@ -18,7 +18,6 @@
 #include "timeseries/grid/lower_triangle.h"
 #include "timeseries/grid/mesh_about.h"
 #include "timeseries/grid/pages.h"
-#include "timeseries/grid/widened.h"
 
 namespace timeseries {
 
@@ -26,7 +25,7 @@ class SolidCells;  // timeseries/grid/solid_cells.h
 
 // Where a point lies, and the rows of any J whose columns are the sides of its cell: one along each
 // coordinate of the file's space.
-// Its volume is |det J| / 2^widened: timeseries/grid/widened.h.
+// Its volume is |det J| / 2^widened: timeseries/grid/axis_rings.h.
 struct MeshPoint {
     glm::dvec3 at;
     std::array<glm::dvec3, 3> rows;
@@ -128,7 +127,7 @@ class Mesh {
     // 36 bytes. Relative to the origin, in the mesh's units, powers of two near the extent: floats
     // keep what they can. Of columns the cells of all levels are alike but for their height. The
     // first column of a cell's shape is negative where it is turned over. The last bits of
-    // below.x, which is never smaller than a 2^100th, are how much the cell is widened.
+    // below.x are how much a cell is widened; where it has a volume they are of a 2^100th or more.
     struct Point {
         glm::vec3 at;
         LowerTriangle<float> cell;
