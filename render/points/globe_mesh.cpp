@@ -28,7 +28,7 @@ Stretch aboutPoint(const Axis& axis, std::size_t i) {
     return {axis.coordinates[i] - half, axis.coordinates[i] + half};
 }
 
-// Where the last point is the first, once round, each stands for half of what it stands for.
+// Where the last point is the first, once round, both share the cells there.
 bool comesRound(const Axis& longitude) {
     constexpr double kOnePlace = 1e-3;  // of a step
     const auto& c = longitude.coordinates;
@@ -54,8 +54,8 @@ class UprightCells {
         const bool halves = comesRound(axes_[0]);
         for (std::size_t i = 0; i < size_.x; ++i) {
             const bool isEnd = i == 0 || i + 1 == size_.x;
-            const double wide = axes_[0].width(i) * (halves && isEnd ? 0.5 : 1);
-            degreesEast_.push_back(size_.x > 1 ? wide : 1);
+            sharesWith_.push_back(halves && isEnd ? 1 : 0);
+            degreesEast_.push_back(size_.x > 1 ? axes_[0].width(i) : 1);
             longitude_.emplace_back(axes_[0].coordinates[i]);
         }
         for (std::size_t j = 0; j < size_.y; ++j) {
@@ -95,11 +95,13 @@ class UprightCells {
         const auto [east, north, up] = globe_.directionsAt(longitude_[at.x], latitude_[at.y]);
         const double r = meanRadius_[at.z] * kPerDegree;
         const double wide = cosine_[at.y] * degreesEast_[at.x];
-        const unsigned widened = timeseries::wideningOn(ring_[at.y], std::abs(wide));
+        const unsigned wider = timeseries::wideningOn(ring_[at.y], std::abs(wide));
         const glm::dmat3 rows =
-            glm::transpose(glm::dmat3(r * std::ldexp(wide, static_cast<int>(widened)) * east,
+            glm::transpose(glm::dmat3(r * std::ldexp(wide, static_cast<int>(wider)) * east,
                                       r * degreesNorth_[at.y] * north, outwards_[at.z] * up));
-        return {radius_[at.z] * up, {rows[0], rows[1], rows[2]}, widened};
+        return {radius_[at.z] * up,
+                {rows[0], rows[1], rows[2]},
+                std::min(wider + sharesWith_[at.x], timeseries::kMostWidened)};
     }
     // Neighbours are no farther apart along any coordinate.
     double longestWay() const {
@@ -124,6 +126,7 @@ class UprightCells {
     // the root of the mean square of the radius in its cells.
     std::vector<double> degreesEast_, degreesNorth_, cosine_, outwards_, meanRadius_;
     std::vector<double> radius_;
+    std::vector<unsigned> sharesWith_;        // of each longitude, how many others its cells
     std::vector<timeseries::AxisRing> ring_;  // of each latitude, about the poles' axis
     double thickness_ = 0;                    // of one level: as thick as its cells are wide
 };

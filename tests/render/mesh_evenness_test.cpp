@@ -109,6 +109,19 @@ TEST(MeshEvenness, ADiskOfRingsIsEvenAboutItsAxis) {
     }
 }
 
+// Where a line ends where it began the seam is as even as the rest; both ends' whole steps would
+// make it twice as dense.
+TEST(MeshEvenness, AnAnnulusIsEvenAtItsSeam) {
+    const auto annulus = evenOf(curvilinear({49, 15, 9}, [](double i, double j, double k) {
+        const double angle = i * std::numbers::pi / 24, r = 8 + j;
+        return glm::dvec3(r * std::cos(angle), r * std::sin(angle), k);
+    }));
+    const auto seam = evennessOf(annulus, 9, {12, -4}, {18, 4});
+    const auto beside = evennessOf(annulus, 9, {-18, -4}, {-12, 4});
+    EXPECT_NEAR(seam.mean, beside.mean, 1e-3);
+    EXPECT_NEAR(seam.rms, beside.rms, 1e-3);
+}
+
 // What all splats stand for, as the world has it, where cells tile it: of each kind alone, of kinds
 // side by side, and above each other.
 TEST(MeshEvenness, OfCellsThatTileItHaveTheMassOfTheMesh) {

@@ -155,6 +155,31 @@ TEST(Mesh, CellsBesideAnAxisAreWiderThanTheirVolume) {
     }
 }
 
+// Closed lines, which end where they began: both ends have the cell about that place, which is like
+// those beside it, and half of its volume each.
+TEST(Mesh, CellsWhereALineClosesAreSharedByItsEnds) {
+    const auto place = [](double i, double j, double k) {
+        const double angle = i * std::numbers::pi / 8, r = 3 + j;
+        return glm::dvec3(r * std::cos(angle), r * std::sin(angle), k);
+    };
+    const Mesh closed(placesOf({17, 4, 3}, place)), half(placesOf({9, 4, 3}, place));
+    for (std::uint64_t i = 0; i < closed.count(); ++i) {
+        const bool isEnd = i % 17 == 0 || i % 17 == 16;
+        const double r = 3 + static_cast<double>(i / 17 % 4),
+                     side = r * std::sin(std::numbers::pi / 8);
+        EXPECT_NEAR(closed.volume(i), isEnd ? side / 2 : side, 1e-5) << i;
+        EXPECT_NEAR(std::abs(closed.cell(i).determinant()), side, 1e-5) << i;
+    }
+    for (std::uint64_t i = 0; i < half.count(); ++i) EXPECT_EQ(half.widened(i), 0u) << i;
+    // On a flat map the ends of a circle of latitude lie apart.
+    auto degrees = placesOf({13, 5, 3}, [](double i, double j, double k) {
+        return glm::dvec3(30 * i, j + 0.1 * i, k);
+    });
+    degrees.period = {360, 0, 0};
+    const Mesh flat(degrees);
+    for (std::uint64_t i = 0; i < flat.count(); ++i) EXPECT_EQ(flat.widened(i), 0u) << i;
+}
+
 // However lines bend, close or come near to each other.
 TEST(Mesh, CellsOnNoRingAboutAnAxisAreAsWideAsTheirSteps) {
     const auto expectNone = [](const MeshPlaces& places) {

@@ -124,6 +124,20 @@ glm::dvec3 CurvilinearCells::stepAlong(std::uint64_t row, std::size_t axis, bool
     return hasBefore ? before : hasAfter ? after : glm::dvec3(0);
 }
 
+// The mean of the ways to the second point of its line and from the last but one.
+std::optional<glm::dvec3> CurvilinearCells::stepAcrossSeam(std::uint64_t row, std::size_t axis,
+                                                           std::uint64_t at) const {
+    constexpr double kOnePlace = 1e-3;  // of a step
+    const std::uint64_t stride = stride_[axis], last = places_.size[axis] - 1;
+    if (last < 2 || (at > 0 && at < last) || (axis == 2 && !places_.levels.empty())) return {};
+    const std::uint64_t first = row - at * stride, end = first + last * stride;
+    const glm::dvec3 step = 0.5 * (places_.at[first + stride] - places_.at[first] +
+                                   places_.at[end] - places_.at[end - stride]);
+    const double apart = glm::distance(places_.at[first], places_.at[end]);
+    if (!(apart < kOnePlace * glm::length(step))) return {};
+    return step;
+}
+
 glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {
     const auto& size = places_.size;
     const auto at = indicesOf(row, glm::vec<3, std::uint64_t>(size[0], size[1], size[2]));
@@ -140,11 +154,17 @@ glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {
 }
 
 CurvilinearCells::Cell CurvilinearCells::operator()(std::uint64_t row) const {
-    Cell cell{stepsAt(row), 0};
-    if (thickness_ > 0) thicken(cell.steps, places_.size, thickness_);
-    if (rings_.empty()) return cell;
     const auto& size = places_.size;
     const auto at = indicesOf(row, glm::vec<3, std::uint64_t>(size[0], size[1], size[2]));
+    Cell cell{stepsAt(row), 0};
+    for (int a = 0; a < 3; ++a) {
+        const auto acrossSeam = stepAcrossSeam(row, static_cast<std::size_t>(a), at[a]);
+        if (!acrossSeam) continue;
+        cell.steps[a] = *acrossSeam;
+        ++cell.widened;
+    }
+    if (thickness_ > 0) thicken(cell.steps, places_.size, thickness_);
+    if (rings_.empty()) return cell;
     for (int a = 0; a < 3; ++a) {
         const unsigned wider = std::min(rings_.widening(at, a, glm::length(cell.steps[a])),
                                         kMostWidened - cell.widened);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "timeseries/grid/axis_rings.h"
@@ -39,7 +40,8 @@ class CurvilinearCells {
     // Columns: the steps along i, j and k that this point of `at` stands for, half the way between
     // its neighbours, or the whole way to the only one that has a place; of columns, on the first
     // level. An index of one point is as thick as the mean of the cells is wide. On rings about an
-    // axis they are widened (timeseries/grid/axis_rings.h).
+    // axis they are widened (timeseries/grid/axis_rings.h); where a line's last point is its first,
+    // both have the cell about that place, as twice as wide as its volume is, which they share.
     struct Cell {
         glm::dmat3 steps;
         unsigned widened;
@@ -54,6 +56,9 @@ class CurvilinearCells {
     // The shorter one.
     glm::dvec3 way(std::uint64_t from, std::uint64_t to) const;
     glm::dmat3 stepsAt(std::uint64_t row) const;
+    // None where the line does not end where it began, or the point is at neither.
+    std::optional<glm::dvec3> stepAcrossSeam(std::uint64_t row, std::size_t axis,
+                                             std::uint64_t at) const;
     glm::dvec3 stepAlong(std::uint64_t row, std::size_t axis, bool hasBefore, bool hasAfter) const;
     double meanWidth() const;
 
