@@ -195,6 +195,9 @@ TEST(Mesh, CellsOnNoRingAboutAnAxisAreAsWideAsTheirSteps) {
     expectNone(placesOf({36, 6, 3}, [&](double i, double j, double k) {  // with a hole
         return ring(i * std::numbers::pi / 18, j + 2, k);
     }));
+    expectNone(placesOf({36, 6, 3}, [&](double i, double j, double k) {  // above each other
+        return ring(i * std::numbers::pi / 18, j + 2, 3 * k);
+    }));
     expectNone(placesOf({36, 6, 3}, [&](double i, double j, double k) {  // round a wall, as floats
         const double r = 1 + 1e-6 * std::expm1(0.2 * j);
         return glm::dvec3(glm::vec3(ring(i * std::numbers::pi / 18, r, k)));

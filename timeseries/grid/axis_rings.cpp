@@ -33,11 +33,10 @@ AxisRing ringOf(const Line& line) {
     constexpr double kRound = 0.5;
     std::vector<glm::dvec3> from(line.count);  // from the first point, then from the middle
     glm::dvec3 middle(0);
-    double most = 0, across = 0;
+    double most = 0;
     for (std::uint64_t i = 0; i < line.count; ++i) {
         from[i] = line.at(i) - line.at(0);
         middle += from[i] / static_cast<double>(line.count);
-        across += glm::distance(line.at(i), line.beside(i));
     }
     for (glm::dvec3& each : from) {
         each -= middle;
@@ -45,12 +44,14 @@ AxisRing ringOf(const Line& line) {
     }
     if (!(most > 0)) return {};
     glm::dvec3 area(0);
-    double away = 0, away2 = 0;
+    double away = 0, away2 = 0, across = 0;
     for (std::uint64_t i = 0; i < line.count; ++i) {
         const glm::dvec3 one = from[i] / most, other = from[(i + 1) % line.count] / most;
         area += 0.5 * glm::cross(one, other);
         away += glm::length(one);
         away2 += glm::dot(one, one);
+        if (one != glm::dvec3(0))
+            across += std::abs(glm::dot(line.beside(i) - line.at(i), glm::normalize(one)));
     }
     const auto count = static_cast<double>(line.count);
     if (!(glm::length(area) > kRound * std::numbers::pi * away2 / count)) return {};

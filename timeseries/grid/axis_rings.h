@@ -18,7 +18,7 @@ struct MeshPlaces;  // timeseries/grid/curvilinear.h
 
 constexpr unsigned kMostWidened = 31;  // a factor of 2^31
 
-// In the mean of its points; `across`: to the next ring.
+// In the mean of its points; `across`: how much nearer or farther the next line is.
 struct AxisRing {
     double away = 0, across = 0;  // none: 0
 };
