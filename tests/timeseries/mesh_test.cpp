@@ -171,6 +171,12 @@ TEST(Mesh, CellsWhereALineClosesAreSharedByItsEnds) {
         EXPECT_NEAR(std::abs(closed.cell(i).determinant()), side, 1e-5) << i;
     }
     for (std::uint64_t i = 0; i < half.count(); ++i) EXPECT_EQ(half.widened(i), 0u) << i;
+    // Out along one side of a wake, and back along the other, to the same place but for rounding.
+    const Mesh wake(placesOf({17, 4, 3}, [](double i, double j, double k) {
+        const double along = std::abs(i - 8);
+        return glm::dvec3(along, i < 8 ? -j - 0.3 : j + (i > 15 ? -0.3 + 1e-7 : 0.3), k);
+    }));
+    for (std::uint64_t i = 0; i < wake.count(); ++i) EXPECT_EQ(wake.widened(i), 0u) << i;
     // On a flat map the ends of a circle of latitude lie apart.
     auto degrees = placesOf({13, 5, 3}, [](double i, double j, double k) {
         return glm::dvec3(30 * i, j + 0.1 * i, k);

@@ -124,18 +124,21 @@ glm::dvec3 CurvilinearCells::stepAlong(std::uint64_t row, std::size_t axis, bool
     return hasBefore ? before : hasAfter ? after : glm::dvec3(0);
 }
 
-// The mean of the ways to the second point of its line and from the last but one.
+// The mean of the ways to the second point of its line and from the last but one, if the line goes
+// on there: it may also come back, as those on both sides of a wake do.
 std::optional<glm::dvec3> CurvilinearCells::stepAcrossSeam(std::uint64_t row, std::size_t axis,
                                                            std::uint64_t at) const {
-    constexpr double kOnePlace = 1e-3;  // of a step
+    constexpr double kOnePlace = 1e-3, kGoesOn = 0.5;  // of a step
     const std::uint64_t stride = stride_[axis], last = places_.size[axis] - 1;
     if (last < 2 || (at > 0 && at < last) || (axis == 2 && !places_.levels.empty())) return {};
     const std::uint64_t first = row - at * stride, end = first + last * stride;
-    const glm::dvec3 step = 0.5 * (places_.at[first + stride] - places_.at[first] +
-                                   places_.at[end] - places_.at[end - stride]);
+    const glm::dvec3 after = places_.at[first + stride] - places_.at[first];
+    const glm::dvec3 before = places_.at[end] - places_.at[end - stride];
+    const glm::dvec3 step = 0.5 * (before + after);
+    const double length = glm::length(step);
+    const bool goesOn = length > kGoesOn * std::max(glm::length(before), glm::length(after));
     const double apart = glm::distance(places_.at[first], places_.at[end]);
-    if (!(apart < kOnePlace * glm::length(step))) return {};
-    return step;
+    return goesOn && apart < kOnePlace * length ? std::optional(step) : std::nullopt;
 }
 
 glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {

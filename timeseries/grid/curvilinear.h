@@ -41,7 +41,7 @@ class CurvilinearCells {
     // its neighbours, or the whole way to the only one that has a place; of columns, on the first
     // level. An index of one point is as thick as the mean of the cells is wide. On rings about an
     // axis they are widened (timeseries/grid/axis_rings.h); where a line's last point is its first,
-    // both have the cell about that place, as twice as wide as its volume is, which they share.
+    // both have the cell about that place, and half of its volume each: it is widened once, too.
     struct Cell {
         glm::dmat3 steps;
         unsigned widened;
