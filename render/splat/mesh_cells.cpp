@@ -69,31 +69,53 @@ glm::dvec3 MeshCells::way(const glm::dvec3& from, const glm::dvec3& to) const {
     return timeseries::shorterWay(to - from, period_);
 }
 
-// Along the third direction of the point's cell, of which the other two and the volume are known.
+// Whether the line along this axis ends where it began, at the end where the point is.
+bool MeshCells::comesRound(const glm::uvec3& point, int axis) const {
+    const unsigned last = points_[axis] - 1;
+    if (last < 2 || (point[axis] > 0 && point[axis] < last)) return false;
+    glm::uvec3 other = point;
+    other[axis] = last - point[axis];
+    const glm::dvec3 place = placeOf(point), step = way(placeOf(inwardOf(point, axis)), place);
+    const glm::dvec3 round = way(place, placeOf(other));
+    return glm::dot(round, round) < kOnePlace * kOnePlace * glm::dot(step, step);
+}
+
+// The next one from an end.
+glm::uvec3 MeshCells::inwardOf(glm::uvec3 point, int axis) const {
+    point[axis] = point[axis] == 0 ? 1 : points_[axis] - 2;
+    return point;
+}
+
+// Along the third direction of the point's cell, of which the other two and the volume are known:
+// not of one that shares its cell with another, but of the next one, whose layer is as thick.
 glm::dvec3 MeshCells::acrossLayer(const glm::uvec3& point, int axis) const {
-    const auto stepAlong = [&](int a) {
-        glm::uvec3 before = point, after = point;
-        if (point[a] > 0) --before[a];
-        if (point[a] + 1 < points_[a]) ++after[a];
-        return way(placeOf(before), placeOf(after)) / std::max(1.0, double(after[a] - before[a]));
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const auto normalAt = [&](const glm::uvec3& at) {
+        const auto stepAlong = [&](int a) {
+            glm::uvec3 before = at, after = at;
+            if (at[a] > 0) --before[a];
+            if (at[a] + 1 < points_[a]) ++after[a];
+            return way(placeOf(before), placeOf(after)) /
+                   std::max(1.0, double(after[a] - before[a]));
+        };
+        return glm::cross(stepAlong(b), stepAlong(c));
     };
-    const glm::dvec3 normal = glm::cross(stepAlong((axis + 1) % 3), stepAlong((axis + 2) % 3));
-    const double area2 = glm::dot(normal, normal);
-    const double volume = placed_.meshVolume(corners_.indexOf(point));
+    glm::uvec3 whole = point;
+    for (const int a : {b, c})
+        if (comesRound(point, a)) whole = inwardOf(whole, a);
+    const glm::dvec3 normal = normalAt(point);
+    const double area = glm::length(normal), areaOfWhole = glm::length(normalAt(whole));
+    const double volume = placed_.meshVolume(corners_.indexOf(whole));
     // In a mirrored space the third direction is the other one.
-    return area2 > 0 ? normal * ((isLeft_ ? -volume : volume) / area2) : glm::dvec3(0);
+    return area > 0 && areaOfWhole > 0
+               ? normal * ((isLeft_ ? -volume : volume) / areaOfWhole / area)
+               : glm::dvec3(0);
 }
 
 glm::dvec3 MeshCells::beyond(const glm::uvec3& point, int axis, bool before) const {
     if (points_[axis] == 1) return (before ? -0.5 : 0.5) * acrossLayer(point, axis);
-    glm::uvec3 inward = point, other = point;
-    inward[axis] = before ? 1 : points_[axis] - 2;
-    other[axis] = before ? points_[axis] - 1 : 0;
-    const glm::dvec3 place = placeOf(point), step = way(placeOf(inward), place);
-    const glm::dvec3 round = way(place, placeOf(other));
-    const bool comesRound =
-        points_[axis] > 2 && glm::dot(round, round) < kOnePlace * kOnePlace * glm::dot(step, step);
-    return comesRound ? glm::dvec3(0) : 0.5 * step;
+    if (comesRound(point, axis)) return glm::dvec3(0);
+    return 0.5 * way(placeOf(inwardOf(point, axis)), placeOf(point));
 }
 
 // Whether the first and the last of a globe's longitudes are neighbours there.

@@ -101,6 +101,8 @@ class MeshCells {
     // From an outermost point half a cell on along an index.
     glm::dvec3 beyond(const glm::uvec3& point, int axis, bool before) const;
     bool isSeam(const glm::uvec3& point) const;
+    bool comesRound(const glm::uvec3& point, int axis) const;
+    glm::uvec3 inwardOf(glm::uvec3 point, int axis) const;
     glm::dvec3 acrossLayer(const glm::uvec3& point, int axis) const;
     Hexahedron octantOf(const Hexahedron& cell, unsigned octant) const;
 
