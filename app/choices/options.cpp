@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "app/choices/choice_text.h"
 #include "app/choices/choices.h"
@@ -54,9 +55,34 @@ CountOptions countOptions(const CLI::App& app, const CountText& text) {
 }
 
 // What `render` takes beside the choices of a picture.
+// Who draws, and on what.
+struct DrawnByText {
+    std::string device = "any", splatter = "any";
+};
+
+void addDrawnBy(CLI::App& app, DrawnByText& into, std::vector<std::string> splatters) {
+    app.add_option("--device", into.device, "any (default), gpu or cpu")
+        ->check(CLI::IsMember({"any", "gpu", "cpu"}));
+    const bool exact = std::ranges::find(splatters, "exact") != splatters.end();
+    app.add_option("--splatter", into.splatter,
+                   fmt::format("Who sums splats: any (default: gl on a GPU, else cpu), {}",
+                               exact ? "gl, cpu, or exact: in double, slowly" : "gl or cpu"))
+        ->check(CLI::IsMember(std::move(splatters)));
+}
+
+DrawnBy drawnBy(const DrawnByText& text) {
+    using Choice = render::SplatterChoice;
+    const std::map<std::string, Choice> choices{{"any", Choice::ByDevice},
+                                                {"gl", Choice::Gl},
+                                                {"cpu", Choice::Cpu},
+                                                {"exact", Choice::Exact}};
+    return {text.device, choices.at(text.splatter)};
+}
+
 struct OutputText {
     std::vector<std::string> channels;
-    std::string output, device = "any", splatter = "any";
+    std::string output;
+    DrawnByText by;
     bool portable = false, progress = false;
     bool modelGiven = false;  // among the choices of the picture
 };
@@ -68,12 +94,7 @@ void addOutput(CLI::App& app, OutputText& into) {
     app.add_flag("--portable", into.portable,
                  "The picture's session keeps no absolute path: for pictures that are published");
     app.add_flag("--progress", into.progress, "Print 'picture I of N' after each picture");
-    app.add_option("--device", into.device, "any (default), gpu or cpu")
-        ->check(CLI::IsMember({"any", "gpu", "cpu"}));
-    app.add_option("--splatter", into.splatter,
-                   "Who sums splats: any (default: gl on a GPU, else cpu), gl, cpu, or exact: in "
-                   "double, slowly")
-        ->check(CLI::IsMember({"any", "gl", "cpu", "exact"}));
+    addDrawnBy(app, into.by, {"any", "gl", "cpu", "exact"});
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
 
@@ -102,13 +123,10 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     for (const std::string& channel : text.channels)
         (channel == "opticalDepth" ? options.opticalDepth : options.splatCount) = true;
     options.output = text.output;
-    options.device = text.device;
-    if (text.splatter == "gl") options.splatter = render::SplatterChoice::Gl;
-    if (text.splatter == "cpu") options.splatter = render::SplatterChoice::Cpu;
-    if (text.splatter == "exact") options.splatter = render::SplatterChoice::Exact;
+    options.by = drawnBy(text.by);
     options.portable = text.portable;
     options.progress = text.progress;
-    if (options.splatter == render::SplatterChoice::Exact) {
+    if (options.by.splatter == render::SplatterChoice::Exact) {
         if (text.modelGiven && modelOf(options.explorer) == Model::Cells)
             throw ChoiceError(
                 "--splatter exact draws points: --model cells is drawn by the others");
@@ -157,6 +175,7 @@ IndexOptions indexOptions(const IndexText& text) {
 struct MeasureText {
     unsigned views = 3, frames = 5, rays = 3;
     std::vector<std::string> modes;
+    DrawnByText by;
     bool json = false;
     std::string csv, svg, png;
 };
@@ -175,6 +194,7 @@ void addMeasure(CLI::App& app, MeasureText& into) {
                    "default")
         ->delimiter(',')
         ->allow_extra_args(false);
+    addDrawnBy(app, into.by, {"any", "gl", "cpu"});
     app.add_flag("--json", into.json, "Machine-readable");
     app.add_option("--csv", into.csv, "Writes the table into a file");
     app.add_option("--svg", into.svg, "Writes a plot of error against time into a file");
@@ -193,6 +213,7 @@ MeasureOptions measureOptions(Explorer explorer, const MeasureText& text) {
     options.frames = text.frames;
     options.rays = text.rays;
     options.modes = text.modes;
+    options.by = drawnBy(text.by);
     options.json = text.json;
     options.csv = text.csv;
     options.svg = text.svg;
@@ -215,7 +236,7 @@ void addDisplay(CLI::App& app, DisplayText& into) {
 
 RenderOptions headlessOptions(Explorer explorer, const DisplayText& text) {
     if (text.output.empty()) throw ChoiceError("--display headless needs -o OUT.png beside it");
-    return renderOptions(std::move(explorer), {.channels = {}, .output = text.output});
+    return renderOptions(std::move(explorer), {.channels = {}, .output = text.output, .by = {}});
 }
 
 ViewOptions viewOptions(Explorer explorer, const DisplayText& text) {

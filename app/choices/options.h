@@ -34,12 +34,16 @@ struct CountOptions : CommonOptions {
     bool json = false;
 };
 
+// Who draws pictures, and where GL draws: "any" device, "gpu" or "cpu".
+struct DrawnBy {
+    std::string device = "any";
+    render::SplatterChoice splatter = render::SplatterChoice::ByDevice;
+};
 struct RenderOptions : CommonOptions {
     Explorer explorer;
     std::filesystem::path output;
     bool opticalDepth = false, splatCount = false;  // further EXR channels
-    std::string device = "any";
-    render::SplatterChoice splatter = render::SplatterChoice::ByDevice;
+    DrawnBy by;
     bool portable = false;  // pictures keep no absolute path
     bool progress = false;  // "picture 3 of 31" on stdout after each
 };
@@ -51,6 +55,7 @@ struct MeasureOptions : CommonOptions {
     unsigned frames = 5;             // timed, of each view
     unsigned rays = 3;               // of the truth, across a pixel
     std::vector<std::string> modes;  // as Mode::name() has them; none: all
+    DrawnBy by;
     bool json = false;
     std::filesystem::path csv, svg, png;  // empty: not wanted
 };

@@ -8,6 +8,7 @@
 #include "app/choices/choice_text.h"
 #include "app/choices/map_flaw.h"
 #include "app/command/commands.h"
+#include "app/command/drawing_device.h"
 #include "app/exploration/chosen_data.h"
 #include "app/files/dataset.h"
 #include "app/files/frame_files.h"
@@ -19,7 +20,6 @@
 #include "app/picture/still.h"
 #include "app/say.h"
 #include "render/frame/mean_depth.h"
-#include "render/gl/headless_context.h"
 
 namespace app {
 namespace {
@@ -175,41 +175,18 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
     return told;
 }
 
-// What draws a picture: GL on a device, or the program itself, which needs no context.
-class Drawing {
- public:
-    explicit Drawing(const RenderOptions& options) : by_(options.splatter) {
-        if (by_ == Choice::ByDevice && render::gl::onlyProcessorsDraw(options.device))
-            by_ = Choice::Cpu;
-        if (by_ == Choice::ByDevice || by_ == Choice::Gl) context_.emplace(options.device);
-        renderer_.emplace(by_);
-    }
-    render::FrameRenderer& renderer() { return *renderer_; }
-    std::string name() const {
-        if (context_) return context_->renderer();
-        if (by_ == Choice::Exact) return "the program in double on 1 thread";
-        const unsigned threads = render::sharingThreads();
-        return fmt::format("the program on {} thread{}", threads, threads == 1 ? "" : "s");
-    }
-
- private:
-    using Choice = render::SplatterChoice;
-    Choice by_;
-    std::optional<render::gl::HeadlessContext> context_;
-    std::optional<render::FrameRenderer> renderer_;
-};
-
 }  // namespace
 
 int renderHeadless(const RenderOptions& options) {
     ChosenData chosen = openChosen(options.explorer);
     const Explorer& e = chosen.explorer;
     const Dataset& dataset = chosen.dataset;
-    Drawing drawing(options);
+    const DrawingDevice device(options.by);
+    render::FrameRenderer renderer(device.splatter());
     const FrameFiles frames(options.output, e, chosen.steps);
     const MiddleError error = errorOfMiddle(e, frames, *chosen.source);
     const auto [mixed, flat, why] =
-        drawFrames(options, e, dataset.variable, frames, error, *chosen.source, drawing.renderer());
+        drawFrames(options, e, dataset.variable, frames, error, *chosen.source, renderer);
     tellFiles(frames, dataset.variable);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
@@ -231,7 +208,7 @@ int renderHeadless(const RenderOptions& options) {
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);
-    say("  drawn by {}\n", drawing.name());
+    say("  drawn by {}\n", device.name());
     return 0;
 }
 

@@ -6,6 +6,7 @@
 #include "app/choices/choice_text.h"
 #include "app/choices/user_files.h"
 #include "app/command/commands.h"
+#include "app/command/drawing_device.h"
 #include "app/exploration/chosen_data.h"
 #include "app/files/progress.h"
 #include "app/json_text.h"
@@ -41,6 +42,7 @@ struct Subject {
     const ChosenData& data;
     const timeseries::SortedStep& step;
     std::size_t stepIndex;
+    std::string drawnBy;
 
     std::string title() const {
         const timeseries::Variable& variable = data.dataset.variable;
@@ -72,6 +74,7 @@ ordered_json json(const Subject& subject, const std::vector<Measured>& modes) {
                      {"size", {e.size.x, e.size.y}},
                      {"frames", options.frames},
                      {"rays", options.rays},
+                     {"drawnBy", subject.drawnBy},
                      {"threads", render::sharingThreads()},
                      {"truth", truthText(options)},
                      {"views", ordered_json::array()},
@@ -87,11 +90,9 @@ ordered_json json(const Subject& subject, const std::vector<Measured>& modes) {
 void print(const Subject& subject, const std::vector<Measured>& modes) {
     const MeasureOptions& options = subject.options;
     const Explorer& e = subject.data.explorer;
-    const unsigned threads = render::sharingThreads();
-    say("{}\n{} x {} pixels, {} view{}, {} frames of each, {} thread{}\ntruth: {}\n\n{}{}",
+    say("{}\n{} x {} pixels, {} view{}, {} frames of each, drawn by {}\ntruth: {}\n\n{}{}",
         subject.title(), e.size.x, e.size.y, options.views, options.views == 1 ? "" : "s",
-        options.frames, threads, threads == 1 ? "" : "s", truthText(options), table(modes),
-        bestTable(modes));
+        options.frames, subject.drawnBy, truthText(options), table(modes), bestTable(modes));
 }
 
 void writeFiles(const MeasureOptions& options, const std::vector<Measured>& modes,
@@ -120,7 +121,8 @@ int measureModes(const MeasureOptions& options) {
     if (!step->canHaveCells())
         throw ChoiceError(
             fmt::format("measure needs the cells between the points: {}", step->whyNoCells()));
-    const Subject subject{options, data, *step, index};
+    const DrawingDevice device(options.by);
+    const Subject subject{options, data, *step, index, device.name()};
     const render::PlacedPoints placed(step->grid(), data.explorer.scale, data.explorer.map);
     std::vector<Measured> modes;
     {
@@ -129,7 +131,8 @@ int measureModes(const MeasureOptions& options) {
                         {.views = options.views,
                          .frames = options.frames,
                          .raysAcross = options.rays,
-                         .modes = options.modes},
+                         .modes = options.modes,
+                         .splatter = device.splatter()},
                         [&](double share) { progress.drawn(share); });
     }
     if (options.json)

@@ -85,7 +85,7 @@ class Bench {
           step_(step),
           placed_(placed),
           how_(how),
-          frame_(explorer.size, kBackground) {
+          frame_(step, placed, kBackground, how.splatter) {
         for (const ViewChoice& view : viewsAbout(explorer.view, how.views))
             views_.push_back(viewOf(view));
         ViewChoice turned = explorer.view;
@@ -119,12 +119,12 @@ class Bench {
         for (std::size_t v = 0; v < views_.size(); ++v) {
             frame_.draw(scene, views_[v], across);
             const render::Image light = frame_.light();
-            shown.add(v, render::enlargedDepthOf(scene, views_[v], across), light);
+            shown.add(v, frame_.depth(scene, views_[v], across), light);
         }
         return shown;
     }
-    std::vector<float> drawTurned(const render::Scene& scene, int across) const {
-        return render::enlargedDepthOf(scene, turned_, across);
+    std::vector<float> drawTurned(const render::Scene& scene, int across) {
+        return frame_.depth(scene, turned_, across);
     }
 
     // Adds the time of a frame of each view, after one that makes room for them.

@@ -12,6 +12,7 @@
 #include "app/choices/rung.h"
 #include "app/picture/depth_error.h"
 #include "render/model/scene.h"
+#include "render/splat/splatter.h"
 #include "timeseries/index/sorted_step.h"
 
 namespace app {
@@ -75,13 +76,15 @@ struct Measuring {
     unsigned frames = 5;                  // timed, of each view
     unsigned raysAcross = 3;              // the truth's in a pixel
     std::vector<std::string> modes = {};  // names of those to be measured; none: all
+    // ByDevice and Gl need a current GL context.
+    render::SplatterChoice splatter = render::SplatterChoice::Cpu;
 };
 
 // The explorer's view, and others about it: each turned by 137.5 degrees (the golden angle) more,
 // so that no two are alike.
 std::vector<ViewChoice> viewsAbout(const ViewChoice& view, unsigned count);
 
-// Draws on the processor, without axes and legend, which all modes share; timed by turns.
+// Draws without axes and legend, which all modes share; timed by turns.
 // `progress` is told the share that is done. REQUIRES: a resolved explorer; step.canHaveCells(),
 // and no mode asked for its cells before, or their time is not in `before`. Throws OutsideKeptError
 // as makeScene does, ChoiceError as modesNamed does.

@@ -108,8 +108,10 @@ FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View&
     ++eyes_;
     const FrameContent& content = frame.content;
     FlatMesh legend = legendMesh(content.legend, font_, eye.size);
-    AxesMeshes axes = axesMeshes(content.grid, content.scene.placed, eye, frame.midEye, font_,
-                                 legend, content.background);
+    AxesMeshes axes;
+    if (content.axes)
+        axes = axesMeshes(content.grid, content.scene.placed, eye, frame.midEye, font_, legend,
+                          content.background);
     const View planes = content.across > 1 ? coarser(eye, content.across) : eye;
     EyeInWork work{
         frame, eye, planes, std::move(legend), std::move(axes), splatCosts(frame, planes)};

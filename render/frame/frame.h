@@ -25,6 +25,7 @@ struct FrameContent {
     int across = 1;
     // Opaque, like the axes; they hide labels.
     std::span<const Placard> placards = {};
+    bool axes = true;  // drawn about the points
 };
 
 // What an eye's picture may bring besides light, row 0 at the top. Empty when not asked for. These

@@ -1,47 +1,54 @@
 #include "render/frame/plain_frame.h"
 
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "render/frame/enlarge.h"
+#include "render/splat/memory_targets.h"
+#include "render/splat/processor_splatter.h"
 
 namespace render {
 namespace {
 
-constexpr std::uint64_t kWithoutEnd = std::numeric_limits<std::uint64_t>::max();
-
-void sum(SplatFrame& splats, const View& view, Channels channels, std::size_t plane,
-         Targets& targets) {
-    const auto sums = splats.begin(view, channels, plane, targets);
-    while (!sums->done()) sums->add(kWithoutEnd);
+std::vector<float> enlarged(std::vector<float> depth, const View& planes, const View& view,
+                            int across) {
+    if (across == 1) return depth;
+    std::vector<float> pixels;
+    enlarge({Channels::Weight, {{0, 0}, planes.size}, std::move(depth)}, across,
+            {{0, 0}, view.size}, pixels);
+    return pixels;
 }
 
 }  // namespace
 
-PlainFrame::PlainFrame(glm::ivec2 size, const glm::dvec3& background)
-    : font_(std::array{labelStyle(size), titleStyle(size)}),
-      background_(background),
-      targets_(size) {
-    light_.setFont(font_);
+PlainFrame::PlainFrame(const timeseries::SortedStep& step, const PlacedPoints& placed,
+                       const glm::dvec3& background, SplatterChoice by)
+    : background_(background), renderer_(by), onGpu_(step, placed) {}
+
+FrameContent PlainFrame::contentOf(const Scene& scene, int across) const {
+    return {.scene = scene,
+            .grid = scene.step.grid(),
+            .legend = {},
+            .background = background_,
+            .across = across,
+            .axes = false};
 }
 
 void PlainFrame::draw(const Scene& scene, const View& view, int across) {
+    const Splatters& splatters = renderer_.splatters();
+    if (splatters.takesPointsFromGpu(scene)) onGpu_.upload(scene, neededScale(scene));
+    const FrameContent content = contentOf(scene, across);
+    const auto frame = renderer_.prepare(content, onGpu_, std::array{view});
+    renderer_.drawEye(frame, view);
+    if (splatters.sumsByGl(scene)) glFinish();
+}
+
+std::vector<float> PlainFrame::depth(const Scene& scene, const View& view, int across) {
+    if (!renderer_.splatters().sumsByGl(scene)) return enlargedDepthOf(scene, view, across);
     const View planes = coarser(view, across);
-    if (across > 1 && (!coarse_ || coarse_->size() != planes.size)) coarse_.emplace(planes.size);
-    MemoryTargets& summed = across > 1 ? *coarse_ : targets_;
-    const auto splats = splatter_.prepare(scene, splatter_.order(scene, pixelRays(view).eye),
-                                          GlStep(scene.step, scene.placed));
-    light_.drawDepth({}, {}, planes, summed);
-    const std::vector<Channels> channels = channelsFor(scene);
-    for (std::size_t i = 0; i < channels.size(); ++i) sum(*splats, planes, channels[i], i, summed);
-    if (across > 1) {
-        light_.drawDepth({}, {}, view, targets_);
-        light_.enlarge(scene, view, across, summed, targets_);
-    }
-    const AxesMeshes noAxes;
-    const FlatMesh noLegend;
-    light_.drawLight({scene, view, background_, noAxes, noLegend, {}}, LightAs::Linear, targets_);
+    const auto eyes = renderer_.render(contentOf(scene, 1), onGpu_, std::array{planes},
+                                       {.opticalDepth = true, .splatCount = false});
+    return enlarged(turnedOver(eyes[0].opticalDepth, planes.size), planes, view, across);
 }
 
 std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
@@ -70,12 +77,7 @@ std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
 
 std::vector<float> enlargedDepthOf(const Scene& scene, const View& view, int across) {
     const View planes = coarser(view, across);
-    std::vector<float> depth = opticalDepthOf(scene, planes);
-    if (across == 1) return depth;
-    std::vector<float> pixels;
-    enlarge({Channels::Weight, {{0, 0}, planes.size}, std::move(depth)}, across,
-            {{0, 0}, view.size}, pixels);
-    return pixels;
+    return enlarged(opticalDepthOf(scene, planes), planes, view, across);
 }
 
 }  // namespace render

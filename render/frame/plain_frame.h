@@ -1,36 +1,36 @@
-// What a scene alone looks like, drawn by the program on the processor as a frame is, without axes,
-// legend and what else stands in a picture: for those who measure it.
+// What a scene alone looks like, without axes, legend and what else stands in a picture: for those
+// who measure it.
 #pragma once
 
 #include <atomic>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <vector>
 
-#include "render/frame/memory_light.h"
-#include "render/splat/memory_targets.h"
-#include "render/splat/processor_splatter.h"
+#include "render/frame/frame.h"
 
 namespace render {
 
 class PlainFrame {
  public:
-    // Of pictures of this size on this background (linear).
-    PlainFrame(glm::ivec2 size, const glm::dvec3& background);
+    // Of scenes of this step, placed so, on this background (linear). Step and points must outlive
+    // it. Needs a current GL context if it is drawn by GL.
+    PlainFrame(const timeseries::SortedStep& step, const PlacedPoints& placed,
+               const glm::dvec3& background, SplatterChoice by = SplatterChoice::Cpu);
 
-    // The whole frame: order, sums, light; the sums in pixels so many times as wide, enlarged.
-    // REQUIRES: view.size is this one's.
+    // The whole frame: order, sums, light; the sums in pixels so many times as wide, enlarged. Done
+    // when it returns, on a GPU too, which is sent first what it lacks.
     void draw(const Scene& scene, const View& view, int across = 1);
     // What was drawn last. Linear, premultiplied.
-    Image light() const { return targets_.readLight(); }
+    Image light() { return renderer_.targets().readLight(); }
+    // By the same splatter, what opticalDepthOf() and enlargedDepthOf() below say.
+    std::vector<float> depth(const Scene& scene, const View& view, int across = 1);
 
  private:
-    Font font_;
+    FrameContent contentOf(const Scene& scene, int across) const;
+
     glm::dvec3 background_;
-    MemoryTargets targets_;
-    std::optional<MemoryTargets> coarse_;
-    MemoryLight light_;
-    ProcessorSplatter splatter_;
+    FrameRenderer renderer_;
+    GlStep onGpu_;
 };
 
 // Of all layers together, whatever the scene's order. [y][x], row 0 at the bottom. On any thread;

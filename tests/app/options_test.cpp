@@ -161,7 +161,7 @@ TEST(Options, ViewedHeadlessAFileIsRendered) {
     const auto rendered = as<RenderOptions>({"render", "a.nc", "--range", "0:1", "-o", "b.png"});
     EXPECT_TRUE(viewed.explorer == rendered.explorer);
     EXPECT_EQ(viewed.output, rendered.output);
-    EXPECT_EQ(viewed.device, rendered.device);
+    EXPECT_EQ(viewed.by.device, rendered.by.device);
     EXPECT_THAT(refused({"a.nc", "--display", "headless"}), HasSubstr("-o"));
     EXPECT_THAT(refused({"a.nc", "--display", "desktop", "-o", "b.png"}), HasSubstr("headless"));
     EXPECT_THAT(refused({"a.nc", "--display", "headless", "-o", "b.txt"}), HasSubstr("b.txt"));

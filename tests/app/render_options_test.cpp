@@ -39,7 +39,7 @@ TEST(Options, WithoutOptionsEverythingIsLeftOpen) {
     e.files = {"a.nc"};
     EXPECT_TRUE(options.explorer == e);
     EXPECT_EQ(options.output, "o.exr");
-    EXPECT_EQ(options.device, "any");
+    EXPECT_EQ(options.by.device, "any");
     EXPECT_FALSE(options.opticalDepth || options.splatCount);
 }
 
@@ -102,20 +102,20 @@ TEST(Options, EveryRenderOptionArrives) {
     EXPECT_EQ(e.size, glm::ivec2(320, 240));
     EXPECT_EQ(e.stereo, (StereoChoice{Stereo::MultiView, 0.1, 4.0}));
     EXPECT_TRUE(options.opticalDepth && options.splatCount);
-    EXPECT_EQ(options.device, "cpu");
+    EXPECT_EQ(options.by.device, "cpu");
 }
 
 TEST(Options, EveryStereoModeAndDeviceIsTaken) {
     for (const char* mode : {"off", "side-by-side", "top-bottom", "multiview", "left-right"})
         EXPECT_EQ(explorer({"--stereo", mode}).stereo.mode, parseStereo(mode));
     for (const char* device : {"any", "gpu", "cpu"})
-        EXPECT_EQ(render({"--device", device}).device, device);
+        EXPECT_EQ(render({"--device", device}).by.device, device);
     using Choice = ::render::SplatterChoice;
-    EXPECT_EQ(render({}).splatter, Choice::ByDevice);
-    EXPECT_EQ(render({"--splatter", "any"}).splatter, Choice::ByDevice);
-    EXPECT_EQ(render({"--splatter", "gl"}).splatter, Choice::Gl);
-    EXPECT_EQ(render({"--splatter", "cpu"}).splatter, Choice::Cpu);
-    EXPECT_EQ(render({"--splatter", "exact"}).splatter, Choice::Exact);
+    EXPECT_EQ(render({}).by.splatter, Choice::ByDevice);
+    EXPECT_EQ(render({"--splatter", "any"}).by.splatter, Choice::ByDevice);
+    EXPECT_EQ(render({"--splatter", "gl"}).by.splatter, Choice::Gl);
+    EXPECT_EQ(render({"--splatter", "cpu"}).by.splatter, Choice::Cpu);
+    EXPECT_EQ(render({"--splatter", "exact"}).by.splatter, Choice::Exact);
 }
 
 TEST(Options, CellsAreDrawnUnlessSplatsAreChosen) {

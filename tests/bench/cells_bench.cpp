@@ -150,7 +150,7 @@ void cellsLitBesideUnlit(benchmark::State& state) {
     if (isFire) layer.cells.ranges = {{600, 1000}};
     layer.cells.candidates = cells.scene.cells->select(layer.cells.ranges);
     layer.style.color = ByValue{{}, layer.cells.ranges[0].lo, layer.cells.ranges[0].hi};
-    PlainFrame frame(cells.view.size, glm::dvec3(0));
+    PlainFrame frame(cells.scene.step, cells.scene.placed, glm::dvec3(0));
     const auto draw = [&](Light light) {
         cells.scene.light = light;
         frame.draw(cells.scene, cells.view);

@@ -89,7 +89,7 @@ void BM_ForetoldFrame(benchmark::State& state) {
             picture.cost =
                 static_cast<std::uint64_t>(render::sceneCost(picture.scene, picture.view) +
                                            render::planesCost(picture.scene, picture.view));
-            render::PlainFrame frame(picture.view.size, glm::dvec3(0));
+            render::PlainFrame frame(step, placed, glm::dvec3(0));
             frame.draw(picture.scene, picture.view);  // makes room
             std::vector<double> times;
             for (int i = 0; i < kForetoldFrames; ++i) {

@@ -167,7 +167,11 @@ TEST_F(CanvasOfBlocks, WhatTheProgramSumsItselfIsThereAtOnce) {
     EXPECT_EQ(report.uploaded, 1);
     EXPECT_LT(report.gpuBytes, kBlockBytes) << "no points";
     ASSERT_EQ(eyes.size(), 1u);
-    EXPECT_LE(render::comparePictures(eyes[0], byGl).maxAbsolute, 1e-4);
+    // A GPU's lines may take other pixels at their edges, and hide other splats there.
+    const render::PictureError error = render::comparePictures(eyes[0], byGl, 1e-4);
+    EXPECT_LE(error.differingPixels, 200 * 150 / 500);
+    EXPECT_LE(error.maxAbsolute, 0.06);
+    EXPECT_GE(error.psnrLinear, 60);
 }
 
 TEST_F(CanvasOfBlocks, ChoicesShowAtOnceWhileAStepComes) {

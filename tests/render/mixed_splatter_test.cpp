@@ -213,7 +213,7 @@ TEST(MixedSum, WithoutOrderTheLightIsThatOfBothDepths) {
             drawByPoints(scene, points);
             const View view = tests::lookFrom({0.7, -3, 1.1}, kSize);
             const std::vector<float> depth = opticalDepthOf(scene, view);
-            PlainFrame frame(kSize, glm::dvec3(0));
+            PlainFrame frame(scene.step, scene.placed, glm::dvec3(0));
             frame.draw(scene, view);
             const Image light = frame.light();
             for (int y = 0; y < kSize.y; ++y)

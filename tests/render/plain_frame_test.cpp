@@ -39,7 +39,7 @@ void expectTheTruth(const Scene& scene, const DrawList& list) {
     const View view = tests::lookFrom({0.7, -3, 1.1}, kPicture);
     Accumulator<double> sums(kPicture, channelsFor(scene));
     splat<double>(scene, list, view, {}, sums);
-    PlainFrame frame(kPicture, kGround);
+    PlainFrame frame(scene.step, scene.placed, kGround);
     frame.draw(scene, view);
     const Image light = frame.light();
     const std::vector<float> depth = opticalDepthOf(scene, view);
@@ -72,7 +72,7 @@ TEST(PlainFrame, InCoarsePixelsShowsTheirDepthEnlarged) {
     for (const glm::ivec2 size : {kPicture, glm::ivec2(49, 37)})
         for (const int across : {1, 2, 3}) {
             const View view = tests::lookFrom({0.7, -3, 1.1}, size);
-            PlainFrame frame(size, glm::dvec3(0));
+            PlainFrame frame(world.step, world.placed, glm::dvec3(0));
             frame.draw(world.scene, view, across);
             const Image light = frame.light();
             const std::vector<float> depth = enlargedDepthOf(world.scene, view, across);
@@ -89,7 +89,7 @@ TEST(PlainFrame, NothingSelectedIsTheBackground) {
     PlainWorld world;
     world.scene.layers.clear();
     const View view = tests::lookFrom({0.7, -3, 1.1}, kPicture);
-    PlainFrame frame(kPicture, kGround);
+    PlainFrame frame(world.step, world.placed, kGround);
     frame.draw(world.scene, view);
     EXPECT_EQ(frame.light(), Image(kPicture, glm::vec4(glm::vec3(kGround), 1)));
 }
