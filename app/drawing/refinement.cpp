@@ -25,14 +25,20 @@ Refinement::Refinement(render::FrameRenderer& renderer, render::DepthOrder& orde
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
       onGpu_(onGpu),
       order_(order) {
+    if (renderer_.splatters().takesPointsFromGpu(picture_.scene))
+        return;  // which puts them in order
     order_.begin(picture_.scene, render::midEye(eyes_));
     if (!order_.done()) ordering_ = kOrdering;
 }
 
 bool Refinement::order() {
     if (frame_) return true;
-    if (!orderPoints()) return false;
-    frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_, order_.take()));
+    if (renderer_.splatters().takesPointsFromGpu(picture_.scene)) {
+        frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_));
+    } else {
+        if (!orderPoints()) return false;
+        frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_, order_.take()));
+    }
     for (const render::View& eye : eyes_) cost_ += renderer_.cost(*frame_, eye);
     return true;
 }

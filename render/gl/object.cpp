@@ -123,21 +123,20 @@ Object compiled(GLenum stage, const char* name, const char* source, const char* 
     GLsizei length = 0;
     glGetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
-    throw std::runtime_error(fmt::format("the GL driver refuses shader {} ({}): {}", name,
-                                         stage == GL_VERTEX_SHADER ? "vertex" : "fragment", log));
+    const char* const of = stage == GL_VERTEX_SHADER     ? "vertex"
+                           : stage == GL_FRAGMENT_SHADER ? "fragment"
+                                                         : "compute";
+    throw std::runtime_error(
+        fmt::format("the GL driver refuses shader {} ({}): {}", name, of, log));
 }
 
 }  // namespace
 
-Program::Program(const char* name, const char* vertex, const char* fragment, const char* defines)
+Program::Program(const char* name, std::span<const Object> shaders)
     : Object(glCreateProgram(), [](GLuint id) { glDeleteProgram(id); }) {
-    const Object v = compiled(GL_VERTEX_SHADER, name, vertex, defines);
-    const Object f = compiled(GL_FRAGMENT_SHADER, name, fragment, defines);
-    glAttachShader(id(), v.id());
-    glAttachShader(id(), f.id());
+    for (const Object& shader : shaders) glAttachShader(id(), shader.id());
     glLinkProgram(id());
-    glDetachShader(id(), v.id());
-    glDetachShader(id(), f.id());
+    for (const Object& shader : shaders) glDetachShader(id(), shader.id());
     GLint ok = GL_FALSE;
     glGetProgramiv(id(), GL_LINK_STATUS, &ok);
     if (ok == GL_TRUE) return;
@@ -146,6 +145,14 @@ Program::Program(const char* name, const char* vertex, const char* fragment, con
     glGetProgramInfoLog(id(), static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     throw std::runtime_error(fmt::format("the GL driver cannot link shader {}: {}", name, log));
+}
+
+Program::Program(const char* name, const char* vertex, const char* fragment, const char* defines)
+    : Program(name, std::array{compiled(GL_VERTEX_SHADER, name, vertex, defines),
+                               compiled(GL_FRAGMENT_SHADER, name, fragment, defines)}) {}
+
+Program Program::ofCompute(const char* name, const char* source, const char* defines) {
+    return Program(name, std::array{compiled(GL_COMPUTE_SHADER, name, source, defines)});
 }
 
 }  // namespace render::gl

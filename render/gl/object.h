@@ -86,11 +86,16 @@ class VertexArray : public Object {
     void attach(const Attribute& attribute);
 };
 
-// Vertex and fragment shader, linked. Throws std::runtime_error with the driver's log.
+// Shaders, linked. Throws std::runtime_error with the driver's log.
 class Program : public Object {
  public:
     // `name` is for messages; `defines` is put after the #version line of both.
     Program(const char* name, const char* vertex, const char* fragment, const char* defines = "");
+    // Of a compute shader alone.
+    static Program ofCompute(const char* name, const char* source, const char* defines = "");
+
+ private:
+    Program(const char* name, std::span<const Object> shaders);
 };
 
 }  // namespace render::gl

@@ -148,13 +148,17 @@ inline double valueOf(const timeseries::Columns& columns, std::uint64_t point) {
                       columns.values);
 }
 
-// The draw list: the runs as they lie, or one list of all layers' points, farthest first.
+// The draw list: the runs as they lie; one list of all layers' points, farthest first; or, for GL
+// alone, that the GPU is to make such a list, of distances from here.
 struct Runs {};
+struct SortedOnGpu {
+    glm::dvec3 midEye;
+};
 struct Sorted {
     std::vector<std::uint32_t> point;  // position in the sorted step
     std::vector<std::uint8_t> layer;
 };
-using DrawList = std::variant<Runs, Sorted>;
+using DrawList = std::variant<Runs, Sorted, SortedOnGpu>;
 
 // What a plane of pixels accumulates. Weight (W) and WeightedColor (W times colour, W) belong to
 // one layer each; Over (premultiplied colour, opacity) and Count (splats that touch the pixel) take

@@ -38,7 +38,7 @@ std::optional<ValueScale> neededScale(const Scene& scene) {
     const auto byValue = [](const Layer& layer) {
         return std::holds_alternative<ByValue>(layer.style.color);
     };
-    if (scene.order != Order::None || std::ranges::none_of(scene.layers, byValue)) return {};
+    if (std::ranges::none_of(scene.layers, byValue)) return {};
     return ValueScale::of(scene.layers);
 }
 

@@ -21,8 +21,7 @@ struct ValueScale {
     friend bool operator==(const ValueScale&, const ValueScale&) = default;
 };
 
-// What a scene's colours need of the values: nothing, when no layer that is drawn from the step's
-// own runs is coloured by value (a sorted list brings its own).
+// What a scene's colours need of the values: nothing, when no layer is coloured by value.
 std::optional<ValueScale> neededScale(const Scene& scene);
 
 }  // namespace render

@@ -1,28 +1,11 @@
 // One point of a grid -> the screen square that holds its footprint, and the footprint's coefficients.
 // Axis coordinates (render/points/placed_points.h) to window offsets from the view axis, in pixels; formulas:
 // render/model/footprint.h.
+// After splat_points.glsl.
 // Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT, CUBES (all cells are equal
 // cubes: |d / a| is |d| / a, and the form in d needs no coefficients), CUT (with QUADS: long cells,
 // whose slim splats end at the domain's faces), MESH (points lie one by one, their cells in any
 // shape; with QUADS, but for KERNEL_POINT).
-
-// C++ mirror: SplatViewBlock in render/splat/gl_splatter.cpp.
-layout(std140, binding = 0) uniform SplatView {
-    mat4 viewFromAxes;
-    vec4 rayAxis;   // ray of the view axis; w: its length in the world
-    vec4 perPixelX; // of rays, per pixel; w: pixels per unit of x / -z
-    vec4 perPixelY; // w: pixels per unit of y / -z
-    vec4 window;    // window position of the view axis, size in pixels
-    vec4 depths;    // near; window depth = (y d + z) / d of view depth d: y, z; guard in pixels
-    vec4 kernel;    // radius in cells, smallest radius at unit depth, mass of a cell with sides 1, point's side in pixels
-    vec4 slopeAndLengths;  // squares of x / -z and y / -z per pixel; view length of an axis length, at most; a pixel's area at unit depth
-    vec4 domainLo, domainHi, boxHalf;  // in axis coordinates; w: of a splat of size 1, radius over width
-    vec4 meshScale;      // world lengths of the mesh's units; w: sign of the cells that are drawn
-    vec4 meshOffset;     // its origin in the world; w: a cell's volume over its determinant
-    vec4 meshFrom, meshTo;  // inclusive box in its units
-    uvec4 placed;  // points along x, y, z; w: that the mesh keeps of one level
-    uvec4 clipLo, clipHi;  // inclusive index box; of a mesh z: levels
-} view;
 
 // C++ mirror: LayerBlock.
 layout(std140, binding = 1) uniform Layers {
@@ -30,16 +13,11 @@ layout(std140, binding = 1) uniform Layers {
     vec4 map[8];    // position in the map = x v + y of the value v on that scale; z: by value: the map's entries, else 0; w: points that a splat stands for
 } layers;
 
-layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: position along it, cell width; MESH: per level
 layout(binding = 1) uniform sampler2D colorMaps;       // a row a layer, linear colour
-
-#ifdef MESH
-layout(binding = 2) uniform samplerBuffer meshPoints;  // of a point place, diagonal, below; timeseries::Mesh::Point
-#endif
 
 layout(location = 0) in uint gridIndex;
 layout(location = 1) in float value;  // 0 and 1 at the ends of the narrowest map; see ValueScale
-layout(location = 2) in uint layer;
+layout(location = 2) in uint layer;   // kNoLayer: of a sorted list, a point that is clipped
 layout(location = 3) in uint placeInBlock;  // of the sorted step's blocks of 2^15 points; see GpuStep
 layout(location = 4) in uvec3 drawn;        // first and last place in the block to draw; ranks to draw
 
@@ -194,38 +172,12 @@ void place(vec2 offset, float extent, float depth) {
 }
 
 void main() {
-#ifdef MESH
-    const int level = int(gridIndex / view.placed.w), texel = 3 * int(gridIndex % view.placed.w);
-    const vec3 kept = texelFetch(meshPoints, texel).xyz, by = view.meshScale.xyz;
-    const vec2 ofLevel = texelFetch(axisPoints, level).xy;
-    const vec3 diagonal = texelFetch(meshPoints, texel + 1).xyz;
-    const bool none = !(view.meshScale.w * diagonal.x > 0.0);
-    const vec3 below = texelFetch(meshPoints, texel + 2).xyz;
-    const float share = uintBitsToFloat((127u - (floatBitsToUint(below.x) & 31u)) << 23);  // 2^-widened
-    Triangle cell = Triangle(by * diagonal, by.yzz * below);
-    if (ofLevel.y > 0.0) cell.diagonal.z = ofLevel.y;
-    const vec3 at = by * kept + view.meshOffset.xyz + vec3(0.0, 0.0, ofLevel.x);
-    const bool clipped = none || any(lessThan(kept, view.meshFrom.xyz)) || any(greaterThan(kept, view.meshTo.xyz)) ||
-                         uint(level) < view.clipLo.z || uint(level) > view.clipHi.z;
-    const float volume = share * abs(cell.diagonal.x * cell.diagonal.y * cell.diagonal.z) * view.meshOffset.w;
-#else
-    const uvec3 n = view.placed.xyz;
-    const uvec3 ijk = uvec3(gridIndex % n.x, gridIndex / n.x % n.y, gridIndex / n.x / n.y);
-    const vec2 px = texelFetch(axisPoints, int(ijk.x)).xy;
-    const vec2 py = texelFetch(axisPoints, int(n.x + ijk.y)).xy;
-    const vec2 pz = texelFetch(axisPoints, int(n.x + n.y + ijk.z)).xy;
-    const vec3 cell = vec3(px.y, py.y, pz.y);
-    const vec3 at = vec3(px.x, py.x, pz.x);
-    const bool clipped = any(lessThan(ijk, view.clipLo.xyz)) || any(greaterThan(ijk, view.clipHi.xyz));
-    const float volume = cell.x * cell.y * cell.z;
-#endif
+    const Point p = pointOf(gridIndex);
+    const vec3 at = p.at, cell = p.diagonal;
     const vec3 inView = (view.viewFromAxes * vec4(at, 1.0)).xyz;
     const float depth = -inView.z;
     const float near = view.depths.x;
-    // subsetRank in render/points/subset.h.
-    const bool selected =
-        placeInBlock >= drawn.x && placeInBlock <= drawn.y && (placeInBlock * 20249u & 32767u) < drawn.z;
-    if (!selected || clipped || !(depth > near)) {
+    if (!isDrawn(placeInBlock, drawn.x, drawn.y, drawn.z) || layer == kNoLayer || p.clipped || !(depth > near)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the clip volume
 #ifndef QUADS
         gl_PointSize = 1.0;
@@ -240,7 +192,7 @@ void main() {
     const float t = clamp(depth / near - 1.0, 0.0, 1.0);
     const float fade = t * t * (3.0 - 2.0 * t);
     const uint l = min(layer, 7u);
-    const float mass = volume * view.kernel.z * fade * layers.map[l].w;
+    const float mass = p.volume * view.kernel.z * fade * layers.map[l].w;
 
 #if defined(WEIGHTED_COLOR) || defined(OVER)
     color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value + layers.map[l].y)
@@ -270,7 +222,7 @@ void main() {
     const float widest = a;
 #else
 #if defined(MESH)
-    const Triangle a = grownTo(smallest, Triangle(cell.diagonal * view.kernel.x, cell.below * view.kernel.x));
+    const Triangle a = grownTo(smallest, Triangle(cell * view.kernel.x, p.below * view.kernel.x));
     const vec3 c = solve(a, C), x = solve(a, X), y = solve(a, Y), sides = a.diagonal;
     const float widest = sqrt(dot(a.diagonal, a.diagonal) + dot(a.below, a.below));
 #else

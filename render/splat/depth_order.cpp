@@ -17,8 +17,8 @@ constexpr std::size_t kKeysWorthAThread = 1 << 15;
 
 // A splat and its key: from the highest bit on, key, layer and point. Half of a key's bits sort in
 // one pass over so few counters that they stay in the first-level cache.
-constexpr unsigned kHalfBits = 11, kHalf = 1u << kHalfBits, kLayerAt = 32, kKeyAt = 40;
-constexpr double kLastKey = (1u << 2 * kHalfBits) - 1;
+constexpr unsigned kHalfBits = DepthKeys::kBits / 2, kHalf = 1u << kHalfBits, kLayerAt = 32,
+                   kKeyAt = 40;
 constexpr std::uint64_t kClipped = ~std::uint64_t{0};
 static_assert(kMaxLayers <= 1u << (kKeyAt - kLayerAt) && kKeyAt + 2 * kHalfBits < 64);
 
@@ -42,6 +42,19 @@ using Counts = std::array<std::uint32_t, kHalf>;
 
 }  // namespace
 
+DepthKeys depthKeysOf(const Scene& scene, const glm::dvec3& midEye) {
+    double radius = 0;
+    const auto [lo, hi] = scene.placed.pointsBox();
+    for (const double x : {lo.x, hi.x})
+        for (const double y : {lo.y, hi.y})
+            for (const double z : {lo.z, hi.z})
+                radius = std::max(radius,
+                                  glm::length(scene.placed.worldFromAxes() * glm::dvec3(x, y, z)));
+    const double away = glm::length(midEye);
+    const double span = away + radius - std::max(away - radius, 0.0);
+    return {radius, span > 0 ? DepthKeys::kLast / span : 0};
+}
+
 void DepthOrder::begin(const Scene& scene, const glm::dvec3& midEye) {
     ordered_ = scene.order == Order::BackToFront && !scene.cells;
     phase_ = ordered_ ? Phase::List : Phase::Done;
@@ -49,16 +62,9 @@ void DepthOrder::begin(const Scene& scene, const glm::dvec3& midEye) {
     scene_ = &scene;
     source_.emplace(scene);
     distances_.emplace(scene, midEye);
-    double radius = 0;  // of the points about the origin
-    const auto [lo, hi] = scene.placed.pointsBox();
-    for (const double x : {lo.x, hi.x})
-        for (const double y : {lo.y, hi.y})
-            for (const double z : {lo.z, hi.z})
-                radius = std::max(radius,
-                                  glm::length(scene.placed.worldFromAxes() * glm::dvec3(x, y, z)));
-    farthest_ = glm::length(midEye) + radius;
-    const double span = farthest_ - std::max(glm::length(midEye) - radius, 0.0);
-    perUnit_ = span > 0 ? kLastKey / span : 0;
+    const DepthKeys keys = depthKeysOf(scene, midEye);
+    farthest_ = glm::length(midEye) + keys.radius;
+    perUnit_ = keys.perUnit;
     all_ = count_ = passed_ = 0;
     for (const Layer& layer : scene.layers) all_ += splatCount(layer, scene.stride);
     // Room alone: it is written slice by slice.
@@ -130,7 +136,7 @@ void DepthOrder::findKeys(std::span<Keyed> slice) {
                 Keyed& splat = part[i + j] = kClipped;
                 if (away[j] < 0) continue;
                 const double key = std::max(farthest_ - away[j], 0.0) * perUnit_ + 0.5;
-                splat = static_cast<Keyed>(std::min(key, kLastKey)) << kKeyAt |
+                splat = static_cast<Keyed>(std::min(key, DepthKeys::kLast)) << kKeyAt |
                         Keyed{points_.layer[first + i + j]} << kLayerAt | point[j];
                 for (const unsigned half : {0u, 1u}) ++counts[k][half][halfOf(splat, half)];
             }

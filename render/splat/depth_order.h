@@ -14,6 +14,16 @@
 
 namespace render {
 
+// The keys by which points are put in order: the nearer to the eye, the larger, in equal steps over
+// the sphere about the grid's box: (radius - (distance - the origin's)) perUnit, rounded.
+struct DepthKeys {
+    static constexpr unsigned kBits = 22;
+    static constexpr double kLast = (1u << kBits) - 1;
+    double radius;   // of the points about the world's origin
+    double perUnit;  // 0 where all are equally far away
+};
+DepthKeys depthKeysOf(const Scene& scene, const glm::dvec3& midEye);
+
 // Made once for both eyes: distance from the point midway between them, so that turning the head
 // changes nothing. Keys are the distance in 2^22 steps over the sphere about the grid's box; ties
 // keep the order of value. Cells come in an order of their own, and have no list. Serves one frame

@@ -1,27 +1,10 @@
 #include "render/splat/gl_list.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace render {
 namespace {
-
-// One entry of a sorted list as splat.vert reads it.
-struct SortedPoint {
-    std::uint32_t gridIndex;
-    float value;
-    std::uint32_t layer;
-};
-
-std::vector<SortedPoint> gathered(const Scene& scene, const Sorted& list, const ValueScale& scale) {
-    std::vector<SortedPoint> out;
-    out.reserve(list.point.size());
-    const timeseries::Columns columns = columnsOf(scene);
-    for (std::size_t i = 0; i < list.point.size(); ++i) {
-        const std::uint32_t p = list.point[i];
-        out.push_back({columns.gridIndex[p], scale(valueOf(columns, p)), list.layer[i]});
-    }
-    return out;
-}
 
 // Pieces that lie one behind the other without a gap, sent as one.
 struct Slices {
@@ -59,28 +42,30 @@ bool drawnAlike(const Piece& a, const Piece& b) {
 
 }  // namespace
 
-GlList::GlList(const Scene& scene, const DrawList& list, const GlStep& step,
-               const ValueScale& scale)
-    : scene_(scene), step_(step), cubes_(scene.placed.cubes()), pieces_(piecesOf(scene, list)) {
-    if (const auto* sorted = std::get_if<Sorted>(&list)) {
-        const std::vector<SortedPoint> points = gathered(scene, *sorted, scale);
-        sorted_.emplace(std::span<const SortedPoint>(points));
-    } else {
-        for (Piece& piece : pieces_) piece.first = step.placeOf(piece.first);
-    }
+GlList::GlList(const Scene& scene, const GlStep& step)
+    : scene_(scene), step_(step), cubes_(scene.placed.cubes()), pieces_(piecesOfRuns(scene)) {
+    for (Piece& piece : pieces_) piece.first = step.placeOf(piece.first);
+    if (pieces_.empty()) return;  // there may be no room yet
     for (const GLuint divisor : {0u, 1u}) {
         gl::VertexArray& array = divisor == 0 ? points_ : quads_;
-        if (sorted_) {
-            constexpr GLsizei kStride = sizeof(SortedPoint);
-            array.attach({0, *sorted_, 1, GL_UNSIGNED_INT, kStride, 0, divisor});
-            array.attach({1, *sorted_, 1, GL_FLOAT, kStride, 4, divisor});
-            array.attach({2, *sorted_, 1, GL_UNSIGNED_INT, kStride, 8, divisor});
-        } else if (!pieces_.empty()) {  // else there may be no room yet
-            array.attach({0, step.gridIndex(), 1, GL_UNSIGNED_INT, 4, 0, divisor});
-            array.attach({3, step.placeInBlock(), 1, GL_UNSIGNED_SHORT, 2, 0, divisor});
-            if (step.values() != nullptr)
-                array.attach({1, *step.values(), 1, GL_FLOAT, 4, 0, divisor});
-        }
+        array.attach({0, step.gridIndex(), 1, GL_UNSIGNED_INT, 4, 0, divisor});
+        array.attach({3, step.placeInBlock(), 1, GL_UNSIGNED_SHORT, 2, 0, divisor});
+        if (step.values() != nullptr) array.attach({1, *step.values(), 1, GL_FLOAT, 4, 0, divisor});
+    }
+}
+
+GlList::GlList(const Scene& scene, const GlStep& step, GlDepthOrder::List list)
+    : scene_(scene),
+      step_(step),
+      cubes_(scene.placed.cubes()),
+      pieces_(piecesOfSorted(list.count)),
+      sorted_(std::move(list.points)) {
+    for (const GLuint divisor : {0u, 1u}) {
+        gl::VertexArray& array = divisor == 0 ? points_ : quads_;
+        constexpr GLsizei kStride = sizeof(SortedPoint);
+        array.attach({0, *sorted_, 1, GL_UNSIGNED_INT, kStride, 0, divisor});
+        array.attach({1, *sorted_, 1, GL_FLOAT, kStride, 4, divisor});
+        array.attach({2, *sorted_, 1, GL_UNSIGNED_INT, kStride, 8, divisor});
     }
 }
 

@@ -1,9 +1,10 @@
 // One frame's draw list on the GPU: what GlSplatter::upload makes and GlSplatter::draw draws.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <span>
 
+#include "render/splat/gl_depth_order.h"
 #include "render/splat/gl_splatter.h"
 #include "render/splat/pieces.h"
 
@@ -11,8 +12,11 @@ namespace render {
 
 class GlList {
  public:
-    // Both must outlive the list. REQUIRES: a step that is ready for the scene.
-    GlList(const Scene& scene, const DrawList& list, const GlStep& step, const ValueScale& scale);
+    // Of the scene's runs. Scene and step must outlive the list. REQUIRES: a step that is ready for
+    // the scene.
+    GlList(const Scene& scene, const GlStep& step);
+    // Of a list in order.
+    GlList(const Scene& scene, const GlStep& step, GlDepthOrder::List list);
 
     const Scene& scene() const { return scene_; }
     const GlStep& step() const { return step_; }
@@ -28,8 +32,8 @@ class GlList {
     const GlStep& step_;
     bool cubes_;
     std::vector<Piece> pieces_;
-    std::optional<gl::Buffer> sorted_;  // SortedPoint, farthest first
-    gl::VertexArray points_, quads_;    // per vertex and per instance
+    std::shared_ptr<const gl::Buffer> sorted_;  // SortedPoint, farthest first; none: the step's own
+    gl::VertexArray points_, quads_;            // per vertex and per instance
 };
 
 }  // namespace render

@@ -12,69 +12,18 @@
 #include "render/gl/pass.h"
 #include "render/model/covered.h"
 #include "render/model/footprint.h"
-#include "render/points/mesh_bounds.h"
 #include "render/shader_sources.h"
 #include "render/splat/gl_list.h"
+#include "render/splat/gl_splat_view.h"
 #include "render/splat/gl_targets.h"
 
 namespace render {
 namespace {
 
-// GLSL mirror: SplatView in shaders/splat.vert.
-struct SplatViewBlock {
-    glm::mat4 viewFromAxes;
-    glm::vec4 rayAxis, perPixelX, perPixelY, window, depths, kernel, slopeAndLengths;
-    glm::vec4 domainLo, domainHi, boxHalf;
-    glm::vec4 meshScale, meshOffset, meshFrom, meshTo;
-    glm::uvec4 placed, clipLo, clipHi;
-};
-
 // GLSL mirror: Layers in shaders/splat.vert and shaders/resolve.frag.
 struct LayerBlock {
     std::array<glm::vec4, kMaxLayers> style, map;
 };
-
-// How the world and the clip box lie to a mesh's own floats.
-void placeMesh(SplatViewBlock& b, const Scene& scene) {
-    const timeseries::Mesh& mesh = *scene.placed.mesh();
-    const auto stored = mesh.stored();
-    const MeshBounds bounds = boundsIn(mesh, scene.clip);
-    b.meshScale = glm::vec4(glm::dvec4(stored.unit * scene.placed.scale(), stored.sign));
-    b.meshOffset = glm::vec4(
-        glm::dvec4(scene.placed.axesFromGrid(stored.origin), mesh.volumePerDeterminant()));
-    b.meshFrom = glm::vec4(bounds.lo, 0);
-    b.meshTo = glm::vec4(bounds.hi, 0);
-    b.placed.w = static_cast<std::uint32_t>(stored.points.size());
-    b.clipLo = {0, 0, bounds.firstLevel, 0};
-    b.clipHi = {0, 0, bounds.lastLevel, 0};
-}
-
-SplatViewBlock viewBlock(const Scene& scene, const View& view, const PointsView& seen, int guard) {
-    SplatViewBlock b{};
-    const glm::dmat4& clip = view.clipFromView;
-    const PixelRays& rays = seen.rays;
-    const Footprint& footprint = scene.footprint;
-    b.viewFromAxes = glm::mat4(scene.placed.inAxes(view).viewFromWorld);
-    b.rayAxis = glm::vec4(glm::dvec4(rays.axis, seen.rayLength));
-    b.perPixelX = glm::vec4(glm::dvec4(rays.perPixelX, rays.focal.x));
-    b.perPixelY = glm::vec4(glm::dvec4(rays.perPixelY, rays.focal.y));
-    b.window = {glm::vec2(rays.centre), glm::vec2(view.size)};
-    b.depths = {rays.near, -clip[2][2], clip[3][2], guard};
-    // A point's mass is its cell's volume; a kernel's is that over the kernel's.
-    const double perSides = footprint.kernel == Kernel::Point ? seen.cellVolume : 1;
-    b.kernel = {footprint.size * kQuarticRadius, seen.smallestRadius, perSides / seen.unitLength,
-                static_cast<float>(pointSide(footprint))};
-    b.slopeAndLengths = glm::vec4(glm::dvec4(
-        1.0 / (rays.focal * rays.focal), seen.lengthening.most / seen.rayLength, seen.pixelArea));
-    b.domainLo = glm::vec4(glm::dvec4(seen.domain.lo, kQuarticRadius));
-    b.domainHi = glm::vec4(glm::dvec4(seen.domain.hi, 0));
-    b.boxHalf = glm::vec4(glm::dvec4(scene.placed.boxHalf(), 0));
-    b.placed = {scene.placed.size(), 0};
-    b.clipLo = {scene.clip.lo, 0};
-    b.clipHi = {scene.clip.hi, 0};
-    if (scene.placed.isMesh()) placeMesh(b, scene);
-    return b;
-}
 
 // Position in the map = x s + y of a value s on the scale: affine, in double.
 glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
@@ -86,6 +35,18 @@ glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
 }
 
 constexpr int kMapEntries = 257;  // the most that a ColorMap has
+
+GlDepthOrder::List sent(const Scene& scene, const Sorted& list, const ValueScale& scale) {
+    std::vector<SortedPoint> points;
+    points.reserve(list.point.size());
+    const timeseries::Columns columns = columnsOf(scene);
+    for (std::size_t i = 0; i < list.point.size(); ++i) {
+        const std::uint32_t p = list.point[i];
+        points.push_back({columns.gridIndex[p], scale(valueOf(columns, p)), list.layer[i]});
+    }
+    return {std::make_shared<const gl::Buffer>(std::span<const SortedPoint>(points)),
+            points.size()};
+}
 
 class GlPlane final : public PlaneSum {
  public:
@@ -155,10 +116,11 @@ const char* defineOf(Channels channels) {
     return "";
 }
 
-GlSplatter::GlSplatter()
+GlSplatter::GlSplatter(std::uint64_t mostSorted)
     : view_(sizeof(SplatViewBlock)),
       layers_(sizeof(LayerBlock)),
-      colorMaps_(GL_RGBA32F, {kMapEntries, 2 * static_cast<int>(kMaxLayers)}) {
+      colorMaps_(GL_RGBA32F, {kMapEntries, 2 * static_cast<int>(kMaxLayers)}),
+      orderOnGpu_(mostSorted) {
     std::array<GLfloat, 2> range{};
     glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
     largestPoint_ = range[1];
@@ -175,9 +137,10 @@ const gl::Program& GlSplatter::program(const Variant& variant) {
     if (variant.mesh) defines += "#define MESH\n";
     if (variant.cubes) defines += "#define CUBES\n";
     if (variant.kernel == Kernel::Point) defines += "#define KERNEL_POINT\n";
+    const std::string vertex = std::string(shaders::splat_points_glsl) + shaders::splat_vert;
     return programs_
         .emplace(variant,
-                 gl::Program("splat", shaders::splat_vert, shaders::splat_frag, defines.c_str()))
+                 gl::Program("splat", vertex.c_str(), shaders::splat_frag, defines.c_str()))
         .first->second;
 }
 
@@ -209,14 +172,27 @@ void GlSplatter::setLayers(const Scene& scene, const ValueScale& scale) {
     layers_.write(0, sizeof block, &block);
 }
 
+DrawList GlSplatter::order(const Scene& scene, const glm::dvec3& midEye) {
+    if (scene.order == Order::None) return Runs{};
+    return SortedOnGpu{midEye};
+}
+
 std::unique_ptr<GlList> GlSplatter::upload(const Scene& scene, const DrawList& list,
                                            const GlStep& step) {
     ++counts_.uploads;
-    // A sorted list brings its own values.
-    const bool own = std::holds_alternative<Sorted>(list) || step.values() == nullptr;
-    const ValueScale scale = own ? ValueScale::of(scene.layers) : step.valueScale();
-    setLayers(scene, scale);
-    return std::make_unique<GlList>(scene, list, step, scale);
+    const auto* const asked = std::get_if<SortedOnGpu>(&list);
+    const auto* sorted = std::get_if<Sorted>(&list);
+    const bool here = asked != nullptr && !orderOnGpu_.fits(scene, step);
+    const DrawList made = here ? order_(scene, asked->midEye) : DrawList();
+    if (here) sorted = &std::get<Sorted>(made);
+    if (sorted != nullptr) {  // with values of its own
+        const ValueScale scale = ValueScale::of(scene.layers);
+        setLayers(scene, scale);
+        return std::make_unique<GlList>(scene, step, sent(scene, *sorted, scale));
+    }
+    setLayers(scene, step.values() == nullptr ? ValueScale::of(scene.layers) : step.valueScale());
+    if (asked == nullptr) return std::make_unique<GlList>(scene, step);
+    return std::make_unique<GlList>(scene, step, orderOnGpu_(scene, asked->midEye, step));
 }
 
 std::unique_ptr<SplatFrame> GlSplatter::prepare(const Scene& scene, DrawList list,

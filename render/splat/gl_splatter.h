@@ -8,6 +8,7 @@
 
 #include "render/gl/object.h"
 #include "render/splat/depth_order.h"
+#include "render/splat/gl_depth_order.h"
 #include "render/splat/pieces.h"
 #include "render/splat/splatter.h"
 
@@ -21,12 +22,12 @@ const char* defineOf(Channels channels);
 
 class GlSplatter final : public Splatter {
  public:
-    GlSplatter();
+    // `mostSorted`: bytes of a list that the GPU puts in order; a larger one is made here.
+    explicit GlSplatter(std::uint64_t mostSorted = GlDepthOrder::mostBytes());
     ~GlSplatter() override;
 
-    DrawList order(const Scene& scene, const glm::dvec3& midEye) override {
-        return order_(scene, midEye);
-    }
+    // The GPU's own, if there is an order.
+    DrawList order(const Scene& scene, const glm::dvec3& midEye) override;
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GlStep& step) override;
     // What resolving a frame's planes needs, whoever sums them; upload() does it.
@@ -69,6 +70,7 @@ class GlSplatter final : public Splatter {
     float largestPoint_ = 1;         // side in pixels
     glm::ivec2 largestViewport_{0};  // a larger one is cut without a word
     Counts counts_;
+    GlDepthOrder orderOnGpu_;
     DepthOrder order_;
 };
 

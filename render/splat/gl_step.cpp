@@ -47,7 +47,6 @@ std::uint64_t pointsOf(std::uint64_t block, std::uint64_t points) {
 
 // Ascending.
 std::vector<std::uint64_t> neededBlocks(const Scene& scene) {
-    if (scene.order != Order::None) return {};
     std::vector<bool> touched(blockCount(scene.step.size()));
     for (const Layer& layer : scene.layers)
         for (const timeseries::Run& run : layer.runs)
@@ -100,7 +99,7 @@ void GlStep::makeRoom(std::span<const std::uint64_t> blocks) {
     if (!gridIndex_) gridIndex_.emplace(0);
     if (!placeInBlock_) placeInBlock_.emplace(0);
     extend(*gridIndex_, points * sizeof(std::uint32_t));
-    extend(*placeInBlock_, points * sizeof(std::uint16_t));
+    extend(*placeInBlock_, (points + 1) / 2 * 2 * sizeof(std::uint16_t));  // whole words of 32 bits
     for (auto* const held : {&values_, &coming_})
         if (*held) extend((*held)->buffer, points * kValueBytes);
     slots_ = slots;

@@ -21,8 +21,7 @@ namespace render {
 // them, in slices, so that frames keep their pace. They lie in slots, in the order in which they
 // came; there are as many slots as were ever needed, or up to twice that.
 //
-// A scene here is of the step and the grid that this was made for. One that is ordered needs
-// nothing but the mesh, if there is one: its list brings its own points.
+// A scene here is of the step and the grid that this was made for.
 class GlStep {
  public:
     static constexpr std::uint64_t kBlock = kSubsetPeriod;

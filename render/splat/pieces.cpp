@@ -45,15 +45,16 @@ void cutRun(std::vector<Piece>& pieces, std::size_t layer, const timeseries::Run
 
 }  // namespace
 
-std::vector<Piece> piecesOf(const Scene& scene, const DrawList& list) {
+std::vector<Piece> piecesOfSorted(std::uint64_t count) {
     std::vector<Piece> pieces;
-    if (const auto* sorted = std::get_if<Sorted>(&list)) {
-        const std::uint64_t count = sorted->point.size();
-        cut(pieces,
-            {.layer = 0, .from = 0, .last = 0, .stride = 1, .first = 0, .count = count, .cost = 0},
-            count);
-        return pieces;
-    }
+    cut(pieces,
+        {.layer = 0, .from = 0, .last = 0, .stride = 1, .first = 0, .count = count, .cost = 0},
+        count);
+    return pieces;
+}
+
+std::vector<Piece> piecesOfRuns(const Scene& scene) {
+    std::vector<Piece> pieces;
     for (std::size_t k = 0; k < scene.layers.size(); ++k) {
         const std::uint32_t stride = strideOf(scene.layers[k], scene.stride);
         for (const timeseries::Run& run : scene.layers[k].runs)

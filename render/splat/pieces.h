@@ -25,6 +25,8 @@ struct Piece {
 constexpr std::uint64_t kPiecePoints = 1 << 13;
 
 // In the order of drawing; those of a layer follow each other.
-std::vector<Piece> piecesOf(const Scene& scene, const DrawList& list);
+std::vector<Piece> piecesOfRuns(const Scene& scene);
+// Of a sorted list of so many.
+std::vector<Piece> piecesOfSorted(std::uint64_t count);
 
 }  // namespace render

@@ -14,6 +14,7 @@
 #include "render/splat/cell_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/bench/alternate.h"
+#include "tests/bench/cells_of_range.h"
 #include "tests/bench/turbulence.h"
 #include "tests/support/built_paths.h"
 #include "tests/support/meshes.h"
@@ -25,12 +26,12 @@
 namespace {
 
 using namespace render;
+using bench::CellsOfRange;
+using bench::kMiddle;
+using bench::kSpread;
 using timeseries::CellIndex;
 using timeseries::Interval;
 using timeseries::SortedStep;
-
-// The field's values have a spread of about a third.
-constexpr double kMiddle = 0.1, kSpread = 0.33;
 
 void cellIndex(benchmark::State& state) {
     const timeseries::Field field =
@@ -66,36 +67,6 @@ void cellSelect(benchmark::State& state) {
     state.counters["cells"] = needed;
 }
 BENCHMARK(cellSelect)->Arg(1000)->Arg(100)->Arg(10)->Unit(benchmark::kMicrosecond);
-
-// Layers by cells of a field, in a range of so many thousandths of its spread.
-struct CellsOfRange {
-    CellsOfRange(timeseries::Field field, std::int64_t thousandths, bool isOrdered)
-        : step(SortedStep::build(std::move(field))),
-          placed(step.grid()),
-          scene{.step = step,
-                .placed = placed,
-                .layers = {},
-                .footprint = {},
-                .order = isOrdered ? Order::BackToFront : Order::None,
-                .clip = {}} {
-        scene.cells = step.cells();
-        const double half = kSpread * static_cast<double>(thousandths) / 2000;
-        Layer layer{{}, {Constant{{1, 0.5, 0.1}}, 0.3}};
-        layer.cells.ranges = {{kMiddle - half, kMiddle + half}};
-        layer.cells.candidates = scene.cells->select(layer.cells.ranges);
-        scene.layers.push_back(layer);
-    }
-    void draw(Channels channels) {
-        CellSum sum(scene, view, channels, 0, {}, 1, sharingThreads(), std::move(memory));
-        sum.add(std::numeric_limits<std::uint64_t>::max());
-        memory = sum.takeMemory();
-    }
-    const View view = tests::lookFrom({1.2, -2.6, 0.9}, {1024, 1024}, 0.36);
-    SortedStep step;
-    PlacedPoints placed;
-    Scene scene;
-    CellMemory memory;
-};
 
 void cellsBesidePoints(benchmark::State& state) {
     CellsOfRange cells(bench::turbulence<float>(static_cast<std::size_t>(state.range(0))),
@@ -167,20 +138,12 @@ BENCHMARK(cellsLitBesideUnlit)
     ->Iterations(15)
     ->Unit(benchmark::kMillisecond);
 
-// The points of a lattice placed one by one, neighbours by their indices or corners of hexahedra.
-std::shared_ptr<const timeseries::Grid> latticeOneByOne(std::size_t n, bool ofSolids) {
-    const auto place = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
-    if (!ofSolids) return tests::curvilinear({n, n, n}, place);
-    const auto m = static_cast<std::uint32_t>(n);
-    return tests::gridOf(tests::atPoints(tests::bricks({m, m, m}, tests::Cut::Hexahedra, place)));
-}
-
 // Cells that are tetrahedra, beside those of the upright grid.
 void cellsOfMeshBesideUpright(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
     timeseries::Field field = bench::turbulence<float>(n);
     timeseries::Field meshed = field;
-    meshed.grid = latticeOneByOne(n, state.range(3) != 0);
+    meshed.grid = bench::latticeOneByOne(n, state.range(3) != 0);
     CellsOfRange upright(std::move(field), state.range(1), state.range(2) != 0);
     CellsOfRange mesh(std::move(meshed), state.range(1), state.range(2) != 0);
     const Channels channels = channelsFor(upright.scene)[0];
@@ -199,7 +162,7 @@ BENCHMARK(cellsOfMeshBesideUpright)
 void cellUnderCursorOfMesh(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
     timeseries::Field field = bench::turbulence<float>(n);
-    field.grid = latticeOneByOne(n, state.range(2) != 0);
+    field.grid = bench::latticeOneByOne(n, state.range(2) != 0);
     const CellsOfRange mesh(std::move(field), state.range(1), true);
     for (auto _ : state)
         benchmark::DoNotOptimize(pickCell(mesh.scene, mesh.view, glm::dvec2(mesh.view.size) / 2.0));

@@ -37,4 +37,15 @@ struct ScatteredSplats {
     render::View view;
 };
 
+// Of one colour, or by value, or by value and in order of depth.
+namespace what {
+
+enum What { OneColor, ByTheirValues, Ordered };
+
+inline void colorAndOrder(render::Scene& scene, What what) {
+    if (what != OneColor) scene.layers[0].style.color = render::ByValue{{}, 0.4, 0.41};
+    if (what == Ordered) scene.order = render::Order::BackToFront;
+}
+
+}  // namespace what
 }  // namespace bench

@@ -74,7 +74,7 @@ void BM_ErrorAgainstTruth(benchmark::State& state) {
     GlTargets targets(view.size);
     gl::begin({.framebuffer = targets.lightFramebuffer(), .size = view.size, .clearDepth = 1.0f});
     const auto plane = [&](Channels channels) {
-        const auto list = splatter.upload(scene, order(scene, eye), onGpu);
+        const auto list = splatter.upload(scene, splatter.order(scene, eye), onGpu);
         splatter.draw(*list, view, channels, 0, targets.clearedPlane(0, channels));
         const bool scalar = channels == Channels::Weight;
         std::vector<float> read(pixels * (scalar ? 1 : 4));

@@ -16,16 +16,10 @@
 namespace {
 
 using namespace render;
+using namespace bench::what;
 
 // A picture, and an eye of a headset.
 constexpr std::array<glm::ivec2, 2> kSizes{bench::ScatteredSplats::kSize, {1440, 1600}};
-enum What { OneColor, ByTheirValues, Ordered };
-
-void colorAndOrder(Scene& scene, What what) {
-    if (what != OneColor) scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
-    if (what == Ordered) scene.order = Order::BackToFront;
-}
-
 // A frame by tiles, whose order is made anew for the eye.
 struct ByTiles {
     DepthOrder inDepth;

@@ -41,7 +41,7 @@ def measure(name):
     print(f"{name} ...", file=sys.stderr)
     about = {"commit": commit(PAGE, PLOTS), "date": datetime.date.today().isoformat(),
              "load": os.getloadavg()[0]}
-    figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--size", "600x600", "--json",
+    figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--splatter", "cpu", "--size", "600x600", "--json",
                               "--svg", ROOT / PLOTS / f"{name}.svg"))
     KEPT.mkdir(parents=True, exist_ok=True)
     (KEPT / f"{name}.json").write_text(json.dumps({"about": about, "figures": figures}, indent=1))
@@ -176,7 +176,7 @@ def page():
     cpu = processor()
     text = f"""# Speed against accuracy
 
-`tests/bench/trade.py` makes this page by `isochron measure`. {cpu}, {first['threads']} threads; no GPU has been measured.
+`tests/bench/trade.py` makes this page by `isochron measure`. {cpu}, {first['threads']} threads; what a GPU draws stands in [GPU.md](GPU.md).
 {first['size'][0]} x {first['size'][1]} pixels, {len(first['views'])} views, {first['frames']} frames of each, their median. A frame is order, splats or cells, and light,
 without axes and legend. Error is the relative L2 of optical depth, and mass its sum, against the truth: the interval volume of the
 field that is trilinear between its points, exact along each ray, the mean of {first['rays']} x {first['rays']} rays a pixel. RMSE, PSNR and the 95th percentile of
@@ -211,4 +211,5 @@ def main(arguments):
     page()
 
 
-main(sys.argv[1:])
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -166,14 +166,16 @@ TEST_F(GpuStepsByValue, OneCallSendsAsManyBlocksAsReachTheBytes) {
     EXPECT_LE(onGpu.bytes(), 4 * kBlock * 10 + 3 * 47 * 8) << "positions along three axes";
 }
 
-TEST_F(GpuStepsByValue, AnOrderedSceneNeedsNothing) {
-    Scene scene = byValue({{0, step_.size()}});
-    scene.order = Order::BackToFront;
+TEST_F(GpuStepsByValue, AnOrderedSceneNeedsTheSame) {
+    const Scene scene = byValue({{0, step_.size()}});
+    Scene ordered = scene;
+    ordered.order = Order::BackToFront;
     GlStep onGpu(step_, placed_);
+    EXPECT_FALSE(onGpu.ready(ordered));
+    EXPECT_EQ(onGpu.missingBytes(ordered, neededScale(ordered)), step_.size() * 10);
+    onGpu.upload(ordered, neededScale(ordered));
     EXPECT_TRUE(onGpu.ready(scene));
-    EXPECT_EQ(onGpu.missingBytes(scene, neededScale(scene)), 0u);
-    onGpu.upload(scene, neededScale(scene));
-    EXPECT_EQ(onGpu.values(), nullptr);
+    EXPECT_TRUE(onGpu.ready(ordered));
 }
 
 TEST_F(GpuStepsByValue, ValuesOnAnotherScaleTakeOverWhenAllAreThere) {

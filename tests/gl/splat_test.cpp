@@ -105,7 +105,8 @@ TEST_F(GlSplat, OrderedOverIsTheTruthsToTheOrdersResolution) {
     for (const glm::dvec3 eye : {tests::kMidEye, glm::dvec3(0.03, -3, 0.02)}) {
         // The second eye stands beside the point that the order was made for.
         const View view = lookFrom(eye, {300, 300});
-        EXPECT_LE(error(*this, scene, view, Channels::Over), 1e-4);
+        // The GPU's keys are worked out in float.
+        EXPECT_LE(error(*this, scene, view, Channels::Over), 2e-4);
     }
 }
 

@@ -48,7 +48,7 @@ TEST_F(Pieces, SendTheBeginningsOfAllBlocksThatARunTouchesOnceInOrder) {
         of.stride = 1u << (random() % 6);
         const std::uint32_t stride = strideOf(of.layers[0], of.stride);
         std::vector<std::uint64_t> sent, expected;
-        for (const Piece& piece : piecesOf(of, Runs{})) {
+        for (const Piece& piece : piecesOfRuns(of)) {
             EXPECT_GT(piece.count, 0u);
             EXPECT_LE(piece.count, kPiecePoints);
             const std::uint64_t block = piece.first / kBlock * kBlock;
@@ -73,18 +73,18 @@ TEST_F(Pieces, SendTheBeginningsOfAllBlocksThatARunTouchesOnceInOrder) {
 
 TEST_F(Pieces, CostTheSplatsAndALittleForPointsPassedOver) {
     const std::uint64_t all = step_->size();
-    EXPECT_EQ(costOf(piecesOf(scene({{{0, all}}}), Runs{})), all);
+    EXPECT_EQ(costOf(piecesOfRuns(scene({{{0, all}}}))), all);
     // Ten points in the middle of a block.
-    const std::uint64_t thin = costOf(piecesOf(scene({{{kBlock + 500, 10}}}), Runs{}));
+    const std::uint64_t thin = costOf(piecesOfRuns(scene({{{kBlock + 500, 10}}})));
     EXPECT_GT(thin, 10u);
     EXPECT_LT(thin, kBlock / 20);
     // Each piece's cost is rounded up.
-    const auto half = piecesOf(scene({{{kBlock / 2, kBlock}}}), Runs{});
+    const auto half = piecesOfRuns(scene({{{kBlock / 2, kBlock}}}));
     EXPECT_NEAR(static_cast<double>(costOf(half)), kBlock, static_cast<double>(half.size()));
 }
 
 TEST_F(Pieces, OfLayersFollowEachOther) {
-    const auto pieces = piecesOf(scene({{{0, 10}, {40'000, 10}}, {}, {{5, 10}}}), Runs{});
+    const auto pieces = piecesOfRuns(scene({{{0, 10}, {40'000, 10}}, {}, {{5, 10}}}));
     std::vector<std::size_t> layers;
     for (const Piece& piece : pieces) layers.push_back(piece.layer);
     EXPECT_TRUE(std::ranges::is_sorted(layers));
@@ -94,9 +94,7 @@ TEST_F(Pieces, OfLayersFollowEachOther) {
 }
 
 TEST_F(Pieces, OfASortedListAreItsEntries) {
-    Scene of = scene({{{100, 20'000}}});
-    of.order = Order::BackToFront;
-    const auto pieces = piecesOf(of, order(of, {0, -3, 0}));
+    const auto pieces = piecesOfSorted(20'000);
     std::uint64_t next = 0;
     for (const Piece& piece : pieces) {
         EXPECT_EQ(piece.first, next);
@@ -108,7 +106,7 @@ TEST_F(Pieces, OfASortedListAreItsEntries) {
         next += piece.count;
     }
     EXPECT_EQ(next, 20'000u);
-    EXPECT_TRUE(piecesOf(of, Sorted{}).empty());
+    EXPECT_TRUE(piecesOfSorted(0).empty());
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class GlTest : public testing::Test {
                            .clearColor = glm::vec4(0),
                            .clearDepth = opaqueDepth});
         render::GlSplatter splatter;
-        const auto list = splatter.upload(scene, render::order(scene, kMidEye), step);
+        const auto list = splatter.upload(scene, splatter.order(scene, kMidEye), step);
         splatter.draw(*list, view, channels, 0, targets.clearedPlane(0, channels));
         const bool scalar = channels == Channels::Weight || channels == Channels::Count;
         std::vector<float> pixels(std::size_t(view.size.x) * view.size.y * (scalar ? 1 : 4));

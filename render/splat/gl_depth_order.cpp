@@ -1,0 +1,233 @@
+#include "render/splat/gl_depth_order.h"
+
+#include <algorithm>
+#include <bit>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <vector>
+
+#include "render/points/block_order.h"
+#include "render/shader_sources.h"
+#include "render/splat/depth_order.h"
+#include "render/splat/gl_splat_view.h"
+
+namespace render {
+namespace {
+
+// GLSL mirror: Keys in shaders/depth_keys.comp.
+struct KeysBlock {
+    glm::mat4 worldFromAxes;
+    glm::vec4 eye, keys;
+};
+
+// GLSL mirror: Piece in shaders/depth_keys.comp.
+struct OrderedPiece {
+    std::uint32_t first, count, to, layer;
+    std::uint32_t from, last, ranks, subset;
+};
+constexpr std::uint32_t kWhole = ~std::uint32_t{0};
+
+// Where the subset of a prefix stride begins in the shader's table.
+std::uint32_t subsetAt(std::uint32_t prefix) {
+    if (prefix == 1) return kWhole;
+    return static_cast<std::uint32_t>(kSubsetPeriod) *
+           (static_cast<std::uint32_t>(std::countr_zero(prefix)) / 2 - 1);
+}
+
+std::vector<std::uint32_t> placesBefore() {
+    std::vector<std::uint32_t> before;
+    for (std::uint32_t prefix = 4; prefix <= prefixStride(kMaxStride); prefix *= 4) {
+        std::uint32_t sum = 0;
+        for (std::uint32_t place = 0; place < kSubsetPeriod; ++place) {
+            before.push_back(sum);
+            sum += inSubset(place, prefix) ? 1 : 0;
+        }
+    }
+    return before;
+}
+
+// Below a key lie the three bits of its layer.
+constexpr unsigned kLayerBits = 3;
+static_assert(kMaxLayers <= 1u << kLayerBits);
+constexpr std::array<GLuint, 3> kShifts = {kLayerBits, kLayerBits + 8, kLayerBits + 16};
+static_assert(DepthKeys::kBits <= 8 * kShifts.size());
+
+constexpr std::uint64_t kKeyedBytes = 2 * sizeof(std::uint32_t);
+constexpr std::uint64_t kTile = 1 << 12;
+constexpr const char* kTileDefine = "#define kTile 4096u\n";
+// Room for more is given back after each list.
+constexpr std::uint64_t kKept = 1 << 23;
+constexpr GLuint kMostGroups = 65535;  // along an axis; GL promises so many
+
+std::uint64_t listed(std::span<const Piece> pieces) {
+    std::uint64_t sum = 0;
+    for (const Piece& piece : pieces) sum += piece.count;
+    return sum;
+}
+
+KeysBlock keysBlock(const Scene& scene, const glm::dvec3& midEye) {
+    const DepthKeys keys = depthKeysOf(scene, midEye);
+    const double away = glm::length(midEye), s = std::max(away, keys.radius);
+    KeysBlock b{glm::mat4(glm::dmat4(scene.placed.worldFromAxes())), glm::vec4(0), glm::vec4(0)};
+    if (!(s > 0)) return b;
+    b.eye = glm::vec4(glm::dvec4(midEye / s, away / s));
+    b.keys = glm::vec4(glm::dvec4(1 / s, keys.radius, keys.perUnit, DepthKeys::kLast));
+    return b;
+}
+
+void atLeast(std::optional<gl::Buffer>& buffer, std::uint64_t bytes) {
+    if (buffer && buffer->bytes() >= bytes) return;
+    buffer.reset();
+    buffer.emplace(bytes);
+}
+
+void bind(GLuint place, const gl::Buffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, place, buffer.id());
+}
+
+void between() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
+
+}  // namespace
+
+GlDepthOrder::GlDepthOrder(std::uint64_t most)
+    : view_(sizeof(SplatViewBlock)), of_(sizeof(KeysBlock)), most_(most) {}
+
+std::uint64_t GlDepthOrder::mostBytes() {
+    GLint64 bound = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bound);
+    return static_cast<std::uint64_t>(std::max<GLint64>(bound, 0));
+}
+
+bool GlDepthOrder::fits(const Scene& scene, const GlStep& step) const {
+    const std::uint64_t points = listed(piecesOfRuns(scene));
+    return points == 0 ||
+           (std::max(points * sizeof(SortedPoint), step.gridIndex().bytes()) <= most_ &&
+            points <= std::uint64_t{kMostGroups} * kTile);
+}
+
+const gl::Program& GlDepthOrder::keys(bool mesh) {
+    const auto found = keys_.find(mesh);
+    if (found != keys_.end()) return found->second;
+    const std::string source = std::string(shaders::splat_points_glsl) + shaders::depth_keys_comp;
+    return keys_
+        .emplace(mesh,
+                 gl::Program::ofCompute("depth_keys", source.c_str(), mesh ? "#define MESH\n" : ""))
+        .first->second;
+}
+
+void GlDepthOrder::makeRoom(std::uint64_t count, std::uint64_t drawn) {
+    for (auto& keyed : keyed_) atLeast(keyed, count * kKeyedBytes);
+    atLeast(counts_, (count + kTile - 1) / kTile * 256 * sizeof(std::uint32_t));
+    const std::uint64_t bytes = drawn * sizeof(SortedPoint);
+    if (list_ && list_.use_count() == 1 && list_->bytes() >= bytes) return;
+    list_.reset();
+    list_ = std::make_shared<gl::Buffer>(bytes);
+}
+
+void GlDepthOrder::findKeys(const Scene& scene, const glm::dvec3& midEye, const GlStep& step,
+                            std::span<const Piece> pieces) {
+    std::vector<OrderedPiece> sent;
+    std::uint64_t sum = 0, to = 0;
+    for (const Piece& piece : pieces) {
+        if (piece.first % GlStep::kBlock == 0) to = sum;  // the first of a block
+        sent.push_back({static_cast<std::uint32_t>(step.placeOf(piece.first)),
+                        static_cast<std::uint32_t>(piece.count), static_cast<std::uint32_t>(to),
+                        static_cast<std::uint32_t>(piece.layer), piece.from, piece.last,
+                        static_cast<std::uint32_t>(kSubsetPeriod / piece.stride),
+                        subsetAt(prefixStride(piece.stride))});
+        sum += piece.count;
+    }
+    // Shaders tell by its length how many there are.
+    pieces_.emplace(std::span<const OrderedPiece>(sent));
+    const SplatViewBlock view = pointsBlock(scene);
+    const KeysBlock of = keysBlock(scene, midEye);
+    view_.write(0, sizeof view, &view);
+    of_.write(0, sizeof of, &of);
+    const bool mesh = scene.placed.isMesh();
+    glUseProgram(keys(mesh).id());
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_.id());
+    glBindBufferBase(GL_UNIFORM_BUFFER, 1, of_.id());
+    glBindTextureUnit(0, step.axisPoints().id());
+    if (mesh) glBindTextureUnit(2, step.mesh()->points().id());
+    bind(0, *pieces_);
+    bind(1, step.gridIndex());
+    bind(2, step.placeInBlock());
+    bind(3, *keyed_[0]);
+    if (!before_) {
+        const std::vector<std::uint32_t> before = placesBefore();
+        before_.emplace(std::span<const std::uint32_t>(before));
+    }
+    bind(4, *before_);
+    const auto groups = static_cast<GLuint>(sent.size());
+    const GLuint across = std::min(groups, kMostGroups);
+    glDispatchCompute(across, (groups + across - 1) / across, 1);
+    between();
+}
+
+void GlDepthOrder::sort(std::uint64_t count, std::uint64_t drawn, const GlStep& step) {
+    const auto many = static_cast<GLuint>(count);
+    const auto tiles = static_cast<GLuint>((count + kTile - 1) / kTile);
+    const bool values = step.values() != nullptr;
+    if (!count_) {
+        count_ = gl::Program::ofCompute("radix_count", shaders::radix_count_comp, kTileDefine);
+        scan_ = gl::Program::ofCompute("radix_scan", shaders::radix_scan_comp);
+        scatter_ =
+            gl::Program::ofCompute("radix_scatter", shaders::radix_scatter_comp, kTileDefine);
+    }
+    if (!last_.contains(values))
+        last_.emplace(values, gl::Program::ofCompute("radix_scatter", shaders::radix_scatter_comp,
+                                                     (std::string(kTileDefine) + "#define LAST\n" +
+                                                      (values ? "#define VALUES\n" : ""))
+                                                         .c_str()));
+    for (std::size_t pass = 0; pass < kShifts.size(); ++pass) {
+        const GLuint shift = kShifts[pass];
+        const bool last = pass + 1 == kShifts.size();
+        bind(0, *keyed_[pass % 2]);
+        bind(1, *counts_);
+        glUseProgram(count_->id());
+        glUniform1ui(0, many);
+        glUniform1ui(1, shift);
+        glDispatchCompute(tiles, 1, 1);
+        between();
+        glUseProgram(scan_->id());
+        glUniform1ui(0, 256 * tiles);
+        glDispatchCompute(1, 1, 1);
+        between();
+        glUseProgram(last ? last_.at(values).id() : scatter_->id());
+        glUniform1ui(0, many);
+        glUniform1ui(1, shift);
+        if (last) {
+            glUniform1ui(2, static_cast<GLuint>(drawn));
+            bind(2, step.gridIndex());
+            if (values) bind(3, *step.values());
+            bind(4, *list_);
+        } else {
+            bind(2, *keyed_[(pass + 1) % 2]);
+        }
+        glDispatchCompute(tiles, 1, 1);
+        between();
+    }
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+GlDepthOrder::List GlDepthOrder::operator()(const Scene& scene, const glm::dvec3& midEye,
+                                            const GlStep& step) {
+    const std::vector<Piece> pieces = piecesOfRuns(scene);
+    const std::uint64_t count = listed(pieces);
+    std::uint64_t drawn = 0;
+    for (const Layer& layer : scene.layers) drawn += splatCount(layer, scene.stride);
+    makeRoom(count, drawn);
+    if (count > 0) {
+        findKeys(scene, midEye, step, pieces);
+        sort(count, drawn, step);
+    }
+    if (count > kKept) {
+        keyed_ = {};
+        counts_.reset();
+        return {std::exchange(list_, nullptr), drawn};
+    }
+    return {list_, drawn};
+}
+
+}  // namespace render
