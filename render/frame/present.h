@@ -28,7 +28,7 @@ Fitted fittedInto(glm::ivec2 window, glm::ivec2 picture);
 
 class Present {
  public:
-    static constexpr double kBorder = 0.004;  // steps of 1 / 255; 0.0021 on an NVIDIA GPU
+    static constexpr double kBorder = 0.002;  // steps of 1 / 255
     // `onProcessor`: the program's encoding is not done by a shader, which costs a driver that
     // draws there three times as much.
     explicit Present(bool onProcessor = gl::drawsOnProcessor());

@@ -52,7 +52,8 @@ void main() {
     if (hidden) linear = vec3(0.0);
 #endif
 #ifdef ENCODE
-    shown = vec4(encoded(linear), 1.0);
+    // A whole step: a GPU's own rounding to bytes may be off by a hundredth.
+    shown = vec4(floor(255.0 * encoded(linear) + 0.5) / 255.0, 1.0);
 #else
     shown = vec4(linear, 1.0);
 #endif
