@@ -20,7 +20,7 @@ bool isByGl(SplatterChoice choice) {
 Splatters::Splatters(SplatterChoice choice)
     : pointsInProgram_(choice == SplatterChoice::Exact ? static_cast<Splatter&>(exact_)
                                                        : processor_),
-      byGl_(isByGl(choice)) {
+      byGl_(isByGl(choice) && GlSplatter::canDraw()) {
     if (!byGl_) return;
     mostCellBytes_ = GlCellSplatter::mostBytes();
     mostMeshBytes_ = GlMesh::mostBytes();

@@ -95,6 +95,10 @@ VertexArray::VertexArray()
     : Object(created([](GLsizei n, GLuint* id) { glCreateVertexArrays(n, id); }),
              [](GLuint id) { glDeleteVertexArrays(1, &id); }) {}
 
+void VertexArray::setElements(const Buffer& indices) {
+    glVertexArrayElementBuffer(id(), indices.id());
+}
+
 void VertexArray::attach(const Attribute& a) {
     // One binding an attribute: location and binding are the same number.
     glEnableVertexArrayAttrib(id(), a.location);
@@ -105,7 +109,6 @@ void VertexArray::attach(const Attribute& a) {
         glVertexArrayAttribIFormat(id(), a.location, a.components, a.type, a.offset);
     }
     glVertexArrayAttribBinding(id(), a.location, a.location);
-    glVertexArrayBindingDivisor(id(), a.location, a.divisor);
 }
 
 namespace {

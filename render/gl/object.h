@@ -80,10 +80,10 @@ class VertexArray : public Object {
         GLenum type;  // unsigned types arrive as integers
         GLsizei stride;
         GLuint offset = 0;
-        GLuint divisor = 0;
         bool normalized = false;  // unsigned bytes as [0, 1] floats
     };
     void attach(const Attribute& attribute);
+    void setElements(const Buffer& indices);
 };
 
 // Shaders, linked. Throws std::runtime_error with the driver's log.

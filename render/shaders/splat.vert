@@ -2,7 +2,7 @@
 // Axis coordinates (render/points/placed_points.h) to window offsets from the view axis, in pixels; formulas:
 // render/model/footprint.h.
 // After splat_points.glsl.
-// Variants: QUADS (instanced quads, else point sprites), KERNEL_POINT, CUBES (all cells are equal
+// Variants: QUADS (two triangles each, else point sprites), SORTED (with QUADS: of a list in order), KERNEL_POINT, CUBES (all cells are equal
 // cubes: |d / a| is |d| / a, and the form in d needs no coefficients), CUT (with QUADS: long cells,
 // whose slim splats end at the domain's faces), MESH (points lie one by one, their cells in any
 // shape; with QUADS, but for KERNEL_POINT).
@@ -15,11 +15,49 @@ layout(std140, binding = 1) uniform Layers {
 
 layout(binding = 1) uniform sampler2D colorMaps;       // a row a layer, linear colour
 
-layout(location = 0) in uint gridIndex;
-layout(location = 1) in float value;  // 0 and 1 at the ends of the narrowest map; see ValueScale
-layout(location = 2) in uint layer;   // kNoLayer: of a sorted list, a point that is clipped
-layout(location = 3) in uint placeInBlock;  // of the sorted step's blocks of 2^15 points; see GpuStep
-layout(location = 4) in uvec3 drawn;        // first and last place in the block to draw; ranks to draw
+// Of a point: its grid index; its value, 0 and 1 at the ends of the narrowest map (ValueScale); its
+// layer, of a sorted list kNoLayer where it is clipped; whether it is drawn at all, by its place in
+// the sorted step's block of 2^15 points (GlStep): the first and the last that is, and ranks.
+#ifdef QUADS
+layout(location = 0) uniform uvec4 drawnAndLayer;
+// Four corners a point, one point after another of what is bound.
+uint corner() { return uint(gl_VertexID) & 3u; }
+uint number() { return uint(gl_VertexID) >> 2; }
+#ifdef SORTED
+// C++ mirror: SortedPoint in render/splat/gl_depth_order.h.
+struct SortedPoint {
+    uint gridIndex;
+    float value;
+    uint layer;
+};
+layout(std430, binding = 0) readonly buffer List { SortedPoint list[]; };
+uint gridIndex() { return list[number()].gridIndex; }
+float value() { return list[number()].value; }
+uint layer() { return list[number()].layer; }
+bool isDrawn() { return layer() != kNoLayer; }
+#else
+layout(std430, binding = 0) readonly buffer GridIndices { uint gridIndices[]; };
+layout(std430, binding = 1) readonly buffer Values { float values[]; };  // where a layer is coloured by them
+layout(std430, binding = 2) readonly buffer PlacesInBlocks { uint placesInBlocks[]; };  // 16 bits each
+uint gridIndex() { return gridIndices[number()]; }
+float value() { return values[number()]; }
+uint layer() { return drawnAndLayer.w; }
+bool isDrawn() {
+    const uint place = placesInBlocks[number() >> 1] >> 16u * (number() & 1u) & 0xffffu;
+    return isDrawn(place, drawnAndLayer.x, drawnAndLayer.y, drawnAndLayer.z);
+}
+#endif
+#else
+layout(location = 0) in uint gridIndexIn;
+layout(location = 1) in float valueIn;
+layout(location = 2) in uint layerIn;
+layout(location = 3) in uint placeInBlock;
+layout(location = 4) in uvec3 drawn;
+uint gridIndex() { return gridIndexIn; }
+float value() { return valueIn; }
+uint layer() { return layerIn; }
+bool isDrawn() { return isDrawn(placeInBlock, drawn.x, drawn.y, drawn.z) && layerIn != kNoLayer; }
+#endif
 
 layout(location = 0) flat out vec4 centreAndWeight;  // window offset of the centre, W's factor, tau per W
 layout(location = 1) flat out vec4 quadN;            // n.xyz of the numerator; l.x of the denominator
@@ -159,11 +197,11 @@ vec2 middleOfPicture() {
 
 void place(vec2 offset, float extent, float depth) {
 #ifdef QUADS
-    const vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    const vec2 side = vec2(corner() & 1u, corner() >> 1) * 2.0 - 1.0;
     // Half a pixel more than the footprint. Each corner has a limit, not the side: the centre may
     // lie farther off than that.
     const vec2 middle = middleOfPicture();
-    placeAt(clamp(offset + corner * (extent + 0.5), middle - farthestCorner(),
+    placeAt(clamp(offset + side * (extent + 0.5), middle - farthestCorner(),
                   middle + farthestCorner()), depth);
 #else
     gl_PointSize = extent;
@@ -172,12 +210,12 @@ void place(vec2 offset, float extent, float depth) {
 }
 
 void main() {
-    const Point p = pointOf(gridIndex);
+    const Point p = pointOf(gridIndex());
     const vec3 at = p.at, cell = p.diagonal;
     const vec3 inView = (view.viewFromAxes * vec4(at, 1.0)).xyz;
     const float depth = -inView.z;
     const float near = view.depths.x;
-    if (!isDrawn(placeInBlock, drawn.x, drawn.y, drawn.z) || layer == kNoLayer || p.clipped || !(depth > near)) {
+    if (!isDrawn() || p.clipped || !(depth > near)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the clip volume
 #ifndef QUADS
         gl_PointSize = 1.0;
@@ -191,11 +229,11 @@ void main() {
     const vec3 C = view.rayAxis.xyz + centre.x * X + centre.y * Y;
     const float t = clamp(depth / near - 1.0, 0.0, 1.0);
     const float fade = t * t * (3.0 - 2.0 * t);
-    const uint l = min(layer, 7u);
+    const uint l = min(layer(), 7u);
     const float mass = p.volume * view.kernel.z * fade * layers.map[l].w;
 
 #if defined(WEIGHTED_COLOR) || defined(OVER)
-    color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value + layers.map[l].y)
+    color = layers.map[l].z > 0.0 ? mapColor(l, layers.map[l].x * value() + layers.map[l].y)
                                   : layers.style[l].rgb;
 #endif
     const float depthPerWeight = layers.style[l].w;
@@ -266,9 +304,9 @@ void main() {
     const Slim s = slim(quadN.xyz, quadD.xyz, linear, extent);
     const vec2 across = vec2(s.along.y, -s.along.x), off = middleOfPicture() - centre;
     const vec2 middle = vec2(dot(off, s.along), dot(off, across));
-    const vec2 corner = clamp(mix(s.lo - 0.5, s.hi + 0.5, vec2(gl_VertexID & 1, gl_VertexID >> 1)),
+    const vec2 at2 = clamp(mix(s.lo - 0.5, s.hi + 0.5, vec2(corner() & 1u, corner() >> 1)),
                               middle - farthestCorner(), middle + farthestCorner());
-    placeAt(centre + corner.x * s.along + corner.y * across, depth);
+    placeAt(centre + at2.x * s.along + at2.y * across, depth);
 #elif defined(QUADS)
     place(centre, extent, depth);
 #else

@@ -23,17 +23,11 @@ struct Slices {
 };
 
 // Attributes without an array have one value for all.
-void drawSlices(const Piece& of, const Slices& slices, bool quads) {
+void drawSlices(const Piece& of, const Slices& slices) {
     glVertexAttribI4ui(2, static_cast<GLuint>(of.layer), 0, 0, 1);
     glVertexAttribI4ui(4, of.from, of.last, static_cast<GLuint>(kSubsetPeriod / of.stride), 1);
-    if (!quads) {
-        glMultiDrawArrays(GL_POINTS, slices.first.data(), slices.count.data(),
-                          static_cast<GLsizei>(slices.first.size()));
-        return;
-    }
-    for (std::size_t i = 0; i < slices.first.size(); ++i)
-        glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, slices.count[i],
-                                          static_cast<GLuint>(slices.first[i]));
+    glMultiDrawArrays(GL_POINTS, slices.first.data(), slices.count.data(),
+                      static_cast<GLsizei>(slices.first.size()));
 }
 
 bool drawnAlike(const Piece& a, const Piece& b) {
@@ -46,12 +40,9 @@ GlList::GlList(const Scene& scene, const GlStep& step)
     : scene_(scene), step_(step), cubes_(scene.placed.cubes()), pieces_(piecesOfRuns(scene)) {
     for (Piece& piece : pieces_) piece.first = step.placeOf(piece.first);
     if (pieces_.empty()) return;  // there may be no room yet
-    for (const GLuint divisor : {0u, 1u}) {
-        gl::VertexArray& array = divisor == 0 ? points_ : quads_;
-        array.attach({0, step.gridIndex(), 1, GL_UNSIGNED_INT, 4, 0, divisor});
-        array.attach({3, step.placeInBlock(), 1, GL_UNSIGNED_SHORT, 2, 0, divisor});
-        if (step.values() != nullptr) array.attach({1, *step.values(), 1, GL_FLOAT, 4, 0, divisor});
-    }
+    points_.attach({0, step.gridIndex(), 1, GL_UNSIGNED_INT, 4});
+    points_.attach({3, step.placeInBlock(), 1, GL_UNSIGNED_SHORT, 2});
+    if (step.values() != nullptr) points_.attach({1, *step.values(), 1, GL_FLOAT, 4});
 }
 
 GlList::GlList(const Scene& scene, const GlStep& step, GlDepthOrder::List list)
@@ -60,13 +51,10 @@ GlList::GlList(const Scene& scene, const GlStep& step, GlDepthOrder::List list)
       cubes_(scene.placed.cubes()),
       pieces_(piecesOfSorted(list.count)),
       sorted_(std::move(list.points)) {
-    for (const GLuint divisor : {0u, 1u}) {
-        gl::VertexArray& array = divisor == 0 ? points_ : quads_;
-        constexpr GLsizei kStride = sizeof(SortedPoint);
-        array.attach({0, *sorted_, 1, GL_UNSIGNED_INT, kStride, 0, divisor});
-        array.attach({1, *sorted_, 1, GL_FLOAT, kStride, 4, divisor});
-        array.attach({2, *sorted_, 1, GL_UNSIGNED_INT, kStride, 8, divisor});
-    }
+    constexpr GLsizei kStride = sizeof(SortedPoint);
+    points_.attach({0, *sorted_, 1, GL_UNSIGNED_INT, kStride, 0});
+    points_.attach({1, *sorted_, 1, GL_FLOAT, kStride, 4});
+    points_.attach({2, *sorted_, 1, GL_UNSIGNED_INT, kStride, 8});
 }
 
 std::span<const Piece> GlList::pieces(Channels channels, std::size_t layer) const {
@@ -76,8 +64,8 @@ std::span<const Piece> GlList::pieces(Channels channels, std::size_t layer) cons
             std::ranges::upper_bound(pieces_, layer, {}, &Piece::layer)};
 }
 
-void GlList::draw(bool quads, std::span<const Piece> pieces) const {
-    glBindVertexArray((quads ? quads_ : points_).id());
+void GlList::drawSprites(std::span<const Piece> pieces) const {
+    glBindVertexArray(points_.id());
     // Where there are no arrays of them.
     glVertexAttrib1f(1, 0);
     glVertexAttribI4ui(3, 0, 0, 0, 1);
@@ -86,8 +74,33 @@ void GlList::draw(bool quads, std::span<const Piece> pieces) const {
         std::size_t drawn = 0;
         for (; drawn < pieces.size() && drawnAlike(pieces[drawn], pieces[0]); ++drawn)
             slices.add(pieces[drawn]);
-        drawSlices(pieces[0], slices, quads);
+        drawSlices(pieces[0], slices);
         pieces = pieces.subspan(drawn);
+    }
+}
+
+// Pieces begin at multiples of kPiecePoints, hence at what drivers ask of what is bound.
+void GlList::drawQuads(std::span<const Piece> pieces, const gl::VertexArray& corners) const {
+    glBindVertexArray(corners.id());
+    const auto bind = [](GLuint place, const gl::Buffer& buffer, const Piece& piece,
+                         std::uint64_t each) {
+        const std::uint64_t bytes = (piece.count * each + 3) / 4 * 4;  // whole words
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, place, buffer.id(),
+                          static_cast<GLintptr>(piece.first * each),
+                          static_cast<GLsizeiptr>(bytes));
+    };
+    for (const Piece& piece : pieces) {
+        if (sorted_) {
+            bind(0, *sorted_, piece, sizeof(SortedPoint));
+        } else {
+            bind(0, step_.gridIndex(), piece, sizeof(std::uint32_t));
+            if (step_.values() != nullptr) bind(1, *step_.values(), piece, sizeof(float));
+            bind(2, step_.placeInBlock(), piece, sizeof(std::uint16_t));
+        }
+        glUniform4ui(0, piece.from, piece.last, static_cast<GLuint>(kSubsetPeriod / piece.stride),
+                     static_cast<GLuint>(piece.layer));
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(6 * piece.count), GL_UNSIGNED_SHORT,
+                       nullptr);
     }
 }
 

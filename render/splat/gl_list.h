@@ -24,8 +24,11 @@ class GlList {
 
     // What makes up a plane, in the order of drawing; see GlSplatter::draw.
     std::span<const Piece> pieces(Channels channels, std::size_t layer) const;
-    // Issues the draw calls of some that follow each other; program and state are set.
-    void draw(bool quads, std::span<const Piece> pieces) const;
+    bool isSorted() const { return sorted_ != nullptr; }
+    // Issue the draw calls of some that follow each other; program and state are set. Of quads,
+    // `corners` has the elements of kPiecePoints: two triangles each over corners 4 i to 4 i + 3.
+    void drawSprites(std::span<const Piece> pieces) const;
+    void drawQuads(std::span<const Piece> pieces, const gl::VertexArray& corners) const;
 
  private:
     const Scene& scene_;
@@ -33,7 +36,7 @@ class GlList {
     bool cubes_;
     std::vector<Piece> pieces_;
     std::shared_ptr<const gl::Buffer> sorted_;  // SortedPoint, farthest first; none: the step's own
-    gl::VertexArray points_, quads_;            // per vertex and per instance
+    gl::VertexArray points_;
 };
 
 }  // namespace render

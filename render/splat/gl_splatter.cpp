@@ -36,6 +36,16 @@ glm::dvec2 positionOnScale(const ByValue& map, const ValueScale& scale) {
 
 constexpr int kMapEntries = 257;  // the most that a ColorMap has
 
+// Of kPiecePoints quads, two triangles each.
+gl::Buffer cornersOfQuads() {
+    static_assert(4 * kPiecePoints <= 1 << 16);
+    std::vector<std::uint16_t> corners;
+    for (std::uint64_t quad = 0; quad < kPiecePoints; ++quad)
+        for (const unsigned corner : {0u, 1u, 2u, 1u, 2u, 3u})
+            corners.push_back(static_cast<std::uint16_t>(4 * quad + corner));
+    return gl::Buffer(std::span<const std::uint16_t>(corners));
+}
+
 GlDepthOrder::List sent(const Scene& scene, const Sorted& list, const ValueScale& scale) {
     std::vector<SortedPoint> points;
     points.reserve(list.point.size());
@@ -120,19 +130,28 @@ GlSplatter::GlSplatter(std::uint64_t mostSorted)
     : view_(sizeof(SplatViewBlock)),
       layers_(sizeof(LayerBlock)),
       colorMaps_(GL_RGBA32F, {kMapEntries, 2 * static_cast<int>(kMaxLayers)}),
+      elements_(cornersOfQuads()),
       orderOnGpu_(mostSorted) {
     std::array<GLfloat, 2> range{};
     glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
     largestPoint_ = range[1];
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largestViewport_.x);
+    corners_.setElements(elements_);
 }
 
 GlSplatter::~GlSplatter() = default;
+
+bool GlSplatter::canDraw() {
+    GLint blocks = 0;
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
+    return blocks >= 3;
+}
 
 const gl::Program& GlSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
     std::string defines = defineOf(variant.channels);
     if (variant.quads) defines += "#define QUADS\n";
+    if (variant.quads && variant.sorted) defines += "#define SORTED\n";
     if (variant.cut) defines += "#define CUT\n";
     if (variant.mesh) defines += "#define MESH\n";
     if (variant.cubes) defines += "#define CUBES\n";
@@ -224,8 +243,8 @@ void GlSplatter::draw(const GlList& list, const View& view, Channels channels,
     const int guard = quads ? 0 : static_cast<int>(std::ceil(reach)) + 1;
     const SplatViewBlock block = viewBlock(list.scene(), view, seen, guard);
     view_.write(0, sizeof block, &block);
-    const gl::Program& with =
-        program({channels, list.scene().footprint.kernel, quads, list.cubes(), cut, mesh});
+    const gl::Program& with = program({channels, list.scene().footprint.kernel, quads,
+                                       quads && list.isSorted(), list.cubes(), cut, mesh});
     gl::begin({.framebuffer = framebuffer,
                .size = view.size,
                .guard = guard,
@@ -237,7 +256,10 @@ void GlSplatter::draw(const GlList& list, const View& view, Channels channels,
     glBindTextureUnit(0, list.step().axisPoints().id());
     glBindTextureUnit(1, colorMaps_.id());
     if (mesh) glBindTextureUnit(2, list.step().mesh()->points().id());
-    list.draw(quads, pieces);
+    if (quads)
+        list.drawQuads(pieces, corners_);
+    else
+        list.drawSprites(pieces);
 }
 
 }  // namespace render

@@ -25,6 +25,8 @@ class GlSplatter final : public Splatter {
     // `mostSorted`: bytes of a list that the GPU puts in order; a larger one is made here.
     explicit GlSplatter(std::uint64_t mostSorted = GlDepthOrder::mostBytes());
     ~GlSplatter() override;
+    // Whether the driver lets vertex shaders read what they need: GL 4.5 promises none of it.
+    static bool canDraw();
 
     // The GPU's own, if there is an order.
     DrawList order(const Scene& scene, const glm::dvec3& midEye) override;
@@ -59,7 +61,7 @@ class GlSplatter final : public Splatter {
     struct Variant {
         Channels channels;
         Kernel kernel;
-        bool quads, cubes, cut, mesh;
+        bool quads, sorted, cubes, cut, mesh;
         auto operator<=>(const Variant&) const = default;
     };
     const gl::Program& program(const Variant& variant);
@@ -67,6 +69,8 @@ class GlSplatter final : public Splatter {
     std::map<Variant, gl::Program> programs_;  // compiled when first drawn with
     gl::Buffer view_, layers_;
     gl::Texture colorMaps_;
+    gl::Buffer elements_;
+    gl::VertexArray corners_;        // GlList::drawQuads
     float largestPoint_ = 1;         // side in pixels
     glm::ivec2 largestViewport_{0};  // a larger one is cut without a word
     Counts counts_;

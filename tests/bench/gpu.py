@@ -89,7 +89,7 @@ def page():
         sys.exit("nothing was measured yet")
     bench = bench["benchmarks"]
     label = next(f["label"] for f in bench if f.get("label"))
-    threads = next(int(f["threads"]) for f in bench if "threads" in f)
+    threads = next(int(f["sharing"]) for f in bench if "sharing" in f)
     order = table(["points", "the GPU's own", "made by the program and sent", "ratio"], beside(bench, "glOrder", lambda a, f: [f"{a['splats']:,}"]))
     eyes = table(["splats", "an eye", "one", "a pair", "pair / one"],
                  [[f"{a['splats']:,}", f"{a['width']} x {a['height']}", ms(f["first_ms"]), ms(f["second_ms"]), f"{f['second/first']:.2f}"]

@@ -28,7 +28,7 @@ void glBesideProgram(benchmark::State& state, const Scene& scene, const View& vi
         here(scene.step, scene.placed, glm::dvec3(0));
     bench::alternate(
         state, [&] { onGpu.draw(scene, view); }, [&] { here.draw(scene, view); });
-    state.counters["threads"] = sharingThreads();
+    state.counters["sharing"] = sharingThreads();
     state.SetLabel(context.renderer());
 }
 
