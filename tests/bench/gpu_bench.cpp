@@ -92,24 +92,59 @@ BENCHMARK(glMeshPoints)
     ->Unit(benchmark::kMillisecond);
 
 // The fire's 600 to 1000 K, or turbulence in a tenth of its spread; lit, in order, by value.
-void glCells(benchmark::State& state) {
-    const bool isFire = state.range(0) == 0;
+CellsOfRange fireOrTurbulence(std::int64_t points, bool isLit) {
+    const bool isFire = points == 0;
     CellsOfRange cells(isFire ? timeseries::openReader(std::array{tests::demo()})->read(0, 15)
-                              : bench::turbulence<float>(static_cast<std::size_t>(state.range(0))),
-                       100, state.range(1) != 0);
+                              : bench::turbulence<float>(static_cast<std::size_t>(points)),
+                       100, isLit);
     Layer& layer = cells.scene.layers[0];
     if (isFire) layer.cells.ranges = {{600, 1000}};
     layer.cells.candidates = cells.scene.cells->select(layer.cells.ranges);
-    if (cells.scene.order == Order::BackToFront) {
+    if (isLit) {
         layer.style.color = ByValue{{}, layer.cells.ranges[0].lo, layer.cells.ranges[0].hi};
         cells.scene.light = Light::Soft;
     }
-    state.counters["cells"] = static_cast<double>(cellCount(layer));
+    return cells;
+}
+
+void glCells(benchmark::State& state) {
+    const CellsOfRange cells = fireOrTurbulence(state.range(0), state.range(1) != 0);
+    state.counters["cells"] = static_cast<double>(cellCount(cells.scene.layers[0]));
     glBesideProgram(state, cells.scene, cells.view);
 }
 BENCHMARK(glCells)
     ->ArgNames({"points", "lit"})
     ->ArgsProduct({{0, 96, 192}, {0, 1}})
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond);
+
+// While a range is swept: each frame has another one, a little further.
+void glCellsSwept(benchmark::State& state) {
+    const CellsOfRange cells = fireOrTurbulence(state.range(0), true);
+    const gl::HeadlessContext context;
+    const auto& step = cells.scene.step;
+    PlainFrame onGpu(step, cells.scene.placed, glm::dvec3(0), SplatterChoice::Gl),
+        here(step, cells.scene.placed, glm::dvec3(0));
+    const auto [lo, hi] = cells.scene.layers[0].cells.ranges[0];
+    int tick = 0;
+    const auto draw = [&](PlainFrame& frame) {
+        Scene scene = cells.scene;
+        auto& swept = scene.layers[0].cells;
+        const double by = 0.01 * (hi - lo) * (++tick / 2 % 10);
+        swept.ranges = {{lo + by, hi + by}};
+        swept.candidates = scene.cells->select(swept.ranges);
+        frame.draw(scene, cells.view);
+    };
+    bench::alternate(
+        state, [&] { draw(onGpu); }, [&] { draw(here); });
+    state.counters["cells"] = static_cast<double>(cellCount(cells.scene.layers[0]));
+    state.SetLabel(context.renderer());
+}
+BENCHMARK(glCellsSwept)
+    ->ArgName("points")
+    ->Arg(0)
+    ->Arg(96)
+    ->Arg(192)
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond);
 

@@ -9,6 +9,7 @@
 
 #include "render/frame/frame_pace.h"
 #include "render/frame/plain_frame.h"
+#include "render/gl/headless_context.h"
 #include "render/splat/splat_cost.h"
 #include "tests/bench/median.h"
 #include "tests/support/scenes.h"
@@ -78,7 +79,7 @@ std::vector<double> foretold(const std::vector<Picture>& pictures) {
     return ratios;
 }
 
-void BM_ForetoldFrame(benchmark::State& state) {
+void foretoldFrame(benchmark::State& state, render::SplatterChoice by) {
     using Clock = std::chrono::steady_clock;
     // As many as a frame of some milliseconds has.
     const auto step = foretoldStep(state.range(0) != 0, state.range(1) != 0 ? 40 : 96);
@@ -86,10 +87,11 @@ void BM_ForetoldFrame(benchmark::State& state) {
     auto pictures = picturesOf(step, placed, state.range(1) != 0, state.range(2) != 0);
     for (auto _ : state)
         for (Picture& picture : pictures) {
-            picture.cost =
-                static_cast<std::uint64_t>(render::sceneCost(picture.scene, picture.view) +
-                                           render::planesCost(picture.scene, picture.view));
-            render::PlainFrame frame(step, placed, glm::dvec3(0));
+            picture.cost = static_cast<std::uint64_t>(
+                render::sceneCost(picture.scene, picture.view) +
+                (by == render::SplatterChoice::Cpu ? render::planesCost(picture.scene, picture.view)
+                                                   : 0));
+            render::PlainFrame frame(step, placed, glm::dvec3(0), by);
             frame.draw(picture.scene, picture.view);  // makes room
             std::vector<double> times;
             for (int i = 0; i < kForetoldFrames; ++i) {
@@ -106,7 +108,22 @@ void BM_ForetoldFrame(benchmark::State& state) {
     state.counters["middling"] = ratios[ratios.size() / 2];
     state.counters["worst"] = ratios.back();
 }
+void BM_ForetoldFrame(benchmark::State& state) {
+    foretoldFrame(state, render::SplatterChoice::Cpu);
+}
+// On a GPU.
+void glForetoldFrame(benchmark::State& state) {
+    const render::gl::HeadlessContext context;
+    foretoldFrame(state, render::SplatterChoice::Gl);
+    state.SetLabel(context.renderer());
+}
 BENCHMARK(BM_ForetoldFrame)
+    ->ArgNames({"noise", "cells", "ordered"})
+    ->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(glForetoldFrame)
     ->ArgNames({"noise", "cells", "ordered"})
     ->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})
     ->Iterations(1)

@@ -7,7 +7,7 @@ if(NOT code EQUAL 0)
 endif()
 
 expectMembers("${out}" file STRING variable STRING units STRING step NUMBER ranges STRING
-              points NUMBER size ARRAY frames NUMBER rays NUMBER threads NUMBER truth STRING
+              points NUMBER size ARRAY frames NUMBER rays NUMBER drawnBy STRING threads NUMBER truth STRING
               views ARRAY modes ARRAY best OBJECT)
 string(JSON views LENGTH "${out}" views)
 string(JSON modes LENGTH "${out}" modes)
