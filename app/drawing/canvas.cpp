@@ -114,12 +114,13 @@ struct Canvas::State {
     bool isWhollyThere(const GlSteps::Held& held, const render::Scene& scene) const {
         return isThere(held, scene) && isThere(held, byPoints(scene));
     }
-    // Tetrahedra for GL are listed and put in order by the processor in one go, as the selection or
-    // the eye moves: so many in 50 ms on two cores (tests/bench/NOTES.md).
+    // Tetrahedra for GL are listed by the processor in one go when the selection changes: so many
+    // in 50 ms on two cores (tests/bench/NOTES.md).
     bool listsForLong(const render::Scene& scene) const {
         constexpr std::uint64_t kMost = sizeof(render::GlTet) << 17;
-        return scene.cells && scene.placed.isMesh() && renderer.splatters().sumsByGl(scene) &&
-               render::GlPieces::bytesOf(scene) > kMost;
+        const render::Splatters& splatters = renderer.splatters();
+        return scene.cells && scene.placed.isMesh() && splatters.sumsByGl(scene) &&
+               !splatters.holdsCells(scene) && render::GlPieces::bytesOf(scene) > kMost;
     }
     // What stands there in what was shown last.
     std::optional<render::Picked> pick(const render::View& eye, const glm::dvec2& window) const;

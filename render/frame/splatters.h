@@ -28,6 +28,8 @@ class Splatters {
 
     GlSplatter& gl() { return needGl().points; }  // made when it is first needed
     bool hasGl() const { return gl_ != nullptr; }
+    // Whether GL has all that it draws the scene's cells by, whatever the eye.
+    bool holdsCells(const Scene& scene) const { return gl_ && gl_->cells.holds(scene); }
     std::uint64_t cellBytes() const { return gl_ ? gl_->cells.bytes() : 0; }  // on the GPU
 
  private:

@@ -47,6 +47,10 @@ void Buffer::write(std::size_t offset, std::size_t bytes, const void* contents) 
                              contents);
 }
 
+void Buffer::bindStorage(GLuint place) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, place, id());
+}
+
 Texture::Texture(GLenum internalFormat, glm::ivec2 size, int levels)
     : Object(createdTexture(GL_TEXTURE_2D), deleteTexture), size_(size) {
     glTextureStorage2D(id(), levels, internalFormat, size.x, size.y);

@@ -37,6 +37,7 @@ class Buffer : public Object {
     template <typename T>
     explicit Buffer(std::span<const T> contents) : Buffer(contents.size_bytes(), contents.data()) {}
     void write(std::size_t offset, std::size_t bytes, const void* contents);
+    void bindStorage(GLuint place) const;  // for shaders that read or write it
     std::size_t bytes() const { return bytes_; }
 
  private:

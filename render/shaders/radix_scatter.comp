@@ -1,6 +1,7 @@
 // Entries -> where those of their digit go, in their order. Stable: each round of a tile's 256 tells
 // by bits which of them come before another of the same digit.
-// Variants: LAST (writes the draw list of those that are drawn), VALUES (which have values).
+// Variants of what the last digit's makes: POINTS (the draw list of those that are drawn), VALUES
+// (which have values), PLACES (numbers alone).
 
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint count;
@@ -8,13 +9,13 @@ layout(location = 1) uniform uint shift;
 
 layout(std430, binding = 0) readonly buffer Keyed { uvec2 keyed[]; };
 layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };  // [digit][tile]
-#ifdef LAST
+#if defined(POINTS)
 layout(location = 2) uniform uint drawn;  // the first of all
 layout(std430, binding = 2) readonly buffer GridIndices { uint gridIndices[]; };
 #ifdef VALUES
 layout(std430, binding = 3) readonly buffer Values { float values[]; };
 #endif
-// C++ mirror: SortedPoint in render/splat/gl_list.h.
+// C++ mirror: SortedPoint in render/splat/gl_depth_order.h.
 struct SortedPoint {
     uint gridIndex;
     float value;
@@ -34,6 +35,10 @@ void put(uint to, uvec2 entry) {
     p.layer = entry.x >= ~0u - 8u ? 255u : entry.x & 7u;  // kNoLayer in splat_points.glsl
     list[to] = p;
 }
+#elif defined(PLACES)
+layout(std430, binding = 2) writeonly buffer Numbers { uint numbers[]; };
+
+void put(uint to, uvec2 entry) { numbers[to] = entry.y; }
 #else
 layout(std430, binding = 2) writeonly buffer Sorted { uvec2 sorted[]; };
 

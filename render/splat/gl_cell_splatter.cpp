@@ -66,7 +66,8 @@ class GlCellPlane final : public PlaneSum {
         std::tie(first_, end_) = pieces_->placesOf(channels, plane);
         next_ = first_;
         if (first_ == end_) return;
-        if (channels == Channels::Over) order_ = pieces_->farthestFirst(scene, view);
+        if (channels == Channels::Over)
+            order_ = pieces_->farthestFirst(scene, view, splatter.sort_);
         if (const int rays = raysAcross(scene, view); rays > 1)
             means_.emplace(coveredPixels(scene, view), formatOf(channels), rays,
                            splatter.rayBytes_);
@@ -181,7 +182,7 @@ const gl::Program& GlCellSplatter::mean() {
 }
 
 std::unique_ptr<SplatFrame> GlCellSplatter::prepare(const Scene& scene, DrawList, const GlStep&) {
-    if (!pieces_ || !pieces_->areOf(scene)) {
+    if (!holds(scene)) {
         pieces_.reset();  // before there are others
         pieces_ = GlPieces::of(scene, mostBytes());
     }
@@ -202,8 +203,8 @@ void GlCellSplatter::draw(const Draw& what, const GlTargets& targets) {
     glUseProgram(with.id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_.id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, layers_.layerBlock().id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, what.pieces.pieces().id());
-    if (what.order) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, what.order->id());
+    what.pieces.pieces().bindStorage(0);
+    if (what.order) what.order->bindStorage(1);
     if (sides) glBindTextureUnit(0, sides->id());
     glBindTextureUnit(1, layers_.colorMaps().id());
     // Read where it is also attached, which is defined after a barrier as long as nothing writes

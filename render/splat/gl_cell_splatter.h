@@ -26,6 +26,9 @@ class GlCellSplatter final : public Splatter {
     static std::uint64_t mostBytes();
     std::uint64_t bytes() const { return pieces_ ? pieces_->bytes() : 0; }  // that they take now
 
+    // Whether what the scene is made of is there: that of the scene prepared last.
+    bool holds(const Scene& scene) const { return pieces_ && pieces_->areOf(scene); }
+
     DrawList order(const Scene&, const glm::dvec3&) override { return Runs{}; }
     // Asks nothing of the step on the GPU. Throws std::runtime_error where there is no room.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
@@ -59,6 +62,7 @@ class GlCellSplatter final : public Splatter {
     const GlSplatter& layers_;
     std::uint64_t rayBytes_;
     std::shared_ptr<GlPieces> pieces_;  // of the scene prepared last
+    GlRadixSort sort_;
     std::map<Variant, gl::Program> programs_;
     std::optional<gl::Program> mean_;
     gl::Buffer view_;

@@ -58,14 +58,14 @@ GlCells::GlCells(const Scene& scene, std::uint64_t mostBytes)
         });
 }
 
-std::vector<std::uint32_t> GlCells::order(const CellRank& rank) const {
+std::shared_ptr<const gl::Buffer> GlCells::order(const CellRank& rank, GlRadixSort&) const {
     NearestFirst order(rank);
     for (const glm::uvec3& cell : cells_) order.count(rank(cell));
     order.allCounted();
     std::vector<std::uint32_t> places(cells_.size());
     for (std::size_t i = 0; i < cells_.size(); ++i)
         places[cells_.size() - 1 - order.place(rank(cells_[i]))] = static_cast<std::uint32_t>(i);
-    return places;
+    return std::make_shared<const gl::Buffer>(std::span<const std::uint32_t>(places));
 }
 
 }  // namespace render

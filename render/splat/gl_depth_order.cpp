@@ -50,13 +50,10 @@ std::vector<std::uint32_t> placesBefore() {
 // Below a key lie the three bits of its layer.
 constexpr unsigned kLayerBits = 3;
 static_assert(kMaxLayers <= 1u << kLayerBits);
-constexpr std::array<GLuint, 3> kShifts = {kLayerBits, kLayerBits + 8, kLayerBits + 16};
-static_assert(DepthKeys::kBits <= 8 * kShifts.size());
+constexpr unsigned kDigits = 3;
+static_assert(DepthKeys::kBits <= 8 * kDigits);
 
-constexpr std::uint64_t kKeyedBytes = 2 * sizeof(std::uint32_t);
-constexpr std::uint64_t kTile = 1 << 12;
-constexpr const char* kTileDefine = "#define kTile 4096u\n";
-// Room for more is given back after each list.
+// A list of more is given back once it is drawn.
 constexpr std::uint64_t kKept = 1 << 23;
 constexpr GLuint kMostGroups = 65535;  // along an axis; GL promises so many
 
@@ -76,18 +73,6 @@ KeysBlock keysBlock(const Scene& scene, const glm::dvec3& midEye) {
     return b;
 }
 
-void atLeast(std::optional<gl::Buffer>& buffer, std::uint64_t bytes) {
-    if (buffer && buffer->bytes() >= bytes) return;
-    buffer.reset();
-    buffer.emplace(bytes);
-}
-
-void bind(GLuint place, const gl::Buffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, place, buffer.id());
-}
-
-void between() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
-
 }  // namespace
 
 GlDepthOrder::GlDepthOrder(std::uint64_t most)
@@ -103,7 +88,7 @@ bool GlDepthOrder::fits(const Scene& scene, const GlStep& step) const {
     const std::uint64_t points = listed(piecesOfRuns(scene));
     return points == 0 ||
            (std::max(points * sizeof(SortedPoint), step.gridIndex().bytes()) <= most_ &&
-            points <= std::uint64_t{kMostGroups} * kTile);
+            points <= GlRadixSort::kMost);
 }
 
 const gl::Program& GlDepthOrder::keys(bool mesh) {
@@ -114,15 +99,6 @@ const gl::Program& GlDepthOrder::keys(bool mesh) {
         .emplace(mesh,
                  gl::Program::ofCompute("depth_keys", source.c_str(), mesh ? "#define MESH\n" : ""))
         .first->second;
-}
-
-void GlDepthOrder::makeRoom(std::uint64_t count, std::uint64_t drawn) {
-    for (auto& keyed : keyed_) atLeast(keyed, count * kKeyedBytes);
-    atLeast(counts_, (count + kTile - 1) / kTile * 256 * sizeof(std::uint32_t));
-    const std::uint64_t bytes = drawn * sizeof(SortedPoint);
-    if (list_ && list_.use_count() == 1 && list_->bytes() >= bytes) return;
-    list_.reset();
-    list_ = std::make_shared<gl::Buffer>(bytes);
 }
 
 void GlDepthOrder::findKeys(const Scene& scene, const glm::dvec3& midEye, const GlStep& step,
@@ -150,64 +126,34 @@ void GlDepthOrder::findKeys(const Scene& scene, const glm::dvec3& midEye, const 
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, of_.id());
     glBindTextureUnit(0, step.axisPoints().id());
     if (mesh) glBindTextureUnit(2, step.mesh()->points().id());
-    bind(0, *pieces_);
-    bind(1, step.gridIndex());
-    bind(2, step.placeInBlock());
-    bind(3, *keyed_[0]);
+    pieces_->bindStorage(0);
+    step.gridIndex().bindStorage(1);
+    step.placeInBlock().bindStorage(2);
+    sort_.entries().bindStorage(3);
     if (!before_) {
         const std::vector<std::uint32_t> before = placesBefore();
         before_.emplace(std::span<const std::uint32_t>(before));
     }
-    bind(4, *before_);
+    before_->bindStorage(4);
     const auto groups = static_cast<GLuint>(sent.size());
     const GLuint across = std::min(groups, kMostGroups);
     glDispatchCompute(across, (groups + across - 1) / across, 1);
-    between();
+    betweenShaders();
 }
 
-void GlDepthOrder::sort(std::uint64_t count, std::uint64_t drawn, const GlStep& step) {
-    const auto many = static_cast<GLuint>(count);
-    const auto tiles = static_cast<GLuint>((count + kTile - 1) / kTile);
+void GlDepthOrder::sort(std::uint64_t drawn, const GlStep& step) {
     const bool values = step.values() != nullptr;
-    if (!count_) {
-        count_ = gl::Program::ofCompute("radix_count", shaders::radix_count_comp, kTileDefine);
-        scan_ = gl::Program::ofCompute("radix_scan", shaders::radix_scan_comp);
-        scatter_ =
-            gl::Program::ofCompute("radix_scatter", shaders::radix_scatter_comp, kTileDefine);
-    }
     if (!last_.contains(values))
-        last_.emplace(values, gl::Program::ofCompute("radix_scatter", shaders::radix_scatter_comp,
-                                                     (std::string(kTileDefine) + "#define LAST\n" +
-                                                      (values ? "#define VALUES\n" : ""))
-                                                         .c_str()));
-    for (std::size_t pass = 0; pass < kShifts.size(); ++pass) {
-        const GLuint shift = kShifts[pass];
-        const bool last = pass + 1 == kShifts.size();
-        bind(0, *keyed_[pass % 2]);
-        bind(1, *counts_);
-        glUseProgram(count_->id());
-        glUniform1ui(0, many);
-        glUniform1ui(1, shift);
-        glDispatchCompute(tiles, 1, 1);
-        between();
-        glUseProgram(scan_->id());
-        glUniform1ui(0, 256 * tiles);
-        glDispatchCompute(1, 1, 1);
-        between();
-        glUseProgram(last ? last_.at(values).id() : scatter_->id());
-        glUniform1ui(0, many);
-        glUniform1ui(1, shift);
-        if (last) {
-            glUniform1ui(2, static_cast<GLuint>(drawn));
-            bind(2, step.gridIndex());
-            if (values) bind(3, *step.values());
-            bind(4, *list_);
-        } else {
-            bind(2, *keyed_[(pass + 1) % 2]);
-        }
-        glDispatchCompute(tiles, 1, 1);
-        between();
-    }
+        last_.emplace(values, GlRadixSort::scatter(values ? "#define POINTS\n#define VALUES\n"
+                                                          : "#define POINTS\n"));
+    const gl::Program& last = last_.at(values);
+    sort_.sort(kLayerBits, kDigits - 1);
+    glProgramUniform1ui(last.id(), 2, static_cast<GLuint>(drawn));
+    step.gridIndex().bindStorage(2);
+    if (values) step.values()->bindStorage(3);
+    list_->bindStorage(4);
+    sort_.last(kLayerBits + 8 * (kDigits - 1), last);
+    sort_.shrink();
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
@@ -217,16 +163,17 @@ GlDepthOrder::List GlDepthOrder::operator()(const Scene& scene, const glm::dvec3
     const std::uint64_t count = listed(pieces);
     std::uint64_t drawn = 0;
     for (const Layer& layer : scene.layers) drawn += splatCount(layer, scene.stride);
-    makeRoom(count, drawn);
+    const std::uint64_t bytes = drawn * sizeof(SortedPoint);
+    if (!list_ || list_.use_count() > 1 || list_->bytes() < bytes) {
+        list_.reset();
+        list_ = std::make_shared<gl::Buffer>(bytes);
+    }
     if (count > 0) {
+        sort_.begin(count);
         findKeys(scene, midEye, step, pieces);
-        sort(count, drawn, step);
+        sort(drawn, step);
     }
-    if (count > kKept) {
-        keyed_ = {};
-        counts_.reset();
-        return {std::exchange(list_, nullptr), drawn};
-    }
+    if (drawn > kKept) return {std::exchange(list_, nullptr), drawn};
     return {list_, drawn};
 }
 

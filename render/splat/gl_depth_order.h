@@ -1,8 +1,6 @@
-// A draw list in order of depth, made on the GPU from the step's points there: keys, then a radix
-// sort of three digits (Knuth, The Art of Computer Programming, volume 3, 5.2.5).
+// A draw list in order of depth, made on the GPU from the step's points there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +8,7 @@
 #include <span>
 
 #include "render/gl/object.h"
+#include "render/splat/gl_radix_sort.h"
 #include "render/splat/gl_step.h"
 #include "render/splat/pieces.h"
 
@@ -45,16 +44,14 @@ class GlDepthOrder {
     const gl::Program& keys(bool mesh);
     void findKeys(const Scene& scene, const glm::dvec3& midEye, const GlStep& step,
                   std::span<const Piece> pieces);
-    void sort(std::uint64_t count, std::uint64_t drawn, const GlStep& step);
-    void makeRoom(std::uint64_t count, std::uint64_t drawn);
+    void sort(std::uint64_t drawn, const GlStep& step);
 
     std::map<bool, gl::Program> keys_;  // of points of meshes, and of others
     std::map<bool, gl::Program> last_;  // of points that have values, and of others
-    std::optional<gl::Program> count_, scan_, scatter_;
     gl::Buffer view_, of_;
     std::optional<gl::Buffer> before_;  // of each subset's places
-    std::optional<gl::Buffer> pieces_, counts_;
-    std::array<std::optional<gl::Buffer>, 2> keyed_;  // from one to the other
+    std::optional<gl::Buffer> pieces_;
+    GlRadixSort sort_;
     std::shared_ptr<gl::Buffer> list_;
     std::uint64_t most_;
 };

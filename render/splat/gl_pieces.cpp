@@ -77,15 +77,14 @@ std::pair<std::uint32_t, std::uint32_t> GlPieces::placesOf(Channels channels,
     return {firsts_[first], firsts_[last]};
 }
 
-std::shared_ptr<const gl::Buffer> GlPieces::farthestFirst(const Scene& scene, const View& view) {
+std::shared_ptr<const gl::Buffer> GlPieces::farthestFirst(const Scene& scene, const View& view,
+                                                          GlRadixSort& sort) {
     const CellRank rank(scene, view);
     const glm::dvec3 key = keyOf(rank);
     const auto found = std::ranges::find(ordered_, key, &Ordered::key);
     if (found != ordered_.end()) return found->places;
-    const std::vector<std::uint32_t> places = order(rank);
     if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
-    ordered_.push_back(
-        {key, std::make_shared<const gl::Buffer>(std::span<const std::uint32_t>(places))});
+    ordered_.push_back({key, order(rank, sort)});
     return ordered_.back().places;
 }
 

@@ -12,6 +12,7 @@
 #include "render/gl/object.h"
 #include "render/model/scene.h"
 #include "render/splat/cell_pieces.h"
+#include "render/splat/gl_radix_sort.h"
 #include "render/together.h"
 
 namespace render {
@@ -34,8 +35,9 @@ class GlPieces {
     const gl::Buffer& pieces() const { return *pieces_; }  // layer by layer
     // Places in pieces() that a plane takes.
     std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
-    // Places of all pieces as uints, the farthest first.
-    std::shared_ptr<const gl::Buffer> farthestFirst(const Scene& scene, const View& view);
+    // Places of all pieces as uints, the farthest first. `sort`: what a GPU sorts by.
+    std::shared_ptr<const gl::Buffer> farthestFirst(const Scene& scene, const View& view,
+                                                    GlRadixSort& sort);
     virtual std::uint64_t bytes() const;  // on the GPU
     // Of cells the middles and sizes, axis after axis, in axis coordinates; null of tetrahedra.
     virtual const gl::BufferTexture* sides() const { return nullptr; }
@@ -51,7 +53,8 @@ class GlPieces {
     static constexpr const char* kTooMany = "there are more cells than the GPU has room for";
     // The eyes of one such key have one order.
     virtual glm::dvec3 keyOf(const CellRank& rank) const = 0;
-    virtual std::vector<std::uint32_t> order(const CellRank& rank) const = 0;
+    virtual std::shared_ptr<const gl::Buffer> order(const CellRank& rank,
+                                                    GlRadixSort& sort) const = 0;
 
     std::weak_ptr<const timeseries::CellIndex> index_;
     std::weak_ptr<const timeseries::Mesh> mesh_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "render/shader_sources.h"
 #include "render/splat/cell_view.h"
 #include "timeseries/grid/solid_cells.h"
 
@@ -32,10 +33,6 @@ bool takeTet(GlTet& t, const ValuedTet& tet, const CellOfLayer& of, const Scene&
     return true;
 }
 
-glm::vec3 middleOf(const GlTet& t) {
-    return glm::vec3(t.corners[0]) + 0.25f * glm::vec3(t.corners[1] + t.corners[2] + t.corners[3]);
-}
-
 }  // namespace
 
 double GlTets::perCell(const Scene& scene) {
@@ -46,63 +43,69 @@ double GlTets::perCell(const Scene& scene) {
 
 GlTets::GlTets(const Scene& scene, std::uint64_t mostBytes) : GlPieces(scene, mostBytes) {
     const double steep = steepnessOf(scene);
-    std::uint32_t layer = 0;
+    std::vector<std::uint32_t> cells;
+    std::vector<glm::vec4> middles;
+    std::uint32_t cell = 0, layer = 0;
     take<GlTet>(
         scene,
-        [&](std::span<const CellOfLayer> cells, std::vector<GlTet>& pieces) {
-            forEachTet(scene, cells, nullptr, [&](const ValuedTet& tet, const CellOfLayer& of) {
+        [&](std::span<const CellOfLayer> some, std::vector<GlTet>& pieces) {
+            forEachTet(scene, some, nullptr, [&](const ValuedTet& tet, const CellOfLayer& of) {
                 GlTet piece{};
                 if (takeTet(piece, tet, of, scene, steep)) pieces.push_back(piece);
             });
         },
         [&](const GlTet& piece) {
-            const bool goesOn =
-                !groups_.empty() && groups_.back().cell == piece.cell && layer == piece.kind >> 8;
+            const bool goesOn = !middles.empty() && cell == piece.cell && layer == piece.kind >> 8;
+            cell = piece.cell;
             layer = piece.kind >> 8;
-            if (!goesOn)
-                groups_.push_back({piece.cell, static_cast<std::uint32_t>(middles_.size()),
-                                   glm::vec3(middleOfCell(scene, piece.cell))});
-            middles_.push_back(middleOf(piece));
+            if (!goesOn) {
+                const glm::dvec3 middle = middleOfCell(scene, cell);
+                radius_ = std::max(radius_, glm::length(middle));
+                middles.emplace_back(glm::dvec4(middle, 0));
+            }
+            cells.push_back(static_cast<std::uint32_t>(middles.size() - 1));
         });
-    groups_.push_back({0, static_cast<std::uint32_t>(middles_.size()), {}});
+    count_ = static_cast<std::uint32_t>(cells.size());
+    cells_.emplace(std::span<const std::uint32_t>(cells));
+    middles_.emplace(std::span<const glm::vec4>(middles));
 }
 
-std::vector<std::uint32_t> GlTets::order(const CellRank& rank) const {
-    constexpr std::size_t kWorthAThread = 1 << 12;
-    const std::size_t groups = groups_.size() - 1;
-    const unsigned shared = threadsFor(groups, kWorthAThread, sharingThreads());
-    const auto share = [&](const auto& use) {  // of the groups with each thread
-        sharing(shared, [&](unsigned k) { use(groups * k / shared, groups * (k + 1) / shared); });
-    };
-    std::vector<std::uint32_t> ranks(groups), ordered(groups), ends(groups),
-        places(middles_.size());
-    share([&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            ranks[i] = rank.ofMiddle(glm::dvec3(groups_[i].middle));
-    });
-    NearestFirst nearest(rank);
-    for (const std::uint32_t r : ranks) nearest.count(r);
-    nearest.allCounted();
-    for (std::uint32_t i = 0; i < groups; ++i) ordered[groups - 1 - nearest.place(ranks[i])] = i;
-    std::uint32_t end = 0;
-    for (std::size_t i = 0; i < groups; ++i)
-        ends[i] = end += groups_[ordered[i] + 1].first - groups_[ordered[i]].first;
+std::uint64_t GlTets::bytes() const {
+    return GlPieces::bytes() + cells_->bytes() + middles_->bytes();
+}
 
-    const glm::vec3 eye(rank.from());
-    share([&](std::size_t first, std::size_t last) {
-        std::vector<std::pair<float, std::uint32_t>> own;  // minus the square of how far away
-        for (std::size_t i = first; i < last; ++i) {
-            own.clear();
-            const Group* const group = &groups_[ordered[i]];
-            for (std::uint32_t p = group->first; p < group[1].first; ++p) {
-                const glm::vec3 way = middles_[p] - eye;
-                own.emplace_back(-glm::dot(way, way), p);
-            }
-            std::ranges::sort(own);
-            std::uint32_t to = ends[i] - static_cast<std::uint32_t>(own.size());
-            for (const auto& [nearer, place] : own) places[to++] = place;
-        }
-    });
+std::shared_ptr<const gl::Buffer> GlTets::order(const CellRank& rank, GlRadixSort& sort) const {
+    auto places = std::make_shared<const gl::Buffer>(count_ * sizeof(std::uint32_t));
+    if (count_ == 0) return places;
+    if (!programs_)
+        programs_.emplace(Programs{gl::Program::ofCompute("tet_keys", shaders::tet_keys_comp),
+                                   GlRadixSort::scatter("#define PLACES\n")});
+    const double away = glm::length(rank.from()), s = std::max(away, radius_);
+    const glm::vec4 eye = s > 0 ? glm::vec4(glm::dvec4(rank.from() / s, away / s)) : glm::vec4(0);
+    const auto findKeys = [&](bool ofCells) {
+        constexpr GLuint kGroup = 256, kAcross = 1 << 15;
+        glUseProgram(programs_->keys.id());
+        glUniform1ui(0, count_);
+        glUniform1i(1, ofCells ? 1 : 0);
+        glUniform4fv(2, 1, &eye.x);
+        glUniform1f(3, s > 0 ? static_cast<float>(1 / s) : 0);
+        pieces().bindStorage(0);
+        cells_->bindStorage(1);
+        middles_->bindStorage(2);
+        sort.entries().bindStorage(3);
+        const GLuint groups = (count_ + kGroup - 1) / kGroup, across = std::min(groups, kAcross);
+        glDispatchCompute(across, (groups + across - 1) / across, 1);
+        betweenShaders();
+    };
+    constexpr unsigned kDigits = 4;
+    sort.begin(count_);
+    findKeys(false);
+    sort.sort(0, kDigits);
+    findKeys(true);
+    sort.sort(0, kDigits - 1);
+    places->bindStorage(2);
+    sort.last(8 * (kDigits - 1), programs_->places);
+    sort.shrink();
     return places;
 }
 

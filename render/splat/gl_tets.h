@@ -3,9 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <vector>
+#include <optional>
 
 #include "render/splat/gl_pieces.h"
 
@@ -29,19 +28,22 @@ class GlTets final : public GlPieces {
     // How many a cell has, in the mean, where nothing of it is missing or clipped.
     static double perCell(const Scene& scene);
 
+    std::uint64_t bytes() const override;
+
  private:
-    // Pieces that are of one cell and layer, and that cell's middle.
-    struct Group {
-        std::uint32_t cell, first;
-        glm::vec3 middle;
-    };
     glm::dvec3 keyOf(const CellRank& rank) const override { return rank.from(); }
     // A cell's own by the distances of their middles: of the six about a diagonal, where the cell
     // is a brick, that is the order in which they hide each other.
-    std::vector<std::uint32_t> order(const CellRank& rank) const override;
+    std::shared_ptr<const gl::Buffer> order(const CellRank& rank, GlRadixSort& sort) const override;
 
-    std::vector<Group> groups_;       // and one more, where they end
-    std::vector<glm::vec3> middles_;  // of each piece, in axis coordinates
+    double radius_ = 0;        // of the middles about the origin
+    std::uint32_t count_ = 0;  // of all pieces
+    // Of each piece, which of the cells that follow each other in one layer has it; their middles.
+    std::optional<gl::Buffer> cells_, middles_;
+    struct Programs {
+        gl::Program keys, places;
+    };
+    mutable std::optional<Programs> programs_;  // when there is an order
 };
 
 }  // namespace render

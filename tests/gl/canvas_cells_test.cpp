@@ -6,6 +6,7 @@
 #include "render/splat/gl_cells.h"
 #include "tests/support/canvas_of_noise.h"
 #include "tests/support/files.h"
+#include "tests/support/meshes.h"
 
 namespace app {
 namespace {
@@ -221,6 +222,32 @@ TEST_F(CanvasOfBlocks, AMovingStepWhoseCellsAreTooManyWaitsForItsPoints) {
     draw(world_.shown(2), {.splats = 100'000'000, .uploadBytes = 64}, true);
     EXPECT_EQ(report_.step, 2u);
     EXPECT_TRUE(report_.cells);
+}
+
+// Of a mesh the program lists tetrahedra once a selection, which takes too long for a picture that
+// moves; the GPU puts them in order for each eye.
+TEST_F(CanvasOfNoise, ManyTetrahedraAreDrawnWhileMovingOnceTheyAreThere) {
+    const auto grid = tests::curvilinear(
+        {32, 32, 32}, [](double i, double j, double k) { return glm::dvec3(i, j, k); });
+    world_.steps[0] = std::make_shared<const timeseries::SortedStep>(tests::noise(grid, 1));
+    world_.dataset.variable.grid = grid;
+    world_.explorer.model = Model::Cells;
+    world_.explorer.size = {60, 45};
+    world_.explorer.layers = {tests::ShownSteps::layer("0:0.9", app::MapChoice{{}, 0, 1})};
+    world_.steps[0]->cells();
+    const CanvasLimits most{.splats = std::uint64_t{1} << 50};
+    draw(world_.shown(), most, true);
+    EXPECT_FALSE(report_.cells) << "but points";
+    const Image rest = draw(world_.shown(), most)[0];
+    EXPECT_TRUE(report_.whole);
+    EXPECT_EQ(draw(world_.shown(), most, true)[0], rest);
+    world_.explorer.view.azimuthDegrees += 10;
+    draw(world_.shown(), most, true);
+    EXPECT_TRUE(report_.cells);
+    EXPECT_TRUE(report_.whole);
+    world_.explorer.layers[0].ranges = timeseries::RangeSet::parse("0:0.8");
+    draw(world_.shown(), most, true);
+    EXPECT_FALSE(report_.cells) << "of another selection";
 }
 
 // What was shown last is asked: cells, or the points that stood for them.

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "render/gl/debug_output.h"
 #include "render/model/rays_across.h"
+#include "render/splat/gl_tets.h"
 #include "tests/support/gl_cell_planes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/unstructured.h"
@@ -113,6 +115,59 @@ TEST_F(GlTetsOf, EachOfSeveralScenesIsItsOwn) {
         stretched.scene.cells = world.scene.cells;
         stretched.placed = PlacedPoints(*grid, glm::dvec3(1, 2, 0.5));
         expectTheProcessors(stretched.scene, kOutside, 3e-4);
+    }
+}
+
+template <typename T>
+std::vector<T> read(const gl::Buffer& buffer, std::size_t count) {
+    std::vector<T> values(count);
+    glGetNamedBufferSubData(buffer.id(), 0, static_cast<GLsizeiptr>(count * sizeof(T)),
+                            values.data());
+    gl::throwOnError();
+    return values;
+}
+
+glm::dvec3 middleOf(const GlTet& t) {
+    glm::dvec3 sum(0);
+    for (int i = 1; i < 4; ++i) sum += glm::dvec3(t.corners[i]);
+    return glm::dvec3(t.corners[0]) + sum / 4.0;
+}
+
+// Cell by cell, the farthest first, and so are those of a cell: to float, however far the eye is.
+TEST_F(GlTetsOf, AreInOrderOfTheirCellsAndOfTheirOwn) {
+    constexpr double kRounding = 4e-6;
+    auto all = grids();
+    all.push_back(tests::curvilinear({14, 14, 14}, [](double i, double j, double k) {
+        return glm::dvec3(i, j + 0.1 * k, k * k / 14);
+    }));
+    for (const auto& grid : all) {
+        const CellWorld world(tests::noise(grid), {"0.2:0.6", "0.5:0.7"});
+        const auto pieces = GlPieces::of(world.scene, GlCellSplatter::mostBytes());
+        const auto [first, end] = pieces->placesOf(Channels::Over, 0);
+        const auto tets = read<GlTet>(pieces->pieces(), end);
+        ASSERT_GT(end, 500u);
+        for (const double away : {0.2, 3.0, 1e7}) {
+            const glm::dvec3 eye = away * glm::normalize(glm::dvec3(1.2, -2.5, 1));
+            GlRadixSort sort;
+            const auto places = read<std::uint32_t>(
+                *pieces->farthestFirst(world.scene, lookFrom(eye, kSize), sort), end);
+            std::vector<bool> seen(end);
+            double cellBefore = 1e300, before = 1e300;
+            for (std::uint32_t i = 0; i < end; ++i) {
+                ASSERT_FALSE(seen[places[i]]) << "twice";
+                seen[places[i]] = true;
+                const GlTet& tet = tets[places[i]];
+                const double cell = glm::distance(middleOfCell(world.scene, tet.cell), eye),
+                             own = glm::distance(middleOf(tet), eye);
+                ASSERT_LE(cell, cellBefore + kRounding * (1 + away * 1e-9));
+                const GlTet* const last = i > 0 ? &tets[places[i - 1]] : nullptr;
+                if (last && last->cell == tet.cell && last->kind >> 8 == tet.kind >> 8) {
+                    ASSERT_LE(own, before + kRounding * (1 + away * 1e-9));
+                }
+                cellBefore = std::min(cell, cellBefore);
+                before = own;
+            }
+        }
     }
 }
 
