@@ -54,7 +54,6 @@ CountOptions countOptions(const CLI::App& app, const CountText& text) {
     return options;
 }
 
-// What `render` takes beside the choices of a picture.
 // Who draws, and on what.
 struct DrawnByText {
     std::string device = "any", splatter = "any";
@@ -79,6 +78,7 @@ DrawnBy drawnBy(const DrawnByText& text) {
     return {text.device, choices.at(text.splatter)};
 }
 
+// What `render` takes beside the choices of a picture.
 struct OutputText {
     std::vector<std::string> channels;
     std::string output;

@@ -213,7 +213,7 @@ CanvasReport Canvas::State::begin(const Shown& shown, const CanvasLimits& limits
     CanvasReport report;
     const GlSteps::Held& coming = bring(shown, limits, moving, report);
     steps.trim(limits.cacheBytes, screen ? screen->held : nullptr, &coming);
-    report.gpuBytes = steps.bytes() + renderer.splatters().cellBytes();
+    report.gpuBytes = steps.bytes() + renderer.splatters().bytes();
     if (const auto timed = of.poll()) {
         report.gpuTime = timed->took;
         report.gpuSplats = timed->label >> 1;

@@ -24,7 +24,7 @@ struct CanvasReport {
     bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
     double uploaded = 1;  // share of what the picture asked for needs
     double refined = 0;   // share that refine() has drawn; it shows all at once
-    std::uint64_t gpuBytes = 0;  // of steps and cells held there
+    std::uint64_t gpuBytes = 0;  // of steps, cells and order held there
     std::uint64_t cost = 0;      // of what this call drew, of all eyes (render/splat/splat_cost.h)
     std::uint64_t planesCost = 0;  // of it, what is left of however few splats
     // Of an earlier call of the same function (gl::Timer), what it drew and what that cost: what

@@ -24,21 +24,20 @@ Refinement::Refinement(render::FrameRenderer& renderer, render::DepthOrder& orde
       eyes_(eyes.begin(), eyes.end()),
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
       onGpu_(onGpu),
-      order_(order) {
-    if (renderer_.splatters().takesPointsFromGpu(picture_.scene))
-        return;  // which puts them in order
+      order_(order),
+      sortsHere_(!renderer.splatters().sortsOnGpu(picture_.scene, onGpu)) {
+    if (!sortsHere_) return;
     order_.begin(picture_.scene, render::midEye(eyes_));
     if (!order_.done()) ordering_ = kOrdering;
 }
 
 bool Refinement::order() {
     if (frame_) return true;
-    if (renderer_.splatters().takesPointsFromGpu(picture_.scene)) {
-        frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_));
-    } else {
-        if (!orderPoints()) return false;
+    if (sortsHere_ && !orderPoints()) return false;
+    if (sortsHere_)
         frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_, order_.take()));
-    }
+    else
+        frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_));
     for (const render::View& eye : eyes_) cost_ += renderer_.cost(*frame_, eye);
     return true;
 }

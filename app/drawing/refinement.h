@@ -24,7 +24,8 @@ class Refinement {
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
 
-    // Goes on with the draw list for about as long as a frame takes. True when it is there.
+    // Goes on with the draw list, if the program makes it, for about as long as a frame takes. True
+    // when it is there.
     bool order();
     // Draws until `cost` is reached (render/splat/splat_cost.h), a little more than that, and hands
     // each eye's light to `show` once it is whole. Returns what it cost. REQUIRES: order(), and not
@@ -44,6 +45,7 @@ class Refinement {
     const render::FrameContent content_;
     const render::GlStep& onGpu_;
     render::DepthOrder& order_;
+    bool sortsHere_;       // the program does
     double ordering_ = 0;  // its share of all that is to be done
     std::optional<const render::FrameRenderer::Prepared> frame_;  // once it is ordered
     double cost_ = 0, drawn_ = 0;  // of all eyes, and of what is drawn

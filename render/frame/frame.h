@@ -59,6 +59,7 @@ class FrameRenderer {
                                    std::span<const View> eyes, const Extras& extras = {});
 
     const Splatters& splatters() const { return splatters_; }
+    Splatters& splatters() { return splatters_; }
     // render() in its parts, for front ends that show the light instead of reading it. REQUIRES: a
     // step that is ready for the scene, if its points are taken from it.
     struct Prepared {

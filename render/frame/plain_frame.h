@@ -22,7 +22,8 @@ class PlainFrame {
     void draw(const Scene& scene, const View& view, int across = 1);
     // What was drawn last. Linear, premultiplied.
     Image light() { return renderer_.targets().readLight(); }
-    // By the same splatter, what opticalDepthOf() and enlargedDepthOf() below say.
+    // By the same splatter, what opticalDepthOf() and enlargedDepthOf() below say; light() is then
+    // what was drawn before no longer.
     std::vector<float> depth(const Scene& scene, const View& view, int across = 1);
 
  private:

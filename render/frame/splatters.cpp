@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render/gl/debug_output.h"
 #include "render/gl/driver.h"
 
 namespace render {
@@ -21,6 +22,10 @@ Splatters::Splatters(SplatterChoice choice)
     : pointsInProgram_(choice == SplatterChoice::Exact ? static_cast<Splatter&>(exact_)
                                                        : processor_),
       byGl_(isByGl(choice) && GlSplatter::canDraw()) {
+    if (choice == SplatterChoice::Gl && !byGl_)
+        throw std::runtime_error(
+            "this GL driver lets vertex shaders read no buffers, so it cannot draw: leave "
+            "--splatter gl out, and the program draws");
     if (!byGl_) return;
     mostCellBytes_ = GlCellSplatter::mostBytes();
     mostMeshBytes_ = GlMesh::mostBytes();
@@ -46,6 +51,11 @@ Splatter& Splatters::of(const Scene& scene) {
     return needGl().points;
 }
 
+bool Splatters::sortsOnGpu(const Scene& scene, const GlStep& step) {
+    return scene.order != Order::None && takesPointsFromGpu(scene) &&
+           needGl().points.sortsOnGpu(scene, step);
+}
+
 DrawList Splatters::order(const Scene& scene, const glm::dvec3& midEye) {
     return of(scene).order(scene, midEye);
 }
@@ -56,6 +66,7 @@ std::unique_ptr<SplatFrame> Splatters::prepare(const Scene& scene, DrawList list
     try {
         return needGl().cells.prepare(scene, list, step);
     } catch (const std::runtime_error&) {  // no room there for so many: the program draws them
+        gl::forgetErrors();
         const std::uint64_t bytes = GlPieces::bytesOf(scene);
         mostCellBytes_ = bytes > 0 ? bytes - 1 : 0;
         return processor_.prepare(scene, std::move(list), step);

@@ -28,9 +28,13 @@ class Splatters {
 
     GlSplatter& gl() { return needGl().points; }  // made when it is first needed
     bool hasGl() const { return gl_ != nullptr; }
+    // Whether the GPU puts the scene's points in order; else a list is to be made for prepare(), or
+    // it takes its time there. REQUIRES: a step that is ready for the scene.
+    bool sortsOnGpu(const Scene& scene, const GlStep& step);
     // Whether GL has all that it draws the scene's cells by, whatever the eye.
     bool holdsCells(const Scene& scene) const { return gl_ && gl_->cells.holds(scene); }
-    std::uint64_t cellBytes() const { return gl_ ? gl_->cells.bytes() : 0; }  // on the GPU
+    // On the GPU, of cells and for order.
+    std::uint64_t bytes() const { return gl_ ? gl_->cells.bytes() + gl_->points.bytes() : 0; }
 
  private:
     struct Gl {

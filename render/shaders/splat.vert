@@ -304,9 +304,9 @@ void main() {
     const Slim s = slim(quadN.xyz, quadD.xyz, linear, extent);
     const vec2 across = vec2(s.along.y, -s.along.x), off = middleOfPicture() - centre;
     const vec2 middle = vec2(dot(off, s.along), dot(off, across));
-    const vec2 at2 = clamp(mix(s.lo - 0.5, s.hi + 0.5, vec2(corner() & 1u, corner() >> 1)),
+    const vec2 inSlim = clamp(mix(s.lo - 0.5, s.hi + 0.5, vec2(corner() & 1u, corner() >> 1)),
                               middle - farthestCorner(), middle + farthestCorner());
-    placeAt(centre + at2.x * s.along + at2.y * across, depth);
+    placeAt(centre + inSlim.x * s.along + inSlim.y * across, depth);
 #elif defined(QUADS)
     place(centre, extent, depth);
 #else

@@ -1,6 +1,6 @@
 // Tetrahedra -> keys, the smaller the farther away: first each one's own, of its middle; then, in the
-// order that these have made, that of its cell, whose tetrahedra stay together: what lies in several
-// layers the last layer first.
+// order that these have made, that of its cell, whose tetrahedra stay together but where
+// another cell is as far away, to a float; of one in several layers those of the last layer first.
 
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint count;

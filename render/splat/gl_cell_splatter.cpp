@@ -67,7 +67,7 @@ class GlCellPlane final : public PlaneSum {
         next_ = first_;
         if (first_ == end_) return;
         if (channels == Channels::Over)
-            order_ = pieces_->farthestFirst(scene, view, splatter.sort_);
+            order_ = pieces_->farthestFirst(scene, view, splatter.order_);
         if (const int rays = raysAcross(scene, view); rays > 1)
             means_.emplace(coveredPixels(scene, view), formatOf(channels), rays,
                            splatter.rayBytes_);

@@ -24,7 +24,9 @@ class GlCellSplatter final : public Splatter {
     // The most that a scene's cells may take there: what the driver binds, and no card is filled.
     // 0 where it cannot draw them.
     static std::uint64_t mostBytes();
-    std::uint64_t bytes() const { return pieces_ ? pieces_->bytes() : 0; }  // that they take now
+    std::uint64_t bytes() const {
+        return order_.bytes() + (pieces_ ? pieces_->bytes() : 0);
+    }  // that they take now
 
     // Whether what the scene is made of is there: that of the scene prepared last.
     bool holds(const Scene& scene) const { return pieces_ && pieces_->areOf(scene); }
@@ -62,7 +64,7 @@ class GlCellSplatter final : public Splatter {
     const GlSplatter& layers_;
     std::uint64_t rayBytes_;
     std::shared_ptr<GlPieces> pieces_;  // of the scene prepared last
-    GlRadixSort sort_;
+    GlTetOrder order_;
     std::map<Variant, gl::Program> programs_;
     std::optional<gl::Program> mean_;
     gl::Buffer view_;

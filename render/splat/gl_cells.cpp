@@ -58,7 +58,7 @@ GlCells::GlCells(const Scene& scene, std::uint64_t mostBytes)
         });
 }
 
-std::shared_ptr<const gl::Buffer> GlCells::order(const CellRank& rank, GlRadixSort&) const {
+std::shared_ptr<const gl::Buffer> GlCells::order(const CellRank& rank, GlTetOrder&) const {
     NearestFirst order(rank);
     for (const glm::uvec3& cell : cells_) order.count(rank(cell));
     order.allCounted();

@@ -30,7 +30,7 @@ class GlCells final : public GlPieces {
  private:
     glm::dvec3 keyOf(const CellRank& rank) const override { return rank.eye(); }
     // By the processor: it changes when the eye comes into another cell.
-    std::shared_ptr<const gl::Buffer> order(const CellRank& rank, GlRadixSort&) const override;
+    std::shared_ptr<const gl::Buffer> order(const CellRank& rank, GlTetOrder&) const override;
 
     std::vector<glm::uvec3> cells_;  // of each piece, along the axes
     gl::Buffer sides_;

@@ -4,7 +4,9 @@
 #include <bit>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/points/block_order.h"
@@ -53,13 +55,17 @@ static_assert(kMaxLayers <= 1u << kLayerBits);
 constexpr unsigned kDigits = 3;
 static_assert(DepthKeys::kBits <= 8 * kDigits);
 
-// A list of more is given back once it is drawn.
-constexpr std::uint64_t kKept = 1 << 23;
 constexpr GLuint kMostGroups = 65535;  // along an axis; GL promises so many
 
 std::uint64_t listed(std::span<const Piece> pieces) {
     std::uint64_t sum = 0;
     for (const Piece& piece : pieces) sum += piece.count;
+    return sum;
+}
+
+std::uint64_t drawnOf(const Scene& scene) {
+    std::uint64_t sum = 0;
+    for (const Layer& layer : scene.layers) sum += splatCount(layer, scene.stride);
     return sum;
 }
 
@@ -86,9 +92,10 @@ std::uint64_t GlDepthOrder::mostBytes() {
 
 bool GlDepthOrder::fits(const Scene& scene, const GlStep& step) const {
     const std::uint64_t points = listed(piecesOfRuns(scene));
-    return points == 0 ||
-           (std::max(points * sizeof(SortedPoint), step.gridIndex().bytes()) <= most_ &&
-            points <= GlRadixSort::kMost);
+    if (points == 0) return true;
+    return points <= GlRadixSort::kMost &&
+           std::max({points * GlRadixSort::kEntryBytes, drawnOf(scene) * sizeof(SortedPoint),
+                     step.gridIndex().bytes()}) <= most_;
 }
 
 const gl::Program& GlDepthOrder::keys(bool mesh) {
@@ -157,12 +164,10 @@ void GlDepthOrder::sort(std::uint64_t drawn, const GlStep& step) {
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
-GlDepthOrder::List GlDepthOrder::operator()(const Scene& scene, const glm::dvec3& midEye,
-                                            const GlStep& step) {
+GlDepthOrder::List GlDepthOrder::ordered(const Scene& scene, const glm::dvec3& midEye,
+                                         const GlStep& step) {
     const std::vector<Piece> pieces = piecesOfRuns(scene);
-    const std::uint64_t count = listed(pieces);
-    std::uint64_t drawn = 0;
-    for (const Layer& layer : scene.layers) drawn += splatCount(layer, scene.stride);
+    const std::uint64_t count = listed(pieces), drawn = drawnOf(scene);
     const std::uint64_t bytes = drawn * sizeof(SortedPoint);
     if (!list_ || list_.use_count() > 1 || list_->bytes() < bytes) {
         list_.reset();
@@ -173,8 +178,19 @@ GlDepthOrder::List GlDepthOrder::operator()(const Scene& scene, const glm::dvec3
         findKeys(scene, midEye, step, pieces);
         sort(drawn, step);
     }
-    if (drawn > kKept) return {std::exchange(list_, nullptr), drawn};
+    if (drawn > GlRadixSort::kKept) return {std::exchange(list_, nullptr), drawn};
     return {list_, drawn};
+}
+
+GlDepthOrder::List GlDepthOrder::operator()(const Scene& scene, const glm::dvec3& midEye,
+                                            const GlStep& step) {
+    try {
+        return ordered(scene, midEye, step);
+    } catch (const std::runtime_error&) {
+        sort_.release();
+        list_.reset();
+        throw;
+    }
 }
 
 }  // namespace render

@@ -78,13 +78,13 @@ std::pair<std::uint32_t, std::uint32_t> GlPieces::placesOf(Channels channels,
 }
 
 std::shared_ptr<const gl::Buffer> GlPieces::farthestFirst(const Scene& scene, const View& view,
-                                                          GlRadixSort& sort) {
+                                                          GlTetOrder& tets) {
     const CellRank rank(scene, view);
     const glm::dvec3 key = keyOf(rank);
     const auto found = std::ranges::find(ordered_, key, &Ordered::key);
     if (found != ordered_.end()) return found->places;
     if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
-    ordered_.push_back({key, order(rank, sort)});
+    ordered_.push_back({key, order(rank, tets)});
     return ordered_.back().places;
 }
 

@@ -12,7 +12,7 @@
 #include "render/gl/object.h"
 #include "render/model/scene.h"
 #include "render/splat/cell_pieces.h"
-#include "render/splat/gl_radix_sort.h"
+#include "render/splat/gl_tet_order.h"
 #include "render/together.h"
 
 namespace render {
@@ -35,9 +35,9 @@ class GlPieces {
     const gl::Buffer& pieces() const { return *pieces_; }  // layer by layer
     // Places in pieces() that a plane takes.
     std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
-    // Places of all pieces as uints, the farthest first. `sort`: what a GPU sorts by.
+    // Places of all pieces as uints, the farthest first. `tets`: who puts tetrahedra so.
     std::shared_ptr<const gl::Buffer> farthestFirst(const Scene& scene, const View& view,
-                                                    GlRadixSort& sort);
+                                                    GlTetOrder& tets);
     virtual std::uint64_t bytes() const;  // on the GPU
     // Of cells the middles and sizes, axis after axis, in axis coordinates; null of tetrahedra.
     virtual const gl::BufferTexture* sides() const { return nullptr; }
@@ -54,7 +54,7 @@ class GlPieces {
     // The eyes of one such key have one order.
     virtual glm::dvec3 keyOf(const CellRank& rank) const = 0;
     virtual std::shared_ptr<const gl::Buffer> order(const CellRank& rank,
-                                                    GlRadixSort& sort) const = 0;
+                                                    GlTetOrder& tets) const = 0;
 
     std::weak_ptr<const timeseries::CellIndex> index_;
     std::weak_ptr<const timeseries::Mesh> mesh_;

@@ -10,12 +10,9 @@ namespace {
 constexpr std::uint64_t kTile = 1 << 12;
 constexpr const char* kTileDefine = "#define kTile 4096u\n";
 constexpr std::uint64_t kDigitValues = 256;
-constexpr std::uint64_t kEntriesKept = 1 << 23;
 
 void atLeast(std::optional<gl::Buffer>& buffer, std::uint64_t bytes) {
-    if (buffer && buffer->bytes() >= bytes) return;
-    buffer.reset();
-    buffer.emplace(bytes);
+    if (!buffer || buffer->bytes() < bytes) buffer.emplace(bytes);
 }
 
 GLuint tilesOf(std::uint64_t entries) { return static_cast<GLuint>((entries + kTile - 1) / kTile); }
@@ -78,10 +75,20 @@ void GlRadixSort::last(unsigned shift, const gl::Program& scatter) {
 }
 
 void GlRadixSort::shrink() {
-    if (held_ <= kEntriesKept) return;
+    if (held_ > kKept) release();
+}
+
+void GlRadixSort::release() {
     entries_ = {};
     counts_.reset();
     held_ = 0;
+}
+
+std::uint64_t GlRadixSort::bytes() const {
+    std::uint64_t sum = 0;
+    for (const auto* held : {&entries_[0], &entries_[1], &counts_})
+        if (*held) sum += (*held)->bytes();
+    return sum;
 }
 
 }  // namespace render

@@ -26,7 +26,10 @@ class GlRadixSort {
     // shaders/radix_scatter.comp, which these defines tell where to put what is sorted.
     static gl::Program scatter(const char* defines);
     // Gives back room for more entries than moving pictures have.
+    static constexpr std::uint64_t kKept = 1 << 23;
     void shrink();
+    void release();               // all of it
+    std::uint64_t bytes() const;  // on the GPU
 
  private:
     void countDigits(unsigned shift);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/gl/debug_output.h"
 #include "render/gl/pass.h"
 #include "render/model/covered.h"
 #include "render/model/footprint.h"
@@ -196,22 +197,35 @@ DrawList GlSplatter::order(const Scene& scene, const glm::dvec3& midEye) {
     return SortedOnGpu{midEye};
 }
 
+// With values of its own.
+std::unique_ptr<GlList> GlSplatter::send(const Scene& scene, const Sorted& list,
+                                         const GlStep& step) {
+    const ValueScale scale = ValueScale::of(scene.layers);
+    setLayers(scene, scale);
+    return std::make_unique<GlList>(scene, step, sent(scene, list, scale));
+}
+
+// Null where there is no room for it.
+std::unique_ptr<GlList> GlSplatter::listOnGpu(const Scene& scene, const glm::dvec3& midEye,
+                                              const GlStep& step) {
+    if (!orderOnGpu_.fits(scene, step)) return nullptr;
+    try {
+        return std::make_unique<GlList>(scene, step, orderOnGpu_(scene, midEye, step));
+    } catch (const std::runtime_error&) {
+        gl::forgetErrors();
+        return nullptr;
+    }
+}
+
 std::unique_ptr<GlList> GlSplatter::upload(const Scene& scene, const DrawList& list,
                                            const GlStep& step) {
     ++counts_.uploads;
-    const auto* const asked = std::get_if<SortedOnGpu>(&list);
-    const auto* sorted = std::get_if<Sorted>(&list);
-    const bool here = asked != nullptr && !orderOnGpu_.fits(scene, step);
-    const DrawList made = here ? order_(scene, asked->midEye) : DrawList();
-    if (here) sorted = &std::get<Sorted>(made);
-    if (sorted != nullptr) {  // with values of its own
-        const ValueScale scale = ValueScale::of(scene.layers);
-        setLayers(scene, scale);
-        return std::make_unique<GlList>(scene, step, sent(scene, *sorted, scale));
-    }
+    if (const auto* const sorted = std::get_if<Sorted>(&list)) return send(scene, *sorted, step);
     setLayers(scene, step.values() == nullptr ? ValueScale::of(scene.layers) : step.valueScale());
+    const auto* const asked = std::get_if<SortedOnGpu>(&list);
     if (asked == nullptr) return std::make_unique<GlList>(scene, step);
-    return std::make_unique<GlList>(scene, step, orderOnGpu_(scene, asked->midEye, step));
+    if (auto made = listOnGpu(scene, asked->midEye, step)) return made;
+    return send(scene, std::get<Sorted>(order_(scene, asked->midEye)), step);
 }
 
 std::unique_ptr<SplatFrame> GlSplatter::prepare(const Scene& scene, DrawList list,

@@ -30,8 +30,14 @@ class GlSplatter final : public Splatter {
 
     // The GPU's own, if there is an order.
     DrawList order(const Scene& scene, const glm::dvec3& midEye) override;
+    // Whether the GPU makes the list of this scene, which is ordered, of what lies there. Else it
+    // is made here, in one go by prepare().
+    bool sortsOnGpu(const Scene& scene, const GlStep& step) const {
+        return orderOnGpu_.fits(scene, step);
+    }
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GlStep& step) override;
+    std::uint64_t bytes() const { return orderOnGpu_.bytes(); }  // for order, on the GPU
     // What resolving a frame's planes needs, whoever sums them; upload() does it.
     void setLayers(const Scene& scene, const ValueScale& scale);
 
@@ -65,6 +71,9 @@ class GlSplatter final : public Splatter {
         auto operator<=>(const Variant&) const = default;
     };
     const gl::Program& program(const Variant& variant);
+    std::unique_ptr<GlList> listOnGpu(const Scene& scene, const glm::dvec3& midEye,
+                                      const GlStep& step);
+    std::unique_ptr<GlList> send(const Scene& scene, const Sorted& list, const GlStep& step);
 
     std::map<Variant, gl::Program> programs_;  // compiled when first drawn with
     gl::Buffer view_, layers_;

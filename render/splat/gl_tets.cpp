@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "render/shader_sources.h"
 #include "render/splat/cell_view.h"
 #include "timeseries/grid/solid_cells.h"
 
@@ -74,39 +73,8 @@ std::uint64_t GlTets::bytes() const {
     return GlPieces::bytes() + cells_->bytes() + middles_->bytes();
 }
 
-std::shared_ptr<const gl::Buffer> GlTets::order(const CellRank& rank, GlRadixSort& sort) const {
-    auto places = std::make_shared<const gl::Buffer>(count_ * sizeof(std::uint32_t));
-    if (count_ == 0) return places;
-    if (!programs_)
-        programs_.emplace(Programs{gl::Program::ofCompute("tet_keys", shaders::tet_keys_comp),
-                                   GlRadixSort::scatter("#define PLACES\n")});
-    const double away = glm::length(rank.from()), s = std::max(away, radius_);
-    const glm::vec4 eye = s > 0 ? glm::vec4(glm::dvec4(rank.from() / s, away / s)) : glm::vec4(0);
-    const auto findKeys = [&](bool ofCells) {
-        constexpr GLuint kGroup = 256, kAcross = 1 << 15;
-        glUseProgram(programs_->keys.id());
-        glUniform1ui(0, count_);
-        glUniform1i(1, ofCells ? 1 : 0);
-        glUniform4fv(2, 1, &eye.x);
-        glUniform1f(3, s > 0 ? static_cast<float>(1 / s) : 0);
-        pieces().bindStorage(0);
-        cells_->bindStorage(1);
-        middles_->bindStorage(2);
-        sort.entries().bindStorage(3);
-        const GLuint groups = (count_ + kGroup - 1) / kGroup, across = std::min(groups, kAcross);
-        glDispatchCompute(across, (groups + across - 1) / across, 1);
-        betweenShaders();
-    };
-    constexpr unsigned kDigits = 4;
-    sort.begin(count_);
-    findKeys(false);
-    sort.sort(0, kDigits);
-    findKeys(true);
-    sort.sort(0, kDigits - 1);
-    places->bindStorage(2);
-    sort.last(8 * (kDigits - 1), programs_->places);
-    sort.shrink();
-    return places;
+std::shared_ptr<const gl::Buffer> GlTets::order(const CellRank& rank, GlTetOrder& order) const {
+    return order({count_, radius_, pieces(), *cells_, *middles_}, rank.from());
 }
 
 }  // namespace render

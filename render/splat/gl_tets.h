@@ -32,18 +32,12 @@ class GlTets final : public GlPieces {
 
  private:
     glm::dvec3 keyOf(const CellRank& rank) const override { return rank.from(); }
-    // A cell's own by the distances of their middles: of the six about a diagonal, where the cell
-    // is a brick, that is the order in which they hide each other.
-    std::shared_ptr<const gl::Buffer> order(const CellRank& rank, GlRadixSort& sort) const override;
+    std::shared_ptr<const gl::Buffer> order(const CellRank& rank, GlTetOrder& order) const override;
 
     double radius_ = 0;        // of the middles about the origin
     std::uint32_t count_ = 0;  // of all pieces
     // Of each piece, which of the cells that follow each other in one layer has it; their middles.
     std::optional<gl::Buffer> cells_, middles_;
-    struct Programs {
-        gl::Program keys, places;
-    };
-    mutable std::optional<Programs> programs_;  // when there is an order
 };
 
 }  // namespace render

@@ -128,7 +128,7 @@ TEST_F(CanvasOfBlocks, AStepComesInSlicesAndTheOneBeforeStays) {
     // Back again: it is still there.
     EXPECT_EQ(draw(world_.shown(0), limits), first[2]);
     EXPECT_TRUE(report_.whole);
-    EXPECT_EQ(report_.gpuBytes / (6 * kBlockBytes), 2u) << "of six blocks each";
+    EXPECT_GE(report_.gpuBytes / (6 * kBlockBytes), 2u) << "of six blocks each, and for order";
 }
 
 TEST_F(CanvasOfBlocks, AnotherSelectionOfTheStepOnTheScreenComesInSlicesOfEightfoldSize) {
@@ -202,7 +202,7 @@ TEST_F(CanvasOfNoise, AnotherDatasetIsNotDrawnWithChoicesThatAreNotItsOwn) {
 
 TEST_F(CanvasOfNoise, StepsThatAreNotDrawnAreFreedBeyondTheBudget) {
     tests::ShownSteps many(20, 6);
-    many.explorer.order = render::Order::None;  // in order lists bring their own points
+    many.explorer.order = render::Order::None;  // which would take room of its own
     const CanvasLimits two{.cacheBytes = 2 * stepBytes_ + stepBytes_ / 2};
     for (std::size_t i = 0; i < 6; ++i) draw(many.shown(i), two);
     EXPECT_EQ(report_.gpuBytes / stepBytes_, 3u) << "the one drawn and two more";

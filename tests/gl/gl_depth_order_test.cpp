@@ -26,6 +26,7 @@ constexpr std::uint32_t kNoLayer = 255;  // shaders/splat_points.glsl
 
 std::vector<SortedPoint> read(const GlDepthOrder::List& list) {
     std::vector<SortedPoint> points(list.count);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(list.points->id(), 0,
                             static_cast<GLsizeiptr>(points.size() * sizeof(SortedPoint)),
                             points.data());
@@ -148,6 +149,20 @@ TEST(GlDepthOrder, AnEyeFarAwayCostsNoDigits) {
     }
 }
 
+// More runs than workgroups go side by side, of two points each.
+TEST(GlDepthOrder, TakesRunsByTheTenThousand) {
+    constexpr std::size_t kRuns = 70'000;
+    GpuWorld world(std::make_shared<timeseries::Grid>(
+        std::array{tests::axis(2), tests::axis(1), tests::axis(1)}));
+    world.scene.layers.resize(1);
+    world.scene.layers[0].runs.clear();
+    for (std::uint64_t i = 0; i < kRuns; ++i) world.scene.layers[0].runs.push_back({i % 2, 1});
+    const auto points = world.onGpu({-3, 0, 0});
+    ASSERT_EQ(points.size(), kRuns);
+    for (std::size_t i = 0; i < kRuns; ++i)
+        ASSERT_EQ(points[i].gridIndex, i < kRuns / 2 ? 1u : 0u) << i;
+}
+
 TEST(GlDepthOrder, OfNothingIsNothing) {
     GpuWorld world(leaning());
     world.scene.layers.clear();
@@ -162,6 +177,7 @@ TEST(GlDepthOrder, WhatIsTooLargeForItTheProgramPutsInOrder) {
         GlStep step(world.step, world.placed);
         step.upload(world.scene, neededScale(world.scene));
         GlSplatter splatter(most);
+        EXPECT_EQ(splatter.sortsOnGpu(world.scene, step), most > 1000);
         GlTargets targets(view.size);
         gl::begin({.framebuffer = targets.lightFramebuffer(),
                    .size = view.size,

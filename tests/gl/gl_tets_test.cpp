@@ -121,6 +121,7 @@ TEST_F(GlTetsOf, EachOfSeveralScenesIsItsOwn) {
 template <typename T>
 std::vector<T> read(const gl::Buffer& buffer, std::size_t count) {
     std::vector<T> values(count);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(buffer.id(), 0, static_cast<GLsizeiptr>(count * sizeof(T)),
                             values.data());
     gl::throwOnError();
@@ -148,9 +149,9 @@ TEST_F(GlTetsOf, AreInOrderOfTheirCellsAndOfTheirOwn) {
         ASSERT_GT(end, 500u);
         for (const double away : {0.2, 3.0, 1e7}) {
             const glm::dvec3 eye = away * glm::normalize(glm::dvec3(1.2, -2.5, 1));
-            GlRadixSort sort;
+            GlTetOrder order;
             const auto places = read<std::uint32_t>(
-                *pieces->farthestFirst(world.scene, lookFrom(eye, kSize), sort), end);
+                *pieces->farthestFirst(world.scene, lookFrom(eye, kSize), order), end);
             std::vector<bool> seen(end);
             double cellBefore = 1e300, before = 1e300;
             for (std::uint32_t i = 0; i < end; ++i) {

@@ -48,10 +48,7 @@ class CanvasOfNoise : public testing::Test {
 // enough.
 class CanvasOfBlocks : public CanvasOfNoise {
  protected:
-    CanvasOfBlocks() {
-        world_ = tests::ShownSteps(64);
-        world_.explorer.order = render::Order::None;  // in order lists bring their own points
-    }
+    CanvasOfBlocks() { world_ = tests::ShownSteps(64); }
     static constexpr std::uint64_t kBlockBytes = render::GlStep::kBlock * 10;
 };
 
