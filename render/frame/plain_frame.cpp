@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/frame/enlarge.h"
+#include "render/gl/driver.h"
 #include "render/splat/memory_targets.h"
 #include "render/splat/processor_splatter.h"
 
@@ -40,7 +41,7 @@ void PlainFrame::draw(const Scene& scene, const View& view, int across) {
     const FrameContent content = contentOf(scene, across);
     const auto frame = renderer_.prepare(content, onGpu_, std::array{view});
     renderer_.drawEye(frame, view);
-    if (splatters.sumsByGl(scene)) glFinish();
+    if (splatters.sumsByGl(scene)) gl::finishDrawing();
 }
 
 std::vector<float> PlainFrame::depth(const Scene& scene, const View& view, int across) {

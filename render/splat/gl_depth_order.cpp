@@ -91,7 +91,10 @@ std::uint64_t GlDepthOrder::mostBytes() {
 }
 
 bool GlDepthOrder::fits(const Scene& scene, const GlStep& step) const {
-    const std::uint64_t points = listed(piecesOfRuns(scene));
+    return fits(listed(piecesOfRuns(scene)), scene, step);
+}
+
+bool GlDepthOrder::fits(std::uint64_t points, const Scene& scene, const GlStep& step) const {
     if (points == 0) return true;
     return points <= GlRadixSort::kMost &&
            std::max({points * GlRadixSort::kEntryBytes, drawnOf(scene) * sizeof(SortedPoint),
@@ -168,6 +171,7 @@ GlDepthOrder::List GlDepthOrder::ordered(const Scene& scene, const glm::dvec3& m
                                          const GlStep& step) {
     const std::vector<Piece> pieces = piecesOfRuns(scene);
     const std::uint64_t count = listed(pieces), drawn = drawnOf(scene);
+    if (!fits(count, scene, step)) throw std::runtime_error("more points than shaders bind here");
     const std::uint64_t bytes = drawn * sizeof(SortedPoint);
     if (!list_ || list_.use_count() > 1 || list_->bytes() < bytes) {
         list_.reset();

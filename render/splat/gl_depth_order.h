@@ -38,11 +38,12 @@ class GlDepthOrder {
     };
     // REQUIRES: fits(), and a step that is ready for the scene. Once nobody holds a list, the next
     // one may be put where it was. Throws std::runtime_error, and holds nothing any more, where
-    // there is no room.
+    // they do not fit or there is no room.
     List operator()(const Scene& scene, const glm::dvec3& midEye, const GlStep& step);
     std::uint64_t bytes() const { return sort_.bytes() + (list_ ? list_->bytes() : 0); }
 
  private:
+    bool fits(std::uint64_t points, const Scene& scene, const GlStep& step) const;
     List ordered(const Scene& scene, const glm::dvec3& midEye, const GlStep& step);
     const gl::Program& keys(bool mesh);
     void findKeys(const Scene& scene, const glm::dvec3& midEye, const GlStep& step,

@@ -205,10 +205,9 @@ std::unique_ptr<GlList> GlSplatter::send(const Scene& scene, const Sorted& list,
     return std::make_unique<GlList>(scene, step, sent(scene, list, scale));
 }
 
-// Null where there is no room for it.
+// Null where it is too large, or there is no room for it.
 std::unique_ptr<GlList> GlSplatter::listOnGpu(const Scene& scene, const glm::dvec3& midEye,
                                               const GlStep& step) {
-    if (!orderOnGpu_.fits(scene, step)) return nullptr;
     try {
         return std::make_unique<GlList>(scene, step, orderOnGpu_(scene, midEye, step));
     } catch (const std::runtime_error&) {

@@ -202,33 +202,10 @@ TEST(Options, CountTakesWhatItSays) {
 }
 
 TEST(Options, MeasureTakesWhatItSays) {
-    const auto measure = as<MeasureOptions>({"measure",
-                                             "a.nc",
-                                             "--range",
-                                             "0:1",
-                                             "--size",
-                                             "320x240",
-                                             "--step",
-                                             "4",
-                                             "--views",
-                                             "2",
-                                             "--frames",
-                                             "7",
-                                             "--rays",
-                                             "5",
-                                             "--json",
-                                             "--csv",
-                                             "t.csv",
-                                             "--svg",
-                                             "t.svg",
-                                             "--png",
-                                             "t.png",
-                                             "--modes",
-                                             "cells,points 1/4",
-                                             "--splatter",
-                                             "gl",
-                                             "--device",
-                                             "gpu"});
+    const auto measure = as<MeasureOptions>(
+        {"measure", "a.nc",  "--range",  "0:1",   "--size", "320x240", "--step",          "4",
+         "--views", "2",     "--frames", "7",     "--rays", "5",       "--json",          "--csv",
+         "t.csv",   "--svg", "t.svg",    "--png", "t.png",  "--modes", "cells,points 1/4"});
     EXPECT_EQ(measure.explorer.layers.front().ranges, RangeSet::parse("0:1"));
     EXPECT_EQ(measure.explorer.size, glm::ivec2(320, 240));
     EXPECT_EQ(measure.views, 2u);
@@ -239,8 +216,10 @@ TEST(Options, MeasureTakesWhatItSays) {
     EXPECT_EQ(measure.csv, "t.csv");
     EXPECT_EQ(measure.svg, "t.svg");
     EXPECT_EQ(measure.png, "t.png");
-    EXPECT_EQ(measure.by.splatter, render::SplatterChoice::Gl);
-    EXPECT_EQ(measure.by.device, "gpu");
+    const auto byGl =
+        as<MeasureOptions>({"measure", "a.nc", "--splatter", "gl", "--device", "gpu"});
+    EXPECT_EQ(byGl.by.splatter, render::SplatterChoice::Gl);
+    EXPECT_EQ(byGl.by.device, "gpu");
     const auto plain = as<MeasureOptions>({"measure", "a.nc"});
     EXPECT_EQ(plain.views, 3u);
     EXPECT_GE(plain.frames, 3u);

@@ -16,12 +16,10 @@
 #include "tests/bench/alternate.h"
 #include "tests/bench/cells_of_range.h"
 #include "tests/bench/turbulence.h"
-#include "tests/support/built_paths.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/index/cell_index.h"
-#include "timeseries/readers/reader.h"
 
 namespace {
 
@@ -110,17 +108,9 @@ BENCHMARK(cellsBesidePoints)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
-// Coloured by value and in order, lit beside not: of the fire's 600 to 1000 K, or of turbulence in
-// a tenth of its spread. Whole frames, the light resolved.
+// Coloured by value and in order, lit beside not. Whole frames, the light resolved.
 void cellsLitBesideUnlit(benchmark::State& state) {
-    const bool isFire = state.range(0) == 0;
-    CellsOfRange cells(isFire ? timeseries::openReader(std::array{tests::demo()})->read(0, 15)
-                              : bench::turbulence<float>(static_cast<std::size_t>(state.range(0))),
-                       100, true);
-    Layer& layer = cells.scene.layers[0];
-    if (isFire) layer.cells.ranges = {{600, 1000}};
-    layer.cells.candidates = cells.scene.cells->select(layer.cells.ranges);
-    layer.style.color = ByValue{{}, layer.cells.ranges[0].lo, layer.cells.ranges[0].hi};
+    bench::FireOrTurbulence cells(state.range(0), true);
     PlainFrame frame(cells.scene.step, cells.scene.placed, glm::dvec3(0));
     const auto draw = [&](Light light) {
         cells.scene.light = light;
@@ -128,7 +118,7 @@ void cellsLitBesideUnlit(benchmark::State& state) {
     };
     bench::alternate(
         state, [&] { draw(Light::Off); }, [&] { draw(Light::Full); });
-    state.counters["cells"] = static_cast<double>(cellCount(layer));
+    state.counters["cells"] = static_cast<double>(cellCount(cells.scene.layers[0]));
 }
 BENCHMARK(cellsLitBesideUnlit)
     ->ArgName("points")

@@ -1,16 +1,19 @@
 // Cells to draw: of turbulence, on upright grids and on meshes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
 
 #include "render/splat/cell_splatter.h"
 #include "tests/bench/turbulence.h"
+#include "tests/support/built_paths.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/index/cell_index.h"
+#include "timeseries/readers/reader.h"
 
 namespace bench {
 
@@ -35,6 +38,10 @@ struct CellsOfRange {
         layer.cells.candidates = scene.cells->select(layer.cells.ranges);
         scene.layers.push_back(layer);
     }
+    // Refers to itself.
+    CellsOfRange(const CellsOfRange&) = delete;
+    CellsOfRange& operator=(const CellsOfRange&) = delete;
+
     void draw(render::Channels channels) {
         render::CellSum sum(scene, view, channels, 0, {}, 1, render::sharingThreads(),
                             std::move(memory));
@@ -46,6 +53,22 @@ struct CellsOfRange {
     render::PlacedPoints placed;
     render::Scene scene;
     render::CellMemory memory;
+};
+
+// The fire's 600 to 1000 K where there are 0 points along an edge, or turbulence in a tenth of its
+// spread: of one colour, or by value and in order.
+struct FireOrTurbulence : CellsOfRange {
+    FireOrTurbulence(std::int64_t points, bool isOrdered)
+        : CellsOfRange(points == 0 ? timeseries::openReader(std::array{tests::demo()})->read(0, 15)
+                                   : turbulence<float>(static_cast<std::size_t>(points)),
+                       100, isOrdered) {
+        render::Layer& layer = scene.layers[0];
+        if (points == 0) layer.cells.ranges = {{600, 1000}};
+        layer.cells.candidates = scene.cells->select(layer.cells.ranges);
+        if (!isOrdered) return;
+        const auto [lo, hi] = layer.cells.ranges[0];
+        layer.style.color = render::ByValue{{}, lo, hi};
+    }
 };
 
 // The points of a lattice placed one by one, neighbours by their indices or corners of hexahedra.

@@ -116,7 +116,7 @@ def page():
     (ROOT / PAGE).write_text(f"""# On a GPU
 
 `tests/bench/gpu.py` makes this page. {label}; the program beside it on {about['machine']}, {threads} threads. *Commit {about['commit']}, {about['date']}.*
-Medians of frames drawn by turns, finished when they are counted, without axes and legend.{f" {about['note']}" if "note" in about else ""}
+Medians of frames drawn by turns, finished when they are counted, without axes and legend. What they mean: "On an H100" in [NOTES.md](NOTES.md).
 
 {frames(bench)}
 A draw list in order of depth, which a frame makes once for all eyes:

@@ -13,8 +13,6 @@
 #include "tests/bench/alternate.h"
 #include "tests/bench/cells_of_range.h"
 #include "tests/bench/scattered_splats.h"
-#include "tests/support/built_paths.h"
-#include "timeseries/readers/reader.h"
 
 namespace {
 
@@ -91,24 +89,10 @@ BENCHMARK(glMeshPoints)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
-// The fire's 600 to 1000 K, or turbulence in a tenth of its spread; lit, in order, by value.
-CellsOfRange fireOrTurbulence(std::int64_t points, bool isLit) {
-    const bool isFire = points == 0;
-    CellsOfRange cells(isFire ? timeseries::openReader(std::array{tests::demo()})->read(0, 15)
-                              : bench::turbulence<float>(static_cast<std::size_t>(points)),
-                       100, isLit);
-    Layer& layer = cells.scene.layers[0];
-    if (isFire) layer.cells.ranges = {{600, 1000}};
-    layer.cells.candidates = cells.scene.cells->select(layer.cells.ranges);
-    if (isLit) {
-        layer.style.color = ByValue{{}, layer.cells.ranges[0].lo, layer.cells.ranges[0].hi};
-        cells.scene.light = Light::Soft;
-    }
-    return cells;
-}
-
+// Lit where they are in order.
 void glCells(benchmark::State& state) {
-    const CellsOfRange cells = fireOrTurbulence(state.range(0), state.range(1) != 0);
+    bench::FireOrTurbulence cells(state.range(0), state.range(1) != 0);
+    if (cells.scene.order == Order::BackToFront) cells.scene.light = Light::Soft;
     state.counters["cells"] = static_cast<double>(cellCount(cells.scene.layers[0]));
     glBesideProgram(state, cells.scene, cells.view);
 }
@@ -120,7 +104,8 @@ BENCHMARK(glCells)
 
 // While a range is swept: each frame has another one, a little further.
 void glCellsSwept(benchmark::State& state) {
-    const CellsOfRange cells = fireOrTurbulence(state.range(0), true);
+    bench::FireOrTurbulence cells(state.range(0), true);
+    cells.scene.light = Light::Soft;
     const gl::HeadlessContext context;
     const auto& step = cells.scene.step;
     PlainFrame onGpu(step, cells.scene.placed, glm::dvec3(0), SplatterChoice::Gl),

@@ -117,17 +117,14 @@ void glForetoldFrame(benchmark::State& state) {
     foretoldFrame(state, render::SplatterChoice::Gl);
     state.SetLabel(context.renderer());
 }
-BENCHMARK(BM_ForetoldFrame)
-    ->ArgNames({"noise", "cells", "ordered"})
-    ->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK(glForetoldFrame)
-    ->ArgNames({"noise", "cells", "ordered"})
-    ->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+void everyKind(benchmark::internal::Benchmark* of) {
+    of->ArgNames({"noise", "cells", "ordered"})
+        ->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+}
+BENCHMARK(BM_ForetoldFrame)->Apply(everyKind);
+BENCHMARK(glForetoldFrame)->Apply(everyKind);
 
 }  // namespace

@@ -7,37 +7,18 @@
 #include "render/frame/plain_frame.h"
 #include "render/gl/headless_context.h"
 #include "render/reference/image_compare.h"
-#include "tests/support/scenes.h"
+#include "tests/support/cell_worlds.h"
 
 namespace render {
 namespace {
-
-struct TwoLayers {
-    timeseries::SortedStep step = tests::noise(tests::cube(12));
-    PlacedPoints placed{step.grid()};
-    Scene scene{.step = step,
-                .placed = placed,
-                .layers = {},
-                .footprint = {},
-                .order = Order::None,
-                .clip = {}};
-    explicit TwoLayers(bool byCells) {
-        if (byCells) scene.cells = step.cells();
-        for (const char* range : {"0:0.3", "0.5:0.6"}) {
-            const auto ranges = timeseries::RangeSet::parse(range);
-            Layer layer{step.select(ranges), {ByValue{{}, 0, 0.6}, 0.4}};
-            layer.cells.ranges = timeseries::betweenPoints(ranges, step.type());
-            if (byCells) layer.cells.candidates = scene.cells->select(layer.cells.ranges);
-            scene.layers.push_back(layer);
-        }
-    }
-};
 
 TEST(PlainFrameByGl, IsTheProgramsPictureAndDepth) {
     const gl::HeadlessContext context;
     const View view = tests::lookFrom({0.7, -3, 1.1}, {97, 75});
     for (const bool byCells : {false, true}) {
-        TwoLayers world(byCells);
+        tests::CellWorld world(tests::noise(tests::cube(12)), {"0:0.3", "0.5:0.6"}, 0.4);
+        if (!byCells) world.scene.cells.reset();
+        for (Layer& layer : world.scene.layers) layer.style.color = ByValue{{}, 0, 0.6};
         PlainFrame onGpu(world.step, world.placed, glm::dvec3(0.1), SplatterChoice::Gl),
             here(world.step, world.placed, glm::dvec3(0.1));
         for (const Order order : {Order::None, Order::BackToFront})
