@@ -3,10 +3,9 @@
 
 namespace tests {
 
-#if defined(__SANITIZE_ADDRESS__)
+// What is tested.
+#ifdef ISOCHRON_SANITIZED
 inline constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-inline constexpr bool kSanitized = __has_feature(address_sanitizer);
 #else
 inline constexpr bool kSanitized = false;
 #endif

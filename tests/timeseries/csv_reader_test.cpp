@@ -125,10 +125,12 @@ TEST(Csv, FilesCutOrDamagedAnywhereAreReadOrRefused) {
     const auto path =
         table("\"x\";y;z;T [K]\n0;0;0;1\n1;0;0;2.5e3\n0;1;0;-3\n0;0;1;nan\n1;1;1;1e400\n");
     damageInRounds(path, path);
+    // The sanitizer copies a field for every few characters by which it grows.
+    constexpr std::size_t kLong = tests::kSanitized ? 1 << 16 : 1 << 20;
     for (const std::string& text :
          {std::string("x,y,z,T\n0,0,0,1\n1,0,0,\"2"), std::string("x,y\n") + std::string(9999, ','),
-          "x,y,z,T\n0,0,0," + std::string(1 << 20, '9') + "\n1,1,1,1\n",
-          std::string("x,y,z,T\n0,0,0,1\n\0\0,1,1,1\n", 25), std::string(1 << 20, '"')})
+          "x,y,z,T\n0,0,0," + std::string(kLong, '9') + "\n1,1,1,1\n",
+          std::string("x,y,z,T\n0,0,0,1\n\0\0,1,1,1\n", 25), std::string(kLong, '"')})
         isRefusedInOneSentence(table(text));
 }
 

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/rounds.h"
+
 namespace timeseries {
 namespace {
 
@@ -67,12 +69,9 @@ TEST(Trial, WorkThatWaitsNowAndThenIsNotGivenUp) {
 }
 
 TEST(Trial, WorkMayAllocateWhileOtherThreadsDo) {
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-    GTEST_SKIP()
-        << "the sanitizer's allocator, unlike glibc's, keeps its locks in a forked process";
-#endif
-#endif
+    if (tests::kSanitized)
+        GTEST_SKIP()
+            << "the sanitizer's allocator, unlike glibc's, keeps its locks in a forked process";
     std::atomic<bool> stop = false;
     std::vector<std::thread> others;
     for (int i = 0; i < 3; ++i)
