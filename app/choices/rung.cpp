@@ -1,5 +1,7 @@
 #include "app/choices/rung.h"
 
+#include <algorithm>
+
 namespace app {
 
 std::vector<Rung> ladder(const LadderOf& of) {
@@ -21,6 +23,14 @@ bool drawsLess(const Rung& a, const Rung& b) {
         return 1.0 / (rung.stride * static_cast<double>(rung.across));
     };
     return share(a) < share(b);
+}
+
+std::vector<Rung> from(const Rung& most, std::vector<Rung> rungs) {
+    if (const auto found = std::ranges::find(rungs, most); found != rungs.end())
+        rungs.erase(rungs.begin(), found);
+    else
+        while (rungs.size() > 1 && drawsLess(most, rungs.front())) rungs.erase(rungs.begin());
+    return rungs;
 }
 
 }  // namespace app

@@ -45,4 +45,8 @@ std::vector<Rung> ladder(const LadderOf& of);
 // Whether it draws less than the other.
 bool drawsLess(const Rung& a, const Rung& b);
 
+// Of a ladder the part from that rung on, or where it has none such, what draws no more; the last
+// where all draw more.
+std::vector<Rung> from(const Rung& most, std::vector<Rung> rungs);
+
 }  // namespace app

@@ -122,20 +122,9 @@ std::uint64_t PictureView::firstSlice(std::chrono::nanoseconds slice) const {
 
 CanvasLimits PictureView::moving(const Explorer& explorer, const panels::Choices& choices) const {
     const bool isKnown = errorsOf_ == selectionOf(drawnOf(explorer)) && errors_;
-    CanvasLimits limits = governor_.limits(isKnown ? &*errors_ : nullptr);
-    switch (choices.moving) {
-        case Moving::Pace:
-            break;
-        case Moving::Error:
-            if (isKnown) limits.rung = errors_->cheapest(choices.movingError);
-            break;
-        case Moving::Fixed:
-            limits.rung = choices.movingRung;
-            break;
-        case Moving::All:
-            limits.rung = Rung();
-            break;
-    }
+    const DepthErrors* const errors = isKnown ? &*errors_ : nullptr;
+    CanvasLimits limits = governor_.limits(errors);
+    limits.rung = panels::askedOfMoving(choices, errors);
     return limits;
 }
 

@@ -16,7 +16,6 @@
 #include "render/reference/cell_pick.h"
 #include "render/splat/cell_pieces.h"
 #include "render/splat/gl_tets.h"
-#include "render/splat/splat_cost.h"
 
 namespace app {
 namespace {
@@ -24,12 +23,6 @@ namespace {
 std::uint64_t drawnSplats(const std::vector<render::Layer>& layers, std::uint32_t stride) {
     std::uint64_t sum = 0;
     for (const render::Layer& layer : layers) sum += render::splatCount(layer, stride);
-    return sum;
-}
-
-double costOf(const render::Scene& scene, std::span<const render::View> eyes) {
-    double sum = 0;
-    for (const render::View& eye : eyes) sum += render::sceneCost(scene, eye);
     return sum;
 }
 
@@ -82,6 +75,11 @@ struct Canvas::State {
         return costOf(scene, eyes) <=
                share * static_cast<double>(std::max(limit - std::min(limit, planes), least));
     }
+    double costOf(const render::Scene& scene, std::span<const render::View> eyes) const {
+        double sum = 0;
+        for (const render::View& eye : eyes) sum += renderer.splatsCost(scene, eye);
+        return sum;
+    }
     std::uint64_t planesCost(const render::Scene& scene, std::span<const render::View> eyes) const {
         double sum = 0;
         for (const render::View& eye : eyes) sum += renderer.planesCost(scene, eye);
@@ -126,6 +124,9 @@ struct Canvas::State {
     std::optional<render::Picked> pick(const render::View& eye, const glm::dvec2& window) const;
     // What of the scene is on the screen.
     void tell(CanvasReport& report, const render::Scene& scene) const;
+    // What other subsets of it would cost.
+    void tellBeside(CanvasReport& report, const render::Scene& whole,
+                    std::span<const render::View> eyes) const;
     // Whether what is to be drawn by cells is drawn by points.
     bool lacksCells(const render::Scene& drawn) const {
         return !drawn.cells && needsCells(screen->explorer, *screen->sorted, drawn.placed);
@@ -140,13 +141,13 @@ Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
     const auto fits = [&](const Rung& on, double share) {
         return keepsTo(limits, sceneOn(on, whole), render::coarser(eyes, on.across), share);
     };
-    Rung on = limits.rung ? *limits.rung
-                          : truestThatFits(ladder({.cells = hasCells && !listsForLong(whole),
-                                                   .points = hasPoints,
-                                                   .coarse = limits.mayBeCoarse,
-                                                   .coarsePoints = mayBeCoarse(whole.footprint),
-                                                   .mostStride = render::kMaxStride}),
-                                           rung, limits.errors, fits);
+    std::vector<Rung> rungs = ladder({.cells = hasCells && !listsForLong(whole),
+                                      .points = hasPoints,
+                                      .coarse = limits.mayBeCoarse,
+                                      .coarsePoints = mayBeCoarse(whole.footprint),
+                                      .mostStride = render::kMaxStride});
+    if (limits.most) rungs = from(*limits.most, std::move(rungs));
+    Rung on = limits.rung ? *limits.rung : truestThatFits(rungs, rung, limits.errors, fits);
     if (!hasCells) on.model = Model::Points;
     if (on.model == Model::Points && !mayBeCoarse(whole.footprint)) on.across = 1;
     if (on.model == Model::Points && !hasPoints) on = {};
@@ -237,6 +238,18 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
     report.whole = rung.isWhole() && report.uploaded == 1 && !report.lacksCells;
 }
 
+void Canvas::State::tellBeside(CanvasReport& report, const render::Scene& whole,
+                               std::span<const render::View> eyes) const {
+    const std::vector<render::View> planes = render::coarser(eyes, rung.across);
+    const auto costAt = [&](std::uint32_t stride) {
+        const double splats = costOf(sceneOn({Model::Points, stride, rung.across}, whole), planes);
+        return report.planesCost + static_cast<std::uint64_t>(std::llround(splats));
+    };
+    report.leastCost = std::min(report.cost, costAt(render::kMaxStride));
+    if (!whole.cells && rung.stride > 1)
+        report.finerCost = std::max(report.cost, costAt(rung.stride / 2));
+}
+
 CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
                           const CanvasLimits& limits, bool moving, const Show& show,
                           const CanvasScene& scene) {
@@ -272,6 +285,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     }
     report.cost = static_cast<std::uint64_t>(std::llround(cost));
     report.planesCost = state_->planesCost(drawn, render::coarser(eyes, rung.across));
+    state_->tellBeside(report, whole, eyes);
     state_->timer.end(labelOf(report.cost, drawn));
     return report;
 }

@@ -34,6 +34,8 @@ struct CanvasLimits {
     std::optional<std::uint64_t> cells = {};
     // Of a picture that moves, instead of these: drawn so, whatever it takes.
     std::optional<Rung> rung = {};
+    // Of a picture that moves, too: what is drawn keeps to these, and draws no more than this.
+    std::optional<Rung> most = {};
     // Pixels may be coarser while it moves, too (app/choices/rung.h).
     bool mayBeCoarse = false;
     // What is known of the errors of what is shown: of the rungs that fit, the truest is drawn.
@@ -77,7 +79,8 @@ class Canvas {
     // before the next is drawn. Order is taken and uploaded once. What is not on the GPU yet is not
     // drawn: the step or the choices before stay, and the report says so. Nothing is drawn, and
     // `show` is not called, before the first step is there. `moving`: the picture is expected to
-    // change again at once, so the limits hold; else all points are drawn. Never waits for the GPU.
+    // change again at once, so the limits hold; else all points are drawn. Waits for the GPU only
+    // where a new selection's cells are listed by it, to know how many there are.
     // REQUIRES: at least one eye.
     CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
                       const CanvasLimits& limits, bool moving, const Show& show,

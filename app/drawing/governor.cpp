@@ -18,7 +18,7 @@ void Governor::beginFrom(const DrawingCosts& learnt) {
 void Governor::took(const Drawn& drawn, std::chrono::nanoseconds time,
                     std::chrono::nanoseconds since) {
     (drawn.areCells ? cells_ : points_).took(drawn.splats, time);
-    if (!drawn.areCells && rise_ == Rise::Proven) follow(drawn.splats, since);
+    if (!drawn.areCells && rise_ == Rise::Proven) follow(drawn, since);
 }
 
 CanvasLimits Governor::limits(const DepthErrors* errors) const {
@@ -28,16 +28,15 @@ CanvasLimits Governor::limits(const DepthErrors* errors) const {
             .errors = errors};
 }
 
-// A subset draws half as many splats as the next finer one. A rise too much is a fall at once, and
-// so a swing: after one, the next rise has to wait longer.
-void Governor::follow(std::uint64_t drawn, std::chrono::nanoseconds since) {
+// A rise too much is a fall at once, and so a swing: after one, the next rise has to wait longer.
+void Governor::follow(const Drawn& drawn, std::chrono::nanoseconds since) {
     const std::uint64_t fit = points_.budget();
     sinceRise_ += since;
     if (sinceRise_ > kCalm) wait_ = kWait;
-    if (fit < drawn && fit < proven_ && sinceRise_ < kCalm)
+    if (fit < drawn.splats && fit < proven_ && sinceRise_ < kCalm)
         wait_ = std::min(2 * wait_, kLongestWait);
     proven_ = std::min(proven_, fit);
-    if (fit < 2 * drawn) {
+    if (static_cast<double>(fit) < drawn.finer * static_cast<double>(drawn.splats)) {
         fits_ = {};
         return;
     }

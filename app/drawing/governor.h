@@ -28,6 +28,7 @@ class Governor {
     struct Drawn {
         std::uint64_t splats;
         bool areCells = false;
+        double finer = 2;  // so many times as much the next finer subset costs
     };
     // `since`: how long after the frame before it; for rises that are to be proven.
     void took(const Drawn& drawn, std::chrono::nanoseconds time,
@@ -47,7 +48,7 @@ class Governor {
     void beginFrom(const DrawingCosts& learnt);
 
  private:
-    void follow(std::uint64_t drawn, std::chrono::nanoseconds since);
+    void follow(const Drawn& drawn, std::chrono::nanoseconds since);
 
     Rise rise_;
     render::FramePace points_{std::chrono::milliseconds(8)}, cells_{std::chrono::milliseconds(8)};

@@ -10,10 +10,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Of what is to be done: the list's share, where there is one.
-constexpr double kOrdering = 0.2;
+// Of what is to be done: a list's share, where there is one, and that of cells for GL.
+constexpr double kOrdering = 0.2, kMaking = 0.5;
 // Between two frames of the window, each of which takes about as long.
-constexpr auto kOrderingSlice = 16ms;
+constexpr auto kSlice = 16ms;
 
 }  // namespace
 
@@ -26,14 +26,22 @@ Refinement::Refinement(render::FrameRenderer& renderer, render::DepthOrder& orde
       onGpu_(onGpu),
       order_(order),
       sortsHere_(!renderer.splatters().sortsOnGpu(picture_.scene, onGpu)) {
+    const render::Scene& scene = picture_.scene;
     if (!sortsHere_) return;
-    order_.begin(picture_.scene, render::midEye(eyes_));
-    if (!order_.done()) ordering_ = kOrdering;
+    order_.begin(scene, render::midEye(eyes_));
+    if (!order_.done()) making_ = kOrdering;
+    if (scene.cells && renderer.splatters().sumsByGl(scene) &&
+        !renderer.splatters().holdsCells(scene))
+        making_ = kMaking;
 }
 
 bool Refinement::order() {
     if (frame_) return true;
-    if (sortsHere_ && !orderPoints()) return false;
+    if (making_ == kMaking)
+        makeCells();
+    else if (sortsHere_)
+        orderPoints();
+    if (making_ > 0 && made_ < 1) return false;
     if (sortsHere_)
         frame_.emplace(renderer_.prepare(content_, onGpu_, eyes_, order_.take()));
     else
@@ -42,14 +50,21 @@ bool Refinement::order() {
     return true;
 }
 
-bool Refinement::orderPoints() {
+void Refinement::orderPoints() {
     constexpr std::uint64_t kAtOnce = 1 << 17;
-    const auto until = std::chrono::steady_clock::now() + kOrderingSlice;
+    const auto until = std::chrono::steady_clock::now() + kSlice;
     while (!order_.done()) {
         order_.goOn(kAtOnce);
         if (std::chrono::steady_clock::now() >= until) break;
     }
-    return order_.done();
+    made_ = order_.done() ? 1 : order_.share();
+}
+
+void Refinement::makeCells() {
+    constexpr std::uint64_t kAtOnce = 1 << 12;
+    const auto until = std::chrono::steady_clock::now() + kSlice;
+    do made_ = renderer_.splatters().makeCells(picture_.scene, kAtOnce);
+    while (made_ < 1 && std::chrono::steady_clock::now() < until);
 }
 
 double Refinement::goOn(double cost,
@@ -68,9 +83,9 @@ double Refinement::goOn(double cost,
 }
 
 double Refinement::share() const {
-    if (!frame_) return ordering_ * order_.share();
+    if (!frame_) return making_ * made_;
     const double drawn = !done() && cost_ > 0 ? std::min(drawn_ / cost_, 1.0) : 1;
-    return ordering_ + (1 - ordering_) * drawn;
+    return making_ + (1 - making_) * drawn;
 }
 
 }  // namespace app

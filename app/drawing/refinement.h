@@ -24,8 +24,8 @@ class Refinement {
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
 
-    // Goes on with the draw list, if the program makes it, for about as long as a frame takes. True
-    // when it is there.
+    // Goes on with what the program makes before it draws, a draw list or cells for GL, for about
+    // as long as a frame takes. True when it is there.
     bool order();
     // Draws until `cost` is reached (render/splat/splat_cost.h), a little more than that, and hands
     // each eye's light to `show` once it is whole. Returns what it cost. REQUIRES: order(), and not
@@ -37,7 +37,8 @@ class Refinement {
     std::span<const render::View> eyes() const { return eyes_; }
 
  private:
-    bool orderPoints();  // a slice of it; true when there is a list
+    void orderPoints();  // a slice of it
+    void makeCells();    // a slice of them
 
     render::FrameRenderer& renderer_;
     const Picture picture_;
@@ -45,8 +46,9 @@ class Refinement {
     const render::FrameContent content_;
     const render::GlStep& onGpu_;
     render::DepthOrder& order_;
-    bool sortsHere_;       // the program does
-    double ordering_ = 0;  // its share of all that is to be done
+    bool sortsHere_;  // the program does
+    // The share of all that is to be done of what is made before, and of that what is made.
+    double making_ = 0, made_ = 0;
     std::optional<const render::FrameRenderer::Prepared> frame_;  // once it is ordered
     double cost_ = 0, drawn_ = 0;  // of all eyes, and of what is drawn
     std::size_t eye_ = 0;          // to go on with

@@ -12,8 +12,8 @@ void DisplayPace::took(const FrameCost& frame) {
     // The pixels answer for what is left with the fewest splats alone.
     std::chrono::nanoseconds least = frame.work;
     if (frame.splats) {
-        const auto& [count, fewest, took, areCells] = *frame.splats;
-        governor_.took({count, areCells}, took, frame.period);
+        const auto& [count, fewest, took, areCells, finer] = *frame.splats;
+        governor_.took({count, areCells, finer}, took, frame.period);
         const std::uint64_t left = std::max(render::FramePace::kFewest, fewest);
         if (count > left) least -= std::min(least, governor_.costOf({count - left, areCells}));
     }

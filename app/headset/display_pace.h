@@ -31,6 +31,7 @@ class DisplayPace {
             std::uint64_t count, fewest;  // drawn; with the coarsest subset
             std::chrono::nanoseconds took;
             bool areCells = false;  // for which points may stand
+            double finer = 2;       // as Governor::Drawn has it
         };
         std::optional<Splats> splats;
     };

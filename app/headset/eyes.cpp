@@ -19,7 +19,8 @@ render::View viewOf(const xr::Eye& eye, const xr::Placement& placement) {
 
 void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,
                 std::span<const render::Placard> placards, Splats splats,
-                const std::function<void(render::Targets&)>& mirror, const DepthErrors* errors) {
+                const std::function<void(render::Targets&)>& mirror, const DepthErrors* errors,
+                const std::optional<Rung>& most) {
     eyes_ = eyes.size();
     std::vector<render::View> views;
     for (const xr::Eye& eye : eyes) views.push_back(viewOf(eye, placement));
@@ -30,10 +31,11 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
         drawn = true;
     };
     report_ = {};
+    CanvasLimits limits = pace_.governor().limits(errors);
+    limits.most = most;
     if (shown != nullptr)
-        report_ =
-            canvas_.draw(*shown, views, pace_.governor().limits(errors), splats == Splats::Governed,
-                         show, {.legend = false, .placards = placards});
+        report_ = canvas_.draw(*shown, views, limits, splats == Splats::Governed, show,
+                               {.legend = false, .placards = placards});
     if (!drawn) canvas_.drawPlacards(placards, views, show);
 }
 
@@ -41,13 +43,16 @@ void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanose
     // A GPU goes on after the calls; what it took is told some frames later.
     if (onProcessor_) render::gl::finishDrawing();
     DisplayPace::FrameCost frame{period, std::chrono::steady_clock::now() - began, {}};
-    const std::uint64_t splats = report_.cost - std::min(report_.cost, report_.planesCost);
-    const std::uint64_t fewest =
-        report_.cost - splats + splats * report_.stride / render::kMaxStride;
+    const std::uint64_t fewest = report_.leastCost;
+    constexpr double kUnknown = 2;  // of a selection that grows
+    const double finer =
+        report_.finerCost > 0 && report_.cost > 0
+            ? static_cast<double>(report_.finerCost) / static_cast<double>(report_.cost)
+            : kUnknown;
     if (onProcessor_ && report_.cost > 0) {
-        frame.splats = {report_.cost, fewest, frame.work, report_.cells.has_value()};
+        frame.splats = {report_.cost, fewest, frame.work, report_.cells.has_value(), finer};
     } else if (report_.gpuTime) {
-        frame.splats = {report_.gpuSplats, fewest, *report_.gpuTime, report_.gpuCells};
+        frame.splats = {report_.gpuSplats, fewest, *report_.gpuTime, report_.gpuCells, finer};
         frame.work = std::max(frame.work, *report_.gpuTime);
     }
     work_ = frame.work;

@@ -29,12 +29,12 @@ class Eyes {
     // Draws all eyes, of any sizes; none is left untouched. What an eye does not see of its image
     // becomes black. `shown`: null while there is nothing. With `Splats::Governed`, no more of
     // them than keep the pace: of the ways to draw that fit the truest, by what `errors` knows of
-    // them. `mirror` gets the first eye's light.
+    // them, which draws no more than `most`. `mirror` gets the first eye's light.
     enum class Splats { Governed, All };
     void draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Placement& placement,
               std::span<const render::Placard> placards, Splats splats,
               const std::function<void(render::Targets&)>& mirror = {},
-              const DepthErrors* errors = nullptr);
+              const DepthErrors* errors = nullptr, const std::optional<Rung>& most = {});
     // All that is drawn for a frame is asked for, also what other parts of the program draw: it
     // began then, and the display's period is this.
     void took(std::chrono::steady_clock::time_point began, std::chrono::nanoseconds period);

@@ -172,11 +172,12 @@ void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
     render::gl::forgetErrors();  // the runtime's
     if (eyes.empty() || !frame.head()) return;
     const auto shown = exploration_.shown();
+    const DepthErrors* const errors = error_.errors() ? &*error_.errors() : nullptr;
     eyes_.draw(
         shown ? &*shown : nullptr, eyes, interaction_.placement(), placards(frame),
         Eyes::Splats::Governed,
-        [&](render::Targets& light) { graphics_->mirror(eyes_.present(), light); },
-        error_.errors() ? &*error_.errors() : nullptr);
+        [&](render::Targets& light) { graphics_->mirror(eyes_.present(), light); }, errors,
+        panels::askedOfMoving(panel_.interface().choices(), errors));
     checkDriver(exploration_);
     if (const Screen* const screen = eyes_.canvas().screen())
         error_.update(*screen, viewOf(eyes.front(), interaction_.placement()), Clock::now());

@@ -2,6 +2,20 @@
 
 namespace app::panels {
 
+std::optional<Rung> askedOfMoving(const Choices& choices, const DepthErrors* errors) {
+    switch (choices.moving) {
+        case Moving::Pace:
+            return std::nullopt;
+        case Moving::Error:
+            return errors ? errors->cheapest(choices.movingError) : std::nullopt;
+        case Moving::Fixed:
+            return choices.movingRung;
+        case Moving::All:
+            return Rung();
+    }
+    return std::nullopt;
+}
+
 void beginRegion(const char* id, const Rect& at, ImU32 background, Depth depth) {
     ImGui::SetNextWindowPos(im(at.min));
     ImGui::SetNextWindowSize(im(glm::max(at.size(), glm::vec2(1))));

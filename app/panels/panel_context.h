@@ -50,6 +50,10 @@ struct Choices {
     float sideWidth = kSideWidth;
 };
 
+// How a picture that moves is to be drawn, by what is known of its errors; none where the pace is
+// to say, or the error is not known.
+std::optional<Rung> askedOfMoving(const Choices& choices, const DepthErrors* errors);
+
 // What panels ask of the front end, which serves and clears it.
 struct Requests {
     std::vector<Command> commands;

@@ -132,6 +132,25 @@ void movingRows(PanelContext& context, Form& form) {
     form.note(kNotes[static_cast<std::size_t>(context.choices.moving)]);
 }
 
+// The most that is drawn in a headset, where the display's pace always holds.
+void mostRows(PanelContext& context, Form& form) {
+    constexpr std::array kMost = {"All", "By error", "Fixed"};
+    constexpr std::array kMoving = {Moving::Pace, Moving::Error, Moving::Fixed};
+    std::size_t now = 0;
+    for (std::size_t i = 0; i < kMoving.size(); ++i)
+        if (context.choices.moving == kMoving[i]) now = i;
+    if (const auto most = segmented(context.theme, "most", form.row("At most"), kMost, now))
+        context.choices.moving = kMoving[now = *most];
+    if (kMoving[now] == Moving::Error) errorAllowed(context, form);
+    if (kMoving[now] == Moving::Fixed) rungRows(context, form);
+    constexpr std::array kNotes = {
+        "As much is drawn as keeps the display's pace.",
+        "As little as keeps this error, once it is known; less where the display's pace asks "
+        "for it.",
+        "No more than this; less where the display's pace asks for it."};
+    form.note(kNotes[now]);
+}
+
 void interfaceScale(PanelContext& context, Form& form) {
     constexpr std::array kNames = {"Monitor's", "1", "1.25", "1.5", "2"};
     constexpr std::array<double, 5> kScales = {0, 1, 1.25, 1.5, 2};
@@ -180,8 +199,8 @@ void drawQualityPage(PanelContext& context, const Rect& at) {
     form.note(e.order == render::Order::None ? "Colours mix along the line of sight. By depth, "
                                                "what is in front hides what is behind."
                                              : "What is in front hides what is behind.");
-    if (context.inHeadset) return;  // the display's rate, and a panel as large as it is
     form.space(6);
+    if (context.inHeadset) return mostRows(context, form);  // and a panel as large as it is
     movingRows(context, form);
     interfaceScale(context, form);
 }

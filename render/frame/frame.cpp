@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "render/gl/debug_output.h"
-#include "render/splat/splat_cost.h"
 
 namespace render {
 namespace {
@@ -148,14 +147,15 @@ void FrameRenderer::drawWhole(const Prepared& frame, const View& eye,
 }
 
 // Sums count splats or cells, or what cells are drawn in pieces of.
-std::vector<double> FrameRenderer::splatCosts(const Prepared& frame, const View& eye) {
+std::vector<double> FrameRenderer::splatCosts(const Prepared& frame, const View& eye) const {
     const Scene& scene = frame.content.scene;
+    const SummedBy by = summedBy(scene);
     const std::vector<Channels> channels = channelsFor(scene);
     std::vector<double> costs;
     for (std::size_t k = 0; k < channels.size(); ++k) {
         const std::uint64_t splats = frame.splats->splats(channels[k], k);
         const double plane =
-            scene.order == Order::None ? layerCost(scene, k, eye) : sceneCost(scene, eye);
+            scene.order == Order::None ? layerCost(scene, k, eye, by) : sceneCost(scene, eye, by);
         costs.push_back(plane / static_cast<double>(std::max(splats, std::uint64_t{1})));
     }
     return costs;
@@ -163,11 +163,15 @@ std::vector<double> FrameRenderer::splatCosts(const Prepared& frame, const View&
 
 double FrameRenderer::cost(const Prepared& frame, const View& eye) const {
     const View planes = coarser(eye, frame.content.across);
-    return sceneCost(frame.content.scene, planes) + planesCost(frame.content.scene, planes);
+    return splatsCost(frame.content.scene, planes) + planesCost(frame.content.scene, planes);
+}
+
+double FrameRenderer::splatsCost(const Scene& scene, const View& eye) const {
+    return sceneCost(scene, eye, summedBy(scene));
 }
 
 double FrameRenderer::planesCost(const Scene& scene, const View& eye) const {
-    return splatters_.sumsByGl(scene) ? 0 : render::planesCost(scene, eye);
+    return summedBy(scene) == SummedBy::Gl ? 0 : render::planesCost(scene, eye);
 }
 
 std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GlStep& step,

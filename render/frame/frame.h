@@ -12,6 +12,7 @@
 #include "render/frame/gl_light.h"
 #include "render/frame/memory_light.h"
 #include "render/frame/splatters.h"
+#include "render/splat/splat_cost.h"
 
 namespace render {
 
@@ -95,7 +96,9 @@ class FrameRenderer {
     // True when the light is in targets(); before, there is nothing to see.
     bool goOn(EyeInWork& work, double cost);
     double cost(const Prepared& frame, const View& eye) const;  // of the whole eye
-    // Of it, what remains of however few splats.
+    // What the scene's splats cost, by who sums them.
+    double splatsCost(const Scene& scene, const View& eye) const;
+    // Beside them, what remains of however few splats.
     double planesCost(const Scene& scene, const View& eye) const;
     // Eyes that see nothing but placards, each shown once it is drawn.
     void drawPlacards(std::span<const Placard> placards, const glm::dvec3& background,
@@ -116,7 +119,10 @@ class FrameRenderer {
                      DrawList list, LightAs as);
     GlLight& glLight();  // made when it is first needed
     LightPass& lightFor(const FrameContent& content, std::span<const View> eyes);
-    static std::vector<double> splatCosts(const Prepared& frame, const View& eye);
+    std::vector<double> splatCosts(const Prepared& frame, const View& eye) const;
+    SummedBy summedBy(const Scene& scene) const {
+        return splatters_.sumsByGl(scene) ? SummedBy::Gl : SummedBy::Program;
+    }
     bool drawSplats(EyeInWork& work, double cost);
     void drawWhole(const Prepared& frame, const View& eye,
                    const std::function<void(double)>& progress);

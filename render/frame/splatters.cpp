@@ -62,15 +62,33 @@ DrawList Splatters::order(const Scene& scene, const glm::dvec3& midEye) {
 
 std::unique_ptr<SplatFrame> Splatters::prepare(const Scene& scene, DrawList list,
                                                const GlStep& step) {
-    if (!scene.cells || !sumsByGl(scene)) return of(scene).prepare(scene, std::move(list), step);
+    if (!scene.cells || !sumsByGl(scene)) {
+        if (gl_) gl_->cells.rest();
+        return of(scene).prepare(scene, std::move(list), step);
+    }
     try {
         return needGl().cells.prepare(scene, list, step);
-    } catch (const std::runtime_error&) {  // no room there for so many: the program draws them
-        gl::forgetErrors();
-        const std::uint64_t bytes = GlPieces::bytesOf(scene);
-        mostCellBytes_ = bytes > 0 ? bytes - 1 : 0;
+    } catch (const std::runtime_error&) {
+        noRoomFor(scene);
         return processor_.prepare(scene, std::move(list), step);
     }
+}
+
+double Splatters::makeCells(const Scene& scene, std::uint64_t cells) {
+    if (!scene.cells || !sumsByGl(scene)) return 1;
+    try {
+        return needGl().cells.make(scene, cells);
+    } catch (const std::runtime_error&) {
+        noRoomFor(scene);
+        return 1;
+    }
+}
+
+// For so many cells: the program draws them.
+void Splatters::noRoomFor(const Scene& scene) {
+    gl::forgetErrors();
+    const std::uint64_t bytes = GlPieces::bytesOf(scene);
+    mostCellBytes_ = bytes > 0 ? bytes - 1 : 0;
 }
 
 }  // namespace render

@@ -33,6 +33,9 @@ class Splatters {
     bool sortsOnGpu(const Scene& scene, const GlStep& step);
     // Whether GL has all that it draws the scene's cells by, whatever the eye.
     bool holdsCells(const Scene& scene) const { return gl_ && gl_->cells.holds(scene); }
+    // Makes so many cells more of it, or so, where prepare() would make all. Returns the share that
+    // is there, [0, 1]; 1 where GL draws no cells of the scene.
+    double makeCells(const Scene& scene, std::uint64_t cells);
     // On the GPU, of cells and for order.
     std::uint64_t bytes() const { return gl_ ? gl_->cells.bytes() + gl_->points.bytes() : 0; }
 
@@ -43,6 +46,7 @@ class Splatters {
     };
     Gl& needGl();
     Splatter& of(const Scene& scene);
+    void noRoomFor(const Scene& scene);
 
     ProcessorSplatter processor_;
     ExactSplatter exact_;

@@ -1,14 +1,8 @@
 // One piece of a cell -> the rectangle of pixels that holds it, and what its pixels ask. Axis
 // coordinates (render/points/placed_points.h) to window offsets from the view axis, in pixels;
 // formulas: render/model/cell_splat.h.
-// After cell_view.glsl and cell_vertex.glsl.
+// After cell_view.glsl, cell_vertex.glsl and cell_piece.glsl.
 
-// C++ mirror: GlCell in render/splat/gl_cells.h.
-struct Piece {
-    uint cell, kind;
-    float least, most, perRange, mapPlace, mapPerValue, steep;
-    vec4 low, high;  // f
-};
 layout(std430, binding = 0) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 0) uniform samplerBuffer axisSides;  // per axis and cell: middle, size
 
@@ -27,7 +21,7 @@ void main() {
     const vec2 z = texelFetch(axisSides, int(n.x + n.y + slice)).xy;
     vec3 middle = vec3(x.x, y.x, z.x), size = vec3(x.y, y.y, z.y);
     const uint octant = p.kind & 15u;
-    if (octant < 8u) {
+    if (octant != kWholeCell) {
         size *= 0.5;
         middle += size * (vec3(octant & 1u, octant >> 1 & 1u, octant >> 2) - 0.5);
     }

@@ -15,10 +15,11 @@ namespace {
 constexpr std::size_t kListedWorthAThread = 1 << 15;
 
 // Before which point of its axis a place lies: the index of the cell that holds it.
-int cellAlong(const std::vector<double>& positions, double place) {
+std::uint32_t cellAlong(const std::vector<double>& positions, double place) {
     const bool down = positions.front() > positions.back();
     const auto before = [&](double at) { return down ? at > place : at < place; };
-    return static_cast<int>(std::ranges::partition_point(positions, before) - positions.begin());
+    return static_cast<std::uint32_t>(std::ranges::partition_point(positions, before) -
+                                      positions.begin());
 }
 
 }  // namespace
@@ -189,11 +190,17 @@ std::uint32_t CellRank::ofMiddle(const glm::dvec3& middle) const {
     return rank > 0 ? static_cast<std::uint32_t>(std::min(rank, double(count_ - 1))) : 0;
 }
 
+glm::uvec3 cellOfEye(const Scene& scene, const View& view) {
+    const glm::dvec3 eye = pixelRays(scene.placed.inAxes(view)).eye;
+    glm::uvec3 cell;
+    for (int a = 0; a < 3; ++a)
+        cell[a] = cellAlong(scene.placed.positions()[static_cast<std::size_t>(a)], eye[a]);
+    return cell;
+}
+
 void CellRank::takeBricks(const Scene& scene, const View& view) {
     constexpr std::size_t kMostBricks = 1 << 16;
-    const glm::dvec3 eye = pixelRays(scene.placed.inAxes(view)).eye;
-    for (int a = 0; a < 3; ++a)
-        eye_[a] = cellAlong(scene.placed.positions()[static_cast<std::size_t>(a)], eye[a]);
+    eye_ = cellOfEye(scene, view);
     std::uint32_t side = 16;
     const auto bricksAlong = [&](int a) {  // the eye's own cell, and what lies on its two sides
         return 1 + (size_[a] + 2 * side - 1) / side;

@@ -35,6 +35,9 @@ std::uint64_t cellCount(const Scene& scene, Channels channels, std::size_t layer
 // Of a mesh's cell, in axis coordinates.
 glm::dvec3 middleOfCell(const Scene& scene, std::uint32_t cell);
 
+// Of an upright grid, which one the eye is in, or beside.
+glm::uvec3 cellOfEye(const Scene& scene, const View& view);
+
 // An order by depth. What hides a part of a cell lies, along each axis, no farther from the eye's
 // cell than it does and on the same side, and nearer along one: the sum of these distances is an
 // order, in bricks of cells first, then in cells within a brick, of which each is passed in one go:
@@ -62,9 +65,7 @@ class CellRank {
     // Of a mesh, that of a cell whose middle is there.
     std::uint32_t ofMiddle(const glm::dvec3& middle) const;
     std::size_t count() const { return count_; }    // all less
-    const glm::ivec3& eye() const { return eye_; }  // the cell that it is in, or beside
-    // Where it is: of a mesh, in axis coordinates.
-    const glm::dvec3& from() const { return from_; }
+    const glm::ivec3& eye() const { return eye_; }  // of an upright grid, the eye's cell
 
  private:
     void takeDistances(const Scene& scene, const View& view);

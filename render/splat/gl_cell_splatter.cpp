@@ -1,6 +1,7 @@
 #include "render/splat/gl_cell_splatter.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <tuple>
 
@@ -166,8 +167,10 @@ const gl::Program& GlCellSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
     std::string defines = defineOf(variant.channels);
     if (variant.ordered) defines += "#define ORDERED\n";
-    const std::string vertex = std::string(shaders::cell_view_glsl) + shaders::cell_vertex_glsl +
-                               (variant.tets ? shaders::tet_vert : shaders::cell_vert);
+    const std::string vertex =
+        std::string(shaders::cell_view_glsl) + shaders::cell_vertex_glsl +
+        (variant.tets ? std::string(shaders::tet_vert)
+                      : std::string(shaders::cell_piece_glsl) + shaders::cell_vert);
     const std::string fragment = std::string(shaders::cell_view_glsl) + shaders::cell_range_glsl +
                                  (variant.tets ? shaders::tet_frag : shaders::cell_frag);
     return programs_
@@ -181,10 +184,30 @@ const gl::Program& GlCellSplatter::mean() {
     return *mean_;
 }
 
-std::unique_ptr<SplatFrame> GlCellSplatter::prepare(const Scene& scene, DrawList, const GlStep&) {
-    if (!holds(scene)) {
+double GlCellSplatter::make(const Scene& scene, std::uint64_t cells) {
+    if (holds(scene)) return 1;
+    if (isWhole_ || !pieces_ || !pieces_->areOf(scene)) {
+        isWhole_ = false;
         pieces_.reset();  // before there are others
-        pieces_ = GlPieces::of(scene, mostBytes());
+        pieces_ = GlPieces::begin(scene, mostBytes(), lister_);
+    }
+    try {
+        const double share = pieces_->goOn(scene, cells);
+        isWhole_ = share == 1;
+        return share;
+    } catch (...) {
+        pieces_.reset();
+        throw;
+    }
+}
+
+void GlCellSplatter::rest() {
+    if (!isWhole_) pieces_.reset();
+    lister_.rest();
+}
+
+std::unique_ptr<SplatFrame> GlCellSplatter::prepare(const Scene& scene, DrawList, const GlStep&) {
+    while (make(scene, std::numeric_limits<std::uint32_t>::max()) < 1) {
     }
     return std::make_unique<GlCellFrame>(*this, scene, pieces_);
 }

@@ -25,11 +25,16 @@ class GlCellSplatter final : public Splatter {
     // 0 where it cannot draw them.
     static std::uint64_t mostBytes();
     std::uint64_t bytes() const {
-        return order_.bytes() + (pieces_ ? pieces_->bytes() : 0);
+        return lister_.bytes() + order_.bytes() + (pieces_ ? pieces_->bytes() : 0);
     }  // that they take now
 
     // Whether what the scene is made of is there: that of the scene prepared last.
-    bool holds(const Scene& scene) const { return pieces_ && pieces_->areOf(scene); }
+    bool holds(const Scene& scene) const { return isWhole_ && pieces_->areOf(scene); }
+    // Makes it with so many cells more, or so, and returns the share of it that is there, [0, 1].
+    // Throws as prepare() does, which makes all that is missing.
+    double make(const Scene& scene, std::uint64_t cells);
+    // What is not drawn: gives back what is half made, and a field that is gone.
+    void rest();
 
     DrawList order(const Scene&, const glm::dvec3&) override { return Runs{}; }
     // Asks nothing of the step on the GPU. Throws std::runtime_error where there is no room.
@@ -64,7 +69,9 @@ class GlCellSplatter final : public Splatter {
     const GlSplatter& layers_;
     std::uint64_t rayBytes_;
     std::shared_ptr<GlPieces> pieces_;  // of the scene prepared last
-    GlTetOrder order_;
+    bool isWhole_ = false;
+    GlCellLister lister_;
+    GlPieceOrder order_;
     std::map<Variant, gl::Program> programs_;
     std::optional<gl::Program> mean_;
     gl::Buffer view_;

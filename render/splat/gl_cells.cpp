@@ -1,7 +1,8 @@
 #include "render/splat/gl_cells.h"
 
-#include <algorithm>
 #include <glm/vec2.hpp>
+#include <utility>
+#include <vector>
 
 #include "render/splat/cell_view.h"
 
@@ -20,52 +21,24 @@ std::vector<glm::vec2> sidesOf(const Scene& scene) {
     return sides;
 }
 
-GlCell glCell(const CellSplat<float>& s, const CellOfLayer& of, unsigned octant,
-              const RangeStyle& style, double steep) {
-    GlCell c{};
-    c.cell = of.cell;
-    c.kind = octant | static_cast<std::uint32_t>(s.crossesLeast) << 4 |
-             static_cast<std::uint32_t>(s.crossesMost) << 5 | std::uint32_t{of.layer} << 8;
-    c.least = s.least;
-    c.most = s.most;
-    c.perRange = s.perRange;
-    c.map = glMapPlaceOf(style, s.reference, s.extent);
-    c.steep = steepnessIn(s.extent, steep);
-    std::ranges::copy(s.f, c.f);
-    return c;
-}
-
 }  // namespace
 
-GlCells::GlCells(const Scene& scene, std::uint64_t mostBytes)
-    : GlPieces(scene, mostBytes),
+GlCells::GlCells(const Scene& scene, std::uint64_t mostBytes, GlCellLister& lister)
+    : GlPieces(scene),
+      size_(scene.cells->size()),
       sides_(std::span<const glm::vec2>(sidesOf(scene))),
       sidesTexture_(GL_RG32F, sides_) {
-    const double steep = steepnessOf(scene);
-    take<GlCell>(
-        scene,
-        [&](std::span<const CellOfLayer> cells, std::vector<GlCell>& pieces) {
-            forEachPiece(scene, cells,
-                         [&](const ValuedCell& piece, const CellOfLayer& of, unsigned octant) {
-                             CellSplat<float> s;
-                             if (cell::seeField(s, piece, scene.placed.unitLength()))
-                                 pieces.push_back(
-                                     glCell(s, of, octant, scene.layers[of.layer].style, steep));
-                         });
-        },
-        [&](const GlCell& piece) {
-            cells_.push_back(timeseries::indicesOf(piece.cell, scene.cells->size()));
-        });
+    GlCellLister::Listed listed = lister(scene, sidesTexture_, mostBytes);
+    take(std::move(listed.pieces), std::move(listed.firsts));
 }
 
-std::shared_ptr<const gl::Buffer> GlCells::order(const CellRank& rank, GlTetOrder&) const {
-    NearestFirst order(rank);
-    for (const glm::uvec3& cell : cells_) order.count(rank(cell));
-    order.allCounted();
-    std::vector<std::uint32_t> places(cells_.size());
-    for (std::size_t i = 0; i < cells_.size(); ++i)
-        places[cells_.size() - 1 - order.place(rank(cells_[i]))] = static_cast<std::uint32_t>(i);
-    return std::make_shared<const gl::Buffer>(std::span<const std::uint32_t>(places));
+glm::dvec3 GlCells::keyOf(const Scene& scene, const View& view) const {
+    return cellOfEye(scene, view);
+}
+
+std::shared_ptr<const gl::Buffer> GlCells::order(const glm::dvec3& cell,
+                                                 GlPieceOrder& order) const {
+    return order(CellsToOrder{count(), size_, pieces()}, glm::uvec3(cell));
 }
 
 }  // namespace render

@@ -3,14 +3,13 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "render/splat/gl_pieces.h"
 
 namespace render {
 
 // A cell or an octant of one with one range, as CellSplat (render/model/cell_splat.h) has it.
-// GLSL mirror: Piece in shaders/cell.vert.
+// GLSL mirror: Piece in shaders/cell_piece.glsl.
 struct GlCell {
     std::uint32_t cell;  // its number
     // Bits 0 to 3: which octant, or kWholeCell; 4 and 5: crossesLeast, crossesMost; from 8: layer.
@@ -23,16 +22,17 @@ struct GlCell {
 
 class GlCells final : public GlPieces {
  public:
-    GlCells(const Scene& scene, std::uint64_t mostBytes);
+    GlCells(const Scene& scene, std::uint64_t mostBytes, GlCellLister& lister);
     std::uint64_t bytes() const override { return GlPieces::bytes() + sides_.bytes(); }
     const gl::BufferTexture* sides() const override { return &sidesTexture_; }
 
  private:
-    glm::dvec3 keyOf(const CellRank& rank) const override { return rank.eye(); }
-    // By the processor: it changes when the eye comes into another cell.
-    std::shared_ptr<const gl::Buffer> order(const CellRank& rank, GlTetOrder&) const override;
+    // The cell that the eye is in, or beside.
+    glm::dvec3 keyOf(const Scene& scene, const View& view) const override;
+    std::shared_ptr<const gl::Buffer> order(const glm::dvec3& cell,
+                                            GlPieceOrder& order) const override;
 
-    std::vector<glm::uvec3> cells_;  // of each piece, along the axes
+    glm::uvec3 size_;  // of the grid, in cells
     gl::Buffer sides_;
     gl::BufferTexture sidesTexture_;
 };

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/gl/compute.h"
 #include "render/points/block_order.h"
 #include "render/shader_sources.h"
 #include "render/splat/depth_order.h"
@@ -54,8 +55,6 @@ constexpr unsigned kLayerBits = 3;
 static_assert(kMaxLayers <= 1u << kLayerBits);
 constexpr unsigned kDigits = 3;
 static_assert(DepthKeys::kBits <= 8 * kDigits);
-
-constexpr GLuint kMostGroups = 65535;  // along an axis; GL promises so many
 
 std::uint64_t listed(std::span<const Piece> pieces) {
     std::uint64_t sum = 0;
@@ -145,10 +144,7 @@ void GlDepthOrder::findKeys(const Scene& scene, const glm::dvec3& midEye, const 
         before_.emplace(std::span<const std::uint32_t>(before));
     }
     before_->bindStorage(4);
-    const auto groups = static_cast<GLuint>(sent.size());
-    const GLuint across = std::min(groups, kMostGroups);
-    glDispatchCompute(across, (groups + across - 1) / across, 1);
-    betweenShaders();
+    gl::startGroups(sent.size());
 }
 
 void GlDepthOrder::sort(std::uint64_t drawn, const GlStep& step) {

@@ -39,9 +39,10 @@ std::vector<double> choicesOf(const Scene& scene) {
 
 }  // namespace
 
-std::shared_ptr<GlPieces> GlPieces::of(const Scene& scene, std::uint64_t mostBytes) {
+std::shared_ptr<GlPieces> GlPieces::begin(const Scene& scene, std::uint64_t mostBytes,
+                                          GlCellLister& lister) {
     if (scene.placed.isMesh()) return std::make_shared<GlTets>(scene, mostBytes);
-    return std::make_shared<GlCells>(scene, mostBytes);
+    return std::make_shared<GlCells>(scene, mostBytes, lister);
 }
 
 std::uint64_t GlPieces::bytesOf(const Scene& scene) {
@@ -53,12 +54,13 @@ std::uint64_t GlPieces::bytesOf(const Scene& scene) {
            sizeof(GlTet);
 }
 
-GlPieces::GlPieces(const Scene& scene, std::uint64_t mostBytes)
-    : index_(scene.cells),
-      mesh_(scene.placed.mesh()),
-      choices_(choicesOf(scene)),
-      mostBytes_(mostBytes),
-      firsts_(scene.layers.size() + 1) {}
+GlPieces::GlPieces(const Scene& scene)
+    : index_(scene.cells), mesh_(scene.placed.mesh()), choices_(choicesOf(scene)) {}
+
+void GlPieces::take(std::unique_ptr<gl::Buffer> pieces, std::vector<std::uint32_t> firsts) {
+    pieces_ = std::move(pieces);
+    firsts_ = std::move(firsts);
+}
 
 bool GlPieces::areOf(const Scene& scene) const {
     return index_.lock() == scene.cells && mesh_.lock() == scene.placed.mesh() &&
@@ -66,7 +68,7 @@ bool GlPieces::areOf(const Scene& scene) const {
 }
 
 std::uint64_t GlPieces::bytes() const {
-    std::uint64_t sum = pieces_->bytes();
+    std::uint64_t sum = pieces_ ? pieces_->bytes() : 0;
     for (const Ordered& ordered : ordered_) sum += ordered.places->bytes();
     return sum;
 }
@@ -78,13 +80,12 @@ std::pair<std::uint32_t, std::uint32_t> GlPieces::placesOf(Channels channels,
 }
 
 std::shared_ptr<const gl::Buffer> GlPieces::farthestFirst(const Scene& scene, const View& view,
-                                                          GlTetOrder& tets) {
-    const CellRank rank(scene, view);
-    const glm::dvec3 key = keyOf(rank);
+                                                          GlPieceOrder& by) {
+    const glm::dvec3 key = keyOf(scene, view);
     const auto found = std::ranges::find(ordered_, key, &Ordered::key);
     if (found != ordered_.end()) return found->places;
     if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
-    ordered_.push_back({key, order(rank, tets)});
+    ordered_.push_back({key, order(key, by)});
     return ordered_.back().places;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "render/gl/compute.h"
 #include "render/shader_sources.h"
 
 namespace render {
@@ -18,8 +19,6 @@ void atLeast(std::optional<gl::Buffer>& buffer, std::uint64_t bytes) {
 GLuint tilesOf(std::uint64_t entries) { return static_cast<GLuint>((entries + kTile - 1) / kTile); }
 
 }  // namespace
-
-void betweenShaders() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
 
 gl::Program GlRadixSort::scatter(const char* defines) {
     return gl::Program::ofCompute("radix_scatter", shaders::radix_scatter_comp,
@@ -44,20 +43,17 @@ void GlRadixSort::countDigits(unsigned shift) {
     glUseProgram(count_->id());
     glUniform1ui(0, static_cast<GLuint>(held_));
     glUniform1ui(1, shift);
-    glDispatchCompute(tiles, 1, 1);
-    betweenShaders();
+    gl::startGroups(tiles);
     glUseProgram(scan_->id());
     glUniform1ui(0, static_cast<GLuint>(kDigitValues) * tiles);
-    glDispatchCompute(1, 1, 1);
-    betweenShaders();
+    gl::startGroups(1);
 }
 
 void GlRadixSort::scatterBy(unsigned shift, const gl::Program& program) {
     glUseProgram(program.id());
     glUniform1ui(0, static_cast<GLuint>(held_));
     glUniform1ui(1, shift);
-    glDispatchCompute(tilesOf(held_), 1, 1);
-    betweenShaders();
+    gl::startGroups(tilesOf(held_));
 }
 
 void GlRadixSort::sort(unsigned shift, unsigned digits) {

@@ -42,7 +42,4 @@ class GlRadixSort {
     std::uint64_t held_ = 0;  // entries
 };
 
-// Before shaders read what others wrote into buffers that they bind.
-void betweenShaders();
-
 }  // namespace render

@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "render/splat/cell_view.h"
+#include "render/together.h"
 #include "timeseries/grid/solid_cells.h"
 
 namespace render {
@@ -40,41 +46,99 @@ double GlTets::perCell(const Scene& scene) {
                   : kSixAboutADiagonal;
 }
 
-GlTets::GlTets(const Scene& scene, std::uint64_t mostBytes) : GlPieces(scene, mostBytes) {
+GlTets::GlTets(const Scene& scene, std::uint64_t mostBytes)
+    : GlPieces(scene), mostBytes_(mostBytes), listing_(Listing{}) {
+    listing_->all = cellsOf(scene, Channels::Over, 0);
+    listing_->firsts.resize(scene.layers.size() + 1);
+}
+
+double GlTets::goOn(const Scene& scene, std::uint64_t cells) {
+    constexpr double kListing = 0.8;  // of the work
+    if (!listing_) return 1;
+    Listing& l = *listing_;
+    const auto share = [](std::size_t done, std::size_t all) {
+        return static_cast<double>(done) / static_cast<double>(all + 1);
+    };
+    if (l.listed < l.all.size()) {
+        list(scene, cells);
+        return kListing * share(l.listed, l.all.size());
+    }
+    if (!sending_) sending_ = std::make_unique<gl::Buffer>(l.count * sizeof(GlTet));
+    if (l.sent < l.parts.size()) {
+        send();
+        return kListing + (1 - kListing) * share(l.sent, l.parts.size());
+    }
+    std::partial_sum(l.firsts.begin(), l.firsts.end(), l.firsts.begin());
+    take(std::move(sending_), std::move(l.firsts));
+    cells_.emplace(std::span<const std::uint32_t>(l.cells));
+    middles_.emplace(std::span<const glm::vec4>(l.middles));
+    listing_.reset();
+    return 1;
+}
+
+void GlTets::list(const Scene& scene, std::uint64_t cells) {
+    constexpr std::size_t kWorthAThread = 1 << 10;
+    Listing& l = *listing_;
     const double steep = steepnessOf(scene);
-    std::vector<std::uint32_t> cells;
-    std::vector<glm::vec4> middles;
-    std::uint32_t cell = 0, layer = 0;
-    take<GlTet>(
-        scene,
-        [&](std::span<const CellOfLayer> some, std::vector<GlTet>& pieces) {
-            forEachTet(scene, some, nullptr, [&](const ValuedTet& tet, const CellOfLayer& of) {
-                GlTet piece{};
-                if (takeTet(piece, tet, of, scene, steep)) pieces.push_back(piece);
-            });
-        },
-        [&](const GlTet& piece) {
-            const bool goesOn = !middles.empty() && cell == piece.cell && layer == piece.kind >> 8;
-            cell = piece.cell;
-            layer = piece.kind >> 8;
-            if (!goesOn) {
-                const glm::dvec3 middle = middleOfCell(scene, cell);
-                radius_ = std::max(radius_, glm::length(middle));
-                middles.emplace_back(glm::dvec4(middle, 0));
-            }
-            cells.push_back(static_cast<std::uint32_t>(middles.size() - 1));
-        });
-    count_ = static_cast<std::uint32_t>(cells.size());
-    cells_.emplace(std::span<const std::uint32_t>(cells));
-    middles_.emplace(std::span<const glm::vec4>(middles));
+    const auto some =
+        std::span(l.all).subspan(l.listed, std::min<std::uint64_t>(cells, l.all.size() - l.listed));
+    const unsigned shared = threadsFor(some.size(), kWorthAThread, sharingThreads());
+    const std::size_t before = l.parts.size();
+    l.parts.resize(before + shared);
+    sharing(shared, [&](unsigned k) {
+        const std::size_t first = some.size() * k / shared, last = some.size() * (k + 1) / shared;
+        forEachTet(scene, some.subspan(first, last - first), nullptr,
+                   [&](const ValuedTet& tet, const CellOfLayer& of) {
+                       GlTet piece{};
+                       if (takeTet(piece, tet, of, scene, steep))
+                           l.parts[before + k].push_back(piece);
+                   });
+    });
+    for (std::size_t k = before; k < l.parts.size(); ++k) keep(scene, l.parts[k]);
+    if (l.count * sizeof(GlTet) > mostBytes_) throw std::runtime_error(kTooManyPieces);
+    l.listed += some.size();
+}
+
+void GlTets::keep(const Scene& scene, const std::vector<GlTet>& part) {
+    Listing& l = *listing_;
+    for (const GlTet& piece : part) {
+        const std::uint32_t layer = piece.kind >> 8;
+        if (l.middles.empty() || l.lastCell != piece.cell || l.lastLayer != layer) {
+            const glm::dvec3 middle = middleOfCell(scene, piece.cell);
+            radius_ = std::max(radius_, glm::length(middle));
+            l.middles.emplace_back(glm::dvec4(middle, 0));
+            l.lastCell = piece.cell;
+            l.lastLayer = layer;
+        }
+        l.cells.push_back(static_cast<std::uint32_t>(l.middles.size() - 1));
+        ++l.firsts[layer + 1];
+    }
+    l.count += part.size();
+}
+
+void GlTets::send() {
+    constexpr std::uint64_t kAtOnce = (std::uint64_t{16} << 20) / sizeof(GlTet);
+    Listing& l = *listing_;
+    for (std::uint64_t tets = 0; l.sent < l.parts.size() && tets < kAtOnce; ++l.sent) {
+        std::vector<GlTet>& part = l.parts[l.sent];
+        sending_->write(l.sentTets * sizeof(GlTet), part.size() * sizeof(GlTet), part.data());
+        l.sentTets += part.size();
+        tets += part.size();
+        part = {};
+    }
 }
 
 std::uint64_t GlTets::bytes() const {
-    return GlPieces::bytes() + cells_->bytes() + middles_->bytes();
+    std::uint64_t sum = GlPieces::bytes() + (sending_ ? sending_->bytes() : 0);
+    for (const auto* held : {&cells_, &middles_})
+        if (*held) sum += (*held)->bytes();
+    return sum;
 }
 
-std::shared_ptr<const gl::Buffer> GlTets::order(const CellRank& rank, GlTetOrder& order) const {
-    return order({count_, radius_, pieces(), *cells_, *middles_}, rank.from());
+glm::dvec3 GlTets::keyOf(const Scene&, const View& view) const { return pixelRays(view).eye; }
+
+std::shared_ptr<const gl::Buffer> GlTets::order(const glm::dvec3& eye, GlPieceOrder& order) const {
+    return order(TetsToOrder{count(), radius_, pieces(), *cells_, *middles_}, eye);
 }
 
 }  // namespace render

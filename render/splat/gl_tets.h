@@ -4,8 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
+#include <vector>
 
+#include "render/splat/cell_pieces.h"
 #include "render/splat/gl_pieces.h"
 
 namespace render {
@@ -28,14 +31,34 @@ class GlTets final : public GlPieces {
     // How many a cell has, in the mean, where nothing of it is missing or clipped.
     static double perCell(const Scene& scene);
 
+    double goOn(const Scene& scene, std::uint64_t cells) override;
     std::uint64_t bytes() const override;
 
  private:
-    glm::dvec3 keyOf(const CellRank& rank) const override { return rank.from(); }
-    std::shared_ptr<const gl::Buffer> order(const CellRank& rank, GlTetOrder& order) const override;
+    // Until all are sent.
+    struct Listing {
+        std::vector<CellOfLayer> all;
+        std::size_t listed = 0;                 // of them
+        std::vector<std::vector<GlTet>> parts;  // one after the other
+        std::size_t sent = 0;                   // parts
+        std::uint64_t count = 0, sentTets = 0;
+        std::vector<std::uint32_t> cells, firsts;
+        std::vector<glm::vec4> middles;
+        std::uint32_t lastCell = 0, lastLayer = 0;  // whose middle came last
+    };
+    void list(const Scene& scene, std::uint64_t cells);
+    void keep(const Scene& scene, const std::vector<GlTet>& part);
+    void send();
 
-    double radius_ = 0;        // of the middles about the origin
-    std::uint32_t count_ = 0;  // of all pieces
+    // Where the eye is, in axis coordinates.
+    glm::dvec3 keyOf(const Scene& scene, const View& view) const override;
+    std::shared_ptr<const gl::Buffer> order(const glm::dvec3& eye,
+                                            GlPieceOrder& order) const override;
+
+    std::uint64_t mostBytes_;
+    std::optional<Listing> listing_;
+    std::unique_ptr<gl::Buffer> sending_;
+    double radius_ = 0;  // of the middles about the origin
     // Of each piece, which of the cells that follow each other in one layer has it; their middles.
     std::optional<gl::Buffer> cells_, middles_;
 };

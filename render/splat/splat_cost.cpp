@@ -100,7 +100,7 @@ double cellCost(const Scene& scene, std::size_t layer, const View& view) {
 
 }  // namespace
 
-double splatCost(const Scene& scene, std::size_t layer, const View& view) {
+double splatCost(const Scene& scene, std::size_t layer, const View& view, SummedBy by) {
     if (isByCells(scene, scene.layers[layer])) return cellCost(scene, layer, view);
     constexpr std::uint64_t kSamples = 32;
     const Layer& of = scene.layers[layer];
@@ -115,11 +115,12 @@ double splatCost(const Scene& scene, std::size_t layer, const View& view) {
             pixels += sides.x * sides.y;
         });
     if (samples == 0) return 1;
-    return 1 + pixels / static_cast<double>(samples) / kPixelsOfASplat;
+    const Channels channels = channelsFor(scene)[scene.order == Order::None ? layer : 0];
+    return 1 + pixels / static_cast<double>(samples) / pixelsOfASplat(by, channels);
 }
 
-double layerCost(const Scene& scene, std::size_t layer, const View& view) {
-    return splatCost(scene, layer, view) *
+double layerCost(const Scene& scene, std::size_t layer, const View& view, SummedBy by) {
+    return splatCost(scene, layer, view, by) *
            static_cast<double>(drawnCount(scene, scene.layers[layer]));
 }
 
@@ -130,9 +131,9 @@ double planesCost(const Scene& scene, const View& view) {
            static_cast<double>(channelsFor(scene).size());
 }
 
-double sceneCost(const Scene& scene, const View& view) {
+double sceneCost(const Scene& scene, const View& view, SummedBy by) {
     double sum = 0;
-    for (std::size_t k = 0; k < scene.layers.size(); ++k) sum += layerCost(scene, k, view);
+    for (std::size_t k = 0; k < scene.layers.size(); ++k) sum += layerCost(scene, k, view, by);
     return sum;
 }
 

@@ -34,5 +34,17 @@ TEST(Ladder, OfSquaresHasCoarseCellsAlone) {
     EXPECT_EQ(ladder({.coarsePoints = false})[1], (Rung{Model::Cells, 1, kCoarse}));
 }
 
+TEST(Ladder, FromARungOnDrawsNoMore) {
+    const std::vector<Rung> all = ladder({});
+    for (std::size_t i = 0; i < all.size(); ++i)
+        EXPECT_EQ(from(all[i], all), std::vector<Rung>(all.begin() + std::ptrdiff_t(i), all.end()));
+    // Where it has none such, of coarse pixels, or of points that are not there yet.
+    const std::vector<Rung> fine = ladder({.coarse = false});
+    EXPECT_EQ(from({Model::Points, 2, kCoarse}, fine).front(), (Rung{Model::Points, 4}));
+    const std::vector<Rung> cells = ladder({.points = false});
+    EXPECT_EQ(from({Model::Points, 4}, cells), std::vector{cells.back()});
+    EXPECT_TRUE(from({Model::Points, 4}, {}).empty());
+}
+
 }  // namespace
 }  // namespace app

@@ -88,7 +88,9 @@ void foretoldFrame(benchmark::State& state, render::SplatterChoice by) {
     for (auto _ : state)
         for (Picture& picture : pictures) {
             picture.cost = static_cast<std::uint64_t>(
-                render::sceneCost(picture.scene, picture.view) +
+                render::sceneCost(picture.scene, picture.view,
+                                  by == render::SplatterChoice::Cpu ? render::SummedBy::Program
+                                                                    : render::SummedBy::Gl) +
                 (by == render::SplatterChoice::Cpu ? render::planesCost(picture.scene, picture.view)
                                                    : 0));
             render::PlainFrame frame(step, placed, glm::dvec3(0), by);

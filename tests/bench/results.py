@@ -465,6 +465,10 @@ def window_page(part):
     for what, _, middle, _ in rows:
         if what.strip() in asked:
             target(f"window: {what.strip().replace('^3', '³')}", float(middle) * 1e-3, asked[what.strip()] * 1e-3, shown=time)
+    start = {what.strip(): float(middle) for what, _, middle, _ in rows if what.startswith("from the start")}
+    if len(start) == 2:
+        with_index, without = (start[f"from the start to 1 % of 512^3{by}"] for by in (", from an index", ""))
+        target("window: first picture of 1 % of 512³ by points: without an index / with one", without / with_index, 20, at_least=True)
     return ("`ui_bench`: the real program under Xvfb; a frame is told by the window's answer to a ping, asked for every 5 ms.\n\n"
             + table(["", "median", "longest"], [[what.strip(), f"{middle} ms", f"{longest} ms"] for what, _, middle, longest in rows]))
 

@@ -98,6 +98,23 @@ TEST_F(CanvasOfNoise, AMovingPictureMayBeToldHowItIsDrawn) {
     EXPECT_TRUE(report_.whole);
 }
 
+// As in a headset: no more than that, and less where the limits ask for it.
+TEST_F(CanvasOfNoise, AMovingPictureDrawsNoMoreThanItMay) {
+    world_.explorer.model = Model::Cells;
+    const auto drawn = [&](std::uint64_t splats, const Rung& most) {
+        draw(world_.shown(), {.splats = splats, .most = most, .mayBeCoarse = true}, true);
+        return Rung{report_.cells ? Model::Cells : Model::Points, report_.stride, report_.across};
+    };
+    constexpr std::uint64_t kEnough = 1'000'000'000;
+    for (const Rung& most : {Rung{Model::Cells}, Rung{Model::Cells, 1, kCoarse},
+                             Rung{Model::Points}, Rung{Model::Points, 4}})
+        EXPECT_EQ(drawn(kEnough, most), most);
+    const Rung least = drawn(1'000, {Model::Cells});
+    ASSERT_EQ(least.model, Model::Points);
+    ASSERT_GT(least.stride, 4u);
+    EXPECT_EQ(drawn(1'000, {Model::Points, 4}), least);
+}
+
 // By cells, then by coarse ones, then by points, as the limit falls; none where nobody may.
 TEST_F(CanvasOfNoise, AMovingPictureGoesDownTheLadder) {
     world_.explorer.model = Model::Cells;
@@ -226,15 +243,48 @@ TEST_F(CanvasOfBlocks, AMovingStepWhoseCellsAreTooManyWaitsForItsPoints) {
 
 // Of a mesh the program lists tetrahedra once a selection, which takes too long for a picture that
 // moves; the GPU puts them in order for each eye.
-TEST_F(CanvasOfNoise, ManyTetrahedraAreDrawnWhileMovingOnceTheyAreThere) {
+void showTetrahedra(tests::ShownSteps& world) {
     const auto grid = tests::curvilinear(
         {32, 32, 32}, [](double i, double j, double k) { return glm::dvec3(i, j, k); });
-    world_.steps[0] = std::make_shared<const timeseries::SortedStep>(tests::noise(grid, 1));
-    world_.dataset.variable.grid = grid;
-    world_.explorer.model = Model::Cells;
-    world_.explorer.size = {60, 45};
-    world_.explorer.layers = {tests::ShownSteps::layer("0:0.9", app::MapChoice{{}, 0, 1})};
-    world_.steps[0]->cells();
+    world.steps[0] = std::make_shared<const timeseries::SortedStep>(tests::noise(grid, 1));
+    world.dataset.variable.grid = grid;
+    world.explorer.model = Model::Cells;
+    world.explorer.size = {60, 45};
+    world.explorer.layers = {tests::ShownSteps::layer("0:0.9", app::MapChoice{{}, 0, 1})};
+    world.steps[0]->cells();
+}
+
+// At rest GL's tetrahedra are made in slices; a hand comes between, and another selection.
+TEST_F(CanvasOfNoise, ManyTetrahedraAreMadeByAndBy) {
+    showTetrahedra(world_);
+    const auto views = canvas_.eyesOf(world_.shown());
+    std::optional<Image> whole;
+    const auto refine = [&] {
+        report_ = canvas_.refine(
+            world_.shown(), views, {},
+            [&](std::size_t, const render::Targets& light) { whole = light.readLight(); });
+        EXPECT_GT(report_.refined, 0) << "or a window would wait before it goes on";
+    };
+    const auto apart = [&] {
+        Canvas other(render::SplatterChoice::Gl);
+        Image image;
+        other.draw(world_.shown(), views, {}, false,
+                   [&](std::size_t, const render::Targets& light) { image = light.readLight(); });
+        return image;
+    };
+    for (const char* range : {"0:0.8", "0:0.9"}) {  // the first is left half-way
+        whole.reset();
+        world_.explorer.layers[0].ranges = timeseries::RangeSet::parse(range);
+        refine();
+        draw(world_.shown(), {}, true);
+    }
+    while (!whole) refine();
+    EXPECT_TRUE(report_.whole);
+    EXPECT_EQ(*whole, apart());
+}
+
+TEST_F(CanvasOfNoise, ManyTetrahedraAreDrawnWhileMovingOnceTheyAreThere) {
+    showTetrahedra(world_);
     const CanvasLimits most{.splats = std::uint64_t{1} << 50};
     draw(world_.shown(), most, true);
     EXPECT_FALSE(report_.cells) << "but points";

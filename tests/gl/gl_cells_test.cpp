@@ -151,16 +151,17 @@ TEST_F(GlCellsOf, TakeNoMoreThanTheyMay) {
     CellWorld world(waves(), {"-0.5:0.5"});
     const std::uint64_t bytes = 64 * cellCount(world.scene.layers[0]);
     EXPECT_EQ(GlPieces::bytesOf(world.scene), bytes);
-    EXPECT_NO_THROW(GlPieces::of(world.scene, bytes));
+    EXPECT_NO_THROW(whole(world.scene, bytes, lister_));
     EXPECT_THROW(
-        GlPieces::of(world.scene, 64 * cells_.prepare(world.scene, Runs{},
-                                                      GlStep(world.scene.step, world.scene.placed))
-                                              ->splats(Channels::Weight, 0) -
-                                      1),
+        whole(world.scene,
+              64 * cells_.prepare(world.scene, Runs{}, GlStep(world.scene.step, world.scene.placed))
+                          ->splats(Channels::Weight, 0) -
+                  1,
+              lister_),
         std::runtime_error);
     world.scene.clip = {{0, 0, 0}, {5, 9, 9}};
     EXPECT_EQ(GlPieces::bytesOf(world.scene), bytes);
-    EXPECT_LE(GlPieces::of(world.scene, 8 * bytes)->bytes(), 8 * bytes + 1000);
+    EXPECT_LE(whole(world.scene, 8 * bytes, lister_)->bytes(), 8 * bytes + 1000);
 }
 
 // Of axes whose coordinates are the same as floats.

@@ -143,13 +143,13 @@ TEST_F(GlTetsOf, AreInOrderOfTheirCellsAndOfTheirOwn) {
     }));
     for (const auto& grid : all) {
         const CellWorld world(tests::noise(grid), {"0.2:0.6", "0.5:0.7"});
-        const auto pieces = GlPieces::of(world.scene, GlCellSplatter::mostBytes());
+        const auto pieces = whole(world.scene, GlCellSplatter::mostBytes(), lister_);
         const auto [first, end] = pieces->placesOf(Channels::Over, 0);
         const auto tets = read<GlTet>(pieces->pieces(), end);
         ASSERT_GT(end, 500u);
         for (const double away : {0.2, 3.0, 1e7}) {
             const glm::dvec3 eye = away * glm::normalize(glm::dvec3(1.2, -2.5, 1));
-            GlTetOrder order;
+            GlPieceOrder order;
             const auto places = read<std::uint32_t>(
                 *pieces->farthestFirst(world.scene, lookFrom(eye, kSize), order), end);
             std::vector<bool> seen(end);
@@ -172,17 +172,46 @@ TEST_F(GlTetsOf, AreInOrderOfTheirCellsAndOfTheirOwn) {
     }
 }
 
+// A few cells at a time, as a window makes them at rest.
+TEST_F(GlTetsOf, MadeInSlicesAreTheSame) {
+    for (const auto& grid : grids()) {
+        const CellWorld world(tests::noise(grid), {"0.2:0.6", "0.5:0.7"});
+        const std::uint64_t most = GlCellSplatter::mostBytes();
+        const auto atOnce = whole(world.scene, most, lister_),
+                   slices = GlPieces::begin(world.scene, most, lister_);
+        constexpr std::uint64_t kCells = 20;
+        std::uint64_t calls = 1;
+        double before = 0;
+        for (double share; (share = slices->goOn(world.scene, kCells)) < 1; ++calls, before = share)
+            EXPECT_GT(share, before);
+        EXPECT_GT(calls, cellCount(world.scene, Channels::Over, 0) / kCells);
+        EXPECT_GT(calls, 5u);
+        for (std::size_t layer : {0, 1})
+            EXPECT_EQ(slices->placesOf(Channels::Weight, layer),
+                      atOnce->placesOf(Channels::Weight, layer));
+        const std::size_t words =
+            slices->placesOf(Channels::Over, 0).second * (sizeof(GlTet) / sizeof(std::uint32_t));
+        EXPECT_EQ(read<std::uint32_t>(slices->pieces(), words),
+                  read<std::uint32_t>(atOnce->pieces(), words));
+        GlPieceOrder order;
+        const View view = lookFrom({1.2, -2.5, 1}, kSize);
+        const std::uint32_t count = slices->placesOf(Channels::Over, 0).second;
+        EXPECT_EQ(read<std::uint32_t>(*slices->farthestFirst(world.scene, view, order), count),
+                  read<std::uint32_t>(*atOnce->farthestFirst(world.scene, view, order), count));
+    }
+}
+
 // 96 bytes each: six a cell of a curvilinear grid, of others as many as they have.
 TEST_F(GlTetsOf, TakeNoMoreThanTheyMay) {
     for (const auto& grid : grids()) {
         CellWorld world(tests::noise(grid), {"min:max"});
-        const auto pieces = GlPieces::of(world.scene, GlPieces::bytesOf(world.scene));
+        const auto pieces = whole(world.scene, GlPieces::bytesOf(world.scene), lister_);
         const auto [first, end] = pieces->placesOf(Channels::Weight, 0);
         EXPECT_LE(96 * (end - first), GlPieces::bytesOf(world.scene));
         if (grid->mesh()->solids()) {
             EXPECT_GT(96 * (end - first), GlPieces::bytesOf(world.scene) * 9 / 10);
         }
-        EXPECT_THROW(GlPieces::of(world.scene, 96 * (end - first) - 1), std::runtime_error);
+        EXPECT_THROW(whole(world.scene, 96 * (end - first) - 1, lister_), std::runtime_error);
     }
 }
 

@@ -181,6 +181,7 @@ TEST_F(HeadsetEyes, WithoutDataThereIsStillARoom) {
 TEST_F(HeadsetEyes, DrawCellsInCoarsePixelsWhereFinerOnesDoNotFit) {
     tests::ShownSteps cells(8, 1);
     cells.explorer.model = Model::Cells;
+    cells.explorer.footprint.size = 0.2;  // so that points fit, also where pixels cost most
     (void)cells.steps[0]->cells(cellsNeeded(cells.explorer, cells.steps[0]->type()));
     const Shown shown = cells.shown();
     for (xr::Eye& eye : eyes_) eye.size = glm::ivec2(400);
@@ -194,6 +195,9 @@ TEST_F(HeadsetEyes, DrawCellsInCoarsePixelsWhereFinerOnesDoNotFit) {
     for (const Rung& rung : ladder({})) errors.rungs.push_back({.rung = rung, .depth = 0.5});
     errors.rungs[2].depth = 0.1;
     EXPECT_EQ(drawn(&errors), errors.rungs[2].rung) << "whose error is less";
+    const Rung most{Model::Points, 4};
+    view_.draw(&shown, eyes_, placement_, {}, Eyes::Splats::Governed, {}, &errors, most);
+    EXPECT_EQ(view_.report().stride, 4u) << "and no more than may be";
 }
 
 TEST_F(HeadsetEyes, KeepTheDisplaysPaceWithFewerSplatsThenFewerPixels) {

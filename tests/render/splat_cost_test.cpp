@@ -52,12 +52,28 @@ TEST(SplatCost, LargeOnesCostTheirPixels) {
             const CostlyWorld world(length);
             const View view = tests::lookFrom(eye, kSize);
             // A square holds 4 / pi times the pixels of its circle; some reach out of the picture.
-            const double pixels = touched(world.scene, view) / kPixelsOfASplat;
-            const double cost = sceneCost(world.scene, view) -
-                                static_cast<double>(pointCount(world.scene.layers[0]));
-            EXPECT_GE(cost, 0.7 * pixels) << length;
-            EXPECT_LE(cost, 2.2 * pixels) << length;
+            const double pixels = touched(world.scene, view);
+            for (const SummedBy by : {SummedBy::Program, SummedBy::Gl}) {
+                const double asMuch = pixels / pixelsOfASplat(by, Channels::Weight);
+                const double cost = sceneCost(world.scene, view, by) -
+                                    static_cast<double>(pointCount(world.scene.layers[0]));
+                EXPECT_GE(cost, 0.7 * asMuch) << length;
+                EXPECT_LE(cost, 2.2 * asMuch) << length;
+            }
         }
+}
+
+// A plane of one colour has one float a pixel, one by value or in order four.
+TEST(SplatCost, WhatAGpuBlendsCostsByItsFloats) {
+    CostlyWorld world(4);
+    const View view = tests::lookFrom({0, -3, 0}, {400, 300});
+    const auto pixels = [&](SummedBy by) { return splatCost(world.scene, 0, view, by) - 1; };
+    const double program = pixels(SummedBy::Program), oneFloat = pixels(SummedBy::Gl);
+    EXPECT_NEAR(oneFloat / program, 200.0 / 30, 1e-9);
+    world.scene.layers[0].style.color = ByValue{{}, 0, 1};
+    EXPECT_NEAR(pixels(SummedBy::Gl) / program, 200.0 / 8, 1e-9);
+    world.scene.order = Order::BackToFront;
+    EXPECT_NEAR(pixels(SummedBy::Gl) / program, 200.0 / 8, 1e-9);
 }
 
 TEST(SplatCost, PlanesCostByThePixelsThatTheyCover) {

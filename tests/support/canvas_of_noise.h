@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/drawing/canvas.h"
 #include "app/picture/still.h"
 #include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
+#include "render/splat/splat_cost.h"
 #include "tests/support/shown_steps.h"
 
 namespace app::canvas_of_noise {
@@ -26,6 +29,19 @@ class CanvasOfNoise : public testing::Test {
                                });
         render::gl::throwOnError();
         return eyes;
+    }
+    // Of what is shown, in every eye, where each point stands for so many.
+    double cost(std::uint32_t stride) const {
+        const Shown shown = world_.shown();
+        const render::PlacedPoints placed(shown.sorted->grid());
+        Picture picture =
+            makePicture(shown.explorer, shown.dataset.variable, 0, *shown.sorted, placed);
+        picture.scene.stride = stride;
+        picture.scene.footprint.size *= std::cbrt(stride);
+        double sum = 0;
+        for (const render::View& view : canvas_.eyesOf(shown))
+            sum += render::sceneCost(picture.scene, view, render::SummedBy::Gl);
+        return sum;
     }
     // As `isochron render` makes it: a renderer and a step on the GPU that have seen nothing else.
     void drawApart(const Shown& shown, const std::filesystem::path& file) {

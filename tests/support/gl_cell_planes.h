@@ -96,9 +96,18 @@ class GlCellPlanes : public testing::Test {
         EXPECT_LT(std::sqrt(off / all), error);
     }
 
+    static std::shared_ptr<render::GlPieces> whole(const render::Scene& scene, std::uint64_t most,
+                                                   render::GlCellLister& lister) {
+        auto pieces = render::GlPieces::begin(scene, most, lister);
+        while (pieces->goOn(scene, kAllCells) < 1) {
+        }
+        return pieces;
+    }
+
     render::gl::HeadlessContext context_;
     render::GlSplatter layers_;
     render::GlCellSplatter cells_{layers_}, parts_{layers_, 100'000};
+    render::GlCellLister lister_;
     bool inParts_ = false;
 };
 

@@ -52,6 +52,7 @@ class PanelsDesk : public ExplorationDesk {
                         .theme = theme_,
                         .offers = offers,
                         .eye = {},
+                        .hasPicture = !inHeadset,
                         .exporting = exporting,
                         .dt = kFrame,
                         .key = key,
@@ -104,6 +105,7 @@ class PanelsDesk : public ExplorationDesk {
     std::optional<std::string> exporting;
     app::panels::Performance performance{.report = {.whole = true}};
     app::panels::Requests asked;  // of the last frame
+    bool inHeadset = false;       // the panel that stands there
 
  private:
     static constexpr std::chrono::milliseconds kFrame{10};
