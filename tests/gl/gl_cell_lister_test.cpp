@@ -8,6 +8,7 @@
 #include "render/splat/cell_pieces.h"
 #include "render/splat/cell_view.h"
 #include "render/splat/gl_cells.h"
+#include "tests/support/gl_buffers.h"
 #include "tests/support/gl_cell_planes.h"
 
 namespace render {
@@ -18,14 +19,6 @@ using timeseries::Field;
 
 class GlCellListing : public tests::GlCellPlanes {
  protected:
-    static std::vector<GlCell> read(const gl::Buffer& buffer, std::size_t count) {
-        std::vector<GlCell> pieces(count);
-        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-        glGetNamedBufferSubData(buffer.id(), 0, static_cast<GLsizeiptr>(count * sizeof(GlCell)),
-                                pieces.data());
-        gl::throwOnError();
-        return pieces;
-    }
     static std::vector<GlCell> listed(const Scene& scene, GlCellLister& lister,
                                       std::uint64_t most = std::uint64_t{1} << 24) {
         const auto pieces = whole(scene, most, lister);
@@ -36,7 +29,7 @@ class GlCellListing : public tests::GlCellPlanes {
             end = last;
         }
         EXPECT_EQ(pieces->placesOf(Channels::Over, 0), std::pair(0u, end));
-        return read(pieces->pieces(), end);
+        return tests::contentsOf<GlCell>(pieces->pieces(), end);
     }
 
     // What the processor sees of each candidate, one by one.

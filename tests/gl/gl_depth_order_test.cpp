@@ -14,6 +14,7 @@
 #include "render/splat/depth_order.h"
 #include "render/splat/gl_list.h"
 #include "render/splat/gl_targets.h"
+#include "tests/support/gl_buffers.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
@@ -25,13 +26,7 @@ using timeseries::RangeSet;
 constexpr std::uint32_t kNoLayer = 255;  // shaders/splat_points.glsl
 
 std::vector<SortedPoint> read(const GlDepthOrder::List& list) {
-    std::vector<SortedPoint> points(list.count);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(list.points->id(), 0,
-                            static_cast<GLsizeiptr>(points.size() * sizeof(SortedPoint)),
-                            points.data());
-    gl::throwOnError();
-    return points;
+    return tests::contentsOf<SortedPoint>(*list.points, list.count);
 }
 
 // Two layers that overlap, one of them by value.

@@ -5,10 +5,10 @@
 #include <random>
 #include <vector>
 
-#include "render/gl/debug_output.h"
 #include "render/gl/headless_context.h"
 #include "render/splat/gl_cells.h"
 #include "render/splat/gl_piece_order.h"
+#include "tests/support/gl_buffers.h"
 
 namespace render {
 namespace {
@@ -23,12 +23,7 @@ class GlPieceOrdering : public testing::Test {
         const gl::Buffer buffer{std::span<const GlCell>(pieces)};
         const auto count = static_cast<std::uint32_t>(pieces.size());
         const auto places = order_(CellsToOrder{count, size, buffer}, eye);
-        std::vector<std::uint32_t> list(pieces.size());
-        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-        glGetNamedBufferSubData(places->id(), 0, static_cast<GLsizeiptr>(4 * list.size()),
-                                list.data());
-        gl::throwOnError();
-        return list;
+        return tests::contentsOf<std::uint32_t>(*places, pieces.size());
     }
 };
 

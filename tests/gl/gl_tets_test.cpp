@@ -8,6 +8,7 @@
 #include "render/gl/debug_output.h"
 #include "render/model/rays_across.h"
 #include "render/splat/gl_tets.h"
+#include "tests/support/gl_buffers.h"
 #include "tests/support/gl_cell_planes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/unstructured.h"
@@ -118,16 +119,6 @@ TEST_F(GlTetsOf, EachOfSeveralScenesIsItsOwn) {
     }
 }
 
-template <typename T>
-std::vector<T> read(const gl::Buffer& buffer, std::size_t count) {
-    std::vector<T> values(count);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(buffer.id(), 0, static_cast<GLsizeiptr>(count * sizeof(T)),
-                            values.data());
-    gl::throwOnError();
-    return values;
-}
-
 glm::dvec3 middleOf(const GlTet& t) {
     glm::dvec3 sum(0);
     for (int i = 1; i < 4; ++i) sum += glm::dvec3(t.corners[i]);
@@ -145,12 +136,12 @@ TEST_F(GlTetsOf, AreInOrderOfTheirCellsAndOfTheirOwn) {
         const CellWorld world(tests::noise(grid), {"0.2:0.6", "0.5:0.7"});
         const auto pieces = whole(world.scene, GlCellSplatter::mostBytes(), lister_);
         const auto [first, end] = pieces->placesOf(Channels::Over, 0);
-        const auto tets = read<GlTet>(pieces->pieces(), end);
+        const auto tets = tests::contentsOf<GlTet>(pieces->pieces(), end);
         ASSERT_GT(end, 500u);
         for (const double away : {0.2, 3.0, 1e7}) {
             const glm::dvec3 eye = away * glm::normalize(glm::dvec3(1.2, -2.5, 1));
             GlPieceOrder order;
-            const auto places = read<std::uint32_t>(
+            const auto places = tests::contentsOf<std::uint32_t>(
                 *pieces->farthestFirst(world.scene, lookFrom(eye, kSize), order), end);
             std::vector<bool> seen(end);
             double cellBefore = 1e300, before = 1e300;
@@ -191,13 +182,15 @@ TEST_F(GlTetsOf, MadeInSlicesAreTheSame) {
                       atOnce->placesOf(Channels::Weight, layer));
         const std::size_t words =
             slices->placesOf(Channels::Over, 0).second * (sizeof(GlTet) / sizeof(std::uint32_t));
-        EXPECT_EQ(read<std::uint32_t>(slices->pieces(), words),
-                  read<std::uint32_t>(atOnce->pieces(), words));
+        EXPECT_EQ(tests::contentsOf<std::uint32_t>(slices->pieces(), words),
+                  tests::contentsOf<std::uint32_t>(atOnce->pieces(), words));
         GlPieceOrder order;
         const View view = lookFrom({1.2, -2.5, 1}, kSize);
         const std::uint32_t count = slices->placesOf(Channels::Over, 0).second;
-        EXPECT_EQ(read<std::uint32_t>(*slices->farthestFirst(world.scene, view, order), count),
-                  read<std::uint32_t>(*atOnce->farthestFirst(world.scene, view, order), count));
+        EXPECT_EQ(tests::contentsOf<std::uint32_t>(*slices->farthestFirst(world.scene, view, order),
+                                                   count),
+                  tests::contentsOf<std::uint32_t>(*atOnce->farthestFirst(world.scene, view, order),
+                                                   count));
     }
 }
 
