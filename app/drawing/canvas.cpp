@@ -124,9 +124,6 @@ struct Canvas::State {
     std::optional<render::Picked> pick(const render::View& eye, const glm::dvec2& window) const;
     // What of the scene is on the screen.
     void tell(CanvasReport& report, const render::Scene& scene) const;
-    // What other subsets of it would cost.
-    void tellBeside(CanvasReport& report, const render::Scene& whole,
-                    std::span<const render::View> eyes) const;
     // Whether what is to be drawn by cells is drawn by points.
     bool lacksCells(const render::Scene& drawn) const {
         return !drawn.cells && needsCells(screen->explorer, *screen->sorted, drawn.placed);
@@ -238,18 +235,6 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
     report.whole = rung.isWhole() && report.uploaded == 1 && !report.lacksCells;
 }
 
-void Canvas::State::tellBeside(CanvasReport& report, const render::Scene& whole,
-                               std::span<const render::View> eyes) const {
-    const std::vector<render::View> planes = render::coarser(eyes, rung.across);
-    const auto costAt = [&](std::uint32_t stride) {
-        const double splats = costOf(sceneOn({Model::Points, stride, rung.across}, whole), planes);
-        return report.planesCost + static_cast<std::uint64_t>(std::llround(splats));
-    };
-    report.leastCost = std::min(report.cost, costAt(render::kMaxStride));
-    if (!whole.cells && rung.stride > 1)
-        report.finerCost = std::max(report.cost, costAt(rung.stride / 2));
-}
-
 CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
                           const CanvasLimits& limits, bool moving, const Show& show,
                           const CanvasScene& scene) {
@@ -285,9 +270,23 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     }
     report.cost = static_cast<std::uint64_t>(std::llround(cost));
     report.planesCost = state_->planesCost(drawn, render::coarser(eyes, rung.across));
-    state_->tellBeside(report, whole, eyes);
     state_->timer.end(labelOf(report.cost, drawn));
     return report;
+}
+
+SubsetCosts Canvas::subsetCosts(const CanvasReport& of, std::span<const render::View> eyes) const {
+    if (!state_->screen) return {};
+    const render::Scene whole = sceneOf(*state_->screen);
+    const Rung& rung = state_->rung;
+    const std::vector<render::View> planes = render::coarser(eyes, rung.across);
+    const auto costAt = [&](std::uint32_t stride) {
+        const render::Scene subset = sceneOn({Model::Points, stride, rung.across}, whole);
+        const double splats = state_->costOf(subset, planes);
+        return of.planesCost + static_cast<std::uint64_t>(std::llround(splats));
+    };
+    SubsetCosts costs{.least = std::min(of.cost, costAt(render::kMaxStride))};
+    if (!whole.cells && rung.stride > 1) costs.finer = std::max(of.cost, costAt(rung.stride / 2));
+    return costs;
 }
 
 CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> eyes,

@@ -85,6 +85,8 @@ class Canvas {
     CanvasReport draw(const Shown& shown, std::span<const render::View> eyes,
                       const CanvasLimits& limits, bool moving, const Show& show,
                       const CanvasScene& scene = {});
+    // Of what draw() has just drawn of these eyes, and said.
+    SubsetCosts subsetCosts(const CanvasReport& of, std::span<const render::View> eyes) const;
     // The picture that draw() makes of all points, for a window at rest: each call draws no more
     // than the limits and a little, and `show` gets an eye when the last of its points is drawn;
     // what was shown before holds until then. Begins anew when something else is asked for, by this

@@ -27,14 +27,17 @@ struct CanvasReport {
     std::uint64_t gpuBytes = 0;  // of steps, cells and order held there
     std::uint64_t cost = 0;      // of what this call drew, of all eyes (render/splat/splat_cost.h)
     std::uint64_t planesCost = 0;  // of it, what is left of however few splats
-    // What draw() would cost by the fewest points, and by twice as many as it has; 0 where it has
-    // all.
-    std::uint64_t leastCost = 0, finerCost = 0;
     // Of an earlier call of the same function (gl::Timer), what it drew and what that cost: what
     // FramePace learns from. None in most frames of a GPU that is behind.
     std::optional<std::chrono::nanoseconds> gpuTime = {};
     std::uint64_t gpuSplats = 0;
     bool gpuCells = false;
+};
+
+// What a picture would cost by the fewest points, and by twice as many as it has; 0 where it has
+// all.
+struct SubsetCosts {
+    std::uint64_t least = 0, finer = 0;
 };
 
 }  // namespace app

@@ -33,9 +33,12 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
     report_ = {};
     CanvasLimits limits = pace_.governor().limits(errors);
     limits.most = most;
-    if (shown != nullptr)
+    subsets_ = {};
+    if (shown != nullptr) {
         report_ = canvas_.draw(*shown, views, limits, splats == Splats::Governed, show,
                                {.legend = false, .placards = placards});
+        subsets_ = canvas_.subsetCosts(report_, views);
+    }
     if (!drawn) canvas_.drawPlacards(placards, views, show);
 }
 
@@ -43,11 +46,11 @@ void Eyes::took(std::chrono::steady_clock::time_point began, std::chrono::nanose
     // A GPU goes on after the calls; what it took is told some frames later.
     if (onProcessor_) render::gl::finishDrawing();
     DisplayPace::FrameCost frame{period, std::chrono::steady_clock::now() - began, {}};
-    const std::uint64_t fewest = report_.leastCost;
+    const std::uint64_t fewest = subsets_.least;
     constexpr double kUnknown = 2;  // of a selection that grows
     const double finer =
-        report_.finerCost > 0 && report_.cost > 0
-            ? static_cast<double>(report_.finerCost) / static_cast<double>(report_.cost)
+        subsets_.finer > 0 && report_.cost > 0
+            ? static_cast<double>(subsets_.finer) / static_cast<double>(report_.cost)
             : kUnknown;
     if (onProcessor_ && report_.cost > 0) {
         frame.splats = {report_.cost, fewest, frame.work, report_.cells.has_value(), finer};

@@ -54,6 +54,7 @@ class Eyes {
     DisplayPace pace_;
     bool onProcessor_;  // drawing is, so that its end can be waited for
     CanvasReport report_;
+    SubsetCosts subsets_;
     std::chrono::nanoseconds work_{0};
     std::size_t eyes_ = 0;  // drawn last
 };

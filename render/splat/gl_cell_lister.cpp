@@ -1,6 +1,7 @@
 #include "render/splat/gl_cell_lister.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -24,9 +24,10 @@ class GlCellSplatter final : public Splatter {
     // The most that a scene's cells may take there: what the driver binds, and no card is filled.
     // 0 where it cannot draw them.
     static std::uint64_t mostBytes();
+    // That they, their field and their order take now.
     std::uint64_t bytes() const {
         return lister_.bytes() + order_.bytes() + (pieces_ ? pieces_->bytes() : 0);
-    }  // that they take now
+    }
 
     // Whether what the scene is made of is there: that of the scene prepared last.
     bool holds(const Scene& scene) const { return isWhole_ && pieces_->areOf(scene); }

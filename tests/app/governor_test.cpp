@@ -80,5 +80,24 @@ TEST(Governor, BegunFromWhatAnotherLearntItsFirstFramesFit) {
     }
 }
 
+// What fits, over what is drawn, decides: a finer subset of which pixels are what costs is not
+// twice as dear.
+TEST(Governor, RisesWhereTheNextFinerSubsetFits) {
+    constexpr std::uint64_t kDrawn = 100'000;
+    const auto after = [](double finer) {
+        Governor governor(Governor::Rise::Proven);
+        governor.setTarget(std::chrono::milliseconds(8));
+        for (int i = 0; i < 120; ++i)
+            governor.took({kDrawn, false, finer}, std::chrono::milliseconds(5),
+                          std::chrono::milliseconds(16));
+        return governor;
+    };
+    const double fits = static_cast<double>(after(2).points().budget()) / kDrawn;
+    ASSERT_GT(fits, 1.3);
+    const std::uint64_t before = Governor(Governor::Rise::Proven).limits(nullptr).splats;
+    EXPECT_EQ(after(1.1 * fits).limits(nullptr).splats, before);
+    EXPECT_GT(after(0.9 * fits).limits(nullptr).splats, before);
+}
+
 }  // namespace
 }  // namespace app
