@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 
 #include "render/annotate/axes.h"
@@ -14,12 +15,13 @@ namespace {
 
 // Half the field of view of the picture's shorter side: narrow, as for a photograph of an object.
 const double kHalfAngle = glm::radians(15.0);
-// The box's corners as the camera sees them from its centre, along right, up and back.
-std::array<glm::dvec3, 8> cornersOf(const glm::dmat3& axes, const glm::dmat3& boxHalfEdges) {
+// The box's corners as the camera sees them from the target, along right, up and back.
+std::array<glm::dvec3, 8> cornersOf(const glm::dmat3& axes, const glm::dmat3& boxHalfEdges,
+                                    const glm::dvec3& target) {
     std::array<glm::dvec3, 8> corners;
     for (std::size_t c = 0; c < corners.size(); ++c) {
         const glm::dvec3 sign(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
-        corners[c] = glm::transpose(axes) * (boxHalfEdges * sign);
+        corners[c] = glm::transpose(axes) * (boxHalfEdges * sign - target);
     }
     return corners;
 }
@@ -43,11 +45,9 @@ Fit boxFit(const ViewChoice& view, const glm::dmat3& axes, const glm::dmat3& box
     constexpr double kNearestCorner = 0.6;
     const bool isCentred = view.target == glm::dvec3(0);
     if (boxHalfEdges == glm::dmat3(0) && isCentred) return {4};
-    auto corners = cornersOf(axes, boxHalfEdges);
-    for (glm::dvec3& corner : corners) {
-        corner -= glm::transpose(axes) * view.target;
-        if (view.projection == Projection::Orthographic) corner.z = 0;
-    }
+    auto corners = cornersOf(axes, boxHalfEdges, view.target);
+    if (view.projection == Projection::Orthographic)
+        for (glm::dvec3& corner : corners) corner.z = 0;
     const glm::dvec2 reach = slope * most;
     Fit fit{kNearestCorner};
     for (const glm::dvec3& one : corners) {
@@ -116,8 +116,18 @@ Fit ballFit(const ViewChoice& view, const glm::dmat3& axes, double radius,
 
 Fit fittingStand(const ViewChoice& view, const glm::dmat3& axes, const render::Outline& outline,
                  const glm::dvec2& slope, const glm::dvec2& most) {
-    if (outline.isBall) return ballFit(view, axes, outline.boxHalfEdges[0].x, slope * most);
-    return boxFit(view, axes, outline.boxHalfEdges, slope, most);
+    if (outline.isBall)
+        return ballFit(view, axes, outline.boxHalfEdges[0].x, kBoxShare * slope * most);
+    const Fit box = boxFit(view, axes, outline.boxHalfEdges, slope, kBoxShare * most);
+    // Of few points, the outermost cells reach farther than what the box leaves free.
+    const auto isFree = [&](const glm::dvec3& corner) {
+        const double depth = view.projection == Projection::Orthographic ? 0 : corner.z;
+        const glm::dvec2 half = slope * most * (box.distance - depth);
+        return glm::all(glm::lessThanEqual(glm::abs(glm::dvec2(corner) - box.aside), half));
+    };
+    if (std::ranges::all_of(cornersOf(axes, outline.filledHalfEdges, view.target), isFree))
+        return box;
+    return boxFit(view, axes, outline.filledHalfEdges, slope, most);
 }
 
 }  // namespace
@@ -151,7 +161,7 @@ Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2
         stand.distance = *view.distance;
         return stand;
     }
-    const Fit fit = fittingStand(view, axes, outline, slope, kBoxShare * freeAreaOf(size));
+    const Fit fit = fittingStand(view, axes, outline, slope, freeAreaOf(size));
     stand.distance = fit.distance;
     stand.target += fit.aside.x * axes[0] + fit.aside.y * axes[1];
     return stand;

@@ -24,10 +24,17 @@ using timeseries::kInfinity;
 
 struct MapChoice {
     render::ColorMap map;
-    // Values of the map's ends; the layer's own ends where absent.
+    // Values of the map's ends, the higher one first to turn it round; the layer's own ends where
+    // absent.
     std::optional<double> lo, hi;
     friend bool operator==(const MapChoice&, const MapChoice&) = default;
 };
+// As it is drawn; from 0 to 1 where nothing is said.
+inline render::ByValue byValue(const MapChoice& choice) {
+    const double lo = choice.lo.value_or(0), hi = choice.hi.value_or(1);
+    if (lo > hi) return {choice.map.reversed(), hi, lo};
+    return {choice.map, lo, hi};
+}
 
 // What of the field is drawn: the points in a range, or the cells between them
 // (render/model/cell_splat.h), where a step has them; else points.

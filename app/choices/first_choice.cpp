@@ -91,9 +91,20 @@ LayerChoice firstChoice(const Quantiles& sampled) {
             MapChoice{*render::colorMapNamed(name), std::clamp(from, -kMostFinite, kMostFinite),
                       std::clamp(to, -kMostFinite, kMostFinite)};
     };
+    // The map's dark end lies below the range: on a dark ground it would not be seen.
+    const auto mappedFrom = [&](double low) { mapped("inferno", low - kDarkEnd * (hi - low), hi); };
+    const auto mappedTo = [&](double high) {
+        mapped("viridis", lo - kDarkEnd * (high - lo), high);
+    };
     if (std::min(above, below) > kTwoSided * scale) {
         layer.ranges = farFrom(sorted, middle, scale);
-        mapped("cool-warm", middle - scale, middle + scale);
+        const auto sides = layer.ranges.ranges();
+        if (sides.size() != 1)
+            mapped("cool-warm", middle - scale, middle + scale);
+        else if (timeseries::toDouble(sides[0].hi.value) == kInfinity)
+            mappedFrom(timeseries::toDouble(sides[0].lo.value));
+        else
+            mappedTo(timeseries::toDouble(sides[0].hi.value));
         return layer;
     }
     if (above >= below) {
@@ -101,15 +112,12 @@ LayerChoice firstChoice(const Quantiles& sampled) {
         // Few points beyond a tied background: all of them, not the background too.
         const bool tied = !(from > middle);
         layer.ranges = RangeSet(std::vector{Range{{tied ? middle : from, tied}, {kInfinity}}});
-        // The map's dark end lies below the range: on a dark ground it would not be seen.
-        const double low = tied ? middle : from;
-        mapped("inferno", low - kDarkEnd * (hi - low), hi);
+        mappedFrom(tied ? middle : from);
     } else {
         const double to = rounded(quantile(sorted, kShare), middle, scale);
         const bool tied = !(to < middle);
         layer.ranges = RangeSet(std::vector{Range{{-kInfinity}, {tied ? middle : to, tied}}});
-        const double high = tied ? middle : to;
-        mapped("viridis", lo - kDarkEnd * (high - lo), high);
+        mappedTo(tied ? middle : to);
     }
     return layer;
 }

@@ -130,6 +130,7 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
         if (text.modelGiven && modelOf(options.explorer) == Model::Cells)
             throw ChoiceError(
                 "--splatter exact draws points: --model cells is drawn by the others");
+        options.byPointsAlone = modelOf(options.explorer) == Model::Cells;
         options.explorer = allBy(Model::Points, std::move(options.explorer));
     }
     checkOutput(options);

@@ -44,8 +44,9 @@ struct RenderOptions : CommonOptions {
     std::filesystem::path output;
     bool opticalDepth = false, splatCount = false;  // further EXR channels
     DrawnBy by;
-    bool portable = false;  // pictures keep no absolute path
-    bool progress = false;  // "picture 3 of 31" on stdout after each
+    bool byPointsAlone = false;  // what draws has no cells, which nobody has left out
+    bool portable = false;       // pictures keep no absolute path
+    bool progress = false;       // "picture 3 of 31" on stdout after each
 };
 
 // One step, drawn in every way, or some, and held against the truth.

@@ -90,7 +90,8 @@ void printHead(const Dataset& dataset, const RangeSet& ranges) {
         "missing", "min", "max", "selected", "%");
 }
 
-void print(const Dataset& dataset, const Row& row) {
+// And what each layer has of it, where there are several.
+void print(const Dataset& dataset, const std::vector<RangeSet>& layers, const Row& row) {
     const auto value = [](const Number& n) {
         const auto* real = std::get_if<double>(&n);
         if (real == nullptr) return timeseries::toText(n);
@@ -100,6 +101,10 @@ void print(const Dataset& dataset, const Row& row) {
     say("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8.2f}\n", row.step,
         timeText(*dataset.variable.time, row.step), withCommas(s.points), withCommas(s.missing),
         value(s.min), value(s.max), withCommas(row.selected), row.percent(row.selected));
+    if (layers.size() < 2) return;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        say("{:>5}  range {:<66} {:>12} {:>8.2f}\n", "", layers[i].text(),
+            withCommas(row.ofLayers[i]), row.percent(row.ofLayers[i]));
 }
 
 }  // namespace
@@ -123,7 +128,7 @@ int count(const CountOptions& options) {
             rows.push_back({step, sorted->statistics(), sorted->count(ranges), {}});
             for (const RangeSet& layer : options.ranges)
                 rows.back().ofLayers.push_back(sorted->count(layer));
-            if (!options.json) print(dataset, rows.back());
+            if (!options.json) print(dataset, options.ranges, rows.back());
         }
     }
     tellNotes(stores);

@@ -6,6 +6,7 @@
 
 #include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
+#include "app/choices/idle_choices.h"
 #include "app/choices/map_flaw.h"
 #include "app/command/commands.h"
 #include "app/command/drawing_device.h"
@@ -17,6 +18,7 @@
 #include "app/picture/depth_error.h"
 #include "app/picture/error_text.h"
 #include "app/picture/picture.h"
+#include "app/picture/range_label.h"
 #include "app/picture/still.h"
 #include "app/say.h"
 #include "render/frame/mean_depth.h"
@@ -51,6 +53,7 @@ void tellFiles(const FrameFiles& frames, const timeseries::Variable& variable) {
 // What is said of the pictures once they are made.
 struct Told {
     std::size_t mixed = 0;  // how many say that their colours are mixed
+    std::size_t empty = 0;  // of how many no layer has a point
     std::size_t flat = 0;   // how many lie flat that were to lie on a globe,
     std::string whyFlat{};  // and why
 };
@@ -161,6 +164,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
                                       .progress = [&](double share) { progress.drawn(share); }},
                                      frame.file);
         if (drawn.mixed) ++told.mixed;
+        if (drawn.points == 0) ++told.empty;
         if (std::string why = whyFlat(e, step->grid(), *placed); !why.empty()) {
             ++told.flat;
             told.whyFlat = std::move(why);
@@ -185,7 +189,7 @@ int renderHeadless(const RenderOptions& options) {
     render::FrameRenderer renderer(device.splatter());
     const FrameFiles frames(options.output, e, chosen.steps);
     const MiddleError error = errorOfMiddle(e, frames, *chosen.source);
-    const auto [mixed, flat, why] =
+    const auto [mixed, empty, flat, why] =
         drawFrames(options, e, dataset.variable, frames, error, *chosen.source, renderer);
     tellFiles(frames, dataset.variable);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
@@ -198,7 +202,11 @@ int renderHeadless(const RenderOptions& options) {
         say("  note: colours are mixed{}: the mean optical depth is more than {}; --order depth "
             "draws what is in front over what is behind\n",
             inSome(mixed), render::kMixedDepth);
+    if (empty > 0) say("  note: 0 points are selected{}\n", inSome(empty));
     if (flat > 0) say("  note: what is drawn lies flat{}: {}\n", inSome(flat), why);
+    for (const std::string& idle : idleChoices(options.explorer)) say("  note: {}\n", idle);
+    if (options.byPointsAlone)
+        say("  note: drawn by points, for --splatter exact draws no cells\n");
     tellStyle(e, dataset.variable);
     if (!error.text.empty())
         say("  {}{}\n", error.text,

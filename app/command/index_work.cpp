@@ -94,8 +94,10 @@ int tellIndexed(const IndexedSteps& done, const StepStore& store) {
         done.all() == 1 ? "" : "s", done.written, done.before,
         done.notKept == 0
             ? ""
-            : fmt::format(", {} that cannot be kept: their points move, or their files changed",
-                          done.notKept),
+            : fmt::format(
+                  ", {} that cannot be kept: their points move, their files changed, or all "
+                  "their values are missing",
+                  done.notKept),
         store.folder().string(), megabytesText(bytes));
     return done.failed == 0 ? 0 : 1;
 }

@@ -61,6 +61,8 @@ ordered_json variableJson(const Variable& v) {
                      {"missing", v.missing},
                      {"categories", v.categories},
                      {"notes", v.notes}};
+    for (const timeseries::ClassName& each : v.classes)
+        out["classes"].push_back({{"value", each.value}, {"name", each.name}});
     out["grid"] = gridJson(*v.grid);
     for (const Axis& axis : v.grid->axes())
         if (v.grid->mesh())
@@ -165,6 +167,9 @@ void print(const Variable& v, bool shownFirst) {
     say("  type     {}{}{}\n", timeseries::typeName(v.type), v.categories ? ", categories" : "",
         v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
     if (!v.missing.empty()) say("  missing  {}\n", v.missing);
+    for (std::size_t i = 0; i < v.classes.size(); ++i)
+        say("{}{:g} {}{}", i == 0 ? "  classes  " : ", ", v.classes[i].value, v.classes[i].name,
+            i + 1 == v.classes.size() ? "\n" : "");
     say("  grid     {}\n", gridText(*v.grid));
     for (const Axis& axis : v.grid->axes())
         say("           {}\n", axisText(axis, v.grid->mesh() != nullptr));

@@ -16,6 +16,7 @@
 #include "app/measure/report.h"
 #include "app/measure/trade_plot.h"
 #include "app/picture/picture.h"
+#include "app/picture/range_label.h"
 #include "app/say.h"
 #include "render/image/png.h"
 #include "render/together.h"

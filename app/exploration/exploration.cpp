@@ -131,6 +131,12 @@ void Exploration::togglePlay() {
 std::string Exploration::whyNothingPlays() const {
     const std::string why = "Nothing to play: ";
     const bool one = open_->dataset.stepCount() == 1;
+    if (!one && playback_.timeMoves && playback_.time->placesPerCycle() == 1) {
+        const auto& time = playback_.time->settings();
+        if (time.first == time.last) return why + "one step lies between the in and the out point";
+        return why + fmt::format("every {} steps there is one between the in and the out point",
+                                 time.stride);
+    }
     if ((playback_.sweep && playback_.sweepMoves) || (!one && playback_.timeMoves))
         return why + "the speed is 0";
     if (playback_.sweep) return why + "neither time nor values move";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/picture/range_label.h"
 #include "render/annotate/ticks.h"
 #include "timeseries/grid/cell_types.h"
 
@@ -17,7 +18,10 @@ std::string valueText(const Reading& reading, const Shown& shown) {
         shown.sorted->type() == timeseries::ValueType::F32
             ? fmt::format("{}", static_cast<float>(timeseries::toDouble(reading.value)))
             : timeseries::toText(reading.value);
-    return withUnit(number, shown.dataset.variable.units);
+    const timeseries::Range alone{{reading.value}, {reading.value}};
+    const std::string called =
+        classLabel(timeseries::RangeSet(std::vector{alone}), shown.dataset.variable);
+    return withUnit(number, shown.dataset.variable.units) + (called.empty() ? "" : ", " + called);
 }
 
 std::string betweenText(const Reading& reading, const Shown& shown) {

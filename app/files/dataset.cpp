@@ -41,7 +41,9 @@ std::size_t defaultVariable(std::span<const timeseries::Variable> variables) {
     const auto worth = [](const timeseries::Variable& v) {
         const auto [nx, ny, nz] = v.grid->size();
         // A section of one column or row has levels too, but is no volume.
-        return std::tuple(nx > 1 && ny > 1 ? nz : 1, v.time->points.size(), v.grid->count());
+        const bool isTimed = !v.time->counted, isNormal = v.name.starts_with("Normals");
+        return std::tuple(nx > 1 && ny > 1 ? nz : 1, v.time->points.size(), !v.categories, isTimed,
+                          !isNormal, v.grid->count());
     };
     return static_cast<std::size_t>(std::ranges::max_element(variables, {}, worth) -
                                     variables.begin());

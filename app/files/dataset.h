@@ -42,8 +42,9 @@ struct OpenDataset : Dataset {
     std::unique_ptr<timeseries::Reader> reader;
 };
 
-// Which variable is meant when none is named: the one of the most levels, then of the most steps,
-// then of the most points; of equals the first. REQUIRES: one at least.
+// Which variable is meant when none is named: the one of the most levels, then of the most steps.
+// Of those rather a field than classes, one of a time than a mask of none, and what is no surface's
+// direction; then of the most points; of equals the first. REQUIRES: one at least.
 std::size_t defaultVariable(std::span<const timeseries::Variable> variables);
 
 // `variable`: by name; "" is the default one. Throws FileError, also for a name that is not there

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/picture/picture.h"
+#include "app/picture/range_label.h"
 
 namespace app::headset {
 namespace {

@@ -127,19 +127,17 @@ bool ColorEditor::drawMaps(PanelContext& context, LayerChoice& layer, float widt
     }
     const Rect row{at, at + glm::vec2(width, 28 * s)};
     const double least = choice.lo.value_or(0), most = choice.hi.value_or(0);
-    const auto take = [&](const std::optional<double>& entered, bool inOrder,
-                          std::optional<double>& end, TextField& field) {
+    const auto take = [&](const std::optional<double>& entered, std::optional<double>& end) {
         if (!entered) return;
-        if (!inOrder) return field.refuse("the map's low end has to lie below its high end");
         end = entered;
         changed = true;
     };
     const auto lo =
         valueField(context, lo_, "##lo", part(row, 0, 2, s), "the map's low end", least);
-    take(lo, lo < most, choice.lo, lo_);
+    take(lo, choice.lo);
     const auto hi =
         valueField(context, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
-    take(hi, hi > least, choice.hi, hi_);
+    take(hi, choice.hi);
     if (changed) layer.color = choice;
     return changed;
 }

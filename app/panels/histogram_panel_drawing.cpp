@@ -31,14 +31,17 @@ void HistogramPanel::drawTitle(const Drawing& f) {
     const std::string title =
         fitting(*f.context.theme.strong, unit.empty() ? "Values" : "Values, " + unit,
                 0.5f * (left - at.min.x));
-    const float past = widthOf(*f.context.theme.strong, title) + 18 * f.s;
-    text(f.context.theme, {at.min.x, y}, title, kText, 0, f.context.theme.strong);
+    // What is read off is told whole: beside the title, or in its place.
+    const float whole = left - 12 * f.s - at.min.x;
+    const float beside = whole - widthOf(*f.context.theme.strong, title) - 6 * f.s;
+    const bool fits = widthOf(*f.context.theme.small, readout_) <= beside;
+    if (fits) text(f.context.theme, {at.min.x, y}, title, kText, 0, f.context.theme.strong);
     if (const auto chosen =
             segmented(f.context.theme, "counts", {{left, y - 11 * f.s}, {at.max.x, y + 11 * f.s}},
                       kCounts, linear_ ? 1 : 0))
         linear_ = *chosen == 1;
     text(f.context.theme, {left - 12 * f.s, y},
-         fitting(*f.context.theme.small, readout_, left - at.min.x - past), kDim, 1,
+         fitting(*f.context.theme.small, readout_, fits ? beside : whole), kDim, 1,
          f.context.theme.small);
 }
 

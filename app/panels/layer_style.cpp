@@ -17,10 +17,8 @@ ImU32 encoded(const glm::vec3& linear, float alpha = 1) {
 ImU32 colorAt(const LayerChoice& layer, double value, float alpha) {
     if (!layer.color) return faded(kDim, alpha);
     if (const auto* srgb = std::get_if<glm::dvec3>(&*layer.color)) return fromSrgb(*srgb, alpha);
-    const auto& choice = std::get<MapChoice>(*layer.color);
-    return encoded(choice.map.at(render::mapPosition(
-                       {choice.map, choice.lo.value_or(0), choice.hi.value_or(1)}, value)),
-                   alpha);
+    const render::ByValue map = byValue(std::get<MapChoice>(*layer.color));
+    return encoded(map.map.at(render::mapPosition(map, value)), alpha);
 }
 
 ImU32 colorOf(const LayerChoice& layer, float alpha) {
@@ -44,7 +42,7 @@ void drawMap(ImDrawList& list, const Rect& at, const render::ColorMap& map) {
 void drawSwatch(ImDrawList& list, const Rect& at, const LayerChoice& layer, float scale) {
     if (layer.color) {
         if (const auto* choice = std::get_if<MapChoice>(&*layer.color)) {
-            drawMap(list, at, choice->map);
+            drawMap(list, at, byValue(*choice).map);
             return;
         }
     }

@@ -56,6 +56,11 @@ void ProbePage::draw(PanelContext& context, const Rect& at) {
         line(context.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
     if (!r.cell.empty()) line(context.theme, form, "Cell", r.cell);
     line(context.theme, form, "Time", timeText(*shown->dataset.variable.time, r.step));
+    if (r.step != shown->step)
+        form.note(
+            fmt::format("Read at that time, not at the picture's, {}. A double click reads "
+                        "anew.",
+                        timeText(*shown->dataset.variable.time, shown->step)));
     if (second_) ruler(context, form, *first_, *second_, grid);
     if (textButton(context.theme, "Clear", part(form.row(), 0, 3, context.theme.scale), "Clear"))
         clear();

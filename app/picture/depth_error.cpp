@@ -1,5 +1,6 @@
 #include "app/picture/depth_error.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <utility>
@@ -19,6 +20,8 @@ namespace {
 // More cells take longer to be summed for all pixels than the rays of so many pixels to pass them.
 constexpr std::uint64_t kFewCells = 1 << 18;
 constexpr std::size_t kPixelsAsked = 2048;
+
+bool isZero(double depth) { return depth == 0; }
 
 // One view of a step, drawn in one way and another.
 class Ways {
@@ -190,8 +193,10 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
             whole.emplace(alike, SeenWhole(ways, rungs[i], *field, truth, question));
         if (!wanted) return {};
         const SeenWhole& all = whole.at(alike);
-        RungError& error = told.rungs.emplace_back(
-            RungError{rungs[i], truth.apart(drawn, truth.depth()), all.order});
+        const double depth = truth.apart(drawn, truth.depth());
+        const bool isNothing = depth == 0 && std::ranges::all_of(truth.depth(), isZero);
+        RungError& error = told.rungs.emplace_back(RungError{
+            rungs[i], isNothing ? std::numeric_limits<double>::quiet_NaN() : depth, all.order});
         if (question.parts == Parts::All)
             error.parts = ErrorParts{.model = truth.apart(all.finely, truth.depth()),
                                      .subset = truth.apart(drawn, all.asDrawn),

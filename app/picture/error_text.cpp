@@ -25,6 +25,7 @@ std::string rungText(const Rung& rung) {
 }
 
 std::string shareText(double error) {
+    if (!std::isfinite(error)) return "not known";  // beside a truth that is nothing
     const double percent = 100 * error;
     if (error < kLeastTold) return "below 0.1 %";
     return fmt::format("{:.{}f} %", percent, percent < 1 ? 1 : 0);

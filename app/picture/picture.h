@@ -20,12 +20,6 @@ timeseries::RangeSet rangesAt(const LayerChoice& layer, const timeseries::Sorted
 // the same pixels.
 Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, std::int64_t tick);
 
-// "600 to 1600 K", "≥ 600 K", "all values"; "≈ 0.3333333 to 1 K" where doubles were rounded.
-std::string rangeLabel(const timeseries::RangeSet& ranges, const std::string& units);
-
-// Where the swept window stands, in as many digits as its width needs: "1426.5 ± 40".
-std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick);
-
 // Ranges between points such that a step's cells that reach into them are all that the explorer
 // shows of it, at any tick: those of its visible layers, or everything where a window is swept.
 std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& explorer,
@@ -57,6 +51,8 @@ inline constexpr const char* kMixedColors =
 // What the legend says of a scene that is drawn by cells.
 inline constexpr const char* kInterpolated = "interpolated between points";
 inline constexpr const char* kByPointsAlone = " by points alone";  // after which layers are
+// After how many are selected where cells are drawn: nothing lies between them and others.
+inline constexpr const char* kInfinite = " of infinite value counted, not drawn: points show them";
 struct Picture {
     render::Scene scene;
     render::Legend legend;

@@ -23,7 +23,9 @@ DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render
     const auto views = eyes(e.view, e.stereo, still.placed.outline(), e.size);
     Picture picture =
         makePicture(e, still.variable, still.stepIndex, still.step, still.placed, still.tick);
-    DrawnStill drawn{file, e.stereo.mode, {}, {}, isMixed(e, picture.scene)};
+    DrawnStill drawn{file, e.stereo.mode, {}, {}, isMixed(e, picture.scene), 0};
+    for (const render::Layer& layer : picture.scene.layers)
+        drawn.points += render::pointCount(layer);
     if (drawn.mixed) picture.legend.notes.emplace_back(kMixedColors);
     drawn.eyes = renderer.render({picture.scene, still.step.grid(), picture.legend, kBackground},
                                  onGpu, views, extras);

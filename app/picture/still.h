@@ -38,7 +38,8 @@ struct DrawnStill {
     Stereo stereo;
     std::vector<render::EyePicture> eyes;
     render::Metadata metadata;
-    bool mixed;  // whether the picture says that its colours are
+    bool mixed;            // whether the picture says that its colours are
+    std::uint64_t points;  // selected by its layers; the same one twice where two have it
 };
 
 // `onGpu` holds the step. Throws std::runtime_error on a GL error.

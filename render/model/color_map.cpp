@@ -98,11 +98,17 @@ std::vector<glm::vec3> decode(const EncodedTable& encoded) {
 
 constexpr std::array<std::string_view, 4> kNames = {"viridis", "cividis", "inferno", "cool-warm"};
 
-const std::array<ColorMapTable, 4>& tables() {
-    static const std::array<ColorMapTable, 4> all = {{{kNames[0], decode(kViridis)},
-                                                      {kNames[1], decode(kCividis)},
-                                                      {kNames[2], decode(kInferno)},
-                                                      {kNames[3], coolWarm()}}};
+// Behind all of them, all of them reversed.
+const std::vector<ColorMapTable>& tables() {
+    static const std::vector<ColorMapTable> all = [] {
+        std::vector<ColorMapTable> both{{kNames[0], decode(kViridis)},
+                                        {kNames[1], decode(kCividis)},
+                                        {kNames[2], decode(kInferno)},
+                                        {kNames[3], coolWarm()}};
+        for (std::size_t i = 0; i < kNames.size(); ++i)
+            both.push_back({kNames[i], {both[i].entries.rbegin(), both[i].entries.rend()}});
+        return both;
+    }();
     return all;
 }
 
@@ -111,6 +117,11 @@ const std::array<ColorMapTable, 4>& tables() {
 ColorMap::ColorMap() : table_(&tables().front()) {}
 
 std::string_view ColorMap::name() const { return table_->name; }
+
+ColorMap ColorMap::reversed() const {
+    const auto place = static_cast<std::size_t>(table_ - tables().data());
+    return ColorMap(tables()[(place + kNames.size()) % tables().size()]);
+}
 
 std::vector<glm::vec3> sumsOf(std::span<const glm::vec3> entries) {
     std::vector<glm::vec3> sums;

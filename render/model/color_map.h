@@ -18,6 +18,8 @@ class ColorMap {
     ColorMap();  // viridis
 
     std::string_view name() const;
+    // Its colours the other way round, of the same name.
+    ColorMap reversed() const;
 
     // Linear light. t is clamped to [0, 1], NaN is 0. Interpolation between entries is linear in
     // LINEAR light: neighbours are so close that the space does not show, and a GPU texture of the

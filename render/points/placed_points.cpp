@@ -101,6 +101,15 @@ PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, 
     mesh_ ? measureMesh() : measureAxes(grid);
 }
 
+Outline PlacedPoints::outline() const {
+    Outline out(boxHalfEdges(), globe_ && globe_->isWhole());
+    if (mesh_ || boxHalf_ == glm::dvec3(0)) return out;  // of a single point, there is no size
+    const auto [lo, hi] = domain();
+    const glm::dvec3 half = glm::max(glm::abs(lo), glm::abs(hi));
+    for (int a = 0; a < 3; ++a) out.filledHalfEdges[a] = half[a] * worldFromAxes_[a];
+    return out;
+}
+
 Outline PlacedPoints::outlineOf(const Grid& grid, std::optional<glm::dvec3> stretch, Map map) {
     if (map != Map::Globe || !Globe::shows(grid)) return PlacedPoints(grid, stretch).outline();
     const Globe globe = globeOf(grid, stretch);

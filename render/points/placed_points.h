@@ -45,8 +45,10 @@ enum class Map { Flat, Globe };
 struct Outline {
     glm::dmat3 boxHalfEdges;  // columns: from the centre to the middles of three faces
     bool isBall = false;      // as wide as the box along x
+    // So for a box that the half cells around the outermost points are in, too.
+    glm::dmat3 filledHalfEdges;
     Outline(const glm::dmat3& halfEdges, bool ball = false)
-        : boxHalfEdges(halfEdges), isBall(ball) {}
+        : boxHalfEdges(halfEdges), isBall(ball), filledHalfEdges(halfEdges) {}
 };
 
 // World coordinates: z up, the centre of the grid's box at 0, and the box scaled so that its
@@ -148,7 +150,7 @@ class PlacedPoints {
     // Without placing a point.
     static Outline outlineOf(const timeseries::Grid& grid, std::optional<glm::dvec3> stretch,
                              Map map);
-    Outline outline() const { return {boxHalfEdges(), globe_ && globe_->isWhole()}; }
+    Outline outline() const;
     // World length per grid unit along each axis, signed; their ratios are what a picture states.
     glm::dvec3 scale() const;
     // In axis coordinates, from the grid's coordinates along its axes.

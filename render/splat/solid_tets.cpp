@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace render {
+namespace {
+
+// Beside a pole cells are many times as long along longitudes as along latitudes. One that lies
+// where longitudes begin anew would reach so far beyond the map, of its own latitudes.
+constexpr double kMostBeyond = 4;
+
+}  // namespace
 
 glm::dvec3 SolidTets::longestOn(const Globe& globe) const {
     const glm::dvec3 farthest =
@@ -33,6 +40,9 @@ unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron
     if (comesRound_) {
         const auto [least, most] = std::ranges::minmax(tet.at, {}, &glm::dvec3::x);
         if (timeseries::SolidCells::isAboutPole(most.x - least.x, period_.x)) return 0;
+        const auto [low, high] = std::ranges::minmax(tet.at, {}, &glm::dvec3::y);
+        const double beyond = std::max(mapFrom_ - least.x, most.x - mapTo_);
+        if (beyond > kMostBeyond * (high.y - low.y)) return 0;
     }
     return seen;
 }

@@ -32,6 +32,8 @@ class SolidTets {
           clips_(!clip.holdsAll()),
           period_(placed.period()),
           comesRound_(period_ != glm::dvec3(0)),
+          mapFrom_(placed.pointsBox().lo.x),
+          mapTo_(placed.pointsBox().hi.x),
           reach_(MeshCells::reachOf(
               placed, placed.globe() ? longestOn(*placed.globe()) : cells_.longest())) {}
 
@@ -75,6 +77,7 @@ class SolidTets {
     bool clips_;
     glm::dvec3 period_;
     bool comesRound_;
+    double mapFrom_, mapTo_;  // where the points are, along what comes round
     glm::dvec3 reach_;
 };
 

@@ -116,6 +116,34 @@ TEST(Camera, WithoutADistanceTheBoxSpansItsShareOfTheFreeArea) {
     }
 }
 
+// Of few points, the outermost cells reach farther than their box leaves free.
+TEST(Camera, WithoutADistanceTheOutermostCellsAreInTheFreeAreaToo) {
+    for (const double filled : {1.0, 1.05, 1.1, 1.125, 1.5, 3.0})
+        for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
+            render::Outline outline(kCube);
+            outline.filledHalfEdges = filled * kCube;
+            ViewChoice view{30, 20, {}};
+            view.projection = projection;
+            const ivec2 size(800, 600);
+            const View eye = eyes(view, {}, outline, size)[0];
+            const glm::dvec2 free = freeAreaOf(size);
+            double widest = 0;
+            for (const dvec3& corner : corners(filled * kCube)) {
+                const glm::dvec2 at = 2.0 * project(eye, corner).window / glm::dvec2(size) - 1.0;
+                widest = std::max({widest, std::abs(at.x) / free.x, std::abs(at.y) / free.y});
+            }
+            EXPECT_LE(widest, 1 + 2e-4) << filled;
+            if (filled > 1.15) {
+                EXPECT_NEAR(widest, 1, 2e-4) << filled;
+            }
+            // Most grids have so many that their pictures are those of their boxes.
+            if (filled < 1.06) {
+                EXPECT_EQ(standOf(view, outline, size).distance,
+                          standOf(view, kCube, size).distance);
+            }
+        }
+}
+
 TEST(Camera, TheFreeAreaIsMostOfAPicture) {
     for (const ivec2 size : {ivec2(1200, 900), ivec2(400, 580), ivec2(2160, 1380), ivec2(64, 48)}) {
         EXPECT_GE(freeAreaOf(size).x, 0.8 - 1e-9);

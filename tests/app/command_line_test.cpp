@@ -46,7 +46,7 @@ Explorer closed(Explorer e) {
 
 TEST(CommandLine, GivesBackTheSameExplorer) {
     tests::RandomExplorer next(86);
-    for (int i = 0; i < tests::rounds(1000); ++i) {
+    for (int i = 0; i < tests::rounds(400); ++i) {
         Explorer e = closed(next());
         for (const char* folder : {"/data/run", "/elsewhere/deep"}) {
             const auto arguments = renderArguments(e, "/out/a.exr", folder);

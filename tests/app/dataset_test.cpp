@@ -112,6 +112,18 @@ TEST(DefaultVariable, HasTheMostLevelsThenStepsThenPoints) {
     EXPECT_EQ(best({air, large}), "large");
     EXPECT_EQ(best({later, air}), "later") << "of equals the file's first";
     EXPECT_EQ(best({section, air}), "air") << "a section is no volume";
+    auto classes = sized("classes", {50, 40, 30}, 5), mask = sized("mask", {40, 40, 30}, 1),
+         normals = sized("Normals magnitude", {40, 40, 30}, 5), dated = once;
+    classes.categories = true;
+    EXPECT_EQ(best({classes, air}), "air");
+    EXPECT_EQ(best({normals, air}), "air");
+    mask.time = std::make_shared<const timeseries::TimeAxis>(
+        timeseries::TimeAxis{"step", "", "", {{0, ""}}, true});
+    dated.time = std::make_shared<const timeseries::TimeAxis>(
+        timeseries::TimeAxis{"time", "s", "", {{7, ""}}, false});
+    dated.grid = mask.grid;
+    EXPECT_EQ(best({mask, dated}), "once");
+    EXPECT_EQ(best({mask}), "mask");
 }
 
 TEST(Dataset, TheDefaultVariableIsNotTheFilesFirst) {

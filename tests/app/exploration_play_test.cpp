@@ -212,6 +212,24 @@ TEST(Exploration, WithOneStepNothingPlaysAndThatIsTold) {
     EXPECT_TRUE(desk.exploration.playback().playing);
 }
 
+TEST(Exploration, WhereOneStepIsLeftToPlayThatIsTold) {
+    const auto told = [](timeseries::CursorSettings time) {
+        Desk desk;
+        desk.open("a");
+        Explorer next = desk.exploration.explorer();
+        next.play.time = time;
+        desk.exploration.edit(next);
+        desk.exploration.togglePlay();
+        EXPECT_FALSE(desk.exploration.playback().playing);
+        EXPECT_EQ(desk.exploration.messages().size(), 1u);
+        return desk.exploration.messages().front().text;
+    };
+    EXPECT_EQ(told({.first = 2, .last = 2}),
+              "Nothing to play: one step lies between the in and the out point");
+    EXPECT_EQ(told({.stride = 100}),
+              "Nothing to play: every 100 steps there is one between the in and the out point");
+}
+
 TEST(Exploration, PlayGoesOnWithAnotherVariable) {
     Desk desk;
     desk.open("a");

@@ -109,6 +109,25 @@ TEST(FirstChoice, OnBothSidesTheTenthIsThatFarthestFromTheBackground) {
     EXPECT_NEAR(timeseries::toDouble(layer.ranges.ranges()[1].lo.value), tenth, 2e-3);
 }
 
+// Where all of that tenth lies on one side, the colours are those of a field with one.
+TEST(FirstChoice, OneOfTwoSidesIsColouredAsOne) {
+    for (const int sign : {1, -1}) {
+        const SortedStep step = stepOf(drawn([&](auto& r) {
+            const double u = std::uniform_real_distribution<double>(0, 1)(r);
+            return sign * (u < 0.06 ? -1.4 : u < 0.88 ? u : 3 + u);
+        }));
+        const LayerChoice layer = choiceFor(step);
+        ASSERT_EQ(layer.ranges.ranges().size(), 1u);
+        const auto& map = std::get<MapChoice>(layer.color.value());
+        EXPECT_EQ(map.map.name(), sign > 0 ? "inferno" : "viridis");
+        // From the range's end to the data's, all but the dark end is seen.
+        const double from = 3.9, to = 4;  // the uppermost tenth
+        EXPECT_NEAR(map.lo.value(),
+                    sign > 0 ? from - kDarkEnd * (to - from) : -to - kDarkEnd * (to - from), 0.02);
+        EXPECT_NEAR(map.hi.value(), sign > 0 ? to : -from, 0.02);
+    }
+}
+
 TEST(FirstChoice, ATiedBackgroundIsLeftOut) {
     for (const double background : {0.0, 1.0, -273.15, 1.0 / 3, 1e300})
         for (const double share : {0.001, 0.02, 0.3}) {

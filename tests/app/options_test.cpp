@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/idle_choices.h"
 #include "app/choices/session.h"
 #include "tests/support/files.h"
 #include "tests/support/parsed_options.h"
@@ -128,6 +129,27 @@ TEST(Options, WrongCommandLinesExitWithTwo) {
     EXPECT_THAT(renderRefused({"--size"}), HasSubstr("--size"));
     EXPECT_THAT(renderRefused({"--size", "1x1", "--size", "2x2"}), HasSubstr("--size"));
     refused({"info", "a.nc", "count", "a.nc", "--range", "0:1"});
+}
+
+TEST(Options, WhatDoesNothingBesideOthersIsTold) {
+    for (const std::vector<std::string>& idle :
+         {std::vector<std::string>{"--light", "full", "--model", "points"},
+          {"--light", "full", "--order", "none"},
+          {"--light-from", "10,20", "--model", "points"},
+          {"--light-from", "10,20", "--light", "off"},
+          {"--opacity-per", "length", "--model", "points"},
+          {"--eye-distance", "0.1"},
+          {"--convergence", "2", "--stereo", "off"}})
+        EXPECT_THAT(idleChoices(explorer(idle)),
+                    testing::ElementsAre(testing::StartsWith(idle[0])));
+    for (const std::vector<std::string>& fine :
+         {std::vector<std::string>{},
+          {"--light", "off", "--model", "points"},
+          {"--light", "full", "--light-from", "10,20"},
+          {"--model", "points", "--order", "none"},
+          {"--opacity-per", "length"},
+          {"--eye-distance", "0.1", "--stereo", "side-by-side"}})
+        EXPECT_THAT(idleChoices(explorer(fine)), testing::IsEmpty());
 }
 
 TEST(Options, WithoutACommandAFileIsViewed) {

@@ -11,6 +11,7 @@
 
 #include "app/choices/camera.h"
 #include "app/picture/depth_error.h"
+#include "app/picture/error_text.h"
 #include "tests/support/scenes.h"
 #include "tests/support/step_bytes.h"
 
@@ -57,6 +58,13 @@ TEST(PictureError, OfCellsIsSmallAndOfAThinRangesPointsLarge) {
     EXPECT_GT(wide, 0.02);
     EXPECT_LT(wide, 0.3);
     EXPECT_GT(worked(waves(Model::Points, "0.2:0.23")), 0.4);
+}
+
+// A picture of nothing, where nothing is, has no error to tell.
+TEST(PictureError, OfNothingIsNone) {
+    EXPECT_TRUE(std::isnan(worked(waves(Model::Cells, "5:6"))));
+    EXPECT_TRUE(std::isnan(worked(waves(Model::Points, "5:6"))));
+    EXPECT_EQ(depthErrorText(worked(waves(Model::Cells, "5:6"))), "");
 }
 
 // Neither order, light nor what opacity is of changes lengths.

@@ -1,6 +1,7 @@
 #include "app/picture/picture.h"
 #include "app/picture/resolved.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -245,6 +246,70 @@ TEST_F(PictureOfARamp, InfinitiesBendNoAxis) {
     EXPECT_NEAR(static_cast<double>(chosen), 100, 10) << first.layers[0].ranges.text();
 }
 
+// Nothing lies between infinity and anything.
+TEST_F(PictureOfARamp, InfinitePointsAreSaidNotToBeAmongCells) {
+    std::vector<float> values(1000, 1);
+    values[0] = values[5] = -std::numeric_limits<float>::infinity();
+    values[999] = std::numeric_limits<float>::infinity();
+    step_ = std::make_shared<const SortedStep>(SortedStep::build({tests::cube(10), values, {}}));
+    steps_ = {{1, step_}};
+    const auto notesOf = [&](const std::vector<const char*>& ranges, Model model) {
+        Explorer e = withRanges(ranges);
+        e.model = model;
+        return pictureOf(e).legend.notes;
+    };
+    EXPECT_THAT(notesOf({"min:1"}, Model::Cells),
+                testing::Contains("2 of infinite value counted, not drawn: points show them"));
+    EXPECT_THAT(notesOf({"min:0", "1:max"}, Model::Cells),
+                testing::Contains("3 of infinite value counted, not drawn: points show them"));
+    for (const auto& none : {notesOf({"(min,5]", "[0,max)"}, Model::Cells),
+                             notesOf({"0:1"}, Model::Cells), notesOf({"min:max"}, Model::Points)})
+        EXPECT_THAT(none, testing::Not(testing::Contains(HasSubstr("infinite"))))
+            << "or none drawn";
+}
+
+// Its field has no slope that faces an eye.
+TEST_F(PictureOfARamp, AFieldOfOneLayerIsNotLit) {
+    for (const int layers : {1, 2}) {
+        const auto grid = std::make_shared<const timeseries::Grid>(std::array<timeseries::Axis, 3>{
+            timeseries::Axis{"x", "", {0, 1, 2}, false},
+            timeseries::Axis{"y", "", {0, 1, 2}, false},
+            timeseries::Axis{"z", "",
+                             std::vector<double>(layers == 1 ? std::vector<double>{0}
+                                                             : std::vector<double>{0, 1}),
+                             false}});
+        std::vector<float> values(grid->count());
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
+        const SortedStep step = SortedStep::build({grid, values, {}});
+        Explorer e = withRanges({"1:5"});
+        e.model = Model::Cells;
+        e.layers[0].color = MapChoice{{}, 0.0, 9.0};
+        e.layers[0].opacity = 0.5;
+        const render::Scene scene = makeScene(e, step, render::PlacedPoints(*grid), 0);
+        ASSERT_NE(scene.cells, nullptr);
+        EXPECT_EQ(scene.light, layers == 1 ? render::Light::Off : render::Light::Soft);
+    }
+}
+
+TEST_F(PictureOfARamp, ABoxIsToldByTheNamesOfItsAxes) {
+    Explorer e = withRanges({"0:999"});
+    e.clip = ClipBox{{2, -kInfinity, -kInfinity}, {4.5, kInfinity, 7}};
+    const auto& axes = step_->grid().axes();
+    EXPECT_THAT(pictureOf(e).legend.notes,
+                testing::Contains(fmt::format("drawn inside {} 2 to 4.5 m, {} \u2264 7 m only",
+                                              axes[0].name, axes[2].name)));
+}
+
+TEST_F(PictureOfARamp, AMapMayBeTurnedRound) {
+    Explorer e = withRanges({"100:200"});
+    e.layers[0].color = MapChoice{{}, 300.0, 100.0};
+    const render::RangeStyle style = pictureOf(e).scene.layers[0].style;
+    e.layers[0].color = MapChoice{{}, 100.0, 300.0};
+    const render::RangeStyle ahead = pictureOf(e).scene.layers[0].style;
+    for (const double v : {90.0, 100.0, 120.0, 200.0, 300.0, 310.0})
+        EXPECT_EQ(colorOf(style, v), colorOf(ahead, 400 - v)) << v;
+}
+
 TEST_F(PictureOfARamp, PercentsAreOfTheValidPointsKeptOrNot) {
     step_ = ramp(0, RangeSet::parse("500:max"));
     const Picture p = pictureOf(withRanges({"500:749"}));
@@ -286,7 +351,7 @@ TEST_F(PictureOfARamp, NotesTellWhatWasBentToDrawIt) {
     const Picture p = pictureOf(e);
     ASSERT_EQ(p.legend.notes.size(), 2u);
     EXPECT_EQ(p.legend.notes[0], "drawn in index space");
-    EXPECT_THAT(p.legend.notes[1], HasSubstr("2:5,min:max,0:0"));
+    EXPECT_THAT(p.legend.notes[1], HasSubstr("x 2 to 5 m, x 0 m only"));
     EXPECT_EQ(p.scene.clip.lo, glm::uvec3(2, 0, 0));
     EXPECT_EQ(p.scene.clip.hi, glm::uvec3(5, 9, 0));
     // x from 2 to 5, every y, z 0.

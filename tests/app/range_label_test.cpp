@@ -1,9 +1,11 @@
 // Ranges in words.
-#include "app/picture/picture.h"
+#include "app/picture/range_label.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "app/choices/choice_text.h"
@@ -34,6 +36,33 @@ TEST(RangeLabel, SaysARangeAsPeopleDo) {
     EXPECT_EQ(label("0:1", ""), "0 to 1");
     EXPECT_EQ(label("0:1", "1"), "0 to 1");
     EXPECT_EQ(rangeLabel(RangeSet(), "K"), "no values");
+}
+
+// A session writes whole numbers without an exponent.
+TEST(RangeLabel, IsTheSameHoweverANumberIsWritten) {
+    const auto label = [](const std::string& text) {
+        return rangeLabel(RangeSet::parse(text), "K");
+    };
+    for (const auto& [exponent, digits, told] : {std::array{"1e7", "10000000", "10000000"},
+                                                 {"3.8e13", "38000000000000", "3.8e+13"},
+                                                 {"-2e2", "-200", "\u2212200"},
+                                                 {"-0.0", "0", "0"}}) {
+        EXPECT_EQ(label(std::string(exponent) + ":max"), fmt::format("\u2265 {} K", told));
+        EXPECT_EQ(label(std::string(digits) + ":max"), fmt::format("\u2265 {} K", told));
+    }
+}
+
+TEST(RangeLabel, FewClassesAreCalledByTheirNames) {
+    timeseries::Variable about;
+    about.classes = {{0, "sea"}, {1, "land"}, {2, "ice"}, {5, "lake"}, {7, "swamp"}};
+    const auto label = [&](const char* text) { return classLabel(RangeSet::parse(text), about); };
+    EXPECT_EQ(label("2"), "ice");
+    EXPECT_EQ(label("[2,5)"), "ice");
+    EXPECT_EQ(label("0:0,5:max"), "sea, lake, swamp");
+    EXPECT_EQ(label("3:4"), "");
+    EXPECT_EQ(label("min:max"), "") << "too many to be read";
+    about.classes.clear();
+    EXPECT_EQ(label("2"), "");
 }
 
 TEST(RangeLabel, LongDoublesAreRoundedAndSaidToBe) {

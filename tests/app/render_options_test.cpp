@@ -196,7 +196,7 @@ TEST(Options, MapsTakeTheValuesOfTheirEnds) {
     EXPECT_EQ(map("inferno=300:1600"), (MapChoice{inferno, 300.0, 1600.0}));
     EXPECT_EQ(map("inferno=-1e-3:"), (MapChoice{inferno, -1e-3, {}}));
     EXPECT_EQ(map("inferno=:-5"), (MapChoice{inferno, {}, -5.0}));
-    EXPECT_EQ(map("inferno=2:1"), (MapChoice{inferno, 2.0, 1.0})) << "the middle everywhere";
+    EXPECT_EQ(map("inferno=2:1"), (MapChoice{inferno, 2.0, 1.0})) << "turned round";
 }
 
 TEST(Options, HiddenLayersAreCountedAsStylesAre) {

@@ -68,6 +68,12 @@ TEST_F(PictureOfARamp, TheSweptWindowIsCutToWhatWasKept) {
     // 135:145, 145:155, 155:165, 165:175 of 150:160.
     EXPECT_EQ(amounts, (std::vector<std::string>{"0 points, 0 %", "6 points, 0.6 %",
                                                  "6 points, 0.6 %", "0 points, 0 %"}));
+    EXPECT_THAT(pictureOf(e, 4).legend.notes,
+                testing::Contains("kept, drawn and counted: 150 to 160 K only"));
+    // Windows that stay inside it need no such note.
+    sweepOf(e)->animation = RangeSet::parse("155:155");
+    EXPECT_THAT(pictureOf(e, 4).legend.notes,
+                testing::Not(testing::Contains(testing::HasSubstr("kept, drawn"))));
 }
 
 TEST_F(PictureOfARamp, ASweepMayStartAtAnOpenEndOfWhatWasKept) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <string>
 
@@ -50,6 +51,17 @@ TEST(ColorMap, NamesAreThoseThatCanBeAskedFor) {
     EXPECT_FALSE(colorMapNamed("").has_value());
     EXPECT_EQ(ColorMap(), named(colorMapNames().front()));
     EXPECT_NE(named("viridis"), named("inferno"));
+}
+
+TEST(ColorMap, ReversedItIsTheOtherWayRound) {
+    for (const auto name : colorMapNames()) {
+        const ColorMap map = named(name), back = map.reversed();
+        EXPECT_EQ(back.name(), name);
+        EXPECT_NE(back, map);
+        EXPECT_EQ(back.reversed(), map);
+        for (const double t : {0.0, 0.25, 0.3, 0.5, 1.0})
+            EXPECT_LT(glm::length(back.at(t) - map.at(1 - t)), 1e-6) << name << " " << t;
+    }
 }
 
 TEST(ColorMap, EntriesLieEvenlyAndColorsBetweenThemMixInLinearLight) {

@@ -260,6 +260,21 @@ TEST(SolidTets, AboutAPoleAreDrawnOnTheGlobeAlone) {
     EXPECT_LT(solids.reach().x, 2);  // the globe is as wide
 }
 
+// Columns 20 to 70 degrees apart, where longitudes begin anew: beside a pole nothing else of the
+// map lies so far beyond its end. At the equator they are as far apart both ways, and are drawn.
+TEST(SolidTets, BesideAPoleNoneReachFarBeyondTheMap) {
+    const auto drawnOf = [](double south, double north) {
+        const auto grid = onSphere({{-170, -140, 170, 150}, {south, north, south, north}, 360},
+                                   {{0, 1, 2}, {1, 2, 3}});
+        const CellWorld flat(stepOfPlaces(grid, [](const auto& p) { return p.z; }), {"min:max"});
+        std::set<std::uint32_t> cells;
+        forEachTetOf(flat, [&](std::uint32_t cell, const auto&) { cells.insert(cell); });
+        return cells.size();
+    };
+    EXPECT_EQ(drawnOf(85, 88), 0u);
+    EXPECT_EQ(drawnOf(-20, 20), 4u);
+}
+
 // A linear field is so between the corners of any cell: a range of it is a slab of the box, as deep
 // as a ray's way through that.
 TEST(SolidTets, ARangeOfALinearFieldIsASlab) {

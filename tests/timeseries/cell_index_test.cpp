@@ -192,6 +192,24 @@ TEST(CellIndex, OfAStepThatKeepsAFewPointsAndItsFieldIsTheWholeFields) {
               SortedStep::build(waves<float>({17, 1, 1}, 9, false)).whyNoCells());
 }
 
+// What lies between points is made of doubles, which tell no odd numbers apart there.
+TEST(CellIndex, WholeNumbersBeyondDoublesHaveNone) {
+    const auto with = [](std::int64_t most) {
+        Field field = waves<std::int64_t>({5, 4, 3}, 9, false);
+        std::get<std::vector<std::int64_t>>(field.values).back() = most;
+        return SortedStep::build(std::move(field));
+    };
+    constexpr std::int64_t kTold = std::int64_t{1} << 53;
+    EXPECT_TRUE(with(kTold).canHaveCells());
+    EXPECT_TRUE(with(-kTold).canHaveCells());
+    for (const std::int64_t most :
+         {kTold + 1, -kTold - 2, std::numeric_limits<std::int64_t>::min()}) {
+        EXPECT_EQ(with(most).whyNoCells(),
+                  "whole numbers beyond 2^53 are told apart by points alone");
+        EXPECT_EQ(with(most).cells(), nullptr);
+    }
+}
+
 TEST(CellIndex, IsTheSameForAnyNumberOfThreads) {
     const Field field = waves<float>({17, 9, 8}, 5, true);
     const CellIndex one(field, 1), five(field, 5);

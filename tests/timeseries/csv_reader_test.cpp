@@ -107,15 +107,16 @@ TEST(Csv, AFileIsASeriesOfOneStepAndSeveralAreOneOfMore) {
 }
 
 TEST(Csv, WhatIsWrongIsToldWithItsRow) {
+    const std::string kNoTable = "expected a table whose first line names columns x and y";
     for (const auto& [text, told] : std::vector<std::pair<std::string, std::string>>{
              {"x,y,z,T\n1,2,3,4\n1,2,3\n", "row 3: expected 4 numbers, found 3"},
              {"x,y,z,T\n1,2,3,4\n1,2,3,hot\n", "row 3: expected a number in column T, found 'hot'"},
              {"x,y,z,T\nnan,2,3,4\n", "expected points that take space"},
-             {"x,y,z\n1,2,3\n", "no format that is known"},
-             {"x,z,T\n1,2,3\n", "no format that is known"},
-             {"x,y,z,T\n", "no format that is known"},
-             {"x,y,z,T\none,2,3,4\n", "no format that is known"},
-             {"some words, and more\nx,y,z,T\n1,2,3,4\n", "no format that is known"},
+             {"x,y,z\n1,2,3\n", kNoTable},
+             {"x,z,T\n1,2,3\n", kNoTable},
+             {"x,y,z,T\n", kNoTable},
+             {"x,y,z,T\none,2,3,4\n", kNoTable},
+             {"some words, and more\nx,y,z,T\n1,2,3,4\n", kNoTable},
          })
         EXPECT_THAT(refusalOf(table(text)), HasSubstr(told)) << text;
 }

@@ -136,6 +136,30 @@ TEST(DamagedNetcdf, Netcdf4HeadersThatCrashHdf5AreReadOrRefused) {
     EXPECT_GE(objects, 4u);  // one a dimension at least
 }
 
+// The files of a series are tried together: where that ends badly, each by itself.
+TEST(DamagedNetcdf, AHeaderThatCrashesHdf5AmongASeriesIsToldOfItsFile) {
+    const auto step = [](int number) {
+        NetcdfBuilder file(fmt::format("s{}.nc", number));
+        const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 2),
+                  x = file.dimension("x", 2);
+        file.text(file.variable("time", NC_DOUBLE, {t}), "units", "s");
+        file.variable("v", NC_FLOAT, {t, y, x});
+        file.write(0, {0}, {1}, std::vector<double>{double(number)});
+        file.write(1, {0, 0, 0}, {1, 2, 2}, std::vector<float>(4, float(number)));
+        return file.close();
+    };
+    std::vector<Path> series;
+    for (int number = 0; number < 4; ++number) series.push_back(step(number));
+    EXPECT_EQ(openReader(series)->variables()[0].time->points.size(), 4u);
+    const std::string whole = readBytes(series[2]);
+    const std::size_t heap = whole.find("GCOL");
+    ASSERT_NE(heap, std::string::npos);
+    std::string bytes = whole;
+    bytes[heap + 16 + 8 + 5] = 1;  // the first object has 2^40 bytes more
+    tests::writeBytes(series[2], bytes);
+    EXPECT_THAT(refusalOf(series), HasSubstr("s2.nc"));
+}
+
 TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
     EXPECT_EQ(refusalOf(std::vector<Path>{}), "expected a file to open, but none is named");
     const Path missing = tests::testFolder() / "there_is_none.nc";
@@ -235,11 +259,15 @@ TEST(DamagedNetcdf, CompressedValuesThatCannotBeUnpackedAreToldWhenRead) {
 }
 
 TEST(DamagedNetcdf, AnEmptySeriesIsTold) {
-    NetcdfBuilder file("a.nc");
-    const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 2),
-              x = file.dimension("x", 2);
-    file.variable("v", NC_FLOAT, {t, y, x});
-    EXPECT_THAT(refusalOf({file.close()}), HasSubstr("v(time, y, x): the dimension time is empty"));
+    // A step would be larger than the file is.
+    for (const int format : {NC_NETCDF4, 0, NC_64BIT_OFFSET, NC_64BIT_DATA}) {
+        NetcdfBuilder file("a.nc", format);
+        const int t = file.dimension("time", NC_UNLIMITED), y = file.dimension("y", 200),
+                  x = file.dimension("x", 200);
+        file.variable("v", NC_FLOAT, {t, y, x});
+        EXPECT_THAT(refusalOf({file.close()}),
+                    HasSubstr("v(time, y, x): the dimension time is empty"));
+    }
 }
 
 TEST(DamagedNetcdf, AFileThatChangesAfterItWasOpenedIsTold) {

@@ -153,7 +153,7 @@ TEST(NetcdfReader, FlagsAreCategories) {
     const int d = file.dimension("x", 4), e = file.dimension("y", 3), f = file.dimension("z", 2);
     const int type = file.variable("type", NC_BYTE, {f, e, d});
     file.number(type, "flag_values", std::vector<std::int8_t>{0, 1, 2});
-    file.text(type, "flag_meanings", "sea land ice");
+    file.text(type, "flag_meanings", "sea land lake_ice");
     const int height = file.variable("height", NC_BYTE, {f, e, d});
     for (const int variable : {type, height}) file.write(variable, std::vector<std::int8_t>(24, 1));
     const auto reader = open(file.close());
@@ -163,6 +163,9 @@ TEST(NetcdfReader, FlagsAreCategories) {
         EXPECT_EQ(reader->variables()[v].categories, expected);
         EXPECT_EQ(reader->read(v, 0).categories, expected);
         EXPECT_EQ(SortedStep::build(reader->read(v, 0)).canHaveCells(), !expected);
+        EXPECT_EQ(reader->variables()[v].classes,
+                  expected ? (std::vector<ClassName>{{0, "sea"}, {1, "land"}, {2, "lake ice"}})
+                           : std::vector<ClassName>());
     }
 }
 

@@ -55,6 +55,29 @@ std::vector<float> firstValues(Reader& reader) {
     return values;
 }
 
+// As CDO writes them: the digits of a date.
+TEST(NetcdfTime, AbsoluteTimesAreDates) {
+    const std::string units = "day as %Y%m%d.%f";
+    const auto reader =
+        open(series("a.nc", {20981231.25, 20990101.0, 20990301.5}, units, "365_day"));
+    const TimeAxis& time = *reader->variables()[0].time;
+    EXPECT_EQ(time.units, "days since 2098-12-31");
+    EXPECT_THAT(timesOf(*reader), ElementsAre(0.25, 1, 1 + 31 + 28 + 0.5));
+    EXPECT_EQ(time.points[0].date, "2098-12-31 06:00:00");
+    EXPECT_EQ(time.points[2].date, "2099-03-01 12:00:00");
+    EXPECT_THAT(reader->variables()[0].notes, Each(Not(HasSubstr("time"))));
+    // Several files count from days of their own.
+    const std::vector<Path> two{series("b2.nc", {20000101.0}, units, "", 5),
+                                series("b1.nc", {19991231.0}, units)};
+    EXPECT_THAT(firstValues(*openReader(two)), ElementsAre(0, 5));
+    // What is no date is a number.
+    for (const double none : {20991301.0, 20990230.0, 1e300, std::nan("")}) {
+        const auto as = open(series("c.nc", {20990101.0, none}, units));
+        EXPECT_EQ(as->variables()[0].time->units, units);
+        EXPECT_EQ(as->variables()[0].time->points[0].date, "");
+    }
+}
+
 TEST(NetcdfTime, ValuesAreAsStoredWithDatesOfTheCalendar) {
     const auto reader = open(series("a.nc", {0.0, 58.0, 59.0}, "days since 2000-01-01", "NoLeap"));
     const TimeAxis& time = *reader->variables()[0].time;

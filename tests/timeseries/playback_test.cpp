@@ -62,6 +62,27 @@ TEST(Playback, PausesWhenTheStepsHavePlayedOnceAndBeginsAgainOnPlay) {
     EXPECT_EQ(playback.time->step(), 0u);
 }
 
+// Reached by hand, too; where there is no other step to show, there is nothing to begin again.
+TEST(Playback, FromTheLastStepItBeginsAgain) {
+    for (const Direction direction : {Direction::Forward, Direction::Backward}) {
+        const std::size_t from = direction == Direction::Forward ? 0 : 2;
+        Playback playback{
+            .time = TimeCursor(
+                3, {.ending = Ending::Once, .direction = direction, .stepsPerSecond = 1})};
+        playback.time->seek(2 - from);
+        playback.play();
+        EXPECT_EQ(playback.time->step(), from);
+        playback.pause();
+        playback.time->seek(1);
+        playback.play();
+        EXPECT_EQ(playback.time->step(), 1u);
+    }
+    Playback loop{.time = TimeCursor(3, {.ending = Ending::Loop})};
+    loop.time->seek(2);
+    loop.play();
+    EXPECT_EQ(loop.time->step(), 2u);
+}
+
 TEST(Playback, KeepsPlayingWhileTheWindowMoves) {
     Playback playback{.time = TimeCursor(3, {.ending = Ending::Once}), .sweep = sweepOf(0.1)};
     playback.play();

@@ -33,6 +33,7 @@ TEST(RangeText, DocumentedFormsAreRead) {
         {"[1:2)", RangeSet({halfOpen(1_i, 2_i)})},
         {"(1:2]", RangeSet({openLow(1_i, 2_i)})},
         {"5~2", RangeSet({closed(3_i, 7_i)})},
+        {"5 \u00b1 2", RangeSet({closed(3_i, 7_i)})},  // as legends have it
         {"3~5", RangeSet({closed(-2.0, 8.0)})},
         {"1.5~0.25", RangeSet({closed(1.25, 1.75)})},
         {"-1.5~0", RangeSet({closed(-1.5, -1.5)})},
@@ -97,6 +98,27 @@ TEST(RangeText, CentreAndWidthAreExactForIntegers) {
                                std::numeric_limits<std::int64_t>::min() + 2)}));
     EXPECT_EQ(RangeSet::parse("9223372036854775808~9223372036854775807"),
               RangeSet({closed(1_i, std::numeric_limits<std::uint64_t>::max())}));
+}
+
+// From 2^53 on a double may be another whole number than the one that is written.
+TEST(RangeText, WholeNumbersBeyondDoublesStayExactBehindAPointAndAWidth) {
+    EXPECT_EQ(RangeSet::parse("1152921504606846977.0:max"),
+              RangeSet({closed(kTwo60 + 1, kInfinity)}));
+    EXPECT_EQ(RangeSet::parse("-1152921504606846977.00"),
+              RangeSet({closed(-kTwo60 - 1, -kTwo60 - 1)}));
+    EXPECT_EQ(RangeSet::parse("18446744073709551615."),
+              RangeSet({closed(std::numeric_limits<std::uint64_t>::max(),
+                               std::numeric_limits<std::uint64_t>::max())}));
+    // No value lies at a half there.
+    EXPECT_EQ(RangeSet::parse("1152921504606846977~2.5"),
+              RangeSet({closed(kTwo60 - 1, kTwo60 + 3)}));
+    EXPECT_EQ(RangeSet::parse("1152921504606846977~2.0"),
+              RangeSet({closed(kTwo60 - 1, kTwo60 + 3)}));
+    // Below, and with an exponent, a number is a double's as ever.
+    EXPECT_EQ(RangeSet::parse("4503599627370496.5"),
+              RangeSet({closed(4503599627370496.5, 4503599627370496.5)}));
+    EXPECT_TRUE(std::holds_alternative<double>(
+        RangeSet::parse("1.1529215046068470e18").ranges()[0].lo.value));
 }
 
 TEST(RangeText, AnIntegerBeyondAllTypesIsTheNearestDouble) {
@@ -188,6 +210,11 @@ TEST(RangeText, ValuesBetweenTwoComparisonsAreAskedForAsARange) {
           std::pair("\u2265 -1.5,\u2264 2", "[-1.5,2]")})
         EXPECT_THAT(refusal(text), testing::HasSubstr(std::string("write ") + spelling)) << text;
     EXPECT_THAT(refusal("<600,>700"), testing::StartsWith("read as"));
+}
+
+TEST(RangeText, AFractionThatNoValueHasIsRefused) {
+    EXPECT_THAT(refusal("1152921504606846976.5:max"), testing::HasSubstr("has a fraction"));
+    EXPECT_THAT(refusal("0:9007199254740992.25"), testing::HasSubstr("has a fraction"));
 }
 
 TEST(RangeText, MalformedTextsGiveOneSentenceThatQuotesThem) {

@@ -62,9 +62,10 @@ class RangeSet {
     static RangeSet everything();
 
     // "lo:hi" closed; "[lo,hi)" and "lo:hi" with brackets for open ends, the separator being ':'
-    // or, inside brackets, ','; "lo to hi"; "c~d" for [c-d, c+d]; "> v", ">= v", "< v", "<= v";
-    // "min" and "max" for unbounded ends; a lone number for [v, v]; commas between ranges. Integers
-    // without '.', 'e' or 'inf' stay integers. Throws RangeSyntaxError, also for lo > hi, NaN, a
+    // or, inside brackets, ','; "lo to hi"; "c~d" or "c ± d" for [c-d, c+d]; "> v", ">= v", "< v",
+    // "<= v"; "min" and "max" for unbounded ends; a lone number for [v, v]; commas between ranges.
+    // Whole numbers without '.', 'e' or 'inf' stay such, from 2^53 on with zeros behind a point,
+    // too; other fractions are refused there. Throws RangeSyntaxError, also for lo > hi, NaN, a
     // negative d, text without a range, and what may be a decimal comma ("600,5:700").
     static RangeSet parse(std::string_view text);
 

@@ -40,6 +40,21 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 // Legends have a minus sign of their own (U+2212), which may come back by way of the clipboard.
 constexpr std::string_view kMinusSign = "\u2212";
 
+// From here on doubles are whole numbers, and not all of them.
+constexpr double kWholeDoubles = 0x1p53;
+
+// Of "9007199254740993.0" the whole number before its point, behind which nothing but 0 stands;
+// none of other texts. What is written with an exponent is a double.
+std::optional<std::string_view> wholePart(std::string_view text) {
+    const auto point = text.find('.');
+    if (point == text.npos || text.find_first_not_of('0', point + 1) != text.npos)
+        return std::nullopt;
+    return text.substr(0, point);
+}
+bool hasFraction(std::string_view text) {
+    return text.find('.') != text.npos && text.find_first_of("eE") == text.npos;
+}
+
 // A number of the data; none where the text is not one. NaN is told apart by the caller.
 std::optional<Number> finiteOrNot(std::string_view text, std::errc& error) {
     std::string ascii;
@@ -53,8 +68,15 @@ std::optional<Number> finiteOrNot(std::string_view text, std::errc& error) {
     }
     if (const auto i = whole<std::int64_t>(text, error)) return *i;
     if (const auto u = whole<std::uint64_t>(text, error)) return *u;
-    if (const auto d = whole<double>(text, error)) return *d;
-    return std::nullopt;
+    const auto d = whole<double>(text, error);
+    if (!d) return std::nullopt;
+    if (std::abs(*d) >= kWholeDoubles && std::isfinite(*d))
+        if (const auto digits = wholePart(text)) {
+            std::errc ignored{};  // what no whole number holds is a double
+            if (const auto i = whole<std::int64_t>(*digits, ignored)) return *i;
+            if (const auto u = whole<std::uint64_t>(*digits, ignored)) return *u;
+        }
+    return *d;
 }
 
 bool isNumber(std::string_view text) {
@@ -97,11 +119,20 @@ Number number(std::string_view text, std::string_view piece) {
                                 hasComma ? ", for decimals stand behind a point" : ""));
     }
     if (std::isnan(toDouble(*n))) fail(piece, "NaN bounds nothing");
+    const auto* d = std::get_if<double>(&*n);
+    if (d && std::abs(*d) >= kWholeDoubles && hasFraction(text) && !wholePart(text))
+        fail(piece,
+             fmt::format("'{}' has a fraction, and values so large have none: leave it out", text));
     return *n;
 }
 
-// Exact for integers: 2^60 ~ 1 has integer ends. Past the 64-bit types the ends are doubles.
+// Exact for integers: 2^60 ~ 1 has integer ends, and so has 2^60 ~ 1.5, for there are no halves
+// between its values. Past the 64-bit types the ends are doubles.
 Number sum(const Number& a, const Number& b, int sign) {
+    const auto* delta = std::get_if<double>(&b);
+    if (delta && !std::holds_alternative<double>(a) && *delta < kWholeDoubles &&
+        std::abs(toDouble(a)) >= kWholeDoubles)
+        return sum(a, static_cast<std::int64_t>(*delta), sign);
     if (std::holds_alternative<double>(a) || std::holds_alternative<double>(b))
         return toDouble(a) + sign * toDouble(b);
     const auto wide = [](const Number& n) {
@@ -116,9 +147,19 @@ Number sum(const Number& a, const Number& b, int sign) {
     return static_cast<double>(exact);
 }
 
-Range around(std::string_view inner, std::size_t tilde, std::string_view piece) {
-    const Number centre = number(inner.substr(0, tilde), piece);
-    const Number delta = number(inner.substr(tilde + 1), piece);
+// "c~d", "c ± d": where the sign stands, and how long it is.
+struct Separator {
+    std::size_t at, length;
+};
+std::optional<Separator> aroundIn(std::string_view inner) {
+    for (const std::string_view sign : {"~", "\u00b1"})
+        if (const auto at = inner.find(sign); at != inner.npos) return Separator{at, sign.size()};
+    return std::nullopt;
+}
+
+Range around(std::string_view inner, Separator sign, std::string_view piece) {
+    const Number centre = number(inner.substr(0, sign.at), piece);
+    const Number delta = number(inner.substr(sign.at + sign.length), piece);
     if (!std::isfinite(toDouble(centre)) || !std::isfinite(toDouble(delta)))
         fail(piece, "c~d needs a finite contour value c and a finite half width d");
     if (toDouble(delta) < 0) fail(piece, "the half width d of c~d is negative");
@@ -147,9 +188,6 @@ std::optional<Range> comparison(std::string_view piece) {
 }
 
 // Where lo ends and hi begins; none where nothing stands between them.
-struct Separator {
-    std::size_t at, length;
-};
 std::optional<Separator> separatorIn(std::string_view inner, bool bracketed) {
     if (const auto at = inner.find_first_of(bracketed ? ":," : ":"); at != std::string_view::npos)
         return Separator{at, 1};
@@ -195,8 +233,8 @@ Range bounds(std::string_view piece) {
     if (inner.find_first_of("[]()") != std::string_view::npos)
         fail(piece, "a bracket stands where none is expected");
     Range out;
-    if (const auto tilde = inner.find('~'); tilde != std::string_view::npos)
-        out = around(inner, tilde, piece);
+    if (const auto sign = aroundIn(inner))
+        out = around(inner, *sign, piece);
     else if (const auto between = separatorIn(inner, bracket))
         out = {{number(inner.substr(0, between->at), piece)},
                {number(inner.substr(between->at + between->length), piece)}};

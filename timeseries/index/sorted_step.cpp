@@ -315,6 +315,12 @@ std::string_view SortedStep::whyNoCells() const {
 
 std::string_view SortedStep::whyNothingBetween() const {
     if (ofCategories_) return "nothing lies between categories";
+    // Whole numbers of 64 bits that doubles, of which what lies between is made, do not tell apart.
+    constexpr std::int64_t kTold = std::int64_t{1} << 53;
+    const bool mayBeWide = type() == ValueType::I64 || type() == ValueType::U64;
+    if (mayBeWide && size_ > 0 &&
+        (compare(statistics_.min, -kTold) < 0 || compare(statistics_.max, kTold) > 0))
+        return "whole numbers beyond 2^53 are told apart by points alone";
     if (const auto& mesh = grid_->mesh()) {
         if (!mesh->hasNeighbours() && !mesh->solids())
             return "the values are not those of the corners of solid cells";

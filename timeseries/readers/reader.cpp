@@ -22,6 +22,7 @@
 #include "timeseries/readers/plot3d_reader.h"
 #include "timeseries/readers/sequence_reader.h"
 #include "timeseries/readers/step_reader.h"
+#include "timeseries/readers/text/words.h"
 #include "timeseries/readers/xdmf/xdmf_reader.h"
 #include "timeseries/readers/zarr/zarr_hierarchy.h"
 #include "timeseries/readers/zarr/zarr_reader.h"
@@ -134,6 +135,11 @@ const Format& recognise(const std::filesystem::path& path) {
     if (!other.empty()) throw FileError(notReadSentence(path, other));
     std::error_code ignored;
     if (isPlot3d(start, std::filesystem::file_size(path, ignored))) return kPlot3d;
+    if (lower(path.extension().string()) == ".csv" && !start.empty())
+        throw FileError(fmt::format(
+            "{}: expected a table whose first line names columns x and y, perhaps z, and one more, "
+            "above rows of numbers",
+            path.string()));
     throw FileError(fmt::format(
         "{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV, VTK or OpenVDB file, {}",
         path.string(), start.empty() ? "but it is empty" : "found no format that is known"));

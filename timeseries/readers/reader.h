@@ -37,6 +37,13 @@ struct TimeAxis {
     bool counted = false;  // the file has no time: steps are counted, points[i].value is i
 };
 
+// What a file calls the class that a value stands for (CF 1.11, section 3.5).
+struct ClassName {
+    double value;
+    std::string name;
+    friend bool operator==(const ClassName&, const ClassName&) = default;
+};
+
 struct Variable {
     std::string name, longName, units;
     bool nameless = false;    // the file's only array, called as the file is for want of a name
@@ -44,6 +51,7 @@ struct Variable {
     std::string storedAs;     // how the file holds it: "int16 packed, scale 0.001, offset 15"
     std::string missing;      // how missing values are told: "_FillValue -1e+34"; "" for none
     bool categories = false;  // as Field::categories
+    std::vector<ClassName> classes{};  // of categories that the file names
     std::shared_ptr<const Grid> grid;
     std::shared_ptr<const TimeAxis> time;
     std::vector<std::string>

@@ -9,7 +9,7 @@ void Playback::play() {
     Playback begun = *this;
     begun.playing = true;
     if (timeMoves && time) {
-        if (time->finished()) begun.time->restart();
+        if (time->finished() || time->atLast()) begun.time->restart();
         begun.time->enter();
     }
     if (begun.untilNextChange()) *this = std::move(begun);

@@ -147,6 +147,11 @@ bool TimeCursor::finished() const {
            position_.into.count() == duration(position_.place);
 }
 
+bool TimeCursor::atLast() const {
+    return !aside_ && settings_.ending == Ending::Once && placesPerCycle() > 1 &&
+           position_.place + 1 == placesPerCycle();
+}
+
 void TimeCursor::set(CursorSettings settings) {
     TimeCursor changed(steps_, times_, settings, {});
     const std::size_t stepBefore = step();

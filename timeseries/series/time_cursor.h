@@ -75,6 +75,8 @@ class TimeCursor {
     // None unless real times are asked for and cannot be followed; one sentence.
     const std::optional<std::string>& whyEven() const { return whyEven_; }
     bool finished() const;  // Once only
+    // Once alone: the step shown is the last to be shown, of several; played on, it would only end.
+    bool atLast() const;
 
     // Keeps the step; aside where it does not play any more. Throws as the constructors do.
     void set(CursorSettings settings);

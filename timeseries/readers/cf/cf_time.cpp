@@ -8,6 +8,7 @@
 
 #include "timeseries/readers/cf/cf_packing.h"
 #include "timeseries/readers/series_files.h"
+#include "timeseries/readers/text/calendar.h"
 #include "timeseries/readers/text/time_units.h"
 #include "timeseries/readers/text/units.h"
 
@@ -28,6 +29,37 @@ const NcVariable* scalarTime(const NcHeader& header, const NcVariable& variable)
     return nullptr;
 }
 
+// Of 20981118.25: the day and its fraction; none where there is no such day.
+std::optional<std::pair<std::int64_t, double>> dayOfDigits(double digits, Calendar calendar) {
+    constexpr double kMost = 1e13;  // all years that have dates, and no more
+    if (!(std::abs(digits) < kMost)) return std::nullopt;
+    const double whole = std::floor(std::abs(digits));
+    const auto day = static_cast<std::int64_t>(whole);
+    const std::int64_t year = day / 10'000;
+    const CivilDate date{digits < 0 ? -year : year, static_cast<int>(day / 100 % 100),
+                         static_cast<int>(day % 100)};
+    if (!exists(calendar, date)) return std::nullopt;
+    return std::pair{dayNumber(calendar, date), std::abs(digits) - whole};
+}
+
+// The absolute times that CDO writes, of which the digits are a date, as days since the first one.
+// They stay as they are where one of them is no date.
+void countDays(StoredTimes& times) {
+    const auto calendar = calendarFromName(times.calendar);
+    if (lower(times.units) != "day as %y%m%d.%f" || !calendar || times.values.empty()) return;
+    std::vector<std::pair<std::int64_t, double>> days;
+    for (const Number& value : times.values) {
+        const auto day = dayOfDigits(toDouble(value), *calendar);
+        if (!day) return;
+        days.push_back(*day);
+    }
+    const std::int64_t first = days.front().first;
+    const CivilDate date = civilDate(*calendar, first);
+    times.units = fmt::format("days since {}-{:02}-{:02}", date.year, date.month, date.day);
+    for (std::size_t i = 0; i < days.size(); ++i)
+        times.values[i] = static_cast<double>(days[i].first - first) + days[i].second;
+}
+
 void readCoordinate(const CfFile& file, const NcVariable& time, StoredTimes& times) {
     const Packing packing =
         packingOf(time, [&](const std::string& what) { file.failAttribute(time, what); });
@@ -44,6 +76,7 @@ void readCoordinate(const CfFile& file, const NcVariable& time, StoredTimes& tim
         else if (packing.scaled)
             value = packing.unpack(toDouble(value));
     }
+    countDays(times);
 }
 
 // A part's times in the units of the first; nothing when they do not belong together.

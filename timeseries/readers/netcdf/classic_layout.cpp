@@ -161,11 +161,12 @@ class ClassicHeader {
         const std::uint64_t size = typeSize();
         count();  // vsize: redundant, and by design not right for large variables
         const std::uint64_t begin = offset();
-        if (!fits || points > fileBytes_ / size) tooShort(text);
+        fits = fits && points <= fileBytes_ / size;
+        const std::uint64_t bytes = fits ? points * size : fileBytes_ + 1;
         // A record variable's values count only when there are records.
         if (record)
-            records_.push_back({text, begin, points * size});
-        else if (begin > fileBytes_ || points * size > fileBytes_ - begin)
+            records_.push_back({text, begin, bytes});
+        else if (begin > fileBytes_ || bytes > fileBytes_ - begin)
             tooShort(text);
     }
 

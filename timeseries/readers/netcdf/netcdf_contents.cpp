@@ -46,6 +46,19 @@ bool isCategories(const NcVariable& variable) {
            variable.find("flag_meanings");
 }
 
+// None of bit fields, of which several may be set, and where not each value has one name.
+std::vector<ClassName> classesOf(const NcVariable& variable) {
+    const std::vector<double> values = variable.numbers("flag_values");
+    std::vector<std::string> names = words(variable.text("flag_meanings"));
+    std::vector<ClassName> classes;
+    if (variable.find("flag_masks") || names.size() != values.size()) return classes;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        std::ranges::replace(names[i], '_', ' ');
+        classes.push_back({values[i], std::move(names[i])});
+    }
+    return classes;
+}
+
 // Longitudes and latitudes, of any rank.
 std::vector<const NcVariable*> geographicOf(const NcHeader& header) {
     std::vector<const NcVariable*> found;
@@ -109,6 +122,7 @@ FileVariable describe(const CfFile& file, const FileAxes& fileAxes, const NcVari
         result.lengths.push_back(header.dimension(variable, i).length);
     result.type = *variable.type;
     result.categories = isCategories(variable);
+    result.classes = classesOf(variable);
     result.roles = roles;
     result.packing =
         packingOf(variable, [&](const std::string& what) { file.failAttribute(variable, what); });

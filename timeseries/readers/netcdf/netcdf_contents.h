@@ -18,6 +18,7 @@ struct FileVariable {
     std::vector<std::uint64_t> lengths;  // of its dimensions, slowest first
     ValueType type{};                    // in the file
     bool categories = false;             // as Field::categories
+    std::vector<ClassName> classes;
     Roles roles;
     Packing packing;
     VariableAxes axes;

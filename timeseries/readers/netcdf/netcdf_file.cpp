@@ -120,6 +120,25 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFil
     open();
 }
 
+bool NetcdfFile::areReadInCopy(std::span<const std::filesystem::path> paths) {
+    const LibraryLock lock;
+    const std::string end = endOfForked(
+        [&] {
+            for (const std::filesystem::path& path : paths) {
+                if (std::ifstream(path, std::ios::binary).get() == 'C') continue;  // no HDF5
+                // Not closed, which would want the lock: the copy ends with it.
+                auto* const file = new NetcdfFile(path);
+                try {
+                    file->open();
+                } catch (...) {
+                    // Told when it is opened in earnest.
+                }
+            }
+        },
+        kMaxHeaderTime);
+    return end.empty();
+}
+
 void NetcdfFile::open() {
     // Absolute: the library takes what looks like a URL for one.
     check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",

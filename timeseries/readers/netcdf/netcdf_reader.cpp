@@ -239,6 +239,7 @@ void CfReader::addVariable(std::size_t v) {
     variable.storedAs = first.packing.storedAs;
     variable.missing = first.packing.missingText;
     variable.categories = first.categories;
+    variable.classes = first.classes;
     variable.notes = first.notes;
 
     const bool fixed = anyTime_ && first.times.single && first.times.counted;
@@ -371,6 +372,18 @@ Field CfReader::read(std::size_t variable, std::size_t seriesStep) {
     return field;
 }
 
+// Those whose headers HDF5 reads or refuses, tried so many at a time.
+std::shared_ptr<const std::set<std::filesystem::path>> triedTogether(
+    std::span<const std::filesystem::path> paths) {
+    constexpr std::size_t kAtATime = 64;
+    const auto tried = std::make_shared<std::set<std::filesystem::path>>();
+    for (; paths.size() > 1; paths = paths.subspan(std::min(kAtATime, paths.size()))) {
+        const auto some = paths.first(std::min(kAtATime, paths.size()));
+        if (NetcdfFile::areReadInCopy(some)) tried->insert(some.begin(), some.end());
+    }
+    return tried;
+}
+
 }  // namespace
 
 std::unique_ptr<Reader> openCf(std::span<const std::filesystem::path> paths,
@@ -383,10 +396,12 @@ std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths)
     const OtherNetcdf* const other = otherNetcdf(first->header());
     if (!other)
         return openCf(paths, withFesomMesh(std::move(first), NetcdfFile::Header::New),
-                      [](const std::filesystem::path& path, bool known) {
-                          const auto header =
-                              known ? NetcdfFile::Header::Known : NetcdfFile::Header::New;
-                          return withFesomMesh(std::make_unique<NetcdfFile>(path, header), header);
+                      [tried = triedTogether(paths.subspan(1))](const std::filesystem::path& path,
+                                                                bool known) {
+                          using enum NetcdfFile::Header;
+                          auto file = std::make_unique<NetcdfFile>(
+                              path, known || tried->contains(path) ? Known : New);
+                          return withFesomMesh(std::move(file), known ? Known : New);
                       });
     if (paths.size() == 1) return other->open(std::move(first));
     first.reset();

@@ -1,0 +1,14 @@
+// Choices that change nothing of a picture beside the others that were made.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/choices/explorer.h"
+
+namespace app {
+
+// A sentence of each: "--light full does nothing: points are not lit". Of defaults nothing is said.
+std::vector<std::string> idleChoices(const Explorer& explorer);
+
+}  // namespace app

@@ -1,0 +1,160 @@
+// What is said of a picture.
+#include <fmt/format.h>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "app/choices/choice_text.h"
+#include "app/picture/clip_counts.h"
+#include "app/picture/picture.h"
+#include "app/picture/range_label.h"
+#include "app/picture/resolved.h"
+#include "render/annotate/stretch_text.h"
+#include "render/annotate/ticks.h"
+#include "render/splat/mixed_splatter.h"
+
+namespace app {
+namespace {
+
+using timeseries::Range;
+using timeseries::RangeSet;
+
+// "1,204 points, 6.2 %", "1 point in the clip box, 0.01 % of all".
+std::vector<std::string> amounts(const render::Scene& scene, bool isClipped) {
+    std::vector<std::uint64_t> points;
+    if (isClipped) {
+        std::vector<std::vector<timeseries::Run>> sets;
+        for (const render::Layer& layer : scene.layers) sets.push_back(layer.runs);
+        points = countsInside(scene.step, scene.clip, sets);
+    } else {
+        for (const render::Layer& layer : scene.layers) points.push_back(render::pointCount(layer));
+    }
+    const auto all = static_cast<double>(scene.step.statistics().points);
+    std::vector<std::string> texts;
+    for (const std::uint64_t count : points) {
+        const double percent = all > 0 ? 100 * static_cast<double>(count) / all : 0;
+        texts.push_back(fmt::format(
+            "{} {}{}, {} %{}", withCommas(count), count == 1 ? "point" : "points",
+            isClipped ? " in the clip box" : "",
+            render::withMinusSigns(fmt::format("{:.3g}", percent)), isClipped ? " of all" : ""));
+    }
+    return texts;
+}
+
+// "layer 2", "layers 1 and 3", counted among those that are seen.
+std::string pointLayers(const render::Scene& scene) {
+    std::vector<std::string> numbers;
+    for (std::size_t k = 0; k < scene.layers.size(); ++k)
+        if (scene.layers[k].byPoints) numbers.push_back(std::to_string(k + 1));
+    if (numbers.size() < 2) return numbers.empty() ? "" : "layer " + numbers.front();
+    const std::string last = std::exchange(numbers.back(), "");
+    numbers.pop_back();
+    return fmt::format("layers {} and {}", fmt::join(numbers, ", "), last);
+}
+
+// Selected, of layers that are drawn between points: infinite values have nothing beside them.
+std::uint64_t infinitePoints(const render::Scene& scene) {
+    const auto pointsAt = [&](double value) {
+        const RangeSet alone({Range{{value}, {value}}});
+        return scene.step.count(scene.step.keptPart(alone));
+    };
+    // The first and the last of the sorted ones.
+    const std::uint64_t least = pointsAt(-kInfinity), most = pointsAt(kInfinity);
+    const std::uint64_t end = scene.step.size();
+    std::uint64_t points = 0;
+    for (const render::Layer& layer : scene.layers)
+        for (const timeseries::Run& run : layer.runs) {
+            if (layer.byPoints) continue;
+            const std::uint64_t last = run.first + run.count;
+            points += std::min(last, least) - std::min(run.first, least);
+            points += std::max(last, end - most) - std::max(run.first, end - most);
+        }
+    return points;
+}
+
+// What a sweep reaches beyond is neither drawn nor counted.
+bool sweepsBeyond(const timeseries::SweepSettings& sweep, const RangeSet& kept) {
+    std::vector<Range> swept(sweep.animation.ranges().begin(), sweep.animation.ranges().end());
+    for (Range& range : swept) {
+        range.lo = {timeseries::toDouble(range.lo.value) - sweep.delta};
+        range.hi = {timeseries::toDouble(range.hi.value) + sweep.delta};
+    }
+    const std::array both{kept, RangeSet(std::move(swept))};
+    return !(timeseries::unionOf(both) == kept);
+}
+
+}  // namespace
+
+render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variable,
+                          std::size_t stepIndex, const render::Scene& scene, std::int64_t tick) {
+    render::Legend legend;
+    const std::vector<std::string> amountOf = amounts(scene, e.clip.has_value());
+    const std::string unit = render::shownUnit(variable.units);
+    // A colour bar's ends come from what was chosen alone, not from the step: they stand still
+    // while time and sweep play, and an export, which sees one step at a time, has the same. An
+    // open end of a range is the map's, which was taken from the data when the layer was made.
+    const auto add = [&](std::string range, const RangeSet& span) {
+        const std::size_t k = legend.layers.size();
+        render::LegendLayer& told = legend.layers.emplace_back(
+            render::LegendLayer{scene.layers[k].style, std::move(range), amountOf[k]});
+        if (const auto* byValue = std::get_if<render::ByValue>(&told.style.color)) {
+            const Extent ends = finiteEnds(span, {byValue->lo, byValue->hi});
+            told.shown.emplace(ends.lo, ends.hi);
+        }
+    };
+    for (const LayerChoice& layer : e.layers) {
+        if (!layer.visible) continue;
+        if (layer.motion)
+            add(sweptText(timeseries::ValueSweep(*layer.motion), tick) +
+                    (unit.empty() ? "" : " " + unit),
+                layer.motion->animation);
+        else if (const std::string classes = classLabel(layer.ranges, variable); !classes.empty())
+            add(fmt::format("{}: {}", rangeLabel(layer.ranges, variable.units), classes),
+                layer.ranges);
+        else
+            add(rangeLabel(layer.ranges, variable.units), layer.ranges);
+    }
+
+    legend.title = variable.longName.empty() ? variable.name : variable.longName;
+    if (!unit.empty()) legend.title += " (" + unit + ")";
+    const std::size_t steps = variable.time->points.size();
+    const bool timed = !variable.time->counted;
+    if (timed) legend.time = timeText(*variable.time, stepIndex);
+    if (steps > 1)
+        legend.time +=
+            fmt::format("{}step {} of 0\u2013{}", timed ? ", " : "", stepIndex, steps - 1);
+    if (scene.step.statistics().points == 0)
+        legend.emptiness = fmt::format("all {} points of this step are missing",
+                                       withCommas(scene.step.statistics().missing));
+    legend.notes = variable.notes;
+    if (legend.layers.empty())
+        legend.notes.push_back(e.layers.empty() ? "nothing is drawn: there is no layer"
+                                                : "nothing is drawn: every layer is hidden");
+    if (const std::string stretch = render::stretchText(scene.step.grid(), scene.placed);
+        !stretch.empty())
+        legend.notes.push_back(stretch);
+    if (scene.cells && !scene.layers.empty()) {
+        legend.notes.emplace_back(kInterpolated);
+        if (const std::uint64_t points = infinitePoints(scene); points > 0)
+            legend.notes.push_back(withCommas(points) + kInfinite);
+        if (const std::string which = pointLayers(scene); !which.empty())
+            legend.notes.push_back(which + kByPointsAlone);
+    } else if (modelOf(e) == Model::Cells && !scene.step.canHaveCells()) {
+        legend.notes.push_back(fmt::format("drawn by points: {}", scene.step.whyNoCells()));
+    } else if (mixesModels(e) && !render::MixedSum::canSum(scene.placed, e.footprint)) {
+        legend.notes.emplace_back(
+            "drawn by points: the splats of one layer have no order among another's cells here");
+    }
+    const std::string clipped = e.clip ? clipLabel(*e.clip, scene.step.grid()) : "";
+    if (!clipped.empty()) legend.notes.push_back("drawn inside " + clipped + " only");
+    if (const auto* sweep = sweepOf(e); sweep && e.keep && sweepsBeyond(*sweep, *e.keep))
+        legend.notes.push_back("kept, drawn and counted: " + rangeLabel(*e.keep, variable.units) +
+                               " only");
+    return legend;
+}
+
+}  // namespace app

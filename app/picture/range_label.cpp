@@ -1,0 +1,133 @@
+#include "app/picture/range_label.h"
+
+#include <fmt/format.h>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "app/choices/decimals.h"
+#include "render/annotate/ticks.h"
+
+namespace app {
+namespace {
+
+using timeseries::Range;
+using timeseries::RangeSet;
+
+constexpr double kLeastResolution = std::numeric_limits<double>::min();
+
+// The text of a bound, the same whether a file, a user or a session wrote it. Doubles of many
+// digits, as a swept window has, are rounded to these.
+struct BoundText {
+    std::string text;
+    bool isRounded = false;
+};
+BoundText boundText(const timeseries::Number& number, int digits) {
+    constexpr double kPlain = 1e9;  // whole numbers below have no exponent
+    const double value = timeseries::toDouble(number);
+    std::string exact = timeseries::toText(number);
+    if (!std::isfinite(value)) return {exact};
+    const bool isWhole = !std::holds_alternative<double>(number) || std::trunc(value) == value;
+    if (isWhole && std::abs(value) < kPlain) return {fmt::format("{:.0f}", value + 0.0)};
+    std::string few = fmt::format("{:.{}g}", value, digits);
+    const bool isRounded = timeseries::compare(std::strtod(few.c_str(), nullptr), number) != 0;
+    if (few.size() >= exact.size() || (isWhole && isRounded)) return {exact};
+    return {few, isRounded};
+}
+
+// As few digits (at least seven) as tell all bounds apart that differ.
+int digitsOf(const RangeSet& ranges) {
+    constexpr int kFew = 7, kExact = 17;
+    std::vector<timeseries::Number> bounds;
+    for (const Range& range : ranges.ranges()) {
+        bounds.push_back(range.lo.value);
+        bounds.push_back(range.hi.value);
+    }
+    for (int digits = kFew; digits < kExact; ++digits) {
+        std::map<std::string, std::string> exact;  // of each rounded text
+        const bool apart = std::ranges::all_of(bounds, [&](const timeseries::Number& bound) {
+            const std::string text = timeseries::toText(bound);
+            return exact.emplace(boundText(bound, digits).text, text).first->second == text;
+        });
+        if (apart) return digits;
+    }
+    return kExact;
+}
+}  // namespace
+
+std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
+    std::string text;
+    bool rounded = false;
+    const int digits = digitsOf(ranges);
+    for (const Range& r : ranges.ranges()) {
+        const auto isUnbounded = [](const timeseries::Bound& b, double end) {
+            return timeseries::toDouble(b.value) == end && !b.open;
+        };
+        const bool down = isUnbounded(r.lo, -kInfinity), up = isUnbounded(r.hi, kInfinity);
+        const auto shown = [&](const timeseries::Number& bound) {
+            const BoundText number = boundText(bound, digits);
+            rounded = rounded || number.isRounded;
+            return render::withMinusSigns(number.text);
+        };
+        const std::string lo = shown(r.lo.value), hi = shown(r.hi.value);
+        if (!text.empty()) text += ", ";
+        if (down && up) return "all values";
+        if (lo == hi)
+            text += lo;
+        else if (down)
+            text += fmt::format("{} {}", r.hi.open ? "<" : "≤", hi);
+        else if (up)
+            text += fmt::format("{} {}", r.lo.open ? ">" : "≥", lo);
+        else if (r.lo.open || r.hi.open)
+            text += fmt::format("{}{}, {}{}", r.lo.open ? '(' : '[', lo, hi, r.hi.open ? ')' : ']');
+        else
+            text += fmt::format("{} to {}", lo, hi);
+    }
+    if (text.empty()) return "no values";
+    if (rounded) text = "≈ " + text;
+    const std::string unit = render::shownUnit(units);
+    return unit.empty() ? text : text + " " + unit;
+}
+
+std::string classLabel(const RangeSet& ranges, const timeseries::Variable& variable) {
+    constexpr std::size_t kFew = 4;
+    std::vector<std::string_view> names;
+    const auto intervals = ranges.toIntervals<double>();
+    for (const timeseries::ClassName& each : variable.classes)
+        if (std::ranges::any_of(
+                intervals, [&](const auto& i) { return i.lo <= each.value && each.value <= i.hi; }))
+            names.push_back(each.name);
+    return names.size() > kFew ? "" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick) {
+    const double delta = sweep.settings().delta, contour = sweep.contour(tick);
+    // As many decimals at every tick: the text does not tremble while it plays.
+    const double resolution =
+        delta > 0 ? delta / 50 : std::max(1e-6 * std::abs(contour), kLeastResolution);
+    const int decimals = static_cast<int>(std::ceil(-std::log10(resolution)));
+    const bool isPlain = decimals <= 9 && std::abs(contour) < 1e9;
+    const std::string centre =
+        isPlain ? fmt::format("{:.{}f}", roundedTo(contour, resolution), std::max(0, decimals))
+                : timeseries::toText(roundedTo(contour, resolution));
+    return render::withMinusSigns(centre) + " ± " + timeseries::toText(delta);
+}
+std::string clipLabel(const ClipBox& clip, const timeseries::Grid& grid) {
+    std::vector<std::string> sides;
+    for (int a = 0; a < 3; ++a) {
+        const Range side{{clip.lo[a]}, {clip.hi[a]}};
+        if (std::isinf(clip.lo[a]) && std::isinf(clip.hi[a])) continue;
+        const timeseries::Axis& axis = grid.axes()[static_cast<std::size_t>(a)];
+        sides.push_back(axis.name + " " + rangeLabel(RangeSet({side}), axis.units));
+    }
+    return fmt::format("{}", fmt::join(sides, ", "));
+}
+
+}  // namespace app
