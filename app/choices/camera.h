@@ -25,9 +25,10 @@ struct Stand {
 // that little is kept free for them.
 glm::dvec2 freeAreaOf(glm::ivec2 size);
 // Without a distance, the box or ball (centre at 0) spans kBoxShare of the free area in one
-// direction, and no more in the other. Where the view has no target of its own
-// either, what is seen of the box stands in the middle: the nearer corners of a perspective reach
-// farther, so that the target is then beside the box's centre, mostly below or above it.
+// direction, and no more in the other; where the half cells around the outermost points reach
+// beyond the free area then, they span all of it. Where the view has no target of its own either,
+// what is seen of the box stands in the middle: the nearer corners of a perspective reach farther,
+// so that the target is then beside the box's centre, mostly below or above it.
 inline constexpr double kBoxShare = 0.9;
 Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -115,6 +116,8 @@ std::string unevenText(const timeseries::TimeAxis& time) {
         twice = twice || gap == 0;
         even = even && std::abs(gap - mean) <= kRounding * std::abs(mean);
     }
+    if (std::ranges::any_of(points, [](const auto& p) { return std::isnan(p.value); }))
+        return ", some missing";
     if (!ascending) return ", not ascending";
     if (twice) return ", some times twice";
     return even ? "" : ", uneven";
@@ -168,7 +171,7 @@ void print(const Variable& v, bool shownFirst) {
         v.storedAs.empty() ? "" : ", stored as " + v.storedAs);
     if (!v.missing.empty()) say("  missing  {}\n", v.missing);
     for (std::size_t i = 0; i < v.classes.size(); ++i)
-        say("{}{:g} {}{}", i == 0 ? "  classes  " : ", ", v.classes[i].value, v.classes[i].name,
+        say("{}{} {}{}", i == 0 ? "  classes  " : ", ", v.classes[i].value, v.classes[i].name,
             i + 1 == v.classes.size() ? "\n" : "");
     say("  grid     {}\n", gridText(*v.grid));
     for (const Axis& axis : v.grid->axes())

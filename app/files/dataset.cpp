@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "render/annotate/ticks.h"
@@ -94,6 +95,7 @@ std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
     const timeseries::TimePoint& point = axis.points[step];
     if (!point.date.empty()) return point.date;
     if (axis.counted) return fmt::format("step {}", step);
+    if (std::isnan(point.value)) return "no " + axis.name;
     return render::shownUnit(axis.units).empty()
                ? fmt::format("{} {:.10g}", axis.name, point.value)
                : fmt::format("{:.10g} {}", point.value, axis.units);

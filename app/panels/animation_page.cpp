@@ -8,6 +8,7 @@
 #include "app/choices/first_choice.h"
 #include "app/choices/sweep_edits.h"
 #include "app/panels/number_field.h"
+#include "app/panels/time_bar.h"
 
 namespace app::panels {
 namespace {
@@ -80,6 +81,7 @@ void AnimationPage::time(PanelContext& context, Form& form) {
     const Theme& theme = context.theme;
     const float s = theme.scale;
     const timeseries::CursorSettings now = context.exploration.explorer().play.time;
+    const timeseries::TimeAxis& axis = *context.exploration.shown()->dataset.variable.time;
     const auto change = [&](const auto& set) {
         edit(context, {}, [&](Explorer& e) { set(e.play.time); });
     };
@@ -91,13 +93,13 @@ void AnimationPage::time(PanelContext& context, Form& form) {
     const auto [pace, speed] = split(form.row("Pace"));
     if (const auto chosen =
             segmented(theme, "pace", pace, kPaces, static_cast<std::size_t>(now.pace)))
-        change([&](auto& t) { t.pace = static_cast<timeseries::Pace>(*chosen); });
+        change([&](auto& t) { setPace(t, static_cast<timeseries::Pace>(*chosen), axis); });
     const bool even = now.pace == timeseries::Pace::Even;
-    text(theme, {speed.min.x - 8 * s, speed.centre().y}, even ? "steps/s" : "units/s", kDim, 1,
-         theme.small);
-    if (const auto value =
-            numberField(context, speed_, "##speed", speed, even ? "steps/s" : "units/s",
-                        even ? now.stepsPerSecond : now.timeUnitsPerSecond))
+    const std::string unit = speedUnit(now, axis);
+    text(theme, {speed.min.x - 8 * s, speed.centre().y}, fitting(*theme.small, unit, 52 * s), kDim,
+         1, theme.small);
+    if (const auto value = numberField(context, speed_, "##speed", speed, unit,
+                                       even ? now.stepsPerSecond : now.timeUnitsPerSecond))
         change([&](auto& t) {
             (even ? t.stepsPerSecond : t.timeUnitsPerSecond) = std::max(0.0, *value);
         });

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/choices/decimals.h"
 #include "app/panels/number_field.h"
 
 namespace app::panels {
@@ -124,20 +125,33 @@ void speedField(PanelContext& context, TextField& field, const Rect& at, const D
     const bool even = time.pace == timeseries::Pace::Even;
     const double shown = even ? time.stepsPerSecond : time.timeUnitsPerSecond;
     const Rect box{at.min, {at.min.x + 46 * s, at.max.y}};
-    if (const auto value =
-            numberField(context, field, "##speed", box, even ? "steps/s" : "units/s", shown))
+    const std::string unit = speedUnit(time, *dataset.variable.time);
+    if (const auto value = numberField(context, field, "##speed", box, unit, shown))
         edit(context, {}, [&](Explorer& e) {
             (even ? e.play.time.stepsPerSecond : e.play.time.timeUnitsPerSecond) =
                 std::max(0.0, *value);
         });
-    const std::string unit =
-        dataset.variable.time->units.substr(0, dataset.variable.time->units.find(' '));
     text(context.theme, {box.max.x + 7 * s, at.centre().y},
-         even ? "steps/s" : fitting(*context.theme.small, unit + "/s", 42 * s), kDim, 0,
-         context.theme.small);
+         fitting(*context.theme.small, unit, 42 * s), kDim, 0, context.theme.small);
 }
 
 }  // namespace
+
+void setPace(timeseries::CursorSettings& time, timeseries::Pace pace,
+             const timeseries::TimeAxis& axis) {
+    time.pace = pace;
+    const bool isChosen =
+        time.timeUnitsPerSecond != timeseries::CursorSettings().timeUnitsPerSecond;
+    if (pace != timeseries::Pace::RealTimes || isChosen || axis.points.size() < 2) return;
+    const double whole = axis.points.back().value - axis.points.front().value,
+                 speed = whole / static_cast<double>(axis.points.size() - 1) * time.stepsPerSecond;
+    if (speed > 0 && std::isfinite(speed)) time.timeUnitsPerSecond = roundedTo(speed, speed / 50);
+}
+
+std::string speedUnit(const timeseries::CursorSettings& time, const timeseries::TimeAxis& axis) {
+    if (time.pace == timeseries::Pace::Even) return "steps/s";
+    return axis.units.substr(0, axis.units.find(' ')) + "/s";
+}
 
 void setPoint(timeseries::CursorSettings& time, Point point, std::size_t step) {
     if (point == Point::In) {

@@ -58,12 +58,15 @@ std::string pointLayers(const render::Scene& scene) {
 
 // Selected, of layers that are drawn between points: infinite values have nothing beside them.
 std::uint64_t infinitePoints(const render::Scene& scene) {
-    const auto pointsAt = [&](double value) {
-        const RangeSet alone({Range{{value}, {value}}});
+    const timeseries::StepStatistics& all = scene.step.statistics();
+    // The first and the last of the sorted ones; most steps have none, and are not looked into.
+    const auto pointsAt = [&](double end, const timeseries::Number& outermost) -> std::uint64_t {
+        if (timeseries::toDouble(outermost) != end) return 0;
+        const RangeSet alone({Range{{end}, {end}}});
         return scene.step.count(scene.step.keptPart(alone));
     };
-    // The first and the last of the sorted ones.
-    const std::uint64_t least = pointsAt(-kInfinity), most = pointsAt(kInfinity);
+    const std::uint64_t least = pointsAt(-kInfinity, all.min), most = pointsAt(kInfinity, all.max);
+    if (least == 0 && most == 0) return 0;
     const std::uint64_t end = scene.step.size();
     std::uint64_t points = 0;
     for (const render::Layer& layer : scene.layers)

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "tests/support/files.h"
@@ -27,6 +28,8 @@ TEST(TimeText, IsTheDateTheNumberOrTheStep) {
     EXPECT_EQ(timeText(one, 0), "cycle 2000");
     const TimeAxis counted{"step", "", "", {{0, ""}, {1, ""}, {2, ""}, {3, ""}}, true};
     EXPECT_EQ(timeText(counted, 3), "step 3");
+    const TimeAxis missing{"time", "days since 2000-01-01", "standard", {{std::nan(""), ""}}};
+    EXPECT_EQ(timeText(missing, 0), "no time");
 }
 
 TEST(TimeText, ATimeMayBeCalledStep) {

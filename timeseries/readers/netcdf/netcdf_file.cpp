@@ -120,12 +120,18 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFil
     open();
 }
 
-bool NetcdfFile::areReadInCopy(std::span<const std::filesystem::path> paths) {
-    const LibraryLock lock;
-    const std::string end = endOfForked(
-        [&] {
-            for (const std::filesystem::path& path : paths) {
-                if (std::ifstream(path, std::ios::binary).get() == 'C') continue;  // no HDF5
+std::vector<bool> NetcdfFile::triedTogether(std::span<const std::filesystem::path> paths) {
+    constexpr std::size_t kAtATime = 64;
+    const auto isClassic = [](const std::filesystem::path& path) {
+        return std::ifstream(path, std::ios::binary).get() == 'C';
+    };
+    std::vector<bool> tried;
+    while (tried.size() < paths.size()) {
+        const auto some =
+            paths.subspan(tried.size(), std::min(kAtATime, paths.size() - tried.size()));
+        const auto readAll = [&] {
+            for (const std::filesystem::path& path : some) {
+                if (isClassic(path)) continue;
                 // Not closed, which would want the lock: the copy ends with it.
                 auto* const file = new NetcdfFile(path);
                 try {
@@ -134,9 +140,13 @@ bool NetcdfFile::areReadInCopy(std::span<const std::filesystem::path> paths) {
                     // Told when it is opened in earnest.
                 }
             }
-        },
-        kMaxHeaderTime);
-    return end.empty();
+        };
+        const LibraryLock lock;
+        const bool areRead =
+            std::ranges::all_of(some, isClassic) || endOfForked(readAll, kMaxHeaderTime).empty();
+        tried.resize(tried.size() + some.size(), areRead);
+    }
+    return tried;
 }
 
 void NetcdfFile::open() {

@@ -21,9 +21,9 @@ class NetcdfFile final : public CfFile {
     // Reads the header. Throws FileError, also when a classic file lacks values it declares.
     NetcdfFile(const std::filesystem::path& path, Header header);
     ~NetcdfFile() override;
-    // Whether one copy of this process reads the headers of all of these, or refuses them: they
-    // need not be New, each of which has a copy for itself, which takes 30 ms.
-    static bool areReadInCopy(std::span<const std::filesystem::path> paths);
+    // Of each of these whether its header need not be New: copies of this process have read those
+    // of many one after the other, or refused them. A copy for each takes 30 ms.
+    static std::vector<bool> triedTogether(std::span<const std::filesystem::path> paths);
 
     // A compressed file unpacks to at most about 1032 times its bytes (the limit of deflate; its
     // format, RFC 1951, spends at least two bits on 258 bytes).

@@ -372,16 +372,14 @@ Field CfReader::read(std::size_t variable, std::size_t seriesStep) {
     return field;
 }
 
-// Those whose headers HDF5 reads or refuses, tried so many at a time.
-std::shared_ptr<const std::set<std::filesystem::path>> triedTogether(
+// Those whose headers need not be tried any more.
+std::shared_ptr<const std::set<std::filesystem::path>> knownAmong(
     std::span<const std::filesystem::path> paths) {
-    constexpr std::size_t kAtATime = 64;
-    const auto tried = std::make_shared<std::set<std::filesystem::path>>();
-    for (; paths.size() > 1; paths = paths.subspan(std::min(kAtATime, paths.size()))) {
-        const auto some = paths.first(std::min(kAtATime, paths.size()));
-        if (NetcdfFile::areReadInCopy(some)) tried->insert(some.begin(), some.end());
-    }
-    return tried;
+    const auto known = std::make_shared<std::set<std::filesystem::path>>();
+    const std::vector<bool> tried = NetcdfFile::triedTogether(paths);
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        if (tried[i]) known->insert(paths[i]);
+    return known;
 }
 
 }  // namespace
@@ -395,14 +393,14 @@ std::unique_ptr<Reader> openNetcdf(std::span<const std::filesystem::path> paths)
     auto first = std::make_unique<NetcdfFile>(paths[0], NetcdfFile::Header::New);
     const OtherNetcdf* const other = otherNetcdf(first->header());
     if (!other)
-        return openCf(paths, withFesomMesh(std::move(first), NetcdfFile::Header::New),
-                      [tried = triedTogether(paths.subspan(1))](const std::filesystem::path& path,
-                                                                bool known) {
-                          using enum NetcdfFile::Header;
-                          auto file = std::make_unique<NetcdfFile>(
-                              path, known || tried->contains(path) ? Known : New);
-                          return withFesomMesh(std::move(file), known ? Known : New);
-                      });
+        return openCf(
+            paths, withFesomMesh(std::move(first), NetcdfFile::Header::New),
+            [tried = knownAmong(paths.subspan(1))](const std::filesystem::path& path, bool known) {
+                using enum NetcdfFile::Header;
+                auto file = std::make_unique<NetcdfFile>(
+                    path, known || tried->contains(path) ? Known : New);
+                return withFesomMesh(std::move(file), known ? Known : New);
+            });
     if (paths.size() == 1) return other->open(std::move(first));
     first.reset();
     return openSequence(

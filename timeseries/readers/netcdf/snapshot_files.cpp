@@ -115,7 +115,7 @@ SnapshotFiles::SnapshotFiles(std::unique_ptr<NetcdfFile> opened) : open_(std::mo
                                               "but there is no {}",
                                               count, paths_.back().string()));
     }
-    known_.assign(paths_.size(), false);
+    known_ = NetcdfFile::triedTogether(paths_);
     const auto own = std::ranges::find(paths_, open_->path());
     if (own == paths_.end())
         open_->fail("Header",
