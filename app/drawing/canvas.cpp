@@ -252,11 +252,7 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     }
     const auto [rung, drawn] =
         moving ? state_->moving(whole, eyes, limits) : State::Moving{rungOf(whole), whole};
-    if (!drawn.cells)
-        std::erase_if(legend.notes, [](const std::string& note) {
-            return note == kInterpolated || note.ends_with(kByPointsAlone) ||
-                   note.ends_with(kInfinite);
-        });
+    if (!drawn.cells) std::erase_if(legend.notes, isOfCells);
     state_->rung = rung;
     state_->tell(report, drawn);
 

@@ -6,7 +6,6 @@
 #include "app/choices/edits.h"
 #include "app/panels/layer_style.h"
 #include "app/panels/number_field.h"
-#include "app/picture/picture.h"
 #include "app/picture/range_label.h"
 
 namespace app::panels {

@@ -150,7 +150,7 @@ void setPace(timeseries::CursorSettings& time, timeseries::Pace pace,
 
 std::string speedUnit(const timeseries::CursorSettings& time, const timeseries::TimeAxis& axis) {
     if (time.pace == timeseries::Pace::Even) return "steps/s";
-    return axis.units.substr(0, axis.units.find(' ')) + "/s";
+    return axis.units.empty() ? "units/s" : axis.units.substr(0, axis.units.find(' ')) + "/s";
 }
 
 void setPoint(timeseries::CursorSettings& time, Point point, std::size_t step) {

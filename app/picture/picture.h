@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/choices/explorer.h"
@@ -48,11 +49,8 @@ render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& 
 bool isMixed(const Explorer& explorer, const render::Scene& scene);
 inline constexpr const char* kMixedColors =
     "colours mixed, not in depth order (--order depth, or Quality: By depth)";
-// What the legend says of a scene that is drawn by cells.
-inline constexpr const char* kInterpolated = "interpolated between points";
-inline constexpr const char* kByPointsAlone = " by points alone";  // after which layers are
-// After how many are selected where cells are drawn: nothing lies between them and others.
-inline constexpr const char* kInfinite = " of infinite value counted, not drawn: points show them";
+// Whether a note of the legend holds only where the scene is drawn by cells.
+bool isOfCells(const std::string& note);
 struct Picture {
     render::Scene scene;
     render::Legend legend;

@@ -23,6 +23,11 @@ namespace {
 using timeseries::Range;
 using timeseries::RangeSet;
 
+constexpr const char* kInterpolated = "interpolated between points";
+constexpr const char* kByPointsAlone = " by points alone";  // after which layers are
+// After how many are selected: nothing lies between them and others.
+constexpr const char* kInfinite = " of infinite value counted, not drawn: points show them";
+
 // "1,204 points, 6.2 %", "1 point in the clip box, 0.01 % of all".
 std::vector<std::string> amounts(const render::Scene& scene, bool isClipped) {
     std::vector<std::uint64_t> points;
@@ -91,6 +96,10 @@ bool sweepsBeyond(const timeseries::SweepSettings& sweep, const RangeSet& kept) 
 }
 
 }  // namespace
+
+bool isOfCells(const std::string& note) {
+    return note == kInterpolated || note.ends_with(kByPointsAlone) || note.ends_with(kInfinite);
+}
 
 render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variable,
                           std::size_t stepIndex, const render::Scene& scene, std::int64_t tick) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 #include <set>
 
@@ -199,32 +198,6 @@ TEST(Exploration, InAndOutPointsAreSetFromWhereverOneGoes) {
     set(panels::Point::Out);
     EXPECT_EQ(desk.exploration.explorer().play.time.first, 1u);
     EXPECT_EQ(desk.exploration.explorer().play.time.last, 8u);
-}
-
-TEST(Pace, RealTimesFirstTakeAsLongAsEvenOnes) {
-    using timeseries::Pace;
-    // Monthly, in hours: 720 an hour's length, ten steps a second.
-    timeseries::TimeAxis months{"time", "hours since 2000-01-01", "standard", {}};
-    for (int i = 0; i < 12; ++i) months.points.push_back({720.0 * i, ""});
-    timeseries::CursorSettings time{.stepsPerSecond = 10};
-    EXPECT_EQ(panels::speedUnit(time, months), "steps/s");
-    panels::setPace(time, Pace::RealTimes, months);
-    EXPECT_EQ(time.pace, Pace::RealTimes);
-    EXPECT_NEAR(time.timeUnitsPerSecond, 7200, 7200 / 50);
-    EXPECT_EQ(panels::speedUnit(time, months), "hours/s");
-    // One that was chosen stays.
-    time.timeUnitsPerSecond = 24;
-    panels::setPace(time, Pace::Even, months);
-    panels::setPace(time, Pace::RealTimes, months);
-    EXPECT_EQ(time.timeUnitsPerSecond, 24);
-    // Nothing is to be had from one time, or from times that do not go on.
-    for (const auto& points : {std::vector<timeseries::TimePoint>{{5, ""}},
-                               {{5, ""}, {5, ""}},
-                               {{5, ""}, {std::nan(""), ""}}}) {
-        timeseries::CursorSettings still;
-        panels::setPace(still, Pace::RealTimes, {"time", "s", "", points});
-        EXPECT_EQ(still.timeUnitsPerSecond, timeseries::CursorSettings().timeUnitsPerSecond);
-    }
 }
 
 TEST(Exploration, WithOneStepNothingPlaysAndThatIsTold) {

@@ -352,5 +352,24 @@ TEST(NetcdfReader, ReadersOnDifferentThreadsDoNotDisturbEachOther) {
     EXPECT_THAT(wrong, testing::Each(0));
 }
 
+TEST(NetcdfReader, EachFileOfASeriesHasItsOwnPacking) {
+    const auto packed = [](const std::string& name, double time, double offset) {
+        NetcdfBuilder file(name);
+        const auto t = file.coordinate("time", 1, "s");
+        const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+        const int v = file.variable("v", NC_SHORT, {t.dimension, y, x});
+        file.number(v, "add_offset", offset);
+        file.write(t.variable, std::vector<double>{time});
+        file.write(v, std::vector<std::int16_t>{1, 2, 3, 4});
+        return file.close();
+    };
+    const auto reader = openReader(
+        std::vector<std::filesystem::path>{packed("a.nc", 0, 100), packed("b.nc", 1, 200)});
+    EXPECT_THAT(std::get<std::vector<double>>(reader->read(0, 1).values),
+                ElementsAre(201, 202, 203, 204));
+    EXPECT_THAT(std::get<std::vector<double>>(reader->read(0, 0).values),
+                ElementsAre(101, 102, 103, 104));
+}
+
 }  // namespace
 }  // namespace timeseries

@@ -358,25 +358,6 @@ TEST(NetcdfTime, FilesThatDifferAreRefusedNamingBoth) {
                 HasSubstr("expected the same variables, found 'orography' and 'none'"));
 }
 
-TEST(NetcdfTime, EachFileOfASeriesHasItsOwnPacking) {
-    const auto packed = [](const std::string& name, double time, double offset) {
-        NetcdfBuilder file(name);
-        const auto t = file.coordinate("time", 1, "s");
-        const int y = file.dimension("y", 2), x = file.dimension("x", 2);
-        const int v = file.variable("v", NC_SHORT, {t.dimension, y, x});
-        file.number(v, "add_offset", offset);
-        file.write(t.variable, std::vector<double>{time});
-        file.write(v, std::vector<std::int16_t>{1, 2, 3, 4});
-        return file.close();
-    };
-    const auto reader =
-        openReader(std::vector<Path>{packed("a.nc", 0, 100), packed("b.nc", 1, 200)});
-    EXPECT_THAT(std::get<std::vector<double>>(reader->read(0, 1).values),
-                ElementsAre(201, 202, 203, 204));
-    EXPECT_THAT(std::get<std::vector<double>>(reader->read(0, 0).values),
-                ElementsAre(101, 102, 103, 104));
-}
-
 // For each step that is played from the store it is asked.
 TEST(NetcdfTime, WhatStepsComeFromIsToldWithoutOpeningTheirFiles) {
     const std::vector<Path> paths{series("a.nc", {0.0, 1.0}, "s"), series("b.nc", {2.0}, "s")};
